@@ -1,0 +1,38 @@
+#pragma once
+/// The one exception type of the library.
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace quadrille {
+
+/// What went wrong, as one sentence for the user (`what()`), with the thing it concerns.
+class Error : public std::runtime_error {
+ public:
+  enum class Kind {
+    usage,     ///< the caller asked for something that makes no sense (the command exits with 2)
+    failure,   ///< the input or the machine made it impossible (the command exits with 1)
+    cancelled  ///< the caller cancelled the work
+  };
+
+  /// \param subject the file, face ("Face3"), element or option ("--size") concerned; may be empty.
+  Error(Kind kind, std::string subject, const std::string& sentence)
+      : std::runtime_error(sentence), kind_(kind), subject_(std::move(subject)) {}
+
+  Kind kind() const noexcept { return kind_; }
+  const std::string& subject() const noexcept { return subject_; }
+
+ private:
+  Kind kind_;
+  std::string subject_;
+};
+
+inline Error usage_error(std::string subject, const std::string& sentence) {
+  return {Error::Kind::usage, std::move(subject), sentence};
+}
+inline Error failure(std::string subject, const std::string& sentence) {
+  return {Error::Kind::failure, std::move(subject), sentence};
+}
+
+}  // namespace quadrille

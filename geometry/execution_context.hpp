@@ -1,0 +1,85 @@
+#pragma once
+/// Progress, cancellation, thread count and stage times of one piece of long work.
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "geometry/error.hpp"
+
+namespace quadrille {
+
+/// Passed by reference through every stage. Thread-safe. Granularity: stages check for cancellation at least
+/// once a face and once every few thousand elements.
+class ExecutionContext {
+ public:
+  /// Called with a stage name and the fraction of the stage done, in [0, 1]; returning false cancels the work.
+  /// Calls are serialised; they come from whichever thread does the work.
+  using Progress = std::function<bool(std::string_view stage, double fraction)>;
+
+  ExecutionContext() = default;
+  /// \param threads number of threads to use; 0 = all cores.
+  explicit ExecutionContext(int threads, Progress progress = {})
+      : threads_(threads), progress_(std::move(progress)) {}
+
+  int threads() const noexcept { return threads_; }
+
+  void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
+  bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
+
+  /// Throws Error (cancelled) once the work has been cancelled.
+  void check() const {
+    if (cancelled()) throw Error(Error::Kind::cancelled, "", "the work was cancelled");
+  }
+
+  /// Reports progress, then behaves as check().
+  void report(std::string_view stage, double fraction) {
+    if (progress_) {
+      const std::lock_guard lock(mutex_);
+      if (!progress_(stage, fraction)) cancel();
+    }
+    check();
+  }
+
+  /// Adds to the wall-clock seconds of a stage.
+  void add_seconds(const std::string& stage, double seconds) {
+    const std::lock_guard lock(mutex_);
+    seconds_[stage] += seconds;
+  }
+  /// Wall-clock seconds by stage so far; for stages run on several threads, the sum over the threads.
+  std::map<std::string, double> seconds() const {
+    const std::lock_guard lock(mutex_);
+    return seconds_;
+  }
+
+ private:
+  int threads_ = 0;
+  Progress progress_;
+  std::atomic<bool> cancelled_{false};
+  mutable std::mutex mutex_;
+  std::map<std::string, double> seconds_;
+};
+
+/// Adds its own lifetime to a stage of the context.
+class StageTimer {
+ public:
+  StageTimer(ExecutionContext& context, std::string stage)
+      : context_(context), stage_(std::move(stage)), start_(std::chrono::steady_clock::now()) {}
+  ~StageTimer() {
+    context_.add_seconds(stage_,
+                         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
+  }
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  ExecutionContext& context_;
+  std::string stage_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace quadrille

@@ -1,0 +1,38 @@
+#pragma once
+/// Quadrille: all-quad shell meshes of CAD models. The one header for users of the library.
+///
+///     auto model = quadrille::CadModel::read("part.step");
+///     quadrille::MeshOptions options;
+///     options.sizing.size = 2.0;                       // millimetres
+///     quadrille::ExecutionContext context;             // progress, cancel, threads
+///     quadrille::ShellMesh mesh = quadrille::mesh(model, options, context);
+///     quadrille::write_mesh(mesh, "part.inp");
+
+#include <filesystem>
+#include <string>
+
+#include "geometry/cad_model.hpp"
+#include "geometry/error.hpp"
+#include "geometry/execution_context.hpp"
+#include "mesher/io/io.hpp"
+#include "mesher/mesh_types.hpp"
+#include "mesher/options.hpp"
+#include "mesher/quality.hpp"
+#include "mesher/recombine.hpp"
+#include "mesher/validate.hpp"
+
+namespace quadrille {
+
+/// Meshes the faces of a CAD model with quads only.
+/// Throws Error: usage for options that make no sense, failure naming the face that cannot be meshed (unless
+/// options.partial), cancelled. Time is linear in the number of quads. The result depends on the model and the
+/// options alone, not on the thread count.
+ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context);
+
+/// A size that gives about `quads` elements on the model, curvature left aside.
+double suggested_size(const CadModel& model, int quads);
+
+/// The library's version, "major.minor.patch".
+std::string version();
+
+}  // namespace quadrille
