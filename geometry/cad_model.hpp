@@ -1,0 +1,50 @@
+#pragma once
+/// The CAD model: faces, edges and vertices numbered as FreeCAD numbers them.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/vector.hpp"
+
+namespace quadrille {
+
+class CadShape;  // the OpenCASCADE side, see geometry/cad_shape.hpp
+
+/// A boundary-representation model. Copies share the shape, which is never modified.
+class CadModel {
+ public:
+  /// Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep, .brp); lengths are converted to millimetres.
+  /// Throws Error (failure) with one sentence when the file is missing, is not CAD, or holds no face.
+  static CadModel read(const std::filesystem::path& path);
+
+  /// Parses a shape in OpenCASCADE's BREP text format, as FreeCAD's `Shape.exportBrepToString()` gives it.
+  /// \param name used in error messages.
+  static CadModel from_brep(std::string_view text, const std::string& name = "shape");
+
+  int face_count() const;    ///< faces are numbered 1 .. face_count() (FreeCAD's Face1, Face2, ...)
+  int edge_count() const;    ///< edges are numbered 1 .. edge_count()
+  int vertex_count() const;  ///< vertices are numbered 1 .. vertex_count()
+  int solid_count() const;
+  int shell_count() const;
+
+  /// Length of the diagonal of the model's bounding box, as FreeCAD gives it (control points may widen it).
+  double diagonal() const;
+  Vector3 box_min() const;
+  Vector3 box_max() const;
+  /// Sum of the face areas.
+  double area() const;
+  /// Problems noticed while reading (invalid faces, loose tolerances, ...), one sentence each.
+  const std::vector<std::string>& problems() const;
+
+  const CadShape& shape() const { return *shape_; }
+
+  explicit CadModel(std::shared_ptr<const CadShape> shape) : shape_(std::move(shape)) {}
+
+ private:
+  std::shared_ptr<const CadShape> shape_;
+};
+
+}  // namespace quadrille

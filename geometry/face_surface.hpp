@@ -1,0 +1,78 @@
+#pragma once
+/// The surface of one CAD face, evaluated fast. Internal.
+
+#include <memory>
+
+#include "geometry/cad_shape.hpp"
+#include "geometry/vector.hpp"
+
+class BRepAdaptor_Surface;
+
+namespace quadrille {
+
+/// Point, first derivatives at parameters (u, v).
+struct SurfacePoint {
+  Vector3 point, du, dv;
+};
+
+/// Evaluates a face's surface. Planes, cylinders, cones, spheres and tori by their formulas, others through
+/// OpenCASCADE. Evaluation caches inside: one object a thread.
+class FaceSurface {
+ public:
+  explicit FaceSurface(const CadFace& face);
+  ~FaceSurface();
+  FaceSurface(FaceSurface&&) noexcept;
+  FaceSurface& operator=(FaceSurface&&) = delete;
+
+  SurfacePoint evaluate(const Vector2& uv) const;
+  Vector3 point(const Vector2& uv) const { return evaluate(uv).point; }
+
+  /// Unit normal du x dv; at a singular point (pole, apex) the limit from inside the face.
+  Vector3 normal(const Vector2& uv) const { return normal(evaluate(uv), uv); }
+  Vector3 normal(const SurfacePoint& at, const Vector2& uv) const;
+
+  /// Largest absolute principal curvature, 1 / length.
+  double max_curvature(const Vector2& uv) const;
+
+  /// The change of (u, v) that moves a point by `displacement` in space, to first order, in the least squares sense.
+  /// Directions in which the parametrisation is singular stay still.
+  static Vector2 parameter_step(const SurfacePoint& at, const Vector3& displacement);
+
+  /// The point of the surface near `target`, searched from `uv`, which is updated. Exact for elementary surfaces, one
+  /// Newton step towards it for others; the result is on the surface in any case.
+  SurfacePoint move(Vector2& uv, const Vector3& target) const;
+
+  /// The closest point of the surface to `target` near `uv` (Newton iterations, bounded).
+  SurfacePoint project(Vector2& uv, const Vector3& target) const;
+
+  bool planar() const { return kind_ == Kind::plane; }
+  bool u_periodic() const { return u_period_ > 0; }
+  bool v_periodic() const { return v_period_ > 0; }
+  double u_period() const { return u_period_; }  ///< 0 = not periodic
+  double v_period() const { return v_period_; }
+  /// Mean lengths in space of a unit step in u and in v over the face: scales the parameter plane to be as isometric
+  /// as it can be by two numbers.
+  Vector2 mean_scale() const { return mean_scale_; }
+
+ private:
+  enum class Kind { plane, cylinder, cone, sphere, torus, other };
+
+  void recognize();
+  SurfacePoint evaluate_elementary(const Vector2& uv) const;
+  SurfacePoint evaluate_other(const Vector2& uv) const;
+  Vector2 inverse(const Vector2& near, const Vector3& target) const;
+  Vector2 clamp(Vector2 uv) const;
+  void measure_scale();
+
+  Kind kind_ = Kind::other;
+  std::unique_ptr<BRepAdaptor_Surface> adaptor_;
+  Vector3 origin_, x_, y_, z_;       // frame of an elementary surface
+  double radius_ = 0;                // cylinder, sphere; reference radius of a cone; major radius of a torus
+  double minor_radius_ = 0;          // torus
+  double sin_angle_ = 0, cos_angle_ = 1;  // half-angle of a cone
+  double u_period_ = 0, v_period_ = 0;
+  Vector2 low_, high_;               // bounds of the face in the parameter plane
+  Vector2 mean_scale_{1, 1};
+};
+
+}  // namespace quadrille
