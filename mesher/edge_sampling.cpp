@@ -1,0 +1,438 @@
+/// Equidistribution of 1 / size along the arc length; parity by a T-join (Edmonds & Johnson, Matching, Euler tours and
+/// the Chinese postman, 1973), approximated by nearest pairs, and by a minimum-weight basis over GF(2) in general.
+
+#include "mesher/edge_sampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <queue>
+
+#include "geometry/edge_curve.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// The wanted number of segments as a function of the parameter.
+struct CountTable {
+  std::vector<double> parameters;
+  std::vector<double> counts;  // integral of ds / size from the start
+  double turning = 0;          // total change of direction, radians
+  double total() const { return counts.empty() ? 0 : counts.back(); }
+
+  double parameter_at(double count) const {
+    const auto it = std::lower_bound(counts.begin(), counts.end(), count);
+    const std::size_t i = std::clamp<std::size_t>(it - counts.begin(), 1, counts.size() - 1);
+    const double span = counts[i] - counts[i - 1];
+    const double t = span > 0 ? std::clamp((count - counts[i - 1]) / span, 0.0, 1.0) : 0.5;
+    return parameters[i - 1] + t * (parameters[i] - parameters[i - 1]);
+  }
+};
+
+class EdgeTabulator {
+ public:
+  EdgeTabulator(const CadEdge& edge, SizingField::Sampler& size_at)
+      : curve_(edge), size_at_(size_at), uniform_(curve_.straight() || curve_.circular()) {
+    const int intervals = std::max(uniform_ ? 4 : 8, 2 * curve_.spans());
+    add(edge.first, curve_.point(edge.first), 0);
+    for (int i = 1; i <= intervals; ++i) {
+      const double t = edge.first + (edge.last - edge.first) * i / intervals;
+      split(t, curve_.point(t), 0);
+    }
+  }
+  CountTable table;
+
+ private:
+  void split(double t, const Vector3& p, int depth) {
+    const double chord = (p - point_).norm();
+    if (depth < 14 && chord > 0.5 * std::min(size_, size_at_(p))) {
+      const double middle = 0.5 * (table.parameters.back() + t);
+      split(middle, curve_.point(middle), depth + 1);
+      split(t, p, depth + 1);
+      return;
+    }
+    add(t, p, arc(table.parameters.back(), t, chord));
+  }
+
+  void add(double t, const Vector3& p, double length) {
+    const double size = size_at_(p);
+    const Vector3 direction = curve_.derivative(t);
+    if (table.parameters.empty()) {
+      table.counts.push_back(0);
+    } else {
+      table.counts.push_back(table.counts.back() + 0.5 * length * (1 / size + 1 / size_));
+      table.turning += std::atan2(direction.cross(direction_).norm(), direction.dot(direction_));
+    }
+    table.parameters.push_back(t);
+    point_ = p;
+    size_ = size;
+    direction_ = direction;
+  }
+
+  /// Arc length by Simpson's rule on the speed.
+  double arc(double a, double b, double chord) const {
+    if (curve_.straight()) return chord;
+    const double speeds = curve_.derivative(a).norm() + curve_.derivative(b).norm() +
+                          4 * curve_.derivative(0.5 * (a + b)).norm();
+    return std::max(chord, (b - a) * speeds / 6);
+  }
+
+  EdgeCurve curve_;
+  SizingField::Sampler& size_at_;
+  bool uniform_;
+  Vector3 point_, direction_;
+  double size_ = 0;
+};
+
+/// Fewest segments (of the mesh that is recombined) that keep the edge's shape and the face's loop open.
+int least_segments(const CadEdge& edge, const CountTable& table, bool shares_both_ends, int stride) {
+  constexpr double turning_a_segment = 1.8;
+  int least = std::max(1, static_cast<int>(std::ceil(table.turning / turning_a_segment - 0.01)));
+  if (shares_both_ends && table.turning > 1e-3) least = std::max(least, 2);
+  if (edge.closed()) least = std::max(least, stride == 2 ? 3 : 4);
+  return least;
+}
+
+/// Edges that have both end vertices in common with another one: as chords they would coincide.
+std::vector<char> find_shared_ends(const CadShape& shape) {
+  std::map<std::pair<int, int>, int> count;
+  const auto key = [](const CadEdge& e) { return std::minmax(e.first_vertex, e.last_vertex); };
+  for (const CadEdge& edge : shape.edges) {
+    if (!edge.degenerate && !edge.closed()) ++count[key(edge)];
+  }
+  std::vector<char> shared;
+  for (const CadEdge& edge : shape.edges) {
+    shared.push_back(!edge.degenerate && !edge.closed() && count[key(edge)] > 1);
+  }
+  return shared;
+}
+
+/// The faces used that have the edge an odd number of times.
+std::vector<int> odd_uses(const CadEdge& edge, const std::vector<char>& used) {
+  std::vector<int> faces;
+  for (const int face : edge.faces) {
+    if (!used[face - 1]) continue;
+    if (!faces.empty() && faces.back() == face - 1) {
+      faces.pop_back();
+    } else {
+      faces.push_back(face - 1);
+    }
+  }
+  return faces;
+}
+
+bool is_used(const CadEdge& edge, const std::vector<char>& used) {
+  return std::any_of(edge.faces.begin(), edge.faces.end(), [&](int face) { return used[face - 1]; });
+}
+
+/// Edges that get the same count, because they are opposite sides of four-sided faces. A union-find structure.
+class TiedEdges {
+ public:
+  explicit TiedEdges(const std::vector<double>& wanted) : parent_(wanted.size()), low_(wanted), high_(wanted) {
+    for (std::size_t i = 0; i < parent_.size(); ++i) parent_[i] = static_cast<int>(i);
+  }
+  int find(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  /// Ties two edges unless that would take some edge of either class too far from its wanted count.
+  void tie(int a, int b) {
+    constexpr double largest_ratio = 1.5;
+    a = find(a);
+    b = find(b);
+    const double low = std::min(low_[a], low_[b]), high = std::max(high_[a], high_[b]);
+    if (a == b || high > largest_ratio * low) return;
+    parent_[b] = a;
+    low_[a] = low;
+    high_[a] = high;
+  }
+
+ private:
+  std::vector<int> parent_;
+  std::vector<double> low_, high_;
+};
+
+/// Opposite edges of faces that one wire of four edges bounds.
+void tie_opposite_edges(const CadShape& shape, const std::vector<char>& used, TiedEdges& tied) {
+  for (std::size_t i = 0; i < shape.faces.size(); ++i) {
+    const CadFace& face = shape.faces[i];
+    if (!used[i] || face.wires.size() != 1 || face.wires[0].coedges.size() != 4 || !face.wires[0].ordered) continue;
+    const auto& c = face.wires[0].coedges;
+    const auto unusable = [&](const Coedge& coedge) {
+      return coedge.internal || shape.edges[coedge.edge - 1].degenerate;
+    };
+    if (std::any_of(c.begin(), c.end(), unusable)) continue;
+    tied.tie(c[0].edge - 1, c[2].edge - 1);
+    tied.tie(c[1].edge - 1, c[3].edge - 1);
+  }
+}
+
+/// Whether one more or one fewer segment fits the wanted count better.
+int change_of(int count, double wanted, int least) { return wanted >= count || count <= least ? 1 : -1; }
+
+double cost_of_change(int count, double wanted, int least) {
+  const double ratio = (count + change_of(count, wanted, least)) / std::max(wanted, 0.5);
+  return std::abs(std::log(ratio)) + 1e-6;
+}
+
+/// The counts of all edges: tied ones alike, rounded, and changed so that every face becomes even.
+std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& used, const std::vector<double>& wanted,
+                               const std::vector<int>& least, bool tie, std::vector<int>& odd_faces) {
+  const int n = static_cast<int>(wanted.size());
+  TiedEdges tied(wanted);
+  if (tie) tie_opposite_edges(shape, used, tied);
+  struct Class {
+    double wanted = 0;
+    int members = 0, least = 0, count = 0;
+  };
+  std::vector<Class> classes(n);
+  for (int i = 0; i < n; ++i) {
+    if (least[i] == 0) continue;
+    Class& c = classes[tied.find(i)];
+    c.wanted += wanted[i];
+    ++c.members;
+    c.least = std::max(c.least, least[i]);
+  }
+  std::vector<ParityEdge> parity(n);
+  std::vector<char> odd(shape.faces.size(), 0);
+  for (int i = 0; i < n; ++i) {
+    Class& c = classes[i];
+    parity[i].cost = std::numeric_limits<double>::infinity();
+    if (c.members == 0) continue;
+    c.wanted /= c.members;
+    c.count = std::max(c.least, static_cast<int>(std::lround(c.wanted)));
+    parity[i].cost = c.members * cost_of_change(c.count, c.wanted, c.least);
+  }
+  for (int i = 0; i < n; ++i) {
+    if (least[i] == 0) continue;
+    const int c = tied.find(i);
+    for (const int face : odd_uses(shape.edges[i], used)) {
+      auto& faces = parity[c].faces;
+      const auto it = std::find(faces.begin(), faces.end(), face);
+      if (it == faces.end()) {
+        faces.push_back(face);
+      } else {
+        faces.erase(it);
+      }
+      if (classes[c].count % 2 != 0) odd[face] ^= 1;
+    }
+  }
+  odd_faces.clear();
+  const std::vector<char> change = make_even(parity, odd, odd_faces);
+  std::vector<int> counts(n, 0);
+  for (int i = 0; i < n; ++i) {
+    if (least[i] == 0) continue;
+    const int c = tied.find(i);
+    counts[i] = classes[c].count;
+    if (change[c]) counts[i] += change_of(classes[c].count, classes[c].wanted, classes[c].least);
+  }
+  return counts;
+}
+
+}  // namespace
+
+BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, const MeshOptions& options,
+                           const std::vector<char>& used, const std::vector<int>& refine, ExecutionContext& context) {
+  const int n = static_cast<int>(shape.edges.size());
+  BoundaryNodes result;
+  result.stride = options.strategy == Strategy::subdivide ? 2 : 1;
+  result.vertex_nodes.assign(shape.vertices.size(), -1);
+  result.edges.resize(n);
+
+  SizingField::Sampler sampler(field);
+  const std::vector<char> shared_ends = find_shared_ends(shape);
+  std::vector<CountTable> tables(n);
+  std::vector<int> least(n, 0);
+  std::vector<double> wanted(n, 0);
+  for (int i = 0; i < n; ++i) {
+    if (i % 256 == 0) context.report("sample", 0.5 * i / n);
+    const CadEdge& edge = shape.edges[i];
+    if (edge.degenerate || edge.length <= 0 || !is_used(edge, used)) continue;
+    tables[i] = EdgeTabulator(edge, sampler).table;
+    wanted[i] = tables[i].total() / result.stride * refine[i];
+    least[i] = least_segments(edge, tables[i], shared_ends[i], result.stride);
+  }
+  std::vector<int> counts = choose_counts(shape, used, wanted, least, true, result.odd_faces);
+  if (!result.odd_faces.empty()) {
+    counts = choose_counts(shape, used, wanted, least, false, result.odd_faces);
+  }
+
+  const auto vertex_node = [&](int vertex, const Vector3& fallback) {
+    if (vertex == 0) {
+      result.points.push_back(fallback);
+      return static_cast<int>(result.points.size()) - 1;
+    }
+    int& node = result.vertex_nodes[vertex - 1];
+    if (node < 0) {
+      node = static_cast<int>(result.points.size());
+      result.points.push_back(shape.vertices[vertex - 1]);
+    }
+    return node;
+  };
+  // Vertices first, so that the numbering does not depend on the counts.
+  for (const CadEdge& edge : shape.edges) {
+    if (!is_used(edge, used)) continue;
+    if (edge.first_vertex > 0) vertex_node(edge.first_vertex, {});
+    if (edge.last_vertex > 0) vertex_node(edge.last_vertex, {});
+  }
+  for (int i = 0; i < n; ++i) {
+    if (counts[i] == 0) continue;
+    const CadEdge& edge = shape.edges[i];
+    const EdgeCurve curve(edge);
+    BoundaryNodes::Edge& nodes = result.edges[i];
+    const int segments = counts[i] * result.stride;
+    for (int k = 0; k <= segments; ++k) {
+      double t = tables[i].parameter_at(tables[i].total() * k / segments);
+      if (k == 0) t = edge.first;
+      if (k == segments) t = edge.last;
+      nodes.parameters.push_back(t);
+      if (k == 0) {
+        nodes.nodes.push_back(vertex_node(edge.first_vertex, curve.point(t)));
+      } else if (k == segments) {
+        nodes.nodes.push_back(edge.closed() ? nodes.nodes.front() : vertex_node(edge.last_vertex, curve.point(t)));
+      } else {
+        nodes.nodes.push_back(static_cast<int>(result.points.size()));
+        result.points.push_back(curve.point(t));
+      }
+    }
+  }
+  return result;
+}
+
+namespace {
+
+/// Dijkstra from one odd face to the nearest other odd face or to the outside; exchanges the path.
+class NearestPairs {
+ public:
+  NearestPairs(const std::vector<ParityEdge>& edges, int faces)
+      : edges_(edges), outside_(faces), adjacency_(faces + 1), change_(edges.size(), 0) {
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const auto& uses = edges[i].faces;
+      if (!std::isfinite(edges[i].cost) || uses.empty() || uses.size() > 2) continue;
+      const int a = uses[0], b = uses.size() == 2 ? uses[1] : outside_;
+      adjacency_[a].push_back({b, static_cast<int>(i)});
+      adjacency_[b].push_back({a, static_cast<int>(i)});
+    }
+  }
+
+  /// \return false if no other odd face and no free edge can be reached.
+  bool pair_up(int start, std::vector<char>& odd) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::vector<double> distance(adjacency_.size(), infinity);
+    std::vector<std::pair<int, int>> from(adjacency_.size(), {-1, -1});
+    std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> queue;
+    distance[start] = 0;
+    queue.push({0, start});
+    while (!queue.empty()) {
+      const auto [d, at] = queue.top();
+      queue.pop();
+      if (d > distance[at]) continue;
+      if (at != start && (at == outside_ || odd[at])) {
+        for (int node = at; node != start; node = from[node].first) change_[from[node].second] ^= 1;
+        odd[start] = 0;
+        if (at != outside_) odd[at] = 0;
+        return true;
+      }
+      for (const auto& [to, edge] : adjacency_[at]) {
+        const double next = d + (change_[edge] ? 0 : edges_[edge].cost);
+        if (next < distance[to]) {
+          distance[to] = next;
+          from[to] = {at, edge};
+          queue.push({next, to});
+        }
+      }
+    }
+    return false;
+  }
+
+  const std::vector<char>& change() const { return change_; }
+
+ private:
+  const std::vector<ParityEdge>& edges_;
+  int outside_;
+  std::vector<std::vector<std::pair<int, int>>> adjacency_;
+  std::vector<char> change_;
+};
+
+using Bits = std::vector<std::uint64_t>;
+
+void add_to(Bits& a, const Bits& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] ^= b[i];
+}
+
+int lowest_bit(const Bits& bits) {
+  for (std::size_t i = 0; i < bits.size(); ++i) {
+    if (bits[i]) return static_cast<int>(64 * i) + __builtin_ctzll(bits[i]);
+  }
+  return -1;
+}
+
+/// Solves for the odd faces with the cheapest basis of columns; whatever cannot be made even stays odd.
+std::vector<char> eliminate(const std::vector<ParityEdge>& edges, std::vector<char>& odd) {
+  struct Row {
+    Bits faces, combination;
+  };
+  std::vector<int> order;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (std::isfinite(edges[i].cost) && !edges[i].faces.empty()) order.push_back(static_cast<int>(i));
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return edges[a].cost < edges[b].cost; });
+  const std::size_t face_words = (odd.size() + 63) / 64, edge_words = (edges.size() + 63) / 64;
+  std::map<int, Row> basis;  // by lowest bit
+  for (const int edge : order) {
+    Row row{Bits(face_words), Bits(edge_words)};
+    for (const int face : edges[edge].faces) row.faces[face / 64] ^= std::uint64_t{1} << (face % 64);
+    row.combination[edge / 64] |= std::uint64_t{1} << (edge % 64);
+    for (int bit = lowest_bit(row.faces); bit >= 0; bit = lowest_bit(row.faces)) {
+      const auto it = basis.find(bit);
+      if (it == basis.end()) {
+        basis.emplace(bit, std::move(row));
+        break;
+      }
+      add_to(row.faces, it->second.faces);
+      add_to(row.combination, it->second.combination);
+    }
+  }
+  Row target{Bits(face_words), Bits(edge_words)};
+  for (std::size_t face = 0; face < odd.size(); ++face) {
+    if (odd[face]) target.faces[face / 64] |= std::uint64_t{1} << (face % 64);
+  }
+  std::fill(odd.begin(), odd.end(), 0);
+  for (int bit = lowest_bit(target.faces); bit >= 0; bit = lowest_bit(target.faces)) {
+    const auto it = basis.find(bit);
+    if (it == basis.end()) {
+      odd[bit] = 1;
+      target.faces[bit / 64] ^= std::uint64_t{1} << (bit % 64);
+      continue;
+    }
+    add_to(target.faces, it->second.faces);
+    add_to(target.combination, it->second.combination);
+  }
+  std::vector<char> change(edges.size(), 0);
+  for (std::size_t i = 0; i < edges.size(); ++i) change[i] = target.combination[i / 64] >> (i % 64) & 1;
+  return change;
+}
+
+}  // namespace
+
+std::vector<char> make_even(const std::vector<ParityEdge>& edges, std::vector<char> odd, std::vector<int>& left_odd) {
+  const std::vector<char> start = odd;
+  NearestPairs pairs(edges, static_cast<int>(odd.size()));
+  bool solved = true;
+  for (std::size_t face = 0; face < odd.size() && solved; ++face) {
+    if (odd[face]) solved = pairs.pair_up(static_cast<int>(face), odd);
+  }
+  std::vector<char> change = pairs.change();
+  if (!solved) {
+    odd = start;
+    change = eliminate(edges, odd);
+  }
+  for (std::size_t face = 0; face < odd.size(); ++face) {
+    if (odd[face]) left_odd.push_back(static_cast<int>(face) + 1);
+  }
+  return change;
+}
+
+}  // namespace quadrille
