@@ -1,0 +1,262 @@
+/// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018), section 2; the
+/// chains of two colours are Kempe's (1879), as in Vizing's proof (1964).
+
+#include "mesher/edge_coloring.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille {
+
+namespace {
+
+/// Index of the lowest bit of a mask in 1 .. 7.
+int lowest(int mask) {
+  return (mask & 1) ? 0 : (mask & 2) ? 1 : 2;
+}
+
+/// A random bit of a mask in 1 .. 7.
+int pick(int mask, Random& random) {
+  const int count = (mask & 1) + (mask >> 1 & 1) + (mask >> 2 & 1);
+  for (int skip = count == 1 ? 0 : random.below(count); skip > 0; --skip) mask &= mask - 1;
+  return lowest(mask);
+}
+
+/// The colours that no triangle of an edge has.
+int available(const EdgeColoring& coloring, Side side) {
+  const Side twin = coloring.twin(side);
+  int used = coloring.colors_used(triangle_of(side));
+  if (twin >= 0) used |= coloring.colors_used(triangle_of(twin));
+  return 7 & ~used;
+}
+
+/// Colours one blank, if its triangles allow it or can be made to.
+class BlankRemover {
+ public:
+  BlankRemover(EdgeColoring& coloring, Random& random) : coloring_(coloring), random_(random) {}
+
+  bool remove(Side side) {
+    if (fill(side)) return true;
+    for (int tries = 0; tries < max_tries; ++tries) {
+      // Two triangles that leave no colour have one colour in common and one apiece.
+      const int one = triangle_of(side), two = triangle_of(coloring_.twin(side));
+      const int of_one = coloring_.colors_used(one), of_two = coloring_.colors_used(two);
+      if (lone(of_one) || lone(of_two)) {
+        if (swap_lone(side)) return true;
+        continue;
+      }
+      const int own = lowest(of_one & ~of_two), other = lowest(of_two & ~of_one),
+                common = lowest(of_one & of_two);
+      // The chains of the two colours that are not common: unless one leads to the other triangle, its
+      // exchange makes both triangles leave the same colour.
+      const Side start_one = coloring_.side_of(one, own), start_two = coloring_.side_of(two, other);
+      const int winner = race({start_one, other}, {start_two, own});
+      if (winner != met) {
+        coloring_.swap_chain(winner == first ? start_one : start_two, own, other);
+        return fill(side);
+      }
+      // It does. Another chain that ends here changes what is common; where that does not help, the blank
+      // moves on.
+      if (tries % 4 == 3) {
+        side = shift(start_one, own, other);
+        continue;
+      }
+      const Chain from_one{coloring_.side_of(one, common), other},
+          from_two{coloring_.side_of(two, common), own};
+      const bool take_one = tries == 0 ? race(from_one, from_two) == first : random_.below(2) == 0;
+      const Chain& chain = take_one ? from_one : from_two;
+      coloring_.swap_chain(chain.side, common, chain.next_color);
+    }
+    return false;
+  }
+
+ private:
+  static constexpr int max_tries = 200;
+  enum Winner { first, second, met };
+
+  /// A place on a chain: a side, and the colour that follows.
+  struct Chain {
+    Side side;
+    int next_color;
+  };
+
+  /// Moves on along the chain. \return false at its end.
+  bool advance(Chain& chain) const {
+    const Side across = coloring_.twin(chain.side);
+    const Side next = across < 0 ? -1 : coloring_.side_of(triangle_of(across), chain.next_color);
+    if (next < 0) return false;
+    chain = {next, coloring_.color(chain.side)};
+    return true;
+  }
+
+  /// Follows two chains in turns: the shorter one wins, and chains that are the two ends of one meet.
+  Winner race(Chain one, Chain two) const {
+    for (;;) {
+      if (coloring_.twin(one.side) == two.side) return met;
+      if (!advance(one)) return first;
+      if (coloring_.twin(one.side) == two.side) return met;
+      if (!advance(two)) return second;
+    }
+  }
+
+  static bool lone(int mask) { return (mask & (mask - 1)) == 0; }
+
+  bool fill(Side side) {
+    const int colors = available(coloring_, side);
+    if (colors == 0) return false;
+    coloring_.set_color(side, pick(colors, random_));
+    return true;
+  }
+
+  /// Exchanges the first few edges of a chain that leads from one triangle of the blank edge to the other:
+  /// the blank ends up behind them. \return where it is.
+  Side shift(Side side, int a, int b) {
+    Side blank = coloring_.side_of(triangle_of(side), EdgeColoring::blank);
+    for (int steps = 1 + random_.below(16); steps > 0 && side >= 0; --steps) {
+      const int color = coloring_.color(side);
+      coloring_.set_color(blank, color);
+      coloring_.set_color(side, EdgeColoring::blank);
+      blank = side;
+      const Side across = coloring_.twin(side);
+      side = coloring_.side_of(triangle_of(across), color == a ? b : a);
+    }
+    return blank;
+  }
+
+  /// One of the triangles has two blanks and the only colour that the other one leaves.
+  bool swap_lone(Side side) {
+    int t = triangle_of(side);
+    if (!lone(coloring_.colors_used(t))) t = triangle_of(coloring_.twin(side));
+    const int color = lowest(coloring_.colors_used(t));
+    const int wanted = (color + 1 + random_.below(2)) % 3;
+    coloring_.swap_chain(coloring_.side_of(t, color), color, wanted);
+    return fill(side);
+  }
+
+  EdgeColoring& coloring_;
+  Random& random_;
+};
+
+}  // namespace
+
+EdgeColoring::EdgeColoring(const TriangleMesh& mesh) {
+  check_indices(mesh);
+  cells_.assign(mesh.triangles.size(), {{-1, -1, -1}, {blank, blank, blank}});
+  join_twins(mesh, [this](Side a, Side b) {
+    cells_[triangle_of(a)].twin[index_of(a)] = b;
+    cells_[triangle_of(b)].twin[index_of(b)] = a;
+  });
+}
+
+Side EdgeColoring::swap_chain(Side start, int a, int b) {
+  int now = color(start), then = now == a ? b : a;
+  for (Side side = start;;) {
+    const Side across = twin(side);
+    // The next edge is looked up before this one takes its colour.
+    const Side next = across < 0 ? -1 : side_of(triangle_of(across), then);
+    set_color(side, then);
+    if (next < 0) return side;
+    side = next;
+    std::swap(now, then);
+  }
+}
+
+Side EdgeColoring::swap_boundary_chain(Side boundary, int with) {
+  const int from = color(boundary);
+  const Side next = side_of(triangle_of(boundary), with);
+  set_color(boundary, with);
+  return next < 0 ? -1 : swap_chain(next, from, with);
+}
+
+bool is_proper(const EdgeColoring& coloring) {
+  for (int t = 0; t < coloring.size(); ++t) {
+    int seen = 0;
+    for (int i = 0; i < 3; ++i) {
+      const int color = coloring.color(make_side(t, i));
+      const Side twin = coloring.twin(make_side(t, i));
+      if (twin >= 0 && coloring.color(twin) != color) return false;
+      if (color == EdgeColoring::blank) continue;
+      if (seen & (1 << color)) return false;
+      seen |= 1 << color;
+    }
+  }
+  return true;
+}
+
+namespace {
+
+/// Visits each edge once, from the lower of its triangles.
+template <class Visit>
+void for_each_edge(const EdgeColoring& coloring, Visit&& visit) {
+  for (int t = 0; t < coloring.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const Side side = make_side(t, i), twin = coloring.twin(side);
+      if (twin < 0 || twin > side) visit(side);
+    }
+  }
+}
+
+}  // namespace
+
+int count_blanks(const EdgeColoring& coloring) {
+  int count = 0;
+  for_each_edge(coloring, [&](Side side) { count += coloring.color(side) == EdgeColoring::blank; });
+  return count;
+}
+
+int color_greedily(EdgeColoring& coloring, Random& random) {
+  int blanks = 0;
+  for_each_edge(coloring, [&](Side side) {
+    if (coloring.color(side) != EdgeColoring::blank) return;
+    const int colors = available(coloring, side);
+    if (colors != 0) {
+      coloring.set_color(side, pick(colors, random));
+    } else {
+      ++blanks;
+    }
+  });
+  return blanks;
+}
+
+int remove_blanks(EdgeColoring& coloring, Random& random) {
+  BlankRemover remover(coloring, random);
+  int left = 0;
+  for_each_edge(coloring, [&](Side side) {
+    if (coloring.color(side) == EdgeColoring::blank && !remover.remove(side)) ++left;
+  });
+  return left;
+}
+
+std::array<int, 3> count_boundary_colors(const EdgeColoring& coloring) {
+  std::array<int, 3> counts{};
+  for_each_edge(coloring, [&](Side side) {
+    if (coloring.twin(side) < 0 && coloring.color(side) != EdgeColoring::blank)
+      ++counts[coloring.color(side)];
+  });
+  return counts;
+}
+
+int least_boundary_color(const EdgeColoring& coloring) {
+  const std::array<int, 3> counts = count_boundary_colors(coloring);
+  return static_cast<int>(std::min_element(counts.begin(), counts.end()) - counts.begin());
+}
+
+int clear_boundary(EdgeColoring& coloring, int color, Random& random) {
+  std::vector<Side> sides;
+  for_each_edge(coloring, [&](Side side) {
+    if (coloring.twin(side) < 0 && coloring.color(side) == color) sides.push_back(side);
+  });
+  constexpr int max_tries = 6;
+  for (Side at : sides) {
+    const int first = random.below(2);
+    for (int tries = 0; at >= 0 && coloring.color(at) == color && tries < max_tries; ++tries) {
+      // The path that ends at a boundary edge of the other colour gives that edge ours: the search goes on
+      // there.
+      const Side end = coloring.swap_boundary_chain(at, (color + 1 + (first + tries) % 2) % 3);
+      at = end >= 0 && coloring.twin(end) < 0 ? end : -1;
+    }
+  }
+  return count_boundary_colors(coloring)[color];
+}
+
+}  // namespace quadrille

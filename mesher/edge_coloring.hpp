@@ -1,0 +1,108 @@
+#pragma once
+/// Colours for the edges of a triangulation, no two alike in a triangle: without the edges of one colour, the
+/// triangles are quads. The pieces of the paper's method, each on its own.
+/// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018).
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesher/mesh_types.hpp"
+#include "mesher/side_twins.hpp"
+
+namespace quadrille {
+
+/// Small, fast and the same everywhere (SplitMix64, Steele et al. 2014).
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t next() {
+    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+    return z ^ (z >> 31);
+  }
+  /// Uniform in [0, n), n small.
+  int below(int n) { return static_cast<int>((next() >> 32) * static_cast<std::uint64_t>(n) >> 32); }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// The colour of each edge of a triangulation: 0, 1, 2, or blank. 16 bytes a triangle.
+class EdgeColoring {
+ public:
+  static constexpr std::uint8_t blank = 3;
+
+  /// All edges blank. Throws Error (failure) naming the triangle when the mesh is not manifold or not
+  /// oriented alike.
+  explicit EdgeColoring(const TriangleMesh& mesh);
+
+  int size() const { return static_cast<int>(cells_.size()); }  ///< triangles
+  int color(Side side) const { return cells_[triangle_of(side)].color[index_of(side)]; }
+  Side twin(Side side) const { return cells_[triangle_of(side)].twin[index_of(side)]; }
+
+  void set_color(Side side, int color) {
+    cells_[triangle_of(side)].color[index_of(side)] = static_cast<std::uint8_t>(color);
+    const Side other = twin(side);
+    if (other >= 0) cells_[triangle_of(other)].color[index_of(other)] = static_cast<std::uint8_t>(color);
+  }
+
+  /// The side of a triangle that has a colour; -1 if none has.
+  Side side_of(int triangle, int color) const {
+    const auto& colors = cells_[triangle].color;
+    const int i = (colors[1] == color) | (colors[2] == color) << 1;
+    return i != 0 || colors[0] == color ? make_side(triangle, i) : -1;
+  }
+
+  /// Bit c set: a side of the triangle has the colour c.
+  int colors_used(int triangle) const {
+    const auto& colors = cells_[triangle].color;
+    return ((1 << colors[0]) | (1 << colors[1]) | (1 << colors[2])) & 7;
+  }
+
+  /// Exchanges the colours a and b along the chain of edges of these two that starts with a side, and goes on
+  /// beyond it; the side's own triangle must lack the other of the two. The chain ends at the boundary, or
+  /// before a triangle without the next colour. \return the last side of the chain, seen from the triangle
+  /// before it.
+  Side swap_chain(Side start, int a, int b);
+
+  /// The same for the chain that starts at a boundary edge and goes inwards: its colour is exchanged with
+  /// another one. \return the last side after the first, -1 if there is none.
+  Side swap_boundary_chain(Side boundary, int with);
+
+ private:
+  struct Cell {
+    Side twin[3];
+    std::uint8_t color[3];
+  };
+  std::vector<Cell> cells_;
+};
+
+/// No colour comes twice in a triangle (blanks may).
+bool is_proper(const EdgeColoring& coloring);
+
+/// The edges without a colour.
+int count_blanks(const EdgeColoring& coloring);
+
+/// Gives each blank edge, in the order of the triangles, a random one of the colours that its triangles
+/// leave, or leaves it blank. \return the number of blanks. Time: linear.
+int color_greedily(EdgeColoring& coloring, Random& random);
+
+/// Removes blanks by swapping colours with neighbouring edges along chains of two colours, which moves the
+/// blank until it meets the boundary or another blank, or until its two triangles leave a colour. Each step
+/// keeps the colouring proper. \return the number of blanks that were left after many tries: 0 in practice.
+int remove_blanks(EdgeColoring& coloring, Random& random);
+
+/// How often each colour comes on the boundary.
+std::array<int, 3> count_boundary_colors(const EdgeColoring& coloring);
+
+/// The colour that is least on the boundary, the first of equals.
+int least_boundary_color(const EdgeColoring& coloring);
+
+/// Takes a colour off the boundary, two edges at a time, by exchange along the alternating paths between
+/// them. \return the number of boundary edges that still have it; each has a triangle that will find no
+/// partner.
+int clear_boundary(EdgeColoring& coloring, int color, Random& random);
+
+}  // namespace quadrille
