@@ -1,0 +1,469 @@
+// Smoothing of quad meshes on a surface.
+// Based on: Field, Laplacian smoothing and Delaunay triangulations (1988), made "smart" by the acceptance
+// test of Freitag, On combining Laplacian and optimization-based mesh smoothing techniques (1997): sweeps of
+// averages first, then the worst elements node by node, by a compass search on the least scaled Jacobian
+// round the node. Untangling maximises the negative part of the corner areas, as Freitag & Plassmann (2000).
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "mesher/improve.hpp"
+#include "mesher/quad_geometry.hpp"
+
+namespace quadrille {
+namespace {
+
+/// A move that leaves every element above this scaled Jacobian is good even if the least one falls a little.
+constexpr double kGood = 0.6;
+constexpr double kOpposite = 0.5;   ///< weight of the corner opposite in a quad, beside 1 for the neighbours
+constexpr double kOvershoot = 1.3;  ///< of a sweep's moves
+/// Moves below this fraction of the mean side round the node are not worth evaluating the surface for.
+constexpr double kStill = 4e-3;
+/// A place on the surface within this share of the size of the place judged needs no second judgement.
+constexpr double kNear = 0.01;
+/// A side shorter than this share of the mean side round the node counts against the node's place.
+constexpr double kShortSide = 0.5;
+/// Elements with a scaled Jacobian below this (q < 0.5) are worked on node by node.
+constexpr double kPoor = 0.7071;
+/// These (q < 0.33) are worked on longer; they are few.
+constexpr double kBad = 0.5;
+
+/// Smooths one surface mesh in place. Nodes are visited in index order and see the moves of the nodes before
+/// them.
+class Smoother {
+ public:
+  Smoother(SurfaceMesh& surface_mesh, const SmoothingSurface& surface)
+      : points_(surface_mesh.mesh.points),
+        quads_(surface_mesh.mesh.quads),
+        parameters_(surface_mesh.parameters),
+        normals_(surface_mesh.normals),
+        surface_(surface) {
+    const std::size_t n = points_.size();
+    free_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) free_[i] = surface_mesh.fixed[i] ? 0 : 1;
+    // Where a triangle was left, its nodes stay: only quads are measured here.
+    for (const auto& triangle : surface_mesh.mesh.triangles)
+      for (const int node : triangle) free_[node] = 0;
+    link_corners();
+    quality_.resize(quads_.size());
+    measure_all();
+    active_.assign(n, 1);
+    next_active_.assign(n, 0);
+  }
+
+  /// Moves each active node once; false when nothing is active any more.
+  bool sweep() {
+    bool any = false;
+    for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
+      if (!free_[node] || !active_[node]) continue;
+      if (relax(node)) {
+        any = true;
+        activate(node, next_active_);
+      }
+    }
+    active_.swap(next_active_);
+    std::fill(next_active_.begin(), next_active_.end(), 0);
+    return any;
+  }
+
+  /// Works on the nodes of the elements below `floor`, worst node first by index; returns whether a node
+  /// moved.
+  bool optimise_below(double floor) {
+    bool any = false;
+    for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
+      if (!free_[node] || !(least_round(node) < floor)) continue;
+      if (!search(node, least_round(node) > 0 ? Goal::raise : Goal::untangle)) continue;
+      any = true;
+      activate(node, active_);
+    }
+    return any;
+  }
+
+  /// Where single nodes cannot help an element (rows of flat quads against a wall), all nodes near it are
+  /// averaged without regard to shapes, then mended; kept only if the worst element there is better than
+  /// before. \param most_failures gives up after so many elements in a row: the face is then too narrow for
+  /// its size.
+  bool loosen_below(double floor, int most_failures) {
+    bool any = false;
+    int failures = 0;
+    for (int quad = 0; quad < static_cast<int>(quads_.size()) && failures < most_failures; ++quad) {
+      if (!(quality_[quad] < floor) || pinned(quad)) continue;
+      const bool better = loosen(quad);
+      failures = better ? 0 : failures + 1;
+      any |= better;
+    }
+    return any;
+  }
+
+  /// Exactly, where sweeps have judged in tangent planes.
+  void measure_all() {
+    for (std::size_t i = 0; i < quads_.size(); ++i) quality_[i] = measure(static_cast<int>(i));
+  }
+
+  int bad_elements() const {
+    return static_cast<int>(
+        std::count_if(quality_.begin(), quality_.end(), [](double s) { return !(s > 0); }));
+  }
+
+ private:
+  enum class Goal { raise, untangle };
+
+  /// Corners round each node, in compressed rows: 4 * quad + corner.
+  void link_corners() {
+    first_.assign(points_.size() + 1, 0);
+    for (const auto& quad : quads_)
+      for (const int node : quad) ++first_[node + 1];
+    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    corners_.resize(first_.back());
+    std::vector<int> place(first_.begin(), first_.end() - 1);
+    for (int i = 0; i < static_cast<int>(quads_.size()); ++i)
+      for (int j = 0; j < 4; ++j) corners_[place[quads_[i][j]]++] = 4 * i + j;
+  }
+
+  double measure(int quad) const {
+    const auto& q = quads_[quad];
+    const Vector3 normal = normals_[q[0]] + normals_[q[1]] + normals_[q[2]] + normals_[q[3]];
+    return folded_scaled_jacobian(points_[q[0]], points_[q[1]], points_[q[2]], points_[q[3]], normal);
+  }
+
+  double least_round(int node) const {
+    double least = 1;
+    for (int i = first_[node]; i < first_[node + 1]; ++i) least = std::min(least, quality_[corners_[i] >> 2]);
+    return least;
+  }
+
+  /// Least scaled Jacobian round the node if it were at `p`; stops early below `enough`.
+  double least_at(int node, const Vector3& p, const Vector3& normal, double enough) const {
+    double least = 1;
+    for (int i = first_[node]; i < first_[node + 1]; ++i) {
+      const auto& q = quads_[corners_[i] >> 2];
+      const int j = corners_[i] & 3;
+      least = std::min(least, folded_scaled_jacobian(p, points_[q[(j + 1) & 3]], points_[q[(j + 2) & 3]],
+                                                     points_[q[(j + 3) & 3]], normal));
+      if (least < enough) break;
+    }
+    return least;
+  }
+
+  /// Negative part of the corner areas that `p` touches, over the squared size: 0 when none is folded.
+  double tangle_at(int node, const Vector3& p, const Vector3& normal, double size) const {
+    double sum = 0;
+    const double wanted = 0.02 * size * size;
+    for (int i = first_[node]; i < first_[node + 1]; ++i) {
+      const auto& q = quads_[corners_[i] >> 2];
+      const int j = corners_[i] & 3;
+      const Vector3 &b = points_[q[(j + 1) & 3]], &c = points_[q[(j + 2) & 3]], &d = points_[q[(j + 3) & 3]];
+      sum += std::min(0.0, (b - p).cross(d - p).dot(normal) - wanted);
+      sum += std::min(0.0, (c - b).cross(p - b).dot(normal) - wanted);
+      sum += std::min(0.0, (p - d).cross(c - d).dot(normal) - wanted);
+    }
+    return sum / (size * size);
+  }
+
+  /// What the search raises: the least scaled Jacobian, less where a side gets short beside the others. The
+  /// worst angle alone would often be best at a neighbour's place.
+  double merit_at(int node, const Vector3& p, const Vector3& normal, double enough) const {
+    const double least = least_at(node, p, normal, enough);
+    if (least < enough || least <= 0) return least;
+    double shortest = std::numeric_limits<double>::max(), sum = 0;
+    for (int i = first_[node]; i < first_[node + 1]; ++i) {
+      const double side = (points_[quads_[corners_[i] >> 2][((corners_[i] & 3) + 1) & 3]] - p).squaredNorm();
+      shortest = std::min(shortest, side);
+      sum += std::sqrt(side);
+    }
+    const double share = std::sqrt(shortest) * (first_[node + 1] - first_[node]) / (kShortSide * sum);
+    return least * std::min(1.0, share);
+  }
+
+  double mean_side(int node) const {
+    double sum = 0;
+    for (int i = first_[node]; i < first_[node + 1]; ++i)
+      sum += (points_[quads_[corners_[i] >> 2][((corners_[i] & 3) + 1) & 3]] - points_[node]).norm();
+    return sum / std::max(first_[node + 1] - first_[node], 1);
+  }
+
+  /// The mean of the neighbours, in the tangent plane of the node.
+  Vector3 middle_of(int node) const {
+    Vector3 sum = Vector3::Zero();
+    for (int i = first_[node]; i < first_[node + 1]; ++i)
+      sum += points_[quads_[corners_[i] >> 2][((corners_[i] & 3) + 1) & 3]];
+    const Vector3 shift = sum / (first_[node + 1] - first_[node]) - points_[node];
+    return points_[node] + shift - normals_[node].dot(shift) * normals_[node];
+  }
+
+  /// The quads round a node, in the tangent plane at it: sweeps are judged there, with a third of the
+  /// arithmetic.
+  struct Plan {
+    static constexpr int kMaxQuads = 16;
+    struct Corner {
+      double bx, by, cx, cy, dx, dy;  ///< the next, opposite and previous corner, from the node
+    };
+    int count = 0;
+    std::array<Corner, kMaxQuads> corners;
+    std::array<double, kMaxQuads> quality;  ///< of the quads, for the place judged last
+    Vector3 u, v;
+  };
+
+  /// False where the node has too many quads.
+  bool draw(int node, Plan& plan) const {
+    plan.count = first_[node + 1] - first_[node];
+    if (plan.count > Plan::kMaxQuads) return false;
+    const Vector3 &origin = points_[node], &normal = normals_[node];
+    // Duff et al., Building an orthonormal basis, revisited (2017).
+    const double sign = std::copysign(1.0, normal.z()), a = -1 / (sign + normal.z());
+    const double b = normal.x() * normal.y() * a;
+    plan.u = {1 + sign * normal.x() * normal.x() * a, sign * b, -sign * normal.x()};
+    plan.v = {b, sign + normal.y() * normal.y() * a, -normal.y()};
+    for (int i = 0; i < plan.count; ++i) {
+      const int corner = corners_[first_[node] + i], j = corner & 3;
+      const auto& q = quads_[corner >> 2];
+      const Vector3 b3 = points_[q[(j + 1) & 3]] - origin, c3 = points_[q[(j + 2) & 3]] - origin,
+                    d3 = points_[q[(j + 3) & 3]] - origin;
+      plan.corners[i] = {plan.u.dot(b3), plan.v.dot(b3), plan.u.dot(c3),
+                         plan.v.dot(c3), plan.u.dot(d3), plan.v.dot(d3)};
+    }
+    return true;
+  }
+
+  /// Whether all quads round the node stay above the floor with the node at (x, y); their qualities go to the
+  /// plan.
+  static bool fits(Plan& plan, double x, double y, double floor) {
+    // Sines are compared by their signed squares, which needs no root.
+    const double bound = floor * std::abs(floor);
+    for (int i = 0; i < plan.count; ++i) {
+      const auto& [bx, by, cx, cy, dx, dy] = plan.corners[i];
+      const double ux = bx - x, uy = by - y, vx = cx - bx, vy = cy - by;
+      const double wx = dx - cx, wy = dy - cy, tx = x - dx, ty = y - dy;
+      const double uu = ux * ux + uy * uy, vv = vx * vx + vy * vy, ww = wx * wx + wy * wy,
+                   tt = tx * tx + ty * ty;
+      const double tu = tx * uy - ty * ux, uv = ux * vy - uy * vx, vw = vx * wy - vy * wx,
+                   wt = wx * ty - wy * tx;
+      const auto square = [](double sine, double lengths) {
+        return sine * std::abs(sine) / std::max(lengths, std::numeric_limits<double>::min());
+      };
+      const double least = std::min(std::min(square(tu, tt * uu), square(uv, uu * vv)),
+                                    std::min(square(vw, vv * ww), square(wt, ww * tt)));
+      if (least < bound) return false;
+      plan.quality[i] = least;
+    }
+    return true;
+  }
+
+  /// One step of a sweep: towards the mean of the nodes of the quads round the node, overshot. Corners
+  /// opposite count half as much as neighbours: measured on graded meshes, that and the overshooting reach in
+  /// 3 sweeps the mean quality that plain averages of neighbours reach in 8; weights by length or area, and
+  /// parallelogram targets, gave less.
+  bool relax(int node) {
+    Plan plan;
+    if (!draw(node, plan) || plan.count == 0) return false;
+    double x = 0, y = 0, size2 = 0;
+    for (int i = 0; i < plan.count; ++i) {
+      const auto& [bx, by, cx, cy, dx, dy] = plan.corners[i];
+      x += bx + dx + kOpposite * cx;
+      y += by + dy + kOpposite * cy;
+      size2 += bx * bx + by * by;
+    }
+    const double share = kOvershoot / ((2 + kOpposite) * plan.count);
+    x *= share;
+    y *= share;
+    size2 /= plan.count;
+    if (x * x + y * y < kStill * kStill * size2) return false;
+    const double floor = std::min(least_round(node), kGood);
+    if (!fits(plan, x, y, floor)) {
+      x *= 0.5;
+      y *= 0.5;
+      if (!fits(plan, x, y, floor)) return false;
+    }
+    return settle_sweep(node, plan, x, y, floor, size2);
+  }
+
+  /// Puts the node on the surface near the place in its tangent plane that was found fit.
+  bool settle_sweep(int node, Plan& plan, double x, double y, double floor, double size2) {
+    Vector2 uv = parameters_[node];
+    Vector3 normal = normals_[node];
+    const Vector3 place = surface_.move(uv, points_[node] + x * plan.u + y * plan.v, normal);
+    const Vector3 shift = place - points_[node];
+    const double px = plan.u.dot(shift), py = plan.v.dot(shift);
+    const double off2 = (px - x) * (px - x) + (py - y) * (py - y);
+    // Off by more than a little (or not a number), the place is judged anew.
+    if (!(off2 < kNear * kNear * size2) && !(place.allFinite() && fits(plan, px, py, floor))) return false;
+    points_[node] = place;
+    parameters_[node] = uv;
+    normals_[node] = normal;
+    for (int i = 0; i < plan.count; ++i) {
+      const double square = plan.quality[i];
+      quality_[corners_[first_[node] + i] >> 2] = std::copysign(std::sqrt(std::abs(square)), square);
+    }
+    return true;
+  }
+
+  void put(int node, const Vector3& place, const Vector2& uv, const Vector3& normal) {
+    points_[node] = place;
+    parameters_[node] = uv;
+    normals_[node] = normal;
+    measure_round(node);
+  }
+
+  void measure_round(int node) {
+    for (int i = first_[node]; i < first_[node + 1]; ++i)
+      quality_[corners_[i] >> 2] = measure(corners_[i] >> 2);
+  }
+
+  void activate(int node, std::vector<char>& active) const {
+    for (int i = first_[node]; i < first_[node + 1]; ++i)
+      for (const int other : quads_[corners_[i] >> 2]) active[other] = 1;
+  }
+
+  /// Compass search in the tangent plane for the place where the worst element round the node is best.
+  bool search(int node, Goal goal) {
+    const Vector3 origin = points_[node], normal = normals_[node];
+    const double size = mean_side(node);
+    if (!(size > 0)) return false;
+    const auto value_at = [&](const Vector3& p, double best) {
+      return goal == Goal::raise ? merit_at(node, p, normal, best) : tangle_at(node, p, normal, size);
+    };
+    const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
+    Vector3 best = middle_of(node);
+    const double start = value_at(origin, -2);
+    double value = value_at(best, start);
+    if (value <= start) {
+      value = start;
+      best = origin;
+    }
+    constexpr double kDiagonal = 0.70710678118654752;
+    constexpr double kCompass[8][2] = {{1, 0},
+                                       {0, 1},
+                                       {-1, 0},
+                                       {0, -1},
+                                       {kDiagonal, kDiagonal},
+                                       {-kDiagonal, kDiagonal},
+                                       {-kDiagonal, -kDiagonal},
+                                       {kDiagonal, -kDiagonal}};
+    for (double step = 0.25 * size; step > 0.02 * size; step *= 0.5) {
+      for (int tries = 0, moved = 1; moved && tries < 3; ++tries) {
+        moved = 0;
+        const Vector3 centre = best;
+        for (const auto& way : kCompass) {
+          const Vector3 p = centre + step * (way[0] * u + way[1] * v);
+          const double candidate = value_at(p, value);
+          if (candidate > value) {
+            value = candidate;
+            best = p;
+            moved = 1;
+          }
+        }
+      }
+    }
+    if (value <= start || best == origin) return false;
+    return settle(node, best, goal, size);
+  }
+
+  /// Puts the node on the surface near the place found, if that is better there too.
+  bool settle(int node, const Vector3& target, Goal goal, double size) {
+    Vector2 uv = parameters_[node];
+    Vector3 normal = normals_[node];
+    const Vector3 place = surface_.move(uv, target, normal);
+    if (!place.allFinite()) return false;
+    const Vector3& p = points_[node];
+    const bool better = goal == Goal::raise
+                            ? merit_at(node, place, normal, -2) > merit_at(node, p, normals_[node], -2)
+                            : tangle_at(node, place, normal, size) > tangle_at(node, p, normals_[node], size);
+    if (better) put(node, place, uv, normal);
+    return better;
+  }
+
+  /// Whether three fixed nodes in a row make the quad as bad as it is.
+  bool pinned(int quad) const {
+    const auto& q = quads_[quad];
+    const Vector3& normal = normals_[q[0]];
+    for (int k = 0; k < 4; ++k) {
+      if (free_[q[k]] || free_[q[(k + 1) & 3]] || free_[q[(k + 3) & 3]]) continue;
+      const Vector3 a = points_[q[(k + 1) & 3]] - points_[q[k]], b = points_[q[(k + 3) & 3]] - points_[q[k]];
+      if (a.cross(b).dot(normal) <= 1.05 * quality_[quad] * a.norm() * b.norm()) return true;
+    }
+    return false;
+  }
+
+  bool loosen(int quad) {
+    struct Saved {
+      int node;
+      Vector3 point, normal;
+      Vector2 uv;
+    };
+    std::vector<int> nodes(quads_[quad].begin(), quads_[quad].end());
+    constexpr int kRings = 3;
+    for (int ring = 0; ring < kRings; ++ring) {
+      const std::size_t count = nodes.size();
+      for (std::size_t i = 0; i < count; ++i)
+        for (int k = first_[nodes[i]]; k < first_[nodes[i] + 1]; ++k)
+          for (const int other : quads_[corners_[k] >> 2]) nodes.push_back(other);
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    }
+    std::erase_if(nodes, [&](int node) { return !free_[node]; });
+    std::vector<Saved> saved;
+    double before = 1, after = 1;
+    for (const int node : nodes) {
+      saved.push_back({node, points_[node], normals_[node], parameters_[node]});
+      before = std::min(before, least_round(node));
+    }
+    constexpr int kAverages = 12, kMends = 6;
+    for (int i = 0; i < kAverages; ++i)
+      for (const int node : nodes) points_[node] = middle_of(node);
+    for (const Saved& was : saved) {
+      const Vector3 place = surface_.move(parameters_[was.node], points_[was.node], normals_[was.node]);
+      points_[was.node] = place.allFinite() ? place : was.point;
+    }
+    for (const int node : nodes) measure_round(node);
+    for (int i = 0; i < kMends; ++i)
+      for (const int node : nodes)
+        if (least_round(node) < kBad) search(node, least_round(node) > 0 ? Goal::raise : Goal::untangle);
+    for (const int node : nodes) after = std::min(after, least_round(node));
+    if (after > before) return true;
+    for (const Saved& was : saved) {
+      points_[was.node] = was.point;
+      normals_[was.node] = was.normal;
+      parameters_[was.node] = was.uv;
+    }
+    for (const int node : nodes) measure_round(node);
+    return false;
+  }
+
+  std::vector<Vector3>& points_;
+  const std::vector<std::array<int, 4>>& quads_;
+  std::vector<Vector2>& parameters_;
+  std::vector<Vector3>& normals_;
+  const SmoothingSurface& surface_;
+  std::vector<char> free_, active_, next_active_;
+  std::vector<int> first_, corners_;
+  std::vector<double> quality_;  ///< scaled Jacobian of each quad
+};
+
+}  // namespace
+
+void smooth(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const ImproveOptions& options,
+            ImproveReport& report, ExecutionContext& context) {
+  Smoother smoother(surface_mesh, surface);
+  for (int i = 0; i < 10 && smoother.optimise_below(1e-3); ++i) context.check();
+  for (int i = 0; i < options.smoothing_sweeps && smoother.sweep(); ++i) context.check();
+  smoother.measure_all();
+  for (int i = 0; i < 10 && smoother.optimise_below(1e-3); ++i) context.check();
+  // The worst by turns with their surroundings, which have to give way.
+  for (int i = 0; i < 8 && smoother.optimise_below(kBad); ++i) {
+    context.check();
+    for (int k = 0; k < 3 && smoother.sweep(); ++k) continue;
+    smoother.measure_all();
+  }
+  constexpr double kHalfPi = 1.57079632679489662;
+  constexpr int kMostFailures = 4;
+  if (smoother.loosen_below(std::sin(kHalfPi * std::clamp(options.q_floor, 0.0, 0.9)), kMostFailures))
+    for (int i = 0; i < 2 && smoother.optimise_below(kBad); ++i) context.check();
+  for (int i = 0; i < 2 && smoother.optimise_below(kPoor); ++i) context.check();
+  report.bad_elements = smoother.bad_elements();
+}
+
+}  // namespace quadrille
