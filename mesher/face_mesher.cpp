@@ -1,0 +1,186 @@
+#include "mesher/face_mesher.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "geometry/error.hpp"
+#include "geometry/face_surface.hpp"
+#include "mesher/face_boundary.hpp"
+#include "mesher/face_triangulation.hpp"
+#include "mesher/improve.hpp"
+#include "mesher/mapped_placement.hpp"
+#include "mesher/point_placement.hpp"
+#include "mesher/quality.hpp"
+#include "mesher/recombine.hpp"
+#include "mesher/subdivision.hpp"
+
+namespace quadrille {
+
+namespace {
+
+class CadSmoothingSurface : public SmoothingSurface {
+ public:
+  explicit CadSmoothingSurface(const FaceSurface& surface) : surface_(surface) {}
+  Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const override {
+    const SurfacePoint at = surface_.move(uv, target);
+    normal = surface_.normal(at, uv);
+    return at.point;
+  }
+
+ private:
+  const FaceSurface& surface_;
+};
+
+/// One way of meshing a face; the ladder of fallbacks tries several.
+struct Attempt {
+  PlacementOptions placement;
+  bool mapped;      ///< try a regular grid first
+  bool clean_up;
+  const char* note;
+};
+
+class FaceMesher {
+ public:
+  FaceMesher(const CadShape& shape, int face, const BoundaryNodes& nodes, const SizingField& field,
+             const MeshOptions& options, ExecutionContext& context)
+      : face_(face),
+        reversed_(shape.faces[face].reversed),
+        nodes_(nodes),
+        options_(options),
+        context_(context),
+        surface_(shape.faces[face]),
+        boundary_(face_boundary(shape, face, surface_, nodes)),
+        domain_(enclosed_domain(boundary_)),
+        size_at_(field) {}
+
+  FaceMesh run() {
+    const double scale = nodes_.stride;
+    const Attempt attempts[] = {
+        {{scale, 0.72, true}, true, true, ""},
+        {{scale, 0.72, true}, false, false, "without clean-up"},
+        {{scale, 0.60, true}, false, true, "denser points"},
+        {{scale, 0.85, true}, false, true, "sparser points"},
+        {{scale, 0.75, false}, false, true, "hexagonal points"},
+    };
+    std::optional<FaceMesh> best;
+    std::optional<Error> error;
+    for (const Attempt& attempt : attempts) {
+      context_.check();
+      try {
+        FaceMesh mesh = mesh_once(attempt);
+        if (!best || better(mesh, *best)) best = std::move(mesh);
+        if (best->inverted == 0 && best->q_min > 0.05) break;
+      } catch (const Error& problem) {
+        if (problem.kind() == Error::Kind::cancelled) throw;
+        error = problem;
+      }
+    }
+    if (!best) throw *error;
+    if (best->inverted > 0) {
+      const std::string name = fmt::format("Face{}", face_ + 1);
+      throw failure(name, fmt::format("{} keeps {} inverted quads at this size: try a smaller size on it", name,
+                                      best->inverted));
+    }
+    return std::move(*best);
+  }
+
+ private:
+  static bool better(const FaceMesh& a, const FaceMesh& b) {
+    return a.inverted != b.inverted ? a.inverted < b.inverted : a.q_min > b.q_min;
+  }
+
+  FaceMesh mesh_once(const Attempt& attempt) {
+    FaceTriangulation triangulation = triangulate(attempt);
+    FaceQuads quads = recombine_face(triangulation);
+    improve(quads, attempt.clean_up);
+    if (nodes_.stride == 2) {
+      cut_flat_quads(quads.surface_mesh.mesh);
+      quads = subdivide(quads, triangulation.segments, nodes_.points, surface_);
+      improve(quads, false);
+    }
+    return finish(std::move(quads), attempt);
+  }
+
+  FaceTriangulation triangulate(const Attempt& attempt) {
+    const StageTimer timer(context_, "triangulate");
+    std::optional<PlacedPoints> placed;
+    if (attempt.mapped) placed = place_mapped(boundary_, surface_, domain_, size_at_, attempt.placement.scale);
+    if (!placed) placed = place_points(boundary_, surface_, domain_, size_at_, attempt.placement, context_);
+    return triangulate_face(face_ + 1, boundary_, *placed, surface_);
+  }
+
+  FaceQuads recombine_face(const FaceTriangulation& triangulation) {
+    const StageTimer timer(context_, "recombine");
+    FaceQuads quads;
+    quads.surface_mesh.mesh = recombine(triangulation.mesh, options_.recombine, context_);
+    quads.surface_mesh.parameters = triangulation.uv;
+    quads.surface_mesh.normals = triangulation.normals;
+    quads.surface_mesh.fixed.assign(triangulation.uv.size(), 0);
+    std::fill_n(quads.surface_mesh.fixed.begin(), triangulation.boundary_count, 1);
+    quads.surface_mesh.boundary_angles = triangulation.angles;
+    quads.surface_mesh.boundary_angles.resize(triangulation.uv.size(), 0);
+    quads.nodes = triangulation.nodes;
+    quads.pole = triangulation.pole;
+    if (nodes_.stride == 1 && !quads.surface_mesh.mesh.triangles.empty()) {
+      const std::string name = fmt::format("Face{}", face_ + 1);
+      throw failure(name, fmt::format("{} has an odd boundary that cannot be made even: use --strategy subdivide", name));
+    }
+    return quads;
+  }
+
+  void improve(FaceQuads& quads, bool topology) {
+    const StageTimer timer(context_, "improve");
+    const CadSmoothingSurface surface(surface_);
+    ImproveReport report;
+    if (topology && options_.improve.clean_up) {
+      clean_up(quads.surface_mesh, surface, options_.improve, report, context_);
+      // Poles are fixed points, and those keep their places.
+      quads.pole.resize(quads.surface_mesh.mesh.points.size(), 0);
+      std::fill(quads.pole.begin() + static_cast<long>(quads.nodes.size()), quads.pole.end(), 0);
+    }
+    smooth(quads.surface_mesh, surface, options_.improve, report, context_);
+  }
+
+  FaceMesh finish(FaceQuads quads, const Attempt& attempt) const {
+    FaceMesh result;
+    result.quads = std::move(quads.surface_mesh.mesh.quads);
+    result.points = std::move(quads.surface_mesh.mesh.points);
+    result.uv = std::move(quads.surface_mesh.parameters);
+    result.pole = std::move(quads.pole);
+    result.nodes = std::move(quads.nodes);
+    result.note = attempt.note;
+    result.q_min = 1;
+    for (auto& quad : result.quads) {
+      if (reversed_) std::swap(quad[1], quad[3]);
+      const auto& p = result.points;
+      result.inverted += quad_scaled_jacobian(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]) <= 0;
+      result.q_min = std::min(result.q_min, quad_q(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]));
+    }
+    return result;
+  }
+
+  int face_;
+  bool reversed_;
+  const BoundaryNodes& nodes_;
+  const MeshOptions& options_;
+  ExecutionContext& context_;
+  FaceSurface surface_;
+  FaceBoundary boundary_;
+  TrimmedDomain domain_;
+  SizingField::Sampler size_at_;
+};
+
+}  // namespace
+
+FaceMesh mesh_face(const CadShape& shape, int face, const BoundaryNodes& nodes, const SizingField& field,
+                   const MeshOptions& options, ExecutionContext& context) {
+  const auto start = std::chrono::steady_clock::now();
+  FaceMesh mesh = FaceMesher(shape, face, nodes, field, options, context).run();
+  mesh.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return mesh;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,34 @@
+#pragma once
+/// One face from its boundary nodes to improved quads. Internal.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "geometry/cad_shape.hpp"
+#include "geometry/execution_context.hpp"
+#include "geometry/sizing_field.hpp"
+#include "mesher/edge_sampling.hpp"
+#include "mesher/options.hpp"
+
+namespace quadrille {
+
+/// The quads of one face, ready to be assembled. Points: those on the boundary first, `nodes.size()` of them.
+struct FaceMesh {
+  std::vector<Vector3> points;
+  std::vector<Vector2> uv;
+  std::vector<char> pole;                  ///< (n) 1 = uv is one of many
+  std::vector<std::array<int, 4>> quads;   ///< counter-clockwise seen against the face's normal in the model
+  std::vector<int> nodes;                  ///< indices into BoundaryNodes::points
+  int inverted = 0;                        ///< quads with scaled Jacobian <= 0
+  double q_min = 0;
+  std::string note;                        ///< which fallback was taken
+  double seconds = 0;
+};
+
+/// Triangulates, recombines and improves one face.
+/// Throws Error (failure) naming the face.
+FaceMesh mesh_face(const CadShape& shape, int face, const BoundaryNodes& nodes, const SizingField& field,
+                   const MeshOptions& options, ExecutionContext& context);
+
+}  // namespace quadrille

@@ -1,0 +1,268 @@
+/// The whole way from CAD to quads, on every sample model.
+
+#include <gtest/gtest.h>
+
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "geometry/cad_shape.hpp"
+#include "mesher/quadrille.hpp"
+#include "tests/sample_models.hpp"
+
+namespace quadrille {
+namespace {
+
+MeshOptions options_for(const CadModel& model, double divisions) {
+  MeshOptions options;
+  options.sizing.size = model.diagonal() / divisions;
+  return options;
+}
+
+ShellMesh mesh_of(const CadModel& model, const MeshOptions& options, int threads = 1) {
+  ExecutionContext context(threads);
+  return mesh(model, options, context);
+}
+
+double mesh_area(const ShellMesh& mesh) {
+  double sum = 0;
+  for (const auto& quad : mesh.quads) {
+    const auto& p = mesh.points;
+    sum += 0.5 * (p[quad[2]] - p[quad[0]]).cross(p[quad[3]] - p[quad[1]]).norm();
+  }
+  return sum;
+}
+
+double distance_to(const TopoDS_Shape& shape, const Vector3& p) {
+  const BRepExtrema_DistShapeShape distance(BRepBuilderAPI_MakeVertex(gp_Pnt(p.x(), p.y(), p.z())), shape);
+  return distance.Value();
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string result;
+  for (const auto& line : lines) result += line + "\n";
+  return result;
+}
+
+class EverySample : public testing::TestWithParam<std::tuple<SampleModel, Strategy, int>> {};
+
+TEST_P(EverySample, IsValidAtSeveralSizes) {
+  const auto& [sample, strategy, order] = GetParam();
+  const CadModel model = CadModel::read(sample.path());
+  for (const double divisions : {8.0, 20.0, 45.0}) {
+    SCOPED_TRACE(divisions);
+    MeshOptions options = options_for(model, divisions);
+    options.strategy = strategy;
+    options.order = order;
+    const ShellMesh mesh = mesh_of(model, options);
+    EXPECT_EQ(joined(validate(mesh, sample.closed)), "");
+    EXPECT_TRUE(mesh.triangles.empty());
+    const std::set<int> faces(mesh.quad_faces.begin(), mesh.quad_faces.end());
+    EXPECT_EQ(static_cast<int>(faces.size()), sample.faces);
+    EXPECT_EQ(static_cast<int>(mesh.corners.size()), sample.vertices);
+    EXPECT_NEAR(mesh_area(mesh) / sample.area, 1, divisions > 10 ? 0.02 : 0.07);
+  }
+}
+
+std::string sample_name(const testing::TestParamInfo<EverySample::ParamType>& info) {
+  const auto& [sample, strategy, order] = info.param;
+  return sample.name + (strategy == Strategy::direct ? "_direct" : "_subdivide") + "_order" + std::to_string(order);
+}
+
+INSTANTIATE_TEST_SUITE_P(Mesh, EverySample,
+                         testing::Combine(testing::ValuesIn(sample_models()),
+                                          testing::Values(Strategy::direct, Strategy::subdivide),
+                                          testing::Values(1, 2)),
+                         sample_name);
+
+TEST(Mesh, NodesLieOnTheGeometry) {
+  for (const SampleModel& sample : sample_models()) {
+    SCOPED_TRACE(sample.name);
+    const CadModel model = CadModel::read(sample.path());
+    MeshOptions options = options_for(model, 15);
+    options.order = 2;
+    const ShellMesh mesh = mesh_of(model, options);
+    const double tolerance = 2e-7 * model.diagonal();
+    const std::size_t stride = mesh.quads.size() / 40 + 1;
+    for (std::size_t i = 0; i < mesh.quads.size(); i += stride) {
+      const auto& face = model.shape().faces[mesh.quad_faces[i] - 1].face;
+      for (int k = 0; k < 4; ++k) {
+        EXPECT_LT(distance_to(face, mesh.points[mesh.quads[i][k]]), tolerance);
+        EXPECT_LT(distance_to(face, mesh.points[mesh.midsides[i][k]]), tolerance);
+      }
+    }
+    for (const auto& segment : mesh.segments) {
+      const auto& edge = model.shape().edges[segment.edge - 1].edge;
+      EXPECT_LT(distance_to(edge, mesh.points[segment.middle]), tolerance);
+      break;
+    }
+    for (const auto& corner : mesh.corners) {
+      EXPECT_LT((mesh.points[corner.node] - model.shape().vertices[corner.vertex - 1]).norm(), tolerance);
+    }
+  }
+}
+
+TEST(Mesh, NormalsFollowTheFaces) {
+  // Outward on every solid: the enclosed volume, by the divergence theorem, is positive.
+  const auto solids = sample_models_where([](const SampleModel& m) { return m.closed && m.solids == 1; });
+  ASSERT_FALSE(solids.empty());
+  for (const SampleModel& sample : solids) {
+    SCOPED_TRACE(sample.name);
+    const CadModel model = CadModel::read(sample.path());
+    const ShellMesh mesh = mesh_of(model, options_for(model, 20));
+    double volume = 0;
+    for (const auto& q : mesh.quads) {
+      const auto& p = mesh.points;
+      volume += p[q[0]].dot(p[q[1]].cross(p[q[2]])) / 6 + p[q[0]].dot(p[q[2]].cross(p[q[3]])) / 6;
+    }
+    EXPECT_GT(volume, 0);
+  }
+}
+
+TEST(Mesh, IsTheSameForAnyThreadCount) {
+  const CadModel model = CadModel::read(sample_model("bracket").path());
+  const MeshOptions options = options_for(model, 60);
+  const ShellMesh one = mesh_of(model, options, 1);
+  for (const int threads : {1, 2, 8}) {
+    const ShellMesh other = mesh_of(model, options, threads);
+    EXPECT_EQ(one.quads, other.quads);
+    EXPECT_EQ(one.points, other.points);
+  }
+}
+
+TEST(Mesh, FollowsTheSizeAskedFor) {
+  for (const char* name : {"box", "plate_with_holes", "bracket"}) {
+    SCOPED_TRACE(name);
+    const CadModel model = CadModel::read(sample_model(name).path());
+    MeshOptions options = options_for(model, 100);
+    options.sizing.elements_per_circle = 0;
+    const ShellMesh mesh = mesh_of(model, options);
+    std::vector<double> ratios;
+    for (const auto& quad : mesh.quads) {
+      for (int k = 0; k < 4; ++k) {
+        ratios.push_back((mesh.points[quad[k]] - mesh.points[quad[(k + 1) % 4]]).norm() / options.sizing.size);
+      }
+    }
+    std::sort(ratios.begin(), ratios.end());
+    EXPECT_GT(ratios[ratios.size() / 2], 0.85);
+    EXPECT_LT(ratios[ratios.size() / 2], 1.15);
+    const auto inside = std::count_if(ratios.begin(), ratios.end(), [](double r) { return r > 0.5 && r < 1.6; });
+    EXPECT_GT(static_cast<double>(inside) / static_cast<double>(ratios.size()), 0.95);
+  }
+}
+
+TEST(Mesh, RefinesOnTheEntitiesNamed) {
+  const CadModel model = CadModel::read(sample_model("box").path());
+  MeshOptions options = options_for(model, 10);
+  const auto quads_on = [](const ShellMesh& mesh, int face) {
+    return std::count(mesh.quad_faces.begin(), mesh.quad_faces.end(), face);
+  };
+  const ShellMesh plain = mesh_of(model, options);
+  options.sizing.face_sizes[3] = options.sizing.size / 4;
+  const ShellMesh fine = mesh_of(model, options);
+  EXPECT_GT(quads_on(fine, 3), 8 * quads_on(plain, 3));
+  options.sizing.face_sizes.clear();
+  options.sizing.vertex_sizes[1] = options.sizing.size / 5;
+  EXPECT_GT(mesh_of(model, options).quads.size(), plain.quads.size() + 20);
+  options.sizing.vertex_sizes.clear();
+  options.sizing.edge_sizes[1] = options.sizing.size / 5;
+  EXPECT_GT(mesh_of(model, options).quads.size(), plain.quads.size() + 40);
+}
+
+TEST(Mesh, MeshesSomeFacesAlone) {
+  const CadModel model = CadModel::read(sample_model("box").path());
+  MeshOptions options = options_for(model, 10);
+  options.faces = {2, 5};
+  const ShellMesh mesh = mesh_of(model, options);
+  EXPECT_EQ(joined(validate(mesh)), "");
+  const std::set<int> faces(mesh.quad_faces.begin(), mesh.quad_faces.end());
+  EXPECT_EQ(faces, (std::set<int>{2, 5}));
+  EXPECT_EQ(mesh.faces[0].status, "skipped");
+  EXPECT_EQ(mesh.faces[1].status, "meshed");
+}
+
+TEST(Mesh, SharedFacesAreMeshedOnce) {
+  const CadModel model = CadModel::read(sample_model("two_solids").path());
+  const ShellMesh mesh = mesh_of(model, options_for(model, 20));
+  std::map<std::pair<int, int>, int> elements;
+  for (const auto& quad : mesh.quads) {
+    for (int k = 0; k < 4; ++k) ++elements[std::minmax(quad[k], quad[(k + 1) % 4])];
+  }
+  int three = 0;
+  for (const auto& [side, count] : elements) {
+    EXPECT_GE(count, 2);
+    EXPECT_LE(count, 3);
+    three += count == 3;
+  }
+  EXPECT_GT(three, 0);
+}
+
+TEST(Mesh, RefusesWhatMakesNoSense) {
+  const CadModel model = CadModel::read(sample_model("box").path());
+  const auto expect_usage = [&](const MeshOptions& options, const std::string& subject) {
+    try {
+      mesh_of(model, options);
+      ADD_FAILURE() << "no error for " << subject;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), Error::Kind::usage) << error.what();
+      EXPECT_EQ(error.subject(), subject) << error.what();
+    }
+  };
+  MeshOptions good = options_for(model, 10);
+  for (const double size : {-1.0, std::nan(""), 1e9, 1e-5}) {
+    MeshOptions options = good;
+    options.sizing.size = size;
+    expect_usage(options, "--size");
+  }
+  MeshOptions options = good;
+  options.order = 3;
+  expect_usage(options, "--order");
+  options = good;
+  options.faces = {7};
+  expect_usage(options, "Face7");
+  options = good;
+  options.sizing.edge_sizes[99] = 1;
+  expect_usage(options, "Edge99");
+  options = good;
+  options.sizing.growth = 0;
+  expect_usage(options, "--growth");
+}
+
+TEST(Mesh, CanBeCancelled) {
+  const CadModel model = CadModel::read(sample_model("bracket").path());
+  for (const int calls : {1, 5, 20}) {
+    int left = calls;
+    ExecutionContext context(1, [&](std::string_view, double) { return --left > 0; });
+    try {
+      mesh(model, options_for(model, 60), context);
+      ADD_FAILURE() << "not cancelled";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), Error::Kind::cancelled);
+    }
+  }
+}
+
+TEST(CadModel, CountsWhatFreeCadCounts) {
+  for (const SampleModel& sample : sample_models()) {
+    SCOPED_TRACE(sample.name);
+    const CadModel model = CadModel::read(sample.path());
+    EXPECT_EQ(model.face_count(), sample.faces);
+    EXPECT_EQ(model.edge_count(), sample.edges);
+    EXPECT_EQ(model.vertex_count(), sample.vertices);
+    EXPECT_EQ(model.solid_count(), sample.solids);
+    EXPECT_NEAR(model.area(), sample.area, 1e-3 * sample.area);
+  }
+}
+
+TEST(CadModel, SaysWhatIsWrongWithAFile) {
+  EXPECT_THROW(CadModel::read("/nowhere/part.step"), Error);
+  EXPECT_THROW(CadModel::read(std::string(QUADRILLE_SOURCE_DIR) + "/README.md"), Error);
+  EXPECT_THROW(CadModel::from_brep("not a shape"), Error);
+  EXPECT_THROW(CadModel::from_brep(""), Error);
+}
+
+}  // namespace
+}  // namespace quadrille
