@@ -1,0 +1,66 @@
+#pragma once
+/// What the subcommands of `quadrille` share. Each subcommand is a function that adds itself to the parser;
+/// its callback does the work and throws Error, which main() turns into one line on stderr and the exit code.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "geometry/execution_context.hpp"
+
+namespace quadrille::command {
+
+void add_mesh_command(CLI::App& app);
+void add_info_command(CLI::App& app);
+void add_quality_command(CLI::App& app);
+
+/// Writes to stdout at once. Throws Error (failure) when it is closed or full.
+void print(std::string_view text);
+
+/// Throws Error (failure) unless the path is a file that can be read.
+void require_readable(const std::filesystem::path& path);
+
+/// Throws Error (usage) unless a file can be made at the path: the folder exists and is writable, and the
+/// path is not itself a folder.
+void require_writable(const std::filesystem::path& path);
+
+/// Throws Error (usage) unless the path has the ending (".png") and require_writable() holds.
+void require_ending(const std::filesystem::path& path, std::string_view ending, std::string_view option);
+
+/// Throws Error (usage) unless threads is 0 (all cores) or a sensible count.
+void require_threads(int threads);
+
+/// The progress of long work on stderr: a bar on a terminal; elsewhere lines "progress: STAGE PERCENT %", at
+/// most two a second and none in the first half second.
+class ProgressDisplay {
+ public:
+  explicit ProgressDisplay(bool quiet);
+  ~ProgressDisplay();  ///< clears the bar
+  ProgressDisplay(const ProgressDisplay&) = delete;
+  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+
+  /// Shows a stage and the fraction done. Always true: it never cancels.
+  bool show(std::string_view stage, double fraction);
+
+ private:
+  void draw_bar(std::string_view stage, int percent);
+
+  bool quiet_;
+  bool terminal_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point last_;
+  std::string last_text_;
+};
+
+/// While it lives, Ctrl-C and SIGTERM cancel the context; a second signal ends the process at once. Outside,
+/// a signal ends the process at once, when there is nothing to clean up.
+class CancelOnSignal {
+ public:
+  explicit CancelOnSignal(ExecutionContext& context);
+  ~CancelOnSignal();
+  CancelOnSignal(const CancelOnSignal&) = delete;
+  CancelOnSignal& operator=(const CancelOnSignal&) = delete;
+};
+
+}  // namespace quadrille::command

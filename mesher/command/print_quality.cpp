@@ -1,0 +1,51 @@
+#include "mesher/command/print_quality.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace quadrille::command {
+
+std::string quality_table(const QualitySummary& summary) {
+  std::string text;
+  const auto line = [&](std::string_view label, const std::string& value) {
+    text += fmt::format("{:<18} {}\n", label, value);
+  };
+  line("nodes", std::to_string(summary.nodes));
+  line("quads", std::to_string(summary.quads));
+  line("triangles", std::to_string(summary.triangles));
+  line("q", fmt::format("min {:.3f}   mean {:.3f}", summary.q_min, summary.q_mean));
+  line("scaled Jacobian", fmt::format("min {:.3f}   mean {:.3f}", summary.sj_min, summary.sj_mean));
+  line("inverted", std::to_string(summary.inverted));
+  line("irregular nodes", fmt::format("{:.2f} %", summary.irregular_percent));
+  line("aspect", fmt::format("mean {:.3f}   max {:.3f}", summary.aspect_mean, summary.aspect_max));
+  line("warping", fmt::format("max {:.2f} degrees", summary.warping_max_degrees));
+  line("edge length", fmt::format("min {:.4g}   median {:.4g}   max {:.4g}", summary.edge_min,
+                                  summary.edge_median, summary.edge_max));
+  return text;
+}
+
+std::string quality_histogram(const QualitySummary& summary) {
+  constexpr int width = 50;
+  const auto& bins = summary.q_histogram;
+  const int largest = std::max(1, *std::max_element(bins.begin(), bins.end()));
+  std::string text = "q           quads\n";
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    const double bin = 1.0 / static_cast<double>(bins.size());
+    const double low = static_cast<double>(i) * bin;
+    const int bar = static_cast<int>(static_cast<double>(bins[i]) * width / largest + 0.5);
+    text += fmt::format("{:.2f}-{:.2f} {:>10}", low, low + bin, bins[i]);
+    text += bar > 0 ? fmt::format(" {:#<{}}\n", "", bar) : "\n";
+  }
+  return text;
+}
+
+std::string valence_table(const QualitySummary& summary) {
+  std::string text = "valence     nodes\n";
+  for (std::size_t valence = 0; valence < summary.valence_counts.size(); ++valence)
+    if (summary.valence_counts[valence] > 0)
+      text += fmt::format("{:<9} {:>10}\n", valence, summary.valence_counts[valence]);
+  return text;
+}
+
+}  // namespace quadrille::command

@@ -1,0 +1,19 @@
+#pragma once
+/// The quality of a mesh as a table to read.
+
+#include <string>
+
+#include "mesher/quality.hpp"
+
+namespace quadrille::command {
+
+/// Several lines: counts, q, scaled Jacobian, irregular nodes, aspect, edge lengths.
+std::string quality_table(const QualitySummary& summary);
+
+/// The histogram of q, one line a bin, with bars.
+std::string quality_histogram(const QualitySummary& summary);
+
+/// Interior nodes by valence, one line a valence that occurs.
+std::string valence_table(const QualitySummary& summary);
+
+}  // namespace quadrille::command

@@ -1,0 +1,136 @@
+#include "mesher/command/recombine_command.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "mesher/command/command.hpp"
+#include "mesher/command/print_quality.hpp"
+#include "mesher/improve.hpp"
+#include "mesher/quadrille.hpp"
+#include "mesher/report.hpp"
+#include "mesher/triangulated_surface.hpp"
+
+namespace quadrille::command {
+
+namespace {
+
+struct RecombineArguments {
+  std::filesystem::path input, output, report;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  bool no_improve = false, quiet = false;
+};
+
+void check(const RecombineArguments& arguments) {
+  require_threads(arguments.threads);
+  if (!is_mesh_format(arguments.output)) {
+    throw usage_error("-o", fmt::format("{}: unknown mesh format", arguments.output.string()));
+  }
+  require_writable(arguments.output);
+  if (!arguments.report.empty()) require_writable(arguments.report);
+  require_readable(arguments.input);
+}
+
+TriangleMesh triangles_of(const ShellMesh& shell, const std::string& name) {
+  if (!shell.quads.empty()) {
+    throw failure(
+        name, fmt::format("{}: holds {} quads: only triangles can be recombined", name, shell.quads.size()));
+  }
+  if (shell.triangles.empty()) throw failure(name, fmt::format("{}: holds no triangle", name));
+  TriangleMesh mesh;
+  mesh.points = shell.points;
+  mesh.triangles = shell.triangles;
+  mesh.tags = shell.triangle_faces;
+  return mesh;
+}
+
+/// Drops the points that no element uses. The input's groups of points and sides stay where those still
+/// exist. \param renumbered point of the input -> of the quads, -1 = gone.
+ShellMesh to_shell(const QuadMesh& quads, const ShellMesh& input, const std::vector<int>& renumbered) {
+  ShellMesh shell;
+  std::vector<int> number(quads.points.size(), -1);
+  const auto renumber = [&](auto element) {
+    for (int& v : element) {
+      if (number[v] < 0) {
+        number[v] = static_cast<int>(shell.points.size());
+        shell.points.push_back(quads.points[v]);
+      }
+      v = number[v];
+    }
+    return element;
+  };
+  for (const auto& quad : quads.quads) shell.quads.push_back(renumber(quad));
+  for (const auto& triangle : quads.triangles) shell.triangles.push_back(renumber(triangle));
+  shell.quad_faces = quads.quad_tags;
+  shell.triangle_faces = quads.triangle_tags;
+  const auto now = [&](int v) { return v < 0 || renumbered[v] < 0 ? -1 : number[renumbered[v]]; };
+  for (const ShellMesh::Segment& segment : input.segments) {
+    const int a = now(segment.nodes[0]), b = now(segment.nodes[1]);
+    if (a >= 0 && b >= 0) shell.segments.push_back({{a, b}, -1, segment.edge});
+  }
+  for (const ShellMesh::Corner& corner : input.corners) {
+    if (now(corner.node) >= 0) shell.corners.push_back({now(corner.node), corner.vertex});
+  }
+  return shell;
+}
+
+void run(const RecombineArguments& arguments) {
+  check(arguments);
+  ProgressDisplay display(arguments.quiet);
+  ExecutionContext context(arguments.threads, [&](std::string_view stage, double fraction) {
+    return display.show(stage, fraction);
+  });
+  const CancelOnSignal cancel(context);
+  ShellMesh input;
+  {
+    const StageTimer timer(context, "read");
+    input = read_mesh(arguments.input);
+  }
+  const TriangleMesh triangles = triangles_of(input, arguments.input.string());
+  RecombineOptions options;
+  options.paper_mode = arguments.no_improve;
+  options.seed = arguments.seed;
+  QuadMesh quads;
+  {
+    const StageTimer timer(context, "recombine");
+    context.report("recombine", 0);
+    quads = recombine(triangles, options, context);
+  }
+  std::vector<int> renumbered(triangles.points.size());
+  std::iota(renumbered.begin(), renumbered.end(), 0);
+  if (!arguments.no_improve) {
+    const StageTimer timer(context, "improve");
+    context.report("improve", 0);
+    ImproveReport improved;
+    quads = improve_on(triangles, quads, {}, renumbered, improved, context);
+  }
+  const ShellMesh result = to_shell(quads, input, renumbered);
+  {
+    const StageTimer timer(context, "write");
+    write_mesh(result, arguments.output);
+  }
+  const QualitySummary summary = quality(result);
+  if (!arguments.report.empty()) write_report(result, summary, context, arguments.input, arguments.report);
+  if (!arguments.quiet) print(quality_table(summary));
+}
+
+}  // namespace
+
+void add_recombine_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("recombine", "make quads of a triangulation");
+  auto arguments = std::make_shared<RecombineArguments>();
+  command->add_option("TRI", arguments->input, "triangulation: .msh or .inp")->required();
+  command
+      ->add_option("-o,--output", arguments->output, "mesh file: .msh, .inp, .unv, .med, .vtu, .vtk or .bdf")
+      ->required();
+  command->add_option("--seed", arguments->seed, "seed of the random choices of --no-improve (default 1)");
+  command->add_flag("--no-improve", arguments->no_improve,
+                    "the method of the 2018 paper as it stands: colour, swap, remove; no node moves");
+  command->add_option("--report", arguments->report, "write counts, quality and times as JSON");
+  command->add_option("--threads", arguments->threads, "threads to use; 0 = all cores (default)");
+  command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace quadrille::command

@@ -1,0 +1,10 @@
+#pragma once
+/// quadrille recombine TRI.msh -o QUAD.msh: a triangulation in, quads out.
+
+#include <CLI/CLI.hpp>
+
+namespace quadrille::command {
+
+void add_recombine_command(CLI::App& app);
+
+}  // namespace quadrille::command

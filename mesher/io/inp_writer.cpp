@@ -1,0 +1,88 @@
+/// Abaqus / CalculiX .inp: nodes, shells, and a set for each CAD entity. Based on: the CalculiX 2.20 manual.
+
+#include "mesher/io/writers.hpp"
+
+namespace quadrille {
+
+namespace {
+
+constexpr int numbers_per_line = 16;  // what Abaqus and CalculiX read of one line
+
+void write_list(const std::vector<int>& numbers, TextWriter& out) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const bool last = i + 1 == numbers.size() || (i + 1) % numbers_per_line == 0;
+    out << numbers[i] << (last ? "\n" : ", ");
+  }
+}
+
+const char* element_type(const OutputMesh& mesh, bool quad) {
+  if (!quad) return "S3";
+  return mesh.mesh().order == 2 ? "S8R" : "S4";
+}
+
+/// The quads, or the triangles, of one face.
+void write_elements(const OutputMesh& mesh, const CadGroup& group, bool quads, TextWriter& out) {
+  bool opened = false;
+  for (const int shell : group.members) {
+    if (mesh.is_quad(shell) != quads) continue;
+    if (!opened) {
+      out << "*ELEMENT, TYPE=" << element_type(mesh, quads) << ", ELSET=";
+      if (group.number > 0)
+        out << "Face" << group.number << '\n';
+      else
+        out << "Eother\n";
+    }
+    opened = true;
+    out << shell + 1;
+    for (const int node : mesh.shell_nodes(shell)) out << ", " << mesh.number(node);
+    out << '\n';
+  }
+}
+
+void write_all_elements_set(const OutputMesh& mesh, TextWriter& out) {
+  out << "*ELSET, ELSET=Eall\n";
+  for (const CadGroup& group : mesh.faces()) {
+    if (group.number > 0)
+      out << "Face" << group.number << '\n';
+    else
+      out << "Eother\n";
+  }
+}
+
+void write_node_set(const char* kind, int cad, const std::vector<int>& numbers, TextWriter& out) {
+  if (cad <= 0) return;
+  out << "*NSET, NSET=" << kind << cad << '\n';
+  write_list(numbers, out);
+}
+
+}  // namespace
+
+void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out) {
+  out << "*HEADING\n" << (options.title.empty() ? "Quadrille mesh" : options.title.c_str()) << '\n';
+  out << "*NODE, NSET=Nall\n";
+  for (std::size_t i = 0; i < mesh.nodes().size(); ++i) {
+    const Vector3& point = mesh.point(static_cast<int>(i));
+    out << i + 1 << ", " << point.x() << ", " << point.y() << ", " << point.z() << '\n';
+  }
+  for (const CadGroup& group : mesh.faces()) {
+    write_elements(mesh, group, true, out);
+    write_elements(mesh, group, false, out);
+  }
+  write_all_elements_set(mesh, out);
+  for (const CadGroup& group : mesh.faces())
+    write_node_set("Face", group.number, mesh.shell_node_numbers(group), out);
+  for (const CadGroup& group : mesh.edges())
+    write_node_set("Edge", group.number, mesh.segment_node_numbers(group), out);
+  for (const CadGroup& group : mesh.vertices()) {
+    std::vector<int> numbers;
+    for (const int corner : group.members) numbers.push_back(mesh.number(mesh.mesh().corners[corner].node));
+    write_node_set("Vertex", group.number, numbers, out);
+  }
+  // The side that the element normals point to.
+  for (const CadGroup& group : mesh.faces())
+    if (group.number > 0)
+      out << "*SURFACE, NAME=Surface_Face" << group.number << ", TYPE=ELEMENT\nFace" << group.number
+          << ", SPOS\n";
+}
+
+}  // namespace quadrille

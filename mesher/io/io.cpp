@@ -1,0 +1,96 @@
+#include "mesher/io/io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+
+#include "geometry/error.hpp"
+#include "mesher/io/atomic_file.hpp"
+#include "mesher/io/modules.hpp"
+#include "mesher/io/readers.hpp"
+#include "mesher/io/writers.hpp"
+
+namespace quadrille {
+
+namespace {
+
+std::string lower_ending(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+void write_text(const OutputMesh& mesh, const std::string& ending, const WriteOptions& options,
+                TextWriter& out) {
+  if (ending == ".inp")
+    write_inp(mesh, options, out);
+  else if (ending == ".unv")
+    write_unv(mesh, out);
+  else if (ending == ".bdf")
+    write_bdf(mesh, options, out);
+  else if (options.msh_version == 4.1)
+    write_msh4(mesh, out);
+  else
+    write_msh2(mesh, out);
+}
+
+void write_format(const ShellMesh& mesh, const std::filesystem::path& path, const WriteOptions& options,
+                  AtomicFile& file) {
+  const std::string ending = lower_ending(path);
+  const OutputMesh output(mesh);
+  if (ending == ".med") {
+    file.write(med_file(output, path.stem().string(), options.title));
+  } else if (ending == ".vtu" || ending == ".vtk") {
+    file.write(vtk_file(mesh, ending == ".vtk"));
+  } else {
+    TextWriter out(file);
+    write_text(output, ending, options, out);
+    out.flush();
+  }
+}
+
+std::string whole_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes;
+  if (file) bytes.assign(std::istreambuf_iterator<char>(file), {});
+  if (!file) throw failure(path.string(), fmt::format("{}: cannot be read", path.string()));
+  return bytes;
+}
+
+}  // namespace
+
+bool is_mesh_format(const std::filesystem::path& path) {
+  constexpr std::string_view known[] = {".msh", ".inp", ".unv", ".bdf", ".med", ".vtu", ".vtk"};
+  return std::find(std::begin(known), std::end(known), lower_ending(path)) != std::end(known);
+}
+
+void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path, const WriteOptions& options) {
+  if (!is_mesh_format(path))
+    throw usage_error(path.string(),
+                      fmt::format("{}: unknown mesh format (known are .msh, .inp, .unv, .bdf, .med, "
+                                  ".vtu and .vtk)",
+                                  path.string()));
+  if (options.msh_version != 2.2 && options.msh_version != 4.1)
+    throw usage_error("msh_version",
+                      fmt::format("there is no .msh version {} here: only 2.2 and 4.1", options.msh_version));
+  AtomicFile file(path);
+  write_format(mesh, path, options, file);
+  file.commit();
+}
+
+void write_picture(const ShellMesh& mesh, const std::filesystem::path& path, int width, int height) {
+  write_file(path, vtk_picture(mesh, width, height));
+}
+
+ShellMesh read_mesh(const std::filesystem::path& path) {
+  const std::string ending = lower_ending(path);
+  if (ending != ".msh" && ending != ".inp")
+    throw failure(path.string(), fmt::format("{}: only .msh and .inp meshes are read", path.string()));
+  const std::string bytes = whole_file(path);
+  return ending == ".msh" ? read_msh(bytes, path.string()) : read_inp(bytes, path.string());
+}
+
+}  // namespace quadrille

@@ -1,0 +1,34 @@
+#pragma once
+/// Mesh files. The format follows from the file's ending.
+
+#include <filesystem>
+#include <string>
+
+#include "mesher/mesh_types.hpp"
+
+namespace quadrille {
+
+struct WriteOptions {
+  double msh_version = 2.2;  ///< Gmsh .msh: 2.2 or 4.1 (both ASCII)
+  std::string title;         ///< put into formats that have a comment or title line
+};
+
+/// Writes .msh (Gmsh), .inp (Abaqus/CalculiX), .unv (I-deas), .bdf (Nastran), .med (Salome), .vtu, .vtk
+/// (legacy): the quads with their CAD faces, the segments on CAD edges and the corners on CAD vertices as
+/// groups named as in FreeCAD (Face3, Edge7, Vertex2). Numbering is dense from 1. The file appears whole or
+/// not at all. Throws Error: usage for an unknown ending, failure when the file cannot be written.
+void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path, const WriteOptions& options = {});
+
+/// True if write_mesh knows the file's ending.
+bool is_mesh_format(const std::filesystem::path& path);
+
+/// Reads a surface mesh: Gmsh .msh (2.2 and 4.1, ASCII and binary) or Abaqus/CalculiX .inp.
+/// Throws Error (failure) with one sentence that names the line, element or node at fault.
+ShellMesh read_mesh(const std::filesystem::path& path);
+
+/// Draws the mesh, quads coloured by q, sides drawn, with a colour bar, into a PNG. Works without a screen.
+/// Throws Error (failure) when the picture cannot be drawn.
+void write_picture(const ShellMesh& mesh, const std::filesystem::path& path, int width = 1600,
+                   int height = 1200);
+
+}  // namespace quadrille

@@ -1,0 +1,198 @@
+/// The module libquadrille_med.so: MED 4 (Salome, code_aster, FreeCAD), by libmed. Families carry the groups
+/// Face3, Edge7, Vertex2.
+
+// Debian's med.h declares functions for MPI, which are not called here, without including its header.
+using MPI_Comm = void*;
+using MPI_Info = void*;
+#include <med.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <string>
+
+#include "geometry/error.hpp"
+#include "mesher/io/module_export.hpp"
+#include "mesher/io/modules.hpp"
+
+namespace quadrille {
+
+namespace {
+
+void check(med_int status, const char* what) {
+  if (status < 0) throw failure(what, std::string("libmed could not write ") + what);
+}
+
+/// A MED file in memory: the disk is left to AtomicFile, whose errors are sentences.
+class MemoryFile {
+ public:
+  MemoryFile() {
+    id_ = MEDmemFileOpen("quadrille.med", &image_, MED_FALSE, MED_ACC_CREAT);
+    if (id_ < 0) throw failure("", "libmed could not make a file in memory");
+  }
+  ~MemoryFile() {
+    if (id_ >= 0) MEDfileClose(id_);
+    std::free(image_.app_image_ptr);
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  med_idt id() const { return id_; }
+
+  std::string_view close() {
+    const med_err status = MEDfileClose(id_);
+    id_ = -1;
+    check(status, "the file");
+    return {static_cast<const char*>(image_.app_image_ptr), image_.app_image_size};
+  }
+
+ private:
+  med_memfile image_ = MED_MEMFILE_INIT;
+  med_idt id_ = -1;
+};
+
+/// Family numbers: positive for nodes, negative for elements, as MED has it; 0 = in no group.
+struct Families {
+  std::vector<med_int> nodes, shells, segments;
+};
+
+/// Elements of one geometric type, which are written together.
+struct ElementTable {
+  med_geometry_type type;
+  std::vector<med_int> nodes, families;
+
+  void add(const OutputMesh& mesh, const ElementNodes& element, med_int family) {
+    for (const int node : element) nodes.push_back(mesh.number(node));
+    families.push_back(family);
+  }
+};
+
+class MedWriter {
+ public:
+  MedWriter(med_idt file, const OutputMesh& mesh, const std::string& name)
+      : file_(file), mesh_(mesh), name_(name.substr(0, MED_NAME_SIZE)) {}
+
+  void write(const std::string& description) const {
+    make_mesh(description.substr(0, MED_COMMENT_SIZE));
+    const Families families = make_families();
+    write_nodes(families.nodes);
+    write_segments(families.segments);
+    write_shells(families.shells);
+  }
+
+ private:
+  void make_mesh(const std::string& description) const {
+    std::string axes(3 * MED_SNAME_SIZE, ' '), units(3 * MED_SNAME_SIZE, ' ');
+    for (int i = 0; i < 3; ++i) {
+      axes.replace(i * MED_SNAME_SIZE, 1, 1, static_cast<char>('x' + i));
+      units.replace(i * MED_SNAME_SIZE, 2, "mm");
+    }
+    check(MEDmeshCr(file_, name_.c_str(), 3, 3, MED_UNSTRUCTURED_MESH, description.c_str(), "", MED_SORT_DTIT,
+                    MED_CARTESIAN, axes.c_str(), units.c_str()),
+          "the mesh");
+  }
+
+  void make_family(const std::string& group, med_int number) const {
+    const std::string family = "FAM_" + std::to_string(number) + "_" + group;
+    std::string name = group;
+    name.resize(MED_LNAME_SIZE, '\0');
+    check(MEDfamilyCr(file_, name_.c_str(), family.c_str(), number, 1, name.c_str()), "a family");
+  }
+
+  void add_element_families(const std::vector<CadGroup>& groups, const char* kind, med_int& next,
+                            std::vector<med_int>& numbers) const {
+    for (const CadGroup& group : groups) {
+      if (group.number == 0) continue;
+      make_family(kind + std::to_string(group.number), next);
+      for (const int member : group.members) numbers[member] = next;
+      --next;
+    }
+  }
+
+  Families make_families() const {
+    check(MEDfamilyCr(file_, name_.c_str(), "FAMILLE_ZERO", 0, 0, ""), "a family");
+    Families families{std::vector<med_int>(mesh_.nodes().size(), 0),
+                      std::vector<med_int>(mesh_.shell_count(), 0),
+                      std::vector<med_int>(mesh_.mesh().segments.size(), 0)};
+    med_int next_node = 1, next_element = -1;
+    for (const CadGroup& group : mesh_.vertices()) {
+      if (group.number == 0) continue;
+      make_family("Vertex" + std::to_string(group.number), next_node);
+      for (const int corner : group.members)
+        families.nodes[mesh_.number(mesh_.mesh().corners[corner].node) - 1] = next_node;
+      ++next_node;
+    }
+    add_element_families(mesh_.faces(), "Face", next_element, families.shells);
+    add_element_families(mesh_.edges(), "Edge", next_element, families.segments);
+    return families;
+  }
+
+  void write_nodes(const std::vector<med_int>& families) const {
+    std::vector<double> coordinates;
+    coordinates.reserve(3 * mesh_.nodes().size());
+    for (const int node : mesh_.nodes())
+      for (const double coordinate : mesh_.mesh().points[node]) coordinates.push_back(coordinate);
+    check(MEDmeshNodeCoordinateWr(file_, name_.c_str(), MED_NO_DT, MED_NO_IT, 0.0, MED_FULL_INTERLACE,
+                                  static_cast<med_int>(mesh_.nodes().size()), coordinates.data()),
+          "the nodes");
+    write_family_numbers(MED_NODE, MED_NO_GEOTYPE, families);
+  }
+
+  void write_family_numbers(med_entity_type entity, med_geometry_type type,
+                            const std::vector<med_int>& numbers) const {
+    check(MEDmeshEntityFamilyNumberWr(file_, name_.c_str(), MED_NO_DT, MED_NO_IT, entity, type,
+                                      static_cast<med_int>(numbers.size()), numbers.data()),
+          "the families");
+  }
+
+  void write_table(const ElementTable& table) const {
+    if (table.families.empty()) return;
+    check(MEDmeshElementConnectivityWr(file_, name_.c_str(), MED_NO_DT, MED_NO_IT, 0.0, MED_CELL, table.type,
+                                       MED_NODAL, MED_FULL_INTERLACE,
+                                       static_cast<med_int>(table.families.size()), table.nodes.data()),
+          "the elements");
+    write_family_numbers(MED_CELL, table.type, table.families);
+  }
+
+  void write_segments(const std::vector<med_int>& families) const {
+    ElementTable straight{MED_SEG2, {}, {}}, curved{MED_SEG3, {}, {}};
+    for (std::size_t i = 0; i < mesh_.mesh().segments.size(); ++i) {
+      const ElementNodes element = mesh_.segment_nodes(static_cast<int>(i));
+      (element.count == 3 ? curved : straight).add(mesh_, element, families[i]);
+    }
+    write_table(straight);
+    write_table(curved);
+  }
+
+  void write_shells(const std::vector<med_int>& families) const {
+    ElementTable triangles{MED_TRIA3, {}, {}};
+    ElementTable quads{mesh_.mesh().order == 2 ? MED_QUAD8 : MED_QUAD4, {}, {}};
+    for (int i = 0; i < mesh_.shell_count(); ++i)
+      (mesh_.is_quad(i) ? quads : triangles).add(mesh_, mesh_.shell_nodes(i), families[i]);
+    write_table(triangles);
+    write_table(quads);
+  }
+
+  med_idt file_;
+  const OutputMesh& mesh_;
+  std::string name_;
+};
+
+}  // namespace
+
+}  // namespace quadrille
+
+QUADRILLE_EXPORT const char* quadrille_med_version() {
+  return QUADRILLE_VERSION;
+}
+
+QUADRILLE_EXPORT std::string quadrille_med_file(const quadrille::OutputMesh& mesh, const std::string& name,
+                                                const std::string& description, std::string& bytes) try {
+  quadrille::MemoryFile file;
+  quadrille::MedWriter(file.id(), mesh, name).write(description);
+  bytes = file.close();
+  return {};
+} catch (const std::exception& error) {
+  return error.what();
+}

@@ -1,0 +1,46 @@
+#include "mesher/io/modules.hpp"
+
+#include "geometry/error.hpp"
+#include "geometry/module_loader.hpp"
+#include "mesher/quality.hpp"
+
+namespace quadrille {
+
+namespace {
+
+const Module& vtk_module() {
+  static const Module module("quadrille_vtk");
+  return module;
+}
+
+const Module& med_module() {
+  static const Module module("quadrille_med");
+  return module;
+}
+
+void check(const std::string& problem) {
+  if (!problem.empty()) throw failure("", problem);
+}
+
+}  // namespace
+
+std::string vtk_file(const ShellMesh& mesh, bool legacy) {
+  std::string bytes;
+  check(vtk_module().function<VtkFileFunction>("_file")(mesh, quad_qualities(mesh), legacy, bytes));
+  return bytes;
+}
+
+std::string vtk_picture(const ShellMesh& mesh, int width, int height) {
+  std::string bytes;
+  check(vtk_module().function<VtkPictureFunction>("_picture")(mesh, quad_qualities(mesh), width, height,
+                                                              bytes));
+  return bytes;
+}
+
+std::string med_file(const OutputMesh& mesh, const std::string& name, const std::string& description) {
+  std::string bytes;
+  check(med_module().function<MedFileFunction>("_file")(mesh, name, description, bytes));
+  return bytes;
+}
+
+}  // namespace quadrille

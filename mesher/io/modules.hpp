@@ -1,0 +1,33 @@
+#pragma once
+/// The modules libquadrille_vtk.so and libquadrille_med.so, which hold all that needs VTK and libmed. They
+/// are opened on demand, since loading those libraries costs more time than meshing a small part.
+
+#include <string>
+#include <vector>
+
+#include "mesher/io/output_mesh.hpp"
+#include "mesher/mesh_types.hpp"
+
+namespace quadrille {
+
+/// What the modules export, as C symbols of these types. Each function returns an empty string, or the
+/// sentence that says what went wrong; nothing is thrown across the border.
+using VtkFileFunction = std::string(const ShellMesh& mesh, const std::vector<double>& qualities, bool legacy,
+                                    std::string& bytes);
+using VtkPictureFunction = std::string(const ShellMesh& mesh, const std::vector<double>& qualities, int width,
+                                       int height, std::string& bytes);
+using MedFileFunction = std::string(const OutputMesh& mesh, const std::string& name,
+                                    const std::string& description, std::string& bytes);
+
+/// The bytes of a .vtu file, or of a legacy .vtk file. Throws Error (failure).
+std::string vtk_file(const ShellMesh& mesh, bool legacy);
+
+/// The bytes of a PNG of the mesh. Throws Error (failure).
+std::string vtk_picture(const ShellMesh& mesh, int width, int height);
+
+/// The bytes of a .med file.
+/// \param name of the mesh in the file; FreeCAD reads only a mesh that is named as its file, without the
+/// ending. Throws Error (failure).
+std::string med_file(const OutputMesh& mesh, const std::string& name, const std::string& description);
+
+}  // namespace quadrille

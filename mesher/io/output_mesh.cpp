@@ -1,0 +1,127 @@
+#include "mesher/io/output_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "geometry/error.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// Collects 0 .. count - 1 by the CAD number that `number_of` gives; groups ascend by number, the "none"
+/// group last.
+template <class NumberOf>
+std::vector<CadGroup> grouped(int count, NumberOf number_of) {
+  int largest = 0;
+  for (int i = 0; i < count; ++i) largest = std::max(largest, number_of(i));
+  std::vector<int> sizes(largest + 1, 0);
+  for (int i = 0; i < count; ++i) ++sizes[std::max(number_of(i), 0)];
+  std::vector<CadGroup> groups;
+  std::vector<int> slot(largest + 1, -1);
+  const auto open = [&](int number) {
+    if (sizes[number] == 0) return;
+    slot[number] = static_cast<int>(groups.size());
+    groups.push_back({number, {}});
+    groups.back().members.reserve(sizes[number]);
+  };
+  for (int number = 1; number <= largest; ++number) open(number);
+  open(0);
+  for (int i = 0; i < count; ++i) groups[slot[std::max(number_of(i), 0)]].members.push_back(i);
+  return groups;
+}
+
+void sort_unique(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+}  // namespace
+
+OutputMesh::OutputMesh(const ShellMesh& mesh) : mesh_(mesh) {
+  number_nodes();
+  faces_ = grouped(shell_count(), [this](int i) { return face(i); });
+  edges_ = grouped(static_cast<int>(mesh.segments.size()), [&](int i) { return mesh.segments[i].edge; });
+  vertices_ = grouped(static_cast<int>(mesh.corners.size()), [&](int i) { return mesh.corners[i].vertex; });
+}
+
+void OutputMesh::use(int node, const char* what, std::size_t index) {
+  if (node < 0 || node >= static_cast<int>(mesh_.points.size()))
+    throw failure(fmt::format("{} {}", what, index + 1),
+                  fmt::format("{} {} of the mesh has node index {}, but there are {} nodes", what, index + 1,
+                              node, mesh_.points.size()));
+  numbers_[node] = 1;
+}
+
+void OutputMesh::number_nodes() {
+  numbers_.assign(mesh_.points.size(), 0);
+  if (mesh_.order == 2 && mesh_.midsides.size() != mesh_.quads.size())
+    throw failure("", "the second-order mesh does not have midside nodes for each quad");
+  for (std::size_t i = 0; i < mesh_.quads.size(); ++i) {
+    for (const int node : mesh_.quads[i]) use(node, "quad", i);
+    if (mesh_.order == 2)
+      for (const int node : mesh_.midsides[i]) use(node, "quad", i);
+  }
+  for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
+    for (const int node : mesh_.triangles[i]) use(node, "triangle", i);
+  for (std::size_t i = 0; i < mesh_.segments.size(); ++i) {
+    for (const int node : mesh_.segments[i].nodes) use(node, "segment", i);
+    if (mesh_.order == 2 && mesh_.segments[i].middle >= 0) use(mesh_.segments[i].middle, "segment", i);
+  }
+  for (std::size_t i = 0; i < mesh_.corners.size(); ++i) use(mesh_.corners[i].node, "corner", i);
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    if (numbers_[i] == 0) continue;
+    if (!mesh_.points[i].allFinite())
+      throw failure(fmt::format("node {}", i), fmt::format("node {} of the mesh has no finite position", i));
+    nodes_.push_back(static_cast<int>(i));
+    numbers_[i] = static_cast<int>(nodes_.size());
+  }
+}
+
+int OutputMesh::face(int shell) const {
+  const std::vector<int>& faces = is_quad(shell) ? mesh_.quad_faces : mesh_.triangle_faces;
+  const std::size_t index = is_quad(shell) ? shell : shell - quad_count();
+  return index < faces.size() ? faces[index] : 0;
+}
+
+ElementNodes OutputMesh::shell_nodes(int shell) const {
+  ElementNodes result;
+  if (!is_quad(shell)) {
+    std::copy_n(mesh_.triangles[shell - quad_count()].begin(), 3, result.nodes.begin());
+    result.count = 3;
+    return result;
+  }
+  std::copy_n(mesh_.quads[shell].begin(), 4, result.nodes.begin());
+  result.count = 4;
+  if (mesh_.order == 2) {
+    std::copy_n(mesh_.midsides[shell].begin(), 4, result.nodes.begin() + 4);
+    result.count = 8;
+  }
+  return result;
+}
+
+ElementNodes OutputMesh::segment_nodes(int segment) const {
+  const ShellMesh::Segment& side = mesh_.segments[segment];
+  ElementNodes result{{side.nodes[0], side.nodes[1]}, 2};
+  if (mesh_.order == 2 && side.middle >= 0) result.nodes[result.count++] = side.middle;
+  return result;
+}
+
+std::vector<int> OutputMesh::shell_node_numbers(const CadGroup& group) const {
+  std::vector<int> numbers;
+  for (const int shell : group.members)
+    for (const int node : shell_nodes(shell)) numbers.push_back(number(node));
+  sort_unique(numbers);
+  return numbers;
+}
+
+std::vector<int> OutputMesh::segment_node_numbers(const CadGroup& group) const {
+  std::vector<int> numbers;
+  for (const int segment : group.members)
+    for (const int node : segment_nodes(segment)) numbers.push_back(number(node));
+  sort_unique(numbers);
+  return numbers;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,138 @@
+/// I-deas universal file: datasets 2411 (nodes), 2412 (elements) and 2467 (groups), as FreeCAD and Salome
+/// read them. Based on: the dataset descriptions of the University of Cincinnati's SDRL.
+
+#include <string>
+
+#include "mesher/io/writers.hpp"
+
+namespace quadrille {
+
+namespace {
+
+constexpr int beam = 21, beam_parabolic = 24, shell_triangle = 91, shell_quad = 94, shell_quad_parabolic = 95;
+constexpr int entity_node = 7, entity_element = 8;
+
+void begin_dataset(int number, TextWriter& out) {
+  out << "    -1\n";
+  out.padded(number, 6) << '\n';
+}
+void end_dataset(TextWriter& out) {
+  out << "    -1\n";
+}
+
+/// The field widths of the format: ten columns a number, eight numbers a line.
+class Fields {
+ public:
+  explicit Fields(TextWriter& out) : out_(out) {}
+  ~Fields() {
+    if (count_ > 0) out_ << '\n';
+  }
+  Fields(const Fields&) = delete;
+  Fields& operator=(const Fields&) = delete;
+  void add(int value) {
+    out_.padded(value, 10);
+    if (++count_ < 8) return;
+    out_ << '\n';
+    count_ = 0;
+  }
+
+ private:
+  TextWriter& out_;
+  int count_ = 0;
+};
+
+void write_nodes(const OutputMesh& mesh, TextWriter& out) {
+  begin_dataset(2411, out);
+  for (std::size_t i = 0; i < mesh.nodes().size(); ++i) {
+    out.padded(static_cast<int>(i) + 1, 10) << "         1         1        11\n";
+    for (const double coordinate : mesh.point(static_cast<int>(i))) out.scientific(coordinate, 25);
+    out << '\n';
+  }
+  end_dataset(out);
+}
+
+int descriptor(const ElementNodes& element, bool line) {
+  if (line) return element.count == 3 ? beam_parabolic : beam;
+  if (element.count == 3) return shell_triangle;
+  return element.count == 8 ? shell_quad_parabolic : shell_quad;
+}
+
+/// Second-order elements list their nodes around the element: corner, midside, corner, ...
+void write_element_nodes(const OutputMesh& mesh, const ElementNodes& element, int corners, TextWriter& out) {
+  Fields fields(out);
+  for (int i = 0; i < corners; ++i) {
+    fields.add(mesh.number(element.nodes[i]));
+    if (corners + i < element.count) fields.add(mesh.number(element.nodes[corners + i]));
+  }
+}
+
+/// The property number is the CAD number, for readers that look there.
+void write_element(const OutputMesh& mesh, int number, const ElementNodes& element, int cad, bool line,
+                   TextWriter& out) {
+  {
+    Fields fields(out);
+    for (const int value : {number, descriptor(element, line), cad, 1, 7, element.count}) fields.add(value);
+  }
+  if (line) out << "         0         1         1\n";
+  write_element_nodes(mesh, element, line ? 2 : element.count == 3 ? 3 : 4, out);
+}
+
+void write_elements(const OutputMesh& mesh, TextWriter& out) {
+  begin_dataset(2412, out);
+  for (int i = 0; i < mesh.shell_count(); ++i)
+    write_element(mesh, i + 1, mesh.shell_nodes(i), mesh.face(i), false, out);
+  const auto& segments = mesh.mesh().segments;
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    write_element(mesh, mesh.shell_count() + static_cast<int>(i) + 1, mesh.segment_nodes(static_cast<int>(i)),
+                  segments[i].edge, true, out);
+  end_dataset(out);
+}
+
+class GroupWriter {
+ public:
+  explicit GroupWriter(TextWriter& out) : out_(out) {}
+
+  /// \param label_of maps a member of the group to its node or element number.
+  template <class LabelOf>
+  void write(const CadGroup& group, const char* kind, int entity_type, LabelOf label_of) {
+    if (group.number == 0) return;
+    {
+      Fields fields(out_);
+      fields.add(++number_);
+      for (int i = 0; i < 6; ++i) fields.add(0);
+      fields.add(static_cast<int>(group.members.size()));
+    }
+    out_ << kind << group.number << '\n';
+    Fields fields(out_);
+    for (const int member : group.members)
+      for (const int value : {entity_type, label_of(member), 0, 0}) fields.add(value);
+  }
+
+ private:
+  TextWriter& out_;
+  int number_ = 0;
+};
+
+void write_groups(const OutputMesh& mesh, TextWriter& out) {
+  begin_dataset(2467, out);
+  GroupWriter groups(out);
+  for (const CadGroup& group : mesh.faces())
+    groups.write(group, "Face", entity_element, [](int shell) { return shell + 1; });
+  for (const CadGroup& group : mesh.edges())
+    groups.write(group, "Edge", entity_element,
+                 [&](int segment) { return mesh.shell_count() + segment + 1; });
+  for (const CadGroup& group : mesh.vertices())
+    groups.write(group, "Vertex", entity_node,
+                 [&](int corner) { return mesh.number(mesh.mesh().corners[corner].node); });
+  end_dataset(out);
+}
+
+}  // namespace
+
+void write_unv(const OutputMesh& mesh, TextWriter& out) {
+  write_nodes(mesh, out);
+  write_elements(mesh, out);
+  write_groups(mesh, out);
+}
+
+}  // namespace quadrille

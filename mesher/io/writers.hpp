@@ -1,0 +1,18 @@
+#pragma once
+/// The writers behind write_mesh(), one a format.
+
+#include <filesystem>
+
+#include "mesher/io/io.hpp"
+#include "mesher/io/output_mesh.hpp"
+#include "mesher/io/text_writer.hpp"
+
+namespace quadrille {
+
+void write_msh2(const OutputMesh& mesh, TextWriter& out);  ///< Gmsh .msh 2.2, ASCII
+void write_msh4(const OutputMesh& mesh, TextWriter& out);  ///< Gmsh .msh 4.1, ASCII
+void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out);
+void write_unv(const OutputMesh& mesh, TextWriter& out);
+void write_bdf(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out);
+
+}  // namespace quadrille

@@ -1,0 +1,32 @@
+#pragma once
+/// An X display to draw on, which Debian's VTK needs even off screen.
+
+#include <sys/types.h>
+
+#include <string>
+
+namespace quadrille {
+
+/// While it lives, DISPLAY names a display that can be drawn on: an Xvfb of our own (package xvfb), so that
+/// pictures come out alike with and without a screen; the user's display where Xvfb is not installed.
+class XDisplay {
+ public:
+  XDisplay();
+  ~XDisplay();
+  XDisplay(const XDisplay&) = delete;
+  XDisplay& operator=(const XDisplay&) = delete;
+
+  bool usable() const { return problem_.empty(); }
+  /// Why there is no display, as one sentence; empty when there is.
+  const std::string& problem() const { return problem_; }
+
+ private:
+  bool start_server();
+
+  pid_t server_ = -1;
+  bool had_display_ = false;
+  std::string old_display_;
+  std::string problem_;
+};
+
+}  // namespace quadrille

@@ -1,0 +1,16 @@
+/// Any bytes given to the .inp reader make a mesh or one Error, nothing else.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "geometry/error.hpp"
+#include "mesher/io/readers.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    quadrille::read_inp({reinterpret_cast<const char*>(data), size}, "fuzz");
+  } catch (const quadrille::Error&) {
+  }
+  return 0;
+}
