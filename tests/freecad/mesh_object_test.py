@@ -1,0 +1,241 @@
+"""quadrille.freecad.mesh_object in real FreeCAD: meshes, groups, saving, solver objects, errors."""
+
+import os
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, os.environ["QUADRILLE_PYTHON"])
+
+import FreeCAD
+import Fem
+import ObjectsFem
+import Part
+from FreeCAD import Vector
+
+import quadrille
+import quadrille.freecad
+from quadrille.freecad import mesh_object, remesh
+
+MODELS = Path(os.environ["QUADRILLE_MODELS"])
+
+
+def group(mesh, name, kind):
+    """The ids in the group of a mesh that has this name and kind."""
+    fem_mesh = mesh.FemMesh
+    for number in fem_mesh.Groups:
+        if fem_mesh.getGroupName(number) == name and fem_mesh.getGroupElementType(number) == kind:
+            return fem_mesh.getGroupElements(number)
+    return ()
+
+
+class MeshObjectTest(unittest.TestCase):
+    """Each test has a document of its own."""
+
+    def setUp(self):
+        self.document = FreeCAD.newDocument("Test")
+
+    def tearDown(self):
+        FreeCAD.closeDocument(self.document.Name)
+
+    def part(self, shape, name="Part"):
+        """A document object with a shape."""
+        part = self.document.addObject("Part::Feature", name)
+        part.Shape = shape
+        return part
+
+    def model(self, file):
+        """A sample model as a document object."""
+        return self.part(Part.read(str(MODELS / file)))
+
+    def check_mesh(self, mesh, order):
+        """All quads of the order; nodes and elements in the groups of their faces, edges and vertices."""
+        fem_mesh, shape = mesh.FemMesh, mesh.Shape.Shape
+        self.assertGreater(fem_mesh.FaceCount, 0)
+        self.assertEqual(fem_mesh.TriangleCount, 0)
+        self.assertEqual(fem_mesh.FaceCount, fem_mesh.QuadrangleCount)
+        self.assertEqual({len(fem_mesh.getElementNodes(i)) for i in fem_mesh.Faces}, {4 if order == 1 else 8})
+        elements = [group(mesh, f"Face{i}", "Face") for i in range(1, len(shape.Faces) + 1)]
+        self.assertTrue(all(elements))
+        self.assertEqual(sorted(i for ids in elements for i in ids), sorted(fem_mesh.Faces))
+        edge_elements = {i: group(mesh, f"Edge{i}", "Edge") for i in range(1, len(shape.Edges) + 1)}
+        nodes = fem_mesh.Nodes
+        for i, edge in enumerate(shape.Edges, 1):
+            if edge.Degenerated:
+                continue
+            self.assertTrue(edge_elements[i], f"Edge{i}")
+            for element in list(edge_elements[i])[:5]:
+                for node in fem_mesh.getElementNodes(element):
+                    self.assertLess(edge.distToShape(Part.Vertex(nodes[node]))[0], 1e-5, f"Edge{i}")
+        for i, face in enumerate(shape.Faces, 1):
+            for element in list(elements[i - 1])[:5]:
+                for node in fem_mesh.getElementNodes(element):
+                    self.assertLess(face.distToShape(Part.Vertex(nodes[node]))[0], 1e-5, f"Face{i}")
+        for i, vertex in enumerate(shape.Vertexes, 1):
+            ids = group(mesh, f"Vertex{i}", "Node")
+            self.assertEqual(len(ids), 1, f"Vertex{i}")
+            self.assertLess((nodes[ids[0]] - vertex.Point).Length, 1e-6)
+
+    def test_meshes_of_both_orders_with_groups(self):
+        for order in (1, 2):
+            for file, size in (("box.brep", 4), ("cylinder.brep", 4), ("two_solids.brep", 5), ("t_junction.brep", 6)):
+                with self.subTest(file=file, order=order):
+                    self.check_mesh(mesh_object(self.model(file), size=size, order=order), order)
+
+    def test_bracket(self):
+        mesh = mesh_object(self.model("bracket.step"), size=3, order=2)
+        self.check_mesh(mesh, 2)
+        self.assertGreater(mesh.MeanQuality, 0.8)
+        self.assertGreater(mesh.WorstJacobian, 0)
+        self.assertEqual(mesh.QuadCount, mesh.FemMesh.FaceCount)
+
+    def test_type_is_one_that_fem_accepts(self):
+        mesh = mesh_object(self.part(Part.makeBox(10, 10, 10)), size=5)
+        self.assertTrue(mesh.isDerivedFrom("Fem::FemMeshObject"))
+        old = FreeCAD.Version()[0] == "0"
+        self.assertEqual(mesh.TypeId,
+                         "Fem::FemMeshObjectPython" if old else "Fem::FemMeshShapeBaseObjectPython")
+
+    def test_normals_point_out_of_a_solid(self):
+        mesh = mesh_object(self.part(Part.makeBox(10, 10, 10)), size=5).FemMesh
+        nodes = mesh.Nodes
+        for element in mesh.Faces:
+            a, b, c, d = (nodes[i] for i in mesh.getElementNodes(element))
+            self.assertGreater((c - a).cross(d - b) * ((a + c) / 2 - Vector(5, 5, 5)), 0)
+
+    def test_placement_of_the_part_counts(self):
+        part = self.part(Part.makeBox(10, 10, 10))
+        part.Placement.Base = Vector(100, 0, 0)
+        mesh = mesh_object(part, size=5)
+        self.assertAlmostEqual(mesh.FemMesh.BoundBox.XMin, 100, 6)
+
+    def test_faces_and_sizes(self):
+        part = self.part(Part.makeBox(20, 20, 20))
+        top = mesh_object(part, size=5, faces=[6])
+        self.assertFalse(group(top, "Face1", "Face"))
+        self.assertTrue(group(top, "Face6", "Face"))
+        coarse = mesh_object(part, size=5)
+        fine = mesh_object(part, size=5, sizes={"Face6": 1.0})
+        self.assertGreater(len(group(fine, "Face6", "Face")), 4 * len(group(coarse, "Face6", "Face")))
+
+    def test_lengths_with_units(self):
+        part = self.part(Part.makeBox(20, 20, 20))
+        millimetres = mesh_object(part, size=5).FemMesh
+        self.assertEqual(mesh_object(part, size="0.5 cm").FemMesh.FaceCount, millimetres.FaceCount)
+        self.assertEqual(mesh_object(part, size=FreeCAD.Units.Quantity("5 mm")).FemMesh.FaceCount,
+                         millimetres.FaceCount)
+
+    def test_saved_and_reopened(self):
+        part = self.model("bracket.step")
+        mesh = mesh_object(part, name="Quads", size=6, order=2, sizes={"Face3": 3.0}, faces=())
+        quads, groups = mesh.FemMesh.FaceCount, mesh.FemMesh.GroupCount
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "saved.FCStd")
+            self.document.saveAs(path)
+            FreeCAD.closeDocument(self.document.Name)
+            self.document = FreeCAD.openDocument(path)
+        mesh = self.document.Quads
+        self.assertIsInstance(mesh.Proxy, quadrille.freecad.MeshFeature)
+        self.assertEqual(mesh.Shape.Name, "Part")
+        self.assertEqual((mesh.FemMesh.FaceCount, mesh.FemMesh.GroupCount), (quads, groups))
+        self.assertEqual((mesh.Size.Value, mesh.ElementOrder, dict(mesh.Sizes)), (6.0, "2nd", {"Face3": "3.0"}))
+        remesh(mesh)
+        self.assertEqual(mesh.FemMesh.FaceCount, quads)
+
+    def test_remesh_after_a_change(self):
+        box = self.document.addObject("Part::Box", "Box")
+        self.document.recompute()
+        mesh = mesh_object(box, size=2)
+        before = mesh.FemMesh.FaceCount
+        box.Length = 40
+        self.document.recompute()
+        remesh(mesh)
+        self.assertGreater(mesh.FemMesh.FaceCount, before)
+        self.assertAlmostEqual(mesh.FemMesh.BoundBox.XMax, 40, 6)
+
+    def test_solver_accepts_the_mesh(self):
+        from femtools import ccxtools, membertools
+
+        part = self.part(Part.makePlane(40, 20))
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
+        solver = analysis.addObject(make_solver(self.document, "Solver"))[0]
+        material = analysis.addObject(ObjectsFem.makeMaterialSolid(self.document, "Steel"))[0]
+        material.Material = {"Name": "Steel", "YoungsModulus": "210000 MPa", "PoissonRatio": "0.3"}
+        analysis.addObject(ObjectsFem.makeElementGeometry2D(self.document, 1.0, "Thickness"))
+        fixed = analysis.addObject(ObjectsFem.makeConstraintFixed(self.document, "Fixed"))[0]
+        fixed.References = [(part, "Edge1")]
+        force = analysis.addObject(ObjectsFem.makeConstraintForce(self.document, "Force"))[0]
+        force.References = [(part, "Edge3")]
+        force.Force = "10 N" if FreeCAD.Version()[0] != "0" else 10.0
+        force.Direction = (part, ["Edge2"])
+        mesh = mesh_object(part, size=5, order=2, analysis=analysis)
+        self.document.recompute()
+        self.assertEqual(membertools.get_mesh_to_solve(analysis), (mesh, ""))
+        with tempfile.TemporaryDirectory() as folder:
+            fea = ccxtools.FemToolsCcx(analysis, solver, test_mode=True)
+            fea.update_objects()
+            fea.setup_working_dir(folder, create=True)
+            problems = fea.check_prerequisites()
+            self.assertFalse(problems)
+            fea.write_inp_file()
+            text = Path(fea.inp_file_name).read_text()
+            self.assertIn("TYPE=S8, ELSET=Efaces", text)
+            blocks = quadrille.freecad.use_reduced_shells(fea.inp_file_name)
+            self.assertEqual(blocks, 1)
+            self.assertIn("TYPE=S8R, ELSET=Efaces", Path(fea.inp_file_name).read_text())
+
+    def check_error(self, kind, words, *arguments, **options):
+        """mesh_object fails with one sentence, and the document stays as it was."""
+        before = len(self.document.Objects)
+        with self.assertRaises(quadrille.Error) as caught:
+            mesh_object(*arguments, **options)
+        self.assertEqual(caught.exception.kind, kind)
+        self.assertIn(words, str(caught.exception))
+        self.assertNotIn("\n", str(caught.exception))
+        self.assertEqual(len(self.document.Objects), before)
+
+    def test_errors(self):
+        box = self.part(Part.makeBox(10, 10, 10), "Box")
+        line = self.part(Part.makeLine(Vector(), Vector(1, 0, 0)), "Line")
+        empty = self.document.addObject("Part::Feature", "Empty")
+        note = self.document.addObject("App::TextDocument", "Note")
+        self.check_error("usage", "no faces", line)
+        self.check_error("usage", "no faces", empty)
+        self.check_error("usage", "no shape", note)
+        self.check_error("usage", "--size", box, size=-1.0)
+        self.check_error("usage", "--size", box, size=float("nan"))
+        self.check_error("usage", "larger than the model", box, size=1000.0)
+        self.check_error("usage", "--order", box, size=2.0, order=3)
+        self.check_error("usage", "Face77", box, size=2.0, faces=[77])
+        self.check_error("usage", "strategy", box, size=2.0, strategy="magic")
+        self.check_error("usage", "is not a FEM analysis", box, size=2.0, analysis=line)
+        self.check_error("usage", "cannot be run", box, size=2.0, command="/nowhere/quadrille")
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        mesh_object(box, size=5, analysis=analysis)
+        self.check_error("usage", "one mesh only", box, size=2.0, analysis=analysis)
+
+    def test_cancelled_by_progress(self):
+        box = self.part(Part.makeBox(10, 10, 10), "Box")
+        self.check_error("cancelled", "cancelled", box, size=0.02, progress=lambda stage, fraction: False)
+
+    def test_progress_exception_comes_out(self):
+        def fail(_stage, _fraction):
+            raise ZeroDivisionError("in progress")
+
+        box = self.part(Part.makeBox(10, 10, 10), "Box")
+        with self.assertRaises(ZeroDivisionError):
+            mesh_object(box, size=0.05, progress=fail)
+
+    def test_failed_remesh_keeps_the_mesh(self):
+        mesh = mesh_object(self.part(Part.makeBox(10, 10, 10), "Box"), size=5)
+        quads = mesh.FemMesh.FaceCount
+        mesh.Size = 500
+        with self.assertRaises(quadrille.Error):
+            remesh(mesh)
+        self.assertEqual(mesh.FemMesh.FaceCount, quads)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2, warnings="ignore")  # FreeCAD and PySide warn by the hundred

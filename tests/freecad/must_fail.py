@@ -1,0 +1,3 @@
+"""Raises: ctest must see it as a failure."""
+
+raise AssertionError("as it should")

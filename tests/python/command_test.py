@@ -1,0 +1,101 @@
+"""quadrille.command: finding the command, running it as a child, cancelling it, its errors."""
+
+import os
+import stat
+import tempfile
+import time
+import unittest
+from pathlib import Path
+from unittest import mock
+
+from quadrille import Error
+from quadrille.command import MeshJob, MeshSettings, find_command
+
+MODELS = Path(os.environ["QUADRILLE_MODELS"])
+
+
+class CommandTest(unittest.TestCase):
+    """Each test has a folder of its own."""
+
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory()
+        self.folder = Path(self._folder.name)
+
+    def tearDown(self):
+        self._folder.cleanup()
+
+    def script(self, text):
+        """A stand-in for the command."""
+        path = self.folder / "quadrille"
+        path.write_text("#!/bin/sh\n" + text)
+        path.chmod(path.stat().st_mode | stat.S_IXUSR)
+        return str(path)
+
+    def test_settings_as_arguments(self):
+        settings = MeshSettings(size=2.0, order=2, faces=(3, "Face7"), sizes={"Edge4": 0.5}, partial=True)
+        self.assertEqual(
+            settings.arguments(),
+            ["--size", "2.0", "--order", "2", "--threads", "0", "--faces", "Face3,Face7", "--size-on", "Edge4=0.5",
+             "--partial"],
+        )
+
+    def test_found_in_order(self):
+        given = self.script("exit 0\n")
+        self.assertEqual(find_command(given), given)
+        with mock.patch.dict(os.environ, QUADRILLE_COMMAND=given):
+            self.assertEqual(find_command(), given)
+        with mock.patch.dict(os.environ, PATH=str(self.folder)):
+            os.environ.pop("QUADRILLE_COMMAND", None)
+            self.assertEqual(find_command(preference=given), given)
+            self.assertEqual(find_command(), given)
+        with self.assertRaises(Error) as caught:
+            find_command("/nowhere/quadrille")
+        self.assertEqual(caught.exception.kind, "usage")
+
+    def test_mesh_and_report(self):
+        output = self.folder / "box.msh"
+        report = MeshJob(MODELS / "box.brep", [output], MeshSettings(size=5.0)).start().wait()
+        self.assertTrue(output.stat().st_size)
+        self.assertGreater(report["counts"]["quads"], 20)
+        self.assertEqual(report["counts"]["triangles"], 0)
+
+    def test_error_has_the_commands_sentence(self):
+        with self.assertRaises(Error) as caught:
+            MeshJob(MODELS / "box.brep", [self.folder / "box.msh"], MeshSettings(size=-1.0)).start().wait()
+        self.assertEqual(caught.exception.kind, "usage")
+        self.assertIn("--size", str(caught.exception))
+        self.assertFalse(str(caught.exception).startswith("quadrille:"))
+
+    def test_progress_lines(self):
+        command = self.script("echo 'progress: sample 40 %' >&2; echo 'a remark' >&2; sleep 0.1; exit 3\n")
+        seen = []
+        job = MeshJob("x.brep", ["x.msh"], command=command).start()
+        with self.assertRaises(Error) as caught:
+            job.wait(lambda stage, fraction: seen.append((stage, fraction)))
+        self.assertIn(("sample", 0.4), seen)
+        self.assertEqual(str(caught.exception), "a remark")
+
+    def test_cancel_ends_the_child(self):
+        command = self.script("trap '' TERM; sleep 60 & wait; wait\n")
+        job = MeshJob("x.brep", ["x.msh"], command=command).start()
+        start = time.monotonic()
+        with mock.patch("quadrille.command.KILL_AFTER_SECONDS", 0.2), self.assertRaises(Error) as caught:
+            job.wait(lambda stage, fraction: False)
+        self.assertEqual(caught.exception.kind, "cancelled")
+        self.assertLess(time.monotonic() - start, 10)
+        self.assertFalse(job.running)
+
+    def test_killed_child(self):
+        with self.assertRaises(Error) as caught:
+            MeshJob("x.brep", ["x.msh"], command=self.script("kill -9 $$\n")).start().wait()
+        self.assertIn("signal 9", str(caught.exception))
+
+    def test_many_messages_do_not_block(self):
+        command = self.script("i=0; while [ $i -lt 5000 ]; do echo line$i >&2; i=$((i+1)); done; exit 1\n")
+        with self.assertRaises(Error) as caught:
+            MeshJob("x.brep", ["x.msh"], command=command).start().wait()
+        self.assertEqual(str(caught.exception), "line4999")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

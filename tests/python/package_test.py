@@ -1,0 +1,147 @@
+"""The Python package over the compiled module: models, arrays, files, progress, errors."""
+
+import gc
+import os
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import quadrille
+
+MODELS = Path(os.environ["QUADRILLE_MODELS"])
+
+
+class PackageTest(unittest.TestCase):
+    """What the README shows to Python users."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.model = quadrille.read(MODELS / "bracket.step")
+        cls.mesh = quadrille.mesh(cls.model, size=4)
+
+    def test_model(self):
+        model = quadrille.read(str(MODELS / "two_solids.brep"))
+        self.assertEqual((model.face_count, model.edge_count, model.vertex_count), (9, 15, 10))
+        self.assertEqual(model.solid_count, 2)
+        self.assertAlmostEqual(model.area, 5286.371579, 3)  # the shared face counts once
+        self.assertGreater(model.diagonal, 50)
+        self.assertIn("9 faces", repr(model))
+
+    def test_brep_text(self):
+        model = quadrille.read_brep((MODELS / "box.brep").read_text())
+        self.assertEqual(model.face_count, 6)
+        (low, high) = model.box
+        np.testing.assert_allclose(low, (0, 0, 0), atol=1e-6)
+        np.testing.assert_allclose(high, (30, 20, 10), atol=1e-6)
+
+    def test_arrays(self):
+        mesh = self.mesh
+        self.assertEqual((mesh.points.dtype, mesh.points.shape[1]), (np.float64, 3))
+        self.assertEqual((mesh.quads.dtype, mesh.quads.shape[1]), (np.int32, 4))
+        self.assertEqual(mesh.face_ids.shape, (len(mesh.quads),))
+        self.assertEqual(set(mesh.face_ids), set(range(1, self.model.face_count + 1)))
+        self.assertEqual(mesh.segments.shape[1], 4)
+        self.assertEqual(sorted(mesh.corners[:, 1]), list(range(1, self.model.vertex_count + 1)))
+        self.assertEqual(np.unique(mesh.quads).size, len(mesh.points))
+        sides = np.sort(np.stack([mesh.quads, np.roll(mesh.quads, -1, 1)], 2).reshape(-1, 2), 1)
+        _, counts = np.unique(sides, axis=0, return_counts=True)
+        self.assertEqual(set(counts), {2}, "a solid's skin is watertight")
+
+    def test_area_is_kept(self):
+        a, b, c, d = (self.mesh.points[self.mesh.quads[:, i]] for i in range(4))
+        area = 0.5 * np.linalg.norm(np.cross(c - a, d - b), axis=1).sum()
+        self.assertAlmostEqual(area / self.model.area, 1, delta=0.01)
+
+    def test_arrays_are_views_that_keep_the_mesh_alive(self):
+        mesh = quadrille.mesh(self.model, size=8)
+        self.assertEqual(mesh.points.__array_interface__["data"], mesh.points.__array_interface__["data"])
+        points = mesh.points
+        copy = points.copy()
+        self.assertFalse(points.flags.writeable)
+        del mesh
+        gc.collect()
+        np.testing.assert_array_equal(points, copy)
+
+    def test_second_order(self):
+        mesh = quadrille.mesh(quadrille.read(MODELS / "cylinder.brep"), size=4, order=2)
+        self.assertEqual(mesh.quads.shape[1], 8)
+        points = mesh.points[mesh.quads[mesh.face_ids == 1]]  # the cylinder itself comes first
+        np.testing.assert_allclose(np.hypot(points[..., 0], points[..., 1]), 10, atol=1e-5)
+        self.assertTrue((mesh.segments[:, 2] >= 0).all())
+
+    def test_quality(self):
+        quality = self.mesh.quality()
+        self.assertEqual(quality["quads"], len(self.mesh.quads))
+        self.assertEqual(quality["triangles"], 0)
+        self.assertEqual(quality["inverted"], 0)
+        values = self.mesh.qualities()
+        self.assertAlmostEqual(values.mean(), quality["q_mean"])
+        self.assertAlmostEqual(values.min(), quality["q_min"])
+        self.assertEqual(sum(quality["histogram"]), len(values))
+
+    def test_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for ending in ("msh", "inp", "unv", "med", "vtu", "bdf"):
+                path = Path(folder) / f"mesh.{ending}"
+                self.mesh.write(path)
+                self.assertGreater(path.stat().st_size, 1000, ending)
+            self.mesh.picture(Path(folder) / "mesh.png", width=400, height=300)
+            self.assertTrue((Path(folder) / "mesh.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_sizes_and_faces(self):
+        box = quadrille.read(MODELS / "box.brep")
+        coarse = quadrille.mesh(box, size=4)
+        fine = quadrille.mesh(box, size=4, sizes={"Face1": 1})
+        self.assertGreater((fine.face_ids == 1).sum(), 4 * (coarse.face_ids == 1).sum())
+        part = quadrille.mesh(box, size=4, faces=["Face2", 5])
+        self.assertEqual(set(part.face_ids), {2, 5})
+
+    def test_same_result_for_any_thread_count(self):
+        one = quadrille.mesh(self.model, size=6, threads=1)
+        two = quadrille.mesh(self.model, size=6, threads=2)
+        np.testing.assert_array_equal(one.points, two.points)
+        np.testing.assert_array_equal(one.quads, two.quads)
+
+    def test_progress(self):
+        calls = []
+        quadrille.mesh(self.model, size=8, progress=lambda stage, fraction: calls.append((stage, fraction)))
+        self.assertTrue(calls)
+        self.assertTrue(all(isinstance(stage, str) and 0 <= fraction <= 1 for stage, fraction in calls))
+
+    def test_cancel(self):
+        with self.assertRaises(quadrille.Error) as caught:
+            quadrille.mesh(self.model, size=2, progress=lambda stage, fraction: False)
+        self.assertEqual(caught.exception.kind, "cancelled")
+
+    def test_exception_in_progress_comes_out(self):
+        def fail(_stage, _fraction):
+            raise KeyError("mine")
+
+        with self.assertRaises(KeyError):
+            quadrille.mesh(self.model, size=4, progress=fail)
+
+    def test_errors(self):
+        for kind, call in (
+            ("failure", lambda: quadrille.read("/nowhere/part.step")),
+            ("failure", lambda: quadrille.read_brep("not a shape")),
+            ("usage", lambda: quadrille.mesh(self.model, size=-1)),
+            ("usage", lambda: quadrille.mesh(self.model, size=float("nan"))),
+            ("usage", lambda: quadrille.mesh(self.model, size=4, order=3)),
+            ("usage", lambda: quadrille.mesh(self.model, size=4, faces=[99])),
+            ("usage", lambda: quadrille.mesh(self.model, size=4, strategy="magic")),
+            ("usage", lambda: quadrille.mesh(self.model, size=4, sizes={"Side1": 2})),
+            ("usage", lambda: self.mesh.write("/tmp/mesh.xyz")),
+            ("failure", lambda: self.mesh.write("/nowhere/mesh.msh")),
+        ):
+            with self.assertRaises(quadrille.Error) as caught:
+                call()
+            self.assertEqual(caught.exception.kind, kind, caught.exception)
+            self.assertTrue(str(caught.exception))
+        with self.assertRaises(TypeError):
+            quadrille.mesh(self.model, sise=4)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,3 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Run by FreeCAD at its start, with a window or without. FreeCAD has put this folder on sys.path: scripts and the
+Python console can `import quadrille.freecad`."""

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Quadrille: all-quad shell meshes of CAD models.
+
+    import quadrille
+    model = quadrille.read("part.step")
+    mesh = quadrille.mesh(model, size=2.0)
+    mesh.points, mesh.quads        # NumPy arrays
+    mesh.write("part.inp")
+
+Inside FreeCAD, use the layer that runs the mesher as a child process and never loads a second OpenCASCADE:
+
+    import quadrille.freecad
+    quadrille.freecad.mesh_object(App.ActiveDocument.Part, size=2.0)
+
+The compiled part, `quadrille._quadrille`, is loaded when something of it is first asked for, so that importing
+`quadrille` and `quadrille.freecad` needs Python alone.
+"""
+
+from .errors import Error
+
+__all__ = ["Error", "Mesh", "Model", "__version__", "mesh", "read", "read_brep", "suggested_size"]
+
+_COMPILED = frozenset(__all__) - {"Error"}
+
+
+def __getattr__(name: str):
+    """Loads the compiled part on demand (PEP 562)."""
+    if name not in _COMPILED:
+        raise AttributeError(f"module 'quadrille' has no attribute '{name}'")
+    try:
+        from . import _quadrille
+    except ImportError as error:
+        raise ImportError(
+            f"quadrille.{name} needs the compiled module quadrille._quadrille ({error}); "
+            "build it with ./run.sh and put build/python on sys.path"
+        ) from error
+    return getattr(_quadrille, name)
+
+
+def __dir__() -> list:
+    return sorted(set(globals()) | _COMPILED)

@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs the `quadrille` command as a child process: options, progress, cancelling, errors.
+
+Knows nothing of FreeCAD and needs only the standard library.
+"""
+
+import json
+import os
+import queue
+import re
+import shutil
+import subprocess
+import tempfile
+import threading
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+from .errors import Error
+
+#: Called with a stage name and the fraction of the stage done, in [0, 1]; returning False cancels the work.
+Progress = Callable[[str, float], Optional[bool]]
+
+_PROGRESS_LINE = re.compile(r"progress: (\S+) (\d+) %")
+#: How long a cancelled child may take to end before it is killed.
+KILL_AFTER_SECONDS = 2.0
+
+_KINDS = {2: "usage", 130: "cancelled"}
+
+
+@dataclass
+class MeshSettings:
+    """What to mesh, and how. None leaves the choice to the command; lengths are millimetres."""
+
+    size: Optional[float] = None  #: target edge length; None = diagonal / 60
+    size_min: Optional[float] = None  #: no size goes below this; None = size / 8
+    elements_per_circle: Optional[float] = None  #: elements per 2 pi of curvature (12); 0 = off
+    growth: Optional[float] = None  #: largest growth of the size per length (0.3)
+    order: int = 1  #: 1: four-node quads; 2: eight-node quads
+    strategy: Optional[str] = None  #: "direct" or "subdivide"
+    faces: Sequence[Union[int, str]] = ()  #: mesh these faces only: 3 or "Face3"; empty = all
+    sizes: Mapping[str, float] = field(default_factory=dict)  #: {"Face3": 0.5, "Edge4": 1.0, "Vertex2": 0.1}
+    size_field: Optional[str] = None  #: OpenVDB grid (.vdb) that caps the size
+    seed: Optional[int] = None  #: of random choices
+    threads: int = 0  #: 0 = all cores
+    partial: bool = False  #: deliver what could be meshed when a face fails
+    force: bool = False  #: go on past 50 million elements
+
+    def arguments(self) -> List[str]:
+        """The settings as arguments of `quadrille mesh`."""
+        arguments = []
+        for option, value in (
+            ("--size", self.size),
+            ("--size-min", self.size_min),
+            ("--curvature", self.elements_per_circle),
+            ("--growth", self.growth),
+            ("--order", self.order),
+            ("--strategy", self.strategy),
+            ("--size-field", self.size_field),
+            ("--seed", self.seed),
+            ("--threads", self.threads),
+        ):
+            if value is not None:
+                arguments += [option, repr(float(value)) if isinstance(value, float) else str(value)]
+        if self.faces:
+            arguments += ["--faces", ",".join(face_name(face) for face in self.faces)]
+        if self.sizes:
+            arguments += ["--size-on", ",".join(f"{name}={size!r}" for name, size in self.sizes.items())]
+        if self.partial:
+            arguments.append("--partial")
+        if self.force:
+            arguments.append("--force")
+        return arguments
+
+
+def face_name(face: Union[int, str]) -> str:
+    """3 and "Face3" as "Face3"."""
+    return f"Face{face}" if isinstance(face, int) else str(face)
+
+
+def find_command(command: Optional[str] = None, preference: Optional[str] = None) -> str:
+    """The path of the `quadrille` command.
+
+    Looked for in this order: the argument, the environment variable QUADRILLE_COMMAND, the preference, PATH, the
+    build folder beside this file. A path that was asked for and cannot be run is an error: nothing else is tried.
+    """
+    for path, origin in (
+        (command, "the argument 'command'"),
+        (os.environ.get("QUADRILLE_COMMAND"), "the environment variable QUADRILLE_COMMAND"),
+        (preference, "the preference 'Command'"),
+    ):
+        if path:
+            found = shutil.which(os.path.expanduser(path))
+            if not found:
+                raise Error(f"{path}: cannot be run, though {origin} names it as the mesher", "usage", path)
+            return found
+    found = shutil.which("quadrille")
+    if found:
+        return found
+    here = Path(__file__).absolute().parent
+    for folder in (here.parent.parent, here.parent.parent / "build"):
+        found = shutil.which(str(folder / "quadrille"))
+        if found:
+            return found
+    raise Error(
+        "the command 'quadrille' is not on PATH; install it, or name its path in the environment variable "
+        "QUADRILLE_COMMAND or in the preference Mod/Quadrille/Command",
+        "failure",
+        "quadrille",
+    )
+
+
+class MeshJob:
+    """One run of `quadrille mesh`. Start it, then either wait() for it or poll() it from a timer."""
+
+    def __init__(
+        self,
+        model: Union[str, Path],
+        outputs: Sequence[Union[str, Path]],
+        settings: Optional[MeshSettings] = None,
+        command: Optional[str] = None,
+        picture: Optional[Union[str, Path]] = None,
+    ) -> None:
+        self._folder = tempfile.TemporaryDirectory(prefix="quadrille-")
+        self._report = Path(self._folder.name) / "report.json"
+        self._arguments = [command or find_command(), "mesh", str(model)]
+        for output in outputs:
+            self._arguments += ["-o", str(output)]
+        self._arguments += (settings or MeshSettings()).arguments()
+        self._arguments += ["--report", str(self._report)]
+        if picture:
+            self._arguments += ["--picture", str(picture)]
+        self._lines: "queue.Queue[str]" = queue.Queue()
+        self._process: Optional[subprocess.Popen] = None
+        self._reader: Optional[threading.Thread] = None
+        self._cancelled = False
+        self._last_progress = ("start", 0.0)
+        self.messages: List[str] = []  #: what the command said on stderr, without the progress
+
+    def start(self) -> "MeshJob":
+        """Starts the child process."""
+        try:
+            self._process = subprocess.Popen(
+                self._arguments,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+                text=True,
+                errors="replace",
+                env=child_environment(),
+            )
+        except OSError as error:
+            raise Error(f"{self._arguments[0]}: cannot be started: {error.strerror}", "failure",
+                        self._arguments[0]) from error
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+        return self
+
+    def _read(self) -> None:
+        for line in self._process.stderr:
+            self._lines.put(line.rstrip("\n"))
+
+    @property
+    def running(self) -> bool:
+        """True while the child process lives."""
+        return self._process is not None and self._process.poll() is None
+
+    def poll(self) -> List[Tuple[str, float]]:
+        """The progress made since the last call, as (stage, fraction) pairs. Never waits."""
+        progress = []
+        while True:
+            try:
+                line = self._lines.get_nowait()
+            except queue.Empty:
+                return progress
+            match = _PROGRESS_LINE.match(line)
+            if match:
+                progress.append((match.group(1), int(match.group(2)) / 100))
+            elif line.strip():
+                self.messages.append(line.strip())
+
+    def cancel(self) -> None:
+        """Ends the child process: asked first, then killed."""
+        self._cancelled = True
+        if self.running:
+            self._process.terminate()
+            try:
+                self._process.wait(KILL_AFTER_SECONDS)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
+                self._process.wait()
+
+    def wait(self, progress: Optional[Progress] = None) -> Dict:
+        """Waits for the end, passing progress on; then as result()."""
+        try:
+            while self.running and not self._cancelled:
+                self._call(progress)
+                time.sleep(0.02)
+            self._call(progress)
+        except BaseException:
+            self.cancel()
+            self._close()
+            raise
+        return self.result()
+
+    def _call(self, progress: Optional[Progress]) -> None:
+        steps = self.poll()
+        if progress is None:
+            return
+        # Called even when there is nothing new, so that cancelling does not wait for the next step.
+        for step in steps or [self._last_progress]:
+            self._last_progress = step
+            if progress(*step) is False:
+                self.cancel()
+                return
+
+    def result(self) -> Dict:
+        """The report of a job that has ended; raises Error with the command's own sentence when it failed."""
+        code = self._process.wait()
+        self._reader.join(1.0)
+        self.poll()
+        try:
+            if self._cancelled:
+                raise Error("the meshing was cancelled", "cancelled")
+            if code != 0:
+                raise self._error(code)
+            with open(self._report, encoding="utf-8") as file:
+                return json.load(file)
+        finally:
+            self._close()
+
+    def _close(self) -> None:
+        self._reader.join(1.0)
+        if not self._reader.is_alive():  # a grandchild may hold the pipe open
+            self._process.stderr.close()
+        self._folder.cleanup()
+
+    def _error(self, code: int) -> Error:
+        if code < 0:
+            return Error(f"the mesher was killed by signal {-code}", "failure", self._arguments[0])
+        sentence = self.messages[-1] if self.messages else f"the mesher ended with exit code {code}"
+        prefix = "quadrille: "
+        if sentence.startswith(prefix):
+            sentence = sentence[len(prefix):]
+        return Error(sentence, _KINDS.get(code, "failure"))
+
+
+def child_environment() -> Dict[str, str]:
+    """The environment of the child: an AppImage's own library paths would break a program from outside it."""
+    environment = dict(os.environ)
+    if "APPDIR" in environment:
+        for name in ("LD_LIBRARY_PATH", "LD_PRELOAD", "PYTHONHOME", "PYTHONPATH"):
+            environment.pop(name, None)
+    return environment

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The one exception type."""
+
+
+class Error(RuntimeError):
+    """What went wrong, as one sentence for the user.
+
+    Attributes:
+        kind: "usage" (asked for something that makes no sense), "failure" (the input or the machine made it
+            impossible) or "cancelled".
+        subject: the file, face ("Face3"), object or option concerned; may be empty.
+    """
+
+    def __init__(self, sentence: str, kind: str = "failure", subject: str = "") -> None:
+        super().__init__(sentence)
+        self.kind = kind
+        self.subject = subject
