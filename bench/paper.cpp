@@ -1,0 +1,302 @@
+/// The tables of Giuliani & Krivodonova (2018): colouring against Gmsh's Blossom on identical triangulations.
+///
+///     paper [--first N] [--domains N] [--colourings N] [--blossom-limit TRIANGLES] [--gmsh PROGRAM] [--out
+///     FOLDER]
+///
+/// Makes the triangulations from --first to --domains of six (rectangle 1 2 3, Lake Ontario 1 2 3), pairs
+/// each by colouring (paper's mode), by Quadrille's default and by Blossom, improves all three alike, prints
+/// a table and writes FOLDER/paper.json.
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "bench/planar_triangulation.hpp"
+#include "geometry/error.hpp"
+#include "mesher/edge_coloring.hpp"
+#include "mesher/io/io.hpp"
+#include "mesher/quality.hpp"
+#include "mesher/recombine.hpp"
+#include "mesher/triangulated_surface.hpp"
+
+namespace quadrille::bench {
+
+namespace {
+
+using nlohmann::json;
+
+struct Domain {
+  const char* name;
+  bool lake;
+  double size;
+  double growth;                         // of the size, per distance from the shore
+  double paper_coloring, paper_blossom;  // seconds
+};
+
+constexpr std::array<Domain, 6> domains{{{"rectangle 1", false, 0.0256, 0, 0.0063, 0.12},
+                                         {"rectangle 2", false, 0.01288, 0, 0.042, 0.39},
+                                         {"rectangle 3", false, 0.006432, 0, 0.50, 5.34},
+                                         {"Lake Ontario 1", true, 0.1555, 0.1, 0.06, 7.12},
+                                         {"Lake Ontario 2", true, 0.07465, 0.048, 1.35, 449},
+                                         {"Lake Ontario 3", true, 0.03752, 0.02413, 10.1, 1667}}};
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+TriangleMesh make(const Domain& domain) {
+  if (!domain.lake) return triangulate({{{0, 0}, {1, 0}, {1, 3.5}, {0, 3.5}}}, {domain.size}, 1);
+  const std::filesystem::path shore =
+      std::filesystem::path(QUADRILLE_SOURCE_DIR) / "bench/data/lake_ontario.txt";
+  return triangulate(read_rings(shore), {domain.size, domain.growth}, 1);
+}
+
+ShellMesh to_shell(const QuadMesh& quads) {
+  ShellMesh shell;
+  shell.points = quads.points;
+  shell.quads = quads.quads;
+  shell.triangles = quads.triangles;
+  shell.quad_faces.assign(shell.quads.size(), 1);
+  shell.triangle_faces.assign(shell.triangles.size(), 1);
+  return shell;
+}
+
+json measures(const QuadMesh& quads) {
+  const QualitySummary summary = quality(to_shell(quads));
+  return {{"quads", summary.quads},
+          {"triangles", summary.triangles},
+          {"q_mean", summary.q_mean},
+          {"q_min", summary.q_min},
+          {"irregular_percent", summary.irregular_percent},
+          {"inverted", summary.inverted},
+          {"histogram", summary.q_histogram}};
+}
+
+json improved(const TriangleMesh& mesh, const QuadMesh& quads) {
+  ExecutionContext context;
+  ImproveReport report;
+  std::vector<int> renumbered;
+  const Stopwatch watch;
+  const QuadMesh result = improve_on(mesh, quads, {}, renumbered, report, context);
+  const double seconds = watch.seconds();
+  json entry = measures(result);
+  entry["seconds"] = seconds;
+  return entry;
+}
+
+/// The least time of some runs, as many as fit in a second.
+template <class Run>
+double best_seconds(Run&& run) {
+  double best = 1e300;
+  const Stopwatch all;
+  for (int k = 0; k < 5 && (k == 0 || all.seconds() < 1); ++k) {
+    const Stopwatch watch;
+    run();
+    best = std::min(best, watch.seconds());
+  }
+  return best;
+}
+
+json run_quadrille(const TriangleMesh& mesh, bool paper_mode) {
+  RecombineOptions options;
+  options.paper_mode = paper_mode;
+  ExecutionContext context(1);
+  QuadMesh quads;
+  const double seconds = best_seconds([&] { quads = recombine(mesh, options, context); });
+  json entry = measures(quads);
+  entry["seconds"] = seconds;
+  entry["improved"] = improved(mesh, quads);
+  return entry;
+}
+
+/// The stages of the paper's mode alone: neighbours, greedy colouring, blanks, boundary.
+json time_coloring(const TriangleMesh& mesh) {
+  double connect = 1e300, greedy = 1e300, blanks = 1e300, boundary = 1e300;
+  int greedy_blanks = 0, left = 0, boundary_left = 0;
+  best_seconds([&] {
+    Random random(1);
+    const Stopwatch a;
+    EdgeColoring coloring(mesh);
+    connect = std::min(connect, a.seconds());
+    const Stopwatch b;
+    greedy_blanks = color_greedily(coloring, random);
+    greedy = std::min(greedy, b.seconds());
+    const Stopwatch c;
+    left = remove_blanks(coloring, random);
+    blanks = std::min(blanks, c.seconds());
+    const Stopwatch d;
+    boundary_left = clear_boundary(coloring, least_boundary_color(coloring), random);
+    boundary = std::min(boundary, d.seconds());
+  });
+  return {{"connect_seconds", connect},    {"greedy_seconds", greedy}, {"greedy_blanks", greedy_blanks},
+          {"blanks_seconds", blanks},      {"blanks_left", left},      {"boundary_seconds", boundary},
+          {"boundary_left", boundary_left}};
+}
+
+void write_msh(const TriangleMesh& mesh, const std::filesystem::path& path) {
+  ShellMesh shell;
+  shell.points = mesh.points;
+  shell.triangles = mesh.triangles;
+  shell.triangle_faces.assign(mesh.triangles.size(), 1);
+  write_mesh(shell, path);
+}
+
+/// Gmsh's Blossom on a file, its topological optimisation off. The time is the one that Gmsh prints for it.
+json run_blossom(const TriangleMesh& mesh, const std::string& gmsh, const std::filesystem::path& folder) {
+  const std::filesystem::path input = folder / "triangles.msh", output = folder / "blossom.msh";
+  const std::filesystem::path script = folder / "blossom.geo";
+  write_msh(mesh, input);
+  std::ofstream(script)
+      << "Merge \"" << input.filename().string() << "\";\nMesh.RecombinationAlgorithm = 1;\n"
+      << "Mesh.RecombineOptimizeTopology = 0;\nMesh.MshFileVersion = 2.2;\nRecombineMesh;\nSave \""
+      << output.filename().string() << "\";\n";
+  const std::string command = fmt::format("cd '{}' && {} blossom.geo - 2>&1", folder.string(), gmsh);
+  std::FILE* pipe = ::popen(command.c_str(), "r");
+  if (!pipe) throw failure(gmsh, gmsh + ": cannot be started");
+  double wall = -1, cpu = -1;
+  char line[1024];
+  while (std::fgets(line, sizeof line, pipe)) {
+    std::sscanf(line, "Info : Blossom recombination completed (Wall %lfs, CPU %lfs)", &wall, &cpu);
+  }
+  if (::pclose(pipe) != 0 || wall < 0) throw failure(gmsh, gmsh + ": Blossom did not complete");
+  const ShellMesh read = read_mesh(output);
+  QuadMesh quads;
+  quads.points = read.points;
+  quads.quads = read.quads;
+  quads.triangles = read.triangles;
+  json entry = measures(quads);
+  entry["seconds"] = wall;
+  entry["cpu_seconds"] = cpu;
+  // Its elements keep the points' places, so the same triangulation serves to smooth on.
+  entry["improved"] = improved(mesh, quads);
+  return entry;
+}
+
+void print_row(const char* method, const json& entry) {
+  const json& after = entry["improved"];
+  fmt::print(
+      "  {:9} {:10.4f} s  left {:5}  q {:.3f} / {:.3f}  irregular {:5.2f} %   improved: q {:.3f} / {:.3f}  "
+      "irregular {:5.2f} %  ({:.2f} s)\n",
+      method, entry["seconds"].get<double>(), entry["triangles"].get<int>(), entry["q_mean"].get<double>(),
+      entry["q_min"].get<double>(), entry["irregular_percent"].get<double>(), after["q_mean"].get<double>(),
+      after["q_min"].get<double>(), after["irregular_percent"].get<double>(), after["seconds"].get<double>());
+  std::fflush(stdout);
+}
+
+json run_domain(const Domain& domain, int blossom_limit, const std::string& gmsh,
+                const std::filesystem::path& folder) {
+  const TriangleMesh mesh = make(domain);
+  const double count = static_cast<double>(mesh.triangles.size());
+  fmt::print("{}: {} triangles; mean q / minimum q\n", domain.name, mesh.triangles.size());
+  json entry = {
+      {"name", domain.name},
+      {"triangles", mesh.triangles.size()},
+      {"paper", {{"coloring_seconds", domain.paper_coloring}, {"blossom_seconds", domain.paper_blossom}}}};
+  entry["stages"] = time_coloring(mesh);
+  const json& stages = entry["stages"];
+  fmt::print(
+      "  colouring {:.3f} + blanks {:.3f} us a triangle ({:.1f} % blank, {} left); neighbours {:.3f}, "
+      "boundary {:.3f} ({} edges left)\n",
+      1e6 * stages["greedy_seconds"].get<double>() / count,
+      1e6 * stages["blanks_seconds"].get<double>() / count,
+      100 * stages["greedy_blanks"].get<double>() / count, stages["blanks_left"].get<int>(),
+      1e6 * stages["connect_seconds"].get<double>() / count,
+      1e6 * stages["boundary_seconds"].get<double>() / count, stages["boundary_left"].get<int>());
+  entry["coloring"] = run_quadrille(mesh, true);
+  print_row("colouring", entry["coloring"]);
+  entry["default"] = run_quadrille(mesh, false);
+  print_row("default", entry["default"]);
+  if (static_cast<int>(count) > blossom_limit) {
+    fmt::print("  Blossom not run above {} triangles (--blossom-limit)\n", blossom_limit);
+    return entry;
+  }
+  entry["blossom"] = run_blossom(mesh, gmsh, folder);
+  print_row("Blossom", entry["blossom"]);
+  const double blossom = entry["blossom"]["seconds"];
+  fmt::print("  Blossom / colouring {:.0f} (paper {:.1f}), Blossom / default {:.0f}\n",
+             blossom / entry["coloring"]["seconds"].get<double>(),
+             domain.paper_blossom / domain.paper_coloring,
+             blossom / entry["default"]["seconds"].get<double>());
+  return entry;
+}
+
+/// Mean q of many colourings of the first rectangle: figure 10.
+json run_colorings(int count) {
+  const TriangleMesh mesh = make(domains[0]);
+  json means = json::array();
+  double low = 1, high = 0, sum = 0;
+  for (int seed = 1; seed <= count; ++seed) {
+    RecombineOptions options;
+    options.paper_mode = true;
+    options.seed = static_cast<std::uint64_t>(seed);
+    ExecutionContext context(1);
+    const QuadMesh quads = recombine(mesh, options, context);
+    double mean = 0;
+    for (const auto& [a, b, c, d] : quads.quads) {
+      mean += quad_q(quads.points[a], quads.points[b], quads.points[c], quads.points[d]);
+    }
+    mean /= static_cast<double>(quads.quads.size());
+    means.push_back(mean);
+    low = std::min(low, mean);
+    high = std::max(high, mean);
+    sum += mean;
+  }
+  fmt::print("mean q of {} colourings of rectangle 1: {:.4f} to {:.4f}, mean {:.4f} (paper 0.505 to 0.522)\n",
+             count, low, high, sum / count);
+  return means;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("The tables of Giuliani & Krivodonova (2018), colouring against Gmsh's Blossom");
+  int first = 1, domain_count = 4, colorings = 0, blossom_limit = 300'000;
+  std::string gmsh = "gmsh";
+  std::filesystem::path folder = ".";
+  app.add_option("--first", first, "the first of the triangulations to make (default 1)")
+      ->check(CLI::Range(1, 6));
+  app.add_option("--domains", domain_count, "the last of the six triangulations to make (default 4)")
+      ->check(CLI::Range(0, 6));
+  app.add_option("--colourings", colorings,
+                 "figure 10: how many colourings of the first rectangle (default 0)");
+  app.add_option("--blossom-limit", blossom_limit, "largest triangulation given to Blossom (default 300000)");
+  app.add_option("--gmsh", gmsh, "the gmsh program");
+  app.add_option("--out", folder, "folder for paper.json and the meshes");
+  CLI11_PARSE(app, argc, argv);
+  std::filesystem::create_directories(folder);
+  json results = {{"domains", json::array()}};
+  for (int k = first - 1; k < domain_count; ++k) {
+    results["domains"].push_back(run_domain(domains[k], blossom_limit, gmsh, folder));
+  }
+  if (colorings > 0) results["colourings"] = run_colorings(colorings);
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  results["peak_bytes"] = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+  std::ofstream(folder / "paper.json") << results.dump(1) << "\n";
+  return 0;
+}
+
+}  // namespace
+
+}  // namespace quadrille::bench
+
+int main(int argc, char** argv) {
+  try {
+    return quadrille::bench::run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "paper: {}\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,29 @@
+#pragma once
+/// Plain planar Delaunay triangulations for the paper's domains: graded random points, relaxed a little, all
+/// inserted at once. Not field-aligned: as a general triangulator makes them. Based on: Bridson, Fast Poisson
+/// disk sampling in arbitrary dimensions (2007).
+
+#include <filesystem>
+#include <vector>
+
+#include "geometry/vector.hpp"
+#include "mesher/mesh_types.hpp"
+
+namespace quadrille::bench {
+
+using Ring = std::vector<Vector2>;  ///< closed, without the first point again
+
+/// Size at the boundary, and how it grows with the distance from it.
+struct Grading {
+  double boundary_size = 1;
+  double growth = 0;
+  double largest = 1e300;
+};
+
+/// \param rings the outer ring and the islands, in any direction; their points are kept.
+TriangleMesh triangulate(const std::vector<Ring>& rings, const Grading& grading, unsigned seed);
+
+/// Rings as in bench/data/lake_ontario.txt: "> count", then "x y" lines.
+std::vector<Ring> read_rings(const std::filesystem::path& path);
+
+}  // namespace quadrille::bench
