@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that Quadrille is built, run and tested with (Debian 12 and 13, and what derives from
+# them). Says what it installs before it does. Safe to run again: it does nothing when all is there.
+#
+#   scripts/install_dependencies.sh           install what is missing
+#   scripts/install_dependencies.sh --list    print the packages and stop
+set -euo pipefail
+
+packages=(
+  # build
+  ca-certificates git build-essential cmake ninja-build ccache pkg-config
+  # CAD: OpenCASCADE
+  libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev libocct-data-exchange-dev
+  libocct-ocaf-dev
+  # sizing field, triangulation, threads, small libraries
+  libopenvdb-dev libboost-iostreams-dev libcgal-dev libtbb-dev libeigen3-dev
+  libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
+  # mesh files and pictures; Xvfb gives VTK a display on machines without a screen
+  libmed-dev libmedc-dev libhdf5-dev libvtk9-dev libx11-dev xvfb xauth fonts-dejavu-core
+  # Python module
+  pybind11-dev python3 python3-dev python3-numpy
+  # tests, benchmarks
+  libgtest-dev libbenchmark-dev
+  # what meshes are made for, and compared with
+  freecad gmsh python3-matplotlib
+)
+# Debian 13 has no CalculiX: what needs it is left out there.
+optional=(calculix-ccx)
+
+if [[ "${1:-}" == --list ]]; then
+  printf '%s\n' "${packages[@]}" "${optional[@]}"
+  exit 0
+fi
+
+is_installed() { [[ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null || true)" == installed ]]; }
+is_available() { apt-cache policy "$1" 2>/dev/null | grep 'Candidate: [^(]' >/dev/null; }
+
+missing=()
+for package in "${packages[@]}"; do
+  is_installed "$package" || missing+=("$package")
+done
+wanted=()
+for package in "${optional[@]}"; do
+  is_installed "$package" || wanted+=("$package")
+done
+if [[ ${#missing[@]} -eq 0 ]]; then
+  found=()
+  for package in "${wanted[@]}"; do
+    if is_available "$package"; then found+=("$package"); fi
+  done
+  wanted=("${found[@]}")
+  if [[ ${#wanted[@]} -eq 0 ]]; then
+    echo "All Debian packages that Quadrille needs are installed."
+    exit 0
+  fi
+fi
+
+if ! command -v apt-get >/dev/null; then
+  echo "error: this system has no apt-get; install what these Debian packages hold: ${missing[*]}" >&2
+  exit 1
+fi
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "error: run this as root, or install sudo; missing packages: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+
+echo "Installing with apt-get these Debian packages, and what they depend on:"
+printf '  %s\n' "${missing[@]}" "${wanted[@]}"
+"${as_root[@]}" apt-get update -q
+for package in "${wanted[@]}"; do
+  if is_available "$package"; then
+    missing+=("$package")
+  else
+    echo "$package is not in this release of Debian: left out"
+  fi
+done
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -q --no-install-recommends -o Dpkg::Use-Pty=0 "${missing[@]}"

@@ -1,0 +1,8 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds with warnings as errors, and runs the tests; arguments go to ctest.
+set -euo pipefail
+cd "$(dirname "$(readlink -f "$0")")"
+
+scripts/install_dependencies.sh
+scripts/build.sh ci
+exec ctest --test-dir build --output-on-failure --parallel "$(nproc)" "$@"
