@@ -1,0 +1,154 @@
+/// bench: microseconds a quad of each stage, on the sample parts or on CAD files given, beside Gmsh in the same run.
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesher/quadrille.hpp"
+
+namespace quadrille {
+namespace {
+
+const std::vector<std::string> stages{"read", "size", "sample", "triangulate", "recombine", "improve", "assemble", "write"};
+
+struct Run {
+  std::size_t quads = 0;
+  double q_mean = 0;
+  std::map<std::string, double> seconds;
+  double total() const {
+    double sum = 0;
+    for (const auto& [stage, time] : seconds) sum += time;
+    return sum;
+  }
+};
+
+Run run_once(const std::filesystem::path& path, double divisions, const MeshOptions& base, int threads,
+             const std::filesystem::path& output) {
+  ExecutionContext context(threads);
+  std::optional<CadModel> model;
+  {
+    const StageTimer timer(context, "read");
+    model = CadModel::read(path);
+  }
+  MeshOptions options = base;
+  options.sizing.size = model->diagonal() / divisions;
+  const ShellMesh mesh = quadrille::mesh(*model, options, context);
+  {
+    const StageTimer timer(context, "write");
+    write_mesh(mesh, output);
+  }
+  return {mesh.quads.size(), quality(mesh).q_mean, context.seconds()};
+}
+
+/// CPU seconds of Gmsh's best all-quad mode: Blossom at twice the size, then midpoint subdivision. Negative = failed.
+double gmsh_seconds(const std::filesystem::path& path, double size, const std::filesystem::path& output) {
+  rusage before{}, after{};
+  ::getrusage(RUSAGE_CHILDREN, &before);
+  const std::string double_size = fmt::format("{}", 2 * size), least_size = fmt::format("{}", size / 4);
+  std::fflush(nullptr);  // or the child would print what is still buffered once more
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr)) ::_exit(127);
+    ::execlp("gmsh", "gmsh", path.c_str(), "-2", "-clmax", double_size.c_str(), "-clmin", least_size.c_str(), "-setnumber",
+             "Mesh.MeshSizeFromCurvature", "6", "-setnumber", "Mesh.RecombineAll", "1", "-setnumber",
+             "Mesh.RecombinationAlgorithm", "1", "-setnumber", "Mesh.SubdivisionAlgorithm", "1", "-setnumber",
+             "Mesh.Algorithm", "6", "-nt", "1", "-format", "msh22", "-o", output.c_str(), static_cast<char*>(nullptr));
+    ::_exit(127);
+  }
+  int status = 0;
+  if (child < 0 || ::waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) return -1;
+  ::getrusage(RUSAGE_CHILDREN, &after);
+  const auto seconds = [](const rusage& usage) {
+    return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+           1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+  };
+  return seconds(after) - seconds(before);
+}
+
+std::vector<std::string> sample_paths() {
+  std::vector<std::string> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(QUADRILLE_SOURCE_DIR "/examples/models")) {
+    paths.push_back(entry.path().string());
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+std::size_t count_quads(const std::filesystem::path& mesh) {
+  try {
+    return read_mesh(mesh).quads.size();
+  } catch (const Error&) {
+    return 0;
+  }
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Microseconds a quad of each stage");
+  std::vector<std::string> models = sample_paths();
+  std::vector<double> divisions{60, 150, 300};
+  int threads = 1, repeat = 3;
+  bool gmsh = false, direct = false;
+  app.add_option("MODEL", models, "CAD files (default: the sample parts)");
+  app.add_option("--elements-per-diagonal", divisions, "sizes, as the diagonal over these (default: 60 150 300)")->delimiter(',');
+  app.add_option("--threads", threads, "threads (default 1)");
+  app.add_option("--repeat", repeat, "runs of each, the fastest counts (default 3)")->check(CLI::PositiveNumber);
+  app.add_flag("--gmsh", gmsh, "run Gmsh on the same part at the same size, and print the ratio of the times a quad");
+  app.add_flag("--direct", direct, "the direct strategy");
+  CLI11_PARSE(app, argc, argv);
+
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("quadrille-bench-{}", ::getpid());
+  std::filesystem::create_directory(folder);
+  MeshOptions options;
+  options.strategy = direct ? Strategy::direct : Strategy::subdivide;
+  fmt::print("microseconds a quad\n{:<26}{:>6}{:>9}", "model", "n", "quads");
+  for (const auto& stage : stages) fmt::print("{:>12}", stage);
+  fmt::print("{:>9}{:>8}{}\n", "total", "q", gmsh ? "    gmsh   ratio" : "");
+  for (const std::string& model : models) {
+    for (const double n : divisions) {
+      Run best;
+      for (int i = 0; i < repeat; ++i) {
+        Run now = run_once(model, n, options, threads, folder / "mesh.msh");
+        if (i == 0 || now.total() < best.total()) best = std::move(now);
+      }
+      const double scale = 1e6 / static_cast<double>(std::max<std::size_t>(best.quads, 1));
+      fmt::print("{:<26}{:>6}{:>9}", std::filesystem::path(model).filename().string(), n, best.quads);
+      for (const auto& stage : stages) fmt::print("{:>12.3f}", scale * best.seconds[stage]);
+      fmt::print("{:>9.3f}{:>8.3f}", scale * best.total(), best.q_mean);
+      if (gmsh) {
+        const double size = CadModel::read(model).diagonal() / n;
+        const double seconds = gmsh_seconds(model, size, folder / "gmsh.msh");
+        const std::size_t quads = seconds < 0 ? 0 : count_quads(folder / "gmsh.msh");
+        if (quads == 0) {
+          fmt::print("  failed");
+        } else {
+          const double theirs = 1e6 * seconds / static_cast<double>(quads);
+          fmt::print("{:>8.1f}{:>8.1f}", theirs, theirs / (scale * best.total()));
+        }
+      }
+      fmt::print("\n");
+    }
+  }
+  std::filesystem::remove_all(folder);
+  return 0;
+}
+
+}  // namespace
+}  // namespace quadrille
+
+int main(int argc, char** argv) {
+  try {
+    return quadrille::run(argc, argv);
+  } catch (const std::exception& problem) {
+    fmt::print(stderr, "bench: {}\n", problem.what());
+    return 1;
+  }
+}
