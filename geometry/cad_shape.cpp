@@ -8,6 +8,8 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
+#include <Precision.hxx>
+#include <ShapeAnalysis_Surface.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopoDS.hxx>
@@ -56,7 +58,9 @@ void CadShape::read_topology() {
   }
 
   faces.resize(face_map.Extent());
-  for (int i = 1; i <= face_map.Extent(); ++i) read_face(i - 1, TopoDS::Face(face_map(i)), edge_map);
+  for (int i = 1; i <= face_map.Extent(); ++i) {
+    read_face(i - 1, TopoDS::Face(face_map(i)), edge_map, vertex_map);
+  }
 
   for (CadEdge& edge : edges) {
     std::sort(edge.faces.begin(), edge.faces.end());
@@ -86,15 +90,27 @@ std::vector<TopoDS_Edge> ordered_edges(const TopoDS_Wire& wire, const TopoDS_Fac
   return ordered ? result : plain;
 }
 
+/// Where a vertex lies in the parameter plane of a face.
+Vector2 parameters_on(const TopoDS_Face& face, const TopoDS_Vertex& vertex) {
+  ShapeAnalysis_Surface surface(BRep_Tool::Surface(face));
+  const gp_Pnt2d uv = surface.ValueOfUV(BRep_Tool::Pnt(vertex), Precision::Confusion());
+  return {uv.X(), uv.Y()};
+}
+
 }  // namespace
 
-void CadShape::read_face(int index, const TopoDS_Face& source, const TopTools_IndexedMapOfShape& edge_map) {
+void CadShape::read_face(int index, const TopoDS_Face& source, const TopTools_IndexedMapOfShape& edge_map,
+                         const TopTools_IndexedMapOfShape& vertex_map) {
   CadFace& face = faces[index];
   face.reversed = source.Orientation() == TopAbs_REVERSED;
   face.face = TopoDS::Face(source.Oriented(TopAbs_FORWARD));
   face.tolerance = BRep_Tool::Tolerance(face.face);
   BRepTools::UVBounds(face.face, face.u_min, face.u_max, face.v_min, face.v_max);
   for (TopoDS_Iterator it(face.face); it.More(); it.Next()) {
+    if (it.Value().ShapeType() == TopAbs_VERTEX) {
+      const TopoDS_Vertex& vertex = TopoDS::Vertex(it.Value());
+      face.inner_vertices.push_back({vertex_map.FindIndex(vertex), parameters_on(face.face, vertex)});
+    }
     if (it.Value().ShapeType() != TopAbs_WIRE) continue;
     CadWire wire;
     for (const TopoDS_Edge& edge : ordered_edges(TopoDS::Wire(it.Value()), face.face, wire.ordered)) {

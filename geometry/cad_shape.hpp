@@ -50,10 +50,17 @@ struct CadWire {
   bool ordered = true;          ///< false where no such order was found
 };
 
+/// A vertex inside a face, on none of its edges.
+struct InnerVertex {
+  int vertex = 0;
+  Vector2 uv{0, 0};
+};
+
 struct CadFace {
   TopoDS_Face face;      ///< oriented forward: its normal is the surface's
   bool reversed = false; ///< the model uses the other side
   std::vector<CadWire> wires;
+  std::vector<InnerVertex> inner_vertices;
   double u_min = 0, u_max = 0, v_min = 0, v_max = 0;  ///< bounds of the trimmed face in the parameter plane
   double tolerance = 0;
 };
@@ -77,7 +84,8 @@ class CadShape {
 
  private:
   void read_topology();
-  void read_face(int index, const TopoDS_Face& face, const TopTools_IndexedMapOfShape& edge_map);
+  void read_face(int index, const TopoDS_Face& face, const TopTools_IndexedMapOfShape& edge_map,
+                 const TopTools_IndexedMapOfShape& vertex_map);
   void measure();
 };
 

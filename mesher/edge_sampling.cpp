@@ -87,10 +87,11 @@ class EdgeTabulator {
 };
 
 /// Fewest segments (of the mesh that is recombined) that keep the edge's shape and the face's loop open.
-int least_segments(const CadEdge& edge, const CountTable& table, bool shares_both_ends, int stride) {
+int least_segments(const CadEdge& edge, const CountTable& table, bool shares_both_ends, bool inner, int stride) {
   constexpr double turning_a_segment = 1.8;
   int least = std::max(1, static_cast<int>(std::ceil(table.turning / turning_a_segment - 0.01)));
   if (shares_both_ends && table.turning > 1e-3) least = std::max(least, 2);
+  if (inner) least = std::max(least, 2);  // the face is cut open between its ends
   if (edge.closed()) least = std::max(least, stride == 2 ? 3 : 4);
   return least;
 }
@@ -107,6 +108,17 @@ std::vector<char> find_shared_ends(const CadShape& shape) {
     shared.push_back(!edge.degenerate && !edge.closed() && count[key(edge)] > 1);
   }
   return shared;
+}
+
+/// Edges that lie inside a face.
+std::vector<char> find_inner_edges(const CadShape& shape) {
+  std::vector<char> inner(shape.edges.size(), 0);
+  for (const CadFace& face : shape.faces) {
+    for (const CadWire& wire : face.wires) {
+      for (const Coedge& coedge : wire.coedges) inner[coedge.edge - 1] |= coedge.internal;
+    }
+  }
+  return inner;
 }
 
 /// The faces used that have the edge an odd number of times.
@@ -243,6 +255,7 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
 
   SizingField::Sampler sampler(field);
   const std::vector<char> shared_ends = find_shared_ends(shape);
+  const std::vector<char> inner = find_inner_edges(shape);
   std::vector<CountTable> tables(n);
   std::vector<int> least(n, 0);
   std::vector<double> wanted(n, 0);
@@ -252,7 +265,7 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
     if (edge.degenerate || edge.length <= 0 || !is_used(edge, used)) continue;
     tables[i] = EdgeTabulator(edge, sampler).table;
     wanted[i] = tables[i].total() / result.stride * refine[i];
-    least[i] = least_segments(edge, tables[i], shared_ends[i], result.stride);
+    least[i] = least_segments(edge, tables[i], shared_ends[i], inner[i], result.stride);
   }
   std::vector<int> counts = choose_counts(shape, used, wanted, least, true, result.odd_faces);
   if (!result.odd_faces.empty()) {
@@ -276,6 +289,10 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
     if (!is_used(edge, used)) continue;
     if (edge.first_vertex > 0) vertex_node(edge.first_vertex, {});
     if (edge.last_vertex > 0) vertex_node(edge.last_vertex, {});
+  }
+  for (std::size_t face = 0; face < shape.faces.size(); ++face) {
+    if (!used[face]) continue;
+    for (const InnerVertex& point : shape.faces[face].inner_vertices) vertex_node(point.vertex, {});
   }
   for (int i = 0; i < n; ++i) {
     if (counts[i] == 0) continue;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -12,24 +14,34 @@ namespace quadrille {
 
 namespace {
 
-/// Parameter points along a pole: as many as elements that meet there, so that the triangulation fans out evenly.
+/// Parameter points along a pole: as many as elements that meet there, so that the triangulation fans out
+/// evenly.
 constexpr int pole_segments = 6;
 
 class BoundaryWalker {
  public:
   BoundaryWalker(const CadShape& shape, int face, const FaceSurface& surface, const BoundaryNodes& nodes)
-      : shape_(shape), face_(shape.faces[face]), surface_(surface), scale_(surface.mean_scale()), nodes_(nodes) {}
+      : shape_(shape),
+        face_(shape.faces[face]),
+        surface_(surface),
+        scale_(surface.mean_scale()),
+        nodes_(nodes) {}
 
   FaceBoundary walk() {
     for (const CadWire& wire : face_.wires) walk_wire(wire);
+    join_touching();
+    for (const InnerVertex& inner : face_.inner_vertices) {
+      add_point(inner.uv, nodes_.vertex_nodes[inner.vertex - 1]);
+    }
     return std::move(boundary_);
   }
 
  private:
   struct Run {
-    int first = -1, last = -1;        // point instances at the start and the end, in the wire's direction
+    int first = -1, last = -1;  // point instances at the start and the end, in the wire's direction
     int first_segment = 0, end_segment = 0;
-    Vector3 leaving{0, 0, 0}, arriving{0, 0, 0};  // tangents at the start and the end, in the wire's direction
+    Vector3 leaving{0, 0, 0},
+        arriving{0, 0, 0};  // tangents at the start and the end, in the wire's direction
   };
 
   int add_point(const Vector2& uv, int node) {
@@ -121,8 +133,8 @@ class BoundaryWalker {
     return (boundary_.uv[a] - boundary_.uv[b]).cwiseProduct(scale_).norm();
   }
 
-  /// Makes the end of one coedge and the start of the next one point; a jump between them at one node is a pole that
-  /// the file does not say.
+  /// Makes the end of one coedge and the start of the next one point; a jump between them at one node is a
+  /// pole that the file does not say.
   void join(const Run& run, const Run& next) {
     const int a = run.last, b = next.first;
     if (a == b || boundary_.nodes[a] != boundary_.nodes[b]) return;
@@ -145,6 +157,33 @@ class BoundaryWalker {
           M_PI - std::atan2(run.arriving.cross(next.leaving).dot(normal), run.arriving.dot(next.leaving));
     }
     joined_.push_back({a, b});
+  }
+
+  /// Where wires touch, as a hole and the seam may, and along slits, one point is left of each place.
+  void join_touching() {
+    constexpr double nearness = 0.01;  // of the shortest segment around
+    std::vector<double> reach(boundary_.size(), std::numeric_limits<double>::infinity());
+    for (const auto& segment : boundary_.segments) {
+      const double length = nearness * scaled_distance(segment.a, segment.b);
+      for (const int i : {segment.a, segment.b}) reach[i] = std::min(reach[i], length);
+    }
+    std::vector<int> order(boundary_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return boundary_.nodes[a] < boundary_.nodes[b]; });
+    std::vector<int> kept;  // of the node at hand
+    for (const int i : order) {
+      if (!kept.empty() && boundary_.nodes[kept.front()] != boundary_.nodes[i]) kept.clear();
+      const auto near = std::find_if(kept.begin(), kept.end(), [&](int other) {
+        return scaled_distance(other, i) <= std::min(reach[i], reach[other]);
+      });
+      if (near != kept.end()) {
+        joined_.push_back({i, *near});
+      } else {
+        kept.push_back(i);
+      }
+    }
+    drop_joined();
   }
 
   /// Renumbers without the points that were joined to others.
@@ -186,7 +225,8 @@ class BoundaryWalker {
 
 }  // namespace
 
-FaceBoundary face_boundary(const CadShape& shape, int face, const FaceSurface& surface, const BoundaryNodes& nodes) {
+FaceBoundary face_boundary(const CadShape& shape, int face, const FaceSurface& surface,
+                           const BoundaryNodes& nodes) {
   FaceBoundary boundary = BoundaryWalker(shape, face, surface, nodes).walk();
   if (boundary.segments.empty()) {
     const std::string name = fmt::format("Face{}", face + 1);

@@ -1,4 +1,5 @@
-/// Based on: Lawson (1977) for the flips; CGAL, 2D Triangulations, for the constrained Delaunay triangulation.
+/// Based on: Lawson (1977) for the flips; CGAL, 2D Triangulations, for the constrained Delaunay
+/// triangulation.
 
 // CGAL first: OpenCASCADE defines a macro named Handle.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -35,12 +36,14 @@ class MarkedFace : public Base {
   int mark = -1;
 };
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, MarkedFace<>>;
-using Cdt = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
+using Cdt =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
 
 Error crossing(int face, const Vector3& near) {
   const std::string name = fmt::format("Face{}", face);
-  return failure(name, fmt::format("the sampled boundary of {} crosses or touches itself near ({:.6g}, {:.6g}, {:.6g})",
-                                   name, near.x(), near.y(), near.z()));
+  return failure(
+      name, fmt::format("the sampled boundary of {} crosses or touches itself near ({:.6g}, {:.6g}, {:.6g})",
+                        name, near.x(), near.y(), near.z()));
 }
 
 class Triangulator {
@@ -55,7 +58,8 @@ class Triangulator {
     mark_domain();
     std::vector<std::array<int, 3>> triangles;
     for (auto f = cdt_.finite_faces_begin(); f != cdt_.finite_faces_end(); ++f) {
-      if (f->mark == 1) triangles.push_back({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
+      if (f->mark == 1)
+        triangles.push_back({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
     }
     return triangles;
   }
@@ -268,6 +272,120 @@ class SpaceFlipper {
   std::set<std::pair<int, int>> kept_;
 };
 
+/// Opens the triangulation along the segments that have the face on both sides, as if each side had a
+/// boundary of its own: recombination then keeps them as sides of the mesh.
+class CrackOpener {
+ public:
+  CrackOpener(FaceBoundary& boundary, std::vector<std::array<int, 3>>& triangles)
+      : boundary_(boundary), triangles_(triangles), inner_start_(boundary.size()) {}
+
+  void run() {
+    find_cracks();
+    if (cracks_.empty()) return;
+    std::set<int> ends;
+    for (const auto& [key, segment] : cracks_) ends.insert({key.first, key.second});
+    collect_corners(ends);
+    for (const int point : ends) split(point);
+    renumber_inner_points();
+    replace_segments();
+  }
+
+ private:
+  using Key = std::pair<int, int>;
+  static Key key(int a, int b) { return std::minmax(a, b); }
+
+  void find_cracks() {
+    std::map<Key, int> uses;
+    for (const auto& segment : boundary_.segments) {
+      if (segment.degenerate) continue;
+      if (segment.internal || ++uses[key(segment.a, segment.b)] > 1) {
+        cracks_.emplace(key(segment.a, segment.b), segment);
+      }
+    }
+  }
+
+  /// The corners (3 t + k) at each of the points, and the points that they had before the splits.
+  void collect_corners(const std::set<int>& ends) {
+    original_.reserve(3 * triangles_.size());
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        original_.push_back(triangles_[t][k]);
+        if (ends.contains(triangles_[t][k]))
+          corners_[triangles_[t][k]].push_back(static_cast<int>(3 * t) + k);
+      }
+    }
+  }
+
+  int original(int triangle, int k) const { return original_[3 * triangle + k % 3]; }
+
+  /// A point of its own for every fan of triangles but the first.
+  void split(int point) {
+    std::vector<int> left = corners_[point];
+    for (bool first = true; !left.empty(); first = false) {
+      std::vector<int> fan{left.back()};
+      left.pop_back();
+      for (std::size_t i = 0; i < fan.size(); ++i) {
+        std::erase_if(left, [&](int corner) {
+          if (!joined(fan[i], corner)) return false;
+          fan.push_back(corner);
+          return true;
+        });
+      }
+      if (first) continue;
+      const int copy = inner_start_ + static_cast<int>(copies_.size());
+      copies_.push_back(point);
+      for (const int corner : fan) triangles_[corner / 3][corner % 3] = -1 - copy;  // renumbered below
+    }
+  }
+
+  /// Whether two triangles at a point share a side there that is no crack.
+  bool joined(int corner, int other) const {
+    const int t = corner / 3, k = corner % 3, u = other / 3, j = other % 3;
+    const auto open = [&](int end) { return cracks_.contains(key(original(t, k), end)); };
+    if (original(t, k + 1) == original(u, j + 2) && !open(original(t, k + 1))) return true;
+    return original(t, k + 2) == original(u, j + 1) && !open(original(t, k + 2));
+  }
+
+  void renumber_inner_points() {
+    const int shift = static_cast<int>(copies_.size());
+    for (auto& triangle : triangles_) {
+      for (int& corner : triangle)
+        corner = corner < 0 ? -1 - corner : corner < inner_start_ ? corner : corner + shift;
+    }
+    for (const int point : copies_) {
+      boundary_.uv.push_back(boundary_.uv[point]);
+      boundary_.points.push_back(boundary_.points[point]);
+      boundary_.nodes.push_back(boundary_.nodes[point]);
+    }
+  }
+
+  /// One segment for each side of a crack.
+  void replace_segments() {
+    std::erase_if(boundary_.segments, [&](const auto& segment) {
+      return !segment.degenerate && cracks_.contains(key(segment.a, segment.b));
+    });
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        const auto it =
+            cracks_.find(key(original(static_cast<int>(t), k), original(static_cast<int>(t), k + 1)));
+        if (it == cracks_.end()) continue;
+        FaceBoundary::Segment segment = it->second;
+        segment.a = triangles_[t][k];
+        segment.b = triangles_[t][(k + 1) % 3];
+        boundary_.segments.push_back(segment);
+      }
+    }
+  }
+
+  FaceBoundary& boundary_;
+  std::vector<std::array<int, 3>>& triangles_;
+  int inner_start_;
+  std::map<Key, FaceBoundary::Segment> cracks_;
+  std::map<int, std::vector<int>> corners_;
+  std::vector<int> original_;
+  std::vector<int> copies_;
+};
+
 /// One point for all parameter points of a pole; triangles with two corners in it vanish.
 void collapse_poles(const FaceBoundary& boundary, std::vector<int>& target) {
   const auto root = [&](int i) {
@@ -302,9 +420,10 @@ void choose_sides(FaceTriangulation& face) {
 
 }  // namespace
 
-FaceTriangulation triangulate_face(int face, const FaceBoundary& boundary, const PlacedPoints& placed,
+FaceTriangulation triangulate_face(int face, FaceBoundary boundary, const PlacedPoints& placed,
                                    const FaceSurface& surface) {
   std::vector<std::array<int, 3>> triangles = Triangulator(face, boundary, placed, surface).run();
+  CrackOpener(boundary, triangles).run();
 
   const int count = boundary.size() + static_cast<int>(placed.uv.size());
   std::vector<int> target(count);

@@ -24,10 +24,10 @@ struct FaceTriangulation {
 };
 
 /// Triangulates in the parameter plane scaled by the mean metric (constrained Delaunay, in bulk), then flips sides in
-/// space to the Delaunay criterion.
+/// space to the Delaunay criterion. Along cracks each side of the face has points of its own.
 /// Throws Error (failure) naming the face when boundary segments cross or meet where they should not; the caller may
 /// then sample the edges finer.
-FaceTriangulation triangulate_face(int face, const FaceBoundary& boundary, const PlacedPoints& placed,
+FaceTriangulation triangulate_face(int face, FaceBoundary boundary, const PlacedPoints& placed,
                                    const FaceSurface& surface);
 
 }  // namespace quadrille
