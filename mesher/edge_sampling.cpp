@@ -287,12 +287,12 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
   // Vertices first, so that the numbering does not depend on the counts.
   for (const CadEdge& edge : shape.edges) {
     if (!is_used(edge, used)) continue;
-    if (edge.first_vertex > 0) vertex_node(edge.first_vertex, {});
-    if (edge.last_vertex > 0) vertex_node(edge.last_vertex, {});
+    if (edge.first_vertex > 0) vertex_node(edge.first_vertex, Vector3::Zero());
+    if (edge.last_vertex > 0) vertex_node(edge.last_vertex, Vector3::Zero());
   }
   for (std::size_t face = 0; face < shape.faces.size(); ++face) {
     if (!used[face]) continue;
-    for (const InnerVertex& point : shape.faces[face].inner_vertices) vertex_node(point.vertex, {});
+    for (const InnerVertex& point : shape.faces[face].inner_vertices) vertex_node(point.vertex, Vector3::Zero());
   }
   for (int i = 0; i < n; ++i) {
     if (counts[i] == 0) continue;
