@@ -1,2 +1,41 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Run by FreeCAD at the start of its window. Commands and task panels are registered here."""
+"""Run by FreeCAD at the start of its window: the workbench, its commands, and their place in the FEM workbench."""
+
+import FreeCADGui
+
+
+class QuadrilleWorkbench(FreeCADGui.Workbench):
+    """All-quad shell meshes for FEM."""
+
+    MenuText = "Quadrille"
+    ToolTip = "All-quad shell meshes of CAD parts, for FEM"
+
+    def __init__(self):
+        # FreeCAD runs this file without a name of its own.
+        from quadrille.gui import icon
+
+        self.__class__.Icon = icon("quadrille")
+
+    def Initialize(self):
+        """FreeCAD calls this when the workbench is first chosen."""
+        from quadrille.gui import commands
+
+        commands.register()
+        self.appendToolbar("Quadrille", commands.TOOLBAR)
+        self.appendMenu("Quadrille", commands.TOOLBAR)
+
+    def GetClassName(self):
+        """A workbench written in Python."""
+        return "Gui::PythonWorkbench"
+
+
+def _start():
+    """The commands are known from the start, so that the FEM workbench and macros have them too."""
+    from quadrille.gui import commands
+
+    commands.register()
+    commands.join_fem_workbench()
+
+
+FreeCADGui.addWorkbench(QuadrilleWorkbench())
+_start()

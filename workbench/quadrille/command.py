@@ -83,7 +83,7 @@ def find_command(command: Optional[str] = None, preference: Optional[str] = None
     """The path of the `quadrille` command.
 
     Looked for in this order: the argument, the environment variable QUADRILLE_COMMAND, the preference, PATH, the
-    build folder beside this file. A path that was asked for and cannot be run is an error: nothing else is tried.
+    path recorded by install-addon.sh, the build folder beside this file. A path that was asked for and cannot be run is an error: nothing else is tried.
     """
     for path, origin in (
         (command, "the argument 'command'"),
@@ -99,7 +99,13 @@ def find_command(command: Optional[str] = None, preference: Optional[str] = None
     if found:
         return found
     here = Path(__file__).absolute().parent
-    for folder in (here.parent.parent, here.parent.parent / "build"):
+    recorded = here / "command_path"  # written by install-addon.sh
+    if recorded.is_file():
+        found = shutil.which(recorded.read_text(encoding="utf-8").strip())
+        if found:
+            return found
+    source = Path(__file__).resolve().parent  # where the addon is a link to the source
+    for folder in (here.parent.parent, here.parent.parent / "build", source.parent.parent / "build"):
         found = shutil.which(str(folder / "quadrille"))
         if found:
             return found
@@ -109,6 +115,32 @@ def find_command(command: Optional[str] = None, preference: Optional[str] = None
         "failure",
         "quadrille",
     )
+
+
+#: The version of this package; the command must be of the same major and minor one.
+VERSION = "0.1.0"
+_checked: Dict[str, float] = {}
+
+
+def check_version(path: str) -> None:
+    """Raises Error when the command is of a version that this package does not fit. Asks each file once."""
+    modified = os.path.getmtime(path)
+    if _checked.get(path) == modified:
+        return
+    try:
+        answer = subprocess.run([path, "--version"], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                                errors="replace", timeout=30, env=child_environment(), check=False)
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise Error(f"{path}: does not tell its version ({error}); install Quadrille {VERSION}", "failure",
+                    path) from error
+    match = re.search(r"(\d+)\.(\d+)\.(\d+)", answer.stdout)
+    if answer.returncode != 0 or not match:
+        raise Error(f"{path}: is not the quadrille command; install Quadrille {VERSION}, or correct the preference "
+                    "Mod/Quadrille/Command", "failure", path)
+    if match.group(1, 2) != tuple(VERSION.split(".")[:2]):
+        raise Error(f"{path}: is of version {match.group()}, and this addon needs {VERSION}; install the two from one "
+                    "release", "failure", path)
+    _checked[path] = modified
 
 
 class MeshJob:

@@ -8,21 +8,28 @@ The shape goes to the `quadrille` command as a BREP file, the mesh comes back as
 mesher is a child process: it can neither freeze nor crash FreeCAD, and fits any build of it.
 """
 
+import json
 import os
 import tempfile
+from dataclasses import asdict
 from pathlib import Path
 from typing import Dict, Mapping, Optional, Sequence, Tuple, Union
 
 import FreeCAD
 import Fem
 
-from .command import MeshJob, MeshSettings, Progress, face_name, find_command
+from . import groups, shapes, undo
+from .command import MeshJob, MeshSettings, Progress, check_version, face_name, find_command
 from .errors import Error
 
-__all__ = ["Error", "MeshFeature", "mesh_object", "mesh_shape", "remesh", "use_reduced_shells"]
+__all__ = [
+    "Error", "MeshFeature", "ShapeJob", "check_part", "export", "find_mesher", "finish", "flip", "make_mesh", "mesh_object",
+    "mesh_shape", "refine", "remesh", "start", "suggested_size", "use_reduced_shells",
+]
 
 PREFERENCES = "User parameter:BaseApp/Preferences/Mod/Quadrille"
 _DEFAULT_STRATEGY = "default"
+UP_TO_DATE = "up to date"
 
 
 def mesh_object(
@@ -89,24 +96,142 @@ def mesh_object(
     )
     _check_analysis(analysis)
     fem_mesh, report = mesh_shape(_shape_of(doc_object), settings, progress, command, outputs, picture)
-    mesh = doc_object.Document.addObject(_mesh_type(), name)
-    MeshFeature(mesh)
-    mesh.Shape = doc_object
+    mesh = _add_mesh(doc_object, name)
     _store_settings(mesh, settings)
+    if analysis is not None:
+        analysis.addObject(mesh)
     _store_result(mesh, fem_mesh, report)
-    if FreeCAD.GuiUp:
-        mesh.ViewObject.Proxy = 0
+    return mesh
+
+
+def make_mesh(doc_object, size: Optional[float] = None, order: int = 2, name: str = "QuadMesh", analysis=None):
+    """Adds a mesh object for a document object, without meshing yet: the task panel or remesh() does that."""
+    _shape_of(doc_object)
+    _check_analysis(analysis)
+    mesh = _add_mesh(doc_object, name)
+    _store_settings(mesh, MeshSettings(size=None if size is None else _millimetres(size), elements_per_circle=12.0,
+                                       growth=0.3, order=order, seed=1))
+    mesh.Status = status(mesh)
     if analysis is not None:
         analysis.addObject(mesh)
     return mesh
 
 
+def check_part(doc_object, analysis=None) -> None:
+    """Raises Error when a document object cannot be meshed, or the analysis cannot take its mesh."""
+    _shape_of(doc_object)
+    _check_analysis(analysis)
+
+
+def check_references(mesh, references) -> None:
+    """Raises Error when references are not in the part of a mesh object."""
+    shapes.references_to_names(_shape_of(mesh.Shape), mesh.Shape, references)
+
+
+def suggested_size(doc_object, quads: int = 5000, elements_per_circle: float = 12) -> float:
+    """The size that gives a document object about so many quads, to two digits."""
+    return shapes.SizeEstimate(_shape_of(doc_object)).suggested(quads, elements_per_circle)
+
+
+def _add_mesh(doc_object, name: str):
+    mesh = doc_object.Document.addObject(_mesh_type(), name)
+    MeshFeature(mesh)
+    mesh.Shape = doc_object
+    if FreeCAD.GuiUp:
+        from .gui.view_provider import MeshViewProvider
+
+        MeshViewProvider(mesh.ViewObject)
+    return mesh
+
+
 def remesh(mesh, progress: Optional[Progress] = None, command: Optional[str] = None) -> None:
     """Meshes a mesh object's shape anew with the settings in its properties; on an Error it keeps its old mesh."""
-    if mesh.Shape is None:
-        raise Error(f"{mesh.Label}: the part that it meshes is gone", "usage", mesh.Name)
-    fem_mesh, report = mesh_shape(_shape_of(mesh.Shape), _load_settings(mesh), progress, command)
-    _store_result(mesh, fem_mesh, report)
+    job = start(mesh, command)
+    job.wait(progress)
+    finish(mesh, job)
+
+
+def start(mesh, command: Optional[str] = None, outputs: Sequence[Union[str, Path]] = ()) -> "ShapeJob":
+    """Starts to mesh a mesh object's shape in a child process; finish() takes the mesh when it has ended."""
+    key = (mesh.Document.Name, mesh.Name)
+    running = _running.get(key)
+    if running is not None and running.running:
+        raise Error(f"{mesh.Label}: is being meshed already; wait for it, or cancel it first", "usage", mesh.Name)
+    job = ShapeJob(_shape_to_mesh(mesh), _settings_to_use(mesh), command, outputs).start()
+    _running[key] = job
+    return job
+
+
+def finish(mesh, job: "ShapeJob") -> None:
+    """Puts the mesh of a job that has ended into its mesh object; on an Error the object keeps its old mesh."""
+    _running.pop((mesh.Document.Name, mesh.Name), None)
+    _store_result(mesh, *job.result())
+
+
+def forget(document_name: str, name: str) -> None:
+    """Drops the job of a mesh object that is gone."""
+    _running.pop((document_name, name), None)
+
+
+def refine(mesh, references, size, name: str = "Refinement"):
+    """Adds FreeCAD's own mesh region to a mesh object: faces, edges or vertices to mesh at a size of their own.
+
+    Args:
+        mesh: a mesh object of ours.
+        references: [(document object, ("Face3", "Edge4"))...], as FEM's References.
+        size: element size there, in mm or with a unit.
+    """
+    import ObjectsFem
+
+    if not references or not any(names for _, names in references):
+        raise Error("select the faces, edges or vertices to refine", "usage", mesh.Name)
+    length = _millimetres(size)
+    if not length > 0:
+        raise Error(f"a refinement of size {size} makes no sense: it must be larger than 0", "usage", mesh.Name)
+    check_references(mesh, references)  # an error now, not when meshing
+    region = ObjectsFem.makeMeshRegion(mesh.Document, mesh, length, name)
+    region.References = references
+    return region
+
+
+def flip(mesh, faces: Sequence[Union[int, str]] = ()) -> None:
+    """Turns the shell normals of faces over (all faces when none is named) and meshes again.
+
+    The faces go to the mesher reversed, so that files, solvers and views all see the same normals.
+    """
+    shape = _shape_of(mesh.Shape)
+    names = [face_name(face) for face in faces] or [f"Face{i}" for i in range(1, len(shape.Faces) + 1)]
+    unknown = sorted(set(names) - {f"Face{i}" for i in range(1, len(shape.Faces) + 1)})
+    if unknown:
+        raise Error(f"{mesh.Label}: has no face {unknown[0]} to flip", "usage", unknown[0])
+    before = list(mesh.FlippedFaces)
+    mesh.FlippedFaces = sorted(set(before) ^ set(names), key=lambda text: int(text[4:]))
+    try:
+        remesh(mesh)
+    except Error:
+        mesh.FlippedFaces = before
+        raise
+
+
+def export(mesh, path: Union[str, Path]) -> None:
+    """Writes the mesh of a mesh object to a file; the suffix tells the format (.inp .msh .unv .med .vtu .vtk .bdf).
+
+    The mesher writes the file, with all sets and groups: the same shape and settings give the same mesh.
+    """
+    reason = status(mesh)
+    if reason != UP_TO_DATE:
+        raise Error(f"{mesh.Label}: {reason}; nothing was exported", "usage", mesh.Name)
+    with tempfile.TemporaryDirectory(prefix="quadrille-") as folder:
+        written = os.path.join(folder, "export" + Path(path).suffix.lower())
+        job = start(mesh, outputs=[written])
+        fem_mesh, _ = job.wait_for_result()
+        if (fem_mesh.FaceCount, fem_mesh.NodeCount) != (mesh.FemMesh.FaceCount, mesh.FemMesh.NodeCount):
+            raise Error(f"{mesh.Label}: another version of the mesher made it; mesh again, then export", "failure",
+                        mesh.Name)
+        try:
+            Path(path).write_bytes(Path(written).read_bytes())
+        except OSError as error:
+            raise Error(f"{path}: cannot be written: {error.strerror}", "failure", str(path)) from error
 
 
 def mesh_shape(
@@ -118,20 +243,96 @@ def mesh_shape(
     picture: Optional[Union[str, Path]] = None,
 ) -> Tuple["Fem.FemMesh", Dict]:
     """Meshes a Part shape; returns the mesh with its groups, and the mesher's report (see `quadrille --report`)."""
-    if shape.isNull() or not shape.Faces:
-        raise Error("the shape has no faces to mesh", "usage")
+    return ShapeJob(shape, settings, command, outputs, picture).start().wait_for_result(progress)
+
+
+def find_mesher(command: Optional[str] = None) -> str:
+    """The path of the `quadrille` command, after a check that it is of the version of this addon."""
     preference = FreeCAD.ParamGet(PREFERENCES).GetString("Command", "")
     path = find_command(command, preference or None)
-    with tempfile.TemporaryDirectory(prefix="quadrille-") as folder:
-        model, output = os.path.join(folder, "shape.brep"), os.path.join(folder, "mesh.med")
+    check_version(path)
+    return path
+
+
+class ShapeJob:
+    """The meshing of a shape in a child process. Start it, then wait(), or poll() it from a timer until it has ended;
+    result() gives the mesh."""
+
+    def __init__(
+        self,
+        shape,
+        settings: MeshSettings,
+        command: Optional[str] = None,
+        outputs: Sequence[Union[str, Path]] = (),
+        picture: Optional[Union[str, Path]] = None,
+    ) -> None:
+        if shape.isNull() or not shape.Faces:
+            raise Error("the shape has no faces to mesh", "usage")
+        self._command = find_mesher(command)
+        self._folder = tempfile.TemporaryDirectory(prefix="quadrille-")
+        model = os.path.join(self._folder.name, "shape.brep")
+        self._output = os.path.join(self._folder.name, "mesh.med")
         shape.exportBrep(model)
-        report = MeshJob(model, [output, *outputs], settings, path, picture).start().wait(progress)
-        fem_mesh = Fem.read(output)
-    # FreeCAD's reader gives an empty mesh when it does not understand a file.
-    wanted = report.get("counts", {}).get("quads", 0)
-    if fem_mesh.FaceCount != wanted or not wanted:
-        raise Error(f"FreeCAD read {fem_mesh.FaceCount} of the {wanted} quads that {path} wrote", "failure", path)
-    return fem_mesh, report
+        self._job = MeshJob(model, [self._output, *outputs], settings, self._command, picture)
+        self._report: Optional[Dict] = None
+
+    def start(self) -> "ShapeJob":
+        """Starts the child process."""
+        try:
+            self._job.start()
+        except Error:
+            self._folder.cleanup()
+            raise
+        return self
+
+    @property
+    def running(self) -> bool:
+        """True while the child process lives."""
+        return self._job.running
+
+    @property
+    def messages(self) -> Sequence[str]:
+        """What the mesher has said besides its progress."""
+        return self._job.messages
+
+    def poll(self) -> Sequence[Tuple[str, float]]:
+        """The progress since the last call, as (stage, fraction) pairs; never waits."""
+        return self._job.poll()
+
+    def cancel(self) -> None:
+        """Ends the child process; result() then raises the Error of kind "cancelled"."""
+        self._job.cancel()
+
+    def wait(self, progress: Optional[Progress] = None) -> None:
+        """Waits for the end, passing progress on."""
+        try:
+            self._report = self._job.wait(progress)
+        except BaseException:
+            self._folder.cleanup()
+            raise
+
+    def result(self) -> Tuple["Fem.FemMesh", Dict]:
+        """The mesh and the mesher's report, once the child has ended; raises Error when it failed."""
+        try:
+            report = self._report if self._report is not None else self._job.result()
+            fem_mesh = Fem.read(self._output)
+        finally:
+            self._folder.cleanup()
+        # FreeCAD's reader gives an empty mesh when it does not understand a file.
+        wanted = report.get("counts", {}).get("quads", 0)
+        if fem_mesh.FaceCount != wanted or not wanted:
+            raise Error(f"FreeCAD read {fem_mesh.FaceCount} of the {wanted} quads that {self._command} wrote",
+                        "failure", self._command)
+        return fem_mesh, report
+
+    def wait_for_result(self, progress: Optional[Progress] = None) -> Tuple["Fem.FemMesh", Dict]:
+        """wait(), then result()."""
+        self.wait(progress)
+        return self.result()
+
+
+#: The jobs under way, by the names of document and mesh object.
+_running: Dict[Tuple[str, str], ShapeJob] = {}
 
 
 def use_reduced_shells(input_file: Union[str, Path]) -> int:
@@ -157,6 +358,7 @@ class MeshFeature:
     def __init__(self, obj) -> None:
         obj.Proxy = self
         self.add_properties(obj)
+        groups.watch()
 
     def add_properties(self, obj) -> None:
         """Adds what is missing, so that documents of older versions gain new properties."""
@@ -173,6 +375,10 @@ class MeshFeature:
             ("App::PropertyInteger", "Seed", "Mesh", "Seed of random choices"),
             ("App::PropertyInteger", "Threads", "Mesh", "Threads to use; 0 = all cores"),
             ("App::PropertyBool", "Partial", "Mesh", "Keep what could be meshed when a face fails"),
+            ("App::PropertyStringList", "FlippedFaces", "Mesh", "Faces whose shell normals are turned over"),
+            ("App::PropertyLinkList", "MeshRegionList", "Mesh", "FEM mesh regions: sizes on faces, edges, vertices"),
+            ("App::PropertyLinkList", "MeshGroupList", "Mesh", "FEM mesh groups to make"),
+            ("App::PropertyString", "Status", "Result", "Whether the mesh is that of the part and the settings"),
             ("App::PropertyInteger", "QuadCount", "Result", "Number of quads"),
             ("App::PropertyInteger", "NodeCount", "Result", "Number of nodes"),
             ("App::PropertyFloat", "WorstQuality", "Result", "Least q (1 = all corners right-angled, 0 = useless)"),
@@ -180,6 +386,9 @@ class MeshFeature:
             ("App::PropertyFloat", "WorstJacobian", "Result", "Least scaled Jacobian"),
             ("App::PropertyFloat", "IrregularPercent", "Result", "Inner nodes with other than four quads, percent"),
             ("App::PropertyFloat", "Seconds", "Result", "Seconds that the mesher took, all threads together"),
+            ("App::PropertyFloatList", "MeshedShape", "Hidden", "Measures of the part when it was meshed"),
+            ("App::PropertyString", "MeshedSettings", "Hidden", "Settings that the mesh was made with"),
+            ("App::PropertyString", "MeshToken", "Hidden", "Name of the mesh, for undo"),
         ):
             if name in obj.PropertiesList:
                 continue
@@ -194,15 +403,28 @@ class MeshFeature:
                 obj.Growth = 0.3
             elif name == "Seed":
                 obj.Seed = 1
-            if group == "Result":
-                obj.setEditorMode(name, 1)
+        self._set_editor_modes(obj)
+
+    @staticmethod
+    def _set_editor_modes(obj) -> None:
+        for name in obj.PropertiesList:
+            group = obj.getGroupOfProperty(name)
+            if group in ("Result", "Hidden"):
+                obj.setEditorMode(name, 1 if group == "Result" else 2)
+
+    def execute(self, obj) -> None:
+        """FreeCAD calls this when the part or a setting has changed: says so, and leaves the mesh as it is."""
+        before, now = obj.Status, status(obj)
+        if before == now:
+            return
+        obj.Status = now
+        if before == UP_TO_DATE:
+            FreeCAD.Console.PrintWarning(f"{obj.Label}: {now}\n")
 
     def onDocumentRestored(self, obj) -> None:
         """FreeCAD calls this after a document was read."""
         self.add_properties(obj)
-        for name in obj.PropertiesList:
-            if obj.getGroupOfProperty(name) == "Result":
-                obj.setEditorMode(name, 1)
+        groups.watch()
 
     # The state is all in the document's properties; 0.20 calls the second pair, 1.0 the first.
     def dumps(self):
@@ -237,6 +459,61 @@ def _shape_of(doc_object):
     if shape.isNull() or not shape.Faces:
         raise Error(f"{doc_object.Label}: its shape has no faces to mesh", "usage", doc_object.Name)
     return shape
+
+
+def _shape_to_mesh(mesh):
+    """The shape of a mesh object's part, with the faces reversed that are to be flipped."""
+    if mesh.Shape is None:
+        raise Error(f"{mesh.Label}: the part that it meshes is gone", "usage", mesh.Name)
+    return shapes.with_reversed_faces(_shape_of(mesh.Shape), mesh.FlippedFaces)
+
+
+def status(mesh) -> str:
+    """Whether a mesh object's mesh is that of its part and its settings, as a sentence."""
+    if mesh.Shape is None:
+        return "the part is gone"
+    if mesh.FemMesh.FaceCount == 0:
+        return "not meshed yet"
+    if not mesh.MeshedShape:
+        return "made by other means: mesh again"
+    shape = getattr(mesh.Shape, "Shape", None)
+    if shape is None or shape.isNull() or not shapes.same_fingerprint(list(mesh.MeshedShape),
+                                                                     shapes.fingerprint(shape)):
+        return "the part has changed: mesh again"
+    try:
+        if _settings_key(mesh) != mesh.MeshedSettings:
+            return "the settings have changed: mesh again"
+    except Error as error:
+        return f"{error}: mesh again"
+    return UP_TO_DATE
+
+
+def _settings_to_use(mesh) -> MeshSettings:
+    """The settings in the properties, with the sizes of the mesh regions."""
+    settings = _load_settings(mesh)
+    settings.sizes = sizes_wanted(mesh)
+    return settings
+
+
+def sizes_wanted(mesh) -> Dict[str, float]:
+    """The sizes on faces, edges and vertices, of the property Sizes and of the mesh regions."""
+    sizes = {name: float(size) for name, size in mesh.Sizes.items()}
+    shape = _shape_of(mesh.Shape)
+    for region in mesh.MeshRegionList:
+        length = region.CharacteristicLength
+        length = float(getattr(length, "Value", length))
+        if not length > 0:
+            raise Error(f"{region.Label}: a mesh region needs a length larger than 0", "usage", region.Name)
+        for name in shapes.references_to_names(shape, mesh.Shape, region.References):
+            sizes[name] = min(length, sizes.get(name, length))
+    return sizes
+
+
+def _settings_key(mesh) -> str:
+    settings = asdict(_settings_to_use(mesh))
+    del settings["threads"]  # the mesh does not depend on it
+    settings["flipped"] = list(mesh.FlippedFaces)
+    return json.dumps(settings, sort_keys=True, default=list)
 
 
 def _check_analysis(analysis) -> None:
@@ -288,7 +565,11 @@ def _load_settings(mesh) -> MeshSettings:
 
 
 def _store_result(mesh, fem_mesh, report: Dict) -> None:
-    mesh.FemMesh = fem_mesh
+    groups.add_groups(mesh, fem_mesh)
+    undo.put(mesh, fem_mesh)
+    mesh.MeshedShape = shapes.fingerprint(mesh.Shape.Shape)
+    mesh.MeshedSettings = _settings_key(mesh)
+    mesh.Status = UP_TO_DATE
     quality = report.get("quality", {})
     mesh.QuadCount = fem_mesh.FaceCount
     mesh.NodeCount = fem_mesh.NodeCount

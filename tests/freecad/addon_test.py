@@ -1,0 +1,331 @@
+"""The workbench without a window: groups for solvers, mesh regions, flipped normals, stale meshes, export, estimate."""
+
+import os
+import stat
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, os.environ["QUADRILLE_PYTHON"])
+
+import FreeCAD
+import Fem
+import ObjectsFem
+import Part
+from FreeCAD import Vector
+
+import quadrille
+import quadrille.freecad as core
+from quadrille import groups, quality, shapes
+
+MODELS = Path(os.environ["QUADRILLE_MODELS"])
+
+
+def group(mesh, name, kind=None):
+    """The ids in the group of a mesh object that has this name."""
+    fem_mesh = mesh.FemMesh
+    for number in fem_mesh.Groups:
+        if fem_mesh.getGroupName(number) == name and kind in (None, fem_mesh.getGroupElementType(number)):
+            return set(fem_mesh.getGroupElements(number))
+    return set()
+
+
+class AddonTest(unittest.TestCase):
+    """Each test has a document of its own."""
+
+    def setUp(self):
+        self.document = FreeCAD.newDocument("Test")
+
+    def tearDown(self):
+        FreeCAD.closeDocument(self.document.Name)
+
+    def box(self, length=10.0):
+        """A parametric box of 10 x 10 x length."""
+        box = self.document.addObject("Part::Box", "Box")
+        box.Height = length
+        self.document.recompute()
+        return box
+
+    def analysis(self):
+        """An analysis with a fixed face and a pressure."""
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        fixed = ObjectsFem.makeConstraintFixed(self.document, "Fixed")
+        pressure = ObjectsFem.makeConstraintPressure(self.document, "Pressure")
+        analysis.addObjects([fixed, pressure])
+        return analysis, fixed, pressure
+
+    # Groups
+
+    def test_groups_of_constraints_are_what_a_search_finds(self):
+        for order in (1, 2):
+            with self.subTest(order=order):
+                box = self.box()
+                analysis, fixed, pressure = self.analysis()
+                fixed.References = [(box, ("Face1", "Edge5", "Vertex8"))]
+                pressure.References = [(box, "Face6")]
+                mesh = core.mesh_object(box, size=2, order=order, analysis=analysis)
+                fem_mesh, shape = mesh.FemMesh, box.Shape
+                searched = {*fem_mesh.getNodesByFace(shape.Face1), *fem_mesh.getNodesByEdge(shape.Edge5),
+                            *fem_mesh.getNodesByVertex(shape.Vertex8)}
+                self.assertEqual(group(mesh, f"{fixed.Name}_Nodes", "Node"), searched)
+                faces = group(mesh, f"{pressure.Name}_Faces", "Face")
+                self.assertEqual(faces, group(mesh, "Face6"))
+                self.assertTrue(faces)
+
+    def test_a_constraint_changed_after_meshing_gets_its_nodes(self):
+        box = self.box()
+        analysis, fixed, _ = self.analysis()
+        mesh = core.mesh_object(box, size=2, analysis=analysis)
+        self.assertFalse(group(mesh, "Fixed_Nodes"))
+        fixed.References = [(box, "Face1")]
+        self.assertEqual(group(mesh, "Fixed_Nodes"), set(mesh.FemMesh.getNodesByFace(box.Shape.Face1)))
+        fixed.References = [(box, "Face2")]
+        self.assertEqual(group(mesh, "Fixed_Nodes"), set(mesh.FemMesh.getNodesByFace(box.Shape.Face2)))
+        fixed.References = []
+        self.assertFalse(group(mesh, "Fixed_Nodes"))
+        self.assertEqual(len(group(mesh, "Face1")), 36)
+
+    def test_a_constraint_added_after_meshing_gets_its_nodes(self):
+        box = self.box()
+        analysis, _, _ = self.analysis()
+        mesh = core.mesh_object(box, size=2, analysis=analysis)
+        late = ObjectsFem.makeConstraintFixed(self.document, "Late")
+        late.References = [(box, "Face3")]
+        self.assertFalse(group(mesh, "Late_Nodes"))
+        analysis.addObject(late)
+        self.assertEqual(len(group(mesh, "Late_Nodes")), 49)
+
+    def test_mesh_groups(self):
+        box = self.box()
+        mesh = core.make_mesh(box, size=2, order=1)
+        labelled = ObjectsFem.makeMeshGroup(self.document, mesh, True, "MeshGroup")
+        labelled.Label = "Bolts"
+        labelled.References = [(box, ("Edge1", "Edge2"))]
+        core.remesh(mesh)
+        self.assertEqual(group(mesh, "Bolts_Edges", "Edge"), group(mesh, "Edge1") | group(mesh, "Edge2"))
+        late = ObjectsFem.makeMeshGroup(self.document, mesh, False, "Late")
+        late.References = [(box, "Face1")]
+        self.assertEqual(len(group(mesh, "Late_Faces", "Face")), 36)
+
+    def test_references_to_another_object_are_found_by_geometry(self):
+        box = self.box()
+        copy = self.document.addObject("Part::Feature", "Copy")
+        copy.Shape = box.Shape.copy()
+        self.assertEqual(shapes.references_to_names(box.Shape, box, [(copy, ("Face4", "Vertex2"))]),
+                         ["Face4", "Vertex2"])
+        with self.assertRaises(quadrille.Error):
+            shapes.references_to_names(box.Shape, box, [(box, "Face7")])
+
+    # Mesh regions
+
+    def test_mesh_regions_are_honoured(self):
+        box = self.box()
+        mesh = core.make_mesh(box, size=2)
+        core.remesh(mesh)
+        coarse = len(group(mesh, "Face1"))
+        core.refine(mesh, [(box, ("Face1",))], "0.5 mm")
+        self.document.recompute()
+        self.assertEqual(mesh.Status, "the settings have changed: mesh again")
+        core.remesh(mesh)
+        self.assertEqual(mesh.Status, core.UP_TO_DATE)
+        self.assertGreater(len(group(mesh, "Face1")), 10 * coarse)
+        mesh.MeshRegionList[0].CharacteristicLength = 1
+        self.document.recompute()
+        self.assertEqual(mesh.Status, "the settings have changed: mesh again")
+
+    def test_region_on_a_solid_and_on_a_vertex(self):
+        box = self.box()
+        mesh = core.make_mesh(box, size=2)
+        core.refine(mesh, [(box, ("Vertex1",))], 0.25)
+        core.remesh(mesh)
+        shortest = min(quality.measure(mesh.FemMesh).lengths)
+        self.assertLess(shortest, 0.5)
+        self.assertEqual(shapes.references_to_names(box.Shape, box, [(box, "Face1")]), ["Face1"])
+
+    def test_refine_refuses_nonsense(self):
+        box = self.box()
+        mesh = core.make_mesh(box, size=2)
+        for references, size in (([], 1), ([(box, ("Face99",))], 1), ([(box, ("Face1",))], 0),
+                                 ([(box, ("Face1",))], -1)):
+            with self.subTest(references=references, size=size):
+                with self.assertRaises(quadrille.Error):
+                    core.refine(mesh, references, size)
+                self.assertEqual(mesh.MeshRegionList, [])
+
+    # Normals
+
+    def test_flipped_normals(self):
+        for file in ("box.brep", "bracket.step", "tube_with_hole.brep"):
+            with self.subTest(file=file):
+                part = self.document.addObject("Part::Feature", "Part")
+                part.Shape = Part.read(str(MODELS / file))
+                mesh = core.mesh_object(part, size=part.Shape.BoundBox.DiagonalLength / 15)
+                before = self.normals(mesh)
+                core.flip(mesh, ["Face1"])
+                after = self.normals(mesh)
+                self.assertEqual(set(before), set(after))
+                self.assertEqual({name for name in before if before[name] != after[name]}, {"Face1"})
+                core.flip(mesh, [1])
+                self.assertEqual(mesh.FlippedFaces, [])
+
+    @staticmethod
+    def normals(mesh):
+        """For each face, 1 where its elements point along its CAD normal, else -1."""
+        measured = quality.measure(mesh.FemMesh)
+        rows = {int(i): row for row, i in enumerate(measured.ids)}
+        found = {}
+        for index, face in enumerate(mesh.Shape.Shape.Faces, 1):
+            row = rows[min(group(mesh, f"Face{index}"))]
+            point = Vector(*measured.centres[row])
+            normal = face.normalAt(*face.Surface.parameter(point))
+            found[f"Face{index}"] = 1 if normal.dot(Vector(*measured.normals[row])) > 0 else -1
+        return found
+
+    def test_flip_of_a_face_that_is_not_there(self):
+        mesh = core.mesh_object(self.box(), size=2)
+        with self.assertRaises(quadrille.Error):
+            core.flip(mesh, ["Face77"])
+        self.assertEqual(mesh.FlippedFaces, [])
+
+    # Stale
+
+    def test_status_follows_the_part_and_the_settings(self):
+        box = self.box()
+        mesh = core.make_mesh(box, size=2)
+        self.assertEqual(mesh.Status, "not meshed yet")
+        core.remesh(mesh)
+        self.assertEqual(mesh.Status, core.UP_TO_DATE)
+        box.Height = 11
+        self.document.recompute()
+        self.assertEqual(mesh.Status, "the part has changed: mesh again")
+        box.Height = 10
+        self.document.recompute()
+        self.assertEqual(mesh.Status, core.UP_TO_DATE)
+        box.Placement.Base = Vector(1, 0, 0)
+        self.document.recompute()
+        self.assertEqual(mesh.Status, "the part has changed: mesh again")
+        core.remesh(mesh)
+        mesh.ElementOrder = "1st"
+        self.document.recompute()
+        self.assertEqual(mesh.Status, "the settings have changed: mesh again")
+        mesh.ElementOrder = "2nd"
+        mesh.Threads = 1  # no other mesh
+        self.document.recompute()
+        self.assertEqual(mesh.Status, core.UP_TO_DATE)
+        self.document.removeObject(box.Name)
+        self.document.recompute()
+        self.assertEqual(mesh.Status, "the part is gone")
+        with self.assertRaises(quadrille.Error):
+            core.remesh(mesh)
+
+    def test_undo_brings_the_mesh_back(self):
+        self.document.UndoMode = 1
+        mesh = core.mesh_object(self.box(), size=2)
+        coarse = mesh.FemMesh.FaceCount
+        self.document.openTransaction("finer")
+        mesh.Size = 1
+        core.remesh(mesh)
+        self.document.commitTransaction()
+        fine = mesh.FemMesh.FaceCount
+        self.assertGreater(fine, coarse)
+        self.document.undo()
+        self.assertEqual((mesh.FemMesh.FaceCount, mesh.QuadCount, mesh.Size.Value), (coarse, coarse, 2.0))
+        self.document.redo()
+        self.assertEqual((mesh.FemMesh.FaceCount, mesh.QuadCount, mesh.Size.Value), (fine, fine, 1.0))
+
+    def test_a_new_shape_of_the_same_size_is_seen(self):
+        one, other = Part.makeBox(1, 1, 1), Part.makeBox(1, 1, 1)
+        self.assertTrue(shapes.same_fingerprint(shapes.fingerprint(one), shapes.fingerprint(other)))
+        one.tessellate(0.1)
+        one.isValid()
+        self.assertTrue(shapes.same_fingerprint(shapes.fingerprint(one), shapes.fingerprint(other)))
+        for change in (Part.makeBox(1, 1, 1 + 1e-6), Part.makeBox(1, 1, 1, Vector(0, 0, 1e-6)),
+                       Part.makeCylinder(1, 1)):
+            self.assertFalse(shapes.same_fingerprint(shapes.fingerprint(one), shapes.fingerprint(change)))
+
+    # Export, quality, estimate
+
+    def test_export(self):
+        mesh = core.mesh_object(self.box(), size=2)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "box.unv")
+            core.export(mesh, path)
+            self.assertEqual(Fem.read(path).FaceCount, mesh.QuadCount)
+            with self.assertRaises(quadrille.Error):
+                core.export(mesh, os.path.join(folder, "box.doc"))
+            with self.assertRaises(quadrille.Error):
+                core.export(mesh, os.path.join(folder, "no", "box.unv"))
+            mesh.Size = 3
+            with self.assertRaises(quadrille.Error):
+                core.export(mesh, os.path.join(folder, "stale.unv"))
+            self.assertEqual(os.listdir(folder), ["box.unv"])
+
+    def test_quality_is_the_meshers(self):
+        part = self.document.addObject("Part::Feature", "Part")
+        part.Shape = Part.read(str(MODELS / "bracket.step"))
+        for order in (1, 2):
+            mesh = core.mesh_object(part, size=3, order=order)
+            summary = quality.measure(mesh.FemMesh).summary()
+            self.assertEqual(summary["quads"], mesh.QuadCount)
+            self.assertAlmostEqual(summary["q_min"], mesh.WorstQuality, 4)
+            self.assertAlmostEqual(summary["q_mean"], mesh.MeanQuality, 4)
+            self.assertAlmostEqual(summary["sj_min"], mesh.WorstJacobian, 4)
+
+    def test_estimate_and_suggestion_hold(self):
+        for file in ("box.brep", "bracket.step", "cylinder.brep", "torus.brep", "plate_with_holes.brep"):
+            with self.subTest(file=file):
+                part = self.document.addObject("Part::Feature", "Part")
+                part.Shape = Part.read(str(MODELS / file))
+                size = core.suggested_size(part)
+                mesh = core.mesh_object(part, size=size)
+                self.assertLess(abs(mesh.QuadCount / 5000 - 1), 0.3, mesh.QuadCount)
+
+    # Bad use
+
+    def test_a_command_of_another_version(self):
+        box = self.box()
+        for answer, words in (("echo quadrille 7.3.0", "version 7.3.0"), ("echo hello", "is not the quadrille"),
+                              ("exit 3", "is not the quadrille")):
+            with tempfile.TemporaryDirectory() as folder, self.subTest(answer=answer):
+                path = Path(folder) / "quadrille"
+                path.write_text(f"#!/bin/sh\n{answer}\n")
+                path.chmod(path.stat().st_mode | stat.S_IXUSR)
+                with self.assertRaises(quadrille.Error) as caught:
+                    core.mesh_object(box, size=2, command=str(path))
+                self.assertIn(words, str(caught.exception))
+                self.assertEqual(self.document.Objects, [box])
+
+    def test_an_invalid_shape(self):
+        points = [Vector(0, 0, 0), Vector(10, 0, 0), Vector(0, 10, 0), Vector(10, 10, 0), Vector(0, 0, 0)]
+        bow = self.document.addObject("Part::Feature", "Bow")
+        bow.Shape = Part.Face(Part.makePolygon(points))
+        self.assertFalse(bow.Shape.isValid())
+        with self.assertRaises(quadrille.Error) as caught:
+            core.mesh_object(bow, size=1)
+        self.assertIn("Face1", str(caught.exception))
+        self.assertEqual(self.document.Objects, [bow])
+
+    def test_meshing_while_meshing(self):
+        mesh = core.make_mesh(self.box(), size=0.01)
+        job = core.start(mesh)
+        try:
+            with self.assertRaises(quadrille.Error) as caught:
+                core.remesh(mesh)
+            self.assertIn("already", str(caught.exception))
+        finally:
+            job.cancel()
+        with self.assertRaises(quadrille.Error):
+            core.finish(mesh, job)
+        mesh.Size = 2
+        core.remesh(mesh)
+        self.assertEqual(mesh.FemMesh.FaceCount, 216)
+
+    def test_only_part_groups_count_as_such(self):
+        self.assertTrue(groups._is_part_group("Face12"))
+        self.assertFalse(groups._is_part_group("Face12_Nodes"))
+        self.assertFalse(groups._is_part_group("Face"))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2, warnings="ignore")  # FreeCAD and PySide warn by the hundred

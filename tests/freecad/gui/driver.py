@@ -1,0 +1,113 @@
+"""Hands and eyes for tests in FreeCAD's window: clicks, waits, boxes that pop up, screenshots."""
+
+import time
+from pathlib import Path
+
+import FreeCADGui
+from PySide import QtCore, QtGui
+
+
+def window():
+    """FreeCAD's main window."""
+    return FreeCADGui.getMainWindow()
+
+
+def prepare(width=1500, height=940):
+    """A window that fits the screen, with room for the task panel and none for the Python console."""
+    main = window()
+    main.showNormal()
+    main.setGeometry(0, 0, width, height)
+    docks = main.findChildren(QtGui.QDockWidget)
+    for dock in docks:
+        if dock.objectName() in ("Python console", "Report view"):
+            dock.hide()
+    combo = [dock for dock in docks if dock.objectName() == "Combo View"]
+    main.resizeDocks(combo, [430], QtCore.Qt.Horizontal)
+    process(0.3)
+
+
+def process(seconds=0.05):
+    """Lets the window live for a while."""
+    end = time.monotonic() + seconds
+    while True:
+        QtCore.QCoreApplication.processEvents()
+        if time.monotonic() >= end:
+            return
+        time.sleep(0.005)
+
+
+def wait_for(condition, seconds=60, what="the condition"):
+    """Lets the window live until a condition holds."""
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError(f"{what}: not within {seconds} s")
+        process(0.02)
+
+
+def trigger(command):
+    """Triggers the action of a command, as its button and its menu entry do."""
+    action = FreeCADGui.Command.get(command).getAction()[0]
+    process(0.3)  # FreeCAD updates what is enabled by a timer
+    action.trigger()
+    process()
+
+
+def find(name):
+    """A widget of ours by its object name, in the task panel."""
+    found = [widget for widget in window().findChildren(QtGui.QWidget, name)]
+    assert len(found) == 1, f"{name}: {len(found)} widgets"
+    return found[0]
+
+
+def close_panel():
+    """Presses Close in the task panel."""
+    for box in window().findChildren(QtGui.QDialogButtonBox):
+        button = box.button(QtGui.QDialogButtonBox.Close)
+        if button is not None and button.isVisible():
+            button.click()
+            process(0.2)
+            return
+    raise AssertionError("no Close button")
+
+
+class Boxes:
+    """Answers the modal boxes that come up inside a `with` and keeps their texts."""
+
+    def __init__(self, answer=None):
+        self.texts = []
+        self._answer = answer
+        self._timer = QtCore.QTimer()
+        self._timer.timeout.connect(self._look)
+
+    def __enter__(self):
+        self._timer.start(30)
+        return self
+
+    def __exit__(self, *_):
+        process(0.1)
+        self._timer.stop()
+
+    def _look(self):
+        box = QtGui.QApplication.activeModalWidget()
+        if box is None:
+            return
+        if isinstance(box, QtGui.QMessageBox):
+            self.texts.append(box.text())
+            box.button(box.standardButtons() and QtGui.QMessageBox.Ok).click()
+        elif self._answer is not None:
+            self._answer(box)
+            box.accept()
+        else:
+            self.texts.append(f"unexpected {type(box).__name__}")
+            box.reject()
+
+
+def screenshot(path):
+    """The whole window as a picture."""
+    process(0.5)
+    screen = QtGui.QGuiApplication.primaryScreen() if hasattr(QtGui, "QGuiApplication") else \
+        QtGui.QApplication.primaryScreen()
+    picture = screen.grabWindow(int(window().winId()))
+    Path(path).parent.mkdir(parents=True, exist_ok=True)
+    assert picture.save(str(path)), path

@@ -1,0 +1,417 @@
+"""The workbench driven in FreeCAD's window: commands triggered, the panel filled, meshed, cancelled, undone, saved.
+
+    scripts/freecad_gui tests/freecad/gui/gui_test.py [FOLDER FOR SCREENSHOTS]
+"""
+
+import os
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import FreeCAD
+import FreeCADGui
+import Fem
+import ObjectsFem
+import Part
+from PySide import QtGui
+
+import quadrille.freecad
+import quadrille.quality
+from driver import Boxes, close_panel, find, prepare, process, screenshot, trigger, wait_for, window
+from quadrille.gui import commands, overlays
+
+ROOT = Path(__file__).resolve().parents[3]
+MODELS = ROOT / "examples" / "models"
+PICTURES = Path(sys.argv[1]) if len(sys.argv) > 1 else None
+
+
+def picture(name):
+    """A screenshot, where they are wanted."""
+    if PICTURES is not None:
+        screenshot(PICTURES / f"{name}.png")
+
+
+class GuiTest(unittest.TestCase):
+    """Each test has a document of its own."""
+
+    def setUp(self):
+        prepare()
+        self.document = FreeCAD.newDocument("Test")
+        self.document.UndoMode = 1
+        FreeCADGui.activateWorkbench("QuadrilleWorkbench")
+        FreeCADGui.Selection.clearSelection()
+
+    def tearDown(self):
+        FreeCADGui.Control.closeDialog()
+        process(0.2)
+        for name in list(FreeCAD.listDocuments()):
+            FreeCAD.closeDocument(name)
+        process(0.1)
+
+    def bracket(self):
+        """The sample part."""
+        part = self.document.addObject("Part::Feature", "Bracket")
+        part.Shape = Part.read(str(MODELS / "bracket.step"))
+        self.show()
+        return part
+
+    def box(self, length=10.0):
+        """A parametric part."""
+        box = self.document.addObject("Part::Box", "Box")
+        box.Length = length
+        self.document.recompute()
+        self.show()
+        return box
+
+    @staticmethod
+    def show():
+        """Everything in view."""
+        FreeCADGui.activeDocument().activeView().viewIsometric()
+        FreeCADGui.SendMsgToActiveView("ViewFit")
+        process(0.3)
+
+    def open_panel(self, part):
+        """Selects a part and triggers the command; returns the mesh object."""
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(part)
+        with Boxes() as boxes:
+            trigger("Quadrille_Mesh")
+        self.assertEqual(boxes.texts, [])
+        self.assertTrue(FreeCADGui.Control.activeDialog())
+        return [obj for obj in self.document.Objects if commands.is_quad_mesh(obj)][-1]
+
+    def press_mesh(self, seconds=60):
+        """Presses Mesh and waits for the end."""
+        find("QuadrilleMesh").click()
+        self.assertFalse(find("QuadrilleMesh").isEnabled())
+        wait_for(lambda: find("QuadrilleMesh").isEnabled(), seconds, "meshing")
+
+    def meshed(self, part):
+        """A mesh made through the panel."""
+        mesh = self.open_panel(part)
+        self.press_mesh()
+        close_panel()
+        return mesh
+
+    def message(self, command):
+        """The one message that a command gives; nothing else may happen."""
+        before = [obj.Name for obj in self.document.Objects]
+        with Boxes() as boxes:
+            trigger(command)
+        self.assertEqual(len(boxes.texts), 1, boxes.texts)
+        self.assertEqual([obj.Name for obj in self.document.Objects], before)
+        self.assertFalse(FreeCADGui.Control.activeDialog())
+        return boxes.texts[0]
+
+    # The way of a user
+
+    def test_from_click_to_quads(self):
+        part = self.bracket()
+        mesh = self.open_panel(part)
+        expected = int("".join(filter(str.isdigit, find("QuadrilleEstimate").text())))
+        self.assertTrue(4000 <= expected <= 6000, expected)
+        picture("panel_before")
+        self.press_mesh()
+        self.assertEqual(mesh.FemMesh.FaceCount, mesh.FemMesh.QuadrangleCount)
+        self.assertLess(abs(mesh.QuadCount / expected - 1), 0.25)
+        self.assertEqual(mesh.Status, "up to date")
+        self.assertTrue(mesh.ViewObject.Visibility)
+        self.assertFalse(part.ViewObject.Visibility)
+        table = find("QuadrilleQualityTable")
+        self.assertEqual(table.item(0, 1).text(), str(mesh.QuadCount))
+        self.assertGreater(find("QuadrilleHistogram").pixmap().width(), 100)
+        find("QuadrilleColour").setChecked(True)
+        self.assertTrue(overlays.is_shown(mesh, overlays.QUALITY))
+        picture("panel_quality")
+        worst = find("QuadrilleWorst")
+        self.assertEqual(worst.count(), 20)
+        camera = FreeCADGui.activeDocument().activeView().getCameraNode()
+        before = camera.position.getValue().getValue()
+        worst.setCurrentRow(0)
+        self.assertNotEqual(camera.position.getValue().getValue(), before)
+        self.assertTrue(overlays.is_shown(mesh, overlays.ELEMENT))
+        picture("worst_element")
+        close_panel()
+        self.assertFalse(overlays.is_shown(mesh, overlays.QUALITY))
+        self.assertFalse(FreeCADGui.Control.activeDialog())
+
+    def test_settings_of_the_panel_reach_the_mesh(self):
+        mesh = self.open_panel(self.box())
+        find("QuadrilleSize").setProperty("rawValue", 2.0)
+        find("QuadrilleOrder").setCurrentText("1st")
+        process(0.1)
+        self.assertIn("150", find("QuadrilleEstimate").text())
+        self.press_mesh()
+        self.assertEqual((mesh.Size.Value, mesh.ElementOrder), (2.0, "1st"))
+        self.assertEqual(len(mesh.FemMesh.getElementNodes(mesh.FemMesh.Faces[0])), 4)
+        find("QuadrilleSuggest").click()
+        self.assertTrue(4000 < 600 / find("QuadrilleSize").property("rawValue") ** 2 < 6500)
+        close_panel()
+
+    def test_cancelled_while_freecad_stays_usable(self):
+        mesh = self.open_panel(self.box())
+        find("QuadrilleSize").setProperty("rawValue", 0.008)
+        started = time.monotonic()
+        find("QuadrilleMesh").click()
+        longest = 0.0
+        while time.monotonic() - started < 1.0:
+            tick = time.monotonic()
+            process(0.0)
+            FreeCADGui.activeDocument().activeView().viewTop()
+            longest = max(longest, time.monotonic() - tick)
+        self.assertFalse(find("QuadrilleMesh").isEnabled())
+        self.assertLess(longest, 0.5)
+        find("QuadrilleStop").click()
+        wait_for(lambda: find("QuadrilleMesh").isEnabled(), 10, "cancelling")
+        self.assertIn("cancelled", find("QuadrilleLog").toPlainText())
+        self.assertEqual((mesh.FemMesh.FaceCount, mesh.Status), (0, "not meshed yet"))
+        find("QuadrilleSize").setProperty("rawValue", 1.0)
+        self.press_mesh()
+        self.assertEqual(mesh.QuadCount, mesh.FemMesh.FaceCount)
+        self.assertGreater(mesh.QuadCount, 0)
+        close_panel()
+
+    def test_undone_and_redone(self):
+        box = self.box()
+        mesh = self.open_panel(box)
+        name = mesh.Name
+        self.press_mesh()
+        quads = mesh.FemMesh.FaceCount
+        close_panel()
+        self.document.undo()
+        self.assertEqual(mesh.FemMesh.FaceCount, 0)
+        self.document.redo()
+        self.assertEqual(mesh.FemMesh.FaceCount, quads)
+        while self.document.UndoCount:
+            self.document.undo()
+        self.assertIsNone(self.document.getObject(name))
+        while self.document.RedoCount:
+            self.document.redo()
+        self.assertEqual(self.document.getObject(name).FemMesh.FaceCount, quads)
+
+    def test_saved_and_reopened(self):
+        mesh = self.meshed(self.bracket())
+        quads, groups = mesh.FemMesh.FaceCount, mesh.FemMesh.GroupCount
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "saved.FCStd")
+            self.document.saveAs(path)
+            FreeCAD.closeDocument(self.document.Name)
+            self.document = FreeCAD.openDocument(path)
+        mesh = self.document.QuadMesh
+        self.assertEqual((mesh.FemMesh.FaceCount, mesh.FemMesh.GroupCount), (quads, groups))
+        self.document.recompute(None, True)
+        self.assertEqual(mesh.Status, "up to date")
+        self.assertTrue(mesh.ViewObject.Proxy.getIcon().endswith("quadrille_mesh.svg"))
+        FreeCADGui.activeDocument().setEdit(mesh.Name)
+        process(0.2)
+        self.press_mesh()
+        self.assertEqual(mesh.FemMesh.FaceCount, quads)
+        close_panel()
+
+    def test_stale_when_the_part_changes(self):
+        box = self.box()
+        mesh = self.meshed(box)
+        box.Length = 12
+        self.document.recompute()
+        self.assertEqual(mesh.Status, "the part has changed: mesh again")
+        self.assertTrue(mesh.ViewObject.Proxy.getIcon().endswith("quadrille_stale.svg"))
+        box.Length = 10
+        self.document.recompute()
+        self.assertEqual(mesh.Status, "up to date")
+
+    # The other commands
+
+    def test_refine(self):
+        mesh = self.meshed(self.box())
+        face_quads = len(self.group(mesh, "Face1"))
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(self.document.Name, "Box", "Face1")
+        with Boxes(lambda dialog: dialog.setDoubleValue(mesh.Size.Value / 3)) as boxes:
+            trigger("Quadrille_Refine")
+        self.assertEqual(boxes.texts, [])
+        self.assertEqual(len(mesh.MeshRegionList), 1)
+        self.assertIn("changed", mesh.Status)
+        FreeCADGui.activeDocument().setEdit(mesh.Name)
+        process(0.2)
+        self.press_mesh()
+        picture("refined")
+        close_panel()
+        self.assertGreater(len(self.group(mesh, "Face1")), 5 * face_quads)
+        self.assertIn(mesh.MeshRegionList[0], mesh.ViewObject.Proxy.claimChildren())
+
+    @staticmethod
+    def group(mesh, name):
+        """The elements of a group."""
+        for number in mesh.FemMesh.Groups:
+            if mesh.FemMesh.getGroupName(number) == name:
+                return mesh.FemMesh.getGroupElements(number)
+        return ()
+
+    def test_quality_panel(self):
+        mesh = self.meshed(self.bracket())
+        trigger("Quadrille_Quality")
+        self.assertTrue(overlays.is_shown(mesh, overlays.QUALITY))
+        self.assertEqual(find("QuadrilleQualityTable").item(0, 1).text(), str(mesh.QuadCount))
+        close_panel()
+        self.assertFalse(overlays.is_shown(mesh, overlays.QUALITY))
+
+    def test_normals_shown_and_flipped(self):
+        mesh = self.meshed(self.bracket())
+        trigger("Quadrille_Normals")
+        self.assertTrue(overlays.is_shown(mesh, overlays.NORMALS))
+        self.show()
+        picture("normals")
+        before = quadrille.quality.measure(mesh.FemMesh)
+        FreeCADGui.Selection.clearSelection()
+        trigger("Quadrille_Flip")
+        self.assertEqual(len(mesh.FlippedFaces), len(mesh.Shape.Shape.Faces))
+        after = quadrille.quality.measure(mesh.FemMesh)
+        self.assertEqual(len(before.ids), len(after.ids))
+        trigger("Quadrille_Normals")
+        self.assertFalse(overlays.is_shown(mesh, overlays.NORMALS))
+
+    def test_export(self):
+        mesh = self.meshed(self.box())
+        with tempfile.TemporaryDirectory() as folder:
+            for suffix in ("inp", "msh", "unv", "med", "vtu", "bdf"):
+                path = os.path.join(folder, f"mesh.{suffix}")
+                asked = commands.ExportCommand.ask
+                commands.ExportCommand.ask = staticmethod(lambda _mesh, path=path: path)
+                try:
+                    with Boxes() as boxes:
+                        trigger("Quadrille_Export")
+                finally:
+                    commands.ExportCommand.ask = asked
+                self.assertEqual(boxes.texts, [])
+                self.assertGreater(os.path.getsize(path), 1000)
+            self.assertEqual(Fem.read(os.path.join(folder, "mesh.unv")).FaceCount, mesh.QuadCount)
+
+    def test_commands_are_in_the_fem_workbench(self):
+        FreeCADGui.activateWorkbench("FemWorkbench")
+        process(0.5)
+        ours = FreeCADGui.Command.get("Quadrille_Mesh").getAction()[0]
+        found = []
+        for entry in window().menuBar().actions():
+            menu = entry.menu()
+            if menu is not None:
+                found += [action.text() for action in menu.actions()]
+        self.assertIn(ours.text(), found)
+
+    # Bad use: one clear message, the document unharmed
+
+    def test_nothing_selected(self):
+        self.box()
+        FreeCADGui.Selection.clearSelection()
+        self.assertIn("select one part", self.message("Quadrille_Mesh"))
+
+    def test_two_parts_selected(self):
+        for part in (self.box(), self.bracket()):
+            FreeCADGui.Selection.addSelection(part)
+        self.assertIn("2 objects are selected", self.message("Quadrille_Mesh"))
+
+    def test_a_part_without_faces(self):
+        line = self.document.addObject("Part::Feature", "Line")
+        line.Shape = Part.makeLine((0, 0, 0), (1, 0, 0))
+        FreeCADGui.Selection.addSelection(line)
+        self.assertIn("no faces", self.message("Quadrille_Mesh"))
+
+    def test_no_mesh_yet(self):
+        self.box()
+        self.assertIn("no quad mesh", self.message("Quadrille_Quality"))
+        self.assertIn("no quad mesh", self.message("Quadrille_Normals"))
+        self.assertIn("no quad mesh", self.message("Quadrille_Export"))
+
+    def test_an_analysis_with_a_mesh_already(self):
+        import FemGui
+
+        box = self.box()
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        FemGui.setActiveAnalysis(analysis)
+        mesh = self.meshed(box)
+        self.assertIn(mesh, analysis.Group)
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(box)
+        self.assertIn("one mesh only", self.message("Quadrille_Mesh"))
+
+    def test_the_part_is_deleted(self):
+        box = self.box()
+        mesh = self.meshed(box)
+        quads = mesh.FemMesh.FaceCount
+        self.document.removeObject(box.Name)
+        self.document.recompute()
+        self.assertEqual((mesh.Status, mesh.FemMesh.FaceCount), ("the part is gone", quads))
+        with Boxes() as boxes:
+            FreeCADGui.activeDocument().setEdit(mesh.Name)
+            process(0.2)
+        self.assertIn("gone", boxes.texts[0])
+
+    def test_a_child_that_is_killed(self):
+        mesh = self.open_panel(self.box())
+        find("QuadrilleSize").setProperty("rawValue", 0.008)
+        with Boxes() as boxes:
+            find("QuadrilleMesh").click()
+            process(0.3)
+            job = quadrille.freecad._running[(self.document.Name, mesh.Name)]
+            job._job._process.kill()
+            wait_for(lambda: find("QuadrilleMesh").isEnabled(), 10, "the end")
+        self.assertEqual(len(boxes.texts), 1)
+        self.assertIn("killed by signal 9", boxes.texts[0])
+        self.assertEqual(mesh.FemMesh.FaceCount, 0)
+        close_panel()
+
+    def test_meshing_while_meshing(self):
+        mesh = self.open_panel(self.box())
+        find("QuadrilleSize").setProperty("rawValue", 0.008)
+        find("QuadrilleMesh").click()
+        process(0.2)
+        with self.assertRaises(quadrille.Error) as caught:
+            quadrille.freecad.remesh(mesh)
+        self.assertIn("already", str(caught.exception))
+        close_panel()
+        self.assertEqual(quadrille.freecad._running, {})
+
+    def test_the_document_is_closed_while_meshing(self):
+        mesh = self.open_panel(self.box())
+        find("QuadrilleSize").setProperty("rawValue", 0.008)
+        find("QuadrilleMesh").click()
+        process(0.3)
+        process_of_mesher = quadrille.freecad._running[(self.document.Name, mesh.Name)]._job._process
+        FreeCAD.closeDocument(self.document.Name)
+        process(0.5)
+        self.assertIsNotNone(process_of_mesher.poll())
+        self.assertFalse(FreeCADGui.Control.activeDialog())
+        self.assertEqual(quadrille.freecad._running, {})
+
+    def test_the_mesh_object_is_undone_while_meshing(self):
+        mesh = self.open_panel(self.box())
+        name = mesh.Name
+        find("QuadrilleSize").setProperty("rawValue", 0.008)
+        find("QuadrilleMesh").click()
+        process(0.3)
+        self.document.removeObject(name)
+        process(0.5)
+        self.assertFalse(FreeCADGui.Control.activeDialog())
+        self.assertEqual(quadrille.freecad._running, {})
+
+    def test_the_mesher_refuses(self):
+        mesh = self.open_panel(self.box())
+        find("QuadrilleSize").setProperty("rawValue", 500.0)
+        with Boxes() as boxes:
+            find("QuadrilleMesh").click()
+            wait_for(lambda: boxes.texts, 10, "the message")
+        self.assertEqual(len(boxes.texts), 1)
+        self.assertIn("larger than the model", boxes.texts[0])
+        self.assertEqual(mesh.FemMesh.FaceCount, 0)
+        close_panel()
+
+
+suite = unittest.defaultTestLoader.loadTestsFromTestCase(GuiTest)
+only = os.environ.get("QUADRILLE_GUI_TEST")
+if only:
+    suite = unittest.TestSuite([GuiTest(only)])
+result = unittest.TextTestRunner(stream=sys.stderr, verbosity=2, warnings="ignore").run(suite)
+sys.exit(0 if result.wasSuccessful() and result.testsRun else 1)

@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Groups for FreeCAD's solvers: the nodes and elements of constraints, materials, thicknesses and FEM mesh groups.
+
+A solver writer looks for a group of nodes or faces named `<ConstraintName>_...` and, when there is none, searches
+nodes by geometry, slowly. The mesh holds a group for each face, edge and vertex of the part; from these the groups of
+constraints are made at any time, without a search, also when a constraint is added or changed after meshing.
+Runs inside FreeCAD."""
+
+from typing import Dict, Iterable, List, Optional, Set, Tuple
+
+import FreeCAD
+
+from . import shapes, undo
+from .errors import Error
+
+_KINDS = {"Face": "Face", "Edge": "Edge", "Vertex": "Node"}
+#: {(group name, element type): ids}
+Groups = Dict[Tuple[str, str], Tuple[int, ...]]
+
+
+def add_groups(mesh, fem_mesh) -> None:
+    """Adds to a mesh that was just read the groups that the mesh object's analysis and group list ask for."""
+    for (name, kind), ids in wanted_groups(mesh, fem_mesh).items():
+        number = fem_mesh.addGroup(name, kind)
+        fem_mesh.addGroupElements(number, list(ids))
+
+
+def refresh(mesh) -> bool:
+    """Brings the groups of a meshed object up to date with its analysis; True when they have changed."""
+    fem_mesh = mesh.FemMesh
+    wanted = wanted_groups(mesh, fem_mesh)
+    present: Groups = {}
+    numbers = {}
+    for number in fem_mesh.Groups:
+        name = fem_mesh.getGroupName(number)
+        if _is_part_group(name):
+            continue
+        key = (name, fem_mesh.getGroupElementType(number))
+        present[key] = tuple(sorted(fem_mesh.getGroupElements(number)))
+        numbers[key] = number
+    if present == wanted:
+        return False
+    changed = fem_mesh.copy()
+    for key, number in numbers.items():
+        if present[key] != wanted.get(key):
+            changed.removeGroup(number)
+    for key, ids in wanted.items():
+        if present.get(key) != ids:
+            changed.addGroupElements(changed.addGroup(*key), list(ids))
+    undo.replace(mesh, changed)
+    return True
+
+
+def wanted_groups(mesh, fem_mesh) -> Groups:
+    """The groups of constraints and mesh groups: `<Name>_Nodes` of nodes, `<Name>_Faces` and `_Edges` of elements."""
+    sources = [(member.Name, member) for member in _members(mesh)]
+    for group in mesh.MeshGroupList:
+        sources.append((group.Label if group.UseLabel else group.Name, group))
+    if not sources:
+        return {}
+    part_groups = _PartGroups(fem_mesh)
+    wanted: Groups = {}
+    for name, source in sources:
+        try:
+            elements = shapes.references_to_names(mesh.Shape.Shape, mesh.Shape, source.References)
+        except Error as error:
+            FreeCAD.Console.PrintWarning(f"{mesh.Label}: no group for {source.Label}: {error}\n")
+            continue
+        nodes: Set[int] = set()
+        members: Dict[str, Set[int]] = {}
+        for element in elements:
+            nodes |= part_groups.nodes(element)
+            kind = element.rstrip("0123456789")
+            if kind != "Vertex":
+                members.setdefault(kind, set()).update(part_groups.elements(element))
+        if nodes:
+            wanted[(f"{name}_Nodes", "Node")] = tuple(sorted(nodes))
+        for kind, ids in members.items():
+            if ids:
+                wanted[(f"{name}_{kind}s", kind)] = tuple(sorted(ids))
+    return wanted
+
+
+class _PartGroups:
+    """The groups Face1..., Edge1..., Vertex1... of a mesh."""
+
+    def __init__(self, fem_mesh) -> None:
+        self._mesh = fem_mesh
+        self._numbers = {(fem_mesh.getGroupName(i), fem_mesh.getGroupElementType(i)): i for i in fem_mesh.Groups}
+        self._nodes: Dict[str, Set[int]] = {}
+
+    def elements(self, name: str) -> Iterable[int]:
+        number = self._numbers.get((name, _KINDS[name.rstrip("0123456789")]))
+        return () if number is None else self._mesh.getGroupElements(number)
+
+    def nodes(self, name: str) -> Set[int]:
+        if name not in self._nodes:
+            found: Set[int] = set()
+            if name.startswith("Vertex"):
+                found.update(self.elements(name))
+            else:
+                for element in self.elements(name):
+                    found.update(self._mesh.getElementNodes(element))
+            self._nodes[name] = found
+        return self._nodes[name]
+
+
+def _is_part_group(name: str) -> bool:
+    kind = name.rstrip("0123456789")
+    return kind in _KINDS and kind != name
+
+
+def analysis_of(obj):
+    """The analysis that an object is in, or None."""
+    for parent in obj.InList:
+        if parent.isDerivedFrom("Fem::FemAnalysis"):
+            return parent
+    return None
+
+
+def _members(mesh) -> List:
+    """What has references in the mesh object's analysis."""
+    analysis = analysis_of(mesh)
+    if analysis is None:
+        return []
+    return [member for member in analysis.Group
+            if member != mesh and getattr(member, "References", None)]
+
+
+class _Watcher:
+    """A document observer: constraints that are added or changed after meshing get their groups at once."""
+
+    def slotChangedObject(self, obj, name: str) -> None:
+        """FreeCAD calls this after a property has changed."""
+        if name not in ("References", "Group", "MeshGroupList", "UseLabel"):
+            return
+        document = obj.Document
+        if document is None or getattr(document, "Restoring", False) or getattr(document, "Transacting", False):
+            return
+        for mesh in self._meshes(obj, name):
+            if mesh.FemMesh.FaceCount and mesh.Shape is not None:
+                refresh(mesh)
+
+    def slotUndoDocument(self, document) -> None:
+        """FreeCAD calls this after an undo."""
+        for mesh in document.Objects:
+            if _is_ours(mesh):
+                undo.bring_back(mesh)
+                mesh.Proxy.execute(mesh)
+                if mesh.FemMesh.FaceCount and mesh.Shape is not None:
+                    refresh(mesh)
+
+    slotRedoDocument = slotUndoDocument
+
+    def slotDeletedDocument(self, document) -> None:
+        """FreeCAD calls this before a document closes."""
+        undo.forget(document)
+
+    @staticmethod
+    def _meshes(obj, name: str) -> List:
+        if name == "MeshGroupList":
+            candidates = [obj]
+        else:
+            analysis = obj if obj.isDerivedFrom("Fem::FemAnalysis") else analysis_of(obj)
+            candidates = [*(analysis.Group if analysis else ()), *obj.InList]
+        return [mesh for mesh in candidates if _is_ours(mesh)]
+
+
+def _is_ours(obj) -> bool:
+    """True for a mesh object of this addon that has all its properties."""
+    return (getattr(getattr(obj, "Proxy", None), "Type", "") == "Fem::FemMeshQuadrille"
+            and "MeshToken" in obj.PropertiesList)
+
+
+_watcher: Optional[_Watcher] = None
+
+
+def watch() -> None:
+    """Starts to watch documents, once."""
+    global _watcher
+    if _watcher is None:
+        _watcher = _Watcher()
+        FreeCAD.addDocumentObserver(_watcher)

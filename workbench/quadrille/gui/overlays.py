@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Things drawn over a mesh in the 3-D view: its faces coloured by quality, arrows for its shell normals.
+
+FreeCAD's own element colours are not used: FreeCAD 0.20 mixes them up between the elements of a second-order mesh.
+"""
+
+from typing import Dict
+
+import numpy as np
+
+from .. import quality
+
+#: More arrows than this only blacken the view: larger meshes show some of them.
+MOST_ARROWS = 3000
+QUALITY, NORMALS, ELEMENT = "QuadrilleQuality", "QuadrilleNormals", "QuadrilleElement"
+#: What is shown, by the names of document and mesh object, and by kind.
+_shown: Dict[tuple, object] = {}
+#: The display modes that meshes had before they were coloured.
+_modes: Dict[tuple, str] = {}
+
+
+def is_shown(mesh, kind: str) -> bool:
+    """True while this kind of overlay is in the view of a mesh object."""
+    node = _shown.get((mesh.Document.Name, mesh.Name, kind))
+    return node is not None and mesh.ViewObject.RootNode.findChild(node) >= 0
+
+
+def hide(mesh, kind: str) -> None:
+    """Takes an overlay out of the view."""
+    key = (mesh.Document.Name, mesh.Name, kind)
+    node = _shown.pop(key, None)
+    if node is not None and mesh.ViewObject.RootNode.findChild(node) >= 0:
+        mesh.ViewObject.RootNode.removeChild(node)
+    mode = _modes.pop(key, None)
+    if mode is not None:
+        mesh.ViewObject.DisplayMode = mode
+
+
+def _show(mesh, kind: str, node) -> None:
+    mesh.ViewObject.RootNode.addChild(node)
+    _shown[(mesh.Document.Name, mesh.Name, kind)] = node
+    mesh.ViewObject.show()
+
+
+def _group(*children):
+    from pivy import coin
+
+    node = coin.SoSeparator()
+    picking = coin.SoPickStyle()
+    picking.style = coin.SoPickStyle.UNPICKABLE
+    node.addChild(picking)
+    for child in children:
+        node.addChild(child)
+    return node
+
+
+def _coordinates(points: np.ndarray):
+    from pivy import coin
+
+    node = coin.SoCoordinate3()
+    node.point.setValues(0, len(points), points.tolist())
+    return node
+
+
+def show_quality(mesh, measured: quality.ElementQuality) -> None:
+    """Draws the quads in colours, from red (q = 0) through yellow to blue (q = 1)."""
+    from pivy import coin
+
+    hide(mesh, QUALITY)
+    colours = quality.colours(measured.q)
+    material = coin.SoMaterial()
+    material.diffuseColor.setValues(0, len(colours), colours.tolist())
+    binding = coin.SoMaterialBinding()
+    binding.value = coin.SoMaterialBinding.PER_FACE
+    hints = coin.SoShapeHints()
+    hints.vertexOrdering = coin.SoShapeHints.COUNTERCLOCKWISE
+    hints.shapeType = coin.SoShapeHints.UNKNOWN_SHAPE_TYPE  # lit from both sides
+    hints.faceType = coin.SoShapeHints.UNKNOWN_FACE_TYPE
+    offset = coin.SoPolygonOffset()  # the lines of the mesh stay in front
+    faces = coin.SoFaceSet()
+    faces.numVertices.setValues(0, len(colours), [4] * len(colours))
+    _show(mesh, QUALITY, _group(material, binding, hints, offset, _coordinates(measured.corners.reshape(-1, 3)), faces))
+    if mesh.ViewObject.DisplayMode != "Wireframe":
+        _modes[(mesh.Document.Name, mesh.Name, QUALITY)] = mesh.ViewObject.DisplayMode
+        mesh.ViewObject.DisplayMode = "Wireframe"
+
+
+def frame_element(mesh, measured: quality.ElementQuality, index: int) -> None:
+    """Draws a thick line around an element."""
+    from pivy import coin
+
+    hide(mesh, ELEMENT)
+    lift = 0.02 * measured.lengths[index] * measured.normals[index]
+    points = measured.corners[index][[0, 1, 2, 3, 0]]
+    light = coin.SoLightModel()
+    light.model = coin.SoLightModel.BASE_COLOR
+    colour = coin.SoBaseColor()
+    colour.rgb = (0.9, 0.0, 0.6)
+    style = coin.SoDrawStyle()
+    style.lineWidth = 5
+    lines = coin.SoLineSet()
+    lines.numVertices.setValues(0, 2, [5, 5])  # seen from both sides
+    _show(mesh, ELEMENT, _group(light, colour, style, _coordinates(np.vstack([points + lift, points - lift])), lines))
+
+
+def show_normals(mesh) -> int:
+    """Puts arrows on the elements, pointing to where a shell's normal points; returns how many."""
+    from pivy import coin
+
+    hide(mesh, NORMALS)
+    measured = quality.measure(mesh.FemMesh)
+    step = max(1, -(-measured.ids.size // MOST_ARROWS))
+    feet, normals = measured.centres[::step], measured.normals[::step]
+    length = float(np.median(measured.lengths)) * step**0.5
+    tips = feet + normals * length
+    # Two barbs make a line an arrow; any direction across the normal will do.
+    across = np.cross(normals, np.where(np.abs(normals[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]]))
+    across *= 0.15 * length / np.linalg.norm(across, axis=1, keepdims=True)
+    barbs = tips - 0.3 * length * normals
+    points = np.stack([feet, tips, barbs + across, tips, barbs - across], axis=1).reshape(-1, 3)
+    light = coin.SoLightModel()
+    light.model = coin.SoLightModel.BASE_COLOR
+    colour = coin.SoBaseColor()
+    colour.rgb = (0.85, 0.1, 0.1)
+    style = coin.SoDrawStyle()
+    style.lineWidth = 2
+    lines = coin.SoLineSet()
+    lines.numVertices.setValues(0, len(feet), [5] * len(feet))
+    _show(mesh, NORMALS, _group(light, colour, style, _coordinates(points), lines))
+    return len(feet)
+
+
+def hide_normals(mesh) -> None:
+    """Takes the arrows away."""
+    hide(mesh, NORMALS)

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How a mesh object appears in the tree and opens its panel. Documents name MeshViewProvider: do not move it."""
+
+import FreeCADGui
+
+from ..freecad import UP_TO_DATE
+from . import icon, tell
+
+
+class MeshViewProvider:
+    """The view provider of our mesh objects."""
+
+    def __init__(self, vobj) -> None:
+        vobj.Proxy = self
+        # A wide line hides the shading of a fine mesh.
+        vobj.LineWidth = 1.0
+        vobj.PointSize = 2.0
+
+    def attach(self, vobj) -> None:
+        """FreeCAD calls this when the object gets its view."""
+        self.Object = vobj.Object
+
+    def getIcon(self) -> str:
+        """Another icon while the mesh is not that of the part and its settings."""
+        current = getattr(self.Object, "Status", "") == UP_TO_DATE
+        return icon("quadrille_mesh" if current else "quadrille_stale")
+
+    def updateData(self, obj, name: str) -> None:
+        """The icon follows the status."""
+        if name == "Status":
+            obj.ViewObject.signalChangeIcon()
+
+    def claimChildren(self) -> list:
+        """Mesh regions and groups hang below the mesh."""
+        return [*self.Object.MeshRegionList, *self.Object.MeshGroupList]
+
+    def setEdit(self, vobj, _mode=0) -> bool:
+        """Opens the task panel."""
+        from .task_panel import MeshPanel
+
+        if FreeCADGui.Control.activeDialog():
+            tell("Another task panel is open: close it first.")
+            return False
+        if vobj.Object.Shape is None:
+            tell(f"{vobj.Object.Label}: the part that it meshes is gone.")
+            return False
+        FreeCADGui.Control.showDialog(MeshPanel(vobj.Object))
+        return True
+
+    def unsetEdit(self, _vobj, _mode=0) -> bool:
+        """Closes the task panel."""
+        FreeCADGui.Control.closeDialog()
+        return True
+
+    def doubleClicked(self, vobj) -> bool:
+        """A double click edits."""
+        vobj.Document.setEdit(vobj.Object.Name)
+        return True
+
+    def dumps(self):
+        """Nothing to save."""
+        return None
+
+    def loads(self, _state) -> None:
+        """Nothing to restore."""
+
+    __getstate__ = dumps
+    __setstate__ = loads

@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the workbench asks of Part shapes: how many quads a size gives, whether a shape has changed, faces reversed,
+and the names of referenced faces, edges and vertices. Runs inside FreeCAD."""
+
+import math
+from typing import List, Mapping, Optional, Sequence, Tuple
+
+import Part
+
+from .errors import Error
+
+#: Samples a face and direction, for its curvature; fewer where there are many faces.
+_SAMPLES, _FEW_SAMPLES, _MANY_FACES = 8, 4, 300
+
+
+class SizeEstimate:
+    """How many quads the faces of a shape get at a size. Measures the faces once; each question is then quick.
+
+    Curvature is sampled: that of a strip narrower than an eighth of its face, such as a wing's nose, is missed.
+    """
+
+    def __init__(self, shape) -> None:
+        samples = _SAMPLES if len(shape.Faces) <= _MANY_FACES else _FEW_SAMPLES
+        self._faces = [_curvatures(face, samples) for face in shape.Faces]
+        self._diagonal = shape.BoundBox.DiagonalLength
+
+    def quads(
+        self,
+        size: float,
+        size_min: Optional[float] = None,
+        elements_per_circle: float = 12,
+        sizes: Optional[Mapping[str, float]] = None,
+        faces: Sequence[str] = (),
+    ) -> int:
+        """The number of quads to expect. The growth of sizes between neighbours is not followed."""
+        smallest = size_min or size / 8
+        count = 0.0
+        for index, pieces in enumerate(self._faces, 1):
+            name = f"Face{index}"
+            if faces and name not in faces:
+                continue
+            cap = min(size, (sizes or {}).get(name, size))
+            for area, curvature in pieces:
+                local = cap
+                if elements_per_circle and curvature > 0:
+                    local = min(cap, max(smallest, 2 * math.pi / (curvature * elements_per_circle)))
+                count += area / local**2
+        return round(count)
+
+    def suggested(self, quads: int = 5000, elements_per_circle: float = 12) -> float:
+        """The size that gives about so many quads, to two digits."""
+        low, high = self._diagonal * 1e-5, self._diagonal / 2
+        for _ in range(60):
+            middle = math.sqrt(low * high)
+            if self.quads(middle, None, elements_per_circle) > quads:
+                low = middle
+            else:
+                high = middle
+        digits = 1 - math.floor(math.log10(high))
+        return round(high, digits)
+
+
+def _curvatures(face, samples: int) -> List[Tuple[float, float]]:
+    """A face in pieces: the area of each and the larger curvature there."""
+    if isinstance(face.Surface, Part.Plane):
+        return [(face.Area, 0.0)]
+    u_min, u_max, v_min, v_max = face.ParameterRange
+    found = []
+    for i in range(samples):
+        for j in range(samples):
+            u = u_min + (u_max - u_min) * (i + 0.5) / samples
+            v = v_min + (v_max - v_min) * (j + 0.5) / samples
+            try:
+                along_u, along_v = face.derivative1At(u, v)
+                curvature = max(abs(value) for value in face.curvatureAt(u, v))
+            except (Part.OCCError, RuntimeError):  # a pole or a kink has no curvature
+                continue
+            found.append((along_u.cross(along_v).Length, curvature))
+    total = sum(weight for weight, _ in found)
+    if not total > 0:
+        return [(face.Area, 0.0)]
+    return [(face.Area * weight / total, curvature) for weight, curvature in found]
+
+
+def fingerprint(shape) -> List[float]:
+    """Numbers that change when a shape does: its corners, the lengths of its edges, areas and centres of its faces.
+
+    BREP text would not do: it holds the triangulation for the screen and flags of checks.
+    """
+    numbers = [float(len(shape.Faces)), float(len(shape.Edges)), float(len(shape.Vertexes))]
+    for vertex in shape.Vertexes:
+        numbers += tuple(vertex.Point)
+    for edge in shape.Edges:
+        numbers.append(0.0 if edge.Degenerated else edge.Length)
+    for face in shape.Faces:
+        numbers += [face.Area, *tuple(face.CenterOfMass), -1.0 if face.Orientation == "Reversed" else 1.0]
+    return numbers
+
+
+def same_fingerprint(one: Sequence[float], other: Sequence[float]) -> bool:
+    """True when two fingerprints agree but for rounding."""
+    if len(one) != len(other):
+        return False
+    scale = max((abs(number) for number in one), default=1.0)
+    return all(abs(a - b) <= 1e-9 * scale for a, b in zip(one, other))
+
+
+def with_reversed_faces(shape, names: Sequence[str]):
+    """The faces of a shape, those with these names reversed; numbered as before. The shape itself when none is."""
+    if not names:
+        return shape
+    reverse = set(names)
+    faces = []
+    for index, face in enumerate(shape.Faces, 1):
+        if f"Face{index}" in reverse:
+            face = face.reversed()
+            reverse.discard(f"Face{index}")
+        faces.append(face)
+    if reverse:
+        raise Error(f"{sorted(reverse)[0]}: the part has no such face to flip", "usage", sorted(reverse)[0])
+    compound = Part.makeCompound(faces)
+    for kind in ("Faces", "Edges", "Vertexes"):
+        before, after = getattr(shape, kind), getattr(compound, kind)
+        if len(before) != len(after) or not all(a.isSame(b) for a, b in zip(before, after)):
+            raise Error("the normals cannot be flipped: the part has edges or vertices that belong to no face",
+                        "failure")
+    return compound
+
+
+def references_to_names(shape, owner, references: Sequence[Tuple]) -> List[str]:
+    """FEM references as names in the meshed shape ("Face3"): those of other objects are found by their geometry."""
+    from femtools import geomtools
+
+    names: List[str] = []
+    for target, elements in references:
+        for element in [elements] if isinstance(elements, str) else elements:
+            found = element if target == owner else None
+            if found is None:
+                found = geomtools.find_element_in_shape(shape, geomtools.get_element(target, element))
+            if found and found.startswith("Solid"):
+                names += _faces_of_solid(shape, int(found[5:]))
+            elif found and _exists(shape, found):
+                names.append(found)
+            else:
+                raise Error(f"{target.Label}.{element}: is not in the meshed part", "usage", element)
+    return names
+
+
+def _exists(shape, name: str) -> bool:
+    kind = name.rstrip("0123456789")
+    lists = {"Face": shape.Faces, "Edge": shape.Edges, "Vertex": shape.Vertexes}
+    return kind in lists and 1 <= int(name[len(kind):] or 0) <= len(lists[kind])
+
+
+def _faces_of_solid(shape, number: int) -> List[str]:
+    if not 1 <= number <= len(shape.Solids):
+        raise Error(f"Solid{number}: is not in the meshed part", "usage", f"Solid{number}")
+    faces = shape.Solids[number - 1].Faces
+    return [f"Face{i}" for i, face in enumerate(shape.Faces, 1) if any(face.isSame(other) for other in faces)]
