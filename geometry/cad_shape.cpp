@@ -19,10 +19,12 @@
 
 #include <fmt/format.h>
 
+#include "geometry/shape_completion.hpp"
+
 namespace quadrille {
 
 CadShape::CadShape(const TopoDS_Shape& source, std::string shape_name)
-    : name(std::move(shape_name)), shape(source) {
+    : name(std::move(shape_name)), shape(with_parametric_curves(source, problems)) {
   read_topology();
   measure();
 }
@@ -36,6 +38,16 @@ void CadShape::read_topology() {
   TopExp::MapShapes(shape, TopAbs_SHELL, shell_map);
   solids = solid_map.Extent();
   shells = shell_map.Extent();
+  std::vector<TopoDS_Face> sources;
+  for (int i = 1; i <= face_map.Extent(); ++i) {
+    const TopoDS_Face& face = TopoDS::Face(face_map(i));
+    sources.push_back(with_natural_bounds(face));
+    if (sources.back().IsSame(face)) continue;
+    // Beyond the model's own edges, whose numbers stay.
+    TopExp::MapShapes(sources.back(), TopAbs_EDGE, edge_map);
+    TopExp::MapShapes(sources.back(), TopAbs_VERTEX, vertex_map);
+    problems.push_back(fmt::format("Face{} has no wire: it is bounded where its surface ends", i));
+  }
 
   vertices.reserve(vertex_map.Extent());
   for (int i = 1; i <= vertex_map.Extent(); ++i) {
@@ -59,7 +71,7 @@ void CadShape::read_topology() {
 
   faces.resize(face_map.Extent());
   for (int i = 1; i <= face_map.Extent(); ++i) {
-    read_face(i - 1, TopoDS::Face(face_map(i)), edge_map, vertex_map);
+    read_face(i - 1, sources[i - 1], edge_map, vertex_map);
   }
 
   for (CadEdge& edge : edges) {

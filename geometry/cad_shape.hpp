@@ -71,6 +71,7 @@ class CadShape {
   CadShape(const TopoDS_Shape& shape, std::string name);
 
   std::string name;
+  std::vector<std::string> problems;  ///< found and mended while reading, one sentence each
   TopoDS_Shape shape;
   std::vector<CadFace> faces;
   std::vector<CadEdge> edges;
@@ -78,7 +79,6 @@ class CadShape {
   std::vector<double> vertex_tolerances;
   int solids = 0, shells = 0;
   Vector3 box_min, box_max;
-  std::vector<std::string> problems;
 
   double diagonal() const { return (box_max - box_min).norm(); }
 

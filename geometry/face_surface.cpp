@@ -12,6 +12,7 @@
 #include <gp_Pln.hxx>
 #include <gp_Sphere.hxx>
 #include <gp_Torus.hxx>
+#include <limits>
 
 namespace quadrille {
 
@@ -104,6 +105,8 @@ SurfacePoint FaceSurface::evaluate_elementary(const Vector2& uv) const {
 }
 
 SurfacePoint FaceSurface::evaluate_other(const Vector2& uv) const {
+  if (!uv.allFinite())
+    return {Vector3::Constant(std::numeric_limits<double>::quiet_NaN()), Vector3::Zero(), Vector3::Zero()};
   gp_Pnt p;
   gp_Vec du, dv;
   adaptor_->D1(uv.x(), uv.y(), p, du, dv);

@@ -87,6 +87,11 @@ class Triangulator {
     for (const auto& segment : boundary_.segments) {
       const auto a = handles_[segment.a], b = handles_[segment.b];
       if (a == b) throw crossing(face_, boundary_.points[segment.a]);
+      // Used twice (a slit) or internal: the face lies on both sides.
+      const auto key = std::minmax(a->info(), b->info());
+      const bool is_new = seen_.insert(key).second;
+      if (segment.internal || !is_new) transparent_.insert(key);
+      if (!is_new) continue;
       try {
         cdt_.insert_constraint(a, b);
       } catch (const Cdt::Intersection_of_constraints_exception&) {
@@ -96,9 +101,6 @@ class Triangulator {
       Cdt::Face_handle f;
       int i = 0;
       if (!cdt_.is_edge(a, b, f, i)) throw crossing(face_, boundary_.points[segment.a]);
-      // Used twice (a slit) or internal: the face lies on both sides.
-      const auto key = std::minmax(a->info(), b->info());
-      if (segment.internal || !seen_.insert(key).second) transparent_.insert(key);
     }
   }
 
@@ -359,16 +361,19 @@ class CrackOpener {
     }
   }
 
-  /// One segment for each side of a crack.
+  /// One segment for each side of a crack; those that end at one get the point of their side.
   void replace_segments() {
+    std::map<Key, FaceBoundary::Segment> replaced;
     std::erase_if(boundary_.segments, [&](const auto& segment) {
-      return !segment.degenerate && cracks_.contains(key(segment.a, segment.b));
+      if (segment.degenerate || (!corners_.contains(segment.a) && !corners_.contains(segment.b)))
+        return false;
+      replaced.emplace(key(segment.a, segment.b), segment);
+      return true;
     });
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
       for (int k = 0; k < 3; ++k) {
-        const auto it =
-            cracks_.find(key(original(static_cast<int>(t), k), original(static_cast<int>(t), k + 1)));
-        if (it == cracks_.end()) continue;
+        const auto it = replaced.find(key(original(t, k), original(t, k + 1)));
+        if (it == replaced.end()) continue;
         FaceBoundary::Segment segment = it->second;
         segment.a = triangles_[t][k];
         segment.b = triangles_[t][(k + 1) % 3];

@@ -3,6 +3,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <Standard_Failure.hxx>
 
 #include <algorithm>
 #include <cmath>
@@ -89,6 +90,10 @@ class Job {
       } catch (const std::exception& problem) {
         const std::string name = fmt::format("Face{}", face + 1);
         errors_[face] = failure(name, fmt::format("{} cannot be meshed ({})", name, problem.what()));
+      } catch (const Standard_Failure& problem) {
+        const std::string name = fmt::format("Face{}", face + 1);
+        errors_[face] =
+            failure(name, fmt::format("{} cannot be evaluated ({})", name, problem.GetMessageString()));
       }
       context_.report("mesh", static_cast<double>(++done) / n);
     });

@@ -83,6 +83,17 @@ class Smoother {
     return any;
   }
 
+  /// Moves the nodes of inverted elements to where the least of their corner areas, each over the lengths of
+  /// its sides, is largest: exactly, so that the thin wedges at cusps are found too. Returns whether a node
+  /// moved.
+  bool untangle() {
+    bool any = false;
+    for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
+      if (free_[node] && !(least_round(node) > 0) && spread_corners(node)) any = true;
+    }
+    return any;
+  }
+
   /// Where single nodes cannot help an element (rows of flat quads against a wall), all nodes near it are
   /// averaged without regard to shapes, then mended; kept only if the worst element there is better than
   /// before. \param most_failures gives up after so many elements in a row: the face is then too narrow for
@@ -362,6 +373,74 @@ class Smoother {
     return settle(node, best, goal, size);
   }
 
+  /// The corner areas are linear in the node's place, so the least of them is concave: golden sections, one
+  /// in the other, find where it is largest.
+  bool spread_corners(int node) {
+    struct Area {
+      double x, y, constant;
+      double at(double px, double py) const { return constant + x * px + y * py; }
+    };
+    const Vector3& origin = points_[node];
+    const Vector3& normal = normals_[node];
+    const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
+    std::vector<Area> areas;
+    // The corner at b between a and c, of which one is the node: constant + gradient times its move.
+    const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& gradient) {
+      const double scale = std::max((a - b).norm() * (c - b).norm(), std::numeric_limits<double>::min());
+      areas.push_back(
+          {gradient.dot(u) / scale, gradient.dot(v) / scale, (c - b).cross(a - b).dot(normal) / scale});
+    };
+    for (int i = first_[node]; i < first_[node + 1]; ++i) {
+      const auto& q = quads_[corners_[i] >> 2];
+      const int j = corners_[i] & 3;
+      const Vector3 &b = points_[q[(j + 1) & 3]], &c = points_[q[(j + 2) & 3]], &d = points_[q[(j + 3) & 3]];
+      add(d, origin, b, normal.cross(b - d));
+      add(origin, b, c, normal.cross(c - b));
+      add(c, d, origin, normal.cross(d - c));
+    }
+    const auto least = [&](double x, double y) {
+      double value = std::numeric_limits<double>::max();
+      for (const Area& area : areas) value = std::min(value, area.at(x, y));
+      return value;
+    };
+    const double reach = 1.5 * mean_side(node);
+    const auto best_y = [&](double x) {
+      return golden_section(reach, [&](double y) { return least(x, y); });
+    };
+    const double x = golden_section(reach, [&](double trial) { return least(trial, best_y(trial)); });
+    Vector2 uv = parameters_[node];
+    Vector3 moved_normal = normal;
+    const Vector3 place = surface_.move(uv, origin + x * u + best_y(x) * v, moved_normal);
+    if (!place.allFinite() || !(least_at(node, place, moved_normal, -2) > least_round(node))) return false;
+    put(node, place, uv, moved_normal);
+    return true;
+  }
+
+  /// Where in [-reach, reach] a concave function is largest.
+  template <class Function>
+  static double golden_section(double reach, Function&& function) {
+    constexpr double kGolden = 0.61803398874989485;
+    double low = -reach, high = reach;
+    double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+    double at_a = function(a), at_b = function(b);
+    for (int i = 0; i < 32; ++i) {
+      if (at_a > at_b) {
+        high = b;
+        b = a;
+        at_b = at_a;
+        a = high - kGolden * (high - low);
+        at_a = function(a);
+      } else {
+        low = a;
+        a = b;
+        at_a = at_b;
+        b = low + kGolden * (high - low);
+        at_b = function(b);
+      }
+    }
+    return 0.5 * (low + high);
+  }
+
   /// Puts the node on the surface near the place found, if that is better there too.
   bool settle(int node, const Vector3& target, Goal goal, double size) {
     Vector2 uv = parameters_[node];
@@ -416,7 +495,11 @@ class Smoother {
       for (const int node : nodes) points_[node] = middle_of(node);
     for (const Saved& was : saved) {
       const Vector3 place = surface_.move(parameters_[was.node], points_[was.node], normals_[was.node]);
-      points_[was.node] = place.allFinite() ? place : was.point;
+      points_[was.node] = place;
+      if (place.allFinite()) continue;
+      points_[was.node] = was.point;
+      parameters_[was.node] = was.uv;
+      normals_[was.node] = was.normal;
     }
     for (const int node : nodes) measure_round(node);
     for (int i = 0; i < kMends; ++i)
@@ -463,6 +546,7 @@ void smooth(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const Im
   if (smoother.loosen_below(std::sin(kHalfPi * std::clamp(options.q_floor, 0.0, 0.9)), kMostFailures))
     for (int i = 0; i < 2 && smoother.optimise_below(kBad); ++i) context.check();
   for (int i = 0; i < 2 && smoother.optimise_below(kPoor); ++i) context.check();
+  for (int i = 0; i < 10 && smoother.untangle(); ++i) context.check();
   report.bad_elements = smoother.bad_elements();
 }
 

@@ -73,6 +73,21 @@ class Subdivider {
     return add_point(at.point, uv, surface_.normal(at, uv), false, false);
   }
 
+  /// The surface point near the mean of the middles of an element's sides. At curved boundaries that lies
+  /// further inside than the mean of the corners.
+  template <std::size_t n>
+  int add_centre(const std::array<int, n>& middles) {
+    const auto& fine = fine_.surface_mesh;
+    Vector3 target = Vector3::Zero();
+    Vector2 uv(0, 0);
+    for (const int i : middles) {
+      target += fine.mesh.points[i] / static_cast<double>(n);
+      uv += fine.parameters[i] / static_cast<double>(n);
+    }
+    const SurfacePoint at = surface_.move(uv, target);
+    return add_point(at.point, uv, surface_.normal(at, uv), false, false);
+  }
+
   int middle(int a, int b) {
     const auto [it, is_new] = middles_.emplace(side_key(a, b), -1);
     if (is_new) it->second = add_mean(std::array<int, 2>{a, b});
@@ -83,7 +98,7 @@ class Subdivider {
   void split(const std::array<int, n>& element) {
     std::array<int, n> middles;
     for (std::size_t k = 0; k < n; ++k) middles[k] = middle(element[k], element[(k + 1) % n]);
-    const int centre = add_mean(element);
+    const int centre = add_centre(middles);
     for (std::size_t k = 0; k < n; ++k) {
       fine_.surface_mesh.mesh.quads.push_back(
           {renumbered_[element[k]], middles[k], centre, middles[(k + n - 1) % n]});

@@ -1,0 +1,23 @@
+#pragma once
+/// Small CAD models, one for each class of trouble that real files bring.
+
+#include <TopoDS_Shape.hxx>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace quadrille {
+
+struct TroubleModel {
+  std::string name;     ///< fit for a file name
+  std::string trouble;  ///< in a few words
+  std::function<TopoDS_Shape()> make;
+  bool closed = false;  ///< a watertight skin
+  double area = 0;      ///< of all faces, shared ones once
+  int corners = -1;     ///< CAD vertices that must be nodes; -1 = all of the model's
+  double diagonal = 0;  ///< 0 = of the bounding box; else what sizes refer to
+};
+
+const std::vector<TroubleModel>& trouble_models();
+
+}  // namespace quadrille
