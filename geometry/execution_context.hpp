@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "geometry/error.hpp"
 
 namespace quadrille {
@@ -28,11 +30,20 @@ class ExecutionContext {
 
   int threads() const noexcept { return threads_; }
 
+  /// Ends the work with an Error (failure) at the first check later than so many seconds from now.
+  void limit_time(double seconds) {
+    limit_seconds_ = seconds;
+    deadline_ =
+        std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                               std::chrono::duration<double>(seconds));
+  }
+
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
   bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
 
-  /// Throws Error (cancelled) once the work has been cancelled.
+  /// Throws Error (cancelled) once the work has been cancelled, Error (failure) once its time is over.
   void check() const {
+    if (limit_seconds_ > 0 && std::chrono::steady_clock::now() > deadline_) throw time_is_over();
     if (cancelled()) throw Error(Error::Kind::cancelled, "", "the work was cancelled");
   }
 
@@ -57,8 +68,15 @@ class ExecutionContext {
   }
 
  private:
+  Error time_is_over() const {
+    return failure("--time-limit",
+                   fmt::format("the time limit of {:g} s is over, and nothing was written", limit_seconds_));
+  }
+
   int threads_ = 0;
   Progress progress_;
+  double limit_seconds_ = 0;  // 0 = none
+  std::chrono::steady_clock::time_point deadline_;
   std::atomic<bool> cancelled_{false};
   mutable std::mutex mutex_;
   std::map<std::string, double> seconds_;

@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 
 #include "geometry/error.hpp"
+#include "mesher/io/atomic_file.hpp"
 
 namespace quadrille::command {
 
@@ -95,25 +99,98 @@ void ProgressDisplay::draw_bar(std::string_view stage, int percent) {
 
 namespace {
 
+// What the handlers below need; they may call nothing that is not safe in a signal handler.
 std::atomic<ExecutionContext*> cancellable{nullptr};
+std::atomic<bool> ending{false};
+char crash_line[512], time_line[128];
+constexpr char cancel_line[] = "quadrille: the work was cancelled\n";
+constexpr int grace_microseconds = 150000;
+
+void ring_after(double seconds) {
+  struct itimerval timer {};
+  timer.it_value.tv_sec = static_cast<time_t>(seconds);
+  timer.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (seconds - std::floor(seconds)));
+  ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+[[noreturn]] void end_process(const char* line, int code) {
+  remove_unfinished_files();
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line, std::strlen(line));
+  ::_exit(code);
+}
 
 extern "C" void cancel_work(int signal_number) {
   if (ExecutionContext* context = cancellable.load()) context->cancel();
   std::signal(signal_number, SIG_DFL);
+  ending.store(true);
+  ring_after(1e-6 * grace_microseconds);
+}
+
+/// The time is over (the context knows by itself), or work that should have ended has not.
+extern "C" void handle_alarm(int) {
+  if (!ending.exchange(true)) {
+    ring_after(1e-6 * grace_microseconds);
+    return;
+  }
+  const ExecutionContext* context = cancellable.load();
+  const bool was_cancelled = context != nullptr && context->cancelled();
+  end_process(was_cancelled ? cancel_line : time_line, was_cancelled ? 130 : 1);
+}
+
+extern "C" void handle_crash(int) {
+  end_process(crash_line, 1);
+}
+
+/// Cuts what does not fit.
+template <std::size_t n>
+void copy_line(char (&buffer)[n], const std::string& line) {
+  const std::size_t length = std::min(line.size(), n - 2);
+  std::memcpy(buffer, line.data(), length);
+  buffer[length] = '\n';
+  buffer[length + 1] = 0;
 }
 
 }  // namespace
 
-CancelOnSignal::CancelOnSignal(ExecutionContext& context) {
+CancelOnSignal::CancelOnSignal(ExecutionContext& context, double time_limit) {
   cancellable.store(&context);
+  ending.store(false);
+  copy_line(time_line,
+            fmt::format("quadrille: the time limit of {:g} s is over, and nothing was written", time_limit));
   std::signal(SIGINT, cancel_work);
   std::signal(SIGTERM, cancel_work);
+  std::signal(SIGALRM, handle_alarm);
+  if (time_limit <= 0) return;
+  context.limit_time(time_limit);
+  ring_after(time_limit);
 }
 
 CancelOnSignal::~CancelOnSignal() {
+  ring_after(0);
+  std::signal(SIGALRM, SIG_IGN);
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   cancellable.store(nullptr);
+}
+
+void report_crashes(const std::filesystem::path& file) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  static_cast<void>(file);  // the sanitizer tells more
+#else
+  copy_line(crash_line,
+            fmt::format("quadrille: {}: the work on this file crashed: it may be damaged", file.string()));
+  static char stack[1 << 16];  // crashes by endless recursion leave no other
+  stack_t alternative{};
+  alternative.ss_sp = stack;
+  alternative.ss_size = sizeof(stack);
+  ::sigaltstack(&alternative, nullptr);
+  struct sigaction action {};
+  action.sa_handler = handle_crash;
+  action.sa_flags = SA_ONSTACK;
+  for (const int signal_number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+    ::sigaction(signal_number, &action, nullptr);
+  }
+#endif
 }
 
 }  // namespace quadrille::command

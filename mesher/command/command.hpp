@@ -28,6 +28,10 @@ void require_writable(const std::filesystem::path& path);
 /// Throws Error (usage) unless the path has the ending (".png") and require_writable() holds.
 void require_ending(const std::filesystem::path& path, std::string_view ending, std::string_view option);
 
+/// From now on a crash, of the CAD library on a damaged file above all, ends the process with one line on
+/// stderr that names the file, and exit code 1; unfinished files are removed.
+void report_crashes(const std::filesystem::path& file);
+
 /// Throws Error (usage) unless threads is 0 (all cores) or a sensible count.
 void require_threads(int threads);
 
@@ -53,11 +57,14 @@ class ProgressDisplay {
   std::string last_text_;
 };
 
-/// While it lives, Ctrl-C and SIGTERM cancel the context; a second signal ends the process at once. Outside,
-/// a signal ends the process at once, when there is nothing to clean up.
+/// While it lives, Ctrl-C and SIGTERM cancel the context, and the time limit, if there is one, ends the work.
+/// Work that does not notice within 0.15 s (CAD files are read in one go) is ended from outside: one line on
+/// stderr, unfinished files removed. A second signal ends the process at once. Outside, a signal ends the
+/// process at once, when there is nothing to clean up.
 class CancelOnSignal {
  public:
-  explicit CancelOnSignal(ExecutionContext& context);
+  /// \param time_limit seconds; 0 = none.
+  explicit CancelOnSignal(ExecutionContext& context, double time_limit = 0);
   ~CancelOnSignal();
   CancelOnSignal(const CancelOnSignal&) = delete;
   CancelOnSignal& operator=(const CancelOnSignal&) = delete;

@@ -80,5 +80,7 @@ int main(int argc, char** argv) {
     return complain("out of memory", work_failed);
   } catch (const std::exception& error) {
     return complain(error.what(), work_failed);
+  } catch (...) {
+    return complain("an error of the CAD library that says nothing more", work_failed);
   }
 }

@@ -26,6 +26,7 @@ struct MeshArguments {
   std::filesystem::path size_field, write_size_field, report, picture;
   std::string strategy;
   std::uint64_t seed = 1;
+  std::optional<double> time_limit;
   int threads = 0;
   double msh_version = 2.2;
   bool partial = false, force = false, quiet = false;
@@ -77,6 +78,9 @@ void check_numbers(const MeshArguments& arguments) {
   require_positive(arguments.size, "--size");
   require_positive(arguments.size_min, "--size-min");
   require_positive(arguments.growth, "--growth");
+  require_positive(arguments.time_limit, "--time-limit");
+  if (arguments.time_limit)
+    require(*arguments.time_limit <= 1e8, "--time-limit", "at most 1e8 seconds", *arguments.time_limit);
   if (const auto& count = arguments.elements_per_diagonal)
     require(*count >= 1 && std::isfinite(*count), "--elements-per-diagonal", "1 or more", *count);
   if (const auto& count = arguments.elements_per_circle)
@@ -181,9 +185,11 @@ void run(const MeshArguments& arguments) {
   ExecutionContext context(arguments.threads, [&](std::string_view stage, double fraction) {
     return display.show(stage, fraction);
   });
+  report_crashes(arguments.input);
+  const CancelOnSignal cancel(context, arguments.time_limit.value_or(0));
   const CadModel model = read_model(arguments.input, context);
+  context.check();
   check_against_model(options, model);
-  const CancelOnSignal cancel(context);
   const ShellMesh result = mesh(model, options, context);
   context.check();
   write_outputs(result, arguments, context);
@@ -220,6 +226,8 @@ void add_run_options(CLI::App& command, MeshArguments& arguments) {
       ->check(CLI::IsMember({"direct", "subdivide"}));
   command.add_option("--seed", arguments.seed, "seed of random choices");
   command.add_option("--threads", arguments.threads, "threads to use; 0 = all cores (default)");
+  command.add_option("--time-limit", arguments.time_limit,
+                     "give up after so many seconds, with nothing written");
   command.add_flag("--partial", arguments.partial, "write what could be meshed when a face fails");
   command.add_flag("--force", arguments.force, "go on where the mesh would pass 50 million elements");
   command.add_flag("--quiet", arguments.quiet, "no progress, no quality table");

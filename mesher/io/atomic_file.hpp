@@ -32,6 +32,10 @@ class AtomicFile {
   int descriptor_ = -1;
 };
 
+/// Removes the temporaries of all files not yet committed. Safe in a signal handler; for a process about to
+/// end.
+void remove_unfinished_files() noexcept;
+
 /// Writes a whole file at once. Throws as AtomicFile does.
 void write_file(const std::filesystem::path& target, std::string_view bytes);
 
