@@ -61,8 +61,9 @@ class MidsideRepair {
     const Vector3 along = mesh_.points[b] - mesh_.points[a];
     const Vector3 across = surface_.normal(uv).cross(along);
     double best = worst(node);
-    constexpr double start = 0.25, end = 0.01;
-    for (double step = start; step > end; step *= 0.5) {
+    constexpr int halvings = 5;
+    double step = 0.25;
+    for (int i = 0; i < halvings; ++i, step *= 0.5) {
       for (const Vector3& direction : {across, Vector3(-across), along, Vector3(-along)}) {
         const Vector3 old = mesh_.points[node];
         Vector2 moved = uv;
@@ -198,7 +199,7 @@ class Assembler {
     constexpr int bisections = 30;
     for (int i = 0; i < bisections; ++i) {
       const double t = 0.5 * (low + high);
-      const Vector3 p = curve.point(t);
+      Vector3 p = curve.point(t);
       const double difference = (p - from).norm() - (p - to).norm();
       if (std::abs(difference) < 1e-9 * (to - from).norm()) return p;
       (difference < 0 ? low : high) = t;
