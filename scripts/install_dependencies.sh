@@ -20,7 +20,7 @@ packages=(
   # Python module
   pybind11-dev python3 python3-dev python3-numpy
   # tests, benchmarks
-  libgtest-dev libbenchmark-dev
+  libgtest-dev
   # what meshes are made for, and compared with
   freecad gmsh python3-matplotlib
 )
