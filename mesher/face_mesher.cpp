@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -65,6 +66,7 @@ class FaceMesher {
         {{scale, 0.85, true}, false, true, "sparser points"},
         {{scale, 0.75, false}, false, true, "hexagonal points"},
     };
+    const double acceptable = acceptable_q();
     std::optional<FaceMesh> best;
     std::optional<Error> error;
     for (const Attempt& attempt : attempts) {
@@ -72,7 +74,8 @@ class FaceMesher {
       try {
         FaceMesh mesh = mesh_once(attempt);
         if (!best || better(mesh, *best)) best = std::move(mesh);
-        if (best->inverted == 0 && best->q_min > 0.05) break;
+        // Slender quads are worth a second look, inverted ones all the ladder.
+        if (best->inverted == 0 && (best->q_min > acceptable || &attempt > attempts)) break;
       } catch (const Error& problem) {
         if (problem.kind() == Error::Kind::cancelled) throw;
         error = problem;
@@ -90,6 +93,23 @@ class FaceMesher {
  private:
   static bool better(const FaceMesh& a, const FaceMesh& b) {
     return a.inverted != b.inverted ? a.inverted < b.inverted : a.q_min > b.q_min;
+  }
+
+  /// The worst q that is not worth another attempt: where CAD curves meet at a small angle, the quad there is as slender
+  /// whatever one does.
+  double acceptable_q() const {
+    constexpr double usual = 0.05;
+    std::vector<char> pole(boundary_.uv.size(), 0);
+    for (const auto& segment : boundary_.segments) {
+      if (segment.degenerate) pole[segment.a] = pole[segment.b] = 1;
+    }
+    double sharpest = M_PI;
+    for (std::size_t i = 0; i < pole.size(); ++i) {
+      // A wire that runs the wrong way round gives the rest to 2 pi.
+      if (!pole[i]) sharpest = std::min({sharpest, boundary_.angles[i], std::abs(2 * M_PI - boundary_.angles[i])});
+    }
+    // q of a quad with one corner this sharp, and some more, since its other corners suffer too.
+    return std::min(usual, 0.3 * sharpest * 2 / M_PI - 0.01);
   }
 
   FaceMesh mesh_once(const Attempt& attempt) {
