@@ -8,14 +8,11 @@
 #include "geometry/edge_curve.hpp"
 #include "geometry/face_surface.hpp"
 #include "mesher/second_order.hpp"
+#include "mesher/side_key.hpp"
 
 namespace quadrille {
 
 namespace {
-
-std::uint64_t side_key(int a, int b) {
-  return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint32_t>(std::max(a, b));
-}
 
 /// Moves the midside nodes inside one face where curved boundary sides make second-order elements invalid.
 class MidsideRepair {

@@ -4,14 +4,11 @@
 #include <unordered_map>
 
 #include "mesher/quality.hpp"
+#include "mesher/side_key.hpp"
 
 namespace quadrille {
 
 namespace {
-
-std::uint64_t side_key(int a, int b) {
-  return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint32_t>(std::max(a, b));
-}
 
 class Subdivider {
  public:

@@ -14,6 +14,7 @@
 
 #include "mesher/quality.hpp"
 #include "mesher/second_order.hpp"
+#include "mesher/side_key.hpp"
 
 namespace quadrille {
 namespace {
@@ -224,11 +225,6 @@ void check_coincident(std::span<const Vector3> points, Findings& findings) {
   Findings pairs;
   CoincidenceSearch(points, kCoincident * diagonal).run(pairs);
   for (const auto& sentence : pairs.take()) findings.add("{}", sentence);
-}
-
-/// Keys of sides, for look-up.
-std::uint64_t side_key(int a, int b) {
-  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
 }
 
 using SegmentIndex = std::unordered_map<std::uint64_t, int>;
