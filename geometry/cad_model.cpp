@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <iostream>
 #include <sstream>
 #include <streambuf>
 
@@ -82,7 +83,24 @@ bool begins_as_brep(std::istream& stream) {
   return false;
 }
 
+/// While it lives, what OpenCASCADE prints to the standard output goes nowhere.
+class SilentOutput {
+ public:
+  SilentOutput() : before_(std::cout.rdbuf(&nowhere_)) {}
+  ~SilentOutput() { std::cout.rdbuf(before_); }
+  SilentOutput(const SilentOutput&) = delete;
+  SilentOutput& operator=(const SilentOutput&) = delete;
+
+ private:
+  class Nowhere : public std::streambuf {
+    int_type overflow(int_type c) override { return traits_type::not_eof(c); }
+  };
+  Nowhere nowhere_;
+  std::streambuf* before_;
+};
+
 TopoDS_Shape read_brep(std::istream& stream, const std::string& name) {
+  const SilentOutput silent;
   if (!begins_as_brep(stream)) throw failure(name, fmt::format("{} is not a readable BREP file", name));
   TopoDS_Shape shape;
   const BRep_Builder builder;
@@ -101,6 +119,9 @@ CadModel build(const TopoDS_Shape& shape, const std::string& name) {
   if (shape.IsNull()) throw failure(name, fmt::format("{} holds no shape", name));
   auto result = std::make_shared<CadShape>(shape, name);
   if (result->faces.empty()) throw failure(name, fmt::format("{} holds no face to mesh", name));
+  if (!(result->diagonal() > 0) || !(result->diagonal() < 1e100)) {
+    throw failure(name, fmt::format("{} holds a shape of no size or an infinite one: the file may be damaged", name));
+  }
   return CadModel(std::move(result));
 }
 

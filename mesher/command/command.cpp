@@ -173,12 +173,12 @@ CancelOnSignal::~CancelOnSignal() {
   cancellable.store(nullptr);
 }
 
-void report_crashes(const std::filesystem::path& file) {
+void report_crashes(const std::filesystem::path& file, std::string_view work) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  static_cast<void>(file);  // the sanitizer tells more
+  static_cast<void>(file), static_cast<void>(work);  // the sanitizer tells more
 #else
   copy_line(crash_line,
-            fmt::format("quadrille: {}: the work on this file crashed: it may be damaged", file.string()));
+            fmt::format("quadrille: {}: {} this file crashed: it may be damaged", file.string(), work));
   static char stack[1 << 16];  // crashes by endless recursion leave no other
   stack_t alternative{};
   alternative.ss_sp = stack;

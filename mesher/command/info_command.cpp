@@ -39,7 +39,7 @@ void add_info_command(CLI::App& app) {
   command->add_option("IN", *input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
   command->callback([input] {
     require_readable(*input);
-    report_crashes(*input);
+    report_crashes(*input, "reading");
     print(describe(CadModel::read(*input)));
   });
 }

@@ -185,9 +185,10 @@ void run(const MeshArguments& arguments) {
   ExecutionContext context(arguments.threads, [&](std::string_view stage, double fraction) {
     return display.show(stage, fraction);
   });
-  report_crashes(arguments.input);
+  report_crashes(arguments.input, "reading");
   const CancelOnSignal cancel(context, arguments.time_limit.value_or(0));
   const CadModel model = read_model(arguments.input, context);
+  report_crashes(arguments.input, "meshing");
   context.check();
   check_against_model(options, model);
   const ShellMesh result = mesh(model, options, context);
