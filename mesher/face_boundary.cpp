@@ -28,7 +28,14 @@ class BoundaryWalker {
         nodes_(nodes) {}
 
   FaceBoundary walk() {
-    for (const CadWire& wire : face_.wires) walk_wire(wire);
+    std::vector<int> starts;
+    for (const CadWire& wire : face_.wires) {
+      starts.push_back(boundary_.size());
+      walk_wire(wire);
+    }
+    starts.push_back(boundary_.size());
+    if (surface_.u_periodic()) gather_wires(starts, 0, surface_.u_period());
+    if (surface_.v_periodic()) gather_wires(starts, 1, surface_.v_period());
     join_touching();
     for (const InnerVertex& inner : face_.inner_vertices) {
       add_point(inner.uv, nodes_.vertex_nodes[inner.vertex - 1]);
@@ -159,6 +166,35 @@ class BoundaryWalker {
     joined_.push_back({a, b});
   }
 
+  /// Moves wires by whole periods to where the widest one is: files may have holes a turn away.
+  void gather_wires(const std::vector<int>& starts, int axis, double period) {
+    const auto bounds = [&](std::size_t wire) {
+      std::pair<double, double> range{std::numeric_limits<double>::infinity(),
+                                      -std::numeric_limits<double>::infinity()};
+      for (int i = starts[wire]; i < starts[wire + 1]; ++i) {
+        range.first = std::min(range.first, boundary_.uv[i][axis]);
+        range.second = std::max(range.second, boundary_.uv[i][axis]);
+      }
+      return range;
+    };
+    std::pair<double, double> widest{0, 0};
+    for (std::size_t wire = 0; wire + 1 < starts.size(); ++wire) {
+      const auto range = bounds(wire);
+      if (range.second - range.first > widest.second - widest.first) widest = range;
+    }
+    for (std::size_t wire = 0; wire + 1 < starts.size(); ++wire) {
+      const auto [low, high] = bounds(wire);
+      // Only those that lie outside altogether: one that reaches over an end belongs there.
+      if (!(low >= widest.second) && !(high <= widest.first)) continue;
+      const double away = 0.5 * (widest.first + widest.second - low - high);
+      const double shift = period * std::round(away / period);
+      for (int i = starts[wire]; i < starts[wire + 1]; ++i) boundary_.uv[i][axis] += shift;
+      for (auto& segment : boundary_.segments) {
+        if (segment.a >= starts[wire] && segment.a < starts[wire + 1]) segment.middle_uv[axis] += shift;
+      }
+    }
+  }
+
   /// Where wires touch, as a hole and the seam may, and along slits, one point is left of each place.
   void join_touching() {
     constexpr double nearness = 0.01;  // of the shortest segment around
@@ -179,6 +215,7 @@ class BoundaryWalker {
       });
       if (near != kept.end()) {
         joined_.push_back({i, *near});
+        boundary_.angles[*near] = 0;
       } else {
         kept.push_back(i);
       }

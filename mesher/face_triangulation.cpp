@@ -359,6 +359,8 @@ class CrackOpener {
       boundary_.uv.push_back(boundary_.uv[point]);
       boundary_.points.push_back(boundary_.points[point]);
       boundary_.nodes.push_back(boundary_.nodes[point]);
+      boundary_.angles[point] = 0;
+      boundary_.angles.push_back(0);
     }
   }
 

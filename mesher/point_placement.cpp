@@ -8,6 +8,10 @@
 #include <cmath>
 #include <cstdint>
 
+#include <fmt/format.h>
+
+#include "geometry/error.hpp"
+
 namespace quadrille {
 
 namespace {
@@ -86,6 +90,9 @@ class PointGrid {
   int low_level_ = 10000, high_level_ = -10000;
 };
 
+/// Damaged files have faces without end.
+constexpr std::size_t most_points = 20'000'000;
+
 /// A point of the front.
 struct FrontPoint {
   Vector2 uv;
@@ -121,7 +128,12 @@ class Placer {
     add_boundary();
     const std::size_t first = front_.size();
     for (std::size_t i = 0; i < front_.size(); ++i) {
-      if (i % 4096 == 0) context_.check();
+      if (i % 4096 == 0) {
+        context_.check();
+        if (front_.size() > most_points) {
+          throw failure("", fmt::format("a face would take more than {} points at this size", most_points));
+        }
+      }
       if (front_[i].proposes) propose_neighbours(i);
     }
     PlacedPoints result;

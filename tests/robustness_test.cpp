@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepTools.hxx>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <ostream>
@@ -10,6 +12,7 @@
 #include "geometry/cad_shape.hpp"
 #include "mesher/quadrille.hpp"
 #include "tests/models/trouble_models.hpp"
+#include "tests/process.hpp"
 
 namespace quadrille {
 
@@ -68,6 +71,68 @@ TEST_P(EveryTrouble, GivesAValidMesh) {
 
 INSTANTIATE_TEST_SUITE_P(Robustness, EveryTrouble, testing::ValuesIn(trouble_models()),
                          [](const auto& test) { return test.param.name; });
+
+TEST(Robustness, HasModelsForEveryClass) {
+  EXPECT_GE(trouble_models().size(), 40u);
+}
+
+TEST(Robustness, BytesDoNotDependOnThreads) {
+  const test::TemporaryFolder folder;
+  int compared = 0;
+  for (const TroubleModel& trouble : trouble_models()) {
+    const CadModel model = model_of(trouble);
+    if (model.face_count() < 3) continue;
+    SCOPED_TRACE(trouble.name);
+    std::string first;
+    for (const int threads : {1, 2, 8, 1}) {
+      const auto path = folder / "mesh.msh";
+      write_mesh(mesh_of(model, 25, Strategy::subdivide, threads), path);
+      const std::string bytes = test::file_text(path);
+      if (first.empty()) first = bytes;
+      EXPECT_EQ(bytes == first, true) << threads << " threads";
+    }
+    ++compared;
+  }
+  EXPECT_GT(compared, 5);
+}
+
+TEST(Robustness, TimeLimitEndsTheWorkInOneSentence) {
+  const CadModel model = CadModel(std::make_shared<CadShape>(trouble_models().front().make(), "sphere"));
+  MeshOptions options;
+  options.sizing.elements_per_diagonal = 2000;
+  ExecutionContext context(1);
+  context.limit_time(0.1);
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    mesh(model, options, context);
+    FAIL() << "not ended";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Error::Kind::failure);
+    EXPECT_EQ(error.subject(), "--time-limit");
+  }
+  // 0.2 s on an idle machine; the rest is for busy ones and sanitizers.
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 3);
+}
+
+TEST(Robustness, DamagedFilesEndInOneSentence) {
+  const test::TemporaryFolder folder;
+  const auto& models = trouble_models();
+  const auto path = folder / "model.brep";
+  ASSERT_TRUE(BRepTools::Write(models.front().make(), path.c_str()));
+  const std::string whole = test::file_text(path);
+  ASSERT_GT(whole.size(), 500u);
+  int failed = 0;
+  for (int part = 1; part < 20; ++part) {
+    try {
+      CadModel::from_brep(std::string_view(whole).substr(0, whole.size() * part / 20));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), Error::Kind::failure);
+      EXPECT_NE(std::string(error.what()), "");
+      ++failed;
+    }
+  }
+  EXPECT_EQ(failed, 19);
+}
 
 }  // namespace
 }  // namespace quadrille

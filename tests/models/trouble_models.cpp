@@ -434,7 +434,7 @@ TopoDS_Shape hole_a_period_away() {
   face.Free(Standard_True);
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
   TopoDS_Edge hole =
-      BRepBuilderAPI_MakeEdge(new Geom2d_Circle(gp_Ax2d({3 + 2 * pi, 15}, {1, 0}), 0.5), surface, 0, 2 * pi)
+      BRepBuilderAPI_MakeEdge(new Geom2d_Circle(gp_Ax2d({3 + 2 * pi, 15}, {1, 0}), 1.5), surface, 0, 2 * pi)
           .Edge();
   BRepLib::BuildCurves3d(hole);
   TopoDS_Wire wire;
@@ -539,7 +539,7 @@ std::vector<TroubleModel> all_models() {
       {"bare_torus", "a torus without any wire",
        [] { return bare_face(new Geom_ToroidalSurface(gp::XOY(), 20, 6)); }, true, 480 * pi * pi, 1},
       {"hole_a_period_away", "a hole whose parametric curve lies a period away", hole_a_period_away, false,
-       600 * pi - 10 * pi * 0.25},
+       600 * pi - 10 * pi * 2.25},
   };
 }
 
