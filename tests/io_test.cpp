@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <sstream>
 
 #include "geometry/error.hpp"
 #include "mesher/io/atomic_file.hpp"
@@ -207,6 +208,22 @@ TEST(Writers, BdfFieldsFitTheirColumns) {
   }
   EXPECT_EQ(grids, static_cast<int>(mesh.points.size()));
   EXPECT_EQ(quads, 8);
+}
+
+TEST(Writers, InpNumbersFitWhatCalculixReads) {
+  // CalculiX takes 20 characters of a number: -2.98507658737106e-16 would lose the 6 and become a third of a unit.
+  const TemporaryFolder folder;
+  ShellMesh mesh = ShellGrid(2, 1).mesh();
+  mesh.points[0] = {-2.98507658737106e-16, -1.2345678901234567e-105, 0.1 + 0.2};
+  write_mesh(mesh, folder / "a.inp");
+  const std::string text = test::file_text(folder / "a.inp");
+  std::istringstream node(text.substr(text.find("\n1, ") + 3));
+  std::string field;
+  for (const double expected : mesh.points[0]) {
+    ASSERT_TRUE(std::getline(node >> std::ws, field, expected == mesh.points[0].z() ? '\n' : ','));
+    EXPECT_LE(field.size(), 20u) << field;
+    EXPECT_NEAR(std::stod(field), expected, 1e-12 * std::abs(expected)) << field;
+  }
 }
 
 TEST(AtomicFile, LeavesTheOldFileWhenWritingFails) {

@@ -7,6 +7,7 @@ namespace quadrille {
 namespace {
 
 constexpr int numbers_per_line = 16;  // what Abaqus and CalculiX read of one line
+constexpr int characters_of_a_number = 20;  // what they read of one number
 
 void write_list(const std::vector<int>& numbers, TextWriter& out) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -62,7 +63,12 @@ void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& 
   out << "*NODE, NSET=Nall\n";
   for (std::size_t i = 0; i < mesh.nodes().size(); ++i) {
     const Vector3& point = mesh.point(static_cast<int>(i));
-    out << i + 1 << ", " << point.x() << ", " << point.y() << ", " << point.z() << '\n';
+    out << i + 1;
+    for (const double coordinate : {point.x(), point.y(), point.z()}) {
+      out << ", ";
+      out.within(coordinate, characters_of_a_number);
+    }
+    out << '\n';
   }
   for (const CadGroup& group : mesh.faces()) {
     write_elements(mesh, group, true, out);

@@ -51,6 +51,16 @@ class TextWriter {
     return align({digits, static_cast<std::size_t>(end - digits)}, width);
   }
 
+  /// The shortest text that reads back as the same double or, when that is longer than `most` characters, the
+  /// closest that is not: CalculiX reads 20 and would lose the end of an exponent.
+  TextWriter& within(double value, int most) {
+    char digits[32];
+    const char* end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+    for (int precision = 16; end - digits > most && precision > 0; --precision)
+      end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, precision).ptr;
+    return *this << std::string_view(digits, static_cast<std::size_t>(end - digits));
+  }
+
   void flush() {
     file_.write({buffer_.data(), size_});
     size_ = 0;
