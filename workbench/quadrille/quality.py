@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The quality of each quad of a FEM mesh, by NumPy. Runs inside FreeCAD."""
 
-from typing import Dict, List, NamedTuple
+from typing import Dict, NamedTuple
 
 import numpy as np
 
@@ -36,12 +36,13 @@ class ElementQuality(NamedTuple):
 
 def measure(fem_mesh) -> ElementQuality:
     """Measures the corner quads of a FEM mesh; midside nodes are left out."""
-    ids: List[int] = [i for i in fem_mesh.Faces if len(fem_mesh.getElementNodes(i)) in (4, 8)]
     nodes = fem_mesh.Nodes
-    rows = {node: row for row, node in enumerate(nodes)}
-    points = np.array([tuple(point) for point in nodes.values()], dtype=float).reshape(-1, 3)
-    quads = np.array([[rows[node] for node in fem_mesh.getElementNodes(i)[:4]] for i in ids], dtype=int)
-    return _measure(np.array(ids, dtype=int), points[quads.reshape(-1, 4)])
+    points = np.zeros((max(nodes, default=0) + 1, 3))
+    points[list(nodes)] = [(point.x, point.y, point.z) for point in nodes.values()]
+    elements = [(i, fem_mesh.getElementNodes(i)) for i in fem_mesh.Faces]
+    quads = [(i, found[:4]) for i, found in elements if len(found) in (4, 8)]
+    ids = np.array([i for i, _ in quads], dtype=int)
+    return _measure(ids, points[np.array([found for _, found in quads], dtype=int).reshape(-1, 4)])
 
 
 def _measure(ids: np.ndarray, corners: np.ndarray) -> ElementQuality:

@@ -4,6 +4,7 @@
 """
 
 import os
+import shutil
 import sys
 import tempfile
 import time
@@ -222,6 +223,50 @@ class GuiTest(unittest.TestCase):
         box.Length = 10
         self.document.recompute()
         self.assertEqual(mesh.Status, "up to date")
+
+    def test_to_the_stresses(self):
+        """What docs/freecad.md tells, step by step."""
+        if not shutil.which("ccx"):
+            self.skipTest("CalculiX is not installed")
+        import FemGui
+        from femtools import ccxtools
+
+        plate = self.document.addObject("Part::Feature", "Tube")
+        plate.Shape = Part.read(str(MODELS / "tube_with_hole.brep"))
+        self.show()
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        FemGui.setActiveAnalysis(analysis)
+        make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
+        solver = analysis.addObject(make_solver(self.document, "CalculiX"))[0]
+        material = analysis.addObject(ObjectsFem.makeMaterialSolid(self.document, "Steel"))[0]
+        material.Material = {"Name": "Steel", "YoungsModulus": "210000 MPa", "PoissonRatio": "0.3"}
+        analysis.addObject(ObjectsFem.makeElementGeometry2D(self.document, 1.0, "Thickness"))
+        ends = sorted((edge.CenterOfMass.z, f"Edge{i}") for i, edge in enumerate(plate.Shape.Edges, 1)
+                      if edge.isClosed() and edge.BoundBox.ZLength < 1e-6)
+        fixed = analysis.addObject(ObjectsFem.makeConstraintFixed(self.document, "Fixed"))[0]
+        fixed.References = [(plate, ends[0][1])]
+        force = analysis.addObject(ObjectsFem.makeConstraintForce(self.document, "Force"))[0]
+        force.References = [(plate, ends[-1][1])]
+        force.Force = "100 N" if FreeCAD.Version()[0] != "0" else 100.0
+        self.document.recompute()
+        mesh = self.meshed(plate)
+        self.assertIn(mesh, analysis.Group)
+        with tempfile.TemporaryDirectory() as folder:
+            fea = ccxtools.FemToolsCcx(analysis, solver)
+            fea.update_objects()
+            fea.setup_working_dir(folder, create=True)
+            fea.setup_ccx()
+            self.assertEqual(fea.check_prerequisites(), "")
+            fea.write_inp_file()
+            fea.ccx_run()
+            fea.load_results()
+        result = next(member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject"))
+        self.assertGreater(max(result.vonMises), 0)
+        mesh.ViewObject.hide()
+        result.Mesh.ViewObject.show()
+        result.Mesh.ViewObject.setNodeColorByScalars(list(result.NodeNumbers), list(result.vonMises))
+        self.show()
+        picture("stresses")
 
     # The other commands
 

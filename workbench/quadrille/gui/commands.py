@@ -268,9 +268,7 @@ class _FemManipulator:
     """Adds the commands to the FEM workbench, where FreeCAD lets addons do so (1.0)."""
 
     def modifyMenuBar(self) -> list:
-        """Below FEM's own mesh commands."""
-        if FreeCADGui.activeWorkbench().name() != "FemWorkbench":
-            return []
+        """Below FEM's own mesh command, wherever that is in a menu."""
         return [{"insert": name, "menuItem": "FEM_MeshGmshFromShape", "after": ""} for name in reversed(TOOLBAR)]
 
 

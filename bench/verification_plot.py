@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Draws the convergence that examples/freecad/verification.py --converge has measured, and prints its table.
+
+    python3 bench/verification_plot.py docs/verification.json docs/verification.png
+"""
+
+import json
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+STYLES = {"quadrille": ("Quadrille", "#1f5fa8", "o"), "gmsh-quads": ("Gmsh, quads", "#d1751b", "s"),
+          "gmsh-triangles": ("Gmsh, triangles", "#6b6b6b", "^")}
+LEFT_OUT = {"membrane-patch"}  # exact at every size: nothing to draw
+
+
+def error(row):
+    """In percent; absolute where the reference is 0."""
+    return abs(row["value"]) if row["reference"] == 0 else 100 * abs(row["value"] / row["reference"] - 1)
+
+
+def main():
+    """Plot and table."""
+    rows = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
+    cases = [case for case in dict.fromkeys(row["case"] for row in rows) if case not in LEFT_OUT]
+    figure, axes = plt.subplots(2, 4, figsize=(14, 6.4), constrained_layout=True)
+    for axis, case in zip(axes.flat, cases):
+        for mesher, (label, colour, marker) in STYLES.items():
+            found = sorted((row["elements"], max(error(row), 1e-3)) for row in rows
+                           if (row["case"], row["mesher"]) == (case, mesher))
+            axis.loglog(*zip(*found), marker=marker, color=colour, label=label)
+        axis.axhline(1, color="0.7", linewidth=0.8)
+        axis.set_title(case)
+        axis.set_xlabel("elements")
+        axis.set_ylabel("error, %")
+        axis.grid(True, which="major", alpha=0.3)
+    for axis in axes.flat[len(cases):]:
+        axis.axis("off")
+    axes.flat[-1].legend(*axes.flat[0].get_legend_handles_labels(), loc="center", frameon=False, fontsize=12)
+    figure.savefig(sys.argv[2], dpi=90)
+    print("| case | reference | " + " | ".join(f"{STYLES[mesher][0]}" for mesher in STYLES) + " |")
+    print("| --- | --- |" + " --- |" * len(STYLES))
+    for case in dict.fromkeys(row["case"] for row in rows):
+        cells = []
+        for mesher in STYLES:
+            found = [row for row in rows if (row["case"], row["mesher"]) == (case, mesher)]
+            cells.append("<br>".join(f"{row['elements']}: {row['value']:.5g}" for row in found))
+        reference = next(row["reference"] for row in rows if row["case"] == case)
+        print(f"| {case} | {reference:g} | " + " | ".join(cells) + " |")
+
+
+main()
