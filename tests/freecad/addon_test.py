@@ -1,6 +1,7 @@
 """The workbench without a window: groups for solvers, mesh regions, flipped normals, stale meshes, export, estimate."""
 
 import os
+import shutil
 import stat
 import sys
 import tempfile
@@ -116,6 +117,35 @@ class AddonTest(unittest.TestCase):
                          ["Face4", "Vertex2"])
         with self.assertRaises(quadrille.Error):
             shapes.references_to_names(box.Shape, box, [(box, "Face7")])
+
+    @unittest.skipUnless(shutil.which("ccx") and hasattr(ObjectsFem, "makeSolverCalculix"), "no such solver here")
+    def test_the_other_calculix_solver_object_solves(self):
+        from femsolver import run
+
+        part = self.document.addObject("Part::Feature", "Plate")
+        part.Shape = Part.makePlane(40, 10)
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        material = analysis.addObject(ObjectsFem.makeMaterialSolid(self.document, "Steel"))[0]
+        material.Material = {"Name": "Steel", "YoungsModulus": "210000 MPa", "PoissonRatio": "0.3"}
+        analysis.addObject(ObjectsFem.makeElementGeometry2D(self.document, 1.0, "Thickness"))
+        fixed = analysis.addObject(ObjectsFem.makeConstraintFixed(self.document, "Fixed"))[0]
+        fixed.References = [(part, "Edge1")]
+        force = analysis.addObject(ObjectsFem.makeConstraintForce(self.document, "Force"))[0]
+        force.References, force.Force, force.Direction = [(part, "Edge3")], 100.0, (part, ["Edge2"])
+        solver = analysis.addObject(ObjectsFem.makeSolverCalculix(self.document, "Solver"))[0]
+        for order in (1, 2):
+            with self.subTest(order=order), tempfile.TemporaryDirectory() as folder:
+                mesh = core.mesh_object(part, size=2, order=order, analysis=analysis)
+                machine = solver.Proxy.createMachine(solver, folder)
+                machine.target = run.RESULTS
+                machine.start()
+                machine.join()
+                self.assertFalse(machine.failed)
+                result = next(member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject"))
+                stretch = 100 / 10 / 210000 * 40  # F L / (E A)
+                self.assertAlmostEqual(max(abs(vector.x) for vector in result.DisplacementVectors) / stretch, 1, 1)
+                for member in (result.Mesh, result, mesh):
+                    self.document.removeObject(member.Name)
 
     # Mesh regions
 
