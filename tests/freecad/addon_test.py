@@ -118,6 +118,36 @@ class AddonTest(unittest.TestCase):
         with self.assertRaises(quadrille.Error):
             shapes.references_to_names(box.Shape, box, [(box, "Face7")])
 
+    def test_thickness_and_material_per_face(self):
+        from femtools import ccxtools
+
+        box = self.box()
+        analysis, fixed, _ = self.analysis()
+        fixed.References = [(box, "Face5")]
+        make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
+        solver = analysis.addObject(make_solver(self.document, "Solver"))[0]
+        wanted = {"Thin": ["Face1", "Face2"], "Thick": ["Face3", "Face4", "Face5", "Face6"]}
+        for name, faces in wanted.items():
+            shell = analysis.addObject(ObjectsFem.makeElementGeometry2D(self.document, 1.0, name))[0]
+            shell.References = [(box, tuple(faces))]
+            material = analysis.addObject(ObjectsFem.makeMaterialSolid(self.document, f"{name}Steel"))[0]
+            material.Material = {"Name": name, "YoungsModulus": "210000 MPa", "PoissonRatio": "0.3"}
+            material.References = [(box, tuple(faces))]
+        mesh = core.mesh_object(box, size=2, order=2, analysis=analysis)
+        self.document.recompute()
+        with tempfile.TemporaryDirectory() as folder:
+            fea = ccxtools.FemToolsCcx(analysis, solver, test_mode=True)
+            fea.update_objects()
+            fea.setup_working_dir(folder, create=True)
+            fea.write_inp_file()
+            text = Path(fea.inp_file_name).read_text()
+        for name, faces in wanted.items():
+            elements = set().union(*(group(mesh, face) for face in faces))
+            header = f"*ELSET,ELSET={name}Steel{name}\n"
+            self.assertIn(header, text)
+            listed = text.split(header)[1].split("*")[0].replace(",", " ").split()
+            self.assertEqual({int(word) for word in listed}, elements)
+
     @unittest.skipUnless(shutil.which("ccx") and hasattr(ObjectsFem, "makeSolverCalculix"), "no such solver here")
     def test_the_other_calculix_solver_object_solves(self):
         from femsolver import run
