@@ -119,7 +119,7 @@ CadModel build(const TopoDS_Shape& shape, const std::string& name) {
   if (shape.IsNull()) throw failure(name, fmt::format("{} holds no shape", name));
   auto result = std::make_shared<CadShape>(shape, name);
   if (result->faces.empty()) throw failure(name, fmt::format("{} holds no face to mesh", name));
-  if (!(result->diagonal() > 0) || !(result->diagonal() < 1e100)) {
+  if (!(result->diagonal() > 0) || !(result->diagonal() < 1e50)) {
     throw failure(name, fmt::format("{} holds a shape of no size or an infinite one: the file may be damaged", name));
   }
   return CadModel(std::move(result));

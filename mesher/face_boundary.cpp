@@ -269,7 +269,7 @@ FaceBoundary face_boundary(const CadShape& shape, int face, const FaceSurface& s
     const std::string name = fmt::format("Face{}", face + 1);
     throw failure(name, fmt::format("{} has no usable boundary in its parameter plane", name));
   }
-  constexpr double largest = 1e100;  // products of three must not overflow
+  constexpr double largest = 1e50;  // products of several must not overflow
   const auto finite = [&](const auto& p) { return p.cwiseAbs().maxCoeff() < largest; };
   if (!std::all_of(boundary.uv.begin(), boundary.uv.end(), finite) ||
       !std::all_of(boundary.points.begin(), boundary.points.end(), finite)) {

@@ -78,7 +78,10 @@ class ForcedPairs {
 /// The inner sides in order of cost, equal ones (to 1/256) in the order of the mesh.
 std::vector<Side> sides_by_cost(const TriangleGraph& graph) {
   constexpr int buckets = 1024;
-  const auto bucket = [](float cost) { return std::min(static_cast<int>(cost * 256), buckets - 1); };
+  // A cost that is no number (points too far away for products of their distances) comes last.
+  const auto bucket = [](float cost) {
+    return cost < 0.f ? 0 : cost * 256 < buckets ? static_cast<int>(cost * 256) : buckets - 1;
+  };
   const auto for_each_inner_side = [&](auto&& visit) {
     for (int t = 0; t < graph.size(); ++t) {
       for (int i = 0; i < 3; ++i) {
