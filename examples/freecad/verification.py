@@ -180,7 +180,8 @@ def solve(mesh, problem, solver_shells="S8R"):
     with tempfile.TemporaryDirectory() as folder:
         base = Path(folder) / "case"
         write_input(base.with_suffix(".inp"), mesh, problem, solver_shells)
-        done = subprocess.run(["ccx", str(base)], capture_output=True, text=True, timeout=900, check=False)
+        done = subprocess.run(["ccx", str(base)], capture_output=True, text=True, timeout=900, check=False,
+                              cwd=folder)
         if done.returncode != 0 or not base.with_suffix(".dat").exists():
             raise RuntimeError(f"CalculiX failed: {done.stdout[-500:]}")
         frd = base.with_suffix(".frd")
