@@ -115,11 +115,14 @@ TopoDS_Shape read_brep(std::istream& stream, const std::string& name) {
   return shape;
 }
 
+/// Millimetres, a light hour: costs of elements are kept in single precision.
+constexpr double largest_diagonal = 1e15;
+
 CadModel build(const TopoDS_Shape& shape, const std::string& name) {
   if (shape.IsNull()) throw failure(name, fmt::format("{} holds no shape", name));
   auto result = std::make_shared<CadShape>(shape, name);
   if (result->faces.empty()) throw failure(name, fmt::format("{} holds no face to mesh", name));
-  if (!(result->diagonal() > 0) || !(result->diagonal() < 1e50)) {
+  if (!(result->diagonal() > 0) || !(result->diagonal() < largest_diagonal)) {
     throw failure(name, fmt::format("{} holds a shape of no size or an infinite one: the file may be damaged", name));
   }
   return CadModel(std::move(result));

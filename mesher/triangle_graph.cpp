@@ -77,6 +77,8 @@ TriangleGraph::TriangleGraph(const TriangleMesh& mesh) {
   });
 }
 
+constexpr float worst_cost = 1e6f;
+
 void TriangleGraph::compute_costs(const std::vector<Vector3>& points) {
   std::vector<TriangleShape> shapes(triangles.size());
   for (int t = 0; t < size(); ++t) shapes[t] = shape_of(triangles[t], points);
@@ -84,7 +86,8 @@ void TriangleGraph::compute_costs(const std::vector<Vector3>& points) {
     for (int i = 0; i < 3; ++i) {
       const Side twin = triangles[t].twin[i];
       if (twin < make_side(t, i)) continue;  // boundary, or done from the other side
-      const float cost = pair_cost(shapes[t], i, shapes[triangle_of(twin)], index_of(twin));
+      float cost = pair_cost(shapes[t], i, shapes[triangle_of(twin)], index_of(twin));
+      if (!(cost < worst_cost)) cost = worst_cost;  // not a number where products overflow
       triangles[t].cost[i] = triangles[triangle_of(twin)].cost[index_of(twin)] = cost;
     }
   }
