@@ -1,4 +1,5 @@
-/// bench: microseconds a quad of each stage, on the sample parts or on CAD files given, beside Gmsh in the same run.
+/// bench: microseconds a quad of each stage, on the sample parts or on CAD files given, beside Gmsh in the
+/// same run.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -18,7 +19,8 @@
 namespace quadrille {
 namespace {
 
-const std::vector<std::string> stages{"read", "size", "sample", "triangulate", "recombine", "improve", "assemble", "write"};
+const std::vector<std::string> stages{"read",      "size",    "sample",   "triangulate",
+                                      "recombine", "improve", "assemble", "write"};
 
 struct Run {
   std::size_t quads = 0;
@@ -49,7 +51,8 @@ Run run_once(const std::filesystem::path& path, double divisions, const MeshOpti
   return {mesh.quads.size(), quality(mesh).q_mean, context.seconds()};
 }
 
-/// CPU seconds of Gmsh's best all-quad mode: Blossom at twice the size, then midpoint subdivision. Negative = failed.
+/// CPU seconds of Gmsh's best all-quad mode: Blossom at twice the size, then midpoint subdivision. Negative =
+/// failed.
 double gmsh_seconds(const std::filesystem::path& path, double size, const std::filesystem::path& output) {
   rusage before{}, after{};
   ::getrusage(RUSAGE_CHILDREN, &before);
@@ -58,14 +61,16 @@ double gmsh_seconds(const std::filesystem::path& path, double size, const std::f
   const pid_t child = ::fork();
   if (child == 0) {
     if (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr)) ::_exit(127);
-    ::execlp("gmsh", "gmsh", path.c_str(), "-2", "-clmax", double_size.c_str(), "-clmin", least_size.c_str(), "-setnumber",
-             "Mesh.MeshSizeFromCurvature", "6", "-setnumber", "Mesh.RecombineAll", "1", "-setnumber",
-             "Mesh.RecombinationAlgorithm", "1", "-setnumber", "Mesh.SubdivisionAlgorithm", "1", "-setnumber",
-             "Mesh.Algorithm", "6", "-nt", "1", "-format", "msh22", "-o", output.c_str(), static_cast<char*>(nullptr));
+    ::execlp("gmsh", "gmsh", path.c_str(), "-2", "-clmax", double_size.c_str(), "-clmin", least_size.c_str(),
+             "-setnumber", "Mesh.MeshSizeFromCurvature", "6", "-setnumber", "Mesh.RecombineAll", "1",
+             "-setnumber", "Mesh.RecombinationAlgorithm", "1", "-setnumber", "Mesh.SubdivisionAlgorithm", "1",
+             "-setnumber", "Mesh.Algorithm", "6", "-nt", "1", "-format", "msh22", "-o", output.c_str(),
+             static_cast<char*>(nullptr));
     ::_exit(127);
   }
   int status = 0;
-  if (child < 0 || ::waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) return -1;
+  if (child < 0 || ::waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    return -1;
   ::getrusage(RUSAGE_CHILDREN, &after);
   const auto seconds = [](const rusage& usage) {
     return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
@@ -98,14 +103,19 @@ int run(int argc, char** argv) {
   int threads = 1, repeat = 3;
   bool gmsh = false, direct = false;
   app.add_option("MODEL", models, "CAD files (default: the sample parts)");
-  app.add_option("--elements-per-diagonal", divisions, "sizes, as the diagonal over these (default: 60 150 300)")->delimiter(',');
+  app.add_option("--elements-per-diagonal", divisions,
+                 "sizes, as the diagonal over these (default: 60 150 300)")
+      ->delimiter(',');
   app.add_option("--threads", threads, "threads (default 1)");
-  app.add_option("--repeat", repeat, "runs of each, the fastest counts (default 3)")->check(CLI::PositiveNumber);
-  app.add_flag("--gmsh", gmsh, "run Gmsh on the same part at the same size, and print the ratio of the times a quad");
+  app.add_option("--repeat", repeat, "runs of each, the fastest counts (default 3)")
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--gmsh", gmsh,
+               "run Gmsh on the same part at the same size, and print the ratio of the times a quad");
   app.add_flag("--direct", direct, "the direct strategy");
   CLI11_PARSE(app, argc, argv);
 
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("quadrille-bench-{}", ::getpid());
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / fmt::format("quadrille-bench-{}", ::getpid());
   std::filesystem::create_directory(folder);
   MeshOptions options;
   options.strategy = direct ? Strategy::direct : Strategy::subdivide;

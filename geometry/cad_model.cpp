@@ -123,7 +123,8 @@ CadModel build(const TopoDS_Shape& shape, const std::string& name) {
   auto result = std::make_shared<CadShape>(shape, name);
   if (result->faces.empty()) throw failure(name, fmt::format("{} holds no face to mesh", name));
   if (!(result->diagonal() > 0) || !(result->diagonal() < largest_diagonal)) {
-    throw failure(name, fmt::format("{} holds a shape of no size or an infinite one: the file may be damaged", name));
+    throw failure(
+        name, fmt::format("{} holds a shape of no size or an infinite one: the file may be damaged", name));
   }
   return CadModel(std::move(result));
 }
@@ -148,17 +149,20 @@ CadModel CadModel::read(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, code)) throw failure(name, fmt::format("{} is a folder", name));
   if (!std::ifstream(path)) throw failure(name, fmt::format("{} cannot be opened for reading", name));
   const std::string extension = lower_extension(path);
-  if (extension == ".step" || extension == ".stp") return guarded(name, [&] { return read_exchange(path, "quadrille_step"); });
-  if (extension == ".iges" || extension == ".igs") return guarded(name, [&] { return read_exchange(path, "quadrille_iges"); });
+  if (extension == ".step" || extension == ".stp")
+    return guarded(name, [&] { return read_exchange(path, "quadrille_step"); });
+  if (extension == ".iges" || extension == ".igs")
+    return guarded(name, [&] { return read_exchange(path, "quadrille_iges"); });
   if (extension == ".brep" || extension == ".brp") {
     return guarded(name, [&] {
       std::ifstream stream(path, std::ios::binary);
       return read_brep(stream, name);
     });
   }
-  throw usage_error(name, fmt::format("{} has an unknown ending: STEP (.step, .stp), IGES (.iges, .igs) and BREP "
-                                      "(.brep, .brp) can be read",
-                                      name));
+  throw usage_error(name,
+                    fmt::format("{} has an unknown ending: STEP (.step, .stp), IGES (.iges, .igs) and BREP "
+                                "(.brep, .brp) can be read",
+                                name));
 }
 
 CadModel CadModel::from_brep(std::string_view text, const std::string& name) {
@@ -169,15 +173,33 @@ CadModel CadModel::from_brep(std::string_view text, const std::string& name) {
   });
 }
 
-int CadModel::face_count() const { return static_cast<int>(shape_->faces.size()); }
-int CadModel::edge_count() const { return static_cast<int>(shape_->edges.size()); }
-int CadModel::vertex_count() const { return static_cast<int>(shape_->vertices.size()); }
-int CadModel::solid_count() const { return shape_->solids; }
-int CadModel::shell_count() const { return shape_->shells; }
-double CadModel::diagonal() const { return shape_->diagonal(); }
-Vector3 CadModel::box_min() const { return shape_->box_min; }
-Vector3 CadModel::box_max() const { return shape_->box_max; }
-const std::vector<std::string>& CadModel::problems() const { return shape_->problems; }
+int CadModel::face_count() const {
+  return static_cast<int>(shape_->faces.size());
+}
+int CadModel::edge_count() const {
+  return static_cast<int>(shape_->edges.size());
+}
+int CadModel::vertex_count() const {
+  return static_cast<int>(shape_->vertices.size());
+}
+int CadModel::solid_count() const {
+  return shape_->solids;
+}
+int CadModel::shell_count() const {
+  return shape_->shells;
+}
+double CadModel::diagonal() const {
+  return shape_->diagonal();
+}
+Vector3 CadModel::box_min() const {
+  return shape_->box_min;
+}
+Vector3 CadModel::box_max() const {
+  return shape_->box_max;
+}
+const std::vector<std::string>& CadModel::problems() const {
+  return shape_->problems;
+}
 
 double CadModel::area() const {
   double sum = 0;

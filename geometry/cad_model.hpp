@@ -16,8 +16,9 @@ class CadShape;  // the OpenCASCADE side, see geometry/cad_shape.hpp
 /// A boundary-representation model. Copies share the shape, which is never modified.
 class CadModel {
  public:
-  /// Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep, .brp); lengths are converted to millimetres.
-  /// Throws Error (failure) with one sentence when the file is missing, is not CAD, or holds no face.
+  /// Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep, .brp); lengths are converted to
+  /// millimetres. Throws Error (failure) with one sentence when the file is missing, is not CAD, or holds no
+  /// face.
   static CadModel read(const std::filesystem::path& path);
 
   /// Parses a shape in OpenCASCADE's BREP text format, as FreeCAD's `Shape.exportBrepToString()` gives it.

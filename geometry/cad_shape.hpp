@@ -14,19 +14,25 @@
 
 namespace quadrille {
 
-inline Vector3 to_vector(const gp_XYZ& p) { return {p.X(), p.Y(), p.Z()}; }
-inline Vector3 to_vector(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
-inline Vector3 to_vector(const gp_Vec& p) { return {p.X(), p.Y(), p.Z()}; }
+inline Vector3 to_vector(const gp_XYZ& p) {
+  return {p.X(), p.Y(), p.Z()};
+}
+inline Vector3 to_vector(const gp_Pnt& p) {
+  return {p.X(), p.Y(), p.Z()};
+}
+inline Vector3 to_vector(const gp_Vec& p) {
+  return {p.X(), p.Y(), p.Z()};
+}
 
 /// A CAD edge: a curve between two vertices. Numbers start at 1.
 struct CadEdge {
-  TopoDS_Edge edge;        ///< oriented forward: its parameter runs from `first` to `last`
-  int first_vertex = 0;    ///< vertex at the parameter `first`; 0 on an edge without vertices
+  TopoDS_Edge edge;      ///< oriented forward: its parameter runs from `first` to `last`
+  int first_vertex = 0;  ///< vertex at the parameter `first`; 0 on an edge without vertices
   int last_vertex = 0;
   double first = 0, last = 0;
   double length = 0;
   double tolerance = 0;
-  bool degenerate = false; ///< a single point in space (pole, apex)
+  bool degenerate = false;  ///< a single point in space (pole, apex)
   bool closed() const { return first_vertex == last_vertex; }
   std::vector<int> faces;  ///< the faces that use it, a seam's face twice, ascending
 };
@@ -34,8 +40,8 @@ struct CadEdge {
 /// The use of an edge by a face.
 struct Coedge {
   int edge = 0;
-  bool forward = true;     ///< the wire runs along the edge's parameter
-  bool internal = false;   ///< lies inside the face (a crack), both sides belong to the face
+  bool forward = true;                    ///< the wire runs along the edge's parameter
+  bool internal = false;                  ///< lies inside the face (a crack), both sides belong to the face
   Handle(Geom2d_Curve) parametric_curve;  ///< same parameter as the edge's curve
 };
 
@@ -57,8 +63,8 @@ struct InnerVertex {
 };
 
 struct CadFace {
-  TopoDS_Face face;      ///< oriented forward: its normal is the surface's
-  bool reversed = false; ///< the model uses the other side
+  TopoDS_Face face;       ///< oriented forward: its normal is the surface's
+  bool reversed = false;  ///< the model uses the other side
   std::vector<CadWire> wires;
   std::vector<InnerVertex> inner_vertices;
   double u_min = 0, u_max = 0, v_min = 0, v_max = 0;  ///< bounds of the trimmed face in the parameter plane

@@ -19,8 +19,8 @@ namespace quadrille {
 /// once a face and once every few thousand elements.
 class ExecutionContext {
  public:
-  /// Called with a stage name and the fraction of the stage done, in [0, 1]; returning false cancels the work.
-  /// Calls are serialised; they come from whichever thread does the work.
+  /// Called with a stage name and the fraction of the stage done, in [0, 1]; returning false cancels the
+  /// work. Calls are serialised; they come from whichever thread does the work.
   using Progress = std::function<bool(std::string_view stage, double fraction)>;
 
   ExecutionContext() = default;

@@ -1,5 +1,5 @@
-/// Elementary surfaces follow the parametrisations of OpenCASCADE's ElSLib; curvature from the first and second
-/// fundamental forms (do Carmo, Differential Geometry of Curves and Surfaces, 3.3).
+/// Elementary surfaces follow the parametrisations of OpenCASCADE's ElSLib; curvature from the first and
+/// second fundamental forms (do Carmo, Differential Geometry of Curves and Surfaces, 3.3).
 
 #include "geometry/face_surface.hpp"
 
@@ -18,7 +18,9 @@ namespace quadrille {
 
 namespace {
 
-Vector3 direction(const gp_Dir& d) { return {d.X(), d.Y(), d.Z()}; }
+Vector3 direction(const gp_Dir& d) {
+  return {d.X(), d.Y(), d.Z()};
+}
 
 /// The angle equal to `angle` modulo `period` that is nearest to `reference`.
 double nearest_period(double angle, double reference, double period) {
@@ -77,7 +79,8 @@ void FaceSurface::recognize() {
   x_ = direction(frame.XDirection());
   y_ = direction(frame.YDirection());
   z_ = direction(frame.Direction());
-  // A scaled placement changes the parametrisation: trust the formulas only where they agree with OpenCASCADE.
+  // A scaled placement changes the parametrisation: trust the formulas only where they agree with
+  // OpenCASCADE.
   const double tolerance = 1e-9 * (1 + (to_vector(adaptor_->Value(low_.x(), low_.y())).norm() + radius_));
   for (const Vector2& uv : {low_, high_, Vector2(0.7 * low_ + 0.3 * high_)}) {
     const SurfacePoint mine = evaluate_elementary(uv), theirs = evaluate_other(uv);
@@ -96,7 +99,8 @@ SurfacePoint FaceSurface::evaluate_elementary(const Vector2& uv) const {
   if (kind_ == Kind::cylinder) return {origin_ + radius_ * radial + uv.y() * z_, radius_ * around, z_};
   if (kind_ == Kind::cone) {
     const double r = radius_ + uv.y() * sin_angle_;
-    return {origin_ + r * radial + uv.y() * cos_angle_ * z_, r * around, sin_angle_ * radial + cos_angle_ * z_};
+    return {origin_ + r * radial + uv.y() * cos_angle_ * z_, r * around,
+            sin_angle_ * radial + cos_angle_ * z_};
   }
   const double cos_v = std::cos(uv.y()), sin_v = std::sin(uv.y());
   const double tube = kind_ == Kind::torus ? minor_radius_ : radius_;

@@ -34,12 +34,12 @@ class FaceSurface {
   /// Largest absolute principal curvature, 1 / length.
   double max_curvature(const Vector2& uv) const;
 
-  /// The change of (u, v) that moves a point by `displacement` in space, to first order, in the least squares sense.
-  /// Directions in which the parametrisation is singular stay still.
+  /// The change of (u, v) that moves a point by `displacement` in space, to first order, in the least squares
+  /// sense. Directions in which the parametrisation is singular stay still.
   static Vector2 parameter_step(const SurfacePoint& at, const Vector3& displacement);
 
-  /// The point of the surface near `target`, searched from `uv`, which is updated. Exact for elementary surfaces, one
-  /// Newton step towards it for others; the result is on the surface in any case.
+  /// The point of the surface near `target`, searched from `uv`, which is updated. Exact for elementary
+  /// surfaces, one Newton step towards it for others; the result is on the surface in any case.
   SurfacePoint move(Vector2& uv, const Vector3& target) const;
 
   /// The closest point of the surface to `target` near `uv` (Newton iterations, bounded).
@@ -50,8 +50,8 @@ class FaceSurface {
   bool v_periodic() const { return v_period_ > 0; }
   double u_period() const { return u_period_; }  ///< 0 = not periodic
   double v_period() const { return v_period_; }
-  /// Mean lengths in space of a unit step in u and in v over the face: scales the parameter plane to be as isometric
-  /// as it can be by two numbers.
+  /// Mean lengths in space of a unit step in u and in v over the face: scales the parameter plane to be as
+  /// isometric as it can be by two numbers.
   Vector2 mean_scale() const { return mean_scale_; }
 
  private:
@@ -66,12 +66,12 @@ class FaceSurface {
 
   Kind kind_ = Kind::other;
   std::unique_ptr<BRepAdaptor_Surface> adaptor_;
-  Vector3 origin_, x_, y_, z_;       // frame of an elementary surface
-  double radius_ = 0;                // cylinder, sphere; reference radius of a cone; major radius of a torus
-  double minor_radius_ = 0;          // torus
+  Vector3 origin_, x_, y_, z_;  // frame of an elementary surface
+  double radius_ = 0;           // cylinder, sphere; reference radius of a cone; major radius of a torus
+  double minor_radius_ = 0;     // torus
   double sin_angle_ = 0, cos_angle_ = 1;  // half-angle of a cone
   double u_period_ = 0, v_period_ = 0;
-  Vector2 low_, high_;               // bounds of the face in the parameter plane
+  Vector2 low_, high_;  // bounds of the face in the parameter plane
   Vector2 mean_scale_{1, 1};
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Shared objects of ours that are opened on demand, since loading the libraries behind them costs more time than
-/// meshing a small part.
+/// Shared objects of ours that are opened on demand, since loading the libraries behind them costs more time
+/// than meshing a small part.
 
 #include <string>
 

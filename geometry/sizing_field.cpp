@@ -1,11 +1,12 @@
-/// Gradation by Dijkstra's algorithm over the voxels (chamfer distances over 26 neighbours, Borgefors 1986): a monotone
-/// min-update, so that the result is the largest field under the sources with the slope asked for. Size from curvature:
-/// 2 pi R / (elements a circle), as in Gmsh's and Netgen's manuals.
+/// Gradation by Dijkstra's algorithm over the voxels (chamfer distances over 26 neighbours, Borgefors 1986):
+/// a monotone min-update, so that the result is the largest field under the sources with the slope asked for.
+/// Size from curvature: 2 pi R / (elements a circle), as in Gmsh's and Netgen's manuals.
 
 #include "geometry/sizing_field.hpp"
 
-// The tree alone, without what would load leaves from files later: that needs OpenVDB's library, whose loading takes
-// longer than meshing a small part. Files go through the module of vdb_module.hpp, as plain values.
+// The tree alone, without what would load leaves from files later: that needs OpenVDB's library, whose
+// loading takes longer than meshing a small part. Files go through the module of vdb_module.hpp, as plain
+// values.
 #include <openvdb/version.h>
 #undef OPENVDB_USE_DELAYED_LOADING
 #include <openvdb/tree/InternalNode.h>
@@ -115,7 +116,8 @@ namespace {
 /// Collects the sources of a model into the grids of a field.
 class Builder {
  public:
-  Builder(const CadModel& model, const SizingOptions& options, SizingField::Impl& field, ExecutionContext& context)
+  Builder(const CadModel& model, const SizingOptions& options, SizingField::Impl& field,
+          ExecutionContext& context)
       : shape_(model.shape()), options_(options), field_(field), context_(context) {
     if (options.size_field.empty()) return;
     const std::string path = options.size_field.string();
@@ -164,7 +166,8 @@ class Builder {
     if (edge.degenerate || edge.faces.empty() || edge.length <= 0) return;
     const EdgeCurve curve(edge);
     double cap = field_.size_max;
-    if (const auto it = options_.edge_sizes.find(index + 1); it != options_.edge_sizes.end()) cap = it->second;
+    if (const auto it = options_.edge_sizes.find(index + 1); it != options_.edge_sizes.end())
+      cap = it->second;
     // A short edge is one element: its surroundings are refined towards it.
     cap = std::min(cap, std::max(edge.length, field_.size_min));
     if (curve.straight()) {
@@ -215,7 +218,8 @@ class Builder {
     const CadFace& face = shape_.faces[index];
     const FaceSurface surface(face);
     double cap = field_.size_max;
-    if (const auto it = options_.face_sizes.find(index + 1); it != options_.face_sizes.end()) cap = it->second;
+    if (const auto it = options_.face_sizes.find(index + 1); it != options_.face_sizes.end())
+      cap = it->second;
     const bool curved = !surface.planar() && options_.elements_per_circle > 0;
     if (!curved && cap >= field_.size_max && !external_) return;
     const TrimmedDomain domain = coarse_domain(face);
@@ -230,15 +234,16 @@ class Builder {
     const Vector2 cell(extent.x() / nu, extent.y() / nv);
     for (int j = 0; j < nv; ++j) {
       for (int i = 0; i < nu; ++i) {
-        split_cell(surface, domain, size_at, low + Vector2((i + 0.5) * cell.x(), (j + 0.5) * cell.y()), cell, 0);
+        split_cell(surface, domain, size_at, low + Vector2((i + 0.5) * cell.x(), (j + 0.5) * cell.y()), cell,
+                   0);
       }
     }
   }
 
   /// Samples the middle of a cell of the parameter plane, and its parts where the size is below the cell's.
   template <class SizeAt>
-  void split_cell(const FaceSurface& surface, const TrimmedDomain& domain, const SizeAt& size_at, const Vector2& middle,
-                  const Vector2& cell, int depth) {
+  void split_cell(const FaceSurface& surface, const TrimmedDomain& domain, const SizeAt& size_at,
+                  const Vector2& middle, const Vector2& cell, int depth) {
     const SurfacePoint at = surface.evaluate(middle);
     const double size = size_at(middle, at.point);
     const double du = cell.x() * at.du.norm(), dv = cell.y() * at.dv.norm();
@@ -345,7 +350,8 @@ void check_options(const CadModel& model, const SizingOptions& options) {
                                             options.size, model.diagonal()));
   }
   if (options.size_min < 0 || !std::isfinite(options.size_min)) {
-    throw usage_error("--size-min", fmt::format("the smallest size must be positive, not {}", options.size_min));
+    throw usage_error("--size-min",
+                      fmt::format("the smallest size must be positive, not {}", options.size_min));
   }
   if (!(options.growth > 0) || !std::isfinite(options.growth)) {
     throw usage_error("--growth", fmt::format("the growth must be positive, not {}", options.growth));
@@ -358,7 +364,8 @@ void check_options(const CadModel& model, const SizingOptions& options) {
     for (const auto& [number, size] : sizes) {
       const std::string name = kind + std::to_string(number);
       if (number < 1 || number > count) {
-        throw usage_error(name, fmt::format("{} does not exist: the model has {}1 to {}{}", name, kind, kind, count));
+        throw usage_error(
+            name, fmt::format("{} does not exist: the model has {}1 to {}{}", name, kind, kind, count));
       }
       check_size(size, name);
     }
@@ -378,7 +385,8 @@ double smallest(const SizingOptions& options) {
 
 }  // namespace
 
-SizingField SizingField::build(const CadModel& model, const SizingOptions& options, ExecutionContext& context) {
+SizingField SizingField::build(const CadModel& model, const SizingOptions& options,
+                               ExecutionContext& context) {
   check_options(model, options);
   auto impl = std::make_shared<Impl>();
   impl->growth = options.growth;
@@ -389,8 +397,12 @@ SizingField SizingField::build(const CadModel& model, const SizingOptions& optio
   return SizingField(std::move(impl));
 }
 
-double SizingField::size_max() const { return impl_->size_max; }
-double SizingField::size_min() const { return impl_->size_min; }
+double SizingField::size_max() const {
+  return impl_->size_max;
+}
+double SizingField::size_min() const {
+  return impl_->size_min;
+}
 
 void SizingField::write(const std::filesystem::path& path) const {
   VdbField field{{}, impl_->size_max, impl_->growth};
@@ -445,8 +457,8 @@ double SizingField::Sampler::operator()(const Vector3& point) {
     double value = 0;
     int active = 0;
     for (int k = 0; k < 8; ++k) {
-      const double weight = ((k & 1) ? t.x() : 1 - t.x()) * ((k >> 1 & 1) ? t.y() : 1 - t.y()) *
-                            ((k >> 2) ? t.z() : 1 - t.z());
+      const double weight =
+          ((k & 1) ? t.x() : 1 - t.x()) * ((k >> 1 & 1) ? t.y() : 1 - t.y()) * ((k >> 2) ? t.z() : 1 - t.z());
       float corner = 0;
       active += accessor.probe(base.offsetBy(k & 1, k >> 1 & 1, k >> 2), corner);
       value += weight * corner;

@@ -13,17 +13,18 @@ namespace quadrille {
 
 /// h(x): the largest size that respects every source and the gradation |grad h| <= growth.
 ///
-/// Sources (global size, curvature of faces and edges, lengths of short edges, sizes asked for on faces, edges and
-/// vertices, an external grid) are sampled on the model. Values live in a cascade of OpenVDB float grids with voxels of
-/// size_max / 2^k: each is active only where the size is about its voxel, so that small features cost what they need
-/// and no more. Gradation goes through space, not along the surface: thin walls see each other's sizes.
-/// Immutable and thread-safe; look-ups go through one Sampler a thread.
+/// Sources (global size, curvature of faces and edges, lengths of short edges, sizes asked for on faces,
+/// edges and vertices, an external grid) are sampled on the model. Values live in a cascade of OpenVDB float
+/// grids with voxels of size_max / 2^k: each is active only where the size is about its voxel, so that small
+/// features cost what they need and no more. Gradation goes through space, not along the surface: thin walls
+/// see each other's sizes. Immutable and thread-safe; look-ups go through one Sampler a thread.
 class SizingField {
  public:
   /// Throws Error (usage) for sizes that make no sense, (failure) for an unreadable external grid.
   static SizingField build(const CadModel& model, const SizingOptions& options, ExecutionContext& context);
 
-  /// Writes the grids as .vdb: `size` (coarsest), `size_1`, ... with metadata unit, growth, size_max, version.
+  /// Writes the grids as .vdb: `size` (coarsest), `size_1`, ... with metadata unit, growth, size_max,
+  /// version.
   void write(const std::filesystem::path& path) const;
 
   double size_max() const;

@@ -36,7 +36,8 @@ int TrimmedDomain::slab(double y) const {
 }
 
 bool TrimmedDomain::inside(const Vector2& p) const {
-  if (segments_.empty() || (p.array() < low_.array()).any() || (p.array() > high_.array()).any()) return false;
+  if (segments_.empty() || (p.array() < low_.array()).any() || (p.array() > high_.array()).any())
+    return false;
   bool odd = false;
   const int i = slab(p.y());
   for (int k = offsets_[i]; k < offsets_[i + 1]; ++k) {

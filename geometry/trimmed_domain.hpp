@@ -7,8 +7,8 @@
 
 namespace quadrille {
 
-/// A planar domain bounded by segments in any order, inside by the even-odd rule. Queries cost the number of segments
-/// that cross one of as many horizontal slabs as there are segments: a few.
+/// A planar domain bounded by segments in any order, inside by the even-odd rule. Queries cost the number of
+/// segments that cross one of as many horizontal slabs as there are segments: a few.
 class TrimmedDomain {
  public:
   struct Segment {

@@ -21,7 +21,11 @@ class MidsideRepair {
   /// \param first_inner index of the first midside node inside a face; `parameters` are theirs
   MidsideRepair(ShellMesh& mesh, const FaceSurface& surface, std::size_t first_quad, std::size_t first_inner,
                 std::vector<Vector2>& parameters)
-      : mesh_(mesh), surface_(surface), first_quad_(first_quad), first_inner_(first_inner), parameters_(parameters) {}
+      : mesh_(mesh),
+        surface_(surface),
+        first_quad_(first_quad),
+        first_inner_(first_inner),
+        parameters_(parameters) {}
 
   void run() {
     std::vector<std::size_t> bad;
@@ -42,7 +46,8 @@ class MidsideRepair {
   void repair(std::size_t quad) {
     for (int k = 0; k < 4 && jacobian_bound(mesh_, quad) <= 0; ++k) {
       const int node = mesh_.midsides[quad][k];
-      if (node >= static_cast<int>(first_inner_)) search(node, mesh_.quads[quad][k], mesh_.quads[quad][(k + 1) % 4]);
+      if (node >= static_cast<int>(first_inner_))
+        search(node, mesh_.quads[quad][k], mesh_.quads[quad][(k + 1) % 4]);
     }
   }
 
@@ -85,7 +90,8 @@ class MidsideRepair {
 
 class Assembler {
  public:
-  Assembler(const CadShape& shape, const BoundaryNodes& nodes, const std::vector<std::optional<FaceMesh>>& faces)
+  Assembler(const CadShape& shape, const BoundaryNodes& nodes,
+            const std::vector<std::optional<FaceMesh>>& faces)
       : shape_(shape), nodes_(nodes), faces_(faces), renumbered_(nodes.points.size(), -1) {}
 
   ShellMesh run(int order) {
@@ -221,11 +227,12 @@ class Assembler {
   ShellMesh mesh_;
 };
 
-/// Says where second-order elements stay invalid: between curves that touch each other (a cusp) no position of the
-/// midside nodes mends them.
+/// Says where second-order elements stay invalid: between curves that touch each other (a cusp) no position
+/// of the midside nodes mends them.
 void note_folded(ShellMesh& mesh) {
   std::vector<int> folded(mesh.faces.size(), 0);
-  for (std::size_t i = 0; i < mesh.quads.size(); ++i) folded[mesh.quad_faces[i] - 1] += jacobian_bound(mesh, i) <= 0;
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i)
+    folded[mesh.quad_faces[i] - 1] += jacobian_bound(mesh, i) <= 0;
   for (std::size_t face = 0; face < folded.size(); ++face) {
     if (folded[face] == 0) continue;
     std::string& note = mesh.faces[face].note;
@@ -236,8 +243,10 @@ void note_folded(ShellMesh& mesh) {
 
 }  // namespace
 
-ShellMesh assemble(const CadShape& shape, const BoundaryNodes& nodes, const std::vector<std::optional<FaceMesh>>& faces,
-                   std::vector<ShellMesh::FaceStatus> statuses, const MeshOptions& options, ExecutionContext& context) {
+ShellMesh assemble(const CadShape& shape, const BoundaryNodes& nodes,
+                   const std::vector<std::optional<FaceMesh>>& faces,
+                   std::vector<ShellMesh::FaceStatus> statuses, const MeshOptions& options,
+                   ExecutionContext& context) {
   const StageTimer timer(context, "assemble");
   ShellMesh mesh = Assembler(shape, nodes, faces).run(options.order);
   mesh.faces = std::move(statuses);

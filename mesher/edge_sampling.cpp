@@ -1,5 +1,6 @@
-/// Equidistribution of 1 / size along the arc length; parity by a T-join (Edmonds & Johnson, Matching, Euler tours and
-/// the Chinese postman, 1973), approximated by nearest pairs, and by a minimum-weight basis over GF(2) in general.
+/// Equidistribution of 1 / size along the arc length; parity by a T-join (Edmonds & Johnson, Matching, Euler
+/// tours and the Chinese postman, 1973), approximated by nearest pairs, and by a minimum-weight basis over
+/// GF(2) in general.
 
 #include "mesher/edge_sampling.hpp"
 
@@ -87,7 +88,8 @@ class EdgeTabulator {
 };
 
 /// Fewest segments (of the mesh that is recombined) that keep the edge's shape and the face's loop open.
-int least_segments(const CadEdge& edge, const CountTable& table, bool shares_both_ends, bool inner, int stride) {
+int least_segments(const CadEdge& edge, const CountTable& table, bool shares_both_ends, bool inner,
+                   int stride) {
   constexpr double turning_a_segment = 1.8;
   int least = std::max(1, static_cast<int>(std::ceil(table.turning / turning_a_segment - 0.01)));
   if (shares_both_ends && table.turning > 1e-3) least = std::max(least, 2);
@@ -139,10 +141,12 @@ bool is_used(const CadEdge& edge, const std::vector<char>& used) {
   return std::any_of(edge.faces.begin(), edge.faces.end(), [&](int face) { return used[face - 1]; });
 }
 
-/// Edges that get the same count, because they are opposite sides of four-sided faces. A union-find structure.
+/// Edges that get the same count, because they are opposite sides of four-sided faces. A union-find
+/// structure.
 class TiedEdges {
  public:
-  explicit TiedEdges(const std::vector<double>& wanted) : parent_(wanted.size()), low_(wanted), high_(wanted) {
+  explicit TiedEdges(const std::vector<double>& wanted)
+      : parent_(wanted.size()), low_(wanted), high_(wanted) {
     for (std::size_t i = 0; i < parent_.size(); ++i) parent_[i] = static_cast<int>(i);
   }
   int find(int i) {
@@ -170,7 +174,8 @@ class TiedEdges {
 void tie_opposite_edges(const CadShape& shape, const std::vector<char>& used, TiedEdges& tied) {
   for (std::size_t i = 0; i < shape.faces.size(); ++i) {
     const CadFace& face = shape.faces[i];
-    if (!used[i] || face.wires.size() != 1 || face.wires[0].coedges.size() != 4 || !face.wires[0].ordered) continue;
+    if (!used[i] || face.wires.size() != 1 || face.wires[0].coedges.size() != 4 || !face.wires[0].ordered)
+      continue;
     const auto& c = face.wires[0].coedges;
     const auto unusable = [&](const Coedge& coedge) {
       return coedge.internal || shape.edges[coedge.edge - 1].degenerate;
@@ -182,7 +187,9 @@ void tie_opposite_edges(const CadShape& shape, const std::vector<char>& used, Ti
 }
 
 /// Whether one more or one fewer segment fits the wanted count better.
-int change_of(int count, double wanted, int least) { return wanted >= count || count <= least ? 1 : -1; }
+int change_of(int count, double wanted, int least) {
+  return wanted >= count || count <= least ? 1 : -1;
+}
 
 double cost_of_change(int count, double wanted, int least) {
   const double ratio = (count + change_of(count, wanted, least)) / std::max(wanted, 0.5);
@@ -190,8 +197,9 @@ double cost_of_change(int count, double wanted, int least) {
 }
 
 /// The counts of all edges: tied ones alike, rounded, and changed so that every face becomes even.
-std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& used, const std::vector<double>& wanted,
-                               const std::vector<int>& least, bool tie, std::vector<int>& odd_faces) {
+std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& used,
+                               const std::vector<double>& wanted, const std::vector<int>& least, bool tie,
+                               std::vector<int>& odd_faces) {
   const int n = static_cast<int>(wanted.size());
   TiedEdges tied(wanted);
   if (tie) tie_opposite_edges(shape, used, tied);
@@ -246,7 +254,8 @@ std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& u
 }  // namespace
 
 BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, const MeshOptions& options,
-                           const std::vector<char>& used, const std::vector<int>& refine, ExecutionContext& context) {
+                           const std::vector<char>& used, const std::vector<int>& refine,
+                           ExecutionContext& context) {
   const int n = static_cast<int>(shape.edges.size());
   BoundaryNodes result;
   result.stride = options.strategy == Strategy::subdivide ? 2 : 1;
@@ -292,7 +301,8 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
   }
   for (std::size_t face = 0; face < shape.faces.size(); ++face) {
     if (!used[face]) continue;
-    for (const InnerVertex& point : shape.faces[face].inner_vertices) vertex_node(point.vertex, Vector3::Zero());
+    for (const InnerVertex& point : shape.faces[face].inner_vertices)
+      vertex_node(point.vertex, Vector3::Zero());
   }
   for (int i = 0; i < n; ++i) {
     if (counts[i] == 0) continue;
@@ -308,7 +318,8 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
       if (k == 0) {
         nodes.nodes.push_back(vertex_node(edge.first_vertex, curve.point(t)));
       } else if (k == segments) {
-        nodes.nodes.push_back(edge.closed() ? nodes.nodes.front() : vertex_node(edge.last_vertex, curve.point(t)));
+        nodes.nodes.push_back(edge.closed() ? nodes.nodes.front()
+                                            : vertex_node(edge.last_vertex, curve.point(t)));
       } else {
         nodes.nodes.push_back(static_cast<int>(result.points.size()));
         result.points.push_back(curve.point(t));
@@ -434,7 +445,8 @@ std::vector<char> eliminate(const std::vector<ParityEdge>& edges, std::vector<ch
 
 }  // namespace
 
-std::vector<char> make_even(const std::vector<ParityEdge>& edges, std::vector<char> odd, std::vector<int>& left_odd) {
+std::vector<char> make_even(const std::vector<ParityEdge>& edges, std::vector<char> odd,
+                            std::vector<int>& left_odd) {
   const std::vector<char> start = odd;
   NearestPairs pairs(edges, static_cast<int>(odd.size()));
   bool solved = true;

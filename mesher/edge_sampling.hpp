@@ -19,18 +19,21 @@ struct BoundaryNodes {
     int segments() const { return static_cast<int>(nodes.size()) - 1; }
   };
   std::vector<Vector3> points;
-  std::vector<int> vertex_nodes;     ///< CAD vertex (from 1) minus 1 -> node, -1 = not used
-  std::vector<Edge> edges;           ///< CAD edge (from 1) minus 1
-  /// Segments of the final mesh to one segment of the mesh that is recombined: 2 with Strategy::subdivide, else 1.
+  std::vector<int> vertex_nodes;  ///< CAD vertex (from 1) minus 1 -> node, -1 = not used
+  std::vector<Edge> edges;        ///< CAD edge (from 1) minus 1
+  /// Segments of the final mesh to one segment of the mesh that is recombined: 2 with Strategy::subdivide,
+  /// else 1.
   int stride = 1;
-  std::vector<int> odd_faces;        ///< faces whose count could not be made even; empty in all but odd topologies
+  std::vector<int> odd_faces;  ///< faces whose count could not be made even; empty in all but odd topologies
 };
 
 /// Samples the edges of the faces used by true arc length and the sizing field.
 /// \param used (face count) 1 = the face is meshed.
-/// \param refine (edge count) factors on the number of segments, 1 = as the field asks; for faces that failed once.
+/// \param refine (edge count) factors on the number of segments, 1 = as the field asks; for faces that failed
+/// once.
 BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, const MeshOptions& options,
-                           const std::vector<char>& used, const std::vector<int>& refine, ExecutionContext& context);
+                           const std::vector<char>& used, const std::vector<int>& refine,
+                           ExecutionContext& context);
 
 /// A model's edges for the parity problem: which faces change parity with the edge's count.
 struct ParityEdge {
@@ -38,10 +41,10 @@ struct ParityEdge {
   double cost = 0;         ///< of changing the edge's count by one; infinite = must not change
 };
 
-/// Chooses a cheap set of edges to change by one so that every odd face becomes even (a T-join; by shortest paths, and
-/// by elimination over GF(2) where edges join three faces and more). Faces that cannot be made even are returned in
-/// `left_odd`.
-/// \return (edge count) 1 = change the edge.
-std::vector<char> make_even(const std::vector<ParityEdge>& edges, std::vector<char> odd, std::vector<int>& left_odd);
+/// Chooses a cheap set of edges to change by one so that every odd face becomes even (a T-join; by shortest
+/// paths, and by elimination over GF(2) where edges join three faces and more). Faces that cannot be made
+/// even are returned in `left_odd`. \return (edge count) 1 = change the edge.
+std::vector<char> make_even(const std::vector<ParityEdge>& edges, std::vector<char> odd,
+                            std::vector<int>& left_odd);
 
 }  // namespace quadrille

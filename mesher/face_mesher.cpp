@@ -38,7 +38,7 @@ class CadSmoothingSurface : public SmoothingSurface {
 /// One way of meshing a face; the ladder of fallbacks tries several.
 struct Attempt {
   PlacementOptions placement;
-  bool mapped;      ///< try a regular grid first
+  bool mapped;  ///< try a regular grid first
   bool clean_up;
   const char* note;
 };
@@ -84,8 +84,8 @@ class FaceMesher {
     if (!best) throw *error;
     if (best->inverted > 0) {
       const std::string name = fmt::format("Face{}", face_ + 1);
-      throw failure(name, fmt::format("{} keeps {} inverted quads at this size: try a smaller size on it", name,
-                                      best->inverted));
+      throw failure(name, fmt::format("{} keeps {} inverted quads at this size: try a smaller size on it",
+                                      name, best->inverted));
     }
     return std::move(*best);
   }
@@ -95,8 +95,8 @@ class FaceMesher {
     return a.inverted != b.inverted ? a.inverted < b.inverted : a.q_min > b.q_min;
   }
 
-  /// The worst q that is not worth another attempt: where CAD curves meet at a small angle, the quad there is as slender
-  /// whatever one does.
+  /// The worst q that is not worth another attempt: where CAD curves meet at a small angle, the quad there is
+  /// as slender whatever one does.
   double acceptable_q() const {
     constexpr double usual = 0.05;
     std::vector<char> pole(boundary_.uv.size(), 0);
@@ -106,7 +106,8 @@ class FaceMesher {
     double sharpest = M_PI;
     for (std::size_t i = 0; i < pole.size(); ++i) {
       // A wire that runs the wrong way round gives the rest to 2 pi.
-      if (!pole[i]) sharpest = std::min({sharpest, boundary_.angles[i], std::abs(2 * M_PI - boundary_.angles[i])});
+      if (!pole[i])
+        sharpest = std::min({sharpest, boundary_.angles[i], std::abs(2 * M_PI - boundary_.angles[i])});
     }
     // q of a quad with one corner this sharp, and some more, since its other corners suffer too.
     return std::min(usual, 0.3 * sharpest * 2 / M_PI - 0.01);
@@ -127,7 +128,8 @@ class FaceMesher {
   FaceTriangulation triangulate(const Attempt& attempt) {
     const StageTimer timer(context_, "triangulate");
     std::optional<PlacedPoints> placed;
-    if (attempt.mapped) placed = place_mapped(boundary_, surface_, domain_, size_at_, attempt.placement.scale);
+    if (attempt.mapped)
+      placed = place_mapped(boundary_, surface_, domain_, size_at_, attempt.placement.scale);
     if (!placed) placed = place_points(boundary_, surface_, domain_, size_at_, attempt.placement, context_);
     return triangulate_face(face_ + 1, boundary_, *placed, surface_);
   }
@@ -146,7 +148,9 @@ class FaceMesher {
     quads.pole = triangulation.pole;
     if (nodes_.stride == 1 && !quads.surface_mesh.mesh.triangles.empty()) {
       const std::string name = fmt::format("Face{}", face_ + 1);
-      throw failure(name, fmt::format("{} has an odd boundary that cannot be made even: use --strategy subdivide", name));
+      throw failure(
+          name,
+          fmt::format("{} has an odd boundary that cannot be made even: use --strategy subdivide", name));
     }
     return quads;
   }

@@ -17,12 +17,12 @@ namespace quadrille {
 struct FaceMesh {
   std::vector<Vector3> points;
   std::vector<Vector2> uv;
-  std::vector<char> pole;                  ///< (n) 1 = uv is one of many
-  std::vector<std::array<int, 4>> quads;   ///< counter-clockwise seen against the face's normal in the model
-  std::vector<int> nodes;                  ///< indices into BoundaryNodes::points
-  int inverted = 0;                        ///< quads with scaled Jacobian <= 0
+  std::vector<char> pole;                 ///< (n) 1 = uv is one of many
+  std::vector<std::array<int, 4>> quads;  ///< counter-clockwise seen against the face's normal in the model
+  std::vector<int> nodes;                 ///< indices into BoundaryNodes::points
+  int inverted = 0;                       ///< quads with scaled Jacobian <= 0
   double q_min = 0;
-  std::string note;                        ///< which fallback was taken
+  std::string note;  ///< which fallback was taken
   double seconds = 0;
 };
 

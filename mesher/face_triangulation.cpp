@@ -135,8 +135,8 @@ class Triangulator {
   std::set<std::pair<int, int>> seen_, transparent_;
 };
 
-/// Triangle neighbours over sides: neighbour[3 t + k] is across the side from corner k to corner k + 1. Unlike join_twins()
-/// it takes the double sides that a collapsed pole may leave, for the flips to undo.
+/// Triangle neighbours over sides: neighbour[3 t + k] is across the side from corner k to corner k + 1.
+/// Unlike join_twins() it takes the double sides that a collapsed pole may leave, for the flips to undo.
 std::vector<int> triangle_neighbours(const std::vector<std::array<int, 3>>& triangles, int points) {
   // Sides bucketed by their lower end.
   std::vector<int> offsets(points + 1, 0), sides(3 * triangles.size());

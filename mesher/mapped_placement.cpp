@@ -1,4 +1,5 @@
-/// Based on: Gordon & Hall, Construction of curvilinear co-ordinate systems and applications to mesh generation (1973).
+/// Based on: Gordon & Hall, Construction of curvilinear co-ordinate systems and applications to mesh
+/// generation (1973).
 
 #include "mesher/mapped_placement.hpp"
 
@@ -12,9 +13,9 @@ namespace quadrille {
 
 namespace {
 
-constexpr double corner_turning = 0.8;   // radians; a right-angled corner turns by pi / 2
-constexpr double smooth_turning = 0.6;   // what other boundary points may turn
-constexpr double least_jacobian = 0.3;   // of a grid cell
+constexpr double corner_turning = 0.8;  // radians; a right-angled corner turns by pi / 2
+constexpr double smooth_turning = 0.6;  // what other boundary points may turn
+constexpr double least_jacobian = 0.3;  // of a grid cell
 
 /// The boundary as one loop of points, in the order of the wire; empty if it is not one loop.
 std::vector<int> single_loop(const FaceBoundary& boundary) {
@@ -35,14 +36,16 @@ std::vector<int> single_loop(const FaceBoundary& boundary) {
 }
 
 /// Positions in the loop of the four corners; fewer or more if there are not just four.
-std::vector<int> find_corners(const FaceBoundary& boundary, const FaceSurface& surface, const std::vector<int>& loop) {
+std::vector<int> find_corners(const FaceBoundary& boundary, const FaceSurface& surface,
+                              const std::vector<int>& loop) {
   std::vector<int> corners;
   const int n = static_cast<int>(loop.size());
   double sense = 0;
   std::vector<double> turnings(n);
   for (int i = 0; i < n; ++i) {
     const Vector3& p = boundary.points[loop[i]];
-    const Vector3 in = p - boundary.points[loop[(i + n - 1) % n]], out = boundary.points[loop[(i + 1) % n]] - p;
+    const Vector3 in = p - boundary.points[loop[(i + n - 1) % n]],
+                  out = boundary.points[loop[(i + 1) % n]] - p;
     const Vector3 normal = surface.normal(boundary.uv[loop[i]]);
     turnings[i] = std::atan2(in.cross(out).dot(normal), in.dot(out));
     sense += turnings[i];
@@ -60,7 +63,8 @@ std::vector<int> find_corners(const FaceBoundary& boundary, const FaceSurface& s
 
 class Grid {
  public:
-  /// \param sides point instances of the four sides, ends included, each in the direction of its grid coordinate.
+  /// \param sides point instances of the four sides, ends included, each in the direction of its grid
+  /// coordinate.
   Grid(const FaceBoundary& boundary, const FaceSurface& surface, std::array<std::vector<int>, 4> sides)
       : columns_(static_cast<int>(sides[0].size())), rows_(static_cast<int>(sides[1].size())) {
     uv_.resize(static_cast<std::size_t>(columns_) * rows_);
@@ -105,7 +109,8 @@ class Grid {
           return false;
         }
         // Not folded in the parameter plane either.
-        const Vector2 a = uv_[index(i + 1, j)] - uv_[index(i, j)], b = uv_[index(i, j + 1)] - uv_[index(i, j)];
+        const Vector2 a = uv_[index(i + 1, j)] - uv_[index(i, j)],
+                      b = uv_[index(i, j + 1)] - uv_[index(i, j)];
         const Vector2 c = uv_[index(i, j + 1)] - uv_[index(i + 1, j + 1)];
         const Vector2 d = uv_[index(i + 1, j)] - uv_[index(i + 1, j + 1)];
         const double first = a.x() * b.y() - a.y() * b.x(), last = c.x() * d.y() - c.y() * d.x();
@@ -119,7 +124,8 @@ class Grid {
   bool follows(SizingField::Sampler& size_at, double scale) const {
     int sides = 0, off = 0;
     const auto check = [&](int a, int b) {
-      const double ratio = (points_[b] - points_[a]).norm() / (scale * size_at(0.5 * (points_[a] + points_[b])));
+      const double ratio =
+          (points_[b] - points_[a]).norm() / (scale * size_at(0.5 * (points_[a] + points_[b])));
       ++sides;
       off += ratio < 0.55 || ratio > 1.5;
     };
@@ -160,7 +166,8 @@ class Grid {
 }  // namespace
 
 std::optional<PlacedPoints> place_mapped(const FaceBoundary& boundary, const FaceSurface& surface,
-                                         const TrimmedDomain& domain, SizingField::Sampler& size_at, double scale) {
+                                         const TrimmedDomain& domain, SizingField::Sampler& size_at,
+                                         double scale) {
   const std::vector<int> loop = single_loop(boundary);
   if (loop.size() < 4) return std::nullopt;
   const std::vector<int> corners = find_corners(boundary, surface, loop);

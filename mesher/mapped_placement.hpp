@@ -11,11 +11,12 @@
 
 namespace quadrille {
 
-/// The inner points of a regular grid over a face whose boundary is one loop with four corners and as many segments on
-/// opposite sides; nothing where the face is not such, where the grid would fold or leave the face, or where it would
-/// miss the sizing field. Time: linear in the points.
-/// \param scale times the sizing field: 2 for Strategy::subdivide.
+/// The inner points of a regular grid over a face whose boundary is one loop with four corners and as many
+/// segments on opposite sides; nothing where the face is not such, where the grid would fold or leave the
+/// face, or where it would miss the sizing field. Time: linear in the points. \param scale times the sizing
+/// field: 2 for Strategy::subdivide.
 std::optional<PlacedPoints> place_mapped(const FaceBoundary& boundary, const FaceSurface& surface,
-                                         const TrimmedDomain& domain, SizingField::Sampler& size_at, double scale);
+                                         const TrimmedDomain& domain, SizingField::Sampler& size_at,
+                                         double scale);
 
 }  // namespace quadrille

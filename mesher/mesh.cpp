@@ -31,8 +31,8 @@ std::vector<char> faces_used(const CadModel& model, const std::vector<int>& face
   for (const int face : faces) {
     if (face < 1 || face > model.face_count()) {
       const std::string name = fmt::format("Face{}", face);
-      throw usage_error(name, fmt::format("{} does not exist: the model has Face1 to Face{}", name,
-                                          model.face_count()));
+      throw usage_error(
+          name, fmt::format("{} does not exist: the model has Face1 to Face{}", name, model.face_count()));
     }
     used[face - 1] = 1;
   }
@@ -45,18 +45,23 @@ void check_options(const CadModel& model, const MeshOptions& options, double siz
   }
   // The exact area takes long to compute: only where the bounding box says that it may matter.
   const double box = model.diagonal() / size;
-  const double estimate = options.force || box * box * model.face_count() < element_limit ? 0 : model.area() / (size * size);
+  const double estimate =
+      options.force || box * box * model.face_count() < element_limit ? 0 : model.area() / (size * size);
   if (estimate > element_limit) {
-    throw usage_error("--size", fmt::format("the size {:.6g} would give about {:.3g} million elements: use --force "
-                                            "to mesh all the same",
-                                            size, estimate / 1e6));
+    throw usage_error("--size",
+                      fmt::format("the size {:.6g} would give about {:.3g} million elements: use --force "
+                                  "to mesh all the same",
+                                  size, estimate / 1e6));
   }
 }
 
 class Job {
  public:
   Job(const CadModel& model, const MeshOptions& options, ExecutionContext& context)
-      : shape_(model.shape()), options_(options), context_(context), used_(faces_used(model, options.faces)) {}
+      : shape_(model.shape()),
+        options_(options),
+        context_(context),
+        used_(faces_used(model, options.faces)) {}
 
   ShellMesh run(const SizingField& field) {
     std::vector<int> refine(shape_.edges.size(), 1);
@@ -146,8 +151,8 @@ class Job {
 }  // namespace
 
 ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
-  const double size = options.sizing.size > 0 ? options.sizing.size
-                                              : model.diagonal() / options.sizing.elements_per_diagonal;
+  const double size =
+      options.sizing.size > 0 ? options.sizing.size : model.diagonal() / options.sizing.elements_per_diagonal;
   check_options(model, options, size);
   Job job(model, options, context);
   std::optional<SizingField> field;
@@ -156,15 +161,20 @@ ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionConte
     field = SizingField::build(model, options.sizing, context);
   }
   if (!options.write_size_field.empty()) field->write(options.write_size_field);
-  const int threads = context.threads() > 0 ? context.threads() : static_cast<int>(std::thread::hardware_concurrency());
+  const int threads =
+      context.threads() > 0 ? context.threads() : static_cast<int>(std::thread::hardware_concurrency());
   // Without it oneTBB warns when more threads are asked for than there are cores.
   const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
   oneapi::tbb::task_arena arena(threads);
   return arena.execute([&] { return job.run(*field); });
 }
 
-double suggested_size(const CadModel& model, int quads) { return std::sqrt(model.area() / std::max(quads, 1)); }
+double suggested_size(const CadModel& model, int quads) {
+  return std::sqrt(model.area() / std::max(quads, 1));
+}
 
-std::string version() { return QUADRILLE_VERSION; }
+std::string version() {
+  return QUADRILLE_VERSION;
+}
 
 }  // namespace quadrille

@@ -1,6 +1,6 @@
 #pragma once
-/// Meshes as arrays of indices. All indices start at 0; CAD numbers (faces, edges, vertices) start at 1, as in
-/// FreeCAD, and 0 means "none".
+/// Meshes as arrays of indices. All indices start at 0; CAD numbers (faces, edges, vertices) start at 1, as
+/// in FreeCAD, and 0 means "none".
 
 #include <array>
 #include <cstdint>
@@ -43,19 +43,20 @@ struct ShellMesh {
   };
   /// What became of one CAD face.
   struct FaceStatus {
-    int face = 0;           ///< CAD face, from 1
-    std::string status;     ///< "meshed", "skipped" (not asked for) or "failed"
-    std::string note;       ///< which fallback was taken, or why it failed; empty if nothing to say
+    int face = 0;        ///< CAD face, from 1
+    std::string status;  ///< "meshed", "skipped" (not asked for) or "failed"
+    std::string note;    ///< which fallback was taken, or why it failed; empty if nothing to say
     int quads = 0;
     double q_min = 0;
     double seconds = 0;
   };
 
-  int order = 1;                              ///< 1: four-node quads; 2: eight-node (serendipity) quads
-  std::vector<Vector3> points;                ///< (n) all nodes, corner nodes first, then midside nodes
-  std::vector<std::array<int, 4>> quads;      ///< (m) corner nodes, counter-clockwise seen from outside
-  std::vector<std::array<int, 4>> midsides;   ///< (m) at second order: node between corner j and j + 1; else empty
-  std::vector<int> quad_faces;                ///< (m) CAD face of each quad, from 1
+  int order = 1;                          ///< 1: four-node quads; 2: eight-node (serendipity) quads
+  std::vector<Vector3> points;            ///< (n) all nodes, corner nodes first, then midside nodes
+  std::vector<std::array<int, 4>> quads;  ///< (m) corner nodes, counter-clockwise seen from outside
+  std::vector<std::array<int, 4>>
+      midsides;                 ///< (m) at second order: node between corner j and j + 1; else empty
+  std::vector<int> quad_faces;  ///< (m) CAD face of each quad, from 1
   std::vector<std::array<int, 3>> triangles;  ///< empty, except in meshes read from other programs' files
   std::vector<int> triangle_faces;            ///< as many as triangles
   std::vector<Segment> segments;              ///< the sides on CAD edges, each once

@@ -10,11 +10,11 @@ namespace quadrille {
 
 /// The size wanted, by source; the smallest wins, and the result varies no faster than `growth`.
 struct SizingOptions {
-  double size = 0;                 ///< global target edge length; 0 = diagonal / elements_per_diagonal
+  double size = 0;  ///< global target edge length; 0 = diagonal / elements_per_diagonal
   double elements_per_diagonal = 60;
-  double size_min = 0;             ///< no source goes below this; 0 = size / 8
-  double elements_per_circle = 12; ///< elements per 2 pi of curvature; 0 = curvature is ignored
-  double growth = 0.3;             ///< gradation: largest |grad size|
+  double size_min = 0;                 ///< no source goes below this; 0 = size / 8
+  double elements_per_circle = 12;     ///< elements per 2 pi of curvature; 0 = curvature is ignored
+  double growth = 0.3;                 ///< gradation: largest |grad size|
   std::map<int, double> face_sizes;    ///< CAD face -> size on it
   std::map<int, double> edge_sizes;    ///< CAD edge -> size on it
   std::map<int, double> vertex_sizes;  ///< CAD vertex -> size at it
@@ -27,25 +27,26 @@ enum class Strategy {
 };
 
 struct RecombineOptions {
-  bool paper_mode = false;   ///< the algorithm of the 2018 paper as it stands: colour, swap, remove; no improvement
-  std::uint64_t seed = 1;    ///< of the random choices (paper mode)
-  bool exchange = true;      ///< exchange along alternating cycles and paths where angles or valence gain
+  bool paper_mode =
+      false;  ///< the algorithm of the 2018 paper as it stands: colour, swap, remove; no improvement
+  std::uint64_t seed = 1;  ///< of the random choices (paper mode)
+  bool exchange = true;    ///< exchange along alternating cycles and paths where angles or valence gain
 };
 
 struct ImproveOptions {
-  bool clean_up = true;        ///< quad-vertex merge, doublet collapse, valence-driven moves
+  bool clean_up = true;  ///< quad-vertex merge, doublet collapse, valence-driven moves
   int smoothing_sweeps = 8;
-  double q_floor = 0.25;       ///< elements below this are worked on one by one at the end
+  double q_floor = 0.25;  ///< elements below this are worked on one by one at the end
 };
 
 struct MeshOptions {
   SizingOptions sizing;
   Strategy strategy = Strategy::subdivide;
-  int order = 1;                ///< 1 or 2
-  std::vector<int> faces;       ///< CAD faces to mesh; empty = all
-  bool partial = false;         ///< deliver what could be meshed when a face fails, instead of throwing
+  int order = 1;           ///< 1 or 2
+  std::vector<int> faces;  ///< CAD faces to mesh; empty = all
+  bool partial = false;    ///< deliver what could be meshed when a face fails, instead of throwing
   std::filesystem::path write_size_field;  ///< .vdb to write the sizing field to; empty = none
-  bool force = false;           ///< go on where the mesh would pass 50 million elements
+  bool force = false;                      ///< go on where the mesh would pass 50 million elements
   RecombineOptions recombine;
   ImproveOptions improve;
 };

@@ -1,5 +1,6 @@
-/// Based on: Remacle et al., A frontal Delaunay quad mesh generator using the L-infinity norm (2013), for the frontal
-/// idea and the norm; here all points are placed first with a hash grid in space and triangulated in bulk afterwards.
+/// Based on: Remacle et al., A frontal Delaunay quad mesh generator using the L-infinity norm (2013), for the
+/// frontal idea and the norm; here all points are placed first with a hash grid in space and triangulated in
+/// bulk afterwards.
 
 #include "mesher/point_placement.hpp"
 
@@ -30,7 +31,8 @@ class PointGrid {
     link(static_cast<int>(entries_.size()) - 1);
   }
 
-  /// True if `visit(index)` is true for some point that may lie within `radius` of p, among those of about `size`.
+  /// True if `visit(index)` is true for some point that may lie within `radius` of p, among those of about
+  /// `size`.
   template <class Visit>
   bool any_near(const Vector3& p, double radius, double size, Visit&& visit) const {
     const int level = level_of(size);
@@ -98,7 +100,7 @@ struct FrontPoint {
   Vector2 uv;
   SurfacePoint at;
   Vector3 normal;
-  Vector3 direction;   // unit, tangent: one of the four of the cross
+  Vector3 direction;  // unit, tangent: one of the four of the cross
   double size;
   bool proposes;
 };
@@ -274,8 +276,9 @@ class Placer {
 
 }  // namespace
 
-PlacedPoints place_points(const FaceBoundary& boundary, const FaceSurface& surface, const TrimmedDomain& domain,
-                          SizingField::Sampler& size_at, const PlacementOptions& options, ExecutionContext& context) {
+PlacedPoints place_points(const FaceBoundary& boundary, const FaceSurface& surface,
+                          const TrimmedDomain& domain, SizingField::Sampler& size_at,
+                          const PlacementOptions& options, ExecutionContext& context) {
   return Placer(boundary, surface, domain, size_at, options, context).run();
 }
 

@@ -17,15 +17,18 @@ struct PlacedPoints {
 };
 
 struct PlacementOptions {
-  double scale = 1;         ///< times the sizing field: 2 for Strategy::subdivide
-  double refusal = 0.72;    ///< no two points nearer than this, times the size, in the L-infinity norm of the field's frame
-  bool aligned = true;      ///< false: a hexagonal front, for faces where alignment fails
+  double scale = 1;  ///< times the sizing field: 2 for Strategy::subdivide
+  double refusal =
+      0.72;  ///< no two points nearer than this, times the size, in the L-infinity norm of the field's frame
+  bool aligned = true;  ///< false: a hexagonal front, for faces where alignment fails
 };
 
-/// Places points: a queue that starts with the boundary proposes for each point its four neighbours along the field,
-/// one size away on the surface; the field is carried along from the nearest boundary's tangents. The distance test
-/// runs in space, so that the parametrisation does not matter. Time: linear in the points placed.
-PlacedPoints place_points(const FaceBoundary& boundary, const FaceSurface& surface, const TrimmedDomain& domain,
-                          SizingField::Sampler& size_at, const PlacementOptions& options, ExecutionContext& context);
+/// Places points: a queue that starts with the boundary proposes for each point its four neighbours along the
+/// field, one size away on the surface; the field is carried along from the nearest boundary's tangents. The
+/// distance test runs in space, so that the parametrisation does not matter. Time: linear in the points
+/// placed.
+PlacedPoints place_points(const FaceBoundary& boundary, const FaceSurface& surface,
+                          const TrimmedDomain& domain, SizingField::Sampler& size_at,
+                          const PlacementOptions& options, ExecutionContext& context);
 
 }  // namespace quadrille

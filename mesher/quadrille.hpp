@@ -25,8 +25,8 @@ namespace quadrille {
 
 /// Meshes the faces of a CAD model with quads only.
 /// Throws Error: usage for options that make no sense, failure naming the face that cannot be meshed (unless
-/// options.partial), cancelled. Time is linear in the number of quads. The result depends on the model and the
-/// options alone, not on the thread count.
+/// options.partial), cancelled. Time is linear in the number of quads. The result depends on the model and
+/// the options alone, not on the thread count.
 ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context);
 
 /// A size that gives about `quads` elements on the model, curvature left aside.

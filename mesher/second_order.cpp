@@ -38,8 +38,8 @@ Vector3 area_vector(const std::array<Vector3, 4>& corners, const std::array<Vect
 
 /// Values at 0, 1/3, 2/3, 1 into Bernstein coefficients.
 Cubic to_bernstein(const Cubic& f) {
-  return {f[0], (-5 * f[0] + 18 * f[1] - 9 * f[2] + 2 * f[3]) / 6, (2 * f[0] - 9 * f[1] + 18 * f[2] - 5 * f[3]) / 6,
-          f[3]};
+  return {f[0], (-5 * f[0] + 18 * f[1] - 9 * f[2] + 2 * f[3]) / 6,
+          (2 * f[0] - 9 * f[1] + 18 * f[2] - 5 * f[3]) / 6, f[3]};
 }
 
 /// De Casteljau at the middle.
@@ -66,7 +66,9 @@ double least(const Bicubic& b) {
   return result;
 }
 
-double least_corner(const Bicubic& b) { return std::min({b[0][0], b[0][3], b[3][0], b[3][3]}); }
+double least_corner(const Bicubic& b) {
+  return std::min({b[0][0], b[0][3], b[3][0], b[3][3]});
+}
 
 /// The least coefficient, sharpened until it is positive, known not to be, or near enough to a value taken.
 double sharpened(const Bicubic& b, double tolerance, int depth) {
@@ -86,7 +88,8 @@ double sharpened(const Bicubic& b, double tolerance, int depth) {
       halve(c, l, h);
       return h;
     });
-    result = std::min({result, sharpened(first, tolerance, depth - 1), sharpened(second, tolerance, depth - 1)});
+    result =
+        std::min({result, sharpened(first, tolerance, depth - 1), sharpened(second, tolerance, depth - 1)});
   }
   return result;
 }

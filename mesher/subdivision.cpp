@@ -42,7 +42,8 @@ class Subdivider {
 
   void copy_point(int i) {
     const auto& old = coarse_.surface_mesh;
-    renumbered_[i] = add_point(old.mesh.points[i], old.parameters[i], old.normals[i], old.fixed[i], coarse_.pole[i]);
+    renumbered_[i] =
+        add_point(old.mesh.points[i], old.parameters[i], old.normals[i], old.fixed[i], coarse_.pole[i]);
   }
 
   void add_boundary_middle(const FaceBoundary::Segment& segment, const std::vector<Vector3>& node_points) {

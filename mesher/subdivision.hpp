@@ -9,18 +9,18 @@ namespace quadrille {
 
 /// A quad mesh of one face with what ties it to its boundary.
 struct FaceQuads {
-  SurfaceMesh surface_mesh;    ///< fixed points first
-  std::vector<char> pole;      ///< (n) 1 = uv is one of many
-  std::vector<int> nodes;      ///< (fixed points) index into BoundaryNodes::points
+  SurfaceMesh surface_mesh;  ///< fixed points first
+  std::vector<char> pole;    ///< (n) 1 = uv is one of many
+  std::vector<int> nodes;    ///< (fixed points) index into BoundaryNodes::points
 };
 
-/// Cuts those quads into two triangles whose four parts would be worse than the six parts of the triangles: quads with a
-/// corner that is almost straight, which no smoothing mends where the boundary makes it.
+/// Cuts those quads into two triangles whose four parts would be worse than the six parts of the triangles:
+/// quads with a corner that is almost straight, which no smoothing mends where the boundary makes it.
 void cut_flat_quads(QuadMesh& mesh);
 
-/// Splits each quad into four and each triangle into three quads. New points on boundary sides are the edges' own
-/// nodes, others are put on the surface.
-/// \param segments the boundary sides, which carry the nodes in their middle.
+/// Splits each quad into four and each triangle into three quads. New points on boundary sides are the edges'
+/// own nodes, others are put on the surface. \param segments the boundary sides, which carry the nodes in
+/// their middle.
 FaceQuads subdivide(const FaceQuads& coarse, const std::vector<FaceBoundary::Segment>& segments,
                     const std::vector<Vector3>& node_points, const FaceSurface& surface);
 

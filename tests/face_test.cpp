@@ -53,9 +53,11 @@ void for_each_face(Visit&& visit) {
       for (const double divisions : {10.0, 37.0}) {
         Prepared prepared(sample, divisions, strategy);
         for (int face = 0; face < sample.faces; ++face) {
-          SCOPED_TRACE(sample.name + " Face" + std::to_string(face + 1) + " at 1/" + std::to_string(divisions));
+          SCOPED_TRACE(sample.name + " Face" + std::to_string(face + 1) + " at 1/" +
+                       std::to_string(divisions));
           const FaceSurface surface(prepared.model.shape().faces[face]);
-          visit(prepared, face, surface, face_boundary(prepared.model.shape(), face, surface, prepared.nodes));
+          visit(prepared, face, surface,
+                face_boundary(prepared.model.shape(), face, surface, prepared.nodes));
           ++faces;
         }
       }
@@ -107,7 +109,8 @@ TEST(Placement, KeepsItsDistanceAndStaysInside) {
 
 TEST(Triangulation, IsValidAndKeepsTheBoundary) {
   for_each_face([](Prepared& prepared, int face, const FaceSurface& surface, const FaceBoundary& boundary) {
-    const FaceTriangulation result = triangulate_face(face + 1, boundary, place(prepared, surface, boundary), surface);
+    const FaceTriangulation result =
+        triangulate_face(face + 1, boundary, place(prepared, surface, boundary), surface);
     EXPECT_EQ(joined(validate(result.mesh)), "");
     EXPECT_EQ(result.mesh.triangles.size() % 2, 0U);
     std::set<std::pair<int, int>> open;

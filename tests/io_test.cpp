@@ -211,7 +211,8 @@ TEST(Writers, BdfFieldsFitTheirColumns) {
 }
 
 TEST(Writers, InpNumbersFitWhatCalculixReads) {
-  // CalculiX takes 20 characters of a number: -2.98507658737106e-16 would lose the 6 and become a third of a unit.
+  // CalculiX takes 20 characters of a number: -2.98507658737106e-16 would lose the 6 and become a third of a
+  // unit.
   const TemporaryFolder folder;
   ShellMesh mesh = ShellGrid(2, 1).mesh();
   mesh.points[0] = {-2.98507658737106e-16, -1.2345678901234567e-105, 0.1 + 0.2};

@@ -69,7 +69,8 @@ TEST_P(EverySample, IsValidAtSeveralSizes) {
 
 std::string sample_name(const testing::TestParamInfo<EverySample::ParamType>& info) {
   const auto& [sample, strategy, order] = info.param;
-  return sample.name + (strategy == Strategy::direct ? "_direct" : "_subdivide") + "_order" + std::to_string(order);
+  return sample.name + (strategy == Strategy::direct ? "_direct" : "_subdivide") + "_order" +
+         std::to_string(order);
 }
 
 INSTANTIATE_TEST_SUITE_P(Mesh, EverySample,
@@ -143,13 +144,15 @@ TEST(Mesh, FollowsTheSizeAskedFor) {
     std::vector<double> ratios;
     for (const auto& quad : mesh.quads) {
       for (int k = 0; k < 4; ++k) {
-        ratios.push_back((mesh.points[quad[k]] - mesh.points[quad[(k + 1) % 4]]).norm() / options.sizing.size);
+        ratios.push_back((mesh.points[quad[k]] - mesh.points[quad[(k + 1) % 4]]).norm() /
+                         options.sizing.size);
       }
     }
     std::sort(ratios.begin(), ratios.end());
     EXPECT_GT(ratios[ratios.size() / 2], 0.85);
     EXPECT_LT(ratios[ratios.size() / 2], 1.15);
-    const auto inside = std::count_if(ratios.begin(), ratios.end(), [](double r) { return r > 0.5 && r < 1.6; });
+    const auto inside =
+        std::count_if(ratios.begin(), ratios.end(), [](double r) { return r > 0.5 && r < 1.6; });
     EXPECT_GT(static_cast<double>(inside) / static_cast<double>(ratios.size()), 0.95);
   }
 }

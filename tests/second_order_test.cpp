@@ -17,7 +17,8 @@ Element straight(std::array<Vector3, 4> corners) {
   return element;
 }
 
-const std::array<Vector3, 4> unit_square{Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(1, 1, 0), Vector3(0, 1, 0)};
+const std::array<Vector3, 4> unit_square{Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(1, 1, 0),
+                                         Vector3(0, 1, 0)};
 
 TEST(SecondOrder, StraightSquareHasJacobianOne) {
   const Element e = straight(unit_square);
@@ -26,7 +27,8 @@ TEST(SecondOrder, StraightSquareHasJacobianOne) {
 
 TEST(SecondOrder, SizePlaceAndOrientationDoNotMatter) {
   std::array<Vector3, 4> moved = unit_square;
-  for (Vector3& p : moved) p = Eigen::AngleAxisd(1.1, Vector3(1, 2, 3).normalized()) * Vector3(1e-3 * p) + Vector3(5, 6, 7);
+  for (Vector3& p : moved)
+    p = Eigen::AngleAxisd(1.1, Vector3(1, 2, 3).normalized()) * Vector3(1e-3 * p) + Vector3(5, 6, 7);
   const Element e = straight(moved);
   EXPECT_NEAR(jacobian_bound(e.corners, e.midsides), 1, 1e-6);
 }

@@ -24,7 +24,8 @@ SizingField field_of(const CadModel& model, const SizingOptions& options) {
 Vector3 random_point(const CadModel& model, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0, 1);
   const Vector3 extent = model.box_max() - model.box_min();
-  return model.box_min() + Vector3(unit(random) * extent.x(), unit(random) * extent.y(), unit(random) * extent.z());
+  return model.box_min() +
+         Vector3(unit(random) * extent.x(), unit(random) * extent.y(), unit(random) * extent.z());
 }
 
 TEST(SizingField, IsUniformWhereNothingAsksForLess) {
@@ -89,7 +90,8 @@ TEST(SizingField, TakesSizesFromNamesAndCurvature) {
   EXPECT_NEAR(size_at(box.shape().vertices[1]), 0.4, 0.1);
   const EdgeCurve straight(box.shape().edges[4]);
   const CadEdge& edge = box.shape().edges[4];
-  for (int i = 1; i < 10; ++i) EXPECT_LE(size_at(straight.point(edge.first + (edge.last - edge.first) * i / 10)), 1.05);
+  for (int i = 1; i < 10; ++i)
+    EXPECT_LE(size_at(straight.point(edge.first + (edge.last - edge.first) * i / 10)), 1.05);
 }
 
 TEST(SizingField, ComesBackFromItsFile) {
@@ -130,7 +132,8 @@ std::vector<int> face_counts(const CadModel& model, const BoundaryNodes& nodes) 
   std::vector<int> counts(model.face_count(), 0);
   for (int i = 0; i < model.edge_count(); ++i) {
     if (nodes.edges[i].nodes.empty()) continue;
-    for (const int face : model.shape().edges[i].faces) counts[face - 1] += nodes.edges[i].segments() / nodes.stride;
+    for (const int face : model.shape().edges[i].faces)
+      counts[face - 1] += nodes.edges[i].segments() / nodes.stride;
   }
   return counts;
 }
@@ -146,8 +149,9 @@ TEST(EdgeSampling, MakesEveryFaceEvenWithSegmentsOfTheSize) {
         options.sizing.size = model.diagonal() / divisions;
         ExecutionContext context;
         const SizingField field = field_of(model, options.sizing);
-        const BoundaryNodes nodes = sample_edges(model.shape(), field, options, std::vector<char>(sample.faces, 1),
-                                                 std::vector<int>(sample.edges, 1), context);
+        const BoundaryNodes nodes =
+            sample_edges(model.shape(), field, options, std::vector<char>(sample.faces, 1),
+                         std::vector<int>(sample.edges, 1), context);
         EXPECT_TRUE(nodes.odd_faces.empty());
         for (const int count : face_counts(model, nodes)) {
           EXPECT_EQ(count % 2, 0);
@@ -165,7 +169,8 @@ TEST(EdgeSampling, MakesEveryFaceEvenWithSegmentsOfTheSize) {
           EXPECT_EQ(cad.closed(), edge.nodes.front() == edge.nodes.back());
           const EdgeCurve curve(cad);
           for (std::size_t k = 0; k < edge.nodes.size(); ++k) {
-            EXPECT_LT((curve.point(edge.parameters[k]) - nodes.points[edge.nodes[k]]).norm(), 1e-6 * model.diagonal());
+            EXPECT_LT((curve.point(edge.parameters[k]) - nodes.points[edge.nodes[k]]).norm(),
+                      1e-6 * model.diagonal());
           }
         }
       }
@@ -200,7 +205,8 @@ TEST(MakeEven, SolvesRandomClosedAndOpenTopologies) {
     std::uniform_int_distribution<int> pick(0, faces - 1);
     std::uniform_real_distribution<double> cost(0.01, 1);
     std::vector<ParityEdge> edges;
-    for (int i = 1; i < faces; ++i) edges.push_back({{i, std::uniform_int_distribution<int>(0, i - 1)(random)}, cost(random)});
+    for (int i = 1; i < faces; ++i)
+      edges.push_back({{i, std::uniform_int_distribution<int>(0, i - 1)(random)}, cost(random)});
     for (int i = 0; i < faces; ++i) {
       const int a = pick(random), b = pick(random);
       if (a != b) edges.push_back({{a, b}, cost(random)});
@@ -245,15 +251,18 @@ TEST(FaceSurface, AgreesWithItsDerivativesAndItsInverse) {
         const Vector2 uv(face.u_min + unit(random) * extent.x(), face.v_min + unit(random) * extent.y());
         const SurfacePoint at = surface.evaluate(uv);
         const double h = 1e-6;
-        const Vector3 du = (surface.point(uv + Vector2(h * extent.x(), 0)) - surface.point(uv - Vector2(h * extent.x(), 0)));
-        EXPECT_LT((du / (2 * h * extent.x()) - at.du).norm(), 1e-4 * (at.du.norm() + model.diagonal() / extent.x()));
+        const Vector3 du =
+            (surface.point(uv + Vector2(h * extent.x(), 0)) - surface.point(uv - Vector2(h * extent.x(), 0)));
+        EXPECT_LT((du / (2 * h * extent.x()) - at.du).norm(),
+                  1e-4 * (at.du.norm() + model.diagonal() / extent.x()));
         const Vector3 n = surface.normal(uv);
         EXPECT_NEAR(n.norm(), 1, 1e-9);
         EXPECT_NEAR(n.dot(at.du.normalized()), 0, 1e-9);
         // A point lifted off the surface comes back to it.
         const double lift = 1e-3 * model.diagonal();
         Vector2 found = uv + 0.01 * extent;
-        EXPECT_LT((surface.project(found, at.point + lift * n).point - at.point).norm(), 1e-5 * model.diagonal());
+        EXPECT_LT((surface.project(found, at.point + lift * n).point - at.point).norm(),
+                  1e-5 * model.diagonal());
       }
     }
   }
@@ -265,7 +274,8 @@ TEST(TrimmedDomain, TellsInsideFromOutsideAndFromHoles) {
   const auto add_circle = [&](double radius, int n) {
     for (int i = 0; i < n; ++i) {
       const double a = 2 * M_PI * i / n, b = 2 * M_PI * (i + 1) / n;
-      segments.push_back({radius * Vector2(std::cos(a), std::sin(a)), radius * Vector2(std::cos(b), std::sin(b))});
+      segments.push_back(
+          {radius * Vector2(std::cos(a), std::sin(a)), radius * Vector2(std::cos(b), std::sin(b))});
     }
   };
   add_circle(3, 97);

@@ -63,7 +63,9 @@ FloatGrid::Ptr to_grid(const VdbLevel& level, const VdbField& field) {
 
 }  // namespace
 
-QUADRILLE_EXPORT const char* quadrille_vdb_version() { return QUADRILLE_VERSION; }
+QUADRILLE_EXPORT const char* quadrille_vdb_version() {
+  return QUADRILLE_VERSION;
+}
 
 QUADRILLE_EXPORT std::string quadrille_vdb_write(const std::string& path, const VdbField& field) {
   try {

@@ -28,9 +28,9 @@ void require_writable(const std::filesystem::path& path);
 /// Throws Error (usage) unless the path has the ending (".png") and require_writable() holds.
 void require_ending(const std::filesystem::path& path, std::string_view ending, std::string_view option);
 
-/// From now on a crash, of the CAD library on a damaged file above all, ends the process with one line on stderr
-/// that names the file, and exit code 1; unfinished files are removed.
-/// \param work "reading" or what else is going on.
+/// From now on a crash, of the CAD library on a damaged file above all, ends the process with one line on
+/// stderr that names the file, and exit code 1; unfinished files are removed. \param work "reading" or what
+/// else is going on.
 void report_crashes(const std::filesystem::path& file, std::string_view work);
 
 /// Throws Error (usage) unless threads is 0 (all cores) or a sensible count.

@@ -6,7 +6,7 @@ namespace quadrille {
 
 namespace {
 
-constexpr int numbers_per_line = 16;  // what Abaqus and CalculiX read of one line
+constexpr int numbers_per_line = 16;        // what Abaqus and CalculiX read of one line
 constexpr int characters_of_a_number = 20;  // what they read of one number
 
 void write_list(const std::vector<int>& numbers, TextWriter& out) {
