@@ -25,9 +25,21 @@ _POLL_MILLISECONDS = 50
 SUGGESTED_QUADS = 5000
 
 
+_MAX_DEAD_WRAPPERS = 16
+
+
 def _length_box(name: str, tip: str):
-    box = FreeCADGui.UiLoader().createWidget("Gui::QuantitySpinBox")
-    box.setObjectName(name)
+    # FreeCAD may make the widget at the address of one that is gone, and PySide then gives that one's dead wrapper:
+    # another widget has another address.
+    loader = FreeCADGui.UiLoader()
+    for attempt in range(_MAX_DEAD_WRAPPERS + 1):
+        box = loader.createWidget("Gui::QuantitySpinBox")
+        try:
+            box.setObjectName(name)
+            break
+        except RuntimeError:
+            if attempt == _MAX_DEAD_WRAPPERS:
+                raise
     box.setProperty("unit", "mm")
     box.setProperty("minimum", 0.0)
     box.setToolTip(tip)
