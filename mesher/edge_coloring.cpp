@@ -50,7 +50,7 @@ class BlankRemover {
       // The chains of the two colours that are not common: unless one leads to the other triangle, its
       // exchange makes both triangles leave the same colour.
       const Side start_one = coloring_.side_of(one, own), start_two = coloring_.side_of(two, other);
-      const int winner = race({start_one, other}, {start_two, own});
+      const int winner = race({start_one, other, own}, {start_two, own, other});
       if (winner != met) {
         coloring_.swap_chain(winner == first ? start_one : start_two, own, other);
         return fill(side);
@@ -61,8 +61,8 @@ class BlankRemover {
         side = shift(start_one, own, other);
         continue;
       }
-      const Chain from_one{coloring_.side_of(one, common), other},
-          from_two{coloring_.side_of(two, common), own};
+      const Chain from_one{coloring_.side_of(one, common), other, common},
+          from_two{coloring_.side_of(two, common), own, common};
       const bool take_one = tries == 0 ? race(from_one, from_two) == first : random_.below(2) == 0;
       const Chain& chain = take_one ? from_one : from_two;
       coloring_.swap_chain(chain.side, common, chain.next_color);
@@ -74,10 +74,10 @@ class BlankRemover {
   static constexpr int max_tries = 200;
   enum Winner { first, second, met };
 
-  /// A place on a chain: a side, and the colour that follows.
+  /// A place on a chain: a side, the colour that follows, and the one after that (the side's own).
   struct Chain {
     Side side;
-    int next_color;
+    int next_color, color;
   };
 
   /// Moves on along the chain. \return false at its end.
@@ -85,7 +85,7 @@ class BlankRemover {
     const Side across = coloring_.twin(chain.side);
     const Side next = across < 0 ? -1 : coloring_.side_of(triangle_of(across), chain.next_color);
     if (next < 0) return false;
-    chain = {next, coloring_.color(chain.side)};
+    chain = {next, chain.color, chain.next_color};
     return true;
   }
 
@@ -111,7 +111,7 @@ class BlankRemover {
   /// Exchanges the first few edges of a chain that leads from one triangle of the blank edge to the other:
   /// the blank ends up behind them. \return where it is.
   Side shift(Side side, int a, int b) {
-    Side blank = coloring_.side_of(triangle_of(side), EdgeColoring::blank);
+    Side blank = coloring_.blank_side_of(triangle_of(side));
     for (int steps = 1 + random_.below(16); steps > 0 && side >= 0; --steps) {
       const int color = coloring_.color(side);
       coloring_.set_color(blank, color);
@@ -141,43 +141,48 @@ class BlankRemover {
 
 EdgeColoring::EdgeColoring(const TriangleMesh& mesh) {
   check_indices(mesh);
-  cells_.assign(mesh.triangles.size(), {{-1, -1, -1}, {blank, blank, blank}});
+  cells_.assign(mesh.triangles.size(), {{-1, -1, -1}, {none, none, none}});
   join_twins(mesh, [this](Side a, Side b) {
     cells_[triangle_of(a)].twin[index_of(a)] = b;
     cells_[triangle_of(b)].twin[index_of(b)] = a;
   });
+  for (int t = 0; t < size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (cells_[t].twin[i] < 0) boundary_.push_back(make_side(t, i));
+    }
+  }
 }
 
 Side EdgeColoring::swap_chain(Side start, int a, int b) {
-  int now = color(start), then = now == a ? b : a;
+  int then = color(start) == a ? b : a;
+  std::swap(cells_[triangle_of(start)].at[a], cells_[triangle_of(start)].at[b]);
   for (Side side = start;;) {
     const Side across = twin(side);
-    // The next edge is looked up before this one takes its colour.
-    const Side next = across < 0 ? -1 : side_of(triangle_of(across), then);
-    set_color(side, then);
-    if (next < 0) return side;
-    side = next;
-    std::swap(now, then);
+    if (across < 0) return side;
+    const int t = triangle_of(across);
+    const int next = cells_[t].at[then];
+    std::swap(cells_[t].at[a], cells_[t].at[b]);
+    if (next == none) return side;
+    side = make_side(t, next);
+    then = a + b - then;
   }
 }
 
 Side EdgeColoring::swap_boundary_chain(Side boundary, int with) {
   const int from = color(boundary);
   const Side next = side_of(triangle_of(boundary), with);
-  set_color(boundary, with);
-  return next < 0 ? -1 : swap_chain(next, from, with);
+  if (next < 0) {
+    set_color(boundary, with);
+    return -1;
+  }
+  return swap_chain(next, from, with);
 }
 
 bool is_proper(const EdgeColoring& coloring) {
   for (int t = 0; t < coloring.size(); ++t) {
-    int seen = 0;
     for (int i = 0; i < 3; ++i) {
-      const int color = coloring.color(make_side(t, i));
-      const Side twin = coloring.twin(make_side(t, i));
-      if (twin >= 0 && coloring.color(twin) != color) return false;
-      if (color == EdgeColoring::blank) continue;
-      if (seen & (1 << color)) return false;
-      seen |= 1 << color;
+      const Side side = make_side(t, i), twin = coloring.twin(side);
+      if (twin >= 0 && coloring.color(twin) != coloring.color(side)) return false;
     }
   }
   return true;
@@ -229,10 +234,10 @@ int remove_blanks(EdgeColoring& coloring, Random& random) {
 
 std::array<int, 3> count_boundary_colors(const EdgeColoring& coloring) {
   std::array<int, 3> counts{};
-  for_each_edge(coloring, [&](Side side) {
-    if (coloring.twin(side) < 0 && coloring.color(side) != EdgeColoring::blank)
-      ++counts[coloring.color(side)];
-  });
+  for (Side side : coloring.boundary()) {
+    const int color = coloring.color(side);
+    if (color != EdgeColoring::blank) ++counts[color];
+  }
   return counts;
 }
 
@@ -243,9 +248,9 @@ int least_boundary_color(const EdgeColoring& coloring) {
 
 int clear_boundary(EdgeColoring& coloring, int color, Random& random) {
   std::vector<Side> sides;
-  for_each_edge(coloring, [&](Side side) {
-    if (coloring.twin(side) < 0 && coloring.color(side) == color) sides.push_back(side);
-  });
+  for (Side side : coloring.boundary()) {
+    if (coloring.color(side) == color) sides.push_back(side);
+  }
   constexpr int max_tries = 6;
   for (Side at : sides) {
     const int first = random.below(2);

@@ -39,26 +39,42 @@ class EdgeColoring {
   explicit EdgeColoring(const TriangleMesh& mesh);
 
   int size() const { return static_cast<int>(cells_.size()); }  ///< triangles
-  int color(Side side) const { return cells_[triangle_of(side)].color[index_of(side)]; }
   Side twin(Side side) const { return cells_[triangle_of(side)].twin[index_of(side)]; }
+  /// The sides on the boundary, in the order of the triangles.
+  const std::vector<Side>& boundary() const { return boundary_; }
 
+  int color(Side side) const {
+    const Cell& cell = cells_[triangle_of(side)];
+    const int i = index_of(side);
+    return cell.at[0] == i ? 0 : cell.at[1] == i ? 1 : cell.at[2] == i ? 2 : blank;
+  }
+
+  /// A triangle has room for one side of each colour: another side that had it becomes blank there, which
+  /// is_proper() notices.
   void set_color(Side side, int color) {
-    cells_[triangle_of(side)].color[index_of(side)] = static_cast<std::uint8_t>(color);
+    paint(side, color);
     const Side other = twin(side);
-    if (other >= 0) cells_[triangle_of(other)].color[index_of(other)] = static_cast<std::uint8_t>(color);
+    if (other >= 0) paint(other, color);
   }
 
   /// The side of a triangle that has a colour; -1 if none has.
   Side side_of(int triangle, int color) const {
-    const auto& colors = cells_[triangle].color;
-    const int i = (colors[1] == color) | (colors[2] == color) << 1;
-    return i != 0 || colors[0] == color ? make_side(triangle, i) : -1;
+    const int i = cells_[triangle].at[color];
+    return i == none ? -1 : make_side(triangle, i);
+  }
+
+  /// The side of a triangle that has no colour, the first of several; -1 if all have.
+  Side blank_side_of(int triangle) const {
+    for (int i = 0; i < 3; ++i) {
+      if (color(make_side(triangle, i)) == blank) return make_side(triangle, i);
+    }
+    return -1;
   }
 
   /// Bit c set: a side of the triangle has the colour c.
   int colors_used(int triangle) const {
-    const auto& colors = cells_[triangle].color;
-    return ((1 << colors[0]) | (1 << colors[1]) | (1 << colors[2])) & 7;
+    const auto& at = cells_[triangle].at;
+    return (at[0] != none ? 1 : 0) | (at[1] != none ? 2 : 0) | (at[2] != none ? 4 : 0);
   }
 
   /// Exchanges the colours a and b along the chain of edges of these two that starts with a side, and goes on
@@ -72,14 +88,29 @@ class EdgeColoring {
   Side swap_boundary_chain(Side boundary, int with);
 
  private:
+  static constexpr std::uint8_t none = 3;
+
+  /// Where each colour is rather than what colour each side has: a step along a chain is then two loads, and
+  /// an exchange in a triangle one swap.
   struct Cell {
     Side twin[3];
-    std::uint8_t color[3];
+    std::uint8_t at[3];  // index of the side with the colour
   };
+
+  void paint(Side side, int color) {
+    Cell& cell = cells_[triangle_of(side)];
+    const auto i = static_cast<std::uint8_t>(index_of(side));
+    for (std::uint8_t& at : cell.at) {
+      if (at == i) at = none;
+    }
+    if (color != blank) cell.at[color] = i;
+  }
+
   std::vector<Cell> cells_;
+  std::vector<Side> boundary_;
 };
 
-/// No colour comes twice in a triangle (blanks may).
+/// Both triangles of each edge give it the same colour: so none comes twice in a triangle (blanks may).
 bool is_proper(const EdgeColoring& coloring);
 
 /// The edges without a colour.

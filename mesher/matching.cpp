@@ -170,9 +170,13 @@ namespace {
 /// Walks free triangles to others, over pairs.
 class Walker {
  public:
-  Walker(TriangleGraph& graph, const std::vector<Vector3>& points)
+  /// \param piece of each triangle. \param free the triangles to walk.
+  Walker(TriangleGraph& graph, const std::vector<Vector3>& points, const std::vector<int>& piece,
+         const std::vector<int>& free)
       : graph_(graph),
         points_(points),
+        piece_(piece),
+        free_(free),
         reached_(static_cast<Reached*>(std::calloc(4 * graph.triangles.size(), sizeof(Reached)))) {
     if (!reached_) throw std::bad_alloc();
   }
@@ -190,6 +194,9 @@ class Walker {
 
  private:
   static constexpr int flip_price = 3, concave_price = 30;
+  /// Sides that are looked at for the cheapest way; what is farther is headed for straight, or the cost of a
+  /// few walks would grow with the mesh.
+  static constexpr int far = 20'000;
 
   /// How a side was reached; all zero where it was not.
   struct Reached {
@@ -220,16 +227,52 @@ class Walker {
     return graph_.cost_of(make_side(u, graph_.triangles[u].mate)) < 3 ? flip_price : concave_price;
   }
 
-  /// Dijkstra over the sides crossed (each seen from its far triangle), from a free triangle to another.
+  /// The way from a free triangle to another: the cheapest if that is near, else one to the nearest in space.
   bool search(int root) {
+    bool exhausted = true;
+    if (search(root, nullptr, exhausted)) return true;
+    if (exhausted) return false;
+    const int target = nearest_free(root);
+    if (target < 0) return false;
+    const Vector3 aim = centre_of(target);
+    return search(root, &aim, exhausted);
+  }
+
+  Vector3 centre_of(int t) const {
+    const auto& c = graph_.triangles[t].corner;
+    return (points_[c[0]] + points_[c[1]] + points_[c[2]]) / 3;
+  }
+
+  int nearest_free(int root) const {
+    const Vector3 from = centre_of(root);
+    int nearest = -1;
+    double least = 0;
+    for (int t : free_) {
+      if (t == root || !graph_.free(t) || piece_[t] != piece_[root]) continue;
+      const double distance = (centre_of(t) - from).squaredNorm();
+      if (nearest >= 0 && distance >= least) continue;
+      nearest = t;
+      least = distance;
+    }
+    return nearest;
+  }
+
+  /// Dijkstra over the sides crossed (each seen from its far triangle), from a free triangle to another; with
+  /// an aim, the sides nearest to that come first, whatever they cost.
+  bool search(int root, const Vector3* aim, bool& exhausted) {
     for (Side s : touched_) reached_[s] = {};
     touched_.clear();
     queue_ = {};
-    for (Side s : graph_.triangles[root].twin) offer(s, 0, -1);
+    for (Side s : graph_.triangles[root].twin) offer(s, 0, -1, aim);
     while (!queue_.empty()) {
-      const auto [distance, s] = queue_.top();
+      const auto [key, s] = queue_.top();
       queue_.pop();
-      if (distance + 1 != reached_[s].distance) continue;
+      const int distance = reached_[s].distance - 1;
+      if (!aim && static_cast<int>(key) != distance) continue;
+      if (!aim && static_cast<int>(touched_.size()) > far) {
+        exhausted = false;
+        return false;
+      }
       const int u = triangle_of(s);
       if (graph_.free(u)) {
         if (u == root || graph_.apex_of(s) == graph_.apex_of(graph_.twin_of(s))) continue;
@@ -241,20 +284,20 @@ class Walker {
         for (int i = 0; i < 3; ++i) {
           const Side exit = make_side(t, i);
           if (i == graph_.triangles[t].mate || exit == s || (first && !can_step(s, exit))) continue;
-          offer(graph_.triangles[t].twin[i], distance + price(s, exit), s);
+          offer(graph_.triangles[t].twin[i], distance + price(s, exit), s, aim);
         }
       }
     }
     return false;
   }
 
-  void offer(Side s, int distance, Side from) {
+  void offer(Side s, int distance, Side from, const Vector3* aim) {
     if (s < 0) return;
     Reached& reached = reached_[s];
-    if (reached.distance != 0 && reached.distance <= distance + 1) return;
+    if (reached.distance != 0 && (aim || reached.distance <= distance + 1)) return;
     if (reached.distance == 0) touched_.push_back(s);
     reached = {distance + 1, from + 1};
-    queue_.emplace(distance, s);
+    queue_.emplace(aim ? (points_[graph_.corner_at(s)] - *aim).squaredNorm() : distance, s);
   }
 
   void trace(Side s) {
@@ -294,9 +337,11 @@ class Walker {
 
   TriangleGraph& graph_;
   const std::vector<Vector3>& points_;
+  const std::vector<int>& piece_;
+  const std::vector<int>& free_;
   std::unique_ptr<Reached[], Free> reached_;  // by side; mostly pages never touched
   std::vector<Side> touched_;
-  std::priority_queue<std::pair<int, Side>, std::vector<std::pair<int, Side>>, std::greater<>> queue_;
+  std::priority_queue<std::pair<double, Side>, std::vector<std::pair<double, Side>>, std::greater<>> queue_;
   std::vector<Side> way_;
   std::vector<int> recut_;
 };
@@ -335,7 +380,7 @@ int walk(TriangleGraph& graph, const std::vector<Vector3>& points) {
   const std::vector<int> piece = label_pieces(graph, pieces);
   std::vector<int> free_in(pieces, 0);
   for (int t : free) ++free_in[piece[t]];
-  Walker walker(graph, points);
+  Walker walker(graph, points, piece, free);
   for (int t : free) {
     if (free_in[piece[t]] < 2 || !graph.free(t)) continue;
     if (walker.walk(t)) free_in[piece[t]] -= 2;

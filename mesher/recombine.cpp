@@ -8,6 +8,8 @@
 
 #include "mesher/edge_coloring.hpp"
 #include "mesher/matching.hpp"
+#include "mesher/renumbering.hpp"
+#include "mesher/side_twins.hpp"
 #include "mesher/triangle_graph.hpp"
 
 namespace quadrille {
@@ -51,13 +53,7 @@ void pair_by_cost(TriangleGraph& graph, const TriangleMesh& mesh, const Recombin
 
 /// Pairs as the paper does: at the edges of one colour. The triangles that this leaves at the boundary are
 /// not collapsed but paired too.
-void pair_by_color(TriangleGraph& graph, const std::vector<Side>& sides, const TriangleMesh& mesh) {
-  for (Side side : sides) graph.pair(side);
-  if (augment(graph) > 0) walk(graph, mesh.points);
-}
-
-/// The inner edges of the colour that the paper removes.
-std::vector<Side> edges_to_remove(const TriangleMesh& mesh, std::uint64_t seed, ExecutionContext& context) {
+TriangleGraph pair_by_color(const TriangleMesh& mesh, std::uint64_t seed, ExecutionContext& context) {
   EdgeColoring coloring(mesh);
   Random random(seed);
   color_greedily(coloring, random);
@@ -66,27 +62,48 @@ std::vector<Side> edges_to_remove(const TriangleMesh& mesh, std::uint64_t seed, 
   context.check();
   const int color = least_boundary_color(coloring);
   clear_boundary(coloring, color, random);
-  std::vector<Side> sides;
-  sides.reserve(coloring.size() / 2);
+  TriangleGraph graph(mesh, coloring);
   for (int t = 0; t < coloring.size(); ++t) {
     const Side side = coloring.side_of(t, color);
-    if (side >= 0 && coloring.twin(side) > side) sides.push_back(side);
+    if (side >= 0 && coloring.twin(side) >= 0) graph.triangles[t].mate = index_of(side);
   }
-  return sides;
+  return graph;
 }
 
-}  // namespace
-
-QuadMesh recombine(const TriangleMesh& mesh, const RecombineOptions& options, ExecutionContext& context) {
+QuadMesh recombine_in_order(const TriangleMesh& mesh, const RecombineOptions& options,
+                            ExecutionContext& context) {
   if (options.paper_mode) {
-    const std::vector<Side> sides = edges_to_remove(mesh, options.seed, context);
-    TriangleGraph graph(mesh);
-    pair_by_color(graph, sides, mesh);
+    TriangleGraph graph = pair_by_color(mesh, options.seed, context);
+    if (augment(graph) > 0) walk(graph, mesh.points);
     return collect(graph, mesh);
   }
   TriangleGraph graph(mesh);
   pair_by_cost(graph, mesh, options, context);
   return collect(graph, mesh);
+}
+
+}  // namespace
+
+QuadMesh recombine(const TriangleMesh& mesh, const RecombineOptions& options, ExecutionContext& context) {
+  check_indices(mesh);
+  if (!is_scattered(mesh)) return recombine_in_order(mesh, options, context);
+  try {
+    RenumberedMesh ordered = order_by_place(mesh);
+    QuadMesh result = recombine_in_order(ordered.mesh, options, context);
+    ordered.mesh = {};
+    for (auto& quad : result.quads) {
+      for (int& v : quad) v = ordered.old_point[v];
+    }
+    for (auto& triangle : result.triangles) {
+      for (int& v : triangle) v = ordered.old_point[v];
+    }
+    result.points = mesh.points;
+    return result;
+  } catch (const Error& error) {
+    // What is wrong with a triangulation is told in its own numbers.
+    if (error.kind() == Error::Kind::failure) TriangleGraph{mesh};
+    throw;
+  }
 }
 
 }  // namespace quadrille

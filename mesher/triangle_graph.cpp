@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/edge_coloring.hpp"
+
 namespace quadrille {
 
 namespace {
@@ -75,6 +77,18 @@ TriangleGraph::TriangleGraph(const TriangleMesh& mesh) {
     triangles[triangle_of(a)].twin[index_of(a)] = b;
     triangles[triangle_of(b)].twin[index_of(b)] = a;
   });
+}
+
+TriangleGraph::TriangleGraph(const TriangleMesh& mesh, const EdgeColoring& connected) {
+  triangles.resize(mesh.triangles.size());
+  for (int t = 0; t < size(); ++t) {
+    const auto& c = mesh.triangles[t];
+    triangles[t] = {
+        {c[0], c[1], c[2]},
+        {connected.twin(make_side(t, 0)), connected.twin(make_side(t, 1)), connected.twin(make_side(t, 2))},
+        {0, 0, 0},
+        -1};
+  }
 }
 
 constexpr float worst_cost = 1e6f;

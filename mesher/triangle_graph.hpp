@@ -18,6 +18,8 @@ struct GraphTriangle {
   std::int32_t mate;       ///< index of the side across which it is paired; -1 = free
 };
 
+class EdgeColoring;
+
 class TriangleGraph {
  public:
   /// Sides between triangles of different tags become boundary.
@@ -25,6 +27,8 @@ class TriangleGraph {
   /// two triangles of a tag share a side, or where two of them run along it the same way. Time and memory:
   /// linear.
   explicit TriangleGraph(const TriangleMesh& mesh);
+  /// The same where the neighbours are known already: those of the colouring of this mesh.
+  TriangleGraph(const TriangleMesh& mesh, const EdgeColoring& connected);
 
   int size() const { return static_cast<int>(triangles.size()); }
   int corner_at(Side s) const { return triangles[triangle_of(s)].corner[index_of(s)]; }
