@@ -3,6 +3,11 @@
 ///     paper [--first N] [--domains N] [--colourings N] [--blossom-limit TRIANGLES] [--gmsh PROGRAM] [--out
 ///     FOLDER]
 ///
+/// All times are processor time of one thread, Blossom's too (as Gmsh prints it): other work on the machine
+/// hardly changes it. Short runs are repeated on both sides and the least is taken. The paper's count is
+/// colouring, removal of blanks, choice of the colour and its alternating paths; "all" goes from arrays of
+/// triangles to arrays of quads.
+///
 /// Makes the triangulations from --first to --domains of six (rectangle 1 2 3, Lake Ontario 1 2 3), pairs
 /// each by colouring (paper's mode), by Quadrille's default and by Blossom, improves all three alike, prints
 /// a table and writes FOLDER/paper.json.
@@ -12,8 +17,8 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
-#include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -23,8 +28,10 @@
 #include "geometry/error.hpp"
 #include "mesher/edge_coloring.hpp"
 #include "mesher/io/io.hpp"
+#include "mesher/paper_steps.hpp"
 #include "mesher/quality.hpp"
 #include "mesher/recombine.hpp"
+#include "mesher/renumbering.hpp"
 #include "mesher/triangulated_surface.hpp"
 
 namespace quadrille::bench {
@@ -48,14 +55,19 @@ constexpr std::array<Domain, 6> domains{{{"rectangle 1", false, 0.0256, 0, 0.006
                                          {"Lake Ontario 2", true, 0.07465, 0.048, 1.35, 449},
                                          {"Lake Ontario 3", true, 0.03752, 0.02413, 10.1, 1667}}};
 
+/// Processor time of this thread.
 class Stopwatch {
  public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  double seconds() const { return now() - start_; }
 
  private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  static double now() {
+    timespec time{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+
+  double start_ = now();
 };
 
 TriangleMesh make(const Domain& domain) {
@@ -87,7 +99,7 @@ json measures(const QuadMesh& quads) {
 }
 
 json improved(const TriangleMesh& mesh, const QuadMesh& quads) {
-  ExecutionContext context;
+  ExecutionContext context(1);
   ImproveReport report;
   std::vector<int> renumbered;
   const Stopwatch watch;
@@ -103,7 +115,7 @@ template <class Run>
 double best_seconds(Run&& run) {
   double best = 1e300;
   const Stopwatch all;
-  for (int k = 0; k < 5 && (k == 0 || all.seconds() < 1); ++k) {
+  for (int k = 0; k < 9 && (k == 0 || all.seconds() < 2); ++k) {
     const Stopwatch watch;
     run();
     best = std::min(best, watch.seconds());
@@ -111,9 +123,7 @@ double best_seconds(Run&& run) {
   return best;
 }
 
-json run_quadrille(const TriangleMesh& mesh, bool paper_mode) {
-  RecombineOptions options;
-  options.paper_mode = paper_mode;
+json run_quadrille(const TriangleMesh& mesh, const RecombineOptions& options) {
   ExecutionContext context(1);
   QuadMesh quads;
   const double seconds = best_seconds([&] { quads = recombine(mesh, options, context); });
@@ -123,8 +133,35 @@ json run_quadrille(const TriangleMesh& mesh, bool paper_mode) {
   return entry;
 }
 
-/// The stages of the paper's mode alone: neighbours, greedy colouring, blanks, boundary.
-json time_coloring(const TriangleMesh& mesh) {
+/// The paper's own end: the triangles that the colour leaves are collapsed, nodes of poor quads are averaged.
+json run_paper_end(const TriangleMesh& mesh) {
+  RecombineOptions options;
+  options.paper_mode = true;
+  options.pair_rest = false;
+  ExecutionContext context(1);
+  QuadMesh quads = recombine(mesh, options, context);
+  json entry = {{"triangles", quads.triangles.size()}};
+  entry["collapsed"] = collapse_boundary_triangles(quads);
+  entry["before"] = measures(quads);
+  const Stopwatch watch;
+  smooth_poor(quads);
+  entry["seconds"] = watch.seconds();
+  entry["after"] = measures(quads);
+  return entry;
+}
+
+/// The stages of the paper's mode alone: order (of large meshes), neighbours, greedy colouring, blanks,
+/// boundary.
+json time_coloring(const TriangleMesh& given) {
+  double order = 0;
+  TriangleMesh ordered;
+  const bool scattered = is_scattered(given);
+  if (scattered) {
+    const Stopwatch watch;
+    ordered = order_by_place(given).mesh;
+    order = watch.seconds();
+  }
+  const TriangleMesh& mesh = scattered ? ordered : given;
   double connect = 1e300, greedy = 1e300, blanks = 1e300, boundary = 1e300;
   int greedy_blanks = 0, left = 0, boundary_left = 0;
   best_seconds([&] {
@@ -142,8 +179,14 @@ json time_coloring(const TriangleMesh& mesh) {
     boundary_left = clear_boundary(coloring, least_boundary_color(coloring), random);
     boundary = std::min(boundary, d.seconds());
   });
-  return {{"connect_seconds", connect},    {"greedy_seconds", greedy}, {"greedy_blanks", greedy_blanks},
-          {"blanks_seconds", blanks},      {"blanks_left", left},      {"boundary_seconds", boundary},
+  return {{"order_seconds", order},
+          {"coloring_seconds", greedy + blanks + boundary},
+          {"connect_seconds", connect},
+          {"greedy_seconds", greedy},
+          {"greedy_blanks", greedy_blanks},
+          {"blanks_seconds", blanks},
+          {"blanks_left", left},
+          {"boundary_seconds", boundary},
           {"boundary_left", boundary_left}};
 }
 
@@ -155,15 +198,8 @@ void write_msh(const TriangleMesh& mesh, const std::filesystem::path& path) {
   write_mesh(shell, path);
 }
 
-/// Gmsh's Blossom on a file, its topological optimisation off. The time is the one that Gmsh prints for it.
-json run_blossom(const TriangleMesh& mesh, const std::string& gmsh, const std::filesystem::path& folder) {
-  const std::filesystem::path input = folder / "triangles.msh", output = folder / "blossom.msh";
-  const std::filesystem::path script = folder / "blossom.geo";
-  write_msh(mesh, input);
-  std::ofstream(script)
-      << "Merge \"" << input.filename().string() << "\";\nMesh.RecombinationAlgorithm = 1;\n"
-      << "Mesh.RecombineOptimizeTopology = 0;\nMesh.MshFileVersion = 2.2;\nRecombineMesh;\nSave \""
-      << output.filename().string() << "\";\n";
+/// One run of Gmsh on blossom.geo: the times that it prints for Blossom.
+std::array<double, 2> time_blossom(const std::string& gmsh, const std::filesystem::path& folder) {
   const std::string command = fmt::format("cd '{}' && {} blossom.geo - 2>&1", folder.string(), gmsh);
   std::FILE* pipe = ::popen(command.c_str(), "r");
   if (!pipe) throw failure(gmsh, gmsh + ": cannot be started");
@@ -173,14 +209,32 @@ json run_blossom(const TriangleMesh& mesh, const std::string& gmsh, const std::f
     std::sscanf(line, "Info : Blossom recombination completed (Wall %lfs, CPU %lfs)", &wall, &cpu);
   }
   if (::pclose(pipe) != 0 || wall < 0) throw failure(gmsh, gmsh + ": Blossom did not complete");
+  return {wall, cpu};
+}
+
+/// Gmsh's Blossom on a file, its topological optimisation off.
+json run_blossom(const TriangleMesh& mesh, const std::string& gmsh, const std::filesystem::path& folder) {
+  const std::filesystem::path input = folder / "triangles.msh", output = folder / "blossom.msh";
+  const std::filesystem::path script = folder / "blossom.geo";
+  write_msh(mesh, input);
+  std::ofstream(script)
+      << "Merge \"" << input.filename().string() << "\";\nMesh.RecombinationAlgorithm = 1;\n"
+      << "Mesh.RecombineOptimizeTopology = 0;\nMesh.MshFileVersion = 2.2;\nRecombineMesh;\nSave \""
+      << output.filename().string() << "\";\n";
+  auto [wall, cpu] = time_blossom(gmsh, folder);
+  for (int again = 0; again < 4 && cpu < 1; ++again) {
+    const auto [next_wall, next_cpu] = time_blossom(gmsh, folder);
+    wall = std::min(wall, next_wall);
+    cpu = std::min(cpu, next_cpu);
+  }
   const ShellMesh read = read_mesh(output);
   QuadMesh quads;
   quads.points = read.points;
   quads.quads = read.quads;
   quads.triangles = read.triangles;
   json entry = measures(quads);
-  entry["seconds"] = wall;
-  entry["cpu_seconds"] = cpu;
+  entry["seconds"] = cpu;
+  entry["wall_seconds"] = wall;
   // Its elements keep the points' places, so the same triangulation serves to smooth on.
   entry["improved"] = improved(mesh, quads);
   return entry;
@@ -208,18 +262,32 @@ json run_domain(const Domain& domain, int blossom_limit, const std::string& gmsh
       {"paper", {{"coloring_seconds", domain.paper_coloring}, {"blossom_seconds", domain.paper_blossom}}}};
   entry["stages"] = time_coloring(mesh);
   const json& stages = entry["stages"];
+  const auto per_triangle = [&](const char* stage) { return 1e6 * stages[stage].get<double>() / count; };
   fmt::print(
-      "  colouring {:.3f} + blanks {:.3f} us a triangle ({:.1f} % blank, {} left); neighbours {:.3f}, "
-      "boundary {:.3f} ({} edges left)\n",
-      1e6 * stages["greedy_seconds"].get<double>() / count,
-      1e6 * stages["blanks_seconds"].get<double>() / count,
+      "  colouring {:.3f} + blanks {:.3f} + boundary {:.3f} us a triangle ({:.1f} % blank, {} left, {} "
+      "boundary edges "
+      "left); neighbours {:.3f}, order {:.3f}\n",
+      per_triangle("greedy_seconds"), per_triangle("blanks_seconds"), per_triangle("boundary_seconds"),
       100 * stages["greedy_blanks"].get<double>() / count, stages["blanks_left"].get<int>(),
-      1e6 * stages["connect_seconds"].get<double>() / count,
-      1e6 * stages["boundary_seconds"].get<double>() / count, stages["boundary_left"].get<int>());
-  entry["coloring"] = run_quadrille(mesh, true);
+      stages["boundary_left"].get<int>(), per_triangle("connect_seconds"), per_triangle("order_seconds"));
+  RecombineOptions options;
+  options.paper_mode = true;
+  entry["coloring"] = run_quadrille(mesh, options);
   print_row("colouring", entry["coloring"]);
-  entry["default"] = run_quadrille(mesh, false);
+  entry["paper_end"] = run_paper_end(mesh);
+  const json& end = entry["paper_end"];
+  fmt::print(
+      "  paper's end: {} triangles left, {} collapsed, q {:.3f} / {:.3f}; nodes of quads below 0.5 averaged: "
+      "q {:.3f} / {:.3f}\n",
+      end["triangles"].get<int>(), end["collapsed"].get<int>(), end["before"]["q_mean"].get<double>(),
+      end["before"]["q_min"].get<double>(), end["after"]["q_mean"].get<double>(),
+      end["after"]["q_min"].get<double>());
+  options = {};
+  entry["default"] = run_quadrille(mesh, options);
   print_row("default", entry["default"]);
+  options.objective = Objective::shape;
+  entry["shape"] = run_quadrille(mesh, options);
+  print_row("shape", entry["shape"]);
   if (static_cast<int>(count) > blossom_limit) {
     fmt::print("  Blossom not run above {} triangles (--blossom-limit)\n", blossom_limit);
     return entry;
@@ -227,10 +295,14 @@ json run_domain(const Domain& domain, int blossom_limit, const std::string& gmsh
   entry["blossom"] = run_blossom(mesh, gmsh, folder);
   print_row("Blossom", entry["blossom"]);
   const double blossom = entry["blossom"]["seconds"];
-  fmt::print("  Blossom / colouring {:.0f} (paper {:.1f}), Blossom / default {:.0f}\n",
-             blossom / entry["coloring"]["seconds"].get<double>(),
-             domain.paper_blossom / domain.paper_coloring,
-             blossom / entry["default"]["seconds"].get<double>());
+  fmt::print(
+      "  Blossom / colouring {:.0f} (paper's count; paper {:.1f}), / all of colouring {:.0f}, / default "
+      "{:.0f}, / "
+      "shape {:.1f}\n",
+      blossom / stages["coloring_seconds"].get<double>(), domain.paper_blossom / domain.paper_coloring,
+      blossom / entry["coloring"]["seconds"].get<double>(),
+      blossom / entry["default"]["seconds"].get<double>(), blossom / entry["shape"]["seconds"].get<double>());
+  std::fflush(stdout);
   return entry;
 }
 

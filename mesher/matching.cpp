@@ -17,6 +17,7 @@
 #include <new>
 #include <numeric>
 #include <queue>
+#include <unordered_map>
 #include <utility>
 
 namespace quadrille {
@@ -346,25 +347,22 @@ class Walker {
   std::vector<int> recut_;
 };
 
-/// The connected piece of each triangle.
-std::vector<int> label_pieces(const TriangleGraph& graph, int& count) {
-  std::vector<int> piece(graph.size(), -1), stack;
-  count = 0;
-  for (int seed = 0; seed < graph.size(); ++seed) {
-    if (piece[seed] >= 0) continue;
-    piece[seed] = count;
-    stack.push_back(seed);
-    while (!stack.empty()) {
-      const int t = stack.back();
-      stack.pop_back();
-      for (Side s : graph.triangles[t].twin) {
-        if (s < 0 || piece[triangle_of(s)] >= 0) continue;
-        piece[triangle_of(s)] = count;
-        stack.push_back(triangle_of(s));
-      }
+/// The connected piece of each triangle, as its lowest triangle: by union and find in the order of the mesh.
+std::vector<int> label_pieces(const TriangleGraph& graph) {
+  std::vector<int> piece(graph.size());
+  const auto root = [&](int t) {
+    while (piece[t] != t) t = piece[t] = piece[piece[t]];
+    return t;
+  };
+  for (int t = 0; t < graph.size(); ++t) {
+    piece[t] = t;
+    for (Side s : graph.triangles[t].twin) {
+      if (s < 0 || triangle_of(s) > t) continue;
+      const int one = root(t), two = root(triangle_of(s));
+      piece[std::max(one, two)] = std::min(one, two);
     }
-    ++count;
   }
+  for (int t = 0; t < graph.size(); ++t) piece[t] = piece[piece[t]];
   return piece;
 }
 
@@ -376,9 +374,8 @@ int walk(TriangleGraph& graph, const std::vector<Vector3>& points) {
     if (graph.free(t)) free.push_back(t);
   }
   if (free.size() < 2) return static_cast<int>(free.size());
-  int pieces = 0;
-  const std::vector<int> piece = label_pieces(graph, pieces);
-  std::vector<int> free_in(pieces, 0);
+  const std::vector<int> piece = label_pieces(graph);
+  std::unordered_map<int, int> free_in;
   for (int t : free) ++free_in[piece[t]];
   Walker walker(graph, points, piece, free);
   for (int t : free) {
@@ -394,7 +391,9 @@ namespace {
 /// How far the number of quads at each point is from the ideal, and what that costs.
 class Valences {
  public:
-  Valences(const TriangleGraph& graph, const std::vector<Vector3>& points) : deviation_(points.size(), 0) {
+  Valences(const TriangleGraph& graph, const std::vector<Vector3>& points)
+      : weight_(graph.objective == Objective::shape ? shape_weight : regular_weight),
+        deviation_(points.size(), 0) {
     std::vector<char> boundary(points.size(), 0);
     for (int t = 0; t < graph.size(); ++t) {
       for (int i = 0; i < 3; ++i) {
@@ -422,8 +421,18 @@ class Valences {
   float more(int a, int b) { return change(a, 1) + change(b, 1); }
   float fewer(int a, int b) { return change(a, -1) + change(b, -1); }
 
+  /// About the same, without making the change: for a step of a longer exchange.
+  float if_more(int a, int b) const {
+    return 2 * weight_ * (caution + static_cast<float>(deviation_[a] + deviation_[b]));
+  }
+  float if_fewer(int a, int b) const {
+    return 2 * weight_ * (caution - static_cast<float>(deviation_[a] + deviation_[b]));
+  }
+
  private:
-  static constexpr float weight = 0.4F;
+  static constexpr float regular_weight = 0.4F, shape_weight = 0.02F;
+  /// Against the second order of a change alone, which most further steps of a cycle undo: between 0 and 1.
+  static constexpr float caution = 0.25F;
 
   static float angle_at(const GraphTriangle& t, int i, const std::vector<Vector3>& points) {
     const Vector3& p = points[t.corner[i]];
@@ -434,9 +443,10 @@ class Valences {
   float change(int v, int by) {
     const int before = deviation_[v], after = before + by;
     deviation_[v] = static_cast<std::int16_t>(after);
-    return weight * static_cast<float>(after * after - before * before);
+    return weight_ * static_cast<float>(after * after - before * before);
   }
 
+  float weight_;
   std::vector<std::int16_t> deviation_;
 };
 
@@ -458,12 +468,25 @@ class Exchanger {
     touched_.clear();
     if (!usable(t)) return touched_;
     root_ = graph_.mate_of(t);
-    release(t, 0);
+    if (graph_.objective == Objective::shape) {
+      search(t);
+    } else {
+      release(t, 0);
+    }
     if (!best_.empty()) apply();
     return touched_;
   }
 
  private:
+  /// A way of `search` to an opened pair.
+  struct Label {
+    int triangle;  // of the pair, in want of a mate
+    float gain;
+    int before;   // label
+    Side across;  // the side by which the way came
+  };
+
+  static constexpr int max_labels = 400;
   static constexpr int max_pairs = 20;
   static constexpr int broad_pairs = 5;
   static constexpr float least_gain = 1e-3F;
@@ -534,6 +557,84 @@ class Exchanger {
     return false;
   }
 
+  /// Searches on all ways at once, the best one to each opened pair alone being followed on: long cycles for
+  /// little. What the valences charge is estimated on the way and counted where a cycle closes.
+  void search(int start) {
+    labels_.clear();
+    ++search_number_;
+    if (reached_in_.empty()) {
+      reached_in_.assign(graph_.triangles.size(), 0);
+      label_of_.resize(graph_.triangles.size());
+    }
+    expose(start, 0, -1, -1);
+    for (int k = 0; k < static_cast<int>(labels_.size()) && k < max_labels; ++k) {
+      const Label label = labels_[k];
+      if (label_of_[label.triangle] != k) continue;  // a better way has been found since
+      const GraphTriangle& triangle = graph_.triangles[label.triangle];
+      for (int j : {next_index(triangle.mate), previous_index(triangle.mate)}) {
+        const Side s = triangle.twin[j];
+        if (s < 0 || !usable(triangle_of(s))) continue;
+        const float rest = label.gain - triangle.cost[j] -
+                           valences_.if_fewer(triangle.corner[j], triangle.corner[next_index(j)]);
+        if (rest <= 0) continue;
+        if (triangle_of(s) == root_) {
+          close(k, s);
+        } else if (!is_opened(k, triangle_of(s))) {
+          expose(graph_.mate_of(triangle_of(s)), rest, k, s);
+        }
+      }
+    }
+  }
+
+  /// Opens the pair of `t`, unless another way here has gained as much.
+  void expose(int t, float gain, int before, Side across) {
+    const GraphTriangle& triangle = graph_.triangles[t];
+    const int i = triangle.mate;
+    gain += triangle.cost[i] - valences_.if_more(triangle.corner[i], triangle.corner[next_index(i)]);
+    // Of each cycle that gains, some start keeps all partial gains positive (Lin & Kernighan).
+    if (gain <= 0) return;
+    if (reached_in_[t] == search_number_ && labels_[label_of_[t]].gain >= gain - 1e-4F) return;
+    reached_in_[t] = search_number_;
+    label_of_[t] = static_cast<int>(labels_.size());
+    labels_.push_back({t, gain, before, across});
+  }
+
+  /// Whether the pair of t has been opened on the way to a label.
+  bool is_opened(int k, int t) const {
+    const int mate = graph_.mate_of(t);
+    if (mate == root_) return true;
+    for (; k >= 0; k = labels_[k].before) {
+      if (labels_[k].triangle == t || labels_[k].triangle == mate) return true;
+    }
+    return false;
+  }
+
+  /// Keeps the cycle that a label and a side to the root close if none found gains more.
+  void close(int k, Side last) {
+    path_.assign(1, last);
+    for (; labels_[k].before >= 0; k = labels_[k].before) path_.push_back(labels_[k].across);
+    std::reverse(path_.begin(), path_.end());
+    const auto diagonal = [&](Side s) {
+      return make_side(triangle_of(s), graph_.triangles[triangle_of(s)].mate);
+    };
+    float gain = 0;
+    for (Side s : path_) {
+      const Side d = diagonal(s);
+      gain += graph_.cost_of(d) - valences_.more(graph_.corner_at(d), graph_.end_of(d));
+    }
+    for (Side s : path_) {
+      gain -= graph_.cost_of(s) + valences_.fewer(graph_.corner_at(s), graph_.end_of(s));
+    }
+    for (Side s : path_) {
+      const Side d = diagonal(s);
+      valences_.more(graph_.corner_at(s), graph_.end_of(s));
+      valences_.fewer(graph_.corner_at(d), graph_.end_of(d));
+    }
+    if (gain <= best_gain_) return;
+    best_gain_ = gain;
+    best_ = path_;
+  }
+
   void apply() {
     for (Side s : best_) {
       // Counted before the mates change: every opened pair's side stops being a diagonal.
@@ -554,6 +655,9 @@ class Exchanger {
   float best_gain_ = 0;
   std::vector<Side> path_, best_;
   std::vector<int> touched_;
+  std::vector<Label> labels_;
+  std::vector<int> reached_in_, label_of_;  // by triangle: number of the search, label
+  int search_number_ = 0;
 };
 
 }  // namespace

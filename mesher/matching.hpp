@@ -25,8 +25,8 @@ int walk(TriangleGraph& graph, const std::vector<Vector3>& points);
 
 /// Exchanges pairs along alternating cycles as long as that lowers the cost:
 /// the sum over the quads of pair_cost() and over the points of a charge for the deviation from the ideal
-/// number of quads there (4 inside; on the boundary one for every 90 degrees). \return the number of cycles
-/// exchanged.
+/// number of quads there (4 inside; on the boundary one for every 90 degrees). The graph's objective weighs the
+/// two, and decides how far cycles are searched for. \return the number of cycles exchanged.
 int exchange(TriangleGraph& graph, const std::vector<Vector3>& points, ExecutionContext& context);
 
 }  // namespace quadrille

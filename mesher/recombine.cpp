@@ -43,6 +43,7 @@ QuadMesh collect(const TriangleGraph& graph, const TriangleMesh& mesh) {
 /// Pairs by quality: greedily, by augmentation, by walks, by exchange.
 void pair_by_cost(TriangleGraph& graph, const TriangleMesh& mesh, const RecombineOptions& options,
                   ExecutionContext& context) {
+  graph.objective = options.objective;
   graph.compute_costs(mesh.points);
   context.check();
   pair_greedily(graph);
@@ -74,7 +75,7 @@ QuadMesh recombine_in_order(const TriangleMesh& mesh, const RecombineOptions& op
                             ExecutionContext& context) {
   if (options.paper_mode) {
     TriangleGraph graph = pair_by_color(mesh, options.seed, context);
-    if (augment(graph) > 0) walk(graph, mesh.points);
+    if (options.pair_rest && augment(graph) > 0) walk(graph, mesh.points);
     return collect(graph, mesh);
   }
   TriangleGraph graph(mesh);

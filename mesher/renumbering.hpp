@@ -17,7 +17,7 @@ struct RenumberedMesh {
 /// lie in space. Looks at a sample: constant time.
 bool is_scattered(const TriangleMesh& mesh);
 
-/// Triangles in the order of a space-filling curve (unless theirs is as good), points in the order in which
+/// Triangles in the order of a space-filling curve, points in the order in which
 /// triangles use them first; points that no triangle uses are left out. Deterministic. Time: linear. Indices
 /// must have been checked.
 RenumberedMesh order_by_place(const TriangleMesh& mesh);

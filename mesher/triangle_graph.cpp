@@ -48,7 +48,7 @@ void invert(TriangleShape& shape) {
 
 }  // namespace
 
-float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, int j) {
+float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, int j, Objective objective) {
   constexpr float right = 1.57079633F;
   const float corners[4] = {first.angle[previous_index(i)], second.angle[previous_index(j)],
                             first.angle[i] + second.angle[next_index(j)],
@@ -61,6 +61,7 @@ float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, 
   }
   float aligned = 0;
   for (int k = 0; k < 3; ++k) aligned += first.normal[k] * second.normal[k];
+  if (objective == Objective::shape) return worst + 2 * (1 - aligned);
   const float bad = std::max(worst - 0.6F, 0.0F);
   const float reflex = std::max(worst - 0.95F, 0.0F);
   return 0.5F * worst + 0.3F * squares + 4 * bad * bad + 10 * reflex + 2 * (1 - aligned);
@@ -100,7 +101,7 @@ void TriangleGraph::compute_costs(const std::vector<Vector3>& points) {
     for (int i = 0; i < 3; ++i) {
       const Side twin = triangles[t].twin[i];
       if (twin < make_side(t, i)) continue;  // boundary, or done from the other side
-      float cost = pair_cost(shapes[t], i, shapes[triangle_of(twin)], index_of(twin));
+      float cost = pair_cost(shapes[t], i, shapes[triangle_of(twin)], index_of(twin), objective);
       if (!(cost < worst_cost)) cost = worst_cost;  // not a number where products overflow
       triangles[t].cost[i] = triangles[triangle_of(twin)].cost[index_of(twin)] = cost;
     }
@@ -153,8 +154,8 @@ void TriangleGraph::update_cost(Side side, const std::vector<Vector3>& points) {
     if (normal.dot(mean) < 0) invert(result);
     return result;
   };
-  const float cost =
-      pair_cost(shape(triangle_of(side)), index_of(side), shape(triangle_of(other)), index_of(other));
+  const float cost = pair_cost(shape(triangle_of(side)), index_of(side), shape(triangle_of(other)),
+                               index_of(other), objective);
   triangles[triangle_of(side)].cost[index_of(side)] = cost;
   triangles[triangle_of(other)].cost[index_of(other)] = cost;
 }

@@ -6,6 +6,7 @@
 
 #include "geometry/vector.hpp"
 #include "mesher/mesh_types.hpp"
+#include "mesher/options.hpp"
 #include "mesher/side_twins.hpp"
 
 namespace quadrille {
@@ -58,6 +59,7 @@ class TriangleGraph {
   Side flip(Side side, const std::vector<Vector3>& points);
 
   std::vector<GraphTriangle> triangles;
+  Objective objective = Objective::regular;  ///< decides the costs
 
  private:
   void update_cost(Side side, const std::vector<Vector3>& points);
@@ -72,6 +74,8 @@ struct TriangleShape {
 /// The cost of the quad made of two triangles across the side i of the first and j of the second, from its
 /// corner angles and the fold between the two: 0 for a rectangle, about 0.3 for two equilateral triangles,
 /// above 3 for a concave quad.
-float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, int j);
+/// For the objective `shape`: 1 - q before it is cut off at 0, and the fold.
+float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, int j,
+                Objective objective = Objective::regular);
 
 }  // namespace quadrille

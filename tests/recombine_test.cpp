@@ -151,6 +151,45 @@ TEST(Recombine, ExchangeLowersTheNumberOfIrregularPoints) {
   EXPECT_LT(irregular(recombine(mesh, {}, context)), irregular(recombine(mesh, plain, context)));
 }
 
+TEST(Recombine, TheObjectiveShapeGivesTheGreaterMean) {
+  const auto mean_q = [](const QuadMesh& mesh) {
+    double sum = 0;
+    for (const auto& [a, b, c, d] : mesh.quads)
+      sum += quad_q(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]);
+    return sum / static_cast<double>(mesh.quads.size());
+  };
+  RecombineOptions shape;
+  shape.objective = Objective::shape;
+  ExecutionContext context;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const TriangleMesh mesh = random_with_holes(600, 3, seed);
+    const QuadMesh quads = recombine(mesh, shape, context);
+    EXPECT_EQ(faults(mesh, quads), "");
+    EXPECT_GT(mean_q(quads), mean_q(recombine(mesh, {}, context)));
+  }
+}
+
+TEST(Recombine, FreeTrianglesFarApartMeet) {
+  // One triangle less in each of two far corners: what the cheapest way is searched for does not reach.
+  const TriangleMesh mesh = grid(300, 150);
+  const TriangleMesh cut = keep_triangles(mesh, [&](int t, const Vector3&) {
+    return t != 0 && t + 1 != static_cast<int>(mesh.triangles.size());
+  });
+  TriangleGraph graph(cut);
+  for (Side s = 0; s < 4 * graph.size(); ++s) {
+    if (index_of(s) == 3) continue;
+    // The squares of the grid: paired across their diagonals.
+    const Vector3 along = cut.points[graph.end_of(s)] - cut.points[graph.corner_at(s)];
+    if (along.x() * along.y() != 0 && graph.twin_of(s) > s) graph.pair(s);
+  }
+  EXPECT_EQ(std::count_if(graph.triangles.begin(), graph.triangles.end(),
+                          [](const GraphTriangle& t) { return t.mate < 0; }),
+            2);
+  graph.compute_costs(cut.points);
+  EXPECT_EQ(walk(graph, cut.points), 0);
+  for (int t = 0; t < graph.size(); ++t) EXPECT_EQ(graph.mate_of(graph.mate_of(t)), t);
+}
+
 TEST(Recombine, CanBeCancelled) {
   ExecutionContext context;
   context.cancel();

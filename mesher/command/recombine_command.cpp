@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
+#include <tuple>
 
 #include "mesher/command/command.hpp"
 #include "mesher/command/print_quality.hpp"
@@ -20,6 +22,7 @@ struct RecombineArguments {
   std::uint64_t seed = 1;
   int threads = 0;
   bool no_improve = false, quiet = false;
+  std::string prefer = "regular";
 };
 
 void check(const RecombineArguments& arguments) {
@@ -32,6 +35,36 @@ void check(const RecombineArguments& arguments) {
   require_readable(arguments.input);
 }
 
+/// Triangles without area, and points of which two lie on one place, leave cracks and folds: throws Error
+/// (failure) that names them.
+void check_shapes(const TriangleMesh& mesh, const std::string& name) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vector3 ab = mesh.points[b] - mesh.points[a], ac = mesh.points[c] - mesh.points[a];
+    const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+    if (ab.cross(ac).norm() <= 1e-14 * longest) {
+      throw failure(name, fmt::format("{}: triangle {} has no area: its corners are the points {}, {} and {} "
+                                      "(counted from 0, as they come in the file)",
+                                      name, t, a, b, c));
+    }
+  }
+  std::vector<int> order(mesh.points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto place = [&](int v) {
+    const Vector3& p = mesh.points[v];
+    return std::make_tuple(p.x(), p.y(), p.z(), v);
+  };
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return place(a) < place(b); });
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    const Vector3& p = mesh.points[order[k]];
+    if (mesh.points[order[k - 1]] != p) continue;
+    throw failure(name,
+                  fmt::format("{}: the points {} and {} (counted from 0, as they come in the file) lie on "
+                              "one place, {} {} {}: join them first",
+                              name, order[k - 1], order[k], p.x(), p.y(), p.z()));
+  }
+}
+
 TriangleMesh triangles_of(const ShellMesh& shell, const std::string& name) {
   if (!shell.quads.empty()) {
     throw failure(
@@ -42,6 +75,7 @@ TriangleMesh triangles_of(const ShellMesh& shell, const std::string& name) {
   mesh.points = shell.points;
   mesh.triangles = shell.triangles;
   mesh.tags = shell.triangle_faces;
+  check_shapes(mesh, name);
   return mesh;
 }
 
@@ -91,11 +125,19 @@ void run(const RecombineArguments& arguments) {
   RecombineOptions options;
   options.paper_mode = arguments.no_improve;
   options.seed = arguments.seed;
+  options.objective = arguments.prefer == "shape" ? Objective::shape : Objective::regular;
   QuadMesh quads;
   {
     const StageTimer timer(context, "recombine");
     context.report("recombine", 0);
-    quads = recombine(triangles, options, context);
+    try {
+      quads = recombine(triangles, options, context);
+    } catch (const Error& error) {
+      if (error.kind() != Error::Kind::failure) throw;
+      throw failure(arguments.input.string(),
+                    fmt::format("{}: {} (triangles and points counted from 0, as they come in the file)",
+                                arguments.input.string(), error.what()));
+    }
   }
   std::vector<int> renumbered(triangles.points.size());
   std::iota(renumbered.begin(), renumbered.end(), 0);
@@ -127,6 +169,11 @@ void add_recombine_command(CLI::App& app) {
   command->add_option("--seed", arguments->seed, "seed of the random choices of --no-improve (default 1)");
   command->add_flag("--no-improve", arguments->no_improve,
                     "the method of the 2018 paper as it stands: colour, swap, remove; no node moves");
+  command
+      ->add_option(
+          "--prefer", arguments->prefer,
+          "what pairs are exchanged for: regular (points with four quads, default) or shape (mean q)")
+      ->check(CLI::IsMember({"regular", "shape"}));
   command->add_option("--report", arguments->report, "write counts, quality and times as JSON");
   command->add_option("--threads", arguments->threads, "threads to use; 0 = all cores (default)");
   command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");
