@@ -22,6 +22,7 @@
 
 #include "geometry/cad_shape.hpp"
 #include "geometry/error.hpp"
+#include "geometry/isolated_reading.hpp"
 #include "geometry/module_loader.hpp"
 #include "geometry/readers/exchange_module.hpp"
 
@@ -131,10 +132,16 @@ CadModel build(const TopoDS_Shape& shape, const std::string& name) {
 
 /// The reading behind one guard: OpenCASCADE's own exceptions become one sentence.
 template <class Read>
-CadModel guarded(const std::string& name, Read read) {
+CadModel guarded(const std::string& name, const ReadOptions& options, Read read) {
   silence_opencascade();
   try {
-    return build(read(), name);
+    if (!options.isolated) return build(read(), name);
+    const auto read_and_check = [&] {
+      const TopoDS_Shape shape = read();
+      build(shape, name);
+      return shape;
+    };
+    return build(read_isolated(name, read_and_check, options.context), name);
   } catch (const Standard_Failure& problem) {
     throw failure(name, fmt::format("{} could not be read as CAD ({})", name, problem.GetMessageString()));
   }
@@ -142,7 +149,7 @@ CadModel guarded(const std::string& name, Read read) {
 
 }  // namespace
 
-CadModel CadModel::read(const std::filesystem::path& path) {
+CadModel CadModel::read(const std::filesystem::path& path, const ReadOptions& options) {
   const std::string name = path.string();
   std::error_code code;
   if (!std::filesystem::exists(path, code)) throw failure(name, fmt::format("{} does not exist", name));
@@ -150,11 +157,11 @@ CadModel CadModel::read(const std::filesystem::path& path) {
   if (!std::ifstream(path)) throw failure(name, fmt::format("{} cannot be opened for reading", name));
   const std::string extension = lower_extension(path);
   if (extension == ".step" || extension == ".stp")
-    return guarded(name, [&] { return read_exchange(path, "quadrille_step"); });
+    return guarded(name, options, [&] { return read_exchange(path, "quadrille_step"); });
   if (extension == ".iges" || extension == ".igs")
-    return guarded(name, [&] { return read_exchange(path, "quadrille_iges"); });
+    return guarded(name, options, [&] { return read_exchange(path, "quadrille_iges"); });
   if (extension == ".brep" || extension == ".brp") {
-    return guarded(name, [&] {
+    return guarded(name, options, [&] {
       std::ifstream stream(path, std::ios::binary);
       return read_brep(stream, name);
     });
@@ -165,8 +172,8 @@ CadModel CadModel::read(const std::filesystem::path& path) {
                                 name));
 }
 
-CadModel CadModel::from_brep(std::string_view text, const std::string& name) {
-  return guarded(name, [&] {
+CadModel CadModel::from_brep(std::string_view text, const std::string& name, const ReadOptions& options) {
+  return guarded(name, options, [&] {
     ViewBuffer buffer(text);
     std::istream stream(&buffer);
     return read_brep(stream, name);

@@ -12,6 +12,16 @@
 namespace quadrille {
 
 class CadShape;  // the OpenCASCADE side, see geometry/cad_shape.hpp
+class ExecutionContext;
+
+/// How a CAD file is read.
+struct ReadOptions {
+  /// In a child process: OpenCASCADE crashes on some damaged files, and then there is an Error (failure)
+  /// rather than no program any more. Costs the time to hand the shape over.
+  bool isolated = false;
+  /// Asked while reading in a child process: cancelling and its time limit end the reading at once.
+  ExecutionContext* context = nullptr;
+};
 
 /// A boundary-representation model. Copies share the shape, which is never modified.
 class CadModel {
@@ -19,11 +29,12 @@ class CadModel {
   /// Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep, .brp); lengths are converted to
   /// millimetres. Throws Error (failure) with one sentence when the file is missing, is not CAD, or holds no
   /// face.
-  static CadModel read(const std::filesystem::path& path);
+  static CadModel read(const std::filesystem::path& path, const ReadOptions& options = {});
 
   /// Parses a shape in OpenCASCADE's BREP text format, as FreeCAD's `Shape.exportBrepToString()` gives it.
   /// \param name used in error messages.
-  static CadModel from_brep(std::string_view text, const std::string& name = "shape");
+  static CadModel from_brep(std::string_view text, const std::string& name = "shape",
+                            const ReadOptions& options = {});
 
   int face_count() const;    ///< faces are numbered 1 .. face_count() (FreeCAD's Face1, Face2, ...)
   int edge_count() const;    ///< edges are numbered 1 .. edge_count()

@@ -164,6 +164,20 @@ Strategy strategy_of(const std::string& name) {
   throw usage_error("strategy", "strategy must be 'direct' or 'subdivide', not '" + name + "'");
 }
 
+/// Calls `read` with the options for it; Ctrl-C ends it.
+template <class Read>
+CadModel read_model(bool isolated, Read read) {
+  ProgressCall call{py::none()};
+  ExecutionContext context(1, std::ref(call));
+  try {
+    const py::gil_scoped_release release;
+    return read(ReadOptions{isolated, &context});
+  } catch (const Error&) {
+    call.rethrow();
+    throw;
+  }
+}
+
 PythonMesh mesh_model(const CadModel& model, std::optional<double> size,
                       std::optional<double> elements_per_diagonal, std::optional<double> size_min,
                       std::optional<double> elements_per_circle, std::optional<double> growth, int order,
@@ -295,13 +309,24 @@ void bind_mesh(py::module_& module) {
 }
 
 void bind_functions(py::module_& module) {
-  module.def("read", &CadModel::read, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
-             "Reads a STEP, IGES or BREP file.");
+  module.def(
+      "read",
+      [](const std::filesystem::path& path, bool isolated) {
+        return read_model(isolated,
+                          [&](const ReadOptions& options) { return CadModel::read(path, options); });
+      },
+      py::arg("path"), py::kw_only(), py::arg("isolated") = true,
+      "Reads a STEP, IGES or BREP file. isolated: in a child process, so that a file that crashes "
+      "OpenCASCADE\n"
+      "raises quadrille.Error rather than ending the interpreter.");
   module.def(
       "read_brep",
-      [](const std::string& text, const std::string& name) { return CadModel::from_brep(text, name); },
-      py::arg("text"), py::arg("name") = "shape", py::call_guard<py::gil_scoped_release>(),
-      "Parses a shape in OpenCASCADE's BREP text format.");
+      [](const std::string& text, const std::string& name, bool isolated) {
+        return read_model(
+            isolated, [&](const ReadOptions& options) { return CadModel::from_brep(text, name, options); });
+      },
+      py::arg("text"), py::arg("name") = "shape", py::kw_only(), py::arg("isolated") = true,
+      "Parses a shape in OpenCASCADE's BREP text format. isolated: as for read().");
   module.def("suggested_size", &suggested_size, py::arg("model"), py::arg("quads") = 5000,
              "A size that gives about this many quads.");
   module.def("mesh", &mesh_model, py::arg("model"), py::kw_only(), py::arg("size") = py::none(),

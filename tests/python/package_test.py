@@ -2,7 +2,10 @@
 
 import gc
 import os
+import random
+import re
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -109,6 +112,40 @@ class PackageTest(unittest.TestCase):
         quadrille.mesh(self.model, size=8, progress=lambda stage, fraction: calls.append((stage, fraction)))
         self.assertTrue(calls)
         self.assertTrue(all(isinstance(stage, str) and 0 <= fraction <= 1 for stage, fraction in calls))
+
+    def test_reading_survives_files_that_crash_the_reader(self):
+        # References that lead to entities of the wrong kind: OpenCASCADE 7.6 crashes on some of them.
+        text = (MODELS / "bracket.step").read_text()
+        told = 0
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "damaged.step"
+            for seed in range(12):
+                rng = random.Random(seed)
+                path.write_text(re.sub(r"#\d+(?! *=)", lambda match: rng.choice([match[0]] * 30 + ["#17", "#20"]), text))
+                try:
+                    quadrille.read(path)
+                except quadrille.Error as error:
+                    self.assertEqual(error.kind, "failure")
+                    self.assertNotIn("\n", str(error))
+                    told += 1
+        self.assertGreater(told, 0)
+
+    def test_reading_here_or_in_a_child(self):
+        for isolated in (True, False):
+            self.assertEqual(quadrille.read(MODELS / "bracket.step", isolated=isolated).box, self.model.box)
+
+    def test_cancelled_between_reports(self):
+        asked, start = [], time.monotonic()
+
+        def go_on(_stage, _fraction):
+            asked.append(time.monotonic())
+            return asked[-1] - start < 0.5
+
+        with self.assertRaises(quadrille.Error) as caught:
+            quadrille.mesh(self.model, elements_per_diagonal=1000, force=True, progress=go_on)
+        self.assertEqual(caught.exception.kind, "cancelled")
+        # 0.2 s on an idle machine; the rest is for busy ones.
+        self.assertLess(time.monotonic() - start, 0.5 + 3)
 
     def test_cancel(self):
         with self.assertRaises(quadrille.Error) as caught:
