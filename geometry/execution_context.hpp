@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -20,7 +21,8 @@ namespace quadrille {
 class ExecutionContext {
  public:
   /// Called with a stage name and the fraction of the stage done, in [0, 1]; returning false cancels the
-  /// work. Calls are serialised; they come from whichever thread does the work.
+  /// work. Calls are serialised; they come from whichever thread does the work. Where a stage takes long, the
+  /// same is told again: twenty times a second at most.
   using Progress = std::function<bool(std::string_view stage, double fraction)>;
 
   ExecutionContext() = default;
@@ -43,6 +45,7 @@ class ExecutionContext {
 
   /// Throws Error (cancelled) once the work has been cancelled, Error (failure) once its time is over.
   void check() const {
+    if (progress_) ask_again();
     if (limit_seconds_ > 0 && std::chrono::steady_clock::now() > deadline_) throw time_is_over();
     if (cancelled()) throw Error(Error::Kind::cancelled, "", "the work was cancelled");
   }
@@ -51,7 +54,9 @@ class ExecutionContext {
   void report(std::string_view stage, double fraction) {
     if (progress_) {
       const std::lock_guard lock(mutex_);
-      if (!progress_(stage, fraction)) cancel();
+      stage_ = stage;
+      fraction_ = fraction;
+      ask();
     }
     check();
   }
@@ -68,6 +73,23 @@ class ExecutionContext {
   }
 
  private:
+  static std::int64_t now() {
+    return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::milliseconds(1);
+  }
+
+  /// Needs the lock.
+  void ask() const {
+    asked_.store(now(), std::memory_order_relaxed);
+    if (!progress_(stage_, fraction_)) cancelled_.store(true, std::memory_order_relaxed);
+  }
+
+  void ask_again() const {
+    constexpr std::int64_t interval = 50;  // milliseconds
+    if (now() - asked_.load(std::memory_order_relaxed) < interval) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);  // another thread that asks now does it for all
+    if (lock && !stage_.empty()) ask();
+  }
+
   Error time_is_over() const {
     return failure("--time-limit",
                    fmt::format("the time limit of {:g} s is over, and nothing was written", limit_seconds_));
@@ -77,8 +99,11 @@ class ExecutionContext {
   Progress progress_;
   double limit_seconds_ = 0;  // 0 = none
   std::chrono::steady_clock::time_point deadline_;
-  std::atomic<bool> cancelled_{false};
+  mutable std::atomic<bool> cancelled_{false};
+  mutable std::atomic<std::int64_t> asked_{0};  // when, in milliseconds
   mutable std::mutex mutex_;
+  std::string stage_;  // last reported
+  double fraction_ = 0;
   std::map<std::string, double> seconds_;
 };
 

@@ -36,12 +36,13 @@ constexpr double kBad = 0.5;
 /// them.
 class Smoother {
  public:
-  Smoother(SurfaceMesh& surface_mesh, const SmoothingSurface& surface)
+  Smoother(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const ExecutionContext& context)
       : points_(surface_mesh.mesh.points),
         quads_(surface_mesh.mesh.quads),
         parameters_(surface_mesh.parameters),
         normals_(surface_mesh.normals),
-        surface_(surface) {
+        surface_(surface),
+        context_(context) {
     const std::size_t n = points_.size();
     free_.resize(n);
     for (std::size_t i = 0; i < n; ++i) free_[i] = surface_mesh.fixed[i] ? 0 : 1;
@@ -59,6 +60,7 @@ class Smoother {
   bool sweep() {
     bool any = false;
     for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
+      check(node);
       if (!free_[node] || !active_[node]) continue;
       if (relax(node)) {
         any = true;
@@ -75,6 +77,7 @@ class Smoother {
   bool optimise_below(double floor) {
     bool any = false;
     for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
+      check(node);
       if (!free_[node] || !(least_round(node) < floor)) continue;
       if (!search(node, least_round(node) > 0 ? Goal::raise : Goal::untangle)) continue;
       any = true;
@@ -122,6 +125,10 @@ class Smoother {
 
  private:
   enum class Goal { raise, untangle };
+
+  void check(int node) const {
+    if (node % 4096 == 0) context_.check();
+  }
 
   /// Corners round each node, in compressed rows: 4 * quad + corner.
   void link_corners() {
@@ -521,6 +528,7 @@ class Smoother {
   std::vector<Vector2>& parameters_;
   std::vector<Vector3>& normals_;
   const SmoothingSurface& surface_;
+  const ExecutionContext& context_;
   std::vector<char> free_, active_, next_active_;
   std::vector<int> first_, corners_;
   std::vector<double> quality_;  ///< scaled Jacobian of each quad
@@ -530,22 +538,21 @@ class Smoother {
 
 void smooth(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const ImproveOptions& options,
             ImproveReport& report, ExecutionContext& context) {
-  Smoother smoother(surface_mesh, surface);
-  for (int i = 0; i < 10 && smoother.optimise_below(1e-3); ++i) context.check();
-  for (int i = 0; i < options.smoothing_sweeps && smoother.sweep(); ++i) context.check();
+  Smoother smoother(surface_mesh, surface, context);
+  for (int i = 0; i < 10 && smoother.optimise_below(1e-3); ++i) continue;
+  for (int i = 0; i < options.smoothing_sweeps && smoother.sweep(); ++i) continue;
   smoother.measure_all();
-  for (int i = 0; i < 10 && smoother.optimise_below(1e-3); ++i) context.check();
+  for (int i = 0; i < 10 && smoother.optimise_below(1e-3); ++i) continue;
   // The worst by turns with their surroundings, which have to give way.
   for (int i = 0; i < 8 && smoother.optimise_below(kBad); ++i) {
-    context.check();
     for (int k = 0; k < 3 && smoother.sweep(); ++k) continue;
     smoother.measure_all();
   }
   constexpr double kHalfPi = 1.57079632679489662;
   constexpr int kMostFailures = 4;
   if (smoother.loosen_below(std::sin(kHalfPi * std::clamp(options.q_floor, 0.0, 0.9)), kMostFailures))
-    for (int i = 0; i < 2 && smoother.optimise_below(kBad); ++i) context.check();
-  for (int i = 0; i < 2 && smoother.optimise_below(kPoor); ++i) context.check();
+    for (int i = 0; i < 2 && smoother.optimise_below(kBad); ++i) continue;
+  for (int i = 0; i < 2 && smoother.optimise_below(kPoor); ++i) continue;
   for (int i = 0; i < 10 && smoother.untangle(); ++i) context.check();
   report.bad_elements = smoother.bad_elements();
 }
