@@ -177,6 +177,14 @@ void write_outputs(const ShellMesh& mesh, const MeshArguments& arguments, Execut
   if (!arguments.picture.empty()) write_picture(mesh, arguments.picture);
 }
 
+/// One line for each face that --partial goes without.
+void list_left_out(const ShellMesh& mesh) {
+  for (const ShellMesh::FaceStatus& face : mesh.faces) {
+    if (face.status == "failed")
+      fmt::print(stderr, "quadrille: left out: Face{}: {}\n", face.face, face.note);
+  }
+}
+
 void run(const MeshArguments& arguments) {
   check_numbers(arguments);
   const MeshOptions options = make_options(arguments);
@@ -194,6 +202,7 @@ void run(const MeshArguments& arguments) {
   const ShellMesh result = mesh(model, options, context);
   context.check();
   write_outputs(result, arguments, context);
+  list_left_out(result);
   if (arguments.quiet && arguments.report.empty()) return;
   const QualitySummary summary = quality(result);
   if (!arguments.report.empty()) write_report(result, summary, context, arguments.input, arguments.report);
@@ -229,7 +238,8 @@ void add_run_options(CLI::App& command, MeshArguments& arguments) {
   command.add_option("--threads", arguments.threads, "threads to use; 0 = all cores (default)");
   command.add_option("--time-limit", arguments.time_limit,
                      "give up after so many seconds, with nothing written");
-  command.add_flag("--partial", arguments.partial, "write what could be meshed when a face fails");
+  command.add_flag("--partial", arguments.partial,
+                   "write what could be meshed when a face fails, and list the rest on stderr");
   command.add_flag("--force", arguments.force, "go on where the mesh would pass 50 million elements");
   command.add_flag("--quiet", arguments.quiet, "no progress, no quality table");
 }

@@ -24,11 +24,11 @@ void end_dataset(TextWriter& out) {
 class Fields {
  public:
   explicit Fields(TextWriter& out) : out_(out) {}
-  ~Fields() {
+  /// Must be called after the last number.
+  void end() {
     if (count_ > 0) out_ << '\n';
+    count_ = 0;
   }
-  Fields(const Fields&) = delete;
-  Fields& operator=(const Fields&) = delete;
   void add(int value) {
     out_.padded(value, 10);
     if (++count_ < 8) return;
@@ -64,15 +64,15 @@ void write_element_nodes(const OutputMesh& mesh, const ElementNodes& element, in
     fields.add(mesh.number(element.nodes[i]));
     if (corners + i < element.count) fields.add(mesh.number(element.nodes[corners + i]));
   }
+  fields.end();
 }
 
 /// The property number is the CAD number, for readers that look there.
 void write_element(const OutputMesh& mesh, int number, const ElementNodes& element, int cad, bool line,
                    TextWriter& out) {
-  {
-    Fields fields(out);
-    for (const int value : {number, descriptor(element, line), cad, 1, 7, element.count}) fields.add(value);
-  }
+  Fields fields(out);
+  for (const int value : {number, descriptor(element, line), cad, 1, 7, element.count}) fields.add(value);
+  fields.end();
   if (line) out << "         0         1         1\n";
   write_element_nodes(mesh, element, line ? 2 : element.count == 3 ? 3 : 4, out);
 }
@@ -96,16 +96,15 @@ class GroupWriter {
   template <class LabelOf>
   void write(const CadGroup& group, const char* kind, int entity_type, LabelOf label_of) {
     if (group.number == 0) return;
-    {
-      Fields fields(out_);
-      fields.add(++number_);
-      for (int i = 0; i < 6; ++i) fields.add(0);
-      fields.add(static_cast<int>(group.members.size()));
-    }
-    out_ << kind << group.number << '\n';
     Fields fields(out_);
+    fields.add(++number_);
+    for (int i = 0; i < 6; ++i) fields.add(0);
+    fields.add(static_cast<int>(group.members.size()));
+    fields.end();
+    out_ << kind << group.number << '\n';
     for (const int member : group.members)
       for (const int value : {entity_type, label_of(member), 0, 0}) fields.add(value);
+    fields.end();
   }
 
  private:
