@@ -384,6 +384,8 @@ class MeshFeature:
             ("App::PropertyFloat", "WorstQuality", "Result", "Least q (1 = all corners right-angled, 0 = useless)"),
             ("App::PropertyFloat", "MeanQuality", "Result", "Mean q"),
             ("App::PropertyFloat", "WorstJacobian", "Result", "Least scaled Jacobian"),
+            ("App::PropertyFloat", "MeanJacobian", "Result", "Mean scaled Jacobian"),
+            ("App::PropertyFloat", "LargestAspect", "Result", "Largest ratio of longest to shortest edge of a quad"),
             ("App::PropertyFloat", "IrregularPercent", "Result", "Inner nodes with other than four quads, percent"),
             ("App::PropertyFloat", "Seconds", "Result", "Seconds that the mesher took, all threads together"),
             ("App::PropertyFloatList", "MeshedShape", "Hidden", "Measures of the part when it was meshed"),
@@ -576,5 +578,7 @@ def _store_result(mesh, fem_mesh, report: Dict) -> None:
     mesh.WorstQuality = quality.get("q_min", 0.0)
     mesh.MeanQuality = quality.get("q_mean", 0.0)
     mesh.WorstJacobian = quality.get("sj_min", 0.0)
+    mesh.MeanJacobian = quality.get("sj_mean", 0.0)
+    mesh.LargestAspect = quality.get("aspect_max", 0.0)
     mesh.IrregularPercent = quality.get("irregular_percent", 0.0)
     mesh.Seconds = sum(report.get("seconds", {}).values())

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The quality of each quad of a FEM mesh, by NumPy. Runs inside FreeCAD."""
 
+from itertools import chain
 from typing import Dict, NamedTuple
 
 import numpy as np
@@ -38,11 +39,15 @@ def measure(fem_mesh) -> ElementQuality:
     """Measures the corner quads of a FEM mesh; midside nodes are left out."""
     nodes = fem_mesh.Nodes
     points = np.zeros((max(nodes, default=0) + 1, 3))
-    points[list(nodes)] = [(point.x, point.y, point.z) for point in nodes.values()]
-    elements = [(i, fem_mesh.getElementNodes(i)) for i in fem_mesh.Faces]
-    quads = [(i, found[:4]) for i, found in elements if len(found) in (4, 8)]
-    ids = np.array([i for i, _ in quads], dtype=int)
-    return _measure(ids, points[np.array([found for _, found in quads], dtype=int).reshape(-1, 4)])
+    coordinates = chain.from_iterable(map(tuple, nodes.values()))
+    points[list(nodes)] = np.fromiter(coordinates, float, 3 * len(nodes)).reshape(-1, 3)
+    ids = np.array(fem_mesh.Faces, dtype=int)
+    elements = list(map(fem_mesh.getElementNodes, fem_mesh.Faces))
+    sizes = np.fromiter(map(len, elements), int, len(elements))
+    flat = np.fromiter(chain.from_iterable(elements), int, int(sizes.sum()))
+    quads = np.isin(sizes, (4, 8))
+    starts = (np.cumsum(sizes) - sizes)[quads]
+    return _measure(ids[quads], points[flat[starts[:, None] + np.arange(4)]])
 
 
 def _measure(ids: np.ndarray, corners: np.ndarray) -> ElementQuality:

@@ -121,9 +121,11 @@ class GuiTest(unittest.TestCase):
         self.assertLess(abs(mesh.QuadCount / expected - 1), 0.25)
         self.assertEqual(mesh.Status, "up to date")
         self.assertTrue(mesh.ViewObject.Visibility)
+        self.assertTrue(mesh.ViewObject.ShowInner)  # or FreeCAD compares all pairs of faces
         self.assertFalse(part.ViewObject.Visibility)
         table = find("QuadrilleQualityTable")
         self.assertEqual(table.item(0, 1).text(), str(mesh.QuadCount))
+        wait_for(lambda: find("QuadrilleWorst").count(), 10, "the worst elements")
         self.assertGreater(find("QuadrilleHistogram").pixmap().width(), 100)
         find("QuadrilleColour").setChecked(True)
         self.assertTrue(overlays.is_shown(mesh, overlays.QUALITY))

@@ -5,22 +5,28 @@ from typing import Optional
 
 import FreeCADGui
 import numpy as np
-from PySide import QtGui
+from PySide import QtCore, QtGui
 
 from .. import quality
 from . import icon, overlays
 
 WORST = 20
 BINS = 20
+#: Histogram and worst elements follow this much later, so that the mesh itself is drawn first.
+MEASURE_AFTER_MILLISECONDS = 100
 
 
 class QualityWidget(QtGui.QWidget):
-    """The quality of one mesh object. refresh() measures it anew."""
+    """The quality of one mesh object: numbers are the mesher's, elements are measured here."""
 
     def __init__(self, mesh, parent=None) -> None:
         super().__init__(parent)
         self.mesh = mesh
-        self.measured: Optional[quality.ElementQuality] = None
+        self._measured: Optional[quality.ElementQuality] = None
+        self._timer = QtCore.QTimer(self)
+        self._timer.setSingleShot(True)
+        self._timer.setInterval(MEASURE_AFTER_MILLISECONDS)
+        self._timer.timeout.connect(self.fill_elements)
         self.table = QtGui.QTableWidget(0, 2)
         self.table.setObjectName("QuadrilleQualityTable")
         self.table.horizontalHeader().setVisible(False)
@@ -45,30 +51,36 @@ class QualityWidget(QtGui.QWidget):
         self.refresh()
 
     def refresh(self) -> None:
-        """Measures the mesh and fills the widgets; hides itself when there is no mesh."""
+        """Fills the table at once and the rest a moment later; hides itself when there is no mesh."""
+        self._measured = None
+        self._timer.stop()
+        self.worst.clear()
         self.setVisible(self.mesh.FemMesh.FaceCount > 0)
         if not self.mesh.FemMesh.FaceCount:
-            self.measured = None
             return
-        self.measured = quality.measure(self.mesh.FemMesh)
         overlays.hide(self.mesh, overlays.ELEMENT)
         self._fill_table()
-        self._fill_worst()
-        self.histogram.setPixmap(histogram_pixmap(self.measured.q))
+        self._timer.start()
         if self.colour.isChecked():
             self._colour(True)
 
+    def measured(self) -> quality.ElementQuality:
+        """The quality of each element, measured when first asked for."""
+        if self._measured is None:
+            self._measured = quality.measure(self.mesh.FemMesh)
+        return self._measured
+
     def _fill_table(self) -> None:
-        summary = self.measured.summary()
+        mesh = self.mesh
         rows = (
-            ("Quads", f"{summary['quads']}"),
-            ("Nodes", f"{self.mesh.FemMesh.NodeCount}"),
-            ("q, least and mean", f"{summary['q_min']:.3f}, {summary['q_mean']:.3f}"),
-            ("Jacobian, least and mean", f"{summary['sj_min']:.3f}, {summary['sj_mean']:.3f}"),
-            ("Aspect, largest", f"{summary['aspect_max']:.2f}"),
-            ("Irregular nodes", f"{self.mesh.IrregularPercent:.2f} %"),
-            ("Mesher's time", f"{self.mesh.Seconds:.2f} s"),
-            ("Status", self.mesh.Status),
+            ("Quads", f"{mesh.QuadCount}"),
+            ("Nodes", f"{mesh.NodeCount}"),
+            ("q, least and mean", f"{mesh.WorstQuality:.3f}, {mesh.MeanQuality:.3f}"),
+            ("Jacobian, least and mean", f"{mesh.WorstJacobian:.3f}, {mesh.MeanJacobian:.3f}"),
+            ("Aspect, largest", f"{mesh.LargestAspect:.2f}"),
+            ("Irregular nodes", f"{mesh.IrregularPercent:.2f} %"),
+            ("Mesher's time", f"{mesh.Seconds:.2f} s"),
+            ("Status", mesh.Status),
         )
         self.table.setRowCount(len(rows))
         for row, (name, text) in enumerate(rows):
@@ -78,30 +90,37 @@ class QualityWidget(QtGui.QWidget):
         self.table.resizeColumnToContents(0)
         self.table.setFixedHeight(20 * len(rows) + 4)
 
-    def _fill_worst(self) -> None:
+    def fill_elements(self) -> None:
+        """Measures each element, for the histogram and the worst ones."""
+        try:
+            measured = self.measured()
+        except ReferenceError:  # the object or its document is gone
+            return
+        self.histogram.setPixmap(histogram_pixmap(np.histogram(measured.q, bins=BINS, range=(0.0, 1.0))[0]))
         self.worst.blockSignals(True)
         self.worst.clear()
-        for index in self.measured.worst(WORST):
-            self.worst.addItem(f"element {self.measured.ids[index]}: q {self.measured.q[index]:.3f}, "
-                               f"scaled Jacobian {self.measured.scaled_jacobian[index]:.3f}")
+        for index in measured.worst(WORST):
+            self.worst.addItem(f"element {measured.ids[index]}: q {measured.q[index]:.3f}, "
+                               f"scaled Jacobian {measured.scaled_jacobian[index]:.3f}")
         self.worst.blockSignals(False)
         self.worst.setMaximumHeight(120)
 
     def _colour(self, on: bool) -> None:
         if self.mesh.ViewObject is None:
             return
-        if on and self.measured is not None:
-            overlays.show_quality(self.mesh, self.measured)
+        if on and self.mesh.FemMesh.FaceCount:
+            overlays.show_quality(self.mesh, self.measured())
         else:
             overlays.hide(self.mesh, overlays.QUALITY)
 
     def _show_element(self, row: int) -> None:
-        if row < 0 or self.measured is None:
+        if row < 0 or not self.mesh.FemMesh.FaceCount:
             return
-        show_element(self.mesh, self.measured, int(self.measured.worst(WORST)[row]))
+        show_element(self.mesh, self.measured(), int(self.measured().worst(WORST)[row]))
 
     def release(self) -> None:
-        """Takes colours and highlights out of the view."""
+        """Takes colours and highlights out of the view; nothing is measured any more."""
+        self._timer.stop()
         try:
             if self.mesh.ViewObject is not None:
                 overlays.hide(self.mesh, overlays.QUALITY)
@@ -130,8 +149,8 @@ def show_element(mesh, measured: quality.ElementQuality, index: int) -> None:
         camera.height.setValue(reach)
 
 
-def histogram_pixmap(values: np.ndarray, width: int = 340, height: int = 150):
-    """A histogram of q as a picture. Drawn by matplotlib without its Qt side, which need not fit FreeCAD's Qt."""
+def histogram_pixmap(counts: np.ndarray, width: int = 340, height: int = 150):
+    """A histogram of q, counts in equal steps from 0 to 1, as a picture. Drawn by matplotlib without its Qt side, which need not fit FreeCAD's Qt."""
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
@@ -140,9 +159,8 @@ def histogram_pixmap(values: np.ndarray, width: int = 340, height: int = 150):
     figure = Figure(figsize=(width / 100, height / 100), dpi=100)
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0.14, 0.26, 0.83, 0.68))
-    counts, edges = np.histogram(values, bins=BINS, range=(0.0, 1.0))
-    middles = (edges[:-1] + edges[1:]) / 2
-    axes.bar(middles, counts, width=1.0 / BINS, color=quality.colours(middles), edgecolor="0.4", linewidth=0.5)
+    middles = (np.arange(len(counts)) + 0.5) / len(counts)
+    axes.bar(middles, counts, width=1.0 / len(counts), color=quality.colours(middles), edgecolor="0.4", linewidth=0.5)
     axes.set_xlim(0, 1)
     axes.set_xlabel("q", fontsize=8)
     axes.set_ylabel("quads", fontsize=8)
