@@ -27,16 +27,18 @@ def main():
     """Plot and table."""
     rows = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
     cases = [case for case in dict.fromkeys(row["case"] for row in rows) if case not in LEFT_OUT]
-    figure, axes = plt.subplots(2, 4, figsize=(14, 6.4), constrained_layout=True)
+    figure, axes = plt.subplots(3, 4, figsize=(14, 9.6), constrained_layout=True)
     for axis, case in zip(axes.flat, cases):
         for mesher, (label, colour, marker) in STYLES.items():
-            found = sorted((row["elements"], max(error(row), 1e-3)) for row in rows
+            found = sorted((row["elements"], max(error(row), 1e-3 if row["reference"] else 0)) for row in rows
                            if (row["case"], row["mesher"]) == (case, mesher))
-            axis.loglog(*zip(*found), marker=marker, color=colour, label=label)
-        axis.axhline(1, color="0.7", linewidth=0.8)
+            if found:
+                axis.loglog(*zip(*found), marker=marker, color=colour, label=label)
+        relative = all(row["reference"] == 0 for row in rows if row["case"] == case)
+        axis.axhline(1e-6 if relative else 1, color="0.7", linewidth=0.8)
         axis.set_title(case)
         axis.set_xlabel("elements")
-        axis.set_ylabel("error, %")
+        axis.set_ylabel("error over largest" if relative else "error, %")
         axis.grid(True, which="major", alpha=0.3)
     for axis in axes.flat[len(cases):]:
         axis.axis("off")

@@ -144,6 +144,7 @@ class Problem:
 def write_input(path, mesh, problem, solver_shells="S8R"):
     """Writes CalculiX's input. It reads 20 characters of a number: no more digits than fit."""
     names = {6: "CPS6", 8: "CPS8R"} if problem.plane else {6: "S6", 8: solver_shells}
+    corners_only = solver_shells in ("S4", "S4R")  # the midside nodes are then in no element
     with open(path, "w", encoding="ascii") as file:
         file.write("*NODE, NSET=Nall\n")
         for i, (x, y, z) in enumerate(mesh.points, 1):
@@ -153,6 +154,7 @@ def write_input(path, mesh, problem, solver_shells="S8R"):
             if rows:
                 file.write(f"*ELEMENT, TYPE={name}, ELSET=Eall\n")
                 for i, nodes in rows:
+                    nodes = nodes[:4] if corners_only else nodes
                     file.write(f"{i}, " + ", ".join(str(node + 1) for node in nodes) + "\n")
         file.write(f"*MATERIAL, NAME=M\n*ELASTIC\n{problem.young:.15g}, {problem.poisson:.15g}\n")
         if problem.density is not None:
@@ -251,6 +253,13 @@ class PinchedCylinder:
         problem.load({top: (0, -1, 0), bottom: (0, 1, 0)})
         found = displacements(solve(mesh, problem)[0], len(mesh.points))
         return (found[bottom, 1] - found[top, 1]) / 2
+
+
+class GradedPinchedCylinder(PinchedCylinder):
+    """The same with a tenth of the size at the forces, growing from there."""
+
+    sizes, size = (80, 60, 40, 30), 40
+    refined, share = ((0.0, 300.0, 0.0), (0.0, -300.0, 0.0)), 0.1
 
 
 class Hemisphere:
@@ -405,7 +414,7 @@ class Buckling(SupportedPlate):
 
 
 class MembranePatch:
-    """The patch test: a field of constant strain on the border must come out inside, on any mesh. Largest error."""
+    """The membrane patch test: constant strain on the border must come out inside, on any mesh. The largest error."""
 
     reference, sizes, size, tolerance = 0.0, (3, 2, 1.3, 0.9, 0.6), 1.3, None
     absolute = 1e-6
@@ -425,6 +434,63 @@ class MembranePatch:
             problem.fix(border, axis + 1, value=exact[border, axis])
         found = displacements(solve(mesh, problem)[0], len(mesh.points))[:, :2]
         return float(np.abs(found - exact).max() / np.abs(exact).max())
+
+
+class SkewBendingPatch:
+    """The bending patch test: constant curvature along x, along y and in twist, given at the border by deflection and
+    rotations, must come out inside. Poisson's ratio is 0, because CalculiX keeps the thickness of a shell at nodes
+    whose rotation is given. Three skew strips of other widths, so that the elements are parallelograms of three forms.
+    The largest error of three shell elements, over the largest deflection."""
+
+    reference, sizes, size, tolerance = 0.0, (3, 2, 1.3, 0.9, 0.6), 1.3, None
+    absolute = 1e-6
+    shells = ("S8R", "S8", "S4")
+    curvatures = (1e-3, 0.4e-3, 0.6e-3)  # xx, yy, xy
+
+    def shape(self):
+        along, across = Vector(10, 1, 0), Vector(3, 6, 0)
+        ends = (0.0, 0.3, 0.45, 1.0)
+        return joined([Part.Face(Part.makePolygon([along * a, along * b, along * b + across, along * a + across,
+                                                   along * a])) for a, b in zip(ends, ends[1:])])
+
+    def answer(self, mesh):
+        quads = all(len(element) == 8 for element in mesh.elements)
+        return max(self.error(mesh, shell) for shell in self.shells if quads or shell != "S4")
+
+    def error(self, mesh, shell):
+        """The largest error of the deflection inside, with one kind of shell element."""
+        xx, yy, xy = self.curvatures
+        x, y = mesh.points[:, 0], mesh.points[:, 1]
+        exact = (xx * x * x + yy * y * y) / 2 + xy * x * y
+        nodes = {node for element in mesh.elements for node in (element[:4] if shell in ("S4", "S4R") else element)}
+        border = np.array([node for node in border_nodes(mesh) if node in nodes])
+        problem = Problem(1e6, 0.0, 0.2)
+        for freedom, value in ((3, exact), (4, yy * y + xy * x), (5, -(xx * x + xy * y))):
+            problem.fix(border, freedom, value=value[border])
+        problem.fix(border[0], 1, 2)
+        problem.fix(border[len(border) // 2], 2)
+        found = displacements(solve(mesh, problem, shell)[0], len(mesh.points))
+        inside = np.array(sorted(nodes - set(border)))
+        return float(np.abs(found[inside, 2] - exact[inside]).max() / np.abs(exact).max())
+
+
+class QuadrangleBendingPatch(SkewBendingPatch):
+    """The same on a quadrangle without parallel sides: its mapped elements are parallelograms but for 5 %."""
+
+    shells = ("S8R", "S8")
+
+    def shape(self):
+        return MembranePatch().shape()
+
+
+class CutBendingPatch(SkewBendingPatch):
+    """The same on a rectangle cut by three lines, whose elements are far from parallelograms."""
+
+    def shape(self):
+        plate = Part.makePlane(10, 4)
+        cuts = [Part.makeLine(Vector(*a), Vector(*b))
+                for a, b in (((4, 0), (6, 4)), ((0, 1), (10, 2.8)), ((8, 0), (7, 4)))]
+        return Part.makeShell(plate.generalFuse(cuts, 0.0)[0].Faces)
 
 
 class BendingPatch:
@@ -461,8 +527,9 @@ class BendingPatch:
 
 
 CASES = {
-    "pinched-cylinder": PinchedCylinder, "hemisphere": Hemisphere, "nafems-le1": EllipticMembrane,
-    "plate-with-hole": PlateWithHole, "modes": Modes, "buckling": Buckling, "membrane-patch": MembranePatch,
+    "pinched-cylinder": PinchedCylinder, "pinched-cylinder-graded": GradedPinchedCylinder, "hemisphere": Hemisphere,
+    "nafems-le1": EllipticMembrane, "plate-with-hole": PlateWithHole, "modes": Modes, "buckling": Buckling, "membrane-patch": MembranePatch,
+    "bending-patch-skew": SkewBendingPatch, "bending-patch-quadrangle": QuadrangleBendingPatch,
     "bending-patch": BendingPatch,
 }
 
@@ -484,10 +551,12 @@ def border_nodes(mesh):
                             for node in (*ends, *middles)}))
 
 
-def mesh_with(mesher, part, size):
-    """A second-order mesh of a part."""
+def mesh_with(mesher, part, size, refined=(), share=1.0):
+    """A second-order mesh of a part; at the points `refined` of that share of the size."""
     if mesher == "quadrille":
-        return Mesh.of_fem_mesh(quadrille.freecad.mesh_object(part, size=size, order=2).FemMesh)
+        names = {f"Vertex{i}": share * size for i, vertex in enumerate(part.Shape.Vertexes, 1)
+                 if any(vertex.Point.isEqual(Vector(*point), 1e-6) for point in refined)}
+        return Mesh.of_fem_mesh(quadrille.freecad.mesh_object(part, size=size, order=2, sizes=names).FemMesh)
     with tempfile.TemporaryDirectory() as folder:
         model, result = Path(folder) / "part.brep", Path(folder) / "part.msh"
         part.Shape.exportBrep(str(model))
@@ -495,12 +564,28 @@ def mesh_with(mesher, part, size):
                    "Mesh.MeshSizeMin": size}
         if mesher == "gmsh-quads":
             options.update({"Mesh.RecombineAll": 1, "Mesh.RecombinationAlgorithm": 1, "Mesh.Algorithm": 6})
+        if refined:
+            script = Path(folder) / "part.geo"
+            script.write_text(graded_script(model, size, refined, share))
+            model = script
+            options.update({"Mesh.MeshSizeMin": share * size, "Mesh.MeshSizeExtendFromBoundary": 0})
         settings = [word for name, value in options.items() for word in ("-setnumber", name, str(value))]
         done = subprocess.run(["gmsh", "-2", str(model), "-format", "msh2", "-o", str(result), *settings],
                               capture_output=True, text=True, timeout=300, check=False)
         if done.returncode != 0 or not result.exists():
             raise RuntimeError(f"Gmsh made no mesh: {done.stderr[-300:]}")
         return Mesh.of_msh(result.read_text())
+
+
+def graded_script(model, size, refined, share, growth=0.3):
+    """Gmsh's script for sizes that grow from points, as Quadrille's do."""
+    boxes = [", ".join(str(value + side) for side in (-1e-6, 1e-6) for value in point) for point in refined]
+    found = "\n".join(f"found() += Point In BoundingBox {{{box}}};" for box in boxes)
+    return (f'SetFactory("OpenCASCADE");\nMerge "{model}";\nfound() = {{}};\n{found}\n'
+            "Field[1] = Distance;\nField[1].PointsList = {found()};\n"
+            f"Field[2] = Threshold;\nField[2].InField = 1;\nField[2].SizeMin = {share * size};\n"
+            f"Field[2].SizeMax = {size};\nField[2].DistMin = 0;\nField[2].DistMax = {(1 - share) * size / growth};\n"
+            "Background Field = 2;\n")
 
 
 def run(name, mesher, size):
@@ -510,7 +595,7 @@ def run(name, mesher, size):
     try:
         part = document.addObject("Part::Feature", "Part")
         part.Shape = case.shape()
-        mesh = mesh_with(mesher, part, size)
+        mesh = mesh_with(mesher, part, size, getattr(case, "refined", ()), getattr(case, "share", 1.0))
     finally:
         FreeCAD.closeDocument(document.Name)
     started = time.monotonic()
@@ -519,6 +604,18 @@ def run(name, mesher, size):
     return {"case": name, "mesher": mesher, "size": size, "elements": len(mesh.elements), "triangles": triangles,
             "nodes": len(mesh.points), "value": value, "reference": case.reference,
             "solver_seconds": round(time.monotonic() - started, 2)}
+
+
+def print_shells():
+    """The error of each of CalculiX's shell elements in the bending patch tests."""
+    for case in (SkewBendingPatch(), QuadrangleBendingPatch(), CutBendingPatch()):
+        document = FreeCAD.newDocument("Verification")
+        part = document.addObject("Part::Feature", "Part")
+        part.Shape = case.shape()
+        mesh = mesh_with("quadrille", part, case.size)
+        FreeCAD.closeDocument(document.Name)
+        for shell in ("S4", "S4R", "S8", "S8R"):
+            print(f"{type(case).__name__:22} {len(mesh.elements):4} {shell:4} off by {case.error(mesh, shell):.2g}")
 
 
 def error_of(row):
@@ -531,11 +628,15 @@ def main():
     parser = argparse.ArgumentParser(description="Known answers, with Quadrille and CalculiX.")
     parser.add_argument("--case", choices=sorted(CASES), action="append")
     parser.add_argument("--converge", help="follow all meshers over several sizes; rows go to this .json")
+    parser.add_argument("--shells", action="store_true", help="the bending patch tests with each kind of shell")
     parser.add_argument("--size", type=float, help="another size than the case's own")
     arguments = parser.parse_args()
     if not shutil.which("ccx"):
         print("CalculiX (ccx) is not installed: nothing is solved")
         sys.exit(77)
+    if arguments.shells:
+        print_shells()
+        return
     rows, wrong = [], []
     for name in arguments.case or CASES:
         case = CASES[name]
