@@ -3,8 +3,10 @@
 import os
 import shutil
 import stat
+import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -18,7 +20,7 @@ from FreeCAD import Vector
 
 import quadrille
 import quadrille.freecad as core
-from quadrille import groups, quality, shapes
+from quadrille import command, groups, quality, shapes
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
 
@@ -355,6 +357,84 @@ class AddonTest(unittest.TestCase):
                     core.mesh_object(box, size=2, command=str(path))
                 self.assertIn(words, str(caught.exception))
                 self.assertEqual(self.document.Objects, [box])
+
+    # Other builds of FreeCAD
+
+    def test_in_flatpak_the_command_runs_outside_of_the_sandbox(self):
+        mesher = os.environ.pop("QUADRILLE_COMMAND")
+        before = {name: os.environ.get(name) for name in ("PATH", "XDG_CACHE_HOME")}
+        with tempfile.TemporaryDirectory() as folder:
+            log, cache, host = Path(folder) / "log", Path(folder) / "cache", Path(folder) / "host"
+            host.mkdir()
+            (host / "quadrille").symlink_to(mesher)  # on the PATH of the host alone
+            spawn = Path(folder) / "flatpak-spawn"
+            spawn.write_text(f'#!/bin/sh\necho "$@" >>{log}\n[ "$1" = --host ] && [ "$2" = --watch-bus ] || exit 9\n'
+                             f'shift 2\nPATH={host}:/usr/bin:/bin\nexport PATH\nexec "$@"\n')
+            spawn.chmod(0o755)
+            (Path(folder) / "info").touch()
+            real, command.FLATPAK_INFO = command.FLATPAK_INFO, Path(folder) / "info"
+            os.environ.update(PATH=folder, XDG_CACHE_HOME=str(cache))
+            try:
+                mesh = core.mesh_object(self.box(), size=2)
+                self.assertEqual(mesh.FemMesh.FaceCount, 216)
+                lines = log.read_text().splitlines()
+                self.assertTrue(all(line.startswith("--host --watch-bus ") for line in lines), lines)
+                self.assertIn(f" {host}/quadrille mesh {cache}/quadrille-", lines[-1])  # not in /tmp of the sandbox
+                self.assertEqual(os.listdir(cache), [])
+                mesh.Size = 0.01
+                job = core.start(mesh)
+                time.sleep(0.3)
+                self.assertTrue(job.running)
+                job.cancel()
+                with self.assertRaises(quadrille.Error) as caught:
+                    core.finish(mesh, job)
+                self.assertEqual(caught.exception.kind, "cancelled")
+                with self.assertRaises(quadrille.Error) as caught:
+                    core.remesh(mesh, command="/nowhere/quadrille")
+                self.assertIn("cannot be run", str(caught.exception))
+                spawn.unlink()
+                with self.assertRaises(quadrille.Error) as caught:
+                    core.remesh(mesh)
+                self.assertIn("flatpak override", str(caught.exception))
+            finally:
+                command.FLATPAK_INFO = real
+                os.environ["QUADRILLE_COMMAND"] = mesher
+                for name, value in before.items():
+                    os.environ.pop(name, None) if value is None else os.environ.update({name: value})
+
+    def test_the_libraries_of_an_appimage_do_not_reach_the_command(self):
+        before = dict(os.environ)
+        libraries = subprocess.run(["ldd", core.find_mesher()], capture_output=True, text=True, check=True).stdout
+        poison = next(word for word in libraries.split() if word.startswith("libTK"))
+        with tempfile.TemporaryDirectory() as folder:
+            library = Path(folder) / "usr" / "lib" / poison
+            library.parent.mkdir(parents=True)
+            library.write_text("not a library")
+            for variables in ({"APPDIR": folder, "PYTHONHOME": f"{folder}/usr"}, {"PYTHONHOME": f"{folder}/usr"}):
+                os.environ.update(variables, LD_LIBRARY_PATH=f"{library.parent}:/opt/of/the/user",
+                                  LD_PRELOAD=str(library), PYTHONPATH=f"{folder}/usr/lib/python")
+                try:
+                    broken = subprocess.run([core.find_mesher(), "--version"], capture_output=True, check=False)
+                    self.assertNotEqual(broken.returncode, 0)  # the poison works
+                    environment = command.child_environment()
+                    self.assertEqual(environment["LD_LIBRARY_PATH"], "/opt/of/the/user")
+                    self.assertFalse({"LD_PRELOAD", "PYTHONHOME", "PYTHONPATH"} & set(environment))
+                    command._checked.clear()
+                    self.assertEqual(core.mesh_object(self.box(), size=2).FemMesh.FaceCount, 216)
+                finally:
+                    os.environ.clear()
+                    os.environ.update(before)
+
+    def test_the_addon_managers_file(self):
+        folder = Path(core.__file__).resolve().parents[1]  # the build folder has links
+        data = FreeCAD.Metadata(str(folder / "package.xml"))
+        self.assertEqual((data.Name, data.Version), ("Quadrille", command.VERSION))
+        self.assertTrue(data.Maintainer)
+        self.assertTrue(data.License)
+        self.assertTrue(data.supportsCurrentFreeCAD())
+        workbench = data.Content["workbench"][0]
+        self.assertEqual(workbench.Classname, "QuadrilleWorkbench")
+        self.assertTrue((folder / workbench.Icon).is_file())
 
     def test_an_invalid_shape(self):
         points = [Vector(0, 0, 0), Vector(10, 0, 0), Vector(0, 10, 0), Vector(10, 10, 0), Vector(0, 0, 0)]

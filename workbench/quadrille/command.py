@@ -79,11 +79,48 @@ def face_name(face: Union[int, str]) -> str:
     return f"Face{face}" if isinstance(face, int) else str(face)
 
 
-def find_command(command: Optional[str] = None, preference: Optional[str] = None) -> str:
-    """The path of the `quadrille` command.
+#: What is there inside a Flatpak sandbox, and nowhere else.
+FLATPAK_INFO = Path("/.flatpak-info")
+#: Runs a program outside of the sandbox, and ends it when this side of it ends.
+_OUT_OF_FLATPAK = ("flatpak-spawn", "--host", "--watch-bus")
 
-    Looked for in this order: the argument, the environment variable QUADRILLE_COMMAND, the preference, PATH, the
-    path recorded by install-addon.sh, the build folder beside this file. A path that was asked for and cannot be run is an error: nothing else is tried.
+
+def on_host(arguments: Sequence[str]) -> List[str]:
+    """The arguments that run a program of the system: those given, or, inside Flatpak, by way of flatpak-spawn."""
+    return [*_OUT_OF_FLATPAK, *arguments] if FLATPAK_INFO.exists() else list(arguments)
+
+
+def scratch_folder() -> Optional[str]:
+    """Where to make temporary folders that the command sees too; None = where Python makes them."""
+    if not FLATPAK_INFO.exists():
+        return None
+    # The sandbox has a /tmp of its own; its cache folder has the same path inside and outside.
+    folder = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    os.makedirs(folder, exist_ok=True)
+    return folder
+
+
+def _which(path: str) -> Optional[str]:
+    """The path of a program, as shutil.which; inside Flatpak, that of a program of the system around it."""
+    path = os.path.expanduser(path)
+    if not FLATPAK_INFO.exists():
+        return shutil.which(path)
+    try:
+        answer = subprocess.run(on_host(["sh", "-c", 'command -v "$1"', "sh", path]), stdin=subprocess.DEVNULL,
+                                capture_output=True, text=True, errors="replace", timeout=30, check=False)
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise Error(f"flatpak-spawn: cannot run programs outside of Flatpak ({error}); allow it with "
+                    "'flatpak override --user --talk-name=org.freedesktop.Flatpak org.freecad.FreeCAD'", "failure",
+                    "flatpak-spawn") from error
+    return answer.stdout.strip() or None if answer.returncode == 0 else None
+
+
+def find_command(command: Optional[str] = None, preference: Optional[str] = None) -> str:
+    """The path of the `quadrille` command; of the system around it when FreeCAD runs inside Flatpak.
+
+    Looked for in this order: the argument, the environment variable QUADRILLE_COMMAND, the preference, PATH, the path
+    recorded by install-addon.sh, the build folder beside this file. A path that was asked for and cannot be run is an
+    error: nothing else is tried.
     """
     for path, origin in (
         (command, "the argument 'command'"),
@@ -91,22 +128,22 @@ def find_command(command: Optional[str] = None, preference: Optional[str] = None
         (preference, "the preference 'Command'"),
     ):
         if path:
-            found = shutil.which(os.path.expanduser(path))
+            found = _which(path)
             if not found:
                 raise Error(f"{path}: cannot be run, though {origin} names it as the mesher", "usage", path)
             return found
-    found = shutil.which("quadrille")
+    found = _which("quadrille")
     if found:
         return found
     here = Path(__file__).absolute().parent
     recorded = here / "command_path"  # written by install-addon.sh
     if recorded.is_file():
-        found = shutil.which(recorded.read_text(encoding="utf-8").strip())
+        found = _which(recorded.read_text(encoding="utf-8").strip())
         if found:
             return found
     source = Path(__file__).resolve().parent  # where the addon is a link to the source
     for folder in (here.parent.parent, here.parent.parent / "build", source.parent.parent / "build"):
-        found = shutil.which(str(folder / "quadrille"))
+        found = _which(str(folder / "quadrille"))
         if found:
             return found
     raise Error(
@@ -124,12 +161,12 @@ _checked: Dict[str, float] = {}
 
 def check_version(path: str) -> None:
     """Raises Error when the command is of a version that this package does not fit. Asks each file once."""
-    modified = os.path.getmtime(path)
+    modified = os.path.getmtime(path) if os.path.exists(path) else 0.0  # a path outside of Flatpak
     if _checked.get(path) == modified:
         return
     try:
-        answer = subprocess.run([path, "--version"], stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                                errors="replace", timeout=30, env=child_environment(), check=False)
+        answer = subprocess.run(on_host([path, "--version"]), stdin=subprocess.DEVNULL, capture_output=True,
+                                text=True, errors="replace", timeout=30, env=child_environment(), check=False)
     except (OSError, subprocess.TimeoutExpired) as error:
         raise Error(f"{path}: does not tell its version ({error}); install Quadrille {VERSION}", "failure",
                     path) from error
@@ -154,7 +191,7 @@ class MeshJob:
         command: Optional[str] = None,
         picture: Optional[Union[str, Path]] = None,
     ) -> None:
-        self._folder = tempfile.TemporaryDirectory(prefix="quadrille-")
+        self._folder = tempfile.TemporaryDirectory(prefix="quadrille-", dir=scratch_folder())
         self._report = Path(self._folder.name) / "report.json"
         self._arguments = [command or find_command(), "mesh", str(model)]
         for output in outputs:
@@ -174,7 +211,7 @@ class MeshJob:
         """Starts the child process."""
         try:
             self._process = subprocess.Popen(
-                self._arguments,
+                on_host(self._arguments),
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.PIPE,
@@ -279,9 +316,19 @@ class MeshJob:
 
 
 def child_environment() -> Dict[str, str]:
-    """The environment of the child: an AppImage's own library paths would break a program from outside it."""
+    """The environment of the child: an AppImage's own libraries would break a program from outside it.
+
+    What lies in the AppImage (APPDIR; PYTHONHOME when it was unpacked) is taken out, the user's own paths stay.
+    """
     environment = dict(os.environ)
-    if "APPDIR" in environment:
-        for name in ("LD_LIBRARY_PATH", "LD_PRELOAD", "PYTHONHOME", "PYTHONPATH"):
-            environment.pop(name, None)
+    bundles = [environment[name].rstrip("/") for name in ("APPDIR", "PYTHONHOME") if environment.get(name)]
+    if not bundles:
+        return environment
+    for name in ("LD_LIBRARY_PATH", "LD_PRELOAD"):
+        kept = [path for path in re.split("[: ]" if name == "LD_PRELOAD" else ":", environment.pop(name, ""))
+                if path and not any(path == bundle or path.startswith(bundle + "/") for bundle in bundles)]
+        if kept:
+            environment[name] = ":".join(kept)
+    for name in ("PYTHONHOME", "PYTHONPATH"):
+        environment.pop(name, None)
     return environment

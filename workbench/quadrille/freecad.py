@@ -19,12 +19,12 @@ import FreeCAD
 import Fem
 
 from . import groups, shapes, undo
-from .command import MeshJob, MeshSettings, Progress, check_version, face_name, find_command
+from .command import MeshJob, MeshSettings, Progress, check_version, face_name, find_command, scratch_folder
 from .errors import Error
 
 __all__ = [
-    "Error", "MeshFeature", "ShapeJob", "check_part", "export", "find_mesher", "finish", "flip", "make_mesh", "mesh_object",
-    "mesh_shape", "refine", "remesh", "start", "suggested_size", "use_reduced_shells",
+    "Error", "MeshFeature", "ShapeJob", "check_part", "export", "find_mesher", "finish", "flip", "make_mesh",
+    "mesh_object", "mesh_shape", "refine", "remesh", "start", "suggested_size", "use_reduced_shells",
 ]
 
 PREFERENCES = "User parameter:BaseApp/Preferences/Mod/Quadrille"
@@ -221,7 +221,7 @@ def export(mesh, path: Union[str, Path]) -> None:
     reason = status(mesh)
     if reason != UP_TO_DATE:
         raise Error(f"{mesh.Label}: {reason}; nothing was exported", "usage", mesh.Name)
-    with tempfile.TemporaryDirectory(prefix="quadrille-") as folder:
+    with tempfile.TemporaryDirectory(prefix="quadrille-", dir=scratch_folder()) as folder:
         written = os.path.join(folder, "export" + Path(path).suffix.lower())
         job = start(mesh, outputs=[written])
         fem_mesh, _ = job.wait_for_result()
@@ -269,7 +269,7 @@ class ShapeJob:
         if shape.isNull() or not shape.Faces:
             raise Error("the shape has no faces to mesh", "usage")
         self._command = find_mesher(command)
-        self._folder = tempfile.TemporaryDirectory(prefix="quadrille-")
+        self._folder = tempfile.TemporaryDirectory(prefix="quadrille-", dir=scratch_folder())
         model = os.path.join(self._folder.name, "shape.brep")
         self._output = os.path.join(self._folder.name, "mesh.med")
         shape.exportBrep(model)

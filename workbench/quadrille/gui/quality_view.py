@@ -150,7 +150,10 @@ def show_element(mesh, measured: quality.ElementQuality, index: int) -> None:
 
 
 def histogram_pixmap(counts: np.ndarray, width: int = 340, height: int = 150):
-    """A histogram of q, counts in equal steps from 0 to 1, as a picture. Drawn by matplotlib without its Qt side, which need not fit FreeCAD's Qt."""
+    """A histogram of q, counts in equal steps from 0 to 1, as a picture.
+
+    Drawn by matplotlib without its Qt side, which need not fit FreeCAD's Qt.
+    """
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
