@@ -4,6 +4,7 @@
 #include "mesher/edge_coloring.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace quadrille {
@@ -12,12 +13,12 @@ namespace {
 
 /// Index of the lowest bit of a mask in 1 .. 7.
 int lowest(int mask) {
-  return (mask & 1) ? 0 : (mask & 2) ? 1 : 2;
+  return std::countr_zero(static_cast<unsigned>(mask));
 }
 
 /// A random bit of a mask in 1 .. 7.
 int pick(int mask, Random& random) {
-  const int count = (mask & 1) + (mask >> 1 & 1) + (mask >> 2 & 1);
+  const int count = std::popcount(static_cast<unsigned>(mask));
   for (int skip = count == 1 ? 0 : random.below(count); skip > 0; --skip) mask &= mask - 1;
   return lowest(mask);
 }
@@ -25,9 +26,7 @@ int pick(int mask, Random& random) {
 /// The colours that no triangle of an edge has.
 int available(const EdgeColoring& coloring, Side side) {
   const Side twin = coloring.twin(side);
-  int used = coloring.colors_used(triangle_of(side));
-  if (twin >= 0) used |= coloring.colors_used(triangle_of(twin));
-  return 7 & ~used;
+  return 7 & ~(coloring.colors_used(triangle_of(side)) | coloring.colors_used(triangle_of(twin)));
 }
 
 /// Colours one blank, if its triangles allow it or can be made to.
@@ -52,7 +51,7 @@ class BlankRemover {
       const Side start_one = coloring_.side_of(one, own), start_two = coloring_.side_of(two, other);
       const int winner = race({start_one, other, own}, {start_two, own, other});
       if (winner != met) {
-        coloring_.swap_chain(winner == first ? start_one : start_two, own, other);
+        for (int t : winner == first ? passed_one_ : passed_two_) coloring_.swap_colors(t, own, other);
         return fill(side);
       }
       // It does. Another chain that ends here changes what is common; where that does not help, the blank
@@ -80,22 +79,27 @@ class BlankRemover {
     int next_color, color;
   };
 
-  /// Moves on along the chain. \return false at its end.
-  bool advance(Chain& chain) const {
+  /// Moves on along the chain. \param passed takes the triangles that it goes through. \return false at its
+  /// end.
+  bool advance(Chain& chain, std::vector<int>& passed) const {
     const Side across = coloring_.twin(chain.side);
-    const Side next = across < 0 ? -1 : coloring_.side_of(triangle_of(across), chain.next_color);
+    if (across < 0) return false;
+    passed.push_back(triangle_of(across));
+    const Side next = coloring_.side_of(triangle_of(across), chain.next_color);
     if (next < 0) return false;
     chain = {next, chain.color, chain.next_color};
     return true;
   }
 
   /// Follows two chains in turns: the shorter one wins, and chains that are the two ends of one meet.
-  Winner race(Chain one, Chain two) const {
+  Winner race(Chain one, Chain two) {
+    passed_one_.assign(1, triangle_of(one.side));
+    passed_two_.assign(1, triangle_of(two.side));
     for (;;) {
       if (coloring_.twin(one.side) == two.side) return met;
-      if (!advance(one)) return first;
+      if (!advance(one, passed_one_)) return first;
       if (coloring_.twin(one.side) == two.side) return met;
-      if (!advance(two)) return second;
+      if (!advance(two, passed_two_)) return second;
     }
   }
 
@@ -135,33 +139,49 @@ class BlankRemover {
 
   EdgeColoring& coloring_;
   Random& random_;
+  std::vector<int> passed_one_, passed_two_;  // in a race: an exchange then need not find its way again
 };
 
 }  // namespace
 
 EdgeColoring::EdgeColoring(const TriangleMesh& mesh) {
   check_indices(mesh);
-  cells_.assign(mesh.triangles.size(), {{-1, -1, -1}, {none, none, none}});
+  cells_.resize(mesh.triangles.size() + 1);
   join_twins(mesh, [this](Side a, Side b) {
-    cells_[triangle_of(a)].twin[index_of(a)] = b;
-    cells_[triangle_of(b)].twin[index_of(b)] = a;
+    cell(triangle_of(a)).twin[index_of(a)] = b;
+    cell(triangle_of(b)).twin[index_of(b)] = a;
   });
+  std::vector<bool> done(4 * mesh.triangles.size(), false);
   for (int t = 0; t < size(); ++t) {
+    const auto& twins = cell(t).twin;
+    if (twins[0] >= 0 && twins[1] >= 0 && twins[2] >= 0) continue;
     for (int i = 0; i < 3; ++i) {
-      if (cells_[t].twin[i] < 0) boundary_.push_back(make_side(t, i));
+      if (twins[i] >= 0) continue;
+      for (Side side = make_side(t, i); !done[side]; side = next_on_boundary(side)) {
+        done[side] = true;
+        boundary_.push_back(side);
+      }
     }
+  }
+}
+
+Side EdgeColoring::next_on_boundary(Side side) const {
+  for (;;) {
+    side = make_side(triangle_of(side), next_index(index_of(side)));
+    if (twin(side) < 0) return side;
+    side = twin(side);
   }
 }
 
 Side EdgeColoring::swap_chain(Side start, int a, int b) {
   int then = color(start) == a ? b : a;
-  std::swap(cells_[triangle_of(start)].at[a], cells_[triangle_of(start)].at[b]);
+  cell(triangle_of(start)).swap(a, b);
   for (Side side = start;;) {
     const Side across = twin(side);
     if (across < 0) return side;
     const int t = triangle_of(across);
-    const int next = cells_[t].at[then];
-    std::swap(cells_[t].at[a], cells_[t].at[b]);
+    const int next = cell(t).at(then);
+    cell(t).swap(a, b);
     if (next == none) return side;
     side = make_side(t, next);
     then = a + b - then;
@@ -209,26 +229,74 @@ int count_blanks(const EdgeColoring& coloring) {
   return count;
 }
 
-int color_greedily(EdgeColoring& coloring, Random& random) {
-  int blanks = 0;
-  for_each_edge(coloring, [&](Side side) {
-    if (coloring.color(side) != EdgeColoring::blank) return;
-    const int colors = available(coloring, side);
-    if (colors != 0) {
-      coloring.set_color(side, pick(colors, random));
-    } else {
-      ++blanks;
+namespace {
+
+/// The ways to give the three sides of a triangle colours, no two alike, out of those that each may have
+/// (three bits a side): those ways that leave the fewest sides without. Two bits a side, the first in the
+/// lowest.
+struct Choices {
+  std::uint8_t count = 0;
+  std::array<std::uint8_t, 6> ways{};
+};
+
+constexpr std::array<Choices, 512> list_choices() {
+  std::array<Choices, 512> table{};
+  for (int masks = 0; masks < 512; ++masks) {
+    Choices& choices = table[masks];
+    int most = 0;
+    for (int way = 0; way < 64; ++way) {
+      int used = 0, colored = 0;
+      bool possible = true;
+      for (int i = 0; i < 3; ++i) {
+        const int color = way >> 2 * i & 3;
+        if (color == EdgeColoring::blank) continue;
+        possible = possible && (masks >> 3 * i & ~used & 1 << color) != 0;
+        used |= 1 << color;
+        ++colored;
+      }
+      if (!possible || colored < most) continue;
+      if (colored > most) choices.count = 0;
+      most = colored;
+      choices.ways[choices.count++] = static_cast<std::uint8_t>(way);
     }
-  });
+  }
+  return table;
+}
+
+}  // namespace
+
+int color_greedily(EdgeColoring& coloring, Random& random) {
+  static constexpr std::array<Choices, 512> table = list_choices();
+  int blanks = 0;
+  for (int t = 0; t < coloring.size(); ++t) {
+    // No branches: what a triangle's neighbours are like cannot be foreseen, and a wrong guess costs more
+    // than all the rest.
+    const int left = 7 & ~coloring.colors_used(t), colored = coloring.colored_sides(t);
+    int masks = 0, later = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Side twin = coloring.twin(make_side(t, i));
+      const int mask = left & ~coloring.colors_used(triangle_of(twin)) & ((colored >> i & 1) - 1);
+      masks |= mask << 3 * i;
+      later |= (static_cast<std::uint32_t>(twin) > static_cast<std::uint32_t>(make_side(t, i))) << i;
+    }
+    const Choices& choices = table[masks];
+    coloring.color_blanks(t, choices.ways[random.below(choices.count)]);
+    // Those of lower triangles were counted there, and still find no colour.
+    blanks += std::popcount(static_cast<unsigned>(later & ~coloring.colored_sides(t)));
+  }
   return blanks;
 }
 
 int remove_blanks(EdgeColoring& coloring, Random& random) {
   BlankRemover remover(coloring, random);
   int left = 0;
-  for_each_edge(coloring, [&](Side side) {
-    if (coloring.color(side) == EdgeColoring::blank && !remover.remove(side)) ++left;
-  });
+  for (int t = 0; t < coloring.size(); ++t) {
+    for (int i = 0; i < 3 && coloring.colors_used(t) != 7; ++i) {
+      const Side side = make_side(t, i), twin = coloring.twin(side);
+      if ((twin >= 0 && twin < side) || coloring.color(side) != EdgeColoring::blank) continue;
+      if (!remover.remove(side)) ++left;
+    }
+  }
   return left;
 }
 

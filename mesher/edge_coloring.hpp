@@ -38,15 +38,15 @@ class EdgeColoring {
   /// oriented alike.
   explicit EdgeColoring(const TriangleMesh& mesh);
 
-  int size() const { return static_cast<int>(cells_.size()); }  ///< triangles
-  Side twin(Side side) const { return cells_[triangle_of(side)].twin[index_of(side)]; }
-  /// The sides on the boundary, in the order of the triangles.
+  int size() const { return static_cast<int>(cells_.size()) - 1; }  ///< triangles
+  Side twin(Side side) const { return cell(triangle_of(side)).twin[index_of(side)]; }
+  /// The sides on the boundary, one loop of it after the other, each along the loop.
   const std::vector<Side>& boundary() const { return boundary_; }
 
   int color(Side side) const {
-    const Cell& cell = cells_[triangle_of(side)];
+    const Cell& c = cell(triangle_of(side));
     const int i = index_of(side);
-    return cell.at[0] == i ? 0 : cell.at[1] == i ? 1 : cell.at[2] == i ? 2 : blank;
+    return c.at(0) == i ? 0 : c.at(1) == i ? 1 : c.at(2) == i ? 2 : blank;
   }
 
   /// A triangle has room for one side of each colour: another side that had it becomes blank there, which
@@ -57,9 +57,22 @@ class EdgeColoring {
     if (other >= 0) paint(other, color);
   }
 
+  /// Gives the sides of a triangle colours that neither of their triangles has, two bits a side, the first in
+  /// the lowest; sides that have a colour or are to have none get `blank`. Without a branch: which sides are
+  /// which is different in each triangle.
+  void color_blanks(int triangle, int colors) {
+    Cell& own = cell(triangle);
+    for (int i = 0; i < 3; ++i) {
+      const int color = colors >> 2 * i & 3;
+      const Side twin = own.twin[i];
+      own.places ^= place_of(color, i);
+      cell(triangle_of(twin)).places ^= place_of(color, index_of(twin));
+    }
+  }
+
   /// The side of a triangle that has a colour; -1 if none has.
   Side side_of(int triangle, int color) const {
-    const int i = cells_[triangle].at[color];
+    const int i = cell(triangle).at(color);
     return i == none ? -1 : make_side(triangle, i);
   }
 
@@ -71,11 +84,13 @@ class EdgeColoring {
     return -1;
   }
 
-  /// Bit c set: a side of the triangle has the colour c.
-  int colors_used(int triangle) const {
-    const auto& at = cells_[triangle].at;
-    return (at[0] != none ? 1 : 0) | (at[1] != none ? 2 : 0) | (at[2] != none ? 4 : 0);
-  }
+  /// Bit c set: a side of the triangle has the colour c. 0 for the triangle -1, which is beyond the boundary.
+  int colors_used(int triangle) const { return used_at[cell(triangle).places]; }
+  /// Bit i set: the side i of the triangle has a colour.
+  int colored_sides(int triangle) const { return colored_at[cell(triangle).places]; }
+
+  /// Exchanges two colours in one triangle: a part of an exchange along a chain.
+  void swap_colors(int triangle, int a, int b) { cell(triangle).swap(a, b); }
 
   /// Exchanges the colours a and b along the chain of edges of these two that starts with a side, and goes on
   /// beyond it; the side's own triangle must lack the other of the two. The chain ends at the boundary, or
@@ -93,20 +108,55 @@ class EdgeColoring {
   /// Where each colour is rather than what colour each side has: a step along a chain is then two loads, and
   /// an exchange in a triangle one swap.
   struct Cell {
-    Side twin[3];
-    std::uint8_t at[3];  // index of the side with the colour
+    Side twin[3]{-1, -1, -1};
+    std::uint32_t places = 0b111111;  // two bits a colour: index of the side with it, or none
+
+    int at(int color) const { return static_cast<int>(places >> 2 * color & 3); }
+    void swap(int a, int b) {
+      const std::uint32_t change = (places >> 2 * a ^ places >> 2 * b) & 3;
+      places ^= change << 2 * a | change << 2 * b;
+    }
   };
 
-  void paint(Side side, int color) {
-    Cell& cell = cells_[triangle_of(side)];
-    const auto i = static_cast<std::uint8_t>(index_of(side));
-    for (std::uint8_t& at : cell.at) {
-      if (at == i) at = none;
+  /// By a cell's places: what colors_used() and colored_sides() give.
+  using Table = std::array<std::uint8_t, 64>;
+  static constexpr Table used_at = [] {
+    Table table{};
+    for (int p = 0; p < 64; ++p) {
+      for (int c = 0; c < 3; ++c) table[p] |= (p >> 2 * c & 3) == none ? 0 : 1 << c;
     }
-    if (color != blank) cell.at[color] = i;
+    return table;
+  }();
+  static constexpr Table colored_at = [] {
+    Table table{};
+    for (int p = 0; p < 64; ++p) {
+      for (int c = 0; c < 3; ++c) table[p] |= 1 << (p >> 2 * c & 3) & 7;
+    }
+    return table;
+  }();
+
+  /// What changes in a cell's places when a colour that is at no side comes to the side i; nothing for
+  /// `blank` and for the side -1.
+  static std::uint32_t place_of(int color, int i) {
+    return static_cast<std::uint32_t>(none ^ i) << 2 * color & 0b111111;
   }
 
-  std::vector<Cell> cells_;
+  /// The boundary side that starts where another ends.
+  Side next_on_boundary(Side side) const;
+
+  void paint(Side side, int color) {
+    Cell& c = cell(triangle_of(side));
+    const int i = index_of(side);
+    for (int other = 0; other < 3; ++other) {
+      if (other == color || c.at(other) == i) c.places |= static_cast<std::uint32_t>(none) << 2 * other;
+    }
+    c.places ^= place_of(color, i);
+  }
+
+  Cell& cell(int triangle) { return cells_[triangle + 1]; }
+  const Cell& cell(int triangle) const { return cells_[triangle + 1]; }
+
+  std::vector<Cell> cells_;  // the first stands for what is beyond the boundary, and never has a colour
   std::vector<Side> boundary_;
 };
 

@@ -1,7 +1,6 @@
-/// Based on: Karp & Sipser, Maximum matching in sparse random graphs (1981), for forced pairs; Edmonds,
-/// Paths, trees, and flowers (1965), for alternating paths (without contraction of odd cycles: what that
-/// misses, walks settle); Remacle et al., Blossom-Quad (2012), for the aim; Lin & Kernighan (1973) for the
-/// exchange along cycles whose partial gains stay positive.
+/// Based on: Karp & Sipser, Maximum matching in sparse random graphs (1981), for forced pairs; Remacle et
+/// al., Blossom-Quad (2012), for the aim; Lin & Kernighan (1973) for the exchange along cycles whose partial
+/// gains stay positive.
 
 #include "mesher/matching.hpp"
 
@@ -19,6 +18,8 @@
 #include <queue>
 #include <unordered_map>
 #include <utility>
+
+#include "mesher/augmenting_paths.hpp"
 
 namespace quadrille {
 
@@ -119,51 +120,7 @@ int augment(TriangleGraph& graph, int reach) {
   for (int t = 0; t < graph.size(); ++t) {
     if (graph.free(t)) free.push_back(t);
   }
-  if (free.empty()) return 0;
-  // reached_by[t] = the side of t through which the search came; valid where stamp[t] is this search's.
-  std::vector<int> stamp(graph.size(), -1);
-  std::vector<Side> reached_by(graph.size());
-  std::vector<int> queue;
-  int left = 0;
-  const auto search = [&](int root) -> Side {
-    queue.assign(1, root);
-    stamp[root] = root;
-    for (std::size_t head = 0; head < queue.size() && static_cast<int>(queue.size()) < reach; ++head) {
-      for (Side s : graph.triangles[queue[head]].twin) {
-        if (s < 0) continue;
-        const int t = triangle_of(s);
-        if (stamp[t] == root) continue;
-        stamp[t] = root;
-        reached_by[t] = s;
-        if (graph.free(t)) return s;
-        const int mate = graph.mate_of(t);
-        // A mate reached already means an odd cycle: t stays inner.
-        if (stamp[mate] == root) continue;
-        stamp[mate] = root;
-        queue.push_back(mate);
-      }
-    }
-    return -1;
-  };
-  for (int root : free) {
-    if (!graph.free(root)) continue;
-    Side s = search(root);
-    if (s < 0) {
-      ++left;
-      continue;
-    }
-    for (;;) {
-      const int from = triangle_of(graph.twin_of(s));
-      const int released = from == root ? -1 : graph.mate_of(from);
-      graph.pair(s);
-      if (released < 0) break;
-      s = reached_by[released];
-    }
-  }
-  // Those that failed early may have been taken as the end of a later path.
-  return left == 0 ? 0 : static_cast<int>(std::count_if(free.begin(), free.end(), [&](int t) {
-    return graph.free(t);
-  }));
+  return augment_pairs(graph, free, NearestFirst(), reach);
 }
 
 namespace {

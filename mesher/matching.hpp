@@ -12,10 +12,13 @@ namespace quadrille {
 /// cost. Needs the costs. Time: linear (the order is a bucket sort).
 void pair_greedily(TriangleGraph& graph);
 
+/// How many triangles a search for a partner looks at.
+constexpr int reach_of_paths = 100'000;
+
 /// Pairs more triangles by exchange along alternating paths: a free triangle, a pair, ..., a pair, a free
 /// triangle. The nearest partner is taken, searched for over at most `reach` triangles. \return the number of
-/// triangles still free.
-int augment(TriangleGraph& graph, int reach = 100'000);
+/// triangles still free: 0 if there is a way to pair all within reach.
+int augment(TriangleGraph& graph, int reach = reach_of_paths);
 
 /// Lets the remaining free triangles walk: a triangle and a quad beside it are a pentagon, which can be cut
 /// into a quad and a triangle on the far side. Two that meet become a quad. Diagonals of pairs are flipped
@@ -25,8 +28,8 @@ int walk(TriangleGraph& graph, const std::vector<Vector3>& points);
 
 /// Exchanges pairs along alternating cycles as long as that lowers the cost:
 /// the sum over the quads of pair_cost() and over the points of a charge for the deviation from the ideal
-/// number of quads there (4 inside; on the boundary one for every 90 degrees). The graph's objective weighs the
-/// two, and decides how far cycles are searched for. \return the number of cycles exchanged.
+/// number of quads there (4 inside; on the boundary one for every 90 degrees). The graph's objective weighs
+/// the two, and decides how far cycles are searched for. \return the number of cycles exchanged.
 int exchange(TriangleGraph& graph, const std::vector<Vector3>& points, ExecutionContext& context);
 
 }  // namespace quadrille

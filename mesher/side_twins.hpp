@@ -1,14 +1,14 @@
 #pragma once
 /// Which sides of a triangle mesh are the same. Internal.
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <bit>
 #include <cstdint>
+#include <memory>
+#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "geometry/error.hpp"
 #include "mesher/mesh_types.hpp"
 
 namespace quadrille {
@@ -35,55 +35,87 @@ inline int previous_index(int i) {
 /// Throws Error (failure) naming the triangle where indices are out of range or repeated.
 void check_indices(const TriangleMesh& mesh);
 
+/// Throws Error (failure) naming a triangle that is the third of its tag on a side, or runs along a side the
+/// same way as another of its tag. Slower than join_twins(), which calls it where something is wrong.
+void check_sides(const TriangleMesh& mesh);
+
 /// Calls join(side, twin) once for each side that two triangles of one tag share.
-/// Throws Error (failure) naming the triangle where more than two triangles of a tag share a side, or where
-/// two of them run along it the same way. Time and memory: linear (a counting sort of the sides over their
-/// lower point).
+/// Throws Error (failure) as check_sides() does. Time and memory: linear (a counting sort of the sides that
+/// run up, to a point of higher index, by their lower point; those that run down are looked up).
 template <class Join>
 void join_twins(const TriangleMesh& mesh, Join&& join) {
-  struct Entry {
-    std::int32_t other;  // the higher point
-    Side side;
-  };
   const auto& triangles = mesh.triangles;
-  const auto fail = [&](Side side, const std::string& what) {
-    throw failure(fmt::format("triangle {}", triangle_of(side)),
-                  fmt::format("triangle {} {}", triangle_of(side), what));
-  };
-  const auto from = [&](Side s) { return triangles[triangle_of(s)][index_of(s)]; };
-  const auto to = [&](Side s) { return triangles[triangle_of(s)][next_index(index_of(s))]; };
-  const auto for_each_side = [&](auto&& visit) {
-    for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
-      for (int i = 0; i < 3; ++i) visit(make_side(t, i), triangles[t][i], triangles[t][next_index(i)]);
-    }
-  };
-
+  const int* const tags = mesh.tags.empty() ? nullptr : mesh.tags.data();
   std::vector<int> start(mesh.points.size() + 1, 0);
-  for_each_side([&](Side, int a, int b) { ++start[std::min(a, b)]; });
+  for (const auto& [a, b, c] : triangles) {
+    start[a] += a < b;
+    start[b] += b < c;
+    start[c] += c < a;
+  }
   int total = 0;
   for (int& s : start) total += std::exchange(s, total);
-  std::vector<Entry> entries(total);
-  for_each_side([&](Side side, int a, int b) { entries[start[std::min(a, b)]++] = {std::max(a, b), side}; });
-
-  // start[p] is now the end of p's bucket. The sides of one bucket are few: all pairs are compared.
-  const bool tagged = !mesh.tags.empty();
-  for (int p = 0, first = 0; p + 1 < static_cast<int>(start.size()); first = start[p++]) {
-    for (int k = first; k < start[p]; ++k) {
-      const auto [other, side] = entries[k];
-      int twins = 0;
-      for (int l = first; l < k; ++l) {
-        const Side twin = entries[l].side;
-        if (entries[l].other != other) continue;
-        if (tagged && mesh.tags[triangle_of(side)] != mesh.tags[triangle_of(twin)]) continue;
-        if (++twins == 2) fail(side, fmt::format("is the third on the side {}-{}", from(side), to(side)));
-        if (from(side) == from(twin)) {
-          fail(side, fmt::format("runs along its side {}-{} the same way as triangle {}", from(side),
-                                 to(side), triangle_of(twin)));
-        }
-        join(side, twin);
-      }
+  // Without a branch on which way a side runs, which cannot be foreseen: what is not to be kept is written as
+  // well, where it will be written over.
+  constexpr int at_once = 8;
+  std::vector<int> higher(total + at_once);
+  std::vector<Side> up(total + 1), down(3 * triangles.size() - total + 1);
+  std::size_t downs = 0;
+  for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const int a = triangles[t][i], b = triangles[t][next_index(i)];
+      const bool rises = a < b;
+      const int place = rises ? start[a] : total;
+      start[a] += rises;
+      higher[place] = b;
+      up[place] = down[downs] = make_side(t, i);
+      downs += !rises;
     }
   }
+  // start[p] is now the end of p's sides. The first place from `from` on of a side of p that rises to a
+  // point, in a tag; p's end if there is none.
+  const auto find = [&](int from, int p, int to, int t) {
+    const int end = start[p];
+    for (; from < end; from += at_once) {
+      unsigned found = 1U << at_once;
+      for (int k = 0; k < at_once; ++k) found |= static_cast<unsigned>(higher[from + k] == to) << k;
+      const int place = from + std::countr_zero(found);
+      if (place >= std::min(end, from + at_once)) continue;
+      const int other = triangle_of(up[place] < 0 ? ~up[place] : up[place]);
+      if (!tags || tags[other] == tags[t]) return place;
+      from = place + 1 - at_once;
+    }
+    return end;
+  };
+  const auto first_of = [&](int p) { return p == 0 ? 0 : start[p - 1]; };
+  bool doubtful = false;
+  std::size_t lone = 0;
+  for (std::size_t d = 0; d < downs; ++d) {
+    const Side side = down[d];
+    const int t = triangle_of(side), i = index_of(side), p = triangles[t][next_index(i)];
+    const int place = find(first_of(p), p, triangles[t][i], t);
+    if (place >= start[p]) {
+      down[lone++] = side;
+    } else if (up[place] < 0) {
+      doubtful = true;
+    } else {
+      join(side, up[place]);
+      up[place] = ~up[place];  // taken
+    }
+  }
+  // Two sides that run the same way: one of them is left alone, if not taken twice above.
+  for (int place = 0; place < total && !doubtful; ++place) {
+    if (up[place] < 0) continue;
+    const int t = triangle_of(up[place]), p = triangles[t][index_of(up[place])];
+    const int same = find(first_of(p), p, higher[place], t);
+    doubtful = same != place || find(place + 1, p, higher[place], t) < start[p];
+  }
+  const auto key = [&](Side s) {
+    const int t = triangle_of(s), i = index_of(s);
+    return std::make_tuple(triangles[t][i], triangles[t][next_index(i)], tags ? tags[t] : 0);
+  };
+  std::sort(&down[0], &down[lone], [&](Side a, Side b) { return key(a) < key(b); });
+  for (std::size_t d = 1; d < lone; ++d) doubtful |= key(down[d]) == key(down[d - 1]);
+  if (doubtful) check_sides(mesh);
 }
 
 }  // namespace quadrille

@@ -225,6 +225,25 @@ TEST(Recombine, RefusesBadTriangulationsByName) {
   EXPECT_EQ(complaint(mesh), "triangle 1 refers to point 9, which does not exist");
   mesh.triangles[1] = {3, 3, 1};
   EXPECT_EQ(complaint(mesh), "triangle 1 has the same point twice");
+  // Sides that come twice the same way, whichever way their points are numbered, alone or with others.
+  for (const bool mirrored : {false, true}) {
+    mesh = strip(2);
+    if (mirrored) {
+      for (auto& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
+    }
+    const std::array<int, 3> first = mesh.triangles[0];
+    mesh.points.emplace_back(3, 3, 0);
+    mesh.triangles = {first, {first[0], first[1], 4}};
+    EXPECT_NE(complaint(mesh).find("the same way as triangle 0"), std::string::npos) << complaint(mesh);
+    mesh.points.emplace_back(4, 4, 0);
+    mesh.triangles.push_back({first[1], first[0], 5});
+    EXPECT_NE(complaint(mesh).find("the same way as triangle 0"), std::string::npos) << complaint(mesh);
+    mesh.points.emplace_back(5, 4, 0);
+    mesh.triangles.push_back({first[1], first[0], 6});
+    EXPECT_NE(complaint(mesh).find("the same way as triangle 0"), std::string::npos) << complaint(mesh);
+    std::swap(mesh.triangles[1], mesh.triangles[2]);
+    EXPECT_NE(complaint(mesh).find("is the third on the side"), std::string::npos) << complaint(mesh);
+  }
   mesh = strip(2);
   mesh.tags = {1};
   EXPECT_EQ(complaint(mesh), "1 tags were given for 2 triangles");
