@@ -195,7 +195,14 @@ Vector2 FaceSurface::inverse(const Vector2& near, const Vector3& target) const {
     return {nearest_period(u, near.x(), 2 * pi), (signed_r - radius_) * sin_angle_ + z * cos_angle_};
   }
   if (kind_ == Kind::sphere) return {nearest_period(u, near.x(), 2 * pi), std::atan2(z, r)};
-  return {nearest_period(u, near.x(), 2 * pi), nearest_period(std::atan2(z, r - radius_), near.y(), 2 * pi)};
+  // Beyond the axis of a torus that meets it the same holds.
+  double signed_r = r;
+  if (radius_ + minor_radius_ * std::cos(near.y()) < 0) {
+    signed_r = -r;
+    u += pi;
+  }
+  return {nearest_period(u, near.x(), 2 * pi),
+          nearest_period(std::atan2(z, signed_r - radius_), near.y(), 2 * pi)};
 }
 
 SurfacePoint FaceSurface::move(Vector2& uv, const Vector3& target) const {

@@ -68,8 +68,32 @@ class BoundaryWalker {
       if (run.first >= 0) runs.push_back(run);
     }
     const std::size_t n = runs.size();
+    for (std::size_t i = 1; i < n; ++i) unwrap(runs[i - 1], runs[i]);
     for (std::size_t i = 0; i < n; ++i) join(runs[i], runs[(i + 1) % n]);
     drop_joined();
+  }
+
+  /// Moves a coedge by whole periods to where the one before it ends: files may have them turns away.
+  void unwrap(const Run& previous, const Run& run) {
+    if (boundary_.nodes[previous.last] != boundary_.nodes[run.first]) return;
+    const Vector2 jump = boundary_.uv[run.first] - boundary_.uv[previous.last];
+    Vector2 shift(0, 0);
+    if (surface_.u_periodic()) shift.x() = surface_.u_period() * std::round(jump.x() / surface_.u_period());
+    if (surface_.v_periodic()) shift.y() = surface_.v_period() * std::round(jump.y() / surface_.v_period());
+    if (shift.isZero() || is_one_point(boundary_.uv[previous.last], boundary_.uv[run.first])) return;
+    for (int point = run.first; point <= run.last; ++point) boundary_.uv[point] -= shift;
+    for (int i = run.first_segment; i < run.end_segment; ++i) boundary_.segments[i].middle_uv -= shift;
+  }
+
+  /// Whether the line between two places in the parameter plane is one point in space, a pole.
+  bool is_one_point(const Vector2& from, const Vector2& to) const {
+    constexpr double nearness = 0.01;
+    const double reach = nearness * (to - from).cwiseProduct(scale_).norm();
+    const Vector3 first = surface_.point(from);
+    for (const double t : {0.25, 0.5, 0.75}) {
+      if (!((surface_.point((1 - t) * from + t * to) - first).norm() <= reach)) return false;
+    }
+    return true;
   }
 
   Run walk_edge(const Coedge& coedge) {
@@ -115,6 +139,8 @@ class BoundaryWalker {
     const int node = edge.first_vertex > 0 ? nodes_.vertex_nodes[edge.first_vertex - 1] : -1;
     if (node < 0) return {};
     Vector2 from = parametric_point(coedge, edge.first), to = parametric_point(coedge, edge.last);
+    // Translators close wires by such edges where nothing is degenerate.
+    if (!is_one_point(from, to)) return {};
     if (!coedge.forward) std::swap(from, to);
     return add_pole(from, to, node);
   }

@@ -118,7 +118,7 @@ class FaceMesher {
     FaceQuads quads = recombine_face(triangulation);
     improve(quads, attempt.clean_up);
     if (nodes_.stride == 2) {
-      cut_flat_quads(quads.surface_mesh.mesh);
+      cut_flat_quads(quads.surface_mesh.mesh, quads.surface_mesh.normals);
       quads = subdivide(quads, triangulation.segments, nodes_.points, surface_);
       improve(quads, false);
     }

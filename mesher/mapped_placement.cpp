@@ -44,9 +44,11 @@ std::vector<int> find_corners(const FaceBoundary& boundary, const FaceSurface& s
   std::vector<double> turnings(n);
   for (int i = 0; i < n; ++i) {
     const Vector3& p = boundary.points[loop[i]];
-    const Vector3 in = p - boundary.points[loop[(i + n - 1) % n]],
-                  out = boundary.points[loop[(i + 1) % n]] - p;
     const Vector3 normal = surface.normal(boundary.uv[loop[i]]);
+    // In the tangent plane: round a tube of four segments the sides themselves turn by right angles.
+    const auto tangential = [&](const Vector3& v) { return Vector3(v - v.dot(normal) * normal); };
+    const Vector3 in = tangential(p - boundary.points[loop[(i + n - 1) % n]]),
+                  out = tangential(boundary.points[loop[(i + 1) % n]] - p);
     turnings[i] = std::atan2(in.cross(out).dot(normal), in.dot(out));
     sense += turnings[i];
   }
@@ -120,19 +122,25 @@ class Grid {
     return true;
   }
 
-  /// Whether nearly all inner sides are of about the size wanted.
+  /// Whether nearly all inner sides are of about the size wanted, or of that of the boundary where this has
+  /// more nodes than wanted, as round a thin tube.
   bool follows(SizingField::Sampler& size_at, double scale) const {
     int sides = 0, off = 0;
-    const auto check = [&](int a, int b) {
-      const double ratio =
-          (points_[b] - points_[a]).norm() / (scale * size_at(0.5 * (points_[a] + points_[b])));
+    const auto length = [&](int a, int b) { return (points_[b] - points_[a]).norm(); };
+    const auto check = [&](int a, int b, double at_boundary) {
+      const double wanted = scale * size_at(0.5 * (points_[a] + points_[b]));
       ++sides;
-      off += ratio < 0.55 || ratio > 1.5;
+      off += length(a, b) < 0.55 * std::min(wanted, at_boundary) || length(a, b) > 1.5 * wanted;
     };
-    for (int j = 1; j + 1 < rows_; ++j) {
-      for (int i = 1; i + 1 < columns_; ++i) {
-        check(index(i, j), index(i + 1, j));
-        check(index(i, j), index(i, j + 1));
+    const int last_row = rows_ - 1, last_column = columns_ - 1;
+    for (int j = 1; j < last_row; ++j) {
+      for (int i = 1; i < last_column; ++i) {
+        check(index(i, j), index(i + 1, j),
+              std::max(length(index(i, 0), index(i + 1, 0)),
+                       length(index(i, last_row), index(i + 1, last_row))));
+        check(index(i, j), index(i, j + 1),
+              std::max(length(index(0, j), index(0, j + 1)),
+                       length(index(last_column, j), index(last_column, j + 1))));
       }
     }
     return 10 * off <= sides;

@@ -50,6 +50,7 @@ class Smoother {
     for (const auto& triangle : surface_mesh.mesh.triangles)
       for (const int node : triangle) free_[node] = 0;
     link_corners();
+    find_sharp_turns();
     quality_.resize(quads_.size());
     measure_all();
     active_.assign(n, 1);
@@ -61,7 +62,7 @@ class Smoother {
     bool any = false;
     for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
       check(node);
-      if (!free_[node] || !active_[node]) continue;
+      if (!free_[node] || !active_[node] || turns_sharply_[node]) continue;
       if (relax(node)) {
         any = true;
         activate(node, next_active_);
@@ -140,6 +141,18 @@ class Smoother {
     std::vector<int> place(first_.begin(), first_.end() - 1);
     for (int i = 0; i < static_cast<int>(quads_.size()); ++i)
       for (int j = 0; j < 4; ++j) corners_[place[quads_[i][j]]++] = 4 * i + j;
+  }
+
+  /// Where the surface turns far from one node to the next, as round a tube of four coarse quads, averages in
+  /// tangent planes pull a node on to the side that it is drawn to already.
+  void find_sharp_turns() {
+    constexpr double least_cosine = 0.1;
+    turns_sharply_.assign(points_.size(), 0);
+    for (const auto& quad : quads_)
+      for (int k = 0; k < 4; ++k) {
+        const int a = quad[k], b = quad[(k + 1) & 3];
+        if (normals_[a].dot(normals_[b]) < least_cosine) turns_sharply_[a] = turns_sharply_[b] = 1;
+      }
   }
 
   double measure(int quad) const {
@@ -529,7 +542,7 @@ class Smoother {
   std::vector<Vector3>& normals_;
   const SmoothingSurface& surface_;
   const ExecutionContext& context_;
-  std::vector<char> free_, active_, next_active_;
+  std::vector<char> free_, active_, next_active_, turns_sharply_;
   std::vector<int> first_, corners_;
   std::vector<double> quality_;  ///< scaled Jacobian of each quad
 };

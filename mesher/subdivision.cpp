@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "mesher/quality.hpp"
+#include "mesher/quad_geometry.hpp"
 #include "mesher/side_key.hpp"
 
 namespace quadrille {
@@ -110,34 +110,37 @@ class Subdivider {
   std::unordered_map<std::uint64_t, int> middles_;
 };
 
-/// Least scaled Jacobian of the parts that an element is split into, its sides taken as straight.
+/// Least scaled Jacobian of the parts that an element is split into, its sides taken as straight; negative
+/// where a part lies the wrong way round.
 template <std::size_t n>
-double worst_part(const std::array<Vector3, n>& corners) {
+double worst_part(const std::array<Vector3, n>& corners, const Vector3& normal) {
   Vector3 centre = Vector3::Zero();
   for (const Vector3& corner : corners) centre += corner / static_cast<double>(n);
   double worst = 1;
   for (std::size_t k = 0; k < n; ++k) {
     const Vector3& at = corners[k];
-    worst = std::min(worst, quad_scaled_jacobian(at, 0.5 * (at + corners[(k + 1) % n]), centre,
-                                                 0.5 * (at + corners[(k + n - 1) % n])));
+    worst = std::min(worst, folded_scaled_jacobian(at, 0.5 * (at + corners[(k + 1) % n]), centre,
+                                                   0.5 * (at + corners[(k + n - 1) % n]), normal));
   }
   return worst;
 }
 
 }  // namespace
 
-void cut_flat_quads(QuadMesh& mesh) {
-  constexpr double bad = 0.3, gain = 0.1;
+void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals) {
+  constexpr double bad = 0.3, gain = 0.1, flat = 1e-6;
   const auto& p = mesh.points;
   std::erase_if(mesh.quads, [&](const std::array<int, 4>& quad) {
     const auto [a, b, c, d] = quad;
-    const double whole = worst_part(std::array<Vector3, 4>{p[a], p[b], p[c], p[d]});
+    const Vector3 normal = normals[a] + normals[b] + normals[c] + normals[d];
+    const double whole = worst_part(std::array<Vector3, 4>{p[a], p[b], p[c], p[d]}, normal);
     if (whole > bad) return false;
-    const double first = std::min(worst_part(std::array<Vector3, 3>{p[a], p[b], p[c]}),
-                                  worst_part(std::array<Vector3, 3>{p[a], p[c], p[d]}));
-    const double second = std::min(worst_part(std::array<Vector3, 3>{p[a], p[b], p[d]}),
-                                   worst_part(std::array<Vector3, 3>{p[b], p[c], p[d]}));
-    if (std::max(first, second) < whole + gain) return false;
+    const double first = std::min(worst_part(std::array<Vector3, 3>{p[a], p[b], p[c]}, normal),
+                                  worst_part(std::array<Vector3, 3>{p[a], p[c], p[d]}, normal));
+    const double second = std::min(worst_part(std::array<Vector3, 3>{p[a], p[b], p[d]}, normal),
+                                   worst_part(std::array<Vector3, 3>{p[b], p[c], p[d]}, normal));
+    // A corner of 180 degrees has to go at any price.
+    if (std::max(first, second) < whole + (whole > flat ? gain : flat)) return false;
     if (first > second) {
       mesh.triangles.push_back({a, b, c});
       mesh.triangles.push_back({a, c, d});

@@ -35,7 +35,7 @@ struct Prepared {
         options(make_options(model, divisions, strategy)),
         field(SizingField::build(model, options.sizing, context)),
         nodes(sample_edges(model.shape(), field, options, std::vector<char>(sample.faces, 1),
-                           std::vector<int>(sample.edges, 1), context)) {}
+                           SamplingPlan(model.shape()), context)) {}
 
   static MeshOptions make_options(const CadModel& model, double divisions, Strategy strategy) {
     MeshOptions options;
@@ -167,13 +167,25 @@ TEST(CutFlatQuads, CutsAQuadWithAStraightCornerAlone) {
   QuadMesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {4, 0, 0}, {4, 2, 0}, {2, 2, 0}};
   mesh.quads = {{0, 1, 2, 3}, {2, 4, 5, 6}};
-  cut_flat_quads(mesh);
+  cut_flat_quads(mesh, std::vector<Vector3>(mesh.points.size(), Vector3::UnitZ()));
   ASSERT_EQ(mesh.quads.size(), 1U);
   EXPECT_EQ(mesh.quads[0], (std::array<int, 4>{2, 4, 5, 6}));
   ASSERT_EQ(mesh.triangles.size(), 2U);
   for (const auto& t : mesh.triangles) {
     // The cut leaves from the straight corner.
     EXPECT_TRUE(std::find(t.begin(), t.end(), 1) != t.end() && std::find(t.begin(), t.end(), 3) != t.end());
+  }
+}
+
+TEST(CutFlatQuads, CutsTheMitreOfANarrowFrameInside) {
+  // The other cut would span the hole of the frame with triangles of a better shape.
+  QuadMesh mesh;
+  mesh.points = {{0, 0, 0}, {4, 0, 0}, {0.1, 0.1, 0}, {0, 4, 0}};
+  mesh.quads = {{0, 1, 2, 3}};
+  cut_flat_quads(mesh, std::vector<Vector3>(mesh.points.size(), Vector3::UnitZ()));
+  ASSERT_EQ(mesh.triangles.size(), 2U);
+  for (const auto& t : mesh.triangles) {
+    EXPECT_TRUE(std::find(t.begin(), t.end(), 0) != t.end() && std::find(t.begin(), t.end(), 2) != t.end());
   }
 }
 
