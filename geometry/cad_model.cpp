@@ -25,6 +25,7 @@
 #include "geometry/isolated_reading.hpp"
 #include "geometry/module_loader.hpp"
 #include "geometry/readers/exchange_module.hpp"
+#include "geometry/sewing.hpp"
 
 namespace quadrille {
 
@@ -178,6 +179,29 @@ CadModel CadModel::from_brep(std::string_view text, const std::string& name, con
     std::istream stream(&buffer);
     return read_brep(stream, name);
   });
+}
+
+CadModel CadModel::sewn(double tolerance) const {
+  const std::string& name = shape_->name;
+  if (!(tolerance > 0) || !(tolerance < diagonal())) {
+    throw usage_error("--sew", fmt::format("the tolerance to sew with must be positive and smaller than the "
+                                           "model ({:.6g}), not {:.6g}",
+                                           diagonal(), tolerance));
+  }
+  try {
+    int joined = 0;
+    auto result = std::make_shared<CadShape>(sew(shape_->shape, tolerance, joined), name);
+    if (result->faces.size() != shape_->faces.size()) {
+      throw failure(
+          name, fmt::format("{} loses faces when it is sewn with a tolerance of {:.6g}: try a smaller one",
+                            name, tolerance));
+    }
+    result->problems.push_back(fmt::format("{} edges were joined to others by sewing", joined));
+    return CadModel(std::move(result));
+  } catch (const Standard_Failure& problem) {
+    throw failure(name, fmt::format("{} cannot be sewn with a tolerance of {:.6g} ({})", name, tolerance,
+                                    problem.GetMessageString()));
+  }
 }
 
 int CadModel::face_count() const {

@@ -36,6 +36,12 @@ class CadModel {
   static CadModel from_brep(std::string_view text, const std::string& name = "shape",
                             const ReadOptions& options = {});
 
+  /// The model with the edges joined that lie within `tolerance` of each other, as in files whose faces touch
+  /// without sharing their edges. Faces keep their numbers, edges and vertices get new ones; solids and
+  /// shells are not kept. Throws Error: usage if the tolerance is not positive, failure if OpenCASCADE cannot
+  /// sew the model. \param tolerance millimetres.
+  CadModel sewn(double tolerance) const;
+
   int face_count() const;    ///< faces are numbered 1 .. face_count() (FreeCAD's Face1, Face2, ...)
   int edge_count() const;    ///< edges are numbered 1 .. edge_count()
   int vertex_count() const;  ///< vertices are numbered 1 .. vertex_count()

@@ -121,9 +121,12 @@ class Assembler {
       renumbered_[i] = static_cast<int>(mesh_.points.size());
       mesh_.points.push_back(nodes_.points[i]);
     }
+    std::vector<char> listed(nodes_.points.size(), 0);
     for (std::size_t vertex = 0; vertex < nodes_.vertex_nodes.size(); ++vertex) {
       const int node = nodes_.vertex_nodes[vertex];
-      if (node >= 0 && renumbered_[node] >= 0) {
+      // The ends of edges that became points share a node: it is the first one's.
+      if (node >= 0 && renumbered_[node] >= 0 && !listed[node]) {
+        listed[node] = 1;
         mesh_.corners.push_back({renumbered_[node], static_cast<int>(vertex) + 1});
       }
     }
@@ -147,6 +150,7 @@ class Assembler {
   void add_segments() {
     for (std::size_t i = 0; i < nodes_.edges.size(); ++i) {
       const auto& edge = nodes_.edges[i];
+      if (edge.borrowed) continue;
       for (int k = 0; k < edge.segments(); ++k) {
         const int a = renumbered_[edge.nodes[k]], b = renumbered_[edge.nodes[k + 1]];
         if (a < 0 || b < 0) continue;

@@ -88,26 +88,30 @@ class EdgeTabulator {
 };
 
 /// Fewest segments (of the mesh that is recombined) that keep the edge's shape and the face's loop open.
-int least_segments(const CadEdge& edge, const CountTable& table, bool shares_both_ends, bool inner,
-                   int stride) {
+int least_segments(bool closed, double turning, bool shares_both_ends, bool inner, int stride) {
   constexpr double turning_a_segment = 1.8;
-  int least = std::max(1, static_cast<int>(std::ceil(table.turning / turning_a_segment - 0.01)));
-  if (shares_both_ends && table.turning > 1e-3) least = std::max(least, 2);
+  int least = std::max(1, static_cast<int>(std::ceil(turning / turning_a_segment - 0.01)));
+  if (shares_both_ends && turning > 1e-3) least = std::max(least, 2);
   if (inner) least = std::max(least, 2);  // the face is cut open between its ends
-  if (edge.closed()) least = std::max(least, stride == 2 ? 3 : 4);
+  if (closed) least = std::max(least, stride == 2 ? 3 : 4);
   return least;
 }
 
 /// Edges that have both end vertices in common with another one: as chords they would coincide.
-std::vector<char> find_shared_ends(const CadShape& shape) {
+std::vector<char> find_shared_ends(const CadShape& shape, const TinyFeatures& tiny) {
   std::map<std::pair<int, int>, int> count;
-  const auto key = [](const CadEdge& e) { return std::minmax(e.first_vertex, e.last_vertex); };
-  for (const CadEdge& edge : shape.edges) {
-    if (!edge.degenerate && !edge.closed()) ++count[key(edge)];
+  const auto key = [&](const CadEdge& e) -> std::pair<int, int> {
+    return std::minmax({tiny.end(e.first_vertex), tiny.end(e.last_vertex)});
+  };
+  std::vector<char> shared(shape.edges.size(), 0);
+  const auto is_open = [&](std::size_t i) {
+    return !shape.edges[i].degenerate && !tiny.closed(shape.edges[i]) && tiny.edges[i] == static_cast<int>(i);
+  };
+  for (std::size_t i = 0; i < shared.size(); ++i) {
+    if (is_open(i)) ++count[key(shape.edges[i])];
   }
-  std::vector<char> shared;
-  for (const CadEdge& edge : shape.edges) {
-    shared.push_back(!edge.degenerate && !edge.closed() && count[key(edge)] > 1);
+  for (std::size_t i = 0; i < shared.size(); ++i) {
+    shared[i] = is_open(i) && count[key(shape.edges[i])] > 1;
   }
   return shared;
 }
@@ -137,8 +141,16 @@ std::vector<int> odd_uses(const CadEdge& edge, const std::vector<char>& used) {
   return faces;
 }
 
-bool is_used(const CadEdge& edge, const std::vector<char>& used) {
-  return std::any_of(edge.faces.begin(), edge.faces.end(), [&](int face) { return used[face - 1]; });
+/// The edges that have nodes: those of the faces used, and those that share theirs.
+std::vector<char> find_used_edges(const CadShape& shape, const std::vector<char>& used,
+                                  const TinyFeatures& tiny) {
+  std::vector<char> result(shape.edges.size(), 0);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const CadEdge& edge = shape.edges[i];
+    if (std::any_of(edge.faces.begin(), edge.faces.end(), [&](int face) { return used[face - 1]; }))
+      result[i] = result[tiny.edges[i]] = 1;
+  }
+  return result;
 }
 
 /// Edges that get the same count, because they are opposite sides of four-sided faces. A union-find
@@ -154,8 +166,7 @@ class TiedEdges {
     return i;
   }
   /// Ties two edges unless that would take some edge of either class too far from its wanted count.
-  void tie(int a, int b) {
-    constexpr double largest_ratio = 1.5;
+  void tie(int a, int b, double largest_ratio = 1.5) {
     a = find(a);
     b = find(b);
     const double low = std::min(low_[a], low_[b]), high = std::max(high_[a], high_[b]);
@@ -198,10 +209,13 @@ double cost_of_change(int count, double wanted, int least) {
 
 /// The counts of all edges: tied ones alike, rounded, and changed so that every face becomes even.
 std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& used,
-                               const std::vector<double>& wanted, const std::vector<int>& least, bool tie,
-                               std::vector<int>& odd_faces) {
+                               const std::vector<double>& wanted, const std::vector<int>& least,
+                               const TinyFeatures& tiny, bool tie, std::vector<int>& odd_faces) {
   const int n = static_cast<int>(wanted.size());
   TiedEdges tied(wanted);
+  for (int i = 0; i < n; ++i) {
+    if (tiny.edges[i] != i) tied.tie(tiny.edges[i], i, std::numeric_limits<double>::infinity());
+  }
   if (tie) tie_opposite_edges(shape, used, tied);
   struct Class {
     double wanted = 0;
@@ -253,8 +267,45 @@ std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& u
 
 }  // namespace
 
+namespace {
+
+double chord_of(const CadEdge& edge) {
+  const EdgeCurve curve(edge);
+  return (curve.point(edge.last) - curve.point(edge.first)).norm();
+}
+
+/// The parameter of node k of a curve that may have loops in it: where it comes nearest to a share of its
+/// chord. \param before the parameters of the nodes 0 .. k - 1.
+double parameter_near_chord(const CadEdge& edge, const EdgeCurve& curve, int k, int segments,
+                            const std::vector<double>& before) {
+  if (k == 0 || k == segments) return k == 0 ? edge.first : edge.last;
+  constexpr int samples = 256;
+  const double share = static_cast<double>(k) / segments;
+  const Vector3 target = (1 - share) * curve.point(edge.first) + share * curve.point(edge.last);
+  const double start = before.back(), reach = edge.last - start;
+  double best = 0, nearest = std::numeric_limits<double>::infinity();
+  for (int i = 1; i < samples; ++i) {
+    // Room is left for the nodes that follow.
+    const double t = start + reach * i / samples * (1 - 0.5 * share);
+    const double distance = (curve.point(t) - target).norm();
+    if (distance < nearest) {
+      nearest = distance;
+      best = t;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+SamplingPlan::SamplingPlan(const CadShape& shape)
+    : refine(shape.edges.size(), 1),
+      bare(shape.edges.size(), 0),
+      tiny(find_tiny_features(shape, std::vector<char>(shape.faces.size(), 1),
+                              std::vector<Collapse>(shape.edges.size(), Collapse::no), 0)) {}
+
 BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, const MeshOptions& options,
-                           const std::vector<char>& used, const std::vector<int>& refine,
+                           const std::vector<char>& used, const SamplingPlan& plan,
                            ExecutionContext& context) {
   const int n = static_cast<int>(shape.edges.size());
   BoundaryNodes result;
@@ -263,22 +314,25 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
   result.edges.resize(n);
 
   SizingField::Sampler sampler(field);
-  const std::vector<char> shared_ends = find_shared_ends(shape);
+  const std::vector<char> shared_ends = find_shared_ends(shape, plan.tiny);
   const std::vector<char> inner = find_inner_edges(shape);
+  const std::vector<char> used_edges = find_used_edges(shape, used, plan.tiny);
   std::vector<CountTable> tables(n);
   std::vector<int> least(n, 0);
   std::vector<double> wanted(n, 0);
   for (int i = 0; i < n; ++i) {
     if (i % 256 == 0) context.report("sample", 0.5 * i / n);
     const CadEdge& edge = shape.edges[i];
-    if (edge.degenerate || edge.length <= 0 || !is_used(edge, used)) continue;
+    if (edge.degenerate || edge.length <= 0 || !used_edges[i] || plan.tiny.collapsed_edges[i]) continue;
     tables[i] = EdgeTabulator(edge, sampler).table;
-    wanted[i] = tables[i].total() / result.stride * refine[i];
-    least[i] = least_segments(edge, tables[i], shared_ends[i], inner[i], result.stride);
+    wanted[i] = tables[i].total() / result.stride * plan.refine[i];
+    if (plan.bare[i] && !plan.tiny.closed(edge)) wanted[i] *= chord_of(edge) / edge.length;
+    least[i] = least_segments(plan.tiny.closed(edge), plan.bare[i] ? 0 : tables[i].turning, shared_ends[i],
+                              inner[i], result.stride);
   }
-  std::vector<int> counts = choose_counts(shape, used, wanted, least, true, result.odd_faces);
+  std::vector<int> counts = choose_counts(shape, used, wanted, least, plan.tiny, true, result.odd_faces);
   if (!result.odd_faces.empty()) {
-    counts = choose_counts(shape, used, wanted, least, false, result.odd_faces);
+    counts = choose_counts(shape, used, wanted, least, plan.tiny, false, result.odd_faces);
   }
 
   const auto vertex_node = [&](int vertex, const Vector3& fallback) {
@@ -286,16 +340,18 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
       result.points.push_back(fallback);
       return static_cast<int>(result.points.size()) - 1;
     }
-    int& node = result.vertex_nodes[vertex - 1];
+    const int end = plan.tiny.end(vertex);
+    int& node = result.vertex_nodes[end - 1];
     if (node < 0) {
       node = static_cast<int>(result.points.size());
-      result.points.push_back(shape.vertices[vertex - 1]);
+      result.points.push_back(shape.vertices[end - 1]);
     }
-    return node;
+    return result.vertex_nodes[vertex - 1] = node;
   };
   // Vertices first, so that the numbering does not depend on the counts.
-  for (const CadEdge& edge : shape.edges) {
-    if (!is_used(edge, used)) continue;
+  for (int i = 0; i < n; ++i) {
+    const CadEdge& edge = shape.edges[i];
+    if (!used_edges[i]) continue;
     if (edge.first_vertex > 0) vertex_node(edge.first_vertex, Vector3::Zero());
     if (edge.last_vertex > 0) vertex_node(edge.last_vertex, Vector3::Zero());
   }
@@ -310,21 +366,30 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
     const EdgeCurve curve(edge);
     BoundaryNodes::Edge& nodes = result.edges[i];
     const int segments = counts[i] * result.stride;
+    const bool along_chord = plan.bare[i] && !plan.tiny.closed(edge);
     for (int k = 0; k <= segments; ++k) {
-      double t = tables[i].parameter_at(tables[i].total() * k / segments);
+      double t = along_chord ? parameter_near_chord(edge, curve, k, segments, nodes.parameters)
+                             : tables[i].parameter_at(tables[i].total() * k / segments);
       if (k == 0) t = edge.first;
       if (k == segments) t = edge.last;
       nodes.parameters.push_back(t);
+      if (plan.tiny.edges[i] != i) continue;  // the nodes of another edge, below
       if (k == 0) {
         nodes.nodes.push_back(vertex_node(edge.first_vertex, curve.point(t)));
       } else if (k == segments) {
-        nodes.nodes.push_back(edge.closed() ? nodes.nodes.front()
-                                            : vertex_node(edge.last_vertex, curve.point(t)));
+        nodes.nodes.push_back(plan.tiny.closed(edge) ? nodes.nodes.front()
+                                                     : vertex_node(edge.last_vertex, curve.point(t)));
       } else {
         nodes.nodes.push_back(static_cast<int>(result.points.size()));
         result.points.push_back(curve.point(t));
       }
     }
+  }
+  for (int i = 0; i < n; ++i) {
+    if (counts[i] == 0 || plan.tiny.edges[i] == i) continue;
+    result.edges[i].nodes = result.edges[plan.tiny.edges[i]].nodes;
+    result.edges[i].borrowed = true;
+    if (plan.tiny.reversed_edges[i]) std::reverse(result.edges[i].nodes.begin(), result.edges[i].nodes.end());
   }
   return result;
 }

@@ -7,6 +7,7 @@
 #include "geometry/execution_context.hpp"
 #include "geometry/sizing_field.hpp"
 #include "mesher/options.hpp"
+#include "mesher/tiny_features.hpp"
 
 namespace quadrille {
 
@@ -15,7 +16,7 @@ struct BoundaryNodes {
   struct Edge {
     std::vector<double> parameters;  ///< of each node, ascending, both ends included; empty = edge not used
     std::vector<int> nodes;          ///< indices into `points`; the ends are the vertices' nodes
-    std::vector<int> middles;        ///< second order: node between node i and i + 1; else empty
+    bool borrowed = false;           ///< the nodes are those of another edge (TinyFeatures)
     int segments() const { return static_cast<int>(nodes.size()) - 1; }
   };
   std::vector<Vector3> points;
@@ -27,12 +28,18 @@ struct BoundaryNodes {
   std::vector<int> odd_faces;  ///< faces whose count could not be made even; empty in all but odd topologies
 };
 
+/// How edges are sampled where faces failed with what the sizing field asks for.
+struct SamplingPlan {
+  explicit SamplingPlan(const CadShape& shape);  ///< as the field asks
+  std::vector<int> refine;                       ///< (edges) factor on the number of segments
+  std::vector<char> bare;  ///< (edges) 1 = by length alone, though the curve turns: it may have loops in it
+  TinyFeatures tiny;
+};
+
 /// Samples the edges of the faces used by true arc length and the sizing field.
-/// \param used (face count) 1 = the face is meshed.
-/// \param refine (edge count) factors on the number of segments, 1 = as the field asks; for faces that failed
-/// once.
+/// \param used (faces) 1 = the face is meshed; none that plan.tiny merges.
 BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, const MeshOptions& options,
-                           const std::vector<char>& used, const std::vector<int>& refine,
+                           const std::vector<char>& used, const SamplingPlan& plan,
                            ExecutionContext& context);
 
 /// A model's edges for the parity problem: which faces change parity with the edge's count.

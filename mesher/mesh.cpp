@@ -40,6 +40,12 @@ std::vector<char> faces_used(const CadModel& model, const std::vector<int>& face
 }
 
 void check_options(const CadModel& model, const MeshOptions& options, double size) {
+  if (!(options.merge_tiny >= 0) || options.merge_tiny > size) {
+    throw usage_error("--merge-tiny",
+                      fmt::format("the length below which features are left out must lie between 0 and "
+                                  "the size ({:.6g}), not {:.6g}",
+                                  size, options.merge_tiny));
+  }
   if (options.order != 1 && options.order != 2) {
     throw usage_error("--order", fmt::format("the order must be 1 or 2, not {}", options.order));
   }
@@ -57,36 +63,88 @@ void check_options(const CadModel& model, const MeshOptions& options, double siz
 
 class Job {
  public:
-  Job(const CadModel& model, const MeshOptions& options, ExecutionContext& context)
+  /// \param size the global target size.
+  Job(const CadModel& model, const MeshOptions& options, double size, ExecutionContext& context)
       : shape_(model.shape()),
         options_(options),
+        size_(size),
         context_(context),
-        used_(faces_used(model, options.faces)) {}
+        plan_(shape_),
+        used_(faces_used(model, options.faces)),
+        collapse_(shape_.edges.size(), Collapse::no),
+        meshes_(shape_.faces.size()),
+        errors_(shape_.faces.size()),
+        notes_(shape_.faces.size()) {
+    asked_ = used_;
+  }
 
   ShellMesh run(const SizingField& field) {
-    std::vector<int> refine(shape_.edges.size(), 1);
-    for (int round = 0;; ++round) {
-      sample(field, refine);
+    leave_out_tiny();
+    sample(field);
+    mesh_faces(field);
+    for (const Rung rung : {Rung::finer, Rung::much_finer, Rung::bare, Rung::point}) {
+      const std::vector<int> failed = failed_faces();
+      if (failed.empty()) break;
+      change_plan(rung, failed);
+      sample(field);
       mesh_faces(field);
-      if (round + 1 == max_rounds || !refine_failed(refine)) break;
     }
+    advise_on_tiny_faces();
     if (!options_.partial) throw_first_error();
     return assemble(shape_, nodes_, meshes_, statuses(), options_, context_);
   }
 
  private:
-  void sample(const SizingField& field, const std::vector<int>& refine) {
+  /// Other samplings of the edges of faces that failed, tried one after the other.
+  enum class Rung { finer, much_finer, bare, point };
+
+  void leave_out_tiny() {
+    plan_.tiny = find_tiny_features(shape_, asked_, collapse_, options_.merge_tiny);
+    for (std::size_t face = 0; face < used_.size(); ++face)
+      used_[face] = asked_[face] && !plan_.tiny.merged_faces[face];
+  }
+
+  void sample(const SizingField& field) {
     const StageTimer timer(context_, "sample");
-    nodes_ = sample_edges(shape_, field, options_, used_, refine, context_);
+    BoundaryNodes nodes = sample_edges(shape_, field, options_, used_, plan_, context_);
+    keep_meshes(nodes);
+    nodes_ = std::move(nodes);
+  }
+
+  /// Keeps the meshes of the faces whose boundary stays as it was, with the new numbers of its nodes.
+  void keep_meshes(const BoundaryNodes& nodes) {
+    if (nodes_.edges.empty()) return;
+    std::vector<int> renumbered(nodes_.points.size(), -1);
+    std::vector<char> same(nodes.edges.size());
+    for (std::size_t i = 0; i < same.size(); ++i) {
+      const auto &before = nodes_.edges[i], &now = nodes.edges[i];
+      same[i] = before.parameters == now.parameters;
+      if (!same[i]) continue;
+      for (std::size_t k = 0; k < now.nodes.size(); ++k) renumbered[before.nodes[k]] = now.nodes[k];
+    }
+    for (std::size_t i = 0; i < nodes.vertex_nodes.size(); ++i) {
+      if (nodes_.vertex_nodes[i] >= 0) renumbered[nodes_.vertex_nodes[i]] = nodes.vertex_nodes[i];
+    }
+    for (std::size_t face = 0; face < meshes_.size(); ++face) {
+      if (!meshes_[face]) continue;
+      bool keep = used_[face];
+      for (const CadWire& wire : shape_.faces[face].wires) {
+        for (const Coedge& coedge : wire.coedges) keep = keep && same[coedge.edge - 1];
+      }
+      for (int& node : meshes_[face]->nodes) {
+        node = renumbered[node];
+        keep = keep && node >= 0 && node < static_cast<int>(nodes.points.size());
+      }
+      if (!keep) meshes_[face].reset();
+    }
   }
 
   void mesh_faces(const SizingField& field) {
     const int n = static_cast<int>(shape_.faces.size());
-    meshes_.assign(n, std::nullopt);
     errors_.assign(n, std::nullopt);
     std::atomic<int> done{0};
     oneapi::tbb::parallel_for(0, n, [&](int face) {
-      if (!used_[face]) return;
+      if (!used_[face] || meshes_[face]) return;
       try {
         meshes_[face] = mesh_face(shape_, face, nodes_, field, options_, context_);
       } catch (const Error& error) {
@@ -104,17 +162,59 @@ class Job {
     });
   }
 
-  /// Doubles the segments on the edges of the faces that failed.
-  bool refine_failed(std::vector<int>& refine) const {
-    bool any = false;
+  std::vector<int> failed_faces() const {
+    std::vector<int> failed;
     for (std::size_t face = 0; face < errors_.size(); ++face) {
-      if (!errors_[face]) continue;
-      any = true;
+      if (errors_[face]) failed.push_back(static_cast<int>(face));
+    }
+    return failed;
+  }
+
+  void change_plan(Rung rung, const std::vector<int>& failed) {
+    for (const int face : failed) {
+      if (rung == Rung::point && !far_below_size(face)) continue;
+      notes_[face] = rung == Rung::finer        ? "edges sampled twice as fine"
+                     : rung == Rung::much_finer ? "edges sampled four times as fine"
+                                                : "edges sampled by length alone";
       for (const CadWire& wire : shape_.faces[face].wires) {
-        for (const Coedge& coedge : wire.coedges) refine[coedge.edge - 1] = 2 * refine[coedge.edge - 1];
+        for (const Coedge& coedge : wire.coedges) {
+          const int edge = coedge.edge - 1;
+          collapse_[edge] =
+              std::max(collapse_[edge], rung == Rung::point ? Collapse::always : Collapse::below_tolerance);
+          plan_.bare[edge] = rung == Rung::bare || rung == Rung::point;
+          plan_.refine[edge] = plan_.bare[edge] ? 1 : 2 * plan_.refine[edge];
+        }
       }
     }
-    return any;
+    leave_out_tiny();
+  }
+
+  double longest_edge(int face) const {
+    double longest = 0;
+    for (const CadWire& wire : shape_.faces[face].wires) {
+      for (const Coedge& coedge : wire.coedges)
+        longest = std::max(longest, shape_.edges[coedge.edge - 1].length);
+    }
+    return longest;
+  }
+
+  /// Whether a face is so small beside the elements that one node can stand for it.
+  bool far_below_size(int face) const {
+    constexpr double share = 0.2;  // of the least size that the options allow by default
+    return longest_edge(face) < share * size_ / 8;
+  }
+
+  /// Faces that fail and are far smaller than the elements can be left out.
+  void advise_on_tiny_faces() {
+    constexpr double tiny = 0.5;
+    for (const int face : failed_faces()) {
+      const double longest = longest_edge(face);
+      if (longest > tiny * size_) continue;
+      const std::string name = fmt::format("Face{}", face + 1);
+      errors_[face] =
+          failure(name, fmt::format("{}; its longest edge is {:.3g}: --merge-tiny {:.3g} leaves it out",
+                                    errors_[face]->what(), longest, 1.1 * longest));
+    }
   }
 
   void throw_first_error() const {
@@ -129,9 +229,15 @@ class Job {
       auto& status = result[face];
       status.face = static_cast<int>(face) + 1;
       status.status = meshes_[face] ? "meshed" : errors_[face] ? "failed" : "skipped";
+      if (plan_.tiny.merged_faces[face]) {
+        status.status = "merged";
+        status.note = "tiny: its place is taken by an edge or a node of its neighbours";
+      }
       if (errors_[face]) status.note = errors_[face]->what();
       if (!meshes_[face]) continue;
-      status.note = meshes_[face]->note;
+      status.note = notes_[face];
+      if (!status.note.empty() && !meshes_[face]->note.empty()) status.note += ", ";
+      status.note += meshes_[face]->note;
       status.quads = static_cast<int>(meshes_[face]->quads.size());
       status.q_min = meshes_[face]->q_min;
       status.seconds = meshes_[face]->seconds;
@@ -141,11 +247,15 @@ class Job {
 
   const CadShape& shape_;
   const MeshOptions& options_;
+  double size_;
   ExecutionContext& context_;
-  std::vector<char> used_;
+  SamplingPlan plan_;
+  std::vector<char> asked_, used_;
+  std::vector<Collapse> collapse_;  ///< (edges) of faces that failed
   BoundaryNodes nodes_;
   std::vector<std::optional<FaceMesh>> meshes_;
   std::vector<std::optional<Error>> errors_;
+  std::vector<std::string> notes_;  ///< (faces) how its edges are sampled otherwise
 };
 
 }  // namespace
@@ -154,7 +264,7 @@ ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionConte
   const double size =
       options.sizing.size > 0 ? options.sizing.size : model.diagonal() / options.sizing.elements_per_diagonal;
   check_options(model, options, size);
-  Job job(model, options, context);
+  Job job(model, options, size, context);
   std::optional<SizingField> field;
   {
     const StageTimer timer(context, "size");

@@ -43,9 +43,10 @@ struct ShellMesh {
   };
   /// What became of one CAD face.
   struct FaceStatus {
-    int face = 0;        ///< CAD face, from 1
-    std::string status;  ///< "meshed", "skipped" (not asked for) or "failed"
-    std::string note;    ///< which fallback was taken, or why it failed; empty if nothing to say
+    int face = 0;  ///< CAD face, from 1
+    /// "meshed", "skipped" (not asked for), "failed", or "merged" (left out as tiny)
+    std::string status;
+    std::string note;  ///< which fallback was taken, or why it failed; empty if nothing to say
     int quads = 0;
     double q_min = 0;
     double seconds = 0;

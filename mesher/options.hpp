@@ -54,7 +54,10 @@ struct MeshOptions {
   Strategy strategy = Strategy::subdivide;
   int order = 1;           ///< 1 or 2
   std::vector<int> faces;  ///< CAD faces to mesh; empty = all
-  bool partial = false;    ///< deliver what could be meshed when a face fails, instead of throwing
+  /// Edges shorter than this become points, and faces narrower than this between two edges become edges; 0 =
+  /// all are kept.
+  double merge_tiny = 0;
+  bool partial = false;  ///< deliver what could be meshed when a face fails, instead of throwing
   std::filesystem::path write_size_field;  ///< .vdb to write the sizing field to; empty = none
   bool force = false;                      ///< go on where the mesh would pass 50 million elements
   RecombineOptions recombine;

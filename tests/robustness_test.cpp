@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <BRepTools.hxx>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <ostream>
 #include <set>
+#include <stdexcept>
 
 #include "geometry/cad_shape.hpp"
 #include "mesher/quadrille.hpp"
@@ -51,6 +54,16 @@ std::string joined(const std::vector<std::string>& lines) {
   return result;
 }
 
+/// Sides with one quad.
+int open_sides(const ShellMesh& mesh) {
+  std::map<std::pair<int, int>, int> uses;
+  for (const auto& quad : mesh.quads) {
+    for (int k = 0; k < 4; ++k) ++uses[std::minmax({quad[k], quad[(k + 1) % 4]})];
+  }
+  return static_cast<int>(
+      std::count_if(uses.begin(), uses.end(), [](const auto& use) { return use.second == 1; }));
+}
+
 class EveryTrouble : public testing::TestWithParam<TroubleModel> {};
 
 TEST_P(EveryTrouble, GivesAValidMesh) {
@@ -71,6 +84,65 @@ TEST_P(EveryTrouble, GivesAValidMesh) {
 
 INSTANTIATE_TEST_SUITE_P(Robustness, EveryTrouble, testing::ValuesIn(trouble_models()),
                          [](const auto& test) { return test.param.name; });
+
+const TroubleModel& trouble_named(const std::string& name) {
+  for (const TroubleModel& model : trouble_models()) {
+    if (name == model.name) return model;
+  }
+  throw std::invalid_argument(name);
+}
+
+std::string note_of(const ShellMesh& mesh, int face) {
+  return mesh.faces.at(face - 1).note;
+}
+
+TEST(Robustness, ReportsTheRungThatAFaceTook) {
+  EXPECT_EQ(note_of(mesh_of(model_of(trouble_named("disc")), 20), 1), "");
+  EXPECT_EQ(note_of(mesh_of(model_of(trouble_named("looped_edge")), 20), 1), "edges sampled by length alone");
+}
+
+TEST(Robustness, MergesTinyFeaturesWhenAsked) {
+  const CadModel model = model_of(trouble_named("sliver"));
+  MeshOptions options;
+  options.sizing.size = 5;
+  ExecutionContext context(1);
+  const ShellMesh kept = mesh(model, options, context);
+  EXPECT_EQ(kept.faces[1].status, "meshed");
+  options.merge_tiny = 0.1;
+  const ShellMesh merged = mesh(model, options, context);
+  EXPECT_EQ(joined(validate(merged, false)), "");
+  EXPECT_EQ(merged.faces[1].status, "merged");
+  EXPECT_EQ(merged.faces[0].status, "meshed");
+  EXPECT_EQ(merged.faces[2].status, "meshed");
+  EXPECT_NEAR(mesh_area(merged) / 10000, 1, 1e-3);
+  // The two rectangles hang together: their common side is no border.
+  const auto segments_on = [&](int edge) {
+    return std::count_if(merged.segments.begin(), merged.segments.end(),
+                         [&](const auto& segment) { return segment.edge == edge; });
+  };
+  long border = 0;
+  for (const int edge : {1, 2, 4, 8, 9, 10}) border += segments_on(edge);
+  EXPECT_EQ(segments_on(3), segments_on(1));
+  EXPECT_EQ(open_sides(merged), border);
+  options.merge_tiny = 6;
+  EXPECT_THROW(mesh(model, options, context), Error);
+}
+
+TEST(Robustness, SewsFacesThatTouch) {
+  const CadModel apart = model_of(trouble_named("touching_faces"));
+  MeshOptions options;
+  options.sizing.size = 2;
+  ExecutionContext context(1);
+  EXPECT_EQ(open_sides(mesh(apart, options, context)), 2 * (10 + 10 + 20 + 20) / 2);
+  const CadModel sewn = apart.sewn(0.01);
+  EXPECT_EQ(sewn.face_count(), 2);
+  EXPECT_EQ(sewn.edge_count(), apart.edge_count() - 1);
+  const ShellMesh joined_mesh = mesh(sewn, options, context);
+  EXPECT_EQ(joined(validate(joined_mesh, false)), "");
+  EXPECT_EQ(open_sides(joined_mesh), 2 * (10 + 10 + 20) / 2);
+  EXPECT_THROW(apart.sewn(0), Error);
+  EXPECT_THROW(apart.sewn(1e6), Error);
+}
 
 TEST(Robustness, HasModelsForEveryClass) {
   EXPECT_GE(trouble_models().size(), 40u);

@@ -151,7 +151,7 @@ TEST(EdgeSampling, MakesEveryFaceEvenWithSegmentsOfTheSize) {
         const SizingField field = field_of(model, options.sizing);
         const BoundaryNodes nodes =
             sample_edges(model.shape(), field, options, std::vector<char>(sample.faces, 1),
-                         std::vector<int>(sample.edges, 1), context);
+                         SamplingPlan(model.shape()), context);
         EXPECT_TRUE(nodes.odd_faces.empty());
         for (const int count : face_counts(model, nodes)) {
           EXPECT_EQ(count % 2, 0);
@@ -185,7 +185,7 @@ TEST(EdgeSampling, NoSegmentIsFarFromItsNeighbourOnAUniformField) {
   options.sizing.elements_per_circle = 0;
   ExecutionContext context;
   const BoundaryNodes nodes = sample_edges(model.shape(), field_of(model, options.sizing), options, {1},
-                                           std::vector<int>(4, 1), context);
+                                           SamplingPlan(model.shape()), context);
   for (const auto& edge : nodes.edges) {
     double low = 1e9, high = 0;
     for (int k = 0; k < edge.segments(); ++k) {

@@ -26,7 +26,7 @@ struct MeshArguments {
   std::filesystem::path size_field, write_size_field, report, picture;
   std::string strategy;
   std::uint64_t seed = 1;
-  std::optional<double> time_limit;
+  std::optional<double> time_limit, sew, merge_tiny;
   int threads = 0;
   double msh_version = 2.2;
   bool partial = false, force = false, quiet = false;
@@ -79,6 +79,8 @@ void check_numbers(const MeshArguments& arguments) {
   require_positive(arguments.size_min, "--size-min");
   require_positive(arguments.growth, "--growth");
   require_positive(arguments.time_limit, "--time-limit");
+  require_positive(arguments.sew, "--sew");
+  require_positive(arguments.merge_tiny, "--merge-tiny");
   if (arguments.time_limit)
     require(*arguments.time_limit <= 1e8, "--time-limit", "at most 1e8 seconds", *arguments.time_limit);
   if (const auto& count = arguments.elements_per_diagonal)
@@ -132,6 +134,7 @@ MeshOptions make_options(const MeshArguments& arguments) {
   }
   options.write_size_field = arguments.write_size_field;
   options.order = arguments.order;
+  options.merge_tiny = arguments.merge_tiny.value_or(options.merge_tiny);
   options.partial = arguments.partial;
   options.force = arguments.force;
   options.recombine.seed = arguments.seed;
@@ -159,9 +162,10 @@ void check_against_model(const MeshOptions& options, const CadModel& model) {
                                             sizing.size, model.diagonal()));
 }
 
-CadModel read_model(const std::filesystem::path& path, ExecutionContext& context) {
+CadModel read_model(const MeshArguments& arguments, ExecutionContext& context) {
   const StageTimer timer(context, "read");
-  return CadModel::read(path);
+  const CadModel model = CadModel::read(arguments.input);
+  return arguments.sew ? model.sewn(*arguments.sew) : model;
 }
 
 void write_outputs(const ShellMesh& mesh, const MeshArguments& arguments, ExecutionContext& context) {
@@ -195,7 +199,7 @@ void run(const MeshArguments& arguments) {
   });
   report_crashes(arguments.input, "reading");
   const CancelOnSignal cancel(context, arguments.time_limit.value_or(0));
-  const CadModel model = read_model(arguments.input, context);
+  const CadModel model = read_model(arguments, context);
   report_crashes(arguments.input, "meshing");
   context.check();
   check_against_model(options, model);
@@ -238,6 +242,10 @@ void add_run_options(CLI::App& command, MeshArguments& arguments) {
   command.add_option("--threads", arguments.threads, "threads to use; 0 = all cores (default)");
   command.add_option("--time-limit", arguments.time_limit,
                      "give up after so many seconds, with nothing written");
+  command.add_option("--sew", arguments.sew,
+                     "join edges of neighbouring faces that lie within this length of each other first");
+  command.add_option("--merge-tiny", arguments.merge_tiny,
+                     "leave out edges shorter and faces narrower than this length");
   command.add_flag("--partial", arguments.partial,
                    "write what could be meshed when a face fails, and list the rest on stderr");
   command.add_flag("--force", arguments.force, "go on where the mesh would pass 50 million elements");

@@ -26,6 +26,7 @@
 #include <Geom2d_Line.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
+#include <Geom_Circle.hxx>
 #include <Geom_CylindricalSurface.hxx>
 #include <Geom_Line.hxx>
 #include <Geom_OffsetSurface.hxx>
@@ -445,6 +446,127 @@ TopoDS_Shape hole_a_period_away() {
   return face;
 }
 
+/// The side of a cylinder whose upper rim has its parametric curve a period away from the rest of the wire.
+TopoDS_Shape turned_rim() {
+  TopoDS_Face face = cylinder_side();
+  const BRep_Builder builder;
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    const TopoDS_Edge edge = TopoDS::Edge(it.Current());
+    double first = 0, last = 0;
+    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
+    if (BRep_Tool::IsClosed(edge, face) || curve->Value(first).Y() < 15) continue;
+    builder.UpdateEdge(edge, Handle(Geom2d_Curve)::DownCast(curve->Translated({-2 * pi, 0})), face, 1e-7);
+  }
+  return face;
+}
+
+/// The part of a cylinder between z = 0 and z = 20 whose wire is closed by edges that are said to be
+/// degenerate, as translators do where its parametric curves lie two periods apart.
+TopoDS_Shape false_poles() {
+  const BRep_Builder builder;
+  const Handle(Geom_CylindricalSurface) surface = new Geom_CylindricalSurface(gp::XOY(), 10);
+  const TopLoc_Location place;
+  TopoDS_Vertex low, high;
+  builder.MakeVertex(low, {10, 0, 0}, 1e-7);
+  builder.MakeVertex(high, {10, 0, 20}, 1e-7);
+  const auto rim = [&](const TopoDS_Vertex& v, double z, double from) {
+    TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(gp_Circ(gp_Ax2({0, 0, z}, gp::DZ()), 10), v, v).Edge();
+    builder.UpdateEdge(edge, new Geom2d_Line({from, z}, {1, 0}), surface, place, 1e-7);
+    return edge;
+  };
+  const auto pole = [&](const TopoDS_Vertex& v, double z, double from) {
+    TopoDS_Edge edge;
+    builder.MakeEdge(edge);
+    builder.UpdateEdge(edge, new Geom2d_Line({from, z}, {1, 0}), surface, place, 1e-7);
+    builder.Range(edge, 0, 2 * pi);
+    builder.Degenerated(edge, Standard_True);
+    builder.Add(edge, v.Oriented(TopAbs_FORWARD));
+    builder.Add(edge, v.Oriented(TopAbs_REVERSED));
+    return edge;
+  };
+  TopoDS_Edge seam = BRepBuilderAPI_MakeEdge(new Geom_Line({10, 0, 0}, gp::DZ()), low, high, 0, 20).Edge();
+  builder.UpdateEdge(seam, new Geom2d_Line({2 * pi, 0}, {0, 1}), new Geom2d_Line({-2 * pi, 0}, {0, 1}),
+                     surface, place, 1e-7);
+  TopoDS_Wire wire;
+  builder.MakeWire(wire);
+  const TopoDS_Edge bottom = rim(low, 0, 0), top = rim(high, 20, -2 * pi);
+  for (const TopoDS_Shape& edge :
+       {TopoDS_Shape(pole(low, 0, -2 * pi)), TopoDS_Shape(bottom), TopoDS_Shape(seam),
+        pole(high, 20, 0).Reversed(), top.Reversed(), seam.Reversed()}) {
+    builder.Add(wire, edge);
+  }
+  TopoDS_Face face;
+  builder.MakeFace(face, surface, 1e-7);
+  builder.Add(face, wire);
+  return face;
+}
+
+/// A plate with a hole of its shape that leaves a frame far narrower than the size.
+TopoDS_Shape narrow_frame() {
+  BRepBuilderAPI_MakeFace maker(gp_Pln(gp::XOY()), polygon({{0, 0, 0}, {40, 0, 0}, {40, 20, 0}, {0, 20, 0}}));
+  maker.Add(TopoDS::Wire(
+      polygon({{0.05, 0.05, 0}, {39.95, 0.05, 0}, {39.95, 19.95, 0}, {0.05, 19.95, 0}}).Reversed()));
+  return maker.Face();
+}
+
+/// A block beside a pin that has only as many elements round it as a pin must have.
+TopoDS_Shape thin_pin() {
+  return compound({BRepPrimAPI_MakeBox(40, 30, 20).Shape(),
+                   BRepPrimAPI_MakeCylinder(gp_Ax2({-5, 15, 0}, gp::DZ()), 0.15, 8).Shape()});
+}
+
+/// A plate whose hole touches the outer wire along an edge shorter than the tolerance.
+TopoDS_Shape hole_at_short_edge() {
+  const double gap = 2e-6;
+  const BRep_Builder builder;
+  BRepBuilderAPI_MakeFace maker(
+      gp_Pln(gp::XOY()),
+      polygon({{-20, 0, 0}, {0, 0, 0}, {gap, 0, 0}, {20, 0, 0}, {20, 40, 0}, {-20, 40, 0}}));
+  TopTools_IndexedMapOfShape vertices;
+  TopExp::MapShapes(maker.Face(), TopAbs_VERTEX, vertices);
+  TopoDS_Vertex a, b;
+  for (int i = 1; i <= vertices.Extent(); ++i) {
+    const TopoDS_Vertex vertex = TopoDS::Vertex(vertices(i));
+    const gp_Pnt p = BRep_Tool::Pnt(vertex);
+    if (p.Y() == 0 && std::abs(p.X()) < 1e-5) (p.X() > gap / 2 ? b : a) = vertex;
+  }
+  // Round from b, and back over the gap from a to b by an edge of its own.
+  const gp_Circ hole(gp_Ax2({gap / 2, 10, 0}, gp::DZ(), {0, -1, 0}), 10);
+  const double turn = std::asin(gap / 20);
+  const TopoDS_Edge round = BRepBuilderAPI_MakeEdge(new Geom_Circle(hole), b, a, turn, 2 * pi - turn).Edge();
+  const TopoDS_Edge back = BRepBuilderAPI_MakeEdge(new Geom_Line({0, 0, 0}, gp::DX()), a, b, 0, gap).Edge();
+  TopoDS_Wire wire;
+  builder.MakeWire(wire);
+  builder.Add(wire, round);
+  builder.Add(wire, back);
+  maker.Add(TopoDS::Wire(wire.Reversed()));
+  ShapeFix_ShapeTolerance().SetTolerance(maker.Face(), 1e-5, TopAbs_VERTEX);
+  return maker.Face();
+}
+
+/// A square, one of whose sides is broken into pieces, the middle one a curve with a loop in it.
+TopoDS_Shape looped_edge() {
+  TColgp_Array1OfPnt poles(1, 6);
+  poles(1) = {10, 0, 0};
+  poles(2) = {10.35, 0, 0};
+  poles(3) = {10.3, 0.25, 0};
+  poles(4) = {9.8, 0.2, 0};
+  poles(5) = {9.85, -0.05, 0};
+  poles(6) = {10.2, 0, 0};
+  TColStd_Array1OfReal knots(1, 2);
+  knots(1) = 0;
+  knots(2) = 1;
+  TColStd_Array1OfInteger multiplicities(1, 2);
+  multiplicities.Init(6);
+  const Handle(Geom_BSplineCurve) loop = new Geom_BSplineCurve(poles, knots, multiplicities, 5);
+  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(10, 0, 0)).Edge());
+  wire.Add(BRepBuilderAPI_MakeEdge(loop).Edge());
+  const std::vector<gp_Pnt> corners{{10.2, 0, 0}, {20, 0, 0}, {20, 20, 0}, {0, 20, 0}, {0, 0, 0}};
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i)
+    wire.Add(BRepBuilderAPI_MakeEdge(corners[i], corners[i + 1]).Edge());
+  return BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), wire.Wire()).Face();
+}
+
 TopoDS_Shape touching_hole() {
   BRepBuilderAPI_MakeFace maker(gp_Pln(gp::XOY()), circle(0, 0, 20));
   // Tangent from inside: a cusp of no angle on either side.
@@ -479,6 +601,14 @@ std::vector<TroubleModel> all_models() {
              .Face();
        },
        false, 2 * pi * 10 * (6 * 2 * std::acos(-0.6) + 10 * 2 * 0.8)},
+      {"lemon", "the part of a torus beyond its axis",
+       [] {
+         const double v = std::acos(-0.6);
+         return BRepBuilderAPI_MakeFace(new Geom_ToroidalSurface(gp::XOY(), 6, 10), 0, 2 * pi, v, 2 * pi - v,
+                                        1e-7)
+             .Face();
+       },
+       false, 2 * pi * 10 * (10 * 2 * 0.8 - 6 * (2 * pi - 2 * std::acos(-0.6)))},
       {"horn_torus", "a torus whose radii are equal",
        [] {
          return BRepBuilderAPI_MakeFace(new Geom_ToroidalSurface(gp::XOY(), 10, 10), 0, 2 * pi, -2.5, 2.5,
@@ -540,6 +670,19 @@ std::vector<TroubleModel> all_models() {
        [] { return bare_face(new Geom_ToroidalSurface(gp::XOY(), 20, 6)); }, true, 480 * pi * pi, 1},
       {"hole_a_period_away", "a hole whose parametric curve lies a period away", hole_a_period_away, false,
        600 * pi - 10 * pi * 2.25},
+      {"turned_rim", "an edge whose parametric curve lies a period away", turned_rim, false, 600 * pi},
+      {"false_poles", "edges said to be degenerate that are not", false_poles, false, 400 * pi},
+      {"narrow_frame", "a frame of width size / 20", narrow_frame, false, 800 - 39.9 * 19.9},
+      {"thin_pin", "a cylinder thinner than the elements", thin_pin, true,
+       2 * (1200 + 800 + 600) + 2 * pi * 0.15 * (8 + 0.15)},
+      {"hole_at_short_edge", "wires that touch along an edge shorter than its tolerance", hole_at_short_edge,
+       false, 1600 - 100 * pi, 6},
+      {"touching_faces", "faces 0.005 apart that share no edge",
+       [] {
+         return compound({rectangle(0, 0, 10, 20), rectangle(10.005, 0, 20, 20)});
+       },
+       false, 399.9},
+      {"looped_edge", "a short edge with a loop in it", looped_edge, false, 400, 6},
   };
 }
 
