@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import types
 import unittest
 from pathlib import Path
 
@@ -20,7 +21,7 @@ from FreeCAD import Vector
 
 import quadrille
 import quadrille.freecad as core
-from quadrille import command, groups, quality, shapes
+from quadrille import command, groups, quality, shapes, stale
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
 
@@ -280,6 +281,77 @@ class AddonTest(unittest.TestCase):
         self.assertEqual(mesh.Status, "the part is gone")
         with self.assertRaises(quadrille.Error):
             core.remesh(mesh)
+
+    def stale_analysis(self):
+        """An analysis that could be solved, were its part not changed after meshing; with both solver objects."""
+        box = self.box()
+        analysis, fixed, pressure = self.analysis()
+        fixed.References, pressure.References, pressure.Pressure = [(box, "Face1")], [(box, "Face2")], 1.0
+        material = analysis.addObject(ObjectsFem.makeMaterialSolid(self.document, "Steel"))[0]
+        material.Material = {"Name": "Steel", "YoungsModulus": "210000 MPa", "PoissonRatio": "0.3"}
+        analysis.addObject(ObjectsFem.makeElementGeometry2D(self.document, 1.0, "Thickness"))
+        mesh = core.mesh_object(box, size=2, analysis=analysis)
+        self.document.recompute()
+        return box, analysis, mesh
+
+    def test_the_standard_solver_refuses_a_stale_mesh(self):
+        from femtools import ccxtools
+
+        box, analysis, mesh = self.stale_analysis()
+        make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
+        solver = analysis.addObject(make_solver(self.document, "Solver"))[0]
+        with tempfile.TemporaryDirectory() as folder:
+            fea = ccxtools.FemToolsCcx(analysis, solver, test_mode=True)
+            fea.update_objects()
+            fea.setup_working_dir(folder, create=True)
+            self.assertEqual(fea.check_prerequisites(), "")
+            box.Height = 12  # not even recomputed
+            self.assertEqual(fea.check_prerequisites().count("QuadMesh: the part has changed: mesh again"), 1)
+            core.remesh(mesh)
+            self.assertEqual(fea.check_prerequisites(), "")
+            mesh.Size = 3
+            self.assertIn("the settings have changed", fea.check_prerequisites())
+
+    @unittest.skipUnless(hasattr(ObjectsFem, "makeSolverCalculix"), "no such solver here")
+    def test_the_solvers_of_the_framework_refuse_a_stale_mesh(self):
+        from femsolver import run
+
+        box, analysis, mesh = self.stale_analysis()
+        for make in (ObjectsFem.makeSolverCalculix, ObjectsFem.makeSolverZ88, ObjectsFem.makeSolverMystran):
+            with self.subTest(solver=make.__name__), tempfile.TemporaryDirectory() as folder:
+                solver = analysis.addObject(make(self.document, "Solver"))[0]
+                for height, refused in ((10, False), (12, True)):
+                    box.Height = height
+                    machine = solver.Proxy.createMachine(solver, folder)
+                    machine.target = run.CHECK
+                    machine.start()
+                    machine.join()
+                    said = " ".join(machine.report.errors)
+                    self.assertEqual("the part has changed" in said, refused, said)
+                    self.assertEqual(machine.failed, refused, said)
+                self.document.removeObject(solver.Name)
+
+    def test_a_script_that_takes_a_stale_mesh_is_told(self):
+        from femtools import membertools
+
+        box, analysis, mesh = self.stale_analysis()
+        printed = []
+        real, stale.FreeCAD = stale.FreeCAD, types.SimpleNamespace(
+            Console=types.SimpleNamespace(PrintError=printed.append))
+        try:
+            self.assertEqual(membertools.get_mesh_to_solve(analysis), (mesh, ""))
+            self.assertEqual(printed, [])
+            box.Height = 12
+            self.assertEqual(membertools.get_mesh_to_solve(analysis), (mesh, ""))
+        finally:
+            stale.FreeCAD = real
+        self.assertEqual(len(printed), 1)
+        self.assertIn("QuadMesh: the part has changed", printed[0])
+
+    def test_meshes_of_others_are_left_alone(self):
+        analysis, _, _ = self.analysis()
+        other = analysis.addObject(ObjectsFem.makeMeshGmsh(self.document, "Gmsh"))[0]
+        self.assertEqual(core.complaint(other), "")
 
     def test_undo_brings_the_mesh_back(self):
         self.document.UndoMode = 1

@@ -18,7 +18,7 @@ from typing import Dict, Mapping, Optional, Sequence, Tuple, Union
 import FreeCAD
 import Fem
 
-from . import groups, shapes, undo
+from . import groups, shapes, stale, undo
 from .command import MeshJob, MeshSettings, Progress, check_version, face_name, find_command, scratch_folder
 from .errors import Error
 
@@ -30,6 +30,7 @@ __all__ = [
 PREFERENCES = "User parameter:BaseApp/Preferences/Mod/Quadrille"
 _DEFAULT_STRATEGY = "default"
 UP_TO_DATE = "up to date"
+_OTHER_MEANS = "made by other means: mesh again"
 
 
 def mesh_object(
@@ -359,6 +360,7 @@ class MeshFeature:
         obj.Proxy = self
         self.add_properties(obj)
         groups.watch()
+        stale.guard_solvers(complaint)
 
     def add_properties(self, obj) -> None:
         """Adds what is missing, so that documents of older versions gain new properties."""
@@ -427,6 +429,7 @@ class MeshFeature:
         """FreeCAD calls this after a document was read."""
         self.add_properties(obj)
         groups.watch()
+        stale.guard_solvers(complaint)
 
     # The state is all in the document's properties; 0.20 calls the second pair, 1.0 the first.
     def dumps(self):
@@ -477,7 +480,7 @@ def status(mesh) -> str:
     if mesh.FemMesh.FaceCount == 0:
         return "not meshed yet"
     if not mesh.MeshedShape:
-        return "made by other means: mesh again"
+        return _OTHER_MEANS
     shape = getattr(mesh.Shape, "Shape", None)
     if shape is None or shape.isNull() or not shapes.same_fingerprint(list(mesh.MeshedShape),
                                                                      shapes.fingerprint(shape)):
@@ -488,6 +491,17 @@ def status(mesh) -> str:
     except Error as error:
         return f"{error}: mesh again"
     return UP_TO_DATE
+
+
+def complaint(mesh) -> str:
+    """Why nothing should be solved with the mesh of a mesh object, as a sentence; empty when nothing is known to be wrong,
+    and for mesh objects that are not ours."""
+    if getattr(getattr(mesh, "Proxy", None), "Type", "") != MeshFeature.Type:
+        return ""
+    reason = status(mesh)
+    if reason in (UP_TO_DATE, _OTHER_MEANS):
+        return ""
+    return f"{mesh.Label}: {reason}; what is solved with the mesh as it is would not be right"
 
 
 def _settings_to_use(mesh) -> MeshSettings:

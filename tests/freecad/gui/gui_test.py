@@ -222,9 +222,13 @@ class GuiTest(unittest.TestCase):
         self.document.recompute()
         self.assertEqual(mesh.Status, "the part has changed: mesh again")
         self.assertTrue(mesh.ViewObject.Proxy.getIcon().endswith("quadrille_stale.svg"))
+        self.assertTrue(overlays.is_shown(mesh, overlays.STALE))
+        self.show()
+        picture("stale")
         box.Length = 10
         self.document.recompute()
         self.assertEqual(mesh.Status, "up to date")
+        self.assertFalse(overlays.is_shown(mesh, overlays.STALE))
 
     def test_to_the_stresses(self):
         """What docs/freecad.md tells, step by step."""

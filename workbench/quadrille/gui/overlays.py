@@ -12,7 +12,7 @@ from .. import quality
 
 #: More arrows than this only blacken the view: larger meshes show some of them.
 MOST_ARROWS = 3000
-QUALITY, NORMALS, ELEMENT = "QuadrilleQuality", "QuadrilleNormals", "QuadrilleElement"
+QUALITY, NORMALS, ELEMENT, STALE = "QuadrilleQuality", "QuadrilleNormals", "QuadrilleElement", "QuadrilleStale"
 #: What is shown, by the names of document and mesh object, and by kind.
 _shown: Dict[tuple, object] = {}
 #: The display modes that meshes had before they were coloured.
@@ -36,9 +36,13 @@ def hide(mesh, kind: str) -> None:
         mesh.ViewObject.DisplayMode = mode
 
 
-def _show(mesh, kind: str, node) -> None:
+def _add(mesh, kind: str, node) -> None:
     mesh.ViewObject.RootNode.addChild(node)
     _shown[(mesh.Document.Name, mesh.Name, kind)] = node
+
+
+def _show(mesh, kind: str, node) -> None:
+    _add(mesh, kind, node)
     mesh.ViewObject.show()
 
 
@@ -128,6 +132,29 @@ def show_normals(mesh) -> int:
     lines.numVertices.setValues(0, len(feet), [5] * len(feet))
     _show(mesh, NORMALS, _group(light, colour, style, _coordinates(points), lines))
     return len(feet)
+
+
+def show_stale(mesh) -> None:
+    """Writes the status of a stale mesh beside it."""
+    from pivy import coin
+
+    hide(mesh, STALE)
+    box = mesh.FemMesh.BoundBox
+    place = coin.SoTranslation()
+    place.translation.setValue(box.Center.x, box.Center.y, box.ZMax + 0.1 * box.DiagonalLength)
+    light = coin.SoLightModel()
+    light.model = coin.SoLightModel.BASE_COLOR
+    colour = coin.SoBaseColor()
+    colour.rgb = (1.0, 1.0, 1.0)
+    font = coin.SoFont()
+    font.size = 20
+    text = coin.SoText2()
+    text.string.setValue(f"{mesh.Label}: {mesh.Status}")
+    text.justification = coin.SoText2.CENTER
+    in_front = coin.SoAnnotation()
+    for node in (light, colour, place, font, text):
+        in_front.addChild(node)
+    _add(mesh, STALE, _group(in_front))
 
 
 def hide_normals(mesh) -> None:

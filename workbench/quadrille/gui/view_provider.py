@@ -4,7 +4,7 @@
 import FreeCADGui
 
 from ..freecad import UP_TO_DATE
-from . import icon, tell
+from . import icon, overlays, tell
 
 
 class MeshViewProvider:
@@ -28,9 +28,14 @@ class MeshViewProvider:
         return icon("quadrille_mesh" if current else "quadrille_stale")
 
     def updateData(self, obj, name: str) -> None:
-        """The icon follows the status."""
-        if name == "Status":
-            obj.ViewObject.signalChangeIcon()
+        """Icon and view follow the status."""
+        if name != "Status":
+            return
+        obj.ViewObject.signalChangeIcon()
+        if obj.Status == UP_TO_DATE or not obj.FemMesh.FaceCount:
+            overlays.hide(obj, overlays.STALE)
+        else:
+            overlays.show_stale(obj)
 
     def claimChildren(self) -> list:
         """Mesh regions and groups hang below the mesh."""
