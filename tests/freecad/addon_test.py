@@ -21,7 +21,7 @@ from FreeCAD import Vector
 
 import quadrille
 import quadrille.freecad as core
-from quadrille import command, groups, quality, shapes, stale
+from quadrille import command, groups, quality, shapes, solvers
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
 
@@ -120,6 +120,27 @@ class AddonTest(unittest.TestCase):
                          ["Face4", "Vertex2"])
         with self.assertRaises(quadrille.Error):
             shapes.references_to_names(box.Shape, box, [(box, "Face7")])
+
+    def test_elements_from_groups_are_those_that_freecad_finds(self):
+        from femmesh import meshtools
+
+        box = self.box()
+        analysis, _, _ = self.analysis()
+        material = analysis.addObject(ObjectsFem.makeMaterialSolid(self.document, "Steel"))[0]
+        material.References = [(box, ("Face1", "Face5"))]
+        for order in (1, 2):
+            mesh = core.mesh_object(box, size=2, order=order, analysis=analysis)
+            table = meshtools.get_femelement_faces_table(mesh.FemMesh)
+            answers = []
+            for fem_mesh in (mesh.FemMesh, mesh.FemMesh.copy()):
+                for number in fem_mesh.Groups if answers else ():
+                    fem_mesh.removeGroup(number)  # now FreeCAD searches
+                rows = [{"Object": material}]
+                meshtools.get_femelement_sets(fem_mesh, table, rows)
+                answers.append(sorted(rows[0]["FEMElements"]))
+            self.assertEqual(answers[0], answers[1])
+            self.assertEqual(set(answers[0]), group(mesh, "Face1") | group(mesh, "Face5"))
+            self.document.removeObject(mesh.Name)
 
     def test_thickness_and_material_per_face(self):
         from femtools import ccxtools
@@ -336,7 +357,7 @@ class AddonTest(unittest.TestCase):
 
         box, analysis, mesh = self.stale_analysis()
         printed = []
-        real, stale.FreeCAD = stale.FreeCAD, types.SimpleNamespace(
+        real, solvers.FreeCAD = solvers.FreeCAD, types.SimpleNamespace(
             Console=types.SimpleNamespace(PrintError=printed.append))
         try:
             self.assertEqual(membertools.get_mesh_to_solve(analysis), (mesh, ""))
@@ -344,7 +365,7 @@ class AddonTest(unittest.TestCase):
             box.Height = 12
             self.assertEqual(membertools.get_mesh_to_solve(analysis), (mesh, ""))
         finally:
-            stale.FreeCAD = real
+            solvers.FreeCAD = real
         self.assertEqual(len(printed), 1)
         self.assertIn("QuadMesh: the part has changed", printed[0])
 

@@ -18,7 +18,7 @@ from typing import Dict, Mapping, Optional, Sequence, Tuple, Union
 import FreeCAD
 import Fem
 
-from . import groups, shapes, stale, undo
+from . import groups, shapes, solvers, undo
 from .command import MeshJob, MeshSettings, Progress, check_version, face_name, find_command, scratch_folder
 from .errors import Error
 
@@ -360,7 +360,7 @@ class MeshFeature:
         obj.Proxy = self
         self.add_properties(obj)
         groups.watch()
-        stale.guard_solvers(complaint)
+        solvers.wrap_solvers(complaint)
 
     def add_properties(self, obj) -> None:
         """Adds what is missing, so that documents of older versions gain new properties."""
@@ -429,7 +429,7 @@ class MeshFeature:
         """FreeCAD calls this after a document was read."""
         self.add_properties(obj)
         groups.watch()
-        stale.guard_solvers(complaint)
+        solvers.wrap_solvers(complaint)
 
     # The state is all in the document's properties; 0.20 calls the second pair, 1.0 the first.
     def dumps(self):

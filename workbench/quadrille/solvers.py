@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What FreeCAD's solvers are made to do: refuse a stale mesh, and take elements from groups.
+
+FreeCAD asks no mesh object whether it is current. Three functions of its FEM workbench, through which all solvers get
+their mesh, are wrapped: the two checks before a run add a reason to refuse, and whatever takes the mesh without a check,
+as scripts do, puts an error into the report view.
+
+For several materials or thicknesses FreeCAD looks for each element's nodes in a list of the nodes on a face, and for the
+faces that belong to no volume among all volumes; both take the square of the number of elements, many minutes for 100 000.
+Where the mesh has the group of elements that groups.py makes for a material or thickness, that is taken; elsewhere the
+list is made a set, and where there is no volume, all faces belong to none.
+
+Meshes without such groups, and mesh objects that are not ours, give the same as before. Runs inside FreeCAD."""
+
+import functools
+from typing import Callable, List, Optional, Sequence
+
+import FreeCAD
+
+#: Tells why a mesh object's mesh must not be solved with; empty for a current one, and for objects not ours.
+Complaint = Callable[[object], str]
+_complaint: Optional[Complaint] = None
+#: The materials or thicknesses whose elements FreeCAD is gathering.
+_asked_for: List[object] = []
+
+
+def wrap_solvers(complaint: Complaint) -> None:
+    """Wraps FreeCAD's functions, once."""
+    global _complaint
+    if _complaint is not None:
+        return
+    from femmesh import meshtools
+    from femsolver import run
+    from femtools import checksanalysis, membertools
+
+    _complaint = complaint
+    run.Check.check_mesh_exists = _checked_in_framework(run.Check.check_mesh_exists, membertools.get_mesh_to_solve)
+    checksanalysis.check_member_for_solver_calculix = _checked_by_ccxtools(
+        checksanalysis.check_member_for_solver_calculix)
+    membertools.get_mesh_to_solve = _announced(membertools.get_mesh_to_solve)
+    meshtools.get_femelement_faces_table = _of_shells(meshtools.get_femelement_faces_table)
+    meshtools.get_femelement_sets = _noting_objects(meshtools.get_femelement_sets)
+    meshtools.get_femelements_by_references = _from_groups(meshtools.get_femelements_by_references)
+    meshtools.get_femelements_by_femnodes_std = _with_set(meshtools.get_femelements_by_femnodes_std)
+
+
+def _checked_in_framework(function, mesh_of_analysis):
+    """For solver objects of the framework: CalculiX, Elmer, Mystran, Z88."""
+
+    @functools.wraps(function)
+    def check_mesh_exists(self):
+        if not function(self):
+            return False
+        mesh, _ = mesh_of_analysis(self.analysis)
+        problem = _complaint(mesh) if mesh is not None else ""
+        if not problem:
+            return True
+        self.report.error(problem)
+        self.fail()
+        return False
+
+    return check_mesh_exists
+
+
+def _checked_by_ccxtools(function):
+    """For FreeCAD's standard CalculiX solver object."""
+
+    @functools.wraps(function)
+    def check_member_for_solver_calculix(analysis, solver, mesh, member):
+        message = function(analysis, solver, mesh, member)
+        problem = _complaint(mesh) if mesh else ""
+        return f"{message}{problem}\n" if problem else message
+
+    return check_member_for_solver_calculix
+
+
+def _announced(function):
+    """For scripts that write the solver's input without a check."""
+
+    @functools.wraps(function)
+    def get_mesh_to_solve(analysis):
+        mesh, message = function(analysis)
+        problem = _complaint(mesh) if mesh is not None else ""
+        if problem:
+            FreeCAD.Console.PrintError(f"{problem}\n")
+        return mesh, message
+
+    return get_mesh_to_solve
+
+
+def _noting_objects(function):
+    """Remembers whose elements are asked for: the function that searches gets their references alone."""
+
+    @functools.wraps(function)
+    def get_femelement_sets(femmesh, femelement_table, fem_objects, *arguments, **options):
+        _asked_for[:] = [entry["Object"] for entry in fem_objects]
+        try:
+            return function(femmesh, femelement_table, fem_objects, *arguments, **options)
+        finally:
+            _asked_for.clear()
+
+    return get_femelement_sets
+
+
+def _from_groups(function):
+    """The elements of the group that groups.py has made for the object with these references, or a search."""
+
+    @functools.wraps(function)
+    def get_femelements_by_references(femmesh, femelement_table, references, *arguments, **options):
+        for obj in _asked_for:
+            if obj.References == references:
+                found = _group(femmesh, f"{obj.Name}_Faces")
+                if found:
+                    return sorted(found)
+        return function(femmesh, femelement_table, references, *arguments, **options)
+
+    return get_femelements_by_references
+
+
+def _group(femmesh, name: str) -> Sequence[int]:
+    for number in femmesh.Groups:
+        if femmesh.getGroupName(number) == name and femmesh.getGroupElementType(number) == "Face":
+            return femmesh.getGroupElements(number)
+    return ()
+
+
+def _of_shells(function):
+    """The same answer, without a search where there are no volumes."""
+
+    @functools.wraps(function)
+    def get_femelement_faces_table(femmesh, faces_only=None):
+        return function(femmesh, faces_only or (femmesh.Faces if not femmesh.VolumeCount else None))
+
+    return get_femelement_faces_table
+
+
+def _with_set(function):
+    """The same answer, without a search through a list for each node."""
+
+    @functools.wraps(function)
+    def get_femelements_by_femnodes_std(femelement_table, node_list):
+        return function(femelement_table, set(node_list))
+
+    return get_femelements_by_femnodes_std
