@@ -436,6 +436,17 @@ class AddonTest(unittest.TestCase):
                 mesh = core.mesh_object(part, size=size)
                 self.assertLess(abs(mesh.QuadCount / 5000 - 1), 0.3, mesh.QuadCount)
 
+    def test_estimate_follows_sizes_that_grow_from_small_holes(self):
+        plate = Part.makePlane(100, 100)
+        holes = [Part.Face(Part.Wire(Part.makeCircle(1, Vector(10 + 20 * i, 10 + 20 * j, 0))))
+                 for i in range(5) for j in range(5)]
+        part = self.document.addObject("Part::Feature", "Part")
+        part.Shape = plate.cut(Part.makeCompound(holes)).Faces[0]
+        mesh = core.mesh_object(part, size=5)
+        self.assertGreater(mesh.QuadCount, 3 * 100 * 100 / 5**2)  # most of them are around the holes
+        expected = shapes.SizeEstimate(part.Shape).quads(5)
+        self.assertLess(abs(mesh.QuadCount / expected - 1), 0.25, (mesh.QuadCount, expected))
+
     # Bad use
 
     def test_a_command_of_another_version(self):
@@ -538,6 +549,24 @@ class AddonTest(unittest.TestCase):
             core.mesh_object(bow, size=1)
         self.assertIn("Face1", str(caught.exception))
         self.assertEqual(self.document.Objects, [bow])
+
+    def test_an_analysis_with_two_meshes(self):
+        from femtools import membertools
+
+        box = self.box()
+        analysis, fixed, _ = self.analysis()
+        fixed.References = [(box, "Face1")]
+        meshes = [core.mesh_object(box, size=size) for size in (2, 5)]
+        analysis.addObjects(meshes)  # as a user may by drag and drop
+        found, message = membertools.get_mesh_to_solve(analysis)
+        self.assertIsNone(found)
+        self.assertIn("multiple mesh", message)
+        with self.assertRaises(quadrille.Error) as caught:
+            core.mesh_object(box, size=3, analysis=analysis)
+        self.assertIn("one mesh only", str(caught.exception))
+        for mesh in meshes:
+            core.remesh(mesh)
+            self.assertEqual(group(mesh, "Fixed_Nodes"), set(mesh.FemMesh.getNodesByFace(box.Shape.Face1)))
 
     def test_meshing_while_meshing(self):
         mesh = core.make_mesh(self.box(), size=0.01)

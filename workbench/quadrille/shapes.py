@@ -14,15 +14,32 @@ _SAMPLES, _FEW_SAMPLES, _MANY_FACES = 8, 4, 300
 
 
 class SizeEstimate:
-    """How many quads the faces of a shape get at a size. Measures the faces once; each question is then quick.
+    """How many quads the faces of a shape get at a size. Measures faces and edges once; each question is then quick.
 
-    Curvature is sampled: that of a strip narrower than an eighth of its face, such as a wing's nose, is missed.
+    Where an edge is finer than the face beside it, the size grows from the edge. Curvature is sampled on faces: that of a
+    strip narrower than an eighth of its face, such as a wing's nose, is missed.
     """
 
     def __init__(self, shape) -> None:
         samples = _SAMPLES if len(shape.Faces) <= _MANY_FACES else _FEW_SAMPLES
-        self._faces = [_curvatures(face, samples) for face in shape.Faces]
         self._diagonal = shape.BoundBox.DiagonalLength
+        edges = {}
+        for index, edge in enumerate(shape.Edges, 1):
+            if not edge.Degenerated:
+                edges.setdefault(edge.hashCode(), []).append((edge, _Edge(f"Edge{index}", edge)))
+        self._faces = []
+        for index, face in enumerate(shape.Faces, 1):
+            measured = _Face(f"Face{index}", face, samples)
+            outer = face.OuterWire
+            for wire in face.Wires:
+                widening = 0.0 if wire.isSame(outer) else 2 * math.pi / max(wire.Length, 1e-300)
+                for edge in wire.Edges:
+                    for same, of_edge in edges.get(edge.hashCode(), ()):
+                        if same.isSame(edge):
+                            measured.edges.append((of_edge, widening))
+                            # The neighbour is as fine as its curvature wants, up to the edge.
+                            of_edge.curvature = max(of_edge.curvature, measured.typical_curvature())
+            self._faces.append(measured)
 
     def quads(
         self,
@@ -31,26 +48,38 @@ class SizeEstimate:
         elements_per_circle: float = 12,
         sizes: Optional[Mapping[str, float]] = None,
         faces: Sequence[str] = (),
+        growth: float = 0.3,
     ) -> int:
-        """The number of quads to expect. The growth of sizes between neighbours is not followed."""
+        """The number of quads to expect."""
         smallest = size_min or size / 8
+        sizes = sizes or {}
+
+        def size_of(name: str, curvature: float, cap: float) -> float:
+            cap = min(cap, sizes.get(name, cap))
+            if elements_per_circle and curvature > 0:
+                return min(cap, max(smallest, 2 * math.pi / (curvature * elements_per_circle)))
+            return cap
+
         count = 0.0
-        for index, pieces in enumerate(self._faces, 1):
-            name = f"Face{index}"
-            if faces and name not in faces:
+        for face in self._faces:
+            if faces and face.name not in faces:
                 continue
-            cap = min(size, (sizes or {}).get(name, size))
-            for area, curvature in pieces:
-                local = cap
-                if elements_per_circle and curvature > 0:
-                    local = min(cap, max(smallest, 2 * math.pi / (curvature * elements_per_circle)))
-                count += area / local**2
+            inside = sum(area / size_of(face.name, curvature, size) ** 2 for area, curvature in face.pieces)
+            coarse = math.sqrt(face.area / inside) if inside else size
+            margins = border = 0.0
+            reach = face.reach()
+            for edge, widening in face.edges:
+                fine = min(size_of(edge.name, edge.curvature, size), max(edge.length, smallest))
+                border += edge.length / min(fine, coarse)
+                if fine < coarse:
+                    margins += edge.length * _margin(fine, coarse, reach, growth, widening)
+            count += max(4.0, border, inside + margins)  # two rows of quads on the narrowest strip
         return round(count)
 
     def suggested(self, quads: int = 5000, elements_per_circle: float = 12) -> float:
         """The size that gives about so many quads, to two digits."""
         low, high = self._diagonal * 1e-5, self._diagonal / 2
-        for _ in range(60):
+        for _ in range(30):
             middle = math.sqrt(low * high)
             if self.quads(middle, None, elements_per_circle) > quads:
                 low = middle
@@ -60,10 +89,60 @@ class SizeEstimate:
         return round(high, digits)
 
 
-def _curvatures(face, samples: int) -> List[Tuple[float, float]]:
+class _Edge:
+    """What counts of an edge."""
+
+    def __init__(self, name: str, edge) -> None:
+        self.name, self.length, self.curvature = name, edge.Length, 0.0
+        if isinstance(edge.Curve, Part.Line):
+            return
+        first, last = edge.ParameterRange
+        for share in (0.1, 0.5, 0.9):
+            try:
+                self.curvature = max(self.curvature, edge.curvatureAt(first + share * (last - first)))
+            except (Part.OCCError, RuntimeError):  # a kink has no curvature
+                continue
+
+
+class _Face:
+    """What counts of a face: its area in pieces, each with the larger curvature there, and its edges."""
+
+    def __init__(self, name: str, face, samples: int) -> None:
+        self.name, self.area = name, face.Area
+        self.pieces = _curvatures(face, self.area, samples)
+        self.edges: List[Tuple[_Edge, float]] = []  # with what the margin of each widens by, per length and distance
+
+    def typical_curvature(self) -> float:
+        """The root mean square over the area: what its elements have on average."""
+        total = sum(area * curvature**2 for area, curvature in self.pieces)
+        return math.sqrt(total / self.area) if self.area > 0 else 0.0
+
+
+    def reach(self) -> float:
+        """How far margins of equal width along all edges reach until they fill the face."""
+        length = sum(edge.length for edge, _ in self.edges)
+        widening = sum(edge.length * widening for edge, widening in self.edges) / 2
+        if length <= 0:
+            return 0.0
+        return 2 * self.area / (length + math.sqrt(length**2 + 4 * widening * self.area))
+
+
+def _margin(fine: float, coarse: float, width: float, growth: float, widening: float) -> float:
+    """Quads to add per length of an edge, where the size grows from `fine` at the edge to `coarse` inside. Around a hole
+    the margin widens with the distance."""
+    width = min(width, (coarse - fine) / growth)
+    if width <= 0:
+        return 0.0
+    far = fine + growth * width
+    wider = (math.log(far / fine) + fine / far - 1) / growth**2
+    return ((1 / fine - 1 / far) / growth + widening * wider
+            - (width + widening * width**2 / 2) / coarse**2)
+
+
+def _curvatures(face, area: float, samples: int) -> List[Tuple[float, float]]:
     """A face in pieces: the area of each and the larger curvature there."""
     if isinstance(face.Surface, Part.Plane):
-        return [(face.Area, 0.0)]
+        return [(area, 0.0)]
     u_min, u_max, v_min, v_max = face.ParameterRange
     found = []
     for i in range(samples):
@@ -78,8 +157,8 @@ def _curvatures(face, samples: int) -> List[Tuple[float, float]]:
             found.append((along_u.cross(along_v).Length, curvature))
     total = sum(weight for weight, _ in found)
     if not total > 0:
-        return [(face.Area, 0.0)]
-    return [(face.Area * weight / total, curvature) for weight, curvature in found]
+        return [(area, 0.0)]
+    return [(area * weight / total, curvature) for weight, curvature in found]
 
 
 def fingerprint(shape) -> List[float]:

@@ -414,6 +414,43 @@ class GuiTest(unittest.TestCase):
         self.assertEqual(mesh.FemMesh.FaceCount, 0)
         close_panel()
 
+    def test_an_invalid_part(self):
+        bow = self.document.addObject("Part::Feature", "Bow")
+        bow.Shape = Part.Face(Part.makePolygon([(0, 0, 0), (10, 0, 0), (0, 10, 0), (10, 10, 0), (0, 0, 0)]))
+        self.assertFalse(bow.Shape.isValid())
+        before = self.document.UndoCount
+        mesh = self.open_panel(bow)
+        name = mesh.Name
+        find("QuadrilleSize").setProperty("rawValue", 1.0)
+        with Boxes() as boxes:
+            find("QuadrilleMesh").click()
+            wait_for(lambda: boxes.texts, 10, "the message")
+        self.assertEqual(len(boxes.texts), 1)
+        self.assertIn("Face1", boxes.texts[0])
+        self.assertEqual((mesh.FemMesh.FaceCount, mesh.Status), (0, "not meshed yet"))
+        close_panel()
+        while self.document.UndoCount > before:
+            self.document.undo()
+        self.assertIsNone(self.document.getObject(name))
+        self.assertEqual(bow.Shape.Edges[0].Length, 10)
+
+    def test_a_failure_leaves_the_mesh_and_undo(self):
+        mesh = self.meshed(self.box())
+        quads, size, steps = mesh.FemMesh.FaceCount, mesh.Size.Value, self.document.UndoCount
+        FreeCADGui.activeDocument().setEdit(mesh.Name)
+        process(0.2)
+        find("QuadrilleSize").setProperty("rawValue", 500.0)
+        with Boxes() as boxes:
+            find("QuadrilleMesh").click()
+            wait_for(lambda: boxes.texts, 10, "the message")
+        self.assertEqual((len(boxes.texts), mesh.FemMesh.FaceCount), (1, quads))
+        close_panel()
+        self.assertEqual(mesh.Status, "the settings have changed: mesh again")
+        self.assertEqual(self.document.UndoCount, steps + 1)  # the size that was set; nothing of the failure
+        self.document.undo()
+        self.document.recompute()
+        self.assertEqual((mesh.Size.Value, mesh.FemMesh.FaceCount, mesh.Status), (size, quads, "up to date"))
+
     def test_meshing_while_meshing(self):
         mesh = self.open_panel(self.box())
         find("QuadrilleSize").setProperty("rawValue", 0.008)

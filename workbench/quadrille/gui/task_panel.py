@@ -139,6 +139,7 @@ class MeshPanel:
         self.size.valueChanged.connect(lambda *_: self._update_estimate())
         self.size_min.valueChanged.connect(lambda *_: self._update_estimate())
         self.per_circle.valueChanged.connect(lambda *_: self._update_estimate())
+        self.growth.valueChanged.connect(lambda *_: self._update_estimate())
         self.faces.textChanged.connect(lambda *_: self._update_estimate())
 
     def _load(self) -> None:
@@ -186,7 +187,7 @@ class MeshPanel:
             self.estimate.setText(str(error))
             return
         count = self._estimate.quads(size, float(self.size_min.property("rawValue")) or None,
-                                     self.per_circle.value(), sizes, self._face_names())
+                                     self.per_circle.value(), sizes, self._face_names(), self.growth.value())
         self.estimate.setText(f"about {_rounded(count)} quads")
 
     def _suggest(self) -> None:
