@@ -1,7 +1,7 @@
 /// The tables of Giuliani & Krivodonova (2018): colouring against Gmsh's Blossom on identical triangulations.
 ///
-///     paper [--first N] [--domains N] [--colourings N] [--blossom-limit TRIANGLES] [--gmsh PROGRAM] [--out
-///     FOLDER]
+///     paper [--first N] [--domains N] [--colourings N] [--blossom-limit TRIANGLES] [--best-limit TRIANGLES]
+///           [--gmsh PROGRAM] [--out FOLDER]
 ///
 /// All times are processor time of one thread, Blossom's too (as Gmsh prints it): other work on the machine
 /// hardly changes it. Short runs are repeated on both sides and the least is taken. The paper's count is
@@ -13,17 +13,23 @@
 /// a table and writes FOLDER/paper.json.
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 
+#include "bench/best_pairing.hpp"
+#include "bench/field_aligned.hpp"
 #include "bench/planar_triangulation.hpp"
 #include "geometry/error.hpp"
 #include "mesher/edge_coloring.hpp"
@@ -32,6 +38,7 @@
 #include "mesher/quality.hpp"
 #include "mesher/recombine.hpp"
 #include "mesher/renumbering.hpp"
+#include "mesher/triangle_graph.hpp"
 #include "mesher/triangulated_surface.hpp"
 
 namespace quadrille::bench {
@@ -70,11 +77,13 @@ class Stopwatch {
   double start_ = now();
 };
 
+std::vector<Ring> rings_of(const Domain& domain) {
+  if (!domain.lake) return {{{0, 0}, {1, 0}, {1, 3.5}, {0, 3.5}}};
+  return read_rings(std::filesystem::path(QUADRILLE_SOURCE_DIR) / "bench/data/lake_ontario.txt");
+}
+
 TriangleMesh make(const Domain& domain) {
-  if (!domain.lake) return triangulate({{{0, 0}, {1, 0}, {1, 3.5}, {0, 3.5}}}, {domain.size}, 1);
-  const std::filesystem::path shore =
-      std::filesystem::path(QUADRILLE_SOURCE_DIR) / "bench/data/lake_ontario.txt";
-  return triangulate(read_rings(shore), {domain.size, domain.growth}, 1);
+  return triangulate(rings_of(domain), {domain.size, domain.growth}, 1);
 }
 
 ShellMesh to_shell(const QuadMesh& quads) {
@@ -123,6 +132,28 @@ double best_seconds(Run&& run) {
   return best;
 }
 
+/// Resident memory now, or its peak since reset_peak(), in bytes.
+std::int64_t resident_bytes(const char* which) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind(which, 0) == 0) return 1024 * std::stoll(line.substr(line.find(':') + 1));
+  }
+  throw failure("memory", "/proc/self/status does not tell the memory used");
+}
+
+/// Peak memory of a pairing with its input and output, in bytes a triangle.
+double bytes_per_triangle(const TriangleMesh& mesh, const RecombineOptions& options) {
+  ::malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << "5";
+  const std::int64_t before = resident_bytes("VmRSS");
+  ExecutionContext context(1);
+  recombine(mesh, options, context);
+  const double input =
+      24.0 * static_cast<double>(mesh.points.size()) + 12.0 * static_cast<double>(mesh.triangles.size());
+  return (static_cast<double>(resident_bytes("VmHWM") - before) + input) /
+         static_cast<double>(mesh.triangles.size());
+}
+
 json run_quadrille(const TriangleMesh& mesh, const RecombineOptions& options) {
   ExecutionContext context(1);
   QuadMesh quads;
@@ -130,6 +161,8 @@ json run_quadrille(const TriangleMesh& mesh, const RecombineOptions& options) {
   json entry = measures(quads);
   entry["seconds"] = seconds;
   entry["improved"] = improved(mesh, quads);
+  quads = {};
+  entry["bytes_per_triangle"] = bytes_per_triangle(mesh, options);
   return entry;
 }
 
@@ -212,6 +245,34 @@ std::array<double, 2> time_blossom(const std::string& gmsh, const std::filesyste
   return {wall, cpu};
 }
 
+/// The sharpest corner of a domain and what it allows: boundary points stay, so the quad there has an angle
+/// of at most this, and q of at most the angle over 90 degrees.
+struct SharpestCorner {
+  int point = -1;
+  double degrees = 360;
+  double q_bound() const { return std::min(1.0, degrees / 90); }
+};
+
+SharpestCorner sharpest_corner(const TriangleMesh& mesh) {
+  const EdgeColoring connected(mesh);
+  std::vector<char> boundary(mesh.points.size(), 0);
+  for (Side side : connected.boundary()) boundary[mesh.triangles[triangle_of(side)][index_of(side)]] = 1;
+  std::vector<double> degrees(mesh.points.size(), 0);
+  for (const auto& corners : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const Vector3& p = mesh.points[corners[i]];
+      const Vector3 a = mesh.points[corners[next_index(i)]] - p,
+                    b = mesh.points[corners[previous_index(i)]] - p;
+      degrees[corners[i]] += std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+    }
+  }
+  SharpestCorner sharpest;
+  for (int v = 0; v < static_cast<int>(degrees.size()); ++v) {
+    if (boundary[v] && degrees[v] < sharpest.degrees) sharpest = {v, degrees[v]};
+  }
+  return sharpest;
+}
+
 /// Gmsh's Blossom on a file, its topological optimisation off.
 json run_blossom(const TriangleMesh& mesh, const std::string& gmsh, const std::filesystem::path& folder) {
   const std::filesystem::path input = folder / "triangles.msh", output = folder / "blossom.msh";
@@ -233,12 +294,56 @@ json run_blossom(const TriangleMesh& mesh, const std::string& gmsh, const std::f
   quads.quads = read.quads;
   quads.triangles = read.triangles;
   json entry = measures(quads);
+  const Vector3& corner = mesh.points[sharpest_corner(mesh).point];
+  const auto at_corner = [&](const auto& element) {
+    return std::any_of(element.begin(), element.end(),
+                       [&](int v) { return (quads.points[v] - corner).norm() < 1e-9; });
+  };
+  entry["triangles_at_sharpest_corner"] =
+      std::count_if(quads.triangles.begin(), quads.triangles.end(), at_corner);
+  entry["quads_at_sharpest_corner"] = std::count_if(quads.quads.begin(), quads.quads.end(), at_corner);
   entry["seconds"] = cpu;
   entry["wall_seconds"] = wall;
   // Its elements keep the points' places, so the same triangulation serves to smooth on.
   entry["improved"] = improved(mesh, quads);
   return entry;
 }
+
+#ifdef QUADRILLE_LEMON
+/// The greatest mean q that any pairing without triangles left has, and the greatest sum of q that any
+/// pairing has, for each two triangles: the mean, were the triangles that it leaves quads of q 0.
+json run_best(const TriangleMesh& mesh) {
+  const TriangleGraph graph(mesh);
+  QuadMesh possible;
+  possible.points = mesh.points;
+  std::vector<PossiblePair> pairs;
+  for (int t = 0; t < graph.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const Side side = make_side(t, i), twin = graph.twin_of(side);
+      if (twin < side) continue;
+      const auto& quad = possible.quads.emplace_back(std::array<int, 4>{
+          graph.corner_at(side), graph.apex_of(twin), graph.end_of(side), graph.apex_of(side)});
+      const auto& points = mesh.points;
+      pairs.push_back(
+          {t, triangle_of(twin), quad_q(points[quad[0]], points[quad[1]], points[quad[2]], points[quad[3]])});
+    }
+  }
+  const auto take = [&](bool perfect) {
+    QuadMesh quads;
+    quads.points = mesh.points;
+    for (int k : best_pairing(graph.size(), pairs, perfect)) quads.quads.push_back(possible.quads[k]);
+    return quads;
+  };
+  const Stopwatch watch;
+  const QuadMesh best = take(true);
+  const double seconds = watch.seconds();
+  json entry = measures(best);
+  entry["seconds"] = seconds;
+  const json free = measures(take(false));
+  entry["bound"] = free["q_mean"].get<double>() * free["quads"].get<double>() / (graph.size() / 2);
+  return entry;
+}
+#endif
 
 void print_row(const char* method, const json& entry) {
   const json& after = entry["improved"];
@@ -251,7 +356,25 @@ void print_row(const char* method, const json& entry) {
   std::fflush(stdout);
 }
 
-json run_domain(const Domain& domain, int blossom_limit, const std::string& gmsh,
+/// The table's extra columns: points along a cross field instead of Delaunay ones.
+json run_field_aligned(const Domain& domain, int blossom_limit, const std::string& gmsh,
+                       const std::filesystem::path& folder) {
+  const TriangleMesh mesh = triangulate_along_field(rings_of(domain), {domain.size, domain.growth});
+  fmt::print(" on field-aligned points: {} triangles\n", mesh.triangles.size());
+  json entry = {{"triangles", mesh.triangles.size()}};
+  RecombineOptions options;
+  options.paper_mode = true;
+  entry["coloring"] = run_quadrille(mesh, options);
+  print_row("colouring", entry["coloring"]);
+  entry["default"] = run_quadrille(mesh, {});
+  print_row("default", entry["default"]);
+  if (static_cast<int>(mesh.triangles.size()) > blossom_limit) return entry;
+  entry["blossom"] = run_blossom(mesh, gmsh, folder);
+  print_row("Blossom", entry["blossom"]);
+  return entry;
+}
+
+json run_domain(const Domain& domain, int blossom_limit, int best_limit, const std::string& gmsh,
                 const std::filesystem::path& folder) {
   const TriangleMesh mesh = make(domain);
   const double count = static_cast<double>(mesh.triangles.size());
@@ -260,6 +383,11 @@ json run_domain(const Domain& domain, int blossom_limit, const std::string& gmsh
       {"name", domain.name},
       {"triangles", mesh.triangles.size()},
       {"paper", {{"coloring_seconds", domain.paper_coloring}, {"blossom_seconds", domain.paper_blossom}}}};
+  const SharpestCorner corner = sharpest_corner(mesh);
+  entry["sharpest_corner"] = {{"degrees", corner.degrees}, {"q_bound", corner.q_bound()}};
+  fmt::print(
+      "  sharpest corner {:.2f} degrees: all quads, the boundary kept, have a minimum q of at most {:.3f}\n",
+      corner.degrees, corner.q_bound());
   entry["stages"] = time_coloring(mesh);
   const json& stages = entry["stages"];
   const auto per_triangle = [&](const char* stage) { return 1e6 * stages[stage].get<double>() / count; };
@@ -288,12 +416,29 @@ json run_domain(const Domain& domain, int blossom_limit, const std::string& gmsh
   options.objective = Objective::shape;
   entry["shape"] = run_quadrille(mesh, options);
   print_row("shape", entry["shape"]);
+  fmt::print("  peak memory, bytes a triangle: colouring {:.0f}, default {:.0f}, shape {:.0f}\n",
+             entry["coloring"]["bytes_per_triangle"].get<double>(),
+             entry["default"]["bytes_per_triangle"].get<double>(),
+             entry["shape"]["bytes_per_triangle"].get<double>());
+#ifdef QUADRILLE_LEMON
+  if (static_cast<int>(count) <= best_limit) {
+    entry["best"] = run_best(mesh);
+    const json& best = entry["best"];
+    fmt::print("  best of all pairings: q {:.4f}, irregular {:.2f} % ({:.2f} s with LEMON); ",
+               best["q_mean"].get<double>(), best["irregular_percent"].get<double>(),
+               best["seconds"].get<double>());
+    fmt::print("were triangles left and counted as 0: q {:.4f}\n", best["bound"].get<double>());
+  }
+#endif
   if (static_cast<int>(count) > blossom_limit) {
     fmt::print("  Blossom not run above {} triangles (--blossom-limit)\n", blossom_limit);
     return entry;
   }
   entry["blossom"] = run_blossom(mesh, gmsh, folder);
   print_row("Blossom", entry["blossom"]);
+  fmt::print("  at the sharpest corner, Blossom has {} quads and {} triangles\n",
+             entry["blossom"]["quads_at_sharpest_corner"].get<int>(),
+             entry["blossom"]["triangles_at_sharpest_corner"].get<int>());
   const double blossom = entry["blossom"]["seconds"];
   fmt::print(
       "  Blossom / colouring {:.0f} (paper's count; paper {:.1f}), / all of colouring {:.0f}, / default "
@@ -334,7 +479,8 @@ json run_colorings(int count) {
 
 int run(int argc, char** argv) {
   CLI::App app("The tables of Giuliani & Krivodonova (2018), colouring against Gmsh's Blossom");
-  int first = 1, domain_count = 4, colorings = 0, blossom_limit = 300'000;
+  int first = 1, domain_count = 4, colorings = 0, blossom_limit = 300'000, best_limit = 300'000,
+      aligned_limit = 300'000;
   std::string gmsh = "gmsh";
   std::filesystem::path folder = ".";
   app.add_option("--first", first, "the first of the triangulations to make (default 1)")
@@ -344,13 +490,20 @@ int run(int argc, char** argv) {
   app.add_option("--colourings", colorings,
                  "figure 10: how many colourings of the first rectangle (default 0)");
   app.add_option("--blossom-limit", blossom_limit, "largest triangulation given to Blossom (default 300000)");
+  app.add_option("--best-limit", best_limit,
+                 "largest triangulation whose best pairing is sought, with LEMON (default 300000)");
+  app.add_option("--aligned-limit", aligned_limit,
+                 "the same for Blossom on field-aligned points (default 300000)");
   app.add_option("--gmsh", gmsh, "the gmsh program");
   app.add_option("--out", folder, "folder for paper.json and the meshes");
   CLI11_PARSE(app, argc, argv);
   std::filesystem::create_directories(folder);
   json results = {{"domains", json::array()}};
   for (int k = first - 1; k < domain_count; ++k) {
-    results["domains"].push_back(run_domain(domains[k], blossom_limit, gmsh, folder));
+    json entry = run_domain(domains[k], blossom_limit, best_limit, gmsh, folder);
+    entry["field_aligned"] =
+        run_field_aligned(domains[k], std::min(blossom_limit, aligned_limit), gmsh, folder);
+    results["domains"].push_back(entry);
   }
   if (colorings > 0) results["colourings"] = run_colorings(colorings);
   rusage usage{};

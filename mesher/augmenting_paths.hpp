@@ -30,7 +30,8 @@ class NearestFirst {
   std::size_t head_ = 0;
 };
 
-/// Heads for a triangle: the next one of a list after the one that a search starts from.
+/// Heads for a triangle: the next one of a list after the one that a search starts from. Where it is not to
+/// be had soon, the nearest first after that.
 class StraightToNext {
  public:
   StraightToNext(const TriangleMesh& mesh, const std::vector<int>& list) : mesh_(mesh), list_(list) {}
@@ -38,22 +39,27 @@ class StraightToNext {
   /// \param k place in the list of where the search starts.
   void start(int k) {
     heap_.clear();
-    pushed_ = 0;
+    patience_ = 200;
+    nearest_.start(k);
     aim_ = place_of(list_[static_cast<std::size_t>(k) + 1 < list_.size() ? k + 1 : 0]);
   }
   void push(int t) {
-    ++pushed_;
+    nearest_.push(t);
+    if (patience_ == 0) return;
     heap_.emplace_back(static_cast<float>((place_of(t) - aim_).squaredNorm()), t);
     std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
   }
   int pop() {
+    // What was looked at already comes once more then, which costs little.
+    if (patience_ == 0) return nearest_.pop();
     if (heap_.empty()) return -1;
+    --patience_;
     std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
     const int t = heap_.back().second;
     heap_.pop_back();
     return t;
   }
-  int pushed() const { return pushed_; }
+  int pushed() const { return nearest_.pushed(); }
 
  private:
   const Vector3& place_of(int t) const { return mesh_.points[mesh_.triangles[t][0]]; }
@@ -62,7 +68,8 @@ class StraightToNext {
   const std::vector<int>& list_;
   Vector3 aim_ = Vector3::Zero();
   std::vector<std::pair<float, int>> heap_;
-  int pushed_ = 0;
+  NearestFirst nearest_;
+  int patience_ = 0;  // how many more to look at on the straight way
 };
 
 /// Searches paths from one free triangle at a time.

@@ -108,7 +108,7 @@ class BlankRemover {
   bool fill(Side side) {
     const int colors = available(coloring_, side);
     if (colors == 0) return false;
-    coloring_.set_color(side, pick(colors, random_));
+    coloring_.color_blank(side, pick(colors, random_));
     return true;
   }
 
@@ -291,8 +291,10 @@ int remove_blanks(EdgeColoring& coloring, Random& random) {
   BlankRemover remover(coloring, random);
   int left = 0;
   for (int t = 0; t < coloring.size(); ++t) {
-    for (int i = 0; i < 3 && coloring.colors_used(t) != 7; ++i) {
+    if (coloring.colors_used(t) == 7) continue;
+    for (int i = 0; i < 3; ++i) {
       const Side side = make_side(t, i), twin = coloring.twin(side);
+      // Those that a lower triangle shares were tried there.
       if ((twin >= 0 && twin < side) || coloring.color(side) != EdgeColoring::blank) continue;
       if (!remover.remove(side)) ++left;
     }

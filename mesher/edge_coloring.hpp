@@ -4,6 +4,7 @@
 /// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018).
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -70,6 +71,13 @@ class EdgeColoring {
     }
   }
 
+  /// Gives a side without a colour one that neither of its triangles has.
+  void color_blank(Side side, int color) {
+    const Side other = twin(side);
+    cell(triangle_of(side)).places ^= place_of(color, index_of(side));
+    cell(triangle_of(other)).places ^= place_of(color, index_of(other));
+  }
+
   /// The side of a triangle that has a colour; -1 if none has.
   Side side_of(int triangle, int color) const {
     const int i = cell(triangle).at(color);
@@ -78,10 +86,8 @@ class EdgeColoring {
 
   /// The side of a triangle that has no colour, the first of several; -1 if all have.
   Side blank_side_of(int triangle) const {
-    for (int i = 0; i < 3; ++i) {
-      if (color(make_side(triangle, i)) == blank) return make_side(triangle, i);
-    }
-    return -1;
+    const int blanks = 7 & ~colored_sides(triangle);
+    return blanks == 0 ? -1 : make_side(triangle, std::countr_zero(static_cast<unsigned>(blanks)));
   }
 
   /// Bit c set: a side of the triangle has the colour c. 0 for the triangle -1, which is beyond the boundary.

@@ -57,8 +57,12 @@ void join_twins(const TriangleMesh& mesh, Join&& join) {
   // Without a branch on which way a side runs, which cannot be foreseen: what is not to be kept is written as
   // well, where it will be written over.
   constexpr int at_once = 8;
-  std::vector<int> higher(total + at_once);
-  std::vector<Side> up(total + 1), down(3 * triangles.size() - total + 1);
+  struct Up {
+    int to;
+    Side side;
+  };
+  std::vector<Up> ups(total + at_once);
+  std::vector<Side> down(3 * triangles.size() - total + 1);
   std::size_t downs = 0;
   for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
     for (int i = 0; i < 3; ++i) {
@@ -66,8 +70,8 @@ void join_twins(const TriangleMesh& mesh, Join&& join) {
       const bool rises = a < b;
       const int place = rises ? start[a] : total;
       start[a] += rises;
-      higher[place] = b;
-      up[place] = down[downs] = make_side(t, i);
+      ups[place] = {b, make_side(t, i)};
+      down[downs] = make_side(t, i);
       downs += !rises;
     }
   }
@@ -77,10 +81,10 @@ void join_twins(const TriangleMesh& mesh, Join&& join) {
     const int end = start[p];
     for (; from < end; from += at_once) {
       unsigned found = 1U << at_once;
-      for (int k = 0; k < at_once; ++k) found |= static_cast<unsigned>(higher[from + k] == to) << k;
+      for (int k = 0; k < at_once; ++k) found |= static_cast<unsigned>(ups[from + k].to == to) << k;
       const int place = from + std::countr_zero(found);
       if (place >= std::min(end, from + at_once)) continue;
-      const int other = triangle_of(up[place] < 0 ? ~up[place] : up[place]);
+      const int other = triangle_of(ups[place].side < 0 ? ~ups[place].side : ups[place].side);
       if (!tags || tags[other] == tags[t]) return place;
       from = place + 1 - at_once;
     }
@@ -95,19 +99,19 @@ void join_twins(const TriangleMesh& mesh, Join&& join) {
     const int place = find(first_of(p), p, triangles[t][i], t);
     if (place >= start[p]) {
       down[lone++] = side;
-    } else if (up[place] < 0) {
+    } else if (ups[place].side < 0) {
       doubtful = true;
     } else {
-      join(side, up[place]);
-      up[place] = ~up[place];  // taken
+      join(side, ups[place].side);
+      ups[place].side = ~ups[place].side;  // taken
     }
   }
   // Two sides that run the same way: one of them is left alone, if not taken twice above.
   for (int place = 0; place < total && !doubtful; ++place) {
-    if (up[place] < 0) continue;
-    const int t = triangle_of(up[place]), p = triangles[t][index_of(up[place])];
-    const int same = find(first_of(p), p, higher[place], t);
-    doubtful = same != place || find(place + 1, p, higher[place], t) < start[p];
+    if (ups[place].side < 0) continue;
+    const int t = triangle_of(ups[place].side), p = triangles[t][index_of(ups[place].side)];
+    const int same = find(first_of(p), p, ups[place].to, t);
+    doubtful = same != place || find(place + 1, p, ups[place].to, t) < start[p];
   }
   const auto key = [&](Side s) {
     const int t = triangle_of(s), i = index_of(s);

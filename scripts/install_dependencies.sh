@@ -24,8 +24,9 @@ packages=(
   # what meshes are made for, and compared with
   freecad gmsh python3-matplotlib
 )
-# Debian 13 has no CalculiX: what needs it is left out there.
-optional=(calculix-ccx)
+# What needs these is left out where a release of Debian does not have them (Debian 13 has no CalculiX). LEMON tells
+# bench/paper the best pairing that there is.
+optional=(calculix-ccx liblemon-dev)
 
 if [[ "${1:-}" == --list ]]; then
   printf '%s\n' "${packages[@]}" "${optional[@]}"
