@@ -411,8 +411,9 @@ class Valences {
 class Exchanger {
  public:
   /// \param open triangles that may be used, one flag each; null = all. Points of the others are not touched.
-  Exchanger(TriangleGraph& graph, Valences& valences, const char* open)
-      : graph_(graph), valences_(valences), open_(open) {}
+  /// \param first,end all of those that may be used are from `first` to before `end`.
+  Exchanger(TriangleGraph& graph, Valences& valences, const char* open, int first, int end)
+      : graph_(graph), valences_(valences), open_(open), first_(first), count_(end - first) {}
 
   bool may_use(int t) const { return !open_ || open_[t]; }
 
@@ -520,13 +521,13 @@ class Exchanger {
     labels_.clear();
     ++search_number_;
     if (reached_in_.empty()) {
-      reached_in_.assign(graph_.triangles.size(), 0);
-      label_of_.resize(graph_.triangles.size());
+      reached_in_.assign(count_, 0);
+      label_of_.resize(count_);
     }
     expose(start, 0, -1, -1);
     for (int k = 0; k < static_cast<int>(labels_.size()) && k < max_labels; ++k) {
       const Label label = labels_[k];
-      if (label_of_[label.triangle] != k) continue;  // a better way has been found since
+      if (label_of_[label.triangle - first_] != k) continue;  // a better way has been found since
       const GraphTriangle& triangle = graph_.triangles[label.triangle];
       for (int j : {next_index(triangle.mate), previous_index(triangle.mate)}) {
         const Side s = triangle.twin[j];
@@ -550,9 +551,11 @@ class Exchanger {
     gain += triangle.cost[i] - valences_.if_more(triangle.corner[i], triangle.corner[next_index(i)]);
     // Of each cycle that gains, some start keeps all partial gains positive (Lin & Kernighan).
     if (gain <= 0) return;
-    if (reached_in_[t] == search_number_ && labels_[label_of_[t]].gain >= gain - 1e-4F) return;
-    reached_in_[t] = search_number_;
-    label_of_[t] = static_cast<int>(labels_.size());
+    int& reached_in = reached_in_[t - first_];
+    int& label = label_of_[t - first_];
+    if (reached_in == search_number_ && labels_[label].gain >= gain - 1e-4F) return;
+    reached_in = search_number_;
+    label = static_cast<int>(labels_.size());
     labels_.push_back({t, gain, before, across});
   }
 
@@ -608,12 +611,13 @@ class Exchanger {
   TriangleGraph& graph_;
   Valences& valences_;
   const char* open_;
+  int first_, count_;
   int root_ = -1;
   float best_gain_ = 0;
   std::vector<Side> path_, best_;
   std::vector<int> touched_;
   std::vector<Label> labels_;
-  std::vector<int> reached_in_, label_of_;  // by triangle: number of the search, label
+  std::vector<int> reached_in_, label_of_;  // by triangle after the first: number of the search, label
   int search_number_ = 0;
 };
 
@@ -693,7 +697,8 @@ int exchange(TriangleGraph& graph, const std::vector<Vector3>& points, Execution
     const auto work = [&](int block) {
       std::vector<int> members(std::min(block_size, graph.size() - block * block_size));
       std::iota(members.begin(), members.end(), block * block_size);
-      Exchanger exchanger(graph, valences, inner.data());
+      const int first = members.front();
+      Exchanger exchanger(graph, valences, inner.data(), first, first + static_cast<int>(members.size()));
       exchanged += exchange_around(graph, exchanger, std::move(members), queued, context);
     };
     tbb::task_arena arena(context.threads() > 0 ? context.threads() : tbb::task_arena::automatic);
@@ -702,7 +707,7 @@ int exchange(TriangleGraph& graph, const std::vector<Vector3>& points, Execution
       if (!inner[t]) remaining.push_back(t);
     }
   }
-  Exchanger exchanger(graph, valences, nullptr);
+  Exchanger exchanger(graph, valences, nullptr, 0, graph.size());
   return exchanged + exchange_around(graph, exchanger, std::move(remaining), queued, context);
 }
 

@@ -35,6 +35,22 @@ void expect_faultless(const TriangleMesh& mesh, const std::string& name) {
   }
 }
 
+TEST(Shrink, MakesAFailingCaseSmall) {
+  // What fails where a point has seven triangles needs seven.
+  const auto fails = [](const TriangleMesh& mesh) {
+    std::vector<int> count(mesh.points.size(), 0);
+    for (const auto& triangle : mesh.triangles) {
+      for (int v : triangle) ++count[v];
+    }
+    return std::any_of(count.begin(), count.end(), [](int n) { return n >= 7; });
+  };
+  const TriangleMesh mesh = random_square(300, 2);
+  ASSERT_TRUE(fails(mesh));
+  const TriangleMesh small = shrink(mesh, fails);
+  EXPECT_TRUE(fails(small));
+  EXPECT_EQ(small.triangles.size(), 7U) << describe(small);
+}
+
 TEST(Recombine, TakesTheSmallestInputs) {
   const QuadMesh nothing = recombined({});
   EXPECT_TRUE(nothing.quads.empty());
@@ -125,9 +141,12 @@ TEST(Recombine, AMillionTriangles) {
 TEST(Recombine, IsDeterministicForAnyThreadCount) {
   // Large enough to be worked on in several blocks.
   const TriangleMesh mesh = grid(400, 300, 9);
-  RecombineOptions options;
-  ExecutionContext one(1), four(4);
-  EXPECT_EQ(recombine(mesh, options, one).quads, recombine(mesh, options, four).quads);
+  for (const Objective objective : {Objective::regular, Objective::shape}) {
+    RecombineOptions options;
+    options.objective = objective;
+    ExecutionContext one(1), four(4);
+    EXPECT_EQ(recombine(mesh, options, one).quads, recombine(mesh, options, four).quads);
+  }
 }
 
 TEST(Recombine, PaperModeFollowsItsSeed) {
