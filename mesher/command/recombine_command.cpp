@@ -67,8 +67,12 @@ void check_shapes(const TriangleMesh& mesh, const std::string& name) {
 
 TriangleMesh triangles_of(const ShellMesh& shell, const std::string& name) {
   if (!shell.quads.empty()) {
+    const auto& [a, b, c, d] = shell.quads.front();
     throw failure(
-        name, fmt::format("{}: holds {} quads: only triangles can be recombined", name, shell.quads.size()));
+        name,
+        fmt::format("{}: holds a quad, with the points {}, {}, {} and {} (counted from 0, as they come in "
+                    "the file): only triangles can be recombined",
+                    name, a, b, c, d));
   }
   if (shell.triangles.empty()) throw failure(name, fmt::format("{}: holds no triangle", name));
   TriangleMesh mesh;
