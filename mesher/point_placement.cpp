@@ -101,8 +101,8 @@ struct FrontPoint {
   SurfacePoint at;
   Vector3 normal;
   Vector3 direction;  // unit, tangent: one of the four of the cross
-  double size;
-  bool proposes;
+  double size = 0;
+  bool proposes = false;
 };
 
 /// The 4-fold mean of two tangents in the plane of `normal`.

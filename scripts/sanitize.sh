@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# Builds with the address and undefined-behaviour sanitizers, then with the thread sanitizer, and runs the C++ tests and
+# the models of ../shared/corpus (left out, and said so, where that folder is missing) under each. Ends with 1 if
+# anything was found; the reports lie in build-asan/found and build-tsan/found.
+#
+#   scripts/sanitize.sh                 both
+#   scripts/sanitize.sh asan-ubsan      one: asan-ubsan or tsan
+set -euo pipefail
+cd "$(dirname "$(readlink -f "$0")")/.."
+presets=("$@")
+if [[ ${#presets[@]} -eq 0 ]]; then presets=(asan-ubsan tsan); fi
+corpus="${QUADRILLE_CORPUS:-../shared/corpus}"
+lists="$PWD/tests/sanitizers"
+status=0
+
+# Meshes one model; a sanitizer's finding gives exit code 99, what the mesher itself says another.
+mesh_model() {
+  local model="$1" folder="$2" code=0
+  shift 2
+  "$folder/quadrille" mesh "$model" -o "$folder/found/mesh.msh" --quiet "$@" 2>"$folder/found/stderr" || code=$?
+  if [[ $code -eq 0 ]]; then return 0; fi
+  echo "$(basename "$model"): exit code $code: $(grep -m 1 -E 'ERROR|WARNING|runtime error|quadrille:' "$folder/found/stderr")"
+  cp "$folder/found/stderr" "$folder/found/$(basename "$model").log"
+  status=1
+}
+
+for preset in "${presets[@]}"; do
+  folder="$PWD/build-${preset%-ubsan}"
+  cmake --preset "$preset" >/dev/null
+  cmake --build --preset "$preset"
+  rm -rf "$folder/found"
+  mkdir "$folder/found"
+  export ASAN_OPTIONS="exitcode=99:detect_leaks=1:check_initialization_order=1"
+  export LSAN_OPTIONS="suppressions=$lists/leaks.txt:print_suppressions=0:exitcode=99"
+  export UBSAN_OPTIONS="print_stacktrace=1:exitcode=99"
+  export TSAN_OPTIONS="exitcode=99:suppressions=$lists/threads.txt:print_suppressions=0:ignore_noninstrumented_modules=1:die_after_fork=0"
+  echo "== $preset: the tests"
+  ctest --test-dir "$folder" --output-on-failure --timeout 3000 >"$folder/found/ctest.log" 2>&1 || status=1
+  tail -n 15 "$folder/found/ctest.log"
+  if [[ ! -d "$corpus" ]]; then
+    echo "== $preset: NOT RUN on the corpus: there is no $corpus"
+    continue
+  fi
+  echo "== $preset: the corpus"
+  models=0
+  for model in "$corpus"/*.{brep,step,stp,igs}; do
+    if [[ $preset == tsan ]]; then
+      mesh_model "$model" "$folder" --elements-per-diagonal 40 --threads 2
+    else
+      mesh_model "$model" "$folder" --elements-per-diagonal 60 --threads 1
+    fi
+    models=$((models + 1))
+  done
+  echo "$models models meshed"
+done
+exit "$status"
