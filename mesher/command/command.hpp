@@ -11,6 +11,9 @@
 
 namespace quadrille::command {
 
+/// The command as a whole, with the arguments of main(): gives its exit code, throws nothing.
+int run(int argc, char** argv);
+
 void add_mesh_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_quality_command(CLI::App& app);

@@ -1,86 +1,11 @@
 /// The `quadrille` command: quadrille mesh | recombine | info | quality.
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <csignal>
-#include <exception>
-#include <new>
 
 #include "mesher/command/command.hpp"
-#include "mesher/command/recombine_command.hpp"
-#include "mesher/quadrille.hpp"
-
-namespace quadrille::command {
-
-namespace {
-
-enum ExitCode : int { success = 0, work_failed = 1, bad_use = 2, work_cancelled = 130 };
-
-/// One line on stderr, whatever the message holds.
-int complain(std::string message, ExitCode code) {
-  while (!message.empty() && message.back() == '\n') message.pop_back();
-  std::replace_if(
-      message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, ' ');
-  fmt::print(stderr, "quadrille: {}\n", message);
-  return code;
-}
-
-int complain(const Error& error) {
-  switch (error.kind()) {
-    case Error::Kind::usage:
-      return complain(error.what(), bad_use);
-    case Error::Kind::cancelled:
-      return complain(error.what(), work_cancelled);
-    case Error::Kind::failure:
-      break;
-  }
-  return complain(error.what(), work_failed);
-}
-
-void add_commands(CLI::App& app) {
-  app.require_subcommand(1);
-  app.set_version_flag("--version", "quadrille " + version());
-  add_mesh_command(app);
-  add_recombine_command(app);
-  add_info_command(app);
-  add_quality_command(app);
-}
-
-/// --help and --version also come as parse "errors".
-int answer(const CLI::App& app, const CLI::ParseError& error) {
-  if (error.get_exit_code() == 0) return app.exit(error);
-  return complain(std::string(error.what()) + " (see quadrille --help)", bad_use);
-}
-
-int run(int argc, char** argv) {
-  CLI::App app("All-quad shell meshes of CAD models", "quadrille");
-  try {
-    add_commands(app);
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return answer(app, error);
-  }
-  return success;
-}
-
-}  // namespace
-
-}  // namespace quadrille::command
 
 int main(int argc, char** argv) {
-  using namespace quadrille::command;
   // A reader that goes away shows as a failed write, with its sentence.
   std::signal(SIGPIPE, SIG_IGN);
-  try {
-    return run(argc, argv);
-  } catch (const quadrille::Error& error) {
-    return complain(error);
-  } catch (const std::bad_alloc&) {
-    return complain("out of memory", work_failed);
-  } catch (const std::exception& error) {
-    return complain(error.what(), work_failed);
-  } catch (...) {
-    return complain("an error of the CAD library that says nothing more", work_failed);
-  }
+  return quadrille::command::run(argc, argv);
 }

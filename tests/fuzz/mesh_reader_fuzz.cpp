@@ -1,4 +1,4 @@
-/// Any bytes given to the .inp reader make a mesh or one Error, nothing else.
+/// Any bytes given to a mesh reader (read_msh or read_inp) make a mesh or one Error, nothing else.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    quadrille::read_inp({reinterpret_cast<const char*>(data), size}, "fuzz");
+    quadrille::FUZZ_READER({reinterpret_cast<const char*>(data), size}, "fuzz");
   } catch (const quadrille::Error&) {
   }
   return 0;

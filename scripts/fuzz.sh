@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# Builds the libFuzzer targets (clang++ and libclang-rt-dev needed) and runs them one after the other.
+#
+#   scripts/fuzz.sh                      each for 600 seconds
+#   scripts/fuzz.sh --seconds 60 vdb     this target alone, for a minute
+#
+# Targets: options msh inp vdb brep step iges. What is found lies in build-fuzz/found, inputs in build-fuzz/corpus.
+set -euo pipefail
+cd "$(dirname "$(readlink -f "$0")")/.."
+seconds=600
+if [[ "${1:-}" == --seconds ]]; then
+  seconds="$2"
+  shift 2
+fi
+targets=("$@")
+if [[ ${#targets[@]} -eq 0 ]]; then targets=(options msh inp vdb brep step iges); fi
+
+cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz --target make_seeds "${targets[@]/%/_fuzz}"
+cd build-fuzz
+if [[ ! -d corpus ]]; then
+  fuzz/make_seeds corpus.new
+  mv corpus.new corpus
+fi
+mkdir -p found
+# OpenCASCADE keeps static data to the end of the program.
+export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1
+status=0
+for target in "${targets[@]}"; do
+  # stderr holds the program's own sentences as well: one line for each input.
+  if "fuzz/${target}_fuzz" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=4096 -max_len=60000 -print_final_stats=1 \
+    -artifact_prefix="found/${target}-" "corpus/$target" >/dev/null 2>"$target.log"; then
+    echo "$target: clean, $(sed -n 's/^stat::number_of_executed_units: *//p' "$target.log") inputs in $seconds s"
+  else
+    status=1
+    echo "$target: found something:"
+    grep -aE 'ERROR|SUMMARY|runtime error|Test unit written' "$target.log" || tail -n 5 "$target.log"
+  fi
+done
+exit "$status"

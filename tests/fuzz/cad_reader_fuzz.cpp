@@ -1,0 +1,23 @@
+/// Any bytes given as a CAD file make a model or one Error, nothing else, when read in a child process. With
+/// QUADRILLE_FUZZ_DIRECT=1 they are read in this one: then OpenCASCADE's own crashes end the fuzzer.
+
+#include <cstdlib>
+
+#include "geometry/cad_model.hpp"
+#include "geometry/error.hpp"
+#include "geometry/execution_context.hpp"
+#include "tests/fuzz/memory_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace quadrille;
+  static fuzz::MemoryFile file(FUZZ_ENDING);
+  static const bool direct = std::getenv("QUADRILLE_FUZZ_DIRECT") != nullptr;
+  file.fill(data, size);
+  ExecutionContext context(1);
+  context.limit_time(5);
+  try {
+    CadModel::read(file.path(), {!direct, &context});
+  } catch (const Error&) {
+  }
+  return 0;
+}
