@@ -11,6 +11,7 @@
 #include <ostream>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 #include "geometry/cad_shape.hpp"
 #include "mesher/quadrille.hpp"
@@ -31,10 +32,11 @@ CadModel model_of(const TroubleModel& trouble) {
 }
 
 ShellMesh mesh_of(const CadModel& model, double divisions, Strategy strategy = Strategy::subdivide,
-                  int threads = 1) {
+                  int threads = 1, int order = 1) {
   MeshOptions options;
   options.sizing.elements_per_diagonal = divisions;
   options.strategy = strategy;
+  options.order = order;
   ExecutionContext context(threads);
   return mesh(model, options, context);
 }
@@ -148,7 +150,10 @@ TEST(Robustness, HasModelsForEveryClass) {
   EXPECT_GE(trouble_models().size(), 40u);
 }
 
-TEST(Robustness, BytesDoNotDependOnThreads) {
+class Bytes : public testing::TestWithParam<std::tuple<Strategy, int>> {};
+
+TEST_P(Bytes, DoNotDependOnThreads) {
+  const auto [strategy, order] = GetParam();
   const test::TemporaryFolder folder;
   int compared = 0;
   for (const TroubleModel& trouble : trouble_models()) {
@@ -158,7 +163,7 @@ TEST(Robustness, BytesDoNotDependOnThreads) {
     std::string first;
     for (const int threads : {1, 2, 8, 1}) {
       const auto path = folder / "mesh.msh";
-      write_mesh(mesh_of(model, 25, Strategy::subdivide, threads), path);
+      write_mesh(mesh_of(model, 25, strategy, threads, order), path);
       const std::string bytes = test::file_text(path);
       if (first.empty()) first = bytes;
       EXPECT_EQ(bytes == first, true) << threads << " threads";
@@ -167,6 +172,10 @@ TEST(Robustness, BytesDoNotDependOnThreads) {
   }
   EXPECT_GT(compared, 5);
 }
+
+INSTANTIATE_TEST_SUITE_P(Robustness, Bytes,
+                         testing::Combine(testing::Values(Strategy::subdivide, Strategy::direct),
+                                          testing::Values(1, 2)));
 
 TEST(Robustness, TimeLimitEndsTheWorkInOneSentence) {
   const CadModel model = CadModel(std::make_shared<CadShape>(trouble_models().front().make(), "sphere"));
