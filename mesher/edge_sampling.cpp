@@ -325,7 +325,9 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
     const CadEdge& edge = shape.edges[i];
     if (edge.degenerate || edge.length <= 0 || !used_edges[i] || plan.tiny.collapsed_edges[i]) continue;
     tables[i] = EdgeTabulator(edge, sampler).table;
-    wanted[i] = tables[i].total() / result.stride * plan.refine[i];
+    wanted[i] = tables[i].total() / result.stride;
+    // A segment more where there would be one in any case.
+    if (plan.refine[i] > 1) wanted[i] = std::max(wanted[i], 1.0) * plan.refine[i];
     if (plan.bare[i] && !plan.tiny.closed(edge)) wanted[i] *= chord_of(edge) / edge.length;
     least[i] = least_segments(plan.tiny.closed(edge), plan.bare[i] ? 0 : tables[i].turning, shared_ends[i],
                               inner[i], result.stride);
