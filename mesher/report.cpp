@@ -60,7 +60,7 @@ double seconds_of(const timeval& time) {
 }  // namespace
 
 json make_report(const ShellMesh& mesh, const QualitySummary& summary, const ExecutionContext& context,
-                 const std::filesystem::path& input) {
+                 const std::filesystem::path& input, const std::vector<std::string>& warnings) {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   return {{"input", input.string()},
@@ -71,6 +71,7 @@ json make_report(const ShellMesh& mesh, const QualitySummary& summary, const Exe
           {"cpu_seconds", seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime)},
           {"peak_bytes", static_cast<std::int64_t>(usage.ru_maxrss) * 1024},
           {"faces", faces_to_json(mesh)},
+          {"warnings", warnings},
           {"versions",
            {{"quadrille", QUADRILLE_VERSION},
             {"opencascade", OCC_VERSION_COMPLETE},
@@ -79,10 +80,11 @@ json make_report(const ShellMesh& mesh, const QualitySummary& summary, const Exe
 }
 
 void write_report(const ShellMesh& mesh, const QualitySummary& summary, const ExecutionContext& context,
-                  const std::filesystem::path& input, const std::filesystem::path& path) {
+                  const std::filesystem::path& input, const std::filesystem::path& path,
+                  const std::vector<std::string>& warnings) {
   // File names need not be UTF-8, JSON must.
   constexpr auto replace = json::error_handler_t::replace;
-  write_file(path, make_report(mesh, summary, context, input).dump(2, ' ', false, replace) + "\n");
+  write_file(path, make_report(mesh, summary, context, input, warnings).dump(2, ' ', false, replace) + "\n");
 }
 
 }  // namespace quadrille

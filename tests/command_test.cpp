@@ -151,6 +151,7 @@ TEST(Command, MeshesTheBox) {
   EXPECT_EQ(report["counts"]["triangles"], 0);
   EXPECT_EQ(report["faces"].size(), 6u);
   EXPECT_EQ(report["faces"][0]["name"], "Face1");
+  EXPECT_TRUE(report["warnings"].empty());
   EXPECT_EQ(report["faces"][0]["status"], "meshed");
   EXPECT_EQ(report["versions"]["quadrille"], QUADRILLE_VERSION);
   EXPECT_GT(report["peak_bytes"], 1000000);

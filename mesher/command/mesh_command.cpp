@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "mesher/area_check.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/print_quality.hpp"
 #include "mesher/quadrille.hpp"
@@ -209,8 +210,13 @@ void run(const MeshArguments& arguments) {
   list_left_out(result);
   if (arguments.quiet && arguments.report.empty()) return;
   const QualitySummary summary = quality(result);
-  if (!arguments.report.empty()) write_report(result, summary, context, arguments.input, arguments.report);
-  if (!arguments.quiet) print(quality_table(summary));
+  std::vector<std::string> warnings = model.problems();
+  for (std::string& warning : area_differences(model, result)) warnings.push_back(std::move(warning));
+  if (!arguments.report.empty())
+    write_report(result, summary, context, arguments.input, arguments.report, warnings);
+  if (arguments.quiet) return;
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+  print(quality_table(summary));
 }
 
 void add_sizing_options(CLI::App& command, MeshArguments& arguments) {
