@@ -4,8 +4,11 @@
 #include "geometry/face_surface.hpp"
 
 #include <BRepAdaptor_Surface.hxx>
+#include <BRep_Tool.hxx>
 #include <Geom_Surface.hxx>
+#include <Precision.hxx>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gp_Cone.hxx>
 #include <gp_Cylinder.hxx>
@@ -13,6 +16,10 @@
 #include <gp_Sphere.hxx>
 #include <gp_Torus.hxx>
 #include <limits>
+
+#include <Eigen/LU>
+
+#include "geometry/error.hpp"
 
 namespace quadrille {
 
@@ -29,6 +36,42 @@ double nearest_period(double angle, double reference, double period) {
 
 }  // namespace
 
+/// A plane from which a surface is looked at, and samples of the surface to start searching from.
+struct FaceSurface::View {
+  static constexpr int samples = 48, buckets = 32;
+  Vector3 origin, x, y, normal;
+  Vector2 low, high;                        // of the samples, in the plane
+  Vector2 least_uv, greatest_uv;            // where the surface may be evaluated
+  std::vector<Vector2> uv;                  // of the samples that face the plane
+  std::vector<Vector2> xy;                  // where they are seen
+  std::array<int, buckets * buckets> near;  // the sample nearest to the middle of each bucket
+
+  Vector2 at(const Vector3& p) const { return {(p - origin).dot(x), (p - origin).dot(y)}; }
+
+  int nearest(const Vector2& p) const {
+    const Vector2 t = (p - low).cwiseQuotient((high - low).cwiseMax(1e-300)) * buckets;
+    const auto bucket = [](double v) { return std::clamp(static_cast<int>(v), 0, buckets - 1); };
+    return near[bucket(t.y()) * buckets + bucket(t.x())];
+  }
+
+  void fill_buckets() {
+    low = high = xy.front();
+    for (const Vector2& p : xy) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    for (int i = 0; i < buckets * buckets; ++i) {
+      const Vector2 middle =
+          low + (high - low).cwiseProduct(Vector2(i % buckets + 0.5, i / buckets + 0.5)) / buckets;
+      int best = 0;
+      for (std::size_t k = 1; k < xy.size(); ++k) {
+        if ((xy[k] - middle).squaredNorm() < (xy[best] - middle).squaredNorm()) best = static_cast<int>(k);
+      }
+      near[i] = best;
+    }
+  }
+};
+
 FaceSurface::FaceSurface(const CadFace& face)
     : adaptor_(std::make_unique<BRepAdaptor_Surface>(face.face, Standard_False)),
       low_(face.u_min, face.v_min),
@@ -37,6 +80,98 @@ FaceSurface::FaceSurface(const CadFace& face)
   if (adaptor_->IsVPeriodic()) v_period_ = adaptor_->VPeriod();
   recognize();
   measure_scale();
+}
+
+FaceSurface FaceSurface::seen_from_above(const CadFace& face, const std::vector<Vector3>& loop) {
+  constexpr double least_cosine = 0.17;  // 80 degrees
+  FaceSurface surface(face);
+  auto view = std::make_unique<View>();
+  // Newell's method.
+  Vector3 area = Vector3::Zero();
+  view->origin = Vector3::Zero();
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    area += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]);
+    view->origin += loop[i] / static_cast<double>(loop.size());
+  }
+  if (!(area.norm() > 0)) throw failure("", "the loop encloses no area");
+  view->normal = area.normalized();
+  // The parametric curves may be wrong, and the bounds of the face with them: as far as the surface goes.
+  const Vector2 span = surface.high_ - surface.low_;
+  view->least_uv = surface.low_ - span;
+  view->greatest_uv = surface.high_ + span;
+  const Handle(Geom_Surface) geometry = BRep_Tool::Surface(face.face);
+  Vector2 first, last;
+  geometry->Bounds(first.x(), last.x(), first.y(), last.y());
+  for (int k = 0; k < 2; ++k) {
+    if (k == 0 ? surface.u_periodic() : surface.v_periodic()) continue;
+    if (!Precision::IsInfinite(first[k])) view->least_uv[k] = first[k];
+    if (!Precision::IsInfinite(last[k])) view->greatest_uv[k] = last[k];
+  }
+  // The side that most of the surface shows.
+  std::vector<std::pair<Vector2, SurfacePoint>> samples;
+  int towards = 0;
+  for (int i = 0; i < View::samples * View::samples; ++i) {
+    const Vector2 t(i % View::samples, i / View::samples);
+    const Vector2 uv = surface.low_ + t.cwiseProduct(surface.high_ - surface.low_) / (View::samples - 1);
+    const SurfacePoint at = surface.evaluate(uv);
+    towards += at.du.cross(at.dv).dot(view->normal) > 0 ? 1 : -1;
+    samples.emplace_back(uv, at);
+  }
+  if (towards < 0) view->normal *= -1;
+  view->x = view->normal.unitOrthogonal();
+  view->y = view->normal.cross(view->x);
+  for (const auto& [uv, at] : samples) {
+    const Vector3 normal = at.du.cross(at.dv);
+    if (!(normal.dot(view->normal) > least_cosine * normal.norm())) continue;
+    view->uv.push_back(uv);
+    view->xy.push_back(view->at(at.point));
+  }
+  if (view->uv.empty()) throw failure("", "the surface turns away from the plane of its boundary");
+  view->fill_buckets();
+  surface.view_ = std::move(view);
+  for (const Vector3& p : loop) {
+    const Vector2 xy = surface.view_->at(p);
+    const SurfacePoint at = surface.evaluate_view(xy);
+    const Vector3 normal = at.du.cross(at.dv);
+    if (!((surface.view_->at(at.point) - xy).norm() < 1e-3 * std::sqrt(area.norm())) ||
+        !(normal.dot(surface.view_->normal) > least_cosine * normal.norm())) {
+      throw failure("", "the surface turns away from the plane of its boundary");
+    }
+  }
+  surface.u_period_ = surface.v_period_ = 0;
+  surface.mean_scale_ = {1, 1};
+  return surface;
+}
+
+Vector2 FaceSurface::seen_at(const Vector3& point) const {
+  return view_->at(point);
+}
+
+/// Newton's method in the parameters of the surface, on what is seen of its points.
+SurfacePoint FaceSurface::evaluate_view(const Vector2& xy) const {
+  constexpr int max_iterations = 20;
+  Vector2 uv = view_->uv[view_->nearest(xy)];
+  SurfacePoint best{}, at{};
+  double least = std::numeric_limits<double>::infinity();
+  Eigen::Matrix2d seen, best_seen = Eigen::Matrix2d::Identity();
+  for (int i = 0; i < max_iterations; ++i) {
+    at = kind_ == Kind::other ? evaluate_other(uv) : evaluate_elementary(uv);
+    seen << at.du.dot(view_->x), at.dv.dot(view_->x), at.du.dot(view_->y), at.dv.dot(view_->y);
+    const Vector2 off = xy - view_->at(at.point);
+    if (!(off.norm() < least)) break;
+    least = off.norm();
+    best = at;
+    best_seen = seen;
+    if (std::abs(seen.determinant()) < 1e-14 * seen.squaredNorm() || least == 0) break;
+    uv = (uv + seen.inverse() * off).cwiseMax(view_->least_uv).cwiseMin(view_->greatest_uv);
+  }
+  if (std::abs(best_seen.determinant()) > 1e-14 * best_seen.squaredNorm()) {
+    const Eigen::Matrix2d inverse = best_seen.inverse();
+    const Vector3 du = best.du, dv = best.dv;
+    best.du = inverse(0, 0) * du + inverse(1, 0) * dv;
+    best.dv = inverse(0, 1) * du + inverse(1, 1) * dv;
+  }
+  return best;
 }
 
 FaceSurface::~FaceSurface() = default;
@@ -89,6 +224,7 @@ void FaceSurface::recognize() {
 }
 
 SurfacePoint FaceSurface::evaluate(const Vector2& uv) const {
+  if (view_) return evaluate_view(uv);
   return kind_ == Kind::other ? evaluate_other(uv) : evaluate_elementary(uv);
 }
 
@@ -122,6 +258,7 @@ Vector3 FaceSurface::normal(const SurfacePoint& at, const Vector2& uv) const {
   const double length = n.norm();
   const double scale = (mean_scale_.x() * mean_scale_.y());
   if (length > 1e-7 * scale) return n / length;
+  if (view_) return view_->normal;
   const Vector2 middle = 0.5 * (low_ + high_);
   for (double nudge = 1e-4; nudge < 0.5; nudge *= 10) {
     const SurfacePoint near = evaluate(uv + nudge * (middle - uv));
@@ -206,6 +343,10 @@ Vector2 FaceSurface::inverse(const Vector2& near, const Vector3& target) const {
 }
 
 SurfacePoint FaceSurface::move(Vector2& uv, const Vector3& target) const {
+  if (view_) {
+    uv = view_->at(target);
+    return evaluate_view(uv);
+  }
   if (kind_ != Kind::other) {
     uv = clamp(inverse(uv, target));
     return evaluate_elementary(uv);
@@ -216,7 +357,7 @@ SurfacePoint FaceSurface::move(Vector2& uv, const Vector3& target) const {
 }
 
 SurfacePoint FaceSurface::project(Vector2& uv, const Vector3& target) const {
-  if (kind_ != Kind::other) return move(uv, target);
+  if (view_ || kind_ != Kind::other) return move(uv, target);
   constexpr int max_iterations = 10;
   SurfacePoint at = evaluate_other(uv);
   for (int i = 0; i < max_iterations; ++i) {

@@ -2,6 +2,7 @@
 /// The surface of one CAD face, evaluated fast. Internal.
 
 #include <memory>
+#include <vector>
 
 #include "geometry/cad_shape.hpp"
 #include "geometry/vector.hpp"
@@ -20,6 +21,18 @@ struct SurfacePoint {
 class FaceSurface {
  public:
   explicit FaceSurface(const CadFace& face);
+
+  /// The same surface in another parametrisation: (u, v) are coordinates in a plane, in the model's unit, and
+  /// stand for the point of the surface that is seen there along the plane's normal. For faces whose own
+  /// parametrisation is of no use. The plane is that of the loop's vector area. \param loop points round the
+  /// face. Throws Error (failure) where the surface turns away from the plane's normal by more than 80
+  /// degrees at a point of the loop or between them.
+  static FaceSurface seen_from_above(const CadFace& face, const std::vector<Vector3>& loop);
+
+  /// Whether (u, v) are coordinates in a plane.
+  bool is_view() const { return view_ != nullptr; }
+  /// Where a point lies in that plane.
+  Vector2 seen_at(const Vector3& point) const;
   ~FaceSurface();
   FaceSurface(FaceSurface&&) noexcept;
   FaceSurface& operator=(FaceSurface&&) = delete;
@@ -56,16 +69,19 @@ class FaceSurface {
 
  private:
   enum class Kind { plane, cylinder, cone, sphere, torus, other };
+  struct View;
 
   void recognize();
   SurfacePoint evaluate_elementary(const Vector2& uv) const;
   SurfacePoint evaluate_other(const Vector2& uv) const;
+  SurfacePoint evaluate_view(const Vector2& xy) const;
   Vector2 inverse(const Vector2& near, const Vector3& target) const;
   Vector2 clamp(Vector2 uv) const;
   void measure_scale();
 
   Kind kind_ = Kind::other;
   std::unique_ptr<BRepAdaptor_Surface> adaptor_;
+  std::unique_ptr<View> view_;
   Vector3 origin_, x_, y_, z_;  // frame of an elementary surface
   double radius_ = 0;           // cylinder, sphere; reference radius of a cone; major radius of a torus
   double minor_radius_ = 0;     // torus

@@ -180,7 +180,9 @@ class Assembler {
     for (std::size_t index = 0; index < faces_.size(); ++index) {
       if (!faces_[index]) continue;
       const FaceMesh& face = *faces_[index];
-      const FaceSurface surface(shape_.faces[index]);
+      const auto surface_of_face =
+          face.surface ? face.surface : std::make_shared<const FaceSurface>(shape_.faces[index]);
+      const FaceSurface& surface = *surface_of_face;
       const std::vector<int>& global = globals_[face_rank++];
       for (const auto& quad : face.quads) {
         std::array<int, 4>& midsides = mesh_.midsides.emplace_back();

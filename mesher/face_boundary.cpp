@@ -38,7 +38,8 @@ class BoundaryWalker {
     if (surface_.v_periodic()) gather_wires(starts, 1, surface_.v_period());
     join_touching();
     for (const InnerVertex& inner : face_.inner_vertices) {
-      add_point(inner.uv, nodes_.vertex_nodes[inner.vertex - 1]);
+      const int node = nodes_.vertex_nodes[inner.vertex - 1];
+      add_point(surface_.is_view() ? surface_.seen_at(nodes_.points[node]) : inner.uv, node);
     }
     return std::move(boundary_);
   }
@@ -96,6 +97,12 @@ class BoundaryWalker {
     return true;
   }
 
+  /// Node i of an edge in the parameter plane.
+  Vector2 place_of(const Coedge& coedge, const BoundaryNodes::Edge& edge, int i) const {
+    if (surface_.is_view()) return surface_.seen_at(nodes_.points[edge.nodes[i]]);
+    return parametric_point(coedge, edge.parameters[i]);
+  }
+
   Run walk_edge(const Coedge& coedge) {
     const BoundaryNodes::Edge& edge = nodes_.edges[coedge.edge - 1];
     const int count = edge.segments() / nodes_.stride;
@@ -104,7 +111,7 @@ class BoundaryWalker {
     run.first_segment = static_cast<int>(boundary_.segments.size());
     for (int k = 0; k <= count; ++k) {
       const int i = nodes_.stride * (coedge.forward ? k : count - k);
-      const int point = add_point(parametric_point(coedge, edge.parameters[i]), edge.nodes[i]);
+      const int point = add_point(place_of(coedge, edge, i), edge.nodes[i]);
       if (k == 0) {
         run.first = point;
         continue;
@@ -117,7 +124,7 @@ class BoundaryWalker {
       if (nodes_.stride == 2) {
         const int middle = i + (coedge.forward ? -1 : 1);
         segment.middle_node = edge.nodes[middle];
-        segment.middle_uv = parametric_point(coedge, edge.parameters[middle]);
+        segment.middle_uv = place_of(coedge, edge, middle);
       }
       boundary_.segments.push_back(segment);
       run.last = point;
@@ -137,7 +144,7 @@ class BoundaryWalker {
 
   Run walk_pole(const Coedge& coedge, const CadEdge& edge) {
     const int node = edge.first_vertex > 0 ? nodes_.vertex_nodes[edge.first_vertex - 1] : -1;
-    if (node < 0) return {};
+    if (node < 0 || surface_.is_view()) return {};
     Vector2 from = parametric_point(coedge, edge.first), to = parametric_point(coedge, edge.last);
     // Translators close wires by such edges where nothing is degenerate.
     if (!is_one_point(from, to)) return {};

@@ -45,14 +45,16 @@ struct Attempt {
 
 class FaceMesher {
  public:
-  FaceMesher(const CadShape& shape, int face, const BoundaryNodes& nodes, const SizingField& field,
-             const MeshOptions& options, ExecutionContext& context)
+  FaceMesher(const CadShape& shape, int face, std::shared_ptr<const FaceSurface> surface,
+             const BoundaryNodes& nodes, const SizingField& field, const MeshOptions& options,
+             ExecutionContext& context)
       : face_(face),
         reversed_(shape.faces[face].reversed),
         nodes_(nodes),
         options_(options),
         context_(context),
-        surface_(shape.faces[face]),
+        shared_surface_(std::move(surface)),
+        surface_(*shared_surface_),
         boundary_(face_boundary(shape, face, surface_, nodes)),
         domain_(enclosed_domain(boundary_)),
         size_at_(field) {}
@@ -176,6 +178,7 @@ class FaceMesher {
     result.pole = std::move(quads.pole);
     result.nodes = std::move(quads.nodes);
     result.note = attempt.note;
+    if (surface_.is_view()) result.surface = shared_surface_;
     result.q_min = 1;
     for (auto& quad : result.quads) {
       if (reversed_) std::swap(quad[1], quad[3]);
@@ -191,7 +194,8 @@ class FaceMesher {
   const BoundaryNodes& nodes_;
   const MeshOptions& options_;
   ExecutionContext& context_;
-  FaceSurface surface_;
+  std::shared_ptr<const FaceSurface> shared_surface_;
+  const FaceSurface& surface_;
   FaceBoundary boundary_;
   TrimmedDomain domain_;
   SizingField::Sampler size_at_;
@@ -199,12 +203,64 @@ class FaceMesher {
 
 }  // namespace
 
-FaceMesh mesh_face(const CadShape& shape, int face, const BoundaryNodes& nodes, const SizingField& field,
+namespace {
+
+/// The nodes of the wire that encloses most, in order.
+std::vector<Vector3> widest_loop(const CadFace& face, const BoundaryNodes& nodes) {
+  std::vector<Vector3> widest;
+  double largest = 0;
+  for (const CadWire& wire : face.wires) {
+    std::vector<Vector3> loop;
+    for (const Coedge& coedge : wire.coedges) {
+      const auto& edge = nodes.edges[coedge.edge - 1].nodes;
+      // Without the last one, which is the first of the next edge.
+      for (std::size_t i = 0; i + 1 < edge.size(); ++i)
+        loop.push_back(nodes.points[edge[coedge.forward ? i : edge.size() - 1 - i]]);
+    }
+    Vector3 area = Vector3::Zero();
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      area += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]);
+    if (area.norm() > largest) {
+      largest = area.norm();
+      widest = loop;
+    }
+  }
+  return widest;
+}
+
+FaceMesh mesh_view(const CadShape& shape, int face, const BoundaryNodes& nodes, const SizingField& field,
                    const MeshOptions& options, ExecutionContext& context) {
-  const auto start = std::chrono::steady_clock::now();
-  FaceMesh mesh = FaceMesher(shape, face, nodes, field, options, context).run();
-  mesh.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const CadFace& cad_face = shape.faces[face];
+  const auto surface = std::make_shared<const FaceSurface>(
+      FaceSurface::seen_from_above(cad_face, widest_loop(cad_face, nodes)));
+  FaceMesh mesh = FaceMesher(shape, face, surface, nodes, field, options, context).run();
+  mesh.note += mesh.note.empty() ? "seen from above" : ", seen from above";
   return mesh;
+}
+
+}  // namespace
+
+FaceMesh mesh_face(const CadShape& shape, int face, const BoundaryNodes& nodes, const SizingField& field,
+                   const MeshOptions& options, bool try_view, ExecutionContext& context) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto mesh_own = [&] {
+    const auto surface = std::make_shared<const FaceSurface>(shape.faces[face]);
+    return FaceMesher(shape, face, surface, nodes, field, options, context).run();
+  };
+  std::optional<FaceMesh> mesh;
+  try {
+    mesh = mesh_own();
+  } catch (const Error& problem) {
+    if (problem.kind() == Error::Kind::cancelled || !try_view) throw;
+    try {
+      mesh = mesh_view(shape, face, nodes, field, options, context);
+    } catch (const Error& other) {
+      if (other.kind() == Error::Kind::cancelled) throw;
+      throw problem;  // of its own parametrisation, which users know
+    }
+  }
+  mesh->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return std::move(*mesh);
 }
 
 }  // namespace quadrille

@@ -2,11 +2,13 @@
 /// One face from its boundary nodes to improved quads. Internal.
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "geometry/cad_shape.hpp"
 #include "geometry/execution_context.hpp"
+#include "geometry/face_surface.hpp"
 #include "geometry/sizing_field.hpp"
 #include "mesher/edge_sampling.hpp"
 #include "mesher/options.hpp"
@@ -22,13 +24,15 @@ struct FaceMesh {
   std::vector<int> nodes;                 ///< indices into BoundaryNodes::points
   int inverted = 0;                       ///< quads with scaled Jacobian <= 0
   double q_min = 0;
-  std::string note;  ///< which fallback was taken
+  std::string note;                            ///< which fallback was taken
+  std::shared_ptr<const FaceSurface> surface;  ///< what uv are parameters of; null = the face's own surface
   double seconds = 0;
 };
 
 /// Triangulates, recombines and improves one face.
+/// \param try_view where its own parametrisation fails, the face is meshed as it is seen from above.
 /// Throws Error (failure) naming the face.
 FaceMesh mesh_face(const CadShape& shape, int face, const BoundaryNodes& nodes, const SizingField& field,
-                   const MeshOptions& options, ExecutionContext& context);
+                   const MeshOptions& options, bool try_view, ExecutionContext& context);
 
 }  // namespace quadrille

@@ -224,6 +224,17 @@ TopoDS_Shape missing_curves() {
       quarter_cylinder(), [](const Handle(Geom2d_Curve)&, double, double) { return Handle(Geom2d_Curve)(); });
 }
 
+/// Parametric curves that run the other way than their edges, and elsewhere.
+TopoDS_Shape wrong_curves() {
+  return with_parametric_curves(
+      quarter_cylinder(), [](const Handle(Geom2d_Curve) & curve, double first, double last) {
+        const gp_Pnt2d from = curve->Value(last), to = curve->Value(first);
+        const gp_Vec2d along = gp_Vec2d(from, to) / (last - first);
+        const gp_Pnt2d start(from.X() * 0.8, 30 - from.Y());
+        return Handle(Geom2d_Curve)(new Geom2d_Line(start.Translated(-first * along), gp_Dir2d(along)));
+      });
+}
+
 /// The same curves run through at another speed: the point at a parameter is far from the edge's.
 TopoDS_Shape other_parameters() {
   const TopoDS_Shape shape = with_parametric_curves(
@@ -625,6 +636,7 @@ std::vector<TroubleModel> all_models() {
        pi * (100 - 9.9 * 9.9)},
       {"crescent", "two arcs that share their ends", crescent, false, 0},
       {"missing_curves", "no parametric curves", missing_curves, false, 150 * pi},
+      {"wrong_curves", "parametric curves far from their edges", wrong_curves, false, 150 * pi},
       {"other_parameters", "parametric curves at other speeds", other_parameters, false, 150 * pi},
       {"open_wire", "a wire open in the parameter plane", open_wire, false, 150 * pi},
       {"inner_first", "inner wire first, wires reversed", inner_first, false, 600 - 16 * pi},
