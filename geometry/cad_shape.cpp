@@ -128,6 +128,7 @@ void CadShape::read_face(int index, const TopoDS_Face& source, const TopTools_In
     for (const TopoDS_Edge& edge : ordered_edges(TopoDS::Wire(it.Value()), face.face, wire.ordered)) {
       Coedge coedge;
       coedge.edge = edge_map.FindIndex(edge);
+      coedge.source = edge;
       coedge.internal = edge.Orientation() == TopAbs_INTERNAL || edge.Orientation() == TopAbs_EXTERNAL;
       coedge.forward = edge.Orientation() != TopAbs_REVERSED;
       double first = 0, last = 0;

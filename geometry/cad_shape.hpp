@@ -43,6 +43,7 @@ struct Coedge {
   bool forward = true;                    ///< the wire runs along the edge's parameter
   bool internal = false;                  ///< lies inside the face (a crack), both sides belong to the face
   Handle(Geom2d_Curve) parametric_curve;  ///< same parameter as the edge's curve
+  TopoDS_Edge source;                     ///< as the wire has it
 };
 
 /// Where a coedge lies in the parameter plane at the edge's parameter t.

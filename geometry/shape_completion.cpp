@@ -2,6 +2,8 @@
 
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Surface.hxx>
@@ -16,6 +18,8 @@
 #include <TopoDS_Wire.hxx>
 
 #include <fmt/format.h>
+
+#include "geometry/error.hpp"
 
 namespace quadrille {
 
@@ -60,6 +64,43 @@ TopoDS_Shape with_parametric_curves(const TopoDS_Shape& shape, std::vector<std::
     }
   }
   return copy;
+}
+
+CadFace with_new_curves(const CadFace& face) {
+  CadFace result = face;
+  const BRep_Builder builder;
+  try {
+    result.face = TopoDS::Face(BRepBuilderAPI_Copy(face.face, Standard_False).Shape());
+    // The copy has its edges in the order of the original.
+    TopTools_IndexedMapOfShape edges, copies;
+    TopExp::MapShapes(face.face, TopAbs_EDGE, edges);
+    TopExp::MapShapes(result.face, TopAbs_EDGE, copies);
+    if (edges.Extent() != copies.Extent()) throw failure("", "the face cannot be copied");
+    const Handle(Geom2d_Curve) none;
+    for (int i = 1; i <= copies.Extent(); ++i) {
+      const TopoDS_Edge& edge = TopoDS::Edge(copies(i));
+      if (BRep_Tool::Degenerated(edge)) continue;
+      if (BRep_Tool::IsClosed(edge, result.face)) {
+        builder.UpdateEdge(edge, none, none, result.face, BRep_Tool::Tolerance(edge));
+      } else {
+        builder.UpdateEdge(edge, none, result.face, BRep_Tool::Tolerance(edge));
+      }
+    }
+    add_curves(result.face);
+    for (CadWire& wire : result.wires) {
+      for (Coedge& coedge : wire.coedges) {
+        const TopoDS_Edge copy =
+            TopoDS::Edge(copies(edges.FindIndex(coedge.source)).Oriented(coedge.source.Orientation()));
+        double first = 0, last = 0;
+        coedge.parametric_curve = BRep_Tool::CurveOnSurface(copy, result.face, first, last);
+        if (coedge.parametric_curve.IsNull()) throw failure("", "an edge cannot be projected");
+      }
+    }
+    BRepTools::UVBounds(result.face, result.u_min, result.u_max, result.v_min, result.v_max);
+  } catch (const Standard_Failure& problem) {
+    throw failure("", problem.GetMessageString());
+  }
+  return result;
 }
 
 TopoDS_Face with_natural_bounds(const TopoDS_Face& face) {

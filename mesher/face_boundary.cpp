@@ -20,12 +20,9 @@ constexpr int pole_segments = 6;
 
 class BoundaryWalker {
  public:
-  BoundaryWalker(const CadShape& shape, int face, const FaceSurface& surface, const BoundaryNodes& nodes)
-      : shape_(shape),
-        face_(shape.faces[face]),
-        surface_(surface),
-        scale_(surface.mean_scale()),
-        nodes_(nodes) {}
+  BoundaryWalker(const CadShape& shape, const CadFace& face, const FaceSurface& surface,
+                 const BoundaryNodes& nodes)
+      : shape_(shape), face_(face), surface_(surface), scale_(surface.mean_scale()), nodes_(nodes) {}
 
   FaceBoundary walk() {
     std::vector<int> starts;
@@ -295,9 +292,9 @@ class BoundaryWalker {
 
 }  // namespace
 
-FaceBoundary face_boundary(const CadShape& shape, int face, const FaceSurface& surface,
-                           const BoundaryNodes& nodes) {
-  FaceBoundary boundary = BoundaryWalker(shape, face, surface, nodes).walk();
+FaceBoundary face_boundary(const CadShape& shape, int face, const CadFace& cad_face,
+                           const FaceSurface& surface, const BoundaryNodes& nodes) {
+  FaceBoundary boundary = BoundaryWalker(shape, cad_face, surface, nodes).walk();
   if (boundary.segments.empty()) {
     const std::string name = fmt::format("Face{}", face + 1);
     throw failure(name, fmt::format("{} has no usable boundary in its parameter plane", name));

@@ -30,10 +30,10 @@ struct FaceBoundary {
   int size() const { return static_cast<int>(uv.size()); }
 };
 
-/// Walks the wires of a face.
+/// Walks the wires of a face of the shape, or of one that stands for it with other parametric curves.
 /// Throws Error (failure) naming the face when a wire has no usable parametric curve.
-FaceBoundary face_boundary(const CadShape& shape, int face, const FaceSurface& surface,
-                           const BoundaryNodes& nodes);
+FaceBoundary face_boundary(const CadShape& shape, int face, const CadFace& cad_face,
+                           const FaceSurface& surface, const BoundaryNodes& nodes);
 
 /// The domain in the parameter plane that the boundary encloses.
 TrimmedDomain enclosed_domain(const FaceBoundary& boundary);

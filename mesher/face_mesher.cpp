@@ -9,6 +9,7 @@
 
 #include "geometry/error.hpp"
 #include "geometry/face_surface.hpp"
+#include "geometry/shape_completion.hpp"
 #include "mesher/face_boundary.hpp"
 #include "mesher/face_triangulation.hpp"
 #include "mesher/improve.hpp"
@@ -45,9 +46,9 @@ struct Attempt {
 
 class FaceMesher {
  public:
-  FaceMesher(const CadShape& shape, int face, std::shared_ptr<const FaceSurface> surface,
-             const BoundaryNodes& nodes, const SizingField& field, const MeshOptions& options,
-             ExecutionContext& context)
+  FaceMesher(const CadShape& shape, int face, const CadFace& cad_face,
+             std::shared_ptr<const FaceSurface> surface, const BoundaryNodes& nodes, const SizingField& field,
+             const MeshOptions& options, ExecutionContext& context)
       : face_(face),
         reversed_(shape.faces[face].reversed),
         nodes_(nodes),
@@ -55,7 +56,7 @@ class FaceMesher {
         context_(context),
         shared_surface_(std::move(surface)),
         surface_(*shared_surface_),
-        boundary_(face_boundary(shape, face, surface_, nodes)),
+        boundary_(face_boundary(shape, face, cad_face, surface_, nodes)),
         domain_(enclosed_domain(boundary_)),
         size_at_(field) {}
 
@@ -178,7 +179,7 @@ class FaceMesher {
     result.pole = std::move(quads.pole);
     result.nodes = std::move(quads.nodes);
     result.note = attempt.note;
-    if (surface_.is_view()) result.surface = shared_surface_;
+    result.surface = shared_surface_;
     result.q_min = 1;
     for (auto& quad : result.quads) {
       if (reversed_) std::swap(quad[1], quad[3]);
@@ -228,37 +229,44 @@ std::vector<Vector3> widest_loop(const CadFace& face, const BoundaryNodes& nodes
   return widest;
 }
 
-FaceMesh mesh_view(const CadShape& shape, int face, const BoundaryNodes& nodes, const SizingField& field,
-                   const MeshOptions& options, ExecutionContext& context) {
-  const CadFace& cad_face = shape.faces[face];
+/// Faces that stand for one whose own parametric curves or parametrisation are of no use.
+enum class StandIn { none, new_curves, view };
+
+FaceMesh mesh_as(StandIn stand_in, const CadShape& shape, int face, const BoundaryNodes& nodes,
+                 const SizingField& field, const MeshOptions& options, ExecutionContext& context) {
+  CadFace cad_face = shape.faces[face];
+  if (stand_in == StandIn::new_curves) cad_face = with_new_curves(cad_face);
   const auto surface = std::make_shared<const FaceSurface>(
-      FaceSurface::seen_from_above(cad_face, widest_loop(cad_face, nodes)));
-  FaceMesh mesh = FaceMesher(shape, face, surface, nodes, field, options, context).run();
-  mesh.note += mesh.note.empty() ? "seen from above" : ", seen from above";
+      stand_in == StandIn::view ? FaceSurface::seen_from_above(cad_face, widest_loop(cad_face, nodes))
+                                : FaceSurface(cad_face));
+  FaceMesh mesh = FaceMesher(shape, face, cad_face, surface, nodes, field, options, context).run();
+  if (stand_in == StandIn::none) {
+    mesh.surface.reset();  // made again where it is wanted
+    return mesh;
+  }
+  if (!mesh.note.empty()) mesh.note += ", ";
+  mesh.note += stand_in == StandIn::view ? "seen from above" : "parametric curves made anew";
   return mesh;
 }
 
 }  // namespace
 
 FaceMesh mesh_face(const CadShape& shape, int face, const BoundaryNodes& nodes, const SizingField& field,
-                   const MeshOptions& options, bool try_view, ExecutionContext& context) {
+                   const MeshOptions& options, bool try_stand_ins, ExecutionContext& context) {
   const auto start = std::chrono::steady_clock::now();
-  const auto mesh_own = [&] {
-    const auto surface = std::make_shared<const FaceSurface>(shape.faces[face]);
-    return FaceMesher(shape, face, surface, nodes, field, options, context).run();
-  };
   std::optional<FaceMesh> mesh;
-  try {
-    mesh = mesh_own();
-  } catch (const Error& problem) {
-    if (problem.kind() == Error::Kind::cancelled || !try_view) throw;
+  std::optional<Error> own_problem;  // of its own parametrisation, which users know
+  for (const StandIn stand_in : {StandIn::none, StandIn::new_curves, StandIn::view}) {
     try {
-      mesh = mesh_view(shape, face, nodes, field, options, context);
-    } catch (const Error& other) {
-      if (other.kind() == Error::Kind::cancelled) throw;
-      throw problem;  // of its own parametrisation, which users know
+      mesh = mesh_as(stand_in, shape, face, nodes, field, options, context);
+      break;
+    } catch (const Error& problem) {
+      if (problem.kind() == Error::Kind::cancelled) throw;
+      if (!own_problem) own_problem = problem;
+      if (!try_stand_ins) break;
     }
   }
+  if (!mesh) throw *own_problem;
   mesh->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return std::move(*mesh);
 }

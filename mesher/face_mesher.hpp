@@ -30,9 +30,9 @@ struct FaceMesh {
 };
 
 /// Triangulates, recombines and improves one face.
-/// \param try_view where its own parametrisation fails, the face is meshed as it is seen from above.
-/// Throws Error (failure) naming the face.
+/// \param try_stand_ins where it fails, the face is tried with parametric curves made anew, and as it is seen
+/// from above. Throws Error (failure) naming the face.
 FaceMesh mesh_face(const CadShape& shape, int face, const BoundaryNodes& nodes, const SizingField& field,
-                   const MeshOptions& options, bool try_view, ExecutionContext& context);
+                   const MeshOptions& options, bool try_stand_ins, ExecutionContext& context);
 
 }  // namespace quadrille

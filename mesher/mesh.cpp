@@ -86,7 +86,7 @@ class Job {
       const std::vector<int> failed = failed_faces();
       if (failed.empty()) break;
       change_plan(rung, failed);
-      try_views_ = rung != Rung::finer;
+      try_stand_ins_ = rung != Rung::finer;
       sample(field);
       mesh_faces(field);
     }
@@ -147,7 +147,7 @@ class Job {
     oneapi::tbb::parallel_for(0, n, [&](int face) {
       if (!used_[face] || meshes_[face]) return;
       try {
-        meshes_[face] = mesh_face(shape_, face, nodes_, field, options_, try_views_, context_);
+        meshes_[face] = mesh_face(shape_, face, nodes_, field, options_, try_stand_ins_, context_);
       } catch (const Error& error) {
         if (error.kind() == Error::Kind::cancelled) throw;
         errors_[face] = error;
@@ -251,7 +251,7 @@ class Job {
   double size_;
   ExecutionContext& context_;
   SamplingPlan plan_;
-  bool try_views_ = false;
+  bool try_stand_ins_ = false;
   std::vector<char> asked_, used_;
   std::vector<Collapse> collapse_;  ///< (edges) of faces that failed
   BoundaryNodes nodes_;

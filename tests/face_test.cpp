@@ -57,7 +57,8 @@ void for_each_face(Visit&& visit) {
                        std::to_string(divisions));
           const FaceSurface surface(prepared.model.shape().faces[face]);
           visit(prepared, face, surface,
-                face_boundary(prepared.model.shape(), face, surface, prepared.nodes));
+                face_boundary(prepared.model.shape(), face, prepared.model.shape().faces[face], surface,
+                              prepared.nodes));
           ++faces;
         }
       }
@@ -142,7 +143,8 @@ TEST(MappedPlacement, GridsTheFourSidedFacesOfABox) {
   SizingField::Sampler size_at(prepared.field);
   for (int face = 0; face < 6; ++face) {
     const FaceSurface surface(prepared.model.shape().faces[face]);
-    const FaceBoundary boundary = face_boundary(prepared.model.shape(), face, surface, prepared.nodes);
+    const FaceBoundary boundary = face_boundary(prepared.model.shape(), face,
+                                                prepared.model.shape().faces[face], surface, prepared.nodes);
     const auto placed = place_mapped(boundary, surface, enclosed_domain(boundary), size_at, 1);
     ASSERT_TRUE(placed);
     int corners = 0;
@@ -158,8 +160,36 @@ TEST(MappedPlacement, LeavesOtherFacesAlone) {
     Prepared prepared(sample_model(name), 20, Strategy::direct);
     SizingField::Sampler size_at(prepared.field);
     const FaceSurface surface(prepared.model.shape().faces[0]);
-    const FaceBoundary boundary = face_boundary(prepared.model.shape(), 0, surface, prepared.nodes);
+    const FaceBoundary boundary =
+        face_boundary(prepared.model.shape(), 0, prepared.model.shape().faces[0], surface, prepared.nodes);
     EXPECT_FALSE(place_mapped(boundary, surface, enclosed_domain(boundary), size_at, 1));
+  }
+}
+
+TEST(FaceSurface, IsTheSameSeenFromAbove) {
+  const CadModel model = CadModel::read(sample_model("bezier_patch").path());
+  const CadFace& face = model.shape().faces[0];
+  const FaceSurface own(face);
+  std::vector<Vector3> loop;
+  const Vector2 low(face.u_min, face.v_min), span(face.u_max - face.u_min, face.v_max - face.v_min);
+  for (const Vector2& corner : {Vector2(0, 0), Vector2(1, 0), Vector2(1, 1), Vector2(0, 1)})
+    loop.push_back(own.point(low + corner.cwiseProduct(span)));
+  const FaceSurface view = FaceSurface::seen_from_above(face, loop);
+  EXPECT_TRUE(view.is_view());
+  const double size = (loop[2] - loop[0]).norm();
+  for (int i = 0; i < 100; ++i) {
+    const Vector2 uv = low + Vector2(0.05 + i % 10 / 11.0, 0.05 + i / 10 / 11.0).cwiseProduct(span);
+    const Vector3 point = own.point(uv);
+    const Vector2 seen = view.seen_at(point);
+    const SurfacePoint at = view.evaluate(seen);
+    EXPECT_LT((at.point - point).norm(), 1e-6 * size);
+    EXPECT_GT(view.normal(seen).dot(own.normal(uv)), 1 - 1e-6);
+    const double step = 1e-5 * size;
+    EXPECT_LT((view.point(seen + Vector2(step, 0)) - at.point - step * at.du).norm(), 1e-3 * step);
+    EXPECT_LT((view.point(seen + Vector2(0, step)) - at.point - step * at.dv).norm(), 1e-3 * step);
+    Vector2 moved = seen;
+    EXPECT_LT((view.project(moved, point + 0.01 * size * view.normal(seen)).point - point).norm(),
+              0.02 * size);
   }
 }
 

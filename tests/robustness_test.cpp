@@ -102,7 +102,7 @@ TEST(Robustness, ReportsTheRungThatAFaceTook) {
   EXPECT_EQ(note_of(mesh_of(model_of(trouble_named("disc")), 20), 1), "");
   EXPECT_EQ(note_of(mesh_of(model_of(trouble_named("looped_edge")), 20), 1), "edges sampled by length alone");
   EXPECT_EQ(note_of(mesh_of(model_of(trouble_named("wrong_curves")), 20), 1),
-            "edges sampled four times as fine, seen from above");
+            "edges sampled four times as fine, parametric curves made anew");
 }
 
 TEST(Robustness, MergesTinyFeaturesWhenAsked) {
