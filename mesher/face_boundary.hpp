@@ -35,6 +35,11 @@ struct FaceBoundary {
 FaceBoundary face_boundary(const CadShape& shape, int face, const CadFace& cad_face,
                            const FaceSurface& surface, const BoundaryNodes& nodes);
 
+inline FaceBoundary face_boundary(const CadShape& shape, int face, const FaceSurface& surface,
+                                  const BoundaryNodes& nodes) {
+  return face_boundary(shape, face, shape.faces[face], surface, nodes);
+}
+
 /// The domain in the parameter plane that the boundary encloses.
 TrimmedDomain enclosed_domain(const FaceBoundary& boundary);
 

@@ -57,8 +57,7 @@ void for_each_face(Visit&& visit) {
                        std::to_string(divisions));
           const FaceSurface surface(prepared.model.shape().faces[face]);
           visit(prepared, face, surface,
-                face_boundary(prepared.model.shape(), face, prepared.model.shape().faces[face], surface,
-                              prepared.nodes));
+                face_boundary(prepared.model.shape(), face, surface, prepared.nodes));
           ++faces;
         }
       }
@@ -160,8 +159,7 @@ TEST(MappedPlacement, LeavesOtherFacesAlone) {
     Prepared prepared(sample_model(name), 20, Strategy::direct);
     SizingField::Sampler size_at(prepared.field);
     const FaceSurface surface(prepared.model.shape().faces[0]);
-    const FaceBoundary boundary =
-        face_boundary(prepared.model.shape(), 0, prepared.model.shape().faces[0], surface, prepared.nodes);
+    const FaceBoundary boundary = face_boundary(prepared.model.shape(), 0, surface, prepared.nodes);
     EXPECT_FALSE(place_mapped(boundary, surface, enclosed_domain(boundary), size_at, 1));
   }
 }
