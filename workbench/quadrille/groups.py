@@ -40,14 +40,13 @@ def refresh(mesh) -> bool:
         numbers[key] = number
     if present == wanted:
         return False
-    changed = fem_mesh.copy()
+    # In place: FreeCAD lets groups of a property's mesh change, and does not draw them.
     for key, number in numbers.items():
         if present[key] != wanted.get(key):
-            changed.removeGroup(number)
+            fem_mesh.removeGroup(number)
     for key, ids in wanted.items():
         if present.get(key) != ids:
-            changed.addGroupElements(changed.addGroup(*key), list(ids))
-    undo.replace(mesh, changed)
+            fem_mesh.addGroupElements(fem_mesh.addGroup(*key), list(ids))
     return True
 
 

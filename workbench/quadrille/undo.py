@@ -32,13 +32,6 @@ def put(mesh, fem_mesh) -> None:
     _keep(mesh, fem_mesh)
 
 
-def replace(mesh, fem_mesh) -> None:
-    """Gives a mesh object the same mesh with other groups."""
-    mesh.FemMesh = fem_mesh
-    if mesh.MeshToken:
-        _keep(mesh, fem_mesh)
-
-
 def _keep(mesh, fem_mesh) -> None:
     key = _key(mesh)
     _current[key] = mesh.MeshToken
