@@ -520,6 +520,20 @@ TopoDS_Shape narrow_frame() {
   return maker.Face();
 }
 
+/// A flat band of width 0.05 along most of a circle of radius 20.
+TopoDS_Shape narrow_band() {
+  const auto at = [](double radius, double angle) {
+    return gp_Pnt(radius * std::cos(angle), radius * std::sin(angle), 0);
+  };
+  const double start = 0.3, end = 2 * pi - 0.3;
+  const gp_Circ outer(gp::XOY(), 20), inner(gp::XOY(), 19.95);
+  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(outer, start, end).Edge());
+  wire.Add(BRepBuilderAPI_MakeEdge(at(20, end), at(19.95, end)).Edge());
+  wire.Add(BRepBuilderAPI_MakeEdge(inner, start, end).Edge());
+  wire.Add(BRepBuilderAPI_MakeEdge(at(19.95, start), at(20, start)).Edge());
+  return BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), wire.Wire()).Face();
+}
+
 /// A block beside a pin that has only as many elements round it as a pin must have.
 TopoDS_Shape thin_pin() {
   return compound({BRepPrimAPI_MakeBox(40, 30, 20).Shape(),
@@ -685,6 +699,8 @@ std::vector<TroubleModel> all_models() {
       {"turned_rim", "an edge whose parametric curve lies a period away", turned_rim, false, 600 * pi},
       {"false_poles", "edges said to be degenerate that are not", false_poles, false, 400 * pi},
       {"narrow_frame", "a frame of width size / 20", narrow_frame, false, 800 - 39.9 * 19.9},
+      {"narrow_band", "a band along a circle, of width size / 30", narrow_band, false,
+       (pi - 0.3) * (400 - 19.95 * 19.95)},
       {"thin_pin", "a cylinder thinner than the elements", thin_pin, true,
        2 * (1200 + 800 + 600) + 2 * pi * 0.15 * (8 + 0.15)},
       {"hole_at_short_edge", "wires that touch along an edge shorter than its tolerance", hole_at_short_edge,
