@@ -298,6 +298,85 @@ double parameter_near_chord(const CadEdge& edge, const EdgeCurve& curve, int k, 
 
 }  // namespace
 
+namespace {
+
+/// Moves the nodes of one side of narrow four-sided faces to face those of the other: what shifts them by
+/// less than a segment shears the quads between by more than a right angle where the face is far narrower
+/// than that.
+class NarrowFaces {
+ public:
+  NarrowFaces(const CadShape& shape, const std::vector<char>& used, BoundaryNodes& nodes)
+      : shape_(shape), used_(used), nodes_(nodes), settled_(shape.edges.size(), 0) {}
+
+  void run() {
+    for (std::size_t i = 0; i < shape_.faces.size(); ++i) {
+      const CadFace& face = shape_.faces[i];
+      if (!used_[i] || face.wires.size() != 1 || face.wires[0].coedges.size() != 4 || !face.wires[0].ordered)
+        continue;
+      const auto& c = face.wires[0].coedges;
+      for (const int k : {0, 1}) align(c[k], c[k + 2], c[k + 1], c[3 - 3 * k]);
+    }
+  }
+
+ private:
+  /// \param across, other_across the two sides between them.
+  void align(const Coedge& first, const Coedge& second, const Coedge& across, const Coedge& other_across) {
+    constexpr double narrow = 0.5;  // of a segment
+    const int a = first.edge - 1, b = second.edge - 1;
+    const CadEdge &edge_a = shape_.edges[a], &edge_b = shape_.edges[b];
+    const int n = nodes_.edges[a].segments();
+    if (a == b || n < 2 || nodes_.edges[b].segments() != n || first.internal || second.internal) return;
+    if (edge_a.closed() || edge_b.closed() || nodes_.edges[a].borrowed || nodes_.edges[b].borrowed) return;
+    const double width =
+        std::max(shape_.edges[across.edge - 1].length, shape_.edges[other_across.edge - 1].length);
+    if (!(width < narrow * edge_a.length / n) || (settled_[a] && settled_[b])) return;
+    // Both run round the face, one against the other.
+    const bool against = first.forward == second.forward;
+    if (settled_[b])
+      follow(b, a, against);
+    else
+      follow(a, b, against);
+    settled_[a] = settled_[b] = 1;
+  }
+
+  void follow(int leader, int follower, bool against) {
+    const BoundaryNodes::Edge& from = nodes_.edges[leader];
+    BoundaryNodes::Edge& to = nodes_.edges[follower];
+    const EdgeCurve curve(shape_.edges[follower]);
+    const int n = to.segments();
+    std::vector<double> parameters = to.parameters;
+    for (int k = 1; k < n; ++k) {
+      const Vector3& target = nodes_.points[from.nodes[against ? n - k : k]];
+      parameters[k] = nearest(curve, target, to.parameters[k - 1], to.parameters[k], to.parameters[k + 1]);
+      if (!(parameters[k] > parameters[k - 1])) return;
+    }
+    to.parameters = parameters;
+    for (int k = 1; k < n; ++k) nodes_.points[to.nodes[k]] = curve.point(parameters[k]);
+  }
+
+  /// The parameter nearest to a point by golden sections, no further than four fifths of the way to the nodes
+  /// beside.
+  static double nearest(const EdgeCurve& curve, const Vector3& target, double before, double at,
+                        double after) {
+    constexpr double golden = 0.61803398874989485, reach = 0.8;
+    constexpr int sections = 40;
+    double low = at - reach * (at - before), high = at + reach * (after - at);
+    const auto distance = [&](double t) { return (curve.point(t) - target).squaredNorm(); };
+    for (int i = 0; i < sections; ++i) {
+      const double a = high - golden * (high - low), b = low + golden * (high - low);
+      (distance(a) < distance(b) ? high : low) = distance(a) < distance(b) ? b : a;
+    }
+    return 0.5 * (low + high);
+  }
+
+  const CadShape& shape_;
+  const std::vector<char>& used_;
+  BoundaryNodes& nodes_;
+  std::vector<char> settled_;
+};
+
+}  // namespace
+
 SamplingPlan::SamplingPlan(const CadShape& shape)
     : refine(shape.edges.size(), 1),
       bare(shape.edges.size(), 0),
@@ -387,6 +466,7 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
       }
     }
   }
+  NarrowFaces(shape, used, result).run();
   for (int i = 0; i < n; ++i) {
     if (counts[i] == 0 || plan.tiny.edges[i] == i) continue;
     result.edges[i].nodes = result.edges[plan.tiny.edges[i]].nodes;
