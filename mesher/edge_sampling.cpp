@@ -89,7 +89,8 @@ class EdgeTabulator {
 
 /// Fewest segments (of the mesh that is recombined) that keep the edge's shape and the face's loop open.
 int least_segments(bool closed, double turning, bool shares_both_ends, bool inner, int stride) {
-  constexpr double turning_a_segment = 1.8;
+  // Holes and pins need more than fillets to keep their area.
+  const double turning_a_segment = turning > 2.5 ? 1.3 : 1.8;
   int least = std::max(1, static_cast<int>(std::ceil(turning / turning_a_segment - 0.01)));
   if (shares_both_ends && turning > 1e-3) least = std::max(least, 2);
   if (inner) least = std::max(least, 2);  // the face is cut open between its ends

@@ -6,6 +6,7 @@
 #include <Standard_Failure.hxx>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <thread>
@@ -24,7 +25,7 @@ namespace quadrille {
 namespace {
 
 constexpr double element_limit = 50e6;
-constexpr int max_rounds = 4;
+constexpr int max_rounds = 8;
 
 std::vector<char> faces_used(const CadModel& model, const std::vector<int>& faces) {
   std::vector<char> used(model.face_count(), faces.empty());
@@ -74,7 +75,7 @@ class Job {
         collapse_(shape_.edges.size(), Collapse::no),
         meshes_(shape_.faces.size()),
         errors_(shape_.faces.size()),
-        notes_(shape_.faces.size()) {
+        rungs_(shape_.faces.size(), as_asked) {
     asked_ = used_;
   }
 
@@ -82,11 +83,7 @@ class Job {
     leave_out_tiny();
     sample(field);
     mesh_faces(field);
-    for (const Rung rung : {Rung::finer, Rung::much_finer, Rung::bare, Rung::point}) {
-      const std::vector<int> failed = failed_faces();
-      if (failed.empty()) break;
-      change_plan(rung, failed);
-      try_stand_ins_ = rung != Rung::finer;
+    for (int round = 1; round < max_rounds && climb(failed_faces()); ++round) {
       sample(field);
       mesh_faces(field);
     }
@@ -96,8 +93,8 @@ class Job {
   }
 
  private:
-  /// Other samplings of the edges of faces that failed, tried one after the other.
-  enum class Rung { finer, much_finer, bare, point };
+  /// Other samplings of the edges of a face that fails, tried one after the other.
+  enum Rung { as_asked, twice, four_times, eight_times, by_length, as_point, count };
 
   void leave_out_tiny() {
     plan_.tiny = find_tiny_features(shape_, asked_, collapse_, options_.merge_tiny);
@@ -147,7 +144,7 @@ class Job {
     oneapi::tbb::parallel_for(0, n, [&](int face) {
       if (!used_[face] || meshes_[face]) return;
       try {
-        meshes_[face] = mesh_face(shape_, face, nodes_, field, options_, try_stand_ins_, context_);
+        meshes_[face] = mesh_face(shape_, face, nodes_, field, options_, rungs_[face] > twice, context_);
       } catch (const Error& error) {
         if (error.kind() == Error::Kind::cancelled) throw;
         errors_[face] = error;
@@ -171,23 +168,45 @@ class Job {
     return failed;
   }
 
-  void change_plan(Rung rung, const std::vector<int>& failed) {
+  /// Takes each of the faces one rung higher; false if none can climb.
+  bool climb(const std::vector<int>& failed) {
+    bool any = false;
     for (const int face : failed) {
-      if (rung == Rung::point && !far_below_size(face)) continue;
-      notes_[face] = rung == Rung::finer        ? "edges sampled twice as fine"
-                     : rung == Rung::much_finer ? "edges sampled four times as fine"
-                                                : "edges sampled by length alone";
-      for (const CadWire& wire : shape_.faces[face].wires) {
-        for (const Coedge& coedge : wire.coedges) {
-          const int edge = coedge.edge - 1;
-          collapse_[edge] =
-              std::max(collapse_[edge], rung == Rung::point ? Collapse::always : Collapse::below_tolerance);
-          plan_.bare[edge] = rung == Rung::bare || rung == Rung::point;
-          plan_.refine[edge] = plan_.bare[edge] ? 1 : 2 * plan_.refine[edge];
-        }
+      if (rungs_[face] + 1 == as_point && !far_below_size(face)) continue;
+      if (rungs_[face] + 1 == count) continue;
+      ++rungs_[face];
+      any = true;
+      change_edges(face, static_cast<Rung>(rungs_[face]));
+    }
+    if (any) leave_out_tiny();
+    return any;
+  }
+
+  void change_edges(int face, Rung rung) {
+    // Edges that a neighbour has refined already draw the others along: all round the face alike.
+    int refine = 1 << rung;
+    for (const CadWire& wire : shape_.faces[face].wires) {
+      for (const Coedge& coedge : wire.coedges) refine = std::max(refine, plan_.refine[coedge.edge - 1]);
+    }
+    for (const CadWire& wire : shape_.faces[face].wires) {
+      for (const Coedge& coedge : wire.coedges) {
+        const int edge = coedge.edge - 1;
+        collapse_[edge] =
+            std::max(collapse_[edge], rung == as_point ? Collapse::always : Collapse::below_tolerance);
+        plan_.bare[edge] = rung >= by_length;
+        plan_.refine[edge] = plan_.bare[edge] ? 1 : refine;
       }
     }
-    leave_out_tiny();
+  }
+
+  std::string rung_note(int face) const {
+    constexpr std::array<const char*, count> notes{"",
+                                                   "edges sampled twice as fine",
+                                                   "edges sampled four times as fine",
+                                                   "edges sampled eight times as fine",
+                                                   "edges sampled by length alone",
+                                                   ""};
+    return notes[rungs_[face]];
   }
 
   double longest_edge(int face) const {
@@ -236,7 +255,7 @@ class Job {
       }
       if (errors_[face]) status.note = errors_[face]->what();
       if (!meshes_[face]) continue;
-      status.note = notes_[face];
+      status.note = rung_note(static_cast<int>(face));
       if (!status.note.empty() && !meshes_[face]->note.empty()) status.note += ", ";
       status.note += meshes_[face]->note;
       status.quads = static_cast<int>(meshes_[face]->quads.size());
@@ -251,13 +270,12 @@ class Job {
   double size_;
   ExecutionContext& context_;
   SamplingPlan plan_;
-  bool try_stand_ins_ = false;
   std::vector<char> asked_, used_;
   std::vector<Collapse> collapse_;  ///< (edges) of faces that failed
   BoundaryNodes nodes_;
   std::vector<std::optional<FaceMesh>> meshes_;
   std::vector<std::optional<Error>> errors_;
-  std::vector<std::string> notes_;  ///< (faces) how its edges are sampled otherwise
+  std::vector<int> rungs_;  ///< (faces) Rung that the face is on
 };
 
 }  // namespace
