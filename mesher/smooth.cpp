@@ -105,9 +105,14 @@ class Smoother {
   bool loosen_below(double floor, int most_failures) {
     bool any = false;
     int failures = 0;
+    // Places are few; where all of a face is folded, no work on single elements mends it.
+    constexpr std::size_t kNodesEach = 4, kNodesAtLeast = 2000;
+    std::size_t left = kNodesEach * points_.size() + kNodesAtLeast;
     for (int quad = 0; quad < static_cast<int>(quads_.size()) && failures < most_failures; ++quad) {
       if (!(quality_[quad] < floor) || pinned(quad)) continue;
-      const bool better = loosen(quad);
+      context_.check();
+      const bool better = loosen(quad, left);
+      if (left == 0) break;
       failures = better ? 0 : failures + 1;
       any |= better;
     }
@@ -487,7 +492,8 @@ class Smoother {
     return false;
   }
 
-  bool loosen(int quad) {
+  /// \param left nodes that may still be worked on, in this call and later ones
+  bool loosen(int quad, std::size_t& left) {
     struct Saved {
       int node;
       Vector3 point, normal;
@@ -504,6 +510,7 @@ class Smoother {
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     }
     std::erase_if(nodes, [&](int node) { return !free_[node]; });
+    left -= std::min(left, nodes.size());
     std::vector<Saved> saved;
     double before = 1, after = 1;
     for (const int node : nodes) {
