@@ -14,6 +14,7 @@
 #include <csignal>
 #include <cstring>
 #include <ext/stdio_filebuf.h>
+#include <fstream>
 #include <istream>
 #include <iterator>
 #include <new>
@@ -90,6 +91,15 @@ void become_reader() {
   }
 }
 
+/// Beyond what is mapped now.
+void limit_memory(std::size_t bytes) {
+  std::size_t pages = 0;
+  if (!(std::ifstream("/proc/self/statm") >> pages)) return;
+  const rlim_t most = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + bytes;
+  const rlimit limit{most, most};
+  ::setrlimit(RLIMIT_AS, &limit);
+}
+
 std::string sentence_of(const std::string& name, const Standard_Failure& problem) {
   return fmt::format("{} could not be read as CAD ({})", name, problem.GetMessageString());
 }
@@ -114,8 +124,9 @@ Answer answer(const std::string& name, const std::function<TopoDS_Shape()>& read
 }
 
 [[noreturn]] void work_as_child(const std::string& name, const std::function<TopoDS_Shape()>& read,
-                                int result) {
+                                int result, std::size_t memory) {
   become_reader();
+  if (memory > 0) limit_memory(memory);
   bool written = false;
   Answer first = nothing;
   {
@@ -161,7 +172,7 @@ TopoDS_Shape result_of(const std::string& name, int result) {
 }  // namespace
 
 TopoDS_Shape read_isolated(const std::string& name, const std::function<TopoDS_Shape()>& read,
-                           ExecutionContext* context) {
+                           ExecutionContext* context, std::size_t memory) {
   if (context != nullptr) context->check();
   const Descriptor result(::memfd_create("quadrille", MFD_CLOEXEC));
   std::array<int, 2> ends{-1, -1};
@@ -170,7 +181,7 @@ TopoDS_Shape read_isolated(const std::string& name, const std::function<TopoDS_S
   Descriptor held(ends[1]);
   const pid_t id = ::fork();
   if (id < 0) throw no_process(name);
-  if (id == 0) work_as_child(name, read, result);
+  if (id == 0) work_as_child(name, read, result, memory);
   Child child(id);
   held.close();
   wait_for(child, alive, context);

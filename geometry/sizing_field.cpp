@@ -25,6 +25,7 @@
 #include "geometry/cad_shape.hpp"
 #include "geometry/edge_curve.hpp"
 #include "geometry/face_surface.hpp"
+#include "geometry/isolated_reading.hpp"
 #include "geometry/module_loader.hpp"
 #include "geometry/trimmed_domain.hpp"
 #include "geometry/vdb_module.hpp"
@@ -121,8 +122,18 @@ class Builder {
       : shape_(model.shape()), options_(options), field_(field), context_(context) {
     if (options.size_field.empty()) return;
     const std::string path = options.size_field.string();
-    const std::string problem = vdb_module().function<VdbOpenFunction>("_open")(path, external_);
-    if (!problem.empty()) throw failure(path, problem);
+    const auto open = [&] {
+      const std::string problem = vdb_module().function<VdbOpenFunction>("_open")(path, external_);
+      if (!problem.empty()) throw failure(path, problem);
+      return TopoDS_Shape();
+    };
+    // OpenVDB believes whatever lengths a damaged file gives: tried apart, where it may crash or want no end
+    // of memory.
+    constexpr std::size_t room = std::size_t{1} << 30, room_each_byte = 20;
+    std::error_code unknown;
+    const std::uintmax_t bytes = std::filesystem::file_size(options.size_field, unknown);
+    read_isolated(path, open, &context, room + (unknown ? 0 : room_each_byte * bytes));
+    open();
   }
 
   void run() {

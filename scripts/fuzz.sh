@@ -28,8 +28,8 @@ export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1
 status=0
 for target in "${targets[@]}"; do
   # stderr holds the program's own sentences as well: one line for each input.
-  if "fuzz/${target}_fuzz" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=4096 -max_len=60000 -print_final_stats=1 \
-    -artifact_prefix="found/${target}-" "corpus/$target" >/dev/null 2>"$target.log"; then
+  if "fuzz/${target}_fuzz" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=6000 -max_len=60000 -print_final_stats=1 \
+    -artifact_prefix="$PWD/found/${target}-" "$PWD/corpus/$target" >/dev/null 2>"$target.log"; then
     echo "$target: clean, $(sed -n 's/^stat::number_of_executed_units: *//p' "$target.log") inputs in $seconds s"
   else
     status=1
