@@ -27,7 +27,12 @@ def load(folders):
 
 def draw_histogram(domain, path):
     """Shares of the quads by q before and after improvement, as figures 12 and 14 of the paper."""
-    methods = [("coloring", "colouring"), ("default", "Quadrille's default"), ("blossom", "Blossom")]
+    methods = [
+        ("coloring", "colouring"),
+        ("default", "default"),
+        ("shape", "--prefer shape"),
+        ("blossom", "Blossom"),
+    ]
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.2), sharey=True)
     for axis, when in zip(axes, ("before moving nodes", "after improvement")):
         for key, label in methods:

@@ -39,7 +39,7 @@ class StraightToNext {
   /// \param k place in the list of where the search starts.
   void start(int k) {
     heap_.clear();
-    patience_ = 200;
+    patience_ = 5000;
     nearest_.start(k);
     aim_ = place_of(list_[static_cast<std::size_t>(k) + 1 < list_.size() ? k + 1 : 0]);
   }
