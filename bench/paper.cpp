@@ -15,6 +15,8 @@
 #include <fmt/format.h>
 #include <malloc.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -141,20 +143,44 @@ std::int64_t resident_bytes(const char* which) {
   throw failure("memory", "/proc/self/status does not tell the memory used");
 }
 
-/// Peak memory of a pairing with its input and output, in bytes a triangle. As in a new process: arrays come
-/// from the system and go back to it, or holes that earlier work has left in the heap would count too.
+/// Peak memory of a pairing with its input and output, in bytes a triangle; in a process of its own, or holes
+/// that earlier pairings have left in the heap would count too.
 double bytes_per_triangle(const TriangleMesh& mesh, const RecombineOptions& options) {
-  constexpr int of_new_process = 128 << 10, greatest = 32 << 20;  // what malloc makes of it with time
-  ::mallopt(M_MMAP_THRESHOLD, of_new_process);
-  ::malloc_trim(0);
-  std::ofstream("/proc/self/clear_refs") << "5";
-  const std::int64_t before = resident_bytes("VmRSS");
-  ExecutionContext context(1);
-  recombine(mesh, options, context);
-  const std::int64_t more = resident_bytes("VmHWM") - before;
-  ::mallopt(M_MMAP_THRESHOLD, greatest);
+  std::array<int, 2> ends{};
+  if (::pipe(ends.data()) != 0) throw failure("memory", "no pipe to a child process");
+  const pid_t child = ::fork();
+  if (child < 0) throw failure("memory", "no child process");
+  if (child == 0) {
+    ::malloc_trim(0);
+    std::ofstream("/proc/self/clear_refs") << "5";
+    const std::int64_t before = resident_bytes("VmRSS");
+    ExecutionContext context(1);
+    recombine(mesh, options, context);
+    const std::int64_t more = resident_bytes("VmHWM") - before;
+    ::_exit(::write(ends[1], &more, sizeof more) == sizeof more ? 0 : 1);
+  }
+  std::int64_t more = 0;
+  const bool told = ::read(ends[0], &more, sizeof more) == sizeof more;
+  ::close(ends[0]);
+  ::close(ends[1]);
+  int status = 0;
+  if (::waitpid(child, &status, 0) != child || status != 0 || !told)
+    throw failure("memory", "the child process failed");
   const auto triangles = static_cast<double>(mesh.triangles.size());
   return (static_cast<double>(more) + 24.0 * static_cast<double>(mesh.points.size())) / triangles + 12;
+}
+
+json run_memory(const TriangleMesh& mesh) {
+  RecombineOptions coloring, shape;
+  coloring.paper_mode = true;
+  shape.objective = Objective::shape;
+  const json entry = {{"coloring", bytes_per_triangle(mesh, coloring)},
+                      {"default", bytes_per_triangle(mesh, {})},
+                      {"shape", bytes_per_triangle(mesh, shape)}};
+  fmt::print("  peak memory, bytes a triangle: colouring {:.0f}, default {:.0f}, shape {:.0f}\n",
+             entry["coloring"].get<double>(), entry["default"].get<double>(), entry["shape"].get<double>());
+  std::fflush(stdout);
+  return entry;
 }
 
 json run_quadrille(const TriangleMesh& mesh, const RecombineOptions& options) {
@@ -164,8 +190,6 @@ json run_quadrille(const TriangleMesh& mesh, const RecombineOptions& options) {
   json entry = measures(quads);
   entry["seconds"] = seconds;
   entry["improved"] = improved(mesh, quads);
-  quads = {};
-  entry["bytes_per_triangle"] = bytes_per_triangle(mesh, options);
   return entry;
 }
 
@@ -386,6 +410,8 @@ json run_domain(const Domain& domain, int blossom_limit, int best_limit, const s
       {"name", domain.name},
       {"triangles", mesh.triangles.size()},
       {"paper", {{"coloring_seconds", domain.paper_coloring}, {"blossom_seconds", domain.paper_blossom}}}};
+  std::fflush(stdout);  // or child processes would print it once more
+  entry["bytes_per_triangle"] = run_memory(mesh);
   const SharpestCorner corner = sharpest_corner(mesh);
   entry["sharpest_corner"] = {{"degrees", corner.degrees}, {"q_bound", corner.q_bound()}};
   fmt::print(
@@ -419,10 +445,6 @@ json run_domain(const Domain& domain, int blossom_limit, int best_limit, const s
   options.objective = Objective::shape;
   entry["shape"] = run_quadrille(mesh, options);
   print_row("shape", entry["shape"]);
-  fmt::print("  peak memory, bytes a triangle: colouring {:.0f}, default {:.0f}, shape {:.0f}\n",
-             entry["coloring"]["bytes_per_triangle"].get<double>(),
-             entry["default"]["bytes_per_triangle"].get<double>(),
-             entry["shape"]["bytes_per_triangle"].get<double>());
 #ifdef QUADRILLE_LEMON
   if (static_cast<int>(count) <= best_limit) {
     entry["best"] = run_best(mesh);
