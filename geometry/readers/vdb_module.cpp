@@ -86,7 +86,7 @@ QUADRILLE_EXPORT std::string quadrille_vdb_open(const std::string& path,
   try {
     openvdb::initialize();
     openvdb::io::File file(path);
-    file.open();
+    file.open(false);  // all of it at once: damage shows here, not at some look-up later
     const auto field = std::make_shared<ExternalField>();
     const auto grids = file.getGrids();
     for (const auto& grid : *grids) {
