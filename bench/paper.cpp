@@ -401,8 +401,8 @@ json run_field_aligned(const Domain& domain, int blossom_limit, const std::strin
   return entry;
 }
 
-json run_domain(const Domain& domain, int blossom_limit, int best_limit, const std::string& gmsh,
-                const std::filesystem::path& folder) {
+json run_domain(const Domain& domain, int blossom_limit, [[maybe_unused]] int best_limit,
+                const std::string& gmsh, const std::filesystem::path& folder) {
   const TriangleMesh mesh = make(domain);
   const double count = static_cast<double>(mesh.triangles.size());
   fmt::print("{}: {} triangles; mean q / minimum q\n", domain.name, mesh.triangles.size());
