@@ -61,8 +61,8 @@ struct FaceSurface::View {
       high = high.cwiseMax(p);
     }
     for (int i = 0; i < buckets * buckets; ++i) {
-      const Vector2 middle =
-          low + (high - low).cwiseProduct(Vector2(i % buckets + 0.5, i / buckets + 0.5)) / buckets;
+      const int column = i % buckets, row = i / buckets;
+      const Vector2 middle = low + (high - low).cwiseProduct(Vector2(column + 0.5, row + 0.5)) / buckets;
       int best = 0;
       for (std::size_t k = 1; k < xy.size(); ++k) {
         if ((xy[k] - middle).squaredNorm() < (xy[best] - middle).squaredNorm()) best = static_cast<int>(k);
@@ -260,7 +260,7 @@ Vector3 FaceSurface::normal(const SurfacePoint& at, const Vector2& uv) const {
   if (length > 1e-7 * scale) return n / length;
   if (view_) return view_->normal;
   const Vector2 middle = 0.5 * (low_ + high_);
-  for (double nudge = 1e-4; nudge < 0.5; nudge *= 10) {
+  for (const double nudge : {1e-4, 1e-3, 1e-2, 1e-1}) {
     const SurfacePoint near = evaluate(uv + nudge * (middle - uv));
     const Vector3 m = near.du.cross(near.dv);
     if (m.norm() > 1e-7 * scale) return m.normalized();

@@ -21,34 +21,34 @@ namespace quadrille {
 namespace {
 
 using Quad = QuadTopology::Quad;
-constexpr double kPi = std::numbers::pi;
-constexpr int kMaxPatch = 32;        ///< quads in a patch
-constexpr double kMaxStretch = 1.9;  ///< no side gets longer than this times the mean side of its patch
+constexpr double pi = std::numbers::pi;
+constexpr int max_patch = 32;        ///< quads in a patch
+constexpr double max_stretch = 1.9;  ///< no side gets longer than this times the mean side of its patch
 /// A patch that is better connected may be this badly shaped at first: smoothing mends it.
-constexpr double kMendable = 0.05;
-constexpr double kRegular = 0.5;      ///< nodes that cost less are left alone
-constexpr double kMinGain = 0.5;      ///< a patch is filled anew only for more than this
-constexpr double kWorthTrying = 1.5;  ///< a patch whose nodes cost less in all cannot gain
-constexpr double kResizeCost = 0.2;   ///< of each node more or fewer: keeps the density
-constexpr double kDriftCost = 50;     ///< of each node more, by the share of quads already gained
+constexpr double mendable = 0.05;
+constexpr double regular_cost = 0.5;  ///< nodes that cost less are left alone
+constexpr double min_gain = 0.5;      ///< a patch is filled anew only for more than this
+constexpr double worth_trying = 1.5;  ///< a patch whose nodes cost less in all cannot gain
+constexpr double resize_cost = 0.2;   ///< of each node more or fewer: keeps the density
+constexpr double drift_cost = 50;     ///< of each node more, by the share of quads already gained
 
 double angle_between(const Vector3& from, const Vector3& to, const Vector3& normal) {
   const double angle = std::atan2(from.cross(to).dot(normal), from.dot(to));
-  return angle < 0 ? angle + 2 * kPi : angle;
+  return angle < 0 ? angle + 2 * pi : angle;
 }
 
 /// Quads of a mesh and what is to stand in their place. A node may move along.
 struct Change {
-  std::array<int, kMaxPatch> old_quads;
+  std::array<int, max_patch> old_quads;
   int old_count = 0;
-  std::array<Quad, kMaxPatch> quads;
+  std::array<Quad, max_patch> quads;
   int count = 0;
   int moved = -1;  ///< node that is placed anew, at the mean of its neighbours
 
   bool add_old(int quad) {
     if (std::find(old_quads.begin(), old_quads.begin() + old_count, quad) != old_quads.begin() + old_count)
       return true;
-    if (old_count == kMaxPatch) return false;
+    if (old_count == max_patch) return false;
     old_quads[old_count++] = quad;
     return true;
   }
@@ -58,8 +58,8 @@ struct Change {
 
 /// A patch of quads as a polygon with nodes inside.
 struct Outline {
-  std::array<int, PatchTemplate::kMaxSides> ring;  ///< nodes, counter-clockwise
-  std::array<int, PatchTemplate::kMaxSides>
+  std::array<int, PatchTemplate::max_sides> ring;  ///< nodes, counter-clockwise
+  std::array<int, PatchTemplate::max_sides>
       sides;  ///< side of the patch from each node of the ring to the next
   int length = 0;
   std::array<int, 4> inside;
@@ -68,8 +68,8 @@ struct Outline {
 
 /// Quads that are tried as one patch.
 struct Patch {
-  static constexpr int kMaxQuads = 8;
-  std::array<int, kMaxQuads> quads;
+  static constexpr int max_quads = 8;
+  std::array<int, max_quads> quads;
   int count = 0;
 
   /// The same for the same quads in any order, as long as they and the valences of their nodes do not change.
@@ -93,7 +93,7 @@ struct Patch {
   bool add(int quad) {
     if (quad < 0) return false;
     if (contains(quad)) return true;
-    if (count == kMaxQuads) return false;
+    if (count == max_quads) return false;
     quads[count++] = quad;
     return true;
   }
@@ -115,7 +115,7 @@ class CleanUp {
       for (const int node : triangle) locked_[node] = 1;
     measure_boundary();
     if (doubtful_.empty()) doubtful_.assign(mesh_.mesh.points.size(), 1);
-    tried_.assign(kTriedSlots, 0);
+    tried_.assign(tried_slots, 0);
   }
 
   /// Interior nodes with two quads go; the two quads become one.
@@ -158,7 +158,7 @@ class CleanUp {
       return (quads - 4) * (quads - 4);
     }
     if (quads < 1) return 1e9;
-    const double angle = angles_[node] * 180 / kPi;
+    const double angle = angles_[node] * 180 / pi;
     const double wanted = std::max(1.0, std::round(angle / 90));
     // No smoothing mends the mean angle at a boundary node: beyond 130 degrees it soon rules everything.
     // Opening a straight corner costs two or three irregular nodes inside, and is worth it from 150 degrees
@@ -184,7 +184,7 @@ class CleanUp {
   bool fill(const Patch& patch, const Outline& outline, const PatchTemplate& filling);
   void push(int node);
 
-  static constexpr std::size_t kTriedSlots = 1 << 13;
+  static constexpr std::size_t tried_slots = 1 << 13;
 
   std::vector<char>& doubtful_;       ///< nodes where something may still be gained
   int drift_ = 0;                     ///< quads more than at first
@@ -220,7 +220,7 @@ void CleanUp::measure_boundary() {
 }
 
 double CleanUp::cost_change(const Change& change) const {
-  std::array<int, 4 * kMaxPatch> nodes, delta;
+  std::array<int, 4 * max_patch> nodes, delta;
   int count = 0;
   const auto tally = [&](const Quad& quad, int by) {
     for (const int node : quad) {
@@ -276,14 +276,14 @@ bool CleanUp::too_long(const Change& change) const {
     }
   for (const Quad& q : change.new_span())
     for (int k = 0; k < 4; ++k) longest = std::max(longest, (point(q[k]) - point(q[(k + 1) & 3])).norm());
-  return longest > std::max(longest_old, kMaxStretch * sum / (4 * change.old_count));
+  return longest > std::max(longest_old, max_stretch * sum / (4 * change.old_count));
 }
 
 /// Carries a change out if the valences gain enough and no element becomes worse than it was (or than can be
 /// mended).
 bool CleanUp::apply(Change& change, double allowed_cost) {
   if (change.count == 0 || cost_change(change) > allowed_cost) return false;
-  std::array<Quad, kMaxPatch> before;
+  std::array<Quad, max_patch> before;
   for (int i = 0; i < change.old_count; ++i) before[i] = topology_.quad(change.old_quads[i]);
   const double worst_before = worst({before.data(), static_cast<std::size_t>(change.old_count)});
   const int node = change.moved;
@@ -304,7 +304,7 @@ bool CleanUp::apply(Change& change, double allowed_cost) {
     mesh_.mesh.points[node] =
         surface_.move(mesh_.parameters[node], sum / std::max(neighbours, 1), mesh_.normals[node]);
   }
-  const bool done = worst(change.new_span()) > std::min(worst_before, kMendable) && !too_long(change) &&
+  const bool done = worst(change.new_span()) > std::min(worst_before, mendable) && !too_long(change) &&
                     topology_.replace(change.old_span(), change.new_span());
   if (!done && node >= 0) {
     mesh_.mesh.points[node] = place;
@@ -387,15 +387,15 @@ bool CleanUp::improve_valences(ExecutionContext& context) {
   queued_.assign(mesh_.mesh.points.size(), 0);
   const int moves = report_.valence_moves;
   for (int node = 0; node < node_count(); ++node)
-    if (doubtful_[node] && cost_at(node) > kRegular) push(node);
+    if (doubtful_[node] && cost_at(node) > regular_cost) push(node);
   std::fill(doubtful_.begin(), doubtful_.end(), 0);
-  // Each move lowers the cost by at least kMinGain, so the queue runs dry; the bound is for safety only.
+  // Each move lowers the cost by at least min_gain, so the queue runs dry; the bound is for safety only.
   const std::size_t bound = 40 * queue_.size() + 1000;
   for (std::size_t head = 0; head < queue_.size() && head < bound; ++head) {
     if (head % 4096 == 0) context.check();
     const int node = queue_[head];
     queued_[node] = 0;
-    if (topology_.side_of(node) < 0 || cost_at(node) <= kRegular) continue;
+    if (topology_.side_of(node) < 0 || cost_at(node) <= regular_cost) continue;
     blocked_ = false;
     if (!improve_round(node) && blocked_) doubtful_[node] = 1;
   }
@@ -464,7 +464,7 @@ bool CleanUp::trace(const Patch& patch, Outline& outline) const {
       start = 4 * patch.quads[i] + k;
       ++outer;
     }
-  if (start < 0 || outer > PatchTemplate::kMaxSides) return false;
+  if (start < 0 || outer > PatchTemplate::max_sides) return false;
   int side = start;
   do {
     if (outline.length == outer) return false;
@@ -495,43 +495,43 @@ bool CleanUp::try_patch(const Patch& patch) {
   double most = 0;
   for (int i = 0; i < patch.count; ++i)
     for (int k = 0; k < 4; ++k) most += cost_of(4 * patch.quads[i] + k);
-  if (most < kWorthTrying) return false;
+  if (most < worth_trying) return false;
   const std::uint64_t fingerprint = patch.fingerprint(topology_);
-  std::uint64_t& slot = tried_[fingerprint % kTriedSlots];
+  std::uint64_t& slot = tried_[fingerprint % tried_slots];
   if (slot == fingerprint) return false;
   slot = fingerprint;
   Outline outline;
   if (!trace(patch, outline)) return false;
-  constexpr int kMaxUses = 6;
-  std::array<std::array<double, kMaxUses>, PatchTemplate::kMaxSides> costs;
+  constexpr int max_uses = 6;
+  std::array<std::array<double, max_uses>, PatchTemplate::max_sides> costs;
   double cost = 0;
   for (int i = 0; i < outline.length; ++i) {
     // Quads of the patch at the node, and beyond it.
     int inside = 0;
     for (int k = 0; k < patch.count; ++k) inside += topology_.side_at(patch.quads[k], outline.ring[i]) >= 0;
     const int valence = topology_.valence(outline.sides[i]);
-    for (int uses = 1; uses < kMaxUses; ++uses)
+    for (int uses = 1; uses < max_uses; ++uses)
       costs[i][uses] = node_cost(outline.ring[i], valence - inside + uses);
-    cost += costs[i][std::min(inside, kMaxUses - 1)];
+    cost += costs[i][std::min(inside, max_uses - 1)];
   }
   for (int i = 0; i < outline.inside_count; ++i) cost += cost_at(outline.inside[i]);
-  if (cost < kWorthTrying) return false;
+  if (cost < worth_trying) return false;
 
   struct Candidate {
     double cost;
     const PatchTemplate* filling;
   };
   // Where two fillings gain alike, the one that brings the number of quads back to the first count.
-  const double drift = std::clamp(kDriftCost * drift_ / topology_.size(), -kResizeCost, kResizeCost);
-  constexpr int kCandidates = 4;
-  std::array<Candidate, kCandidates> best;
+  const double drift = std::clamp(drift_cost * drift_ / topology_.size(), -resize_cost, resize_cost);
+  constexpr int candidates = 4;
+  std::array<Candidate, candidates> best;
   int count = 0;
   for (const PatchTemplate& filling : patch_templates(outline.length)) {
     const int added = filling.interior - outline.inside_count;
-    double sum = filling.interior_cost + kResizeCost * std::abs(added) + drift * added;
-    for (int i = 0; i < outline.length && sum <= cost - kMinGain; ++i) sum += costs[i][filling.uses[i]];
-    if (sum > cost - kMinGain || (count == kCandidates && sum >= best[count - 1].cost)) continue;
-    int at = count < kCandidates ? count++ : count - 1;
+    double sum = filling.interior_cost + resize_cost * std::abs(added) + drift * added;
+    for (int i = 0; i < outline.length && sum <= cost - min_gain; ++i) sum += costs[i][filling.uses[i]];
+    if (sum > cost - min_gain || (count == candidates && sum >= best[count - 1].cost)) continue;
+    int at = count < candidates ? count++ : count - 1;
     for (; at > 0 && best[at - 1].cost > sum; --at) best[at] = best[at - 1];
     best[at] = {sum, &filling};
   }
@@ -547,8 +547,8 @@ bool CleanUp::try_patch(const Patch& patch) {
 
 bool CleanUp::fill(const Patch& patch, const Outline& outline, const PatchTemplate& filling) {
   // Nodes inside start from the middle of the polygon and are relaxed among themselves and towards it.
-  std::array<Vector3, PatchTemplate::kMaxSides + PatchTemplate::kMaxInterior> x;
-  std::array<int, PatchTemplate::kMaxSides + PatchTemplate::kMaxInterior> nodes;
+  std::array<Vector3, PatchTemplate::max_sides + PatchTemplate::max_interior> x;
+  std::array<int, PatchTemplate::max_sides + PatchTemplate::max_interior> nodes;
   Vector3 centre = Vector3::Zero();
   for (int i = 0; i < outline.length; ++i) {
     nodes[i] = outline.ring[i];
@@ -580,12 +580,12 @@ bool CleanUp::fill(const Patch& patch, const Outline& outline, const PatchTempla
     return least;
   };
   Change change;
-  std::array<Quad, Patch::kMaxQuads> before;
+  std::array<Quad, Patch::max_quads> before;
   for (int i = 0; i < patch.count; ++i) {
     change.add_old(patch.quads[i]);
     before[i] = topology_.quad(patch.quads[i]);
   }
-  const double floor = std::min(worst({before.data(), static_cast<std::size_t>(patch.count)}), kMendable);
+  const double floor = std::min(worst({before.data(), static_cast<std::size_t>(patch.count)}), mendable);
   if (!(worst_now() > floor)) return false;
 
   // Only now the surface is asked.
@@ -593,7 +593,7 @@ bool CleanUp::fill(const Patch& patch, const Outline& outline, const PatchTempla
     Vector3 point, normal;
     Vector2 uv;
   };
-  std::array<Saved, PatchTemplate::kMaxInterior> saved;
+  std::array<Saved, PatchTemplate::max_interior> saved;
   int donor = nodes[0];
   for (int i = 0; i < n; ++i)
     if (!mesh_.fixed[nodes[i]]) donor = nodes[i];

@@ -21,7 +21,7 @@ class Enumeration {
   explicit Enumeration(int sides) : sides_(sides) {
     Ring ring;
     for (int i = 0; i < sides; ++i) ring.push_back(i);
-    for (int inside = 0; inside <= PatchTemplate::kMaxInterior; ++inside) {
+    for (int inside = 0; inside <= PatchTemplate::max_interior; ++inside) {
       next_node_ = sides;
       fill({{ring, inside}});
     }
@@ -105,7 +105,7 @@ class Enumeration {
   void record() {
     PatchTemplate result;
     result.interior = next_node_ - sides_;
-    std::array<int, PatchTemplate::kMaxSides + PatchTemplate::kMaxInterior> uses{};
+    std::array<int, PatchTemplate::max_sides + PatchTemplate::max_interior> uses{};
     for (const auto& quad : quads_) {
       for (int k = 0; k < 4; ++k) {
         result.corners[result.quads][k] = static_cast<std::int8_t>(quad[k]);
@@ -133,7 +133,7 @@ const std::vector<PatchTemplate>& patch_templates(int sides) {
   static const std::array<std::vector<PatchTemplate>, 4> tables = {
       Enumeration(4).take(), Enumeration(6).take(), Enumeration(8).take(), Enumeration(10).take()};
   static const std::vector<PatchTemplate> none;
-  if (sides < 4 || sides > PatchTemplate::kMaxSides || sides % 2 != 0) return none;
+  if (sides < 4 || sides > PatchTemplate::max_sides || sides % 2 != 0) return none;
   return tables[(sides - 4) / 2];
 }
 

@@ -8,7 +8,7 @@
 namespace quadrille {
 namespace {
 
-constexpr int kMaxPatch = 48;  ///< quads in a patch; larger ones are refused
+constexpr int max_patch = 48;  ///< quads in a patch; larger ones are refused
 
 /// A side of the new quads of a patch, on its way to its twin.
 struct PendingSide {
@@ -17,7 +17,7 @@ struct PendingSide {
   int outside;  ///< side of a quad outside the patch, or -1
 };
 
-constexpr int kBoundary = -1;
+constexpr int boundary = -1;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ QuadTopology::QuadTopology(std::vector<Quad> quads, const std::vector<int>& tags
 }
 
 void QuadTopology::link() {
-  twins_.assign(4 * quads_.size(), kBoundary);
+  twins_.assign(4 * quads_.size(), boundary);
   // Sides in rows by their lower node; within the few sides of a row, those with the same ends are met by
   // search.
   std::vector<int> first(sides_.size() + 1, 0);
@@ -106,16 +106,16 @@ bool QuadTopology::joined_outside(int from, int to, std::span<const int> patch) 
 }
 
 bool QuadTopology::replace(std::span<const int> old_quads, std::span<const Quad> new_quads) {
-  if (old_quads.size() > kMaxPatch || new_quads.size() > kMaxPatch || new_quads.empty()) return false;
-  std::array<PendingSide, 4 * kMaxPatch> pending;
+  if (old_quads.size() > max_patch || new_quads.size() > max_patch || new_quads.empty()) return false;
+  std::array<PendingSide, 4 * max_patch> pending;
   const int count = 4 * static_cast<int>(new_quads.size());
   for (int i = 0; i < count; ++i) {
     const Quad& quad = new_quads[i >> 2];
-    pending[i] = {quad[i & 3], quad[(i + 1) & 3], -1, kBoundary};
+    pending[i] = {quad[i & 3], quad[(i + 1) & 3], -1, boundary};
     for (int k = 0; k < (i & 3); ++k)
       if (quad[k] == quad[i & 3]) return false;
   }
-  std::array<char, 4 * kMaxPatch> outer{};
+  std::array<char, 4 * max_patch> outer{};
   const auto in_patch = [&](int quad) {
     return std::find(old_quads.begin(), old_quads.end(), quad) != old_quads.end();
   };
@@ -156,7 +156,7 @@ bool QuadTopology::replace(std::span<const int> old_quads, std::span<const Quad>
       if (sides_[node] >= 0 && in_patch(sides_[node] >> 2)) sides_[node] = -1;
     quads_[quad] = {-1, -1, -1, -1};
   }
-  std::array<int, kMaxPatch> slots;
+  std::array<int, max_patch> slots;
   for (std::size_t i = 0; i < new_quads.size(); ++i) {
     if (i < old_quads.size()) {
       slots[i] = old_quads[i];
@@ -166,7 +166,7 @@ bool QuadTopology::replace(std::span<const int> old_quads, std::span<const Quad>
     } else {
       slots[i] = size();
       quads_.push_back({});
-      twins_.resize(twins_.size() + 4, kBoundary);
+      twins_.resize(twins_.size() + 4, boundary);
       if (tagged()) tags_.push_back(0);
     }
     quads_[slots[i]] = new_quads[i];

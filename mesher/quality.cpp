@@ -14,7 +14,7 @@
 namespace quadrille {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double pi = std::numbers::pi;
 
 /// What the corners of one quad say.
 struct Corners {
@@ -54,7 +54,7 @@ struct Frame {
 
 double corner_angle(double sine, double cosine) {
   const double angle = std::atan2(sine, cosine);
-  return angle < 0 ? angle + 2 * kPi : angle;
+  return angle < 0 ? angle + 2 * pi : angle;
 }
 
 Corners measure(const std::array<const Vector3*, 4>& p) {
@@ -65,12 +65,12 @@ Corners measure(const std::array<const Vector3*, 4>& p) {
   for (int j = 0; j < 4; ++j) {
     const auto [sine, cosine] = frame.sine_cosine(j);
     corners.scaled_jacobian = std::min(corners.scaled_jacobian, sine);
-    off = std::max(off, std::abs(kPi / 2 - corner_angle(sine, cosine)));
+    off = std::max(off, std::abs(pi / 2 - corner_angle(sine, cosine)));
     const double tilt =
         std::atan2(frame.crosses[j].cross(frame.normal).norm(), frame.crosses[j].dot(frame.normal));
     corners.warping = std::max(corners.warping, tilt);
   }
-  corners.q = std::max(1 - 2 / kPi * off, 0.0);
+  corners.q = std::max(1 - 2 / pi * off, 0.0);
   corners.longest = *std::max_element(frame.lengths.begin(), frame.lengths.end());
   corners.shortest = *std::min_element(frame.lengths.begin(), frame.lengths.end());
   return corners;
@@ -128,7 +128,7 @@ void measure_elements(const ShellMesh& mesh, QualitySummary& summary) {
     const double aspect = corners.longest / std::max(corners.shortest, std::numeric_limits<double>::min());
     summary.aspect_max = std::max(summary.aspect_max, aspect);
     summary.aspect_mean += aspect;
-    summary.warping_max_degrees = std::max(summary.warping_max_degrees, corners.warping * 180 / kPi);
+    summary.warping_max_degrees = std::max(summary.warping_max_degrees, corners.warping * 180 / pi);
   }
   const auto count = static_cast<double>(mesh.quads.size());
   summary.q_mean /= count;
@@ -178,9 +178,9 @@ double quad_q(const Vector3& a, const Vector3& b, const Vector3& c, const Vector
   double off = 0;
   for (int j = 0; j < 4; ++j) {
     const auto [sine, cosine] = frame.sine_cosine(j);
-    off = std::max(off, std::abs(kPi / 2 - corner_angle(sine, cosine)));
+    off = std::max(off, std::abs(pi / 2 - corner_angle(sine, cosine)));
   }
-  return std::max(1 - 2 / kPi * off, 0.0);
+  return std::max(1 - 2 / pi * off, 0.0);
 }
 
 double quad_scaled_jacobian(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {

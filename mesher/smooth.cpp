@@ -18,19 +18,20 @@ namespace quadrille {
 namespace {
 
 /// A move that leaves every element above this scaled Jacobian is good even if the least one falls a little.
-constexpr double kGood = 0.6;
-constexpr double kOpposite = 0.5;   ///< weight of the corner opposite in a quad, beside 1 for the neighbours
-constexpr double kOvershoot = 1.3;  ///< of a sweep's moves
+constexpr double good_jacobian = 0.6;
+constexpr double opposite_weight =
+    0.5;                           ///< weight of the corner opposite in a quad, beside 1 for the neighbours
+constexpr double overshoot = 1.3;  ///< of a sweep's moves
 /// Moves below this fraction of the mean side round the node are not worth evaluating the surface for.
-constexpr double kStill = 4e-3;
+constexpr double still_share = 4e-3;
 /// A place on the surface within this share of the size of the place judged needs no second judgement.
-constexpr double kNear = 0.01;
+constexpr double near_share = 0.01;
 /// A side shorter than this share of the mean side round the node counts against the node's place.
-constexpr double kShortSide = 0.5;
+constexpr double short_side = 0.5;
 /// Elements with a scaled Jacobian below this (q < 0.5) are worked on node by node.
-constexpr double kPoor = 0.7071;
+constexpr double poor_jacobian = 0.7071;
 /// These (q < 0.33) are worked on longer; they are few.
-constexpr double kBad = 0.5;
+constexpr double bad_jacobian = 0.5;
 
 /// Smooths one surface mesh in place. Nodes are visited in index order and see the moves of the nodes before
 /// them.
@@ -106,8 +107,8 @@ class Smoother {
     bool any = false;
     int failures = 0;
     // Places are few; where all of a face is folded, no work on single elements mends it.
-    constexpr std::size_t kNodesEach = 4, kNodesAtLeast = 2000;
-    std::size_t left = kNodesEach * points_.size() + kNodesAtLeast;
+    constexpr std::size_t nodes_each = 4, nodes_at_least = 2000;
+    std::size_t left = nodes_each * points_.size() + nodes_at_least;
     for (int quad = 0; quad < static_cast<int>(quads_.size()) && failures < most_failures; ++quad) {
       if (!(quality_[quad] < floor) || pinned(quad)) continue;
       context_.check();
@@ -211,7 +212,7 @@ class Smoother {
       shortest = std::min(shortest, side);
       sum += std::sqrt(side);
     }
-    const double share = std::sqrt(shortest) * (first_[node + 1] - first_[node]) / (kShortSide * sum);
+    const double share = std::sqrt(shortest) * (first_[node + 1] - first_[node]) / (short_side * sum);
     return least * std::min(1.0, share);
   }
 
@@ -234,20 +235,20 @@ class Smoother {
   /// The quads round a node, in the tangent plane at it: sweeps are judged there, with a third of the
   /// arithmetic.
   struct Plan {
-    static constexpr int kMaxQuads = 16;
+    static constexpr int max_quads = 16;
     struct Corner {
       double bx, by, cx, cy, dx, dy;  ///< the next, opposite and previous corner, from the node
     };
     int count = 0;
-    std::array<Corner, kMaxQuads> corners;
-    std::array<double, kMaxQuads> quality;  ///< of the quads, for the place judged last
+    std::array<Corner, max_quads> corners;
+    std::array<double, max_quads> quality;  ///< of the quads, for the place judged last
     Vector3 u, v;
   };
 
   /// False where the node has too many quads.
   bool draw(int node, Plan& plan) const {
     plan.count = first_[node + 1] - first_[node];
-    if (plan.count > Plan::kMaxQuads) return false;
+    if (plan.count > Plan::max_quads) return false;
     const Vector3 &origin = points_[node], &normal = normals_[node];
     // Duff et al., Building an orthonormal basis, revisited (2017).
     const double sign = std::copysign(1.0, normal.z()), a = -1 / (sign + normal.z());
@@ -299,16 +300,16 @@ class Smoother {
     double x = 0, y = 0, size2 = 0;
     for (int i = 0; i < plan.count; ++i) {
       const auto& [bx, by, cx, cy, dx, dy] = plan.corners[i];
-      x += bx + dx + kOpposite * cx;
-      y += by + dy + kOpposite * cy;
+      x += bx + dx + opposite_weight * cx;
+      y += by + dy + opposite_weight * cy;
       size2 += bx * bx + by * by;
     }
-    const double share = kOvershoot / ((2 + kOpposite) * plan.count);
+    const double share = overshoot / ((2 + opposite_weight) * plan.count);
     x *= share;
     y *= share;
     size2 /= plan.count;
-    if (x * x + y * y < kStill * kStill * size2) return false;
-    const double floor = std::min(least_round(node), kGood);
+    if (x * x + y * y < still_share * still_share * size2) return false;
+    const double floor = std::min(least_round(node), good_jacobian);
     if (!fits(plan, x, y, floor)) {
       x *= 0.5;
       y *= 0.5;
@@ -326,7 +327,8 @@ class Smoother {
     const double px = plan.u.dot(shift), py = plan.v.dot(shift);
     const double off2 = (px - x) * (px - x) + (py - y) * (py - y);
     // Off by more than a little (or not a number), the place is judged anew.
-    if (!(off2 < kNear * kNear * size2) && !(place.allFinite() && fits(plan, px, py, floor))) return false;
+    if (!(off2 < near_share * near_share * size2) && !(place.allFinite() && fits(plan, px, py, floor)))
+      return false;
     points_[node] = place;
     parameters_[node] = uv;
     normals_[node] = normal;
@@ -370,20 +372,21 @@ class Smoother {
       value = start;
       best = origin;
     }
-    constexpr double kDiagonal = 0.70710678118654752;
-    constexpr double kCompass[8][2] = {{1, 0},
-                                       {0, 1},
-                                       {-1, 0},
-                                       {0, -1},
-                                       {kDiagonal, kDiagonal},
-                                       {-kDiagonal, kDiagonal},
-                                       {-kDiagonal, -kDiagonal},
-                                       {kDiagonal, -kDiagonal}};
-    for (double step = 0.25 * size; step > 0.02 * size; step *= 0.5) {
+    constexpr double diagonal_step = 0.70710678118654752;
+    constexpr double compass[8][2] = {{1, 0},
+                                      {0, 1},
+                                      {-1, 0},
+                                      {0, -1},
+                                      {diagonal_step, diagonal_step},
+                                      {-diagonal_step, diagonal_step},
+                                      {-diagonal_step, -diagonal_step},
+                                      {diagonal_step, -diagonal_step}};
+    double step = 0.25 * size;
+    for (int halvings = 0; halvings < 4; ++halvings, step *= 0.5) {
       for (int tries = 0, moved = 1; moved && tries < 3; ++tries) {
         moved = 0;
         const Vector3 centre = best;
-        for (const auto& way : kCompass) {
+        for (const auto& way : compass) {
           const Vector3 p = centre + step * (way[0] * u + way[1] * v);
           const double candidate = value_at(p, value);
           if (candidate > value) {
@@ -444,22 +447,22 @@ class Smoother {
   /// Where in [-reach, reach] a concave function is largest.
   template <class Function>
   static double golden_section(double reach, Function&& function) {
-    constexpr double kGolden = 0.61803398874989485;
+    constexpr double golden_ratio = 0.61803398874989485;
     double low = -reach, high = reach;
-    double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+    double a = high - golden_ratio * (high - low), b = low + golden_ratio * (high - low);
     double at_a = function(a), at_b = function(b);
     for (int i = 0; i < 32; ++i) {
       if (at_a > at_b) {
         high = b;
         b = a;
         at_b = at_a;
-        a = high - kGolden * (high - low);
+        a = high - golden_ratio * (high - low);
         at_a = function(a);
       } else {
         low = a;
         a = b;
         at_a = at_b;
-        b = low + kGolden * (high - low);
+        b = low + golden_ratio * (high - low);
         at_b = function(b);
       }
     }
@@ -500,8 +503,8 @@ class Smoother {
       Vector2 uv;
     };
     std::vector<int> nodes(quads_[quad].begin(), quads_[quad].end());
-    constexpr int kRings = 3;
-    for (int ring = 0; ring < kRings; ++ring) {
+    constexpr int rings = 3;
+    for (int ring = 0; ring < rings; ++ring) {
       const std::size_t count = nodes.size();
       for (std::size_t i = 0; i < count; ++i)
         for (int k = first_[nodes[i]]; k < first_[nodes[i] + 1]; ++k)
@@ -517,8 +520,8 @@ class Smoother {
       saved.push_back({node, points_[node], normals_[node], parameters_[node]});
       before = std::min(before, least_round(node));
     }
-    constexpr int kAverages = 12, kMends = 6;
-    for (int i = 0; i < kAverages; ++i)
+    constexpr int averages = 12, mends = 6;
+    for (int i = 0; i < averages; ++i)
       for (const int node : nodes) points_[node] = middle_of(node);
     for (const Saved& was : saved) {
       const Vector3 place = surface_.move(parameters_[was.node], points_[was.node], normals_[was.node]);
@@ -529,9 +532,10 @@ class Smoother {
       normals_[was.node] = was.normal;
     }
     for (const int node : nodes) measure_round(node);
-    for (int i = 0; i < kMends; ++i)
+    for (int i = 0; i < mends; ++i)
       for (const int node : nodes)
-        if (least_round(node) < kBad) search(node, least_round(node) > 0 ? Goal::raise : Goal::untangle);
+        if (least_round(node) < bad_jacobian)
+          search(node, least_round(node) > 0 ? Goal::raise : Goal::untangle);
     for (const int node : nodes) after = std::min(after, least_round(node));
     if (after > before) return true;
     for (const Saved& was : saved) {
@@ -564,15 +568,15 @@ void smooth(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const Im
   smoother.measure_all();
   for (int i = 0; i < 10 && smoother.optimise_below(1e-3); ++i) continue;
   // The worst by turns with their surroundings, which have to give way.
-  for (int i = 0; i < 8 && smoother.optimise_below(kBad); ++i) {
+  for (int i = 0; i < 8 && smoother.optimise_below(bad_jacobian); ++i) {
     for (int k = 0; k < 3 && smoother.sweep(); ++k) continue;
     smoother.measure_all();
   }
-  constexpr double kHalfPi = 1.57079632679489662;
-  constexpr int kMostFailures = 4;
-  if (smoother.loosen_below(std::sin(kHalfPi * std::clamp(options.q_floor, 0.0, 0.9)), kMostFailures))
-    for (int i = 0; i < 2 && smoother.optimise_below(kBad); ++i) continue;
-  for (int i = 0; i < 2 && smoother.optimise_below(kPoor); ++i) continue;
+  constexpr double half_pi = 1.57079632679489662;
+  constexpr int most_failures = 4;
+  if (smoother.loosen_below(std::sin(half_pi * std::clamp(options.q_floor, 0.0, 0.9)), most_failures))
+    for (int i = 0; i < 2 && smoother.optimise_below(bad_jacobian); ++i) continue;
+  for (int i = 0; i < 2 && smoother.optimise_below(poor_jacobian); ++i) continue;
   for (int i = 0; i < 10 && smoother.untangle(); ++i) context.check();
   report.bad_elements = smoother.bad_elements();
 }

@@ -19,15 +19,15 @@
 namespace quadrille {
 namespace {
 
-constexpr std::size_t kMaxSentences = 20;
-constexpr double kCoincident = 1e-9;  ///< of the diagonal
+constexpr std::size_t max_sentences = 20;
+constexpr double coincident = 1e-9;  ///< of the diagonal
 
 /// Gathers sentences up to the limit; the checks go on cheaply beyond it.
 class Findings {
  public:
   template <typename... Arguments>
   void add(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    if (sentences_.size() < kMaxSentences)
+    if (sentences_.size() < max_sentences)
       sentences_.push_back(fmt::format(format, std::forward<Arguments>(arguments)...));
   }
   bool empty() const { return sentences_.empty(); }
@@ -223,7 +223,7 @@ void check_coincident(std::span<const Vector3> points, Findings& findings) {
     return;
   }
   Findings pairs;
-  CoincidenceSearch(points, kCoincident * diagonal).run(pairs);
+  CoincidenceSearch(points, coincident * diagonal).run(pairs);
   for (const auto& sentence : pairs.take()) findings.add("{}", sentence);
 }
 
