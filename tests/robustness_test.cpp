@@ -105,6 +105,15 @@ TEST(Robustness, ReportsTheRungThatAFaceTook) {
             "edges sampled four times as fine, parametric curves made anew");
 }
 
+TEST(Robustness, MakesAPointOfATinyFaceThatFails) {
+  const CadModel model(std::make_shared<CadShape>(tiny_cusp(), "tiny_cusp"));
+  const ShellMesh mesh = mesh_of(model, 20);
+  EXPECT_EQ(joined(validate(mesh, false)), "");
+  EXPECT_EQ(mesh.faces[0].status, "meshed");
+  EXPECT_EQ(mesh.faces[1].status, "merged");
+  EXPECT_NEAR(mesh_area(mesh), 400, 1e-3);
+}
+
 TEST(Robustness, MergesTinyFeaturesWhenAsked) {
   const CadModel model = model_of(trouble_named("sliver"));
   MeshOptions options;

@@ -20,6 +20,7 @@
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <GC_MakeArcOfCircle.hxx>
 #include <Geom2d_BSplineCurve.hxx>
 #include <Geom2d_Circle.hxx>
 #include <Geom2d_Curve.hxx>
@@ -715,6 +716,25 @@ std::vector<TroubleModel> all_models() {
 }
 
 }  // namespace
+
+TopoDS_Shape tiny_cusp() {
+  const double length = 0.01, height = 4e-5;
+  const gp_Pnt start(0, 0, 0), top(0, height, 0), end(length, 0, 0), below(0.5 * length, -height, 0);
+  const auto line = [](const gp_Pnt& a, const gp_Pnt& b) { return BRepBuilderAPI_MakeEdge(a, b).Edge(); };
+  const TopoDS_Edge curve = BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(top, below, end).Value()).Edge(),
+                    side = line(start, top);
+  BRepBuilderAPI_MakeWire square(line({-10, 0, 0}, start));
+  square.Add(side);
+  square.Add(curve);
+  const std::vector<gp_Pnt> corners{end, {10, 0, 0}, {10, 20, 0}, {-10, 20, 0}, {-10, 0, 0}};
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) square.Add(line(corners[i], corners[i + 1]));
+  BRepBuilderAPI_MakeWire sliver(line(start, end));
+  sliver.Add(TopoDS::Edge(curve.Reversed()));
+  sliver.Add(TopoDS::Edge(side.Reversed()));
+  const gp_Pln plane(gp::XOY());
+  return sewn({BRepBuilderAPI_MakeFace(plane, square.Wire()).Face(),
+               BRepBuilderAPI_MakeFace(plane, sliver.Wire()).Face()});
+}
 
 const std::vector<TroubleModel>& trouble_models() {
   static const std::vector<TroubleModel> models = all_models();

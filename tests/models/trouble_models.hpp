@@ -20,4 +20,8 @@ struct TroubleModel {
 
 const std::vector<TroubleModel>& trouble_models();
 
+/// A square of 20 with a face of 0.01 by 0.00004 at its side, whose edges cross: no element fits there, and
+/// it is far below any size.
+TopoDS_Shape tiny_cusp();
+
 }  // namespace quadrille
