@@ -6,6 +6,7 @@
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -32,6 +33,10 @@ struct ExternalField {
     double result = std::numeric_limits<double>::infinity();
     for (const auto& [grid, unit] : grids) {
       const openvdb::Vec3d index = grid->worldToIndex(openvdb::Vec3d(p.x(), p.y(), p.z()));
+      // Beyond where voxels are numbered there are none; damaged transforms lead there.
+      constexpr double farthest = 1e9;
+      const auto within = [](double i) { return std::abs(i) < farthest; };
+      if (!within(index.x()) || !within(index.y()) || !within(index.z())) continue;
       // The least active corner: never larger than asked for, and the background cannot leak in.
       const Coord base = Coord::floor(index);
       for (int k = 0; k < 8; ++k) {
