@@ -82,17 +82,20 @@ FaceSurface::FaceSurface(const CadFace& face)
   measure_scale();
 }
 
+Vector3 vector_area(const std::vector<Vector3>& loop) {
+  Vector3 area = Vector3::Zero();
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    area += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]);
+  return area;
+}
+
 FaceSurface FaceSurface::seen_from_above(const CadFace& face, const std::vector<Vector3>& loop) {
   constexpr double least_cosine = 0.17;  // 80 degrees
   FaceSurface surface(face);
   auto view = std::make_unique<View>();
-  // Newell's method.
-  Vector3 area = Vector3::Zero();
+  const Vector3 area = vector_area(loop);
   view->origin = Vector3::Zero();
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    area += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]);
-    view->origin += loop[i] / static_cast<double>(loop.size());
-  }
+  for (const Vector3& p : loop) view->origin += p / static_cast<double>(loop.size());
   if (!(area.norm() > 0)) throw failure("", "the loop encloses no area");
   view->normal = area.normalized();
   // The parametric curves may be wrong, and the bounds of the face with them: as far as the surface goes.

@@ -16,6 +16,9 @@ struct SurfacePoint {
   Vector3 point, du, dv;
 };
 
+/// Twice the vector area of a closed polygon (Newell's method).
+Vector3 vector_area(const std::vector<Vector3>& loop);
+
 /// Evaluates a face's surface. Planes, cylinders, cones, spheres and tori by their formulas, others through
 /// OpenCASCADE. Evaluation caches inside: one object a thread.
 class FaceSurface {

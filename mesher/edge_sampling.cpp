@@ -182,12 +182,16 @@ class TiedEdges {
   std::vector<double> low_, high_;
 };
 
-/// Opposite edges of faces that one wire of four edges bounds.
+/// Whether one wire of four edges, in order, bounds the face.
+bool is_four_sided(const CadFace& face) {
+  return face.wires.size() == 1 && face.wires[0].coedges.size() == 4 && face.wires[0].ordered;
+}
+
+/// Opposite edges of four-sided faces.
 void tie_opposite_edges(const CadShape& shape, const std::vector<char>& used, TiedEdges& tied) {
   for (std::size_t i = 0; i < shape.faces.size(); ++i) {
     const CadFace& face = shape.faces[i];
-    if (!used[i] || face.wires.size() != 1 || face.wires[0].coedges.size() != 4 || !face.wires[0].ordered)
-      continue;
+    if (!used[i] || !is_four_sided(face)) continue;
     const auto& c = face.wires[0].coedges;
     const auto unusable = [&](const Coedge& coedge) {
       return coedge.internal || shape.edges[coedge.edge - 1].degenerate;
@@ -266,10 +270,6 @@ std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& u
   return counts;
 }
 
-}  // namespace
-
-namespace {
-
 double chord_of(const CadEdge& edge) {
   const EdgeCurve curve(edge);
   return (curve.point(edge.last) - curve.point(edge.first)).norm();
@@ -297,10 +297,6 @@ double parameter_near_chord(const CadEdge& edge, const EdgeCurve& curve, int k, 
   return best;
 }
 
-}  // namespace
-
-namespace {
-
 /// Moves the nodes of one side of narrow four-sided faces to face those of the other: what shifts them by
 /// less than a segment shears the quads between by more than a right angle where the face is far narrower
 /// than that.
@@ -312,8 +308,7 @@ class NarrowFaces {
   void run() {
     for (std::size_t i = 0; i < shape_.faces.size(); ++i) {
       const CadFace& face = shape_.faces[i];
-      if (!used_[i] || face.wires.size() != 1 || face.wires[0].coedges.size() != 4 || !face.wires[0].ordered)
-        continue;
+      if (!used_[i] || !is_four_sided(face)) continue;
       const auto& c = face.wires[0].coedges;
       for (const int k : {0, 1}) align(c[k], c[k + 2], c[k + 1], c[3 - 3 * k]);
     }
@@ -365,7 +360,10 @@ class NarrowFaces {
     const auto distance = [&](double t) { return (curve.point(t) - target).squaredNorm(); };
     for (int i = 0; i < sections; ++i) {
       const double a = high - golden * (high - low), b = low + golden * (high - low);
-      (distance(a) < distance(b) ? high : low) = distance(a) < distance(b) ? b : a;
+      if (distance(a) < distance(b))
+        high = b;
+      else
+        low = a;
     }
     return 0.5 * (low + high);
   }

@@ -202,10 +202,6 @@ class FaceMesher {
   SizingField::Sampler size_at_;
 };
 
-}  // namespace
-
-namespace {
-
 /// The nodes of the wire that encloses most, in order.
 std::vector<Vector3> widest_loop(const CadFace& face, const BoundaryNodes& nodes) {
   std::vector<Vector3> widest;
@@ -218,11 +214,9 @@ std::vector<Vector3> widest_loop(const CadFace& face, const BoundaryNodes& nodes
       for (std::size_t i = 0; i + 1 < edge.size(); ++i)
         loop.push_back(nodes.points[edge[coedge.forward ? i : edge.size() - 1 - i]]);
     }
-    Vector3 area = Vector3::Zero();
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      area += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]);
-    if (area.norm() > largest) {
-      largest = area.norm();
+    const double area = vector_area(loop).norm();
+    if (area > largest) {
+      largest = area;
       widest = loop;
     }
   }
@@ -234,8 +228,9 @@ enum class StandIn { none, new_curves, view };
 
 FaceMesh mesh_as(StandIn stand_in, const CadShape& shape, int face, const BoundaryNodes& nodes,
                  const SizingField& field, const MeshOptions& options, ExecutionContext& context) {
-  CadFace cad_face = shape.faces[face];
-  if (stand_in == StandIn::new_curves) cad_face = with_new_curves(cad_face);
+  std::optional<CadFace> other;
+  if (stand_in == StandIn::new_curves) other = with_new_curves(shape.faces[face]);
+  const CadFace& cad_face = other ? *other : shape.faces[face];
   const auto surface = std::make_shared<const FaceSurface>(
       stand_in == StandIn::view ? FaceSurface::seen_from_above(cad_face, widest_loop(cad_face, nodes))
                                 : FaceSurface(cad_face));

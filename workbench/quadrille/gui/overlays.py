@@ -89,6 +89,17 @@ def show_quality(mesh, measured: quality.ElementQuality) -> None:
         mesh.ViewObject.DisplayMode = "Wireframe"
 
 
+def _plain_colour(rgb: tuple[float, float, float]):
+    """Nodes that give what follows one colour, whatever the light."""
+    from pivy import coin
+
+    light = coin.SoLightModel()
+    light.model = coin.SoLightModel.BASE_COLOR
+    colour = coin.SoBaseColor()
+    colour.rgb = rgb
+    return light, colour
+
+
 def frame_element(mesh, measured: quality.ElementQuality, index: int) -> None:
     """Draws a thick line around an element."""
     from pivy import coin
@@ -96,10 +107,7 @@ def frame_element(mesh, measured: quality.ElementQuality, index: int) -> None:
     hide(mesh, ELEMENT)
     lift = 0.02 * measured.lengths[index] * measured.normals[index]
     points = measured.corners[index][[0, 1, 2, 3, 0]]
-    light = coin.SoLightModel()
-    light.model = coin.SoLightModel.BASE_COLOR
-    colour = coin.SoBaseColor()
-    colour.rgb = (0.9, 0.0, 0.6)
+    light, colour = _plain_colour((0.9, 0.0, 0.6))
     style = coin.SoDrawStyle()
     style.lineWidth = 5
     lines = coin.SoLineSet()
@@ -122,10 +130,7 @@ def show_normals(mesh) -> int:
     across *= 0.15 * length / np.linalg.norm(across, axis=1, keepdims=True)
     barbs = tips - 0.3 * length * normals
     points = np.stack([feet, tips, barbs + across, tips, barbs - across], axis=1).reshape(-1, 3)
-    light = coin.SoLightModel()
-    light.model = coin.SoLightModel.BASE_COLOR
-    colour = coin.SoBaseColor()
-    colour.rgb = (0.85, 0.1, 0.1)
+    light, colour = _plain_colour((0.85, 0.1, 0.1))
     style = coin.SoDrawStyle()
     style.lineWidth = 2
     lines = coin.SoLineSet()
@@ -142,10 +147,7 @@ def show_stale(mesh) -> None:
     box = mesh.FemMesh.BoundBox
     place = coin.SoTranslation()
     place.translation.setValue(box.Center.x, box.Center.y, box.ZMax + 0.1 * box.DiagonalLength)
-    light = coin.SoLightModel()
-    light.model = coin.SoLightModel.BASE_COLOR
-    colour = coin.SoBaseColor()
-    colour.rgb = (1.0, 1.0, 1.0)
+    light, colour = _plain_colour((1.0, 1.0, 1.0))
     font = coin.SoFont()
     font.size = 20
     text = coin.SoText2()
