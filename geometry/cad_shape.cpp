@@ -3,6 +3,7 @@
 #include "geometry/cad_shape.hpp"
 
 #include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Copy.hxx>
 #include <BRepTools.hxx>
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
@@ -19,6 +20,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/seams.hpp"
 #include "geometry/shape_completion.hpp"
 
 namespace quadrille {
@@ -30,8 +32,17 @@ CadShape::CadShape(const TopoDS_Shape& source, std::string shape_name)
 }
 
 void CadShape::read_topology() {
-  TopTools_IndexedMapOfShape face_map, edge_map, vertex_map, solid_map, shell_map;
+  TopTools_IndexedMapOfShape face_map;
   TopExp::MapShapes(shape, TopAbs_FACE, face_map);
+  const bool seams_lack = std::any_of(face_map.cbegin(), face_map.cend(), [](const TopoDS_Shape& face) {
+    return lacks_seam(TopoDS::Face(face));
+  });
+  if (seams_lack) {
+    shape = BRepBuilderAPI_Copy(shape, Standard_True).Shape();
+    face_map.Clear();
+    TopExp::MapShapes(shape, TopAbs_FACE, face_map);
+  }
+  TopTools_IndexedMapOfShape edge_map, vertex_map, solid_map, shell_map;
   TopExp::MapShapes(shape, TopAbs_EDGE, edge_map);
   TopExp::MapShapes(shape, TopAbs_VERTEX, vertex_map);
   TopExp::MapShapes(shape, TopAbs_SOLID, solid_map);
@@ -40,13 +51,17 @@ void CadShape::read_topology() {
   shells = shell_map.Extent();
   std::vector<TopoDS_Face> sources;
   for (int i = 1; i <= face_map.Extent(); ++i) {
-    const TopoDS_Face& face = TopoDS::Face(face_map(i));
-    sources.push_back(with_natural_bounds(face));
-    if (sources.back().IsSame(face)) continue;
-    // Beyond the model's own edges, whose numbers stay.
-    TopExp::MapShapes(sources.back(), TopAbs_EDGE, edge_map);
-    TopExp::MapShapes(sources.back(), TopAbs_VERTEX, vertex_map);
-    problems.push_back(fmt::format("Face{} has no wire: it is bounded where its surface ends", i));
+    sources.push_back(with_natural_bounds(TopoDS::Face(face_map(i))));
+    if (!sources.back().IsSame(face_map(i)))
+      problems.push_back(fmt::format("Face{} has no wire: it is bounded where its surface ends", i));
+  }
+  const int own_edges = edge_map.Extent(), own_vertices = vertex_map.Extent();
+  std::vector<EdgePiece> pieces;
+  if (seams_lack) pieces = add_seams(sources, problems);
+  // What is new comes after the model's own edges and vertices, whose numbers stay.
+  for (const TopoDS_Face& face : sources) {
+    TopExp::MapShapes(face, TopAbs_EDGE, edge_map);
+    TopExp::MapShapes(face, TopAbs_VERTEX, vertex_map);
   }
 
   vertices.reserve(vertex_map.Extent());
@@ -55,6 +70,16 @@ void CadShape::read_topology() {
     vertices.push_back(to_vector(BRep_Tool::Pnt(vertex)));
     vertex_tolerances.push_back(BRep_Tool::Tolerance(vertex));
   }
+  // Where a new vertex lies on one of the model's own, it is that one.
+  const auto vertex_number = [&](const TopoDS_Vertex& vertex) {
+    const int index = vertex.IsNull() ? 0 : vertex_map.FindIndex(vertex);
+    if (index <= own_vertices) return index;
+    for (int i = 1; i <= own_vertices; ++i) {
+      const double reach = std::max(vertex_tolerances[i - 1], vertex_tolerances[index - 1]);
+      if ((vertices[i - 1] - vertices[index - 1]).norm() <= reach) return i;
+    }
+    return index;
+  };
 
   edges.resize(edge_map.Extent());
   for (int i = 1; i <= edge_map.Extent(); ++i) {
@@ -64,9 +89,14 @@ void CadShape::read_topology() {
     edge.tolerance = BRep_Tool::Tolerance(edge.edge);
     TopoDS_Vertex first, last;
     TopExp::Vertices(edge.edge, first, last);
-    edge.first_vertex = first.IsNull() ? 0 : vertex_map.FindIndex(first);
-    edge.last_vertex = last.IsNull() ? 0 : vertex_map.FindIndex(last);
+    edge.first_vertex = vertex_number(first);
+    edge.last_vertex = vertex_number(last);
     BRep_Tool::Range(edge.edge, edge.first, edge.last);
+    edge.number = i;
+  }
+  for (const EdgePiece& piece : pieces) {
+    const int index = edge_map.FindIndex(piece.piece);
+    if (index > own_edges) edges[index - 1].number = edge_map.FindIndex(piece.whole);
   }
 
   faces.resize(face_map.Extent());

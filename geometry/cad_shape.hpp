@@ -27,6 +27,7 @@ inline Vector3 to_vector(const gp_Vec& p) {
 /// A CAD edge: a curve between two vertices. Numbers start at 1.
 struct CadEdge {
   TopoDS_Edge edge;      ///< oriented forward: its parameter runs from `first` to `last`
+  int number = 0;        ///< the CAD file's: a piece of an edge that was split has that of the whole
   int first_vertex = 0;  ///< vertex at the parameter `first`; 0 on an edge without vertices
   int last_vertex = 0;
   double first = 0, last = 0;

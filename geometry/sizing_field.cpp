@@ -177,7 +177,7 @@ class Builder {
     if (edge.degenerate || edge.faces.empty() || edge.length <= 0) return;
     const EdgeCurve curve(edge);
     double cap = field_.size_max;
-    if (const auto it = options_.edge_sizes.find(index + 1); it != options_.edge_sizes.end())
+    if (const auto it = options_.edge_sizes.find(edge.number); it != options_.edge_sizes.end())
       cap = it->second;
     // A short edge is one element: its surroundings are refined towards it.
     cap = std::min(cap, std::max(edge.length, field_.size_min));

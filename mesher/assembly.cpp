@@ -154,7 +154,7 @@ class Assembler {
       for (int k = 0; k < edge.segments(); ++k) {
         const int a = renumbered_[edge.nodes[k]], b = renumbered_[edge.nodes[k + 1]];
         if (a < 0 || b < 0) continue;
-        mesh_.segments.push_back({{a, b}, -1, static_cast<int>(i) + 1});
+        mesh_.segments.push_back({{a, b}, -1, shape_.edges[i].number});
         segment_origins_.push_back({static_cast<int>(i), k});
       }
     }

@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepGProp.hxx>
 #include <BRepTools.hxx>
+#include <GProp_GProps.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,6 +20,7 @@
 #include <tuple>
 
 #include "geometry/cad_shape.hpp"
+#include "geometry/seams.hpp"
 #include "mesher/quadrille.hpp"
 #include "tests/models/trouble_models.hpp"
 #include "tests/process.hpp"
@@ -155,6 +162,37 @@ TEST(Robustness, SewsFacesThatTouch) {
   EXPECT_EQ(open_sides(joined_mesh), 2 * (10 + 10 + 20) / 2);
   EXPECT_THROW(apart.sewn(0), Error);
   EXPECT_THROW(apart.sewn(1e6), Error);
+}
+
+TEST(Robustness, KeepsTheNumbersOfEdgesThatAreSplit) {
+  const TopoDS_Shape shape = trouble_named("hole_over_seam").make();
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  const CadModel model(std::make_shared<CadShape>(shape, "hole_over_seam"));
+  EXPECT_EQ(model.problems().size(), 1u);
+  EXPECT_GT(model.edge_count(), edges.Extent());
+  MeshOptions options;
+  options.sizing.size = 3;
+  options.sizing.edge_sizes[edges.Extent()] = 0.5;  // the rim of the hole is the last one
+  ExecutionContext context(1);
+  const ShellMesh quads = mesh(model, options, context);
+  double length = 0;
+  int count = 0;
+  for (const auto& segment : quads.segments) {
+    EXPECT_LE(segment.edge, edges.Extent());
+    if (segment.edge != edges.Extent()) continue;
+    length += (quads.points[segment.nodes[1]] - quads.points[segment.nodes[0]]).norm();
+    ++count;
+  }
+  GProp_GProps rim;
+  BRepGProp::LinearProperties(edges(edges.Extent()), rim);
+  EXPECT_NEAR(length / rim.Mass(), 1, 0.02);
+  EXPECT_GE(count, 30);
+  // The shape that was given stays as it was.
+  TopTools_IndexedMapOfShape after;
+  TopExp::MapShapes(shape, TopAbs_EDGE, after);
+  EXPECT_EQ(after.Extent(), edges.Extent());
+  EXPECT_TRUE(lacks_seam(TopoDS::Face(TopExp_Explorer(shape, TopAbs_FACE).Current())));
 }
 
 TEST(Robustness, HasModelsForEveryClass) {

@@ -7,6 +7,7 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
@@ -28,6 +29,7 @@
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_Circle.hxx>
+#include <Geom_ConicalSurface.hxx>
 #include <Geom_CylindricalSurface.hxx>
 #include <Geom_Line.hxx>
 #include <Geom_OffsetSurface.hxx>
@@ -472,6 +474,68 @@ TopoDS_Shape turned_rim() {
   return face;
 }
 
+/// A closed edge along a curve in the parameter plane.
+TopoDS_Edge closed_edge(const Handle(Geom2d_Curve) & curve, const Handle(Geom_Surface) & surface) {
+  const gp_Pnt2d start = curve->Value(0);
+  const TopoDS_Vertex vertex = BRepBuilderAPI_MakeVertex(surface->Value(start.X(), start.Y())).Vertex();
+  TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(curve, surface, vertex, vertex, 0, 2 * pi).Edge();
+  BRepLib::BuildCurves3d(edge);
+  return edge;
+}
+
+/// A face of wires of one edge each.
+TopoDS_Face face_within(const Handle(Geom_Surface) & surface, const std::vector<TopoDS_Shape>& edges) {
+  const BRep_Builder builder;
+  TopoDS_Face face;
+  builder.MakeFace(face, surface, 1e-7);
+  for (const TopoDS_Shape& edge : edges) {
+    TopoDS_Wire wire;
+    builder.MakeWire(wire);
+    builder.Add(wire, edge);
+    builder.Add(face, wire);
+  }
+  return face;
+}
+
+/// A cylinder whose side has no seam, as systems without seams write it; its rims start at different angles.
+TopoDS_Shape cylinder_without_seam() {
+  const Handle(Geom_Surface) side = new Geom_CylindricalSurface(gp::XOY(), 10);
+  const TopoDS_Edge low = closed_edge(new Geom2d_Line({0, 0}, {1, 0}), side),
+                    high = closed_edge(new Geom2d_Line({1, 30}, {1, 0}), side);
+  const TopoDS_Face bottom =
+      BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), BRepBuilderAPI_MakeWire(low).Wire()).Face();
+  const TopoDS_Face top =
+      BRepBuilderAPI_MakeFace(gp_Pln({0, 0, 30}, gp::DZ()), BRepBuilderAPI_MakeWire(high).Wire()).Face();
+  return compound({face_within(side, {low, high.Reversed()}), bottom.Reversed(), top});
+}
+
+/// A sphere with a hole and no other wire.
+TopoDS_Shape holed_sphere() {
+  const Handle(Geom_Surface) sphere = new Geom_SphericalSurface(gp::XOY(), 10);
+  return face_within(sphere,
+                     {closed_edge(new Geom2d_Circle(gp_Ax2d({2, 0.2}, {1, 0}), 0.5), sphere).Reversed()});
+}
+
+/// The side of a cone up to its apex, bounded by a circle alone.
+TopoDS_Shape cone_without_apex() {
+  const Handle(Geom_Surface) cone = new Geom_ConicalSurface(gp_Ax3({0, 0, 20}, -gp::DZ()), pi / 6, 0);
+  return face_within(cone, {closed_edge(new Geom2d_Line({0, 10}, {1, 0}), cone)});
+}
+
+/// The side of a cylinder with a hole that lies over the seam, which nothing splits there, and a face in it.
+TopoDS_Shape hole_over_seam(double centre) {
+  TopoDS_Face side = cylinder_side();
+  side.Free(Standard_True);
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(side);
+  const TopoDS_Edge rim = closed_edge(new Geom2d_Circle(gp_Ax2d({centre, 15}, {0.6, 0.8}), 0.4), surface);
+  TopoDS_Wire hole;
+  const BRep_Builder builder;
+  builder.MakeWire(hole);
+  builder.Add(hole, rim.Reversed());
+  builder.Add(side, hole);
+  return compound({side, face_within(surface, {rim})});
+}
+
 /// The part of a cylinder between z = 0 and z = 20 whose wire is closed by edges that are said to be
 /// degenerate, as translators do where its parametric curves lie two periods apart.
 TopoDS_Shape false_poles() {
@@ -698,6 +762,14 @@ std::vector<TroubleModel> all_models() {
       {"hole_a_period_away", "a hole whose parametric curve lies a period away", hole_a_period_away, false,
        600 * pi - 10 * pi * 2.25},
       {"turned_rim", "an edge whose parametric curve lies a period away", turned_rim, false, 600 * pi},
+      {"no_seam", "a side of a cylinder without a seam", cylinder_without_seam, true, 800 * pi, 3},
+      {"no_bounds", "a sphere with a hole for its only wire", holed_sphere, false,
+       400 * pi - 100 * std::cos(0.2) * pi * std::cyl_bessel_j(1, 0.5), 3},
+      {"no_apex", "a cone bounded by a circle alone", cone_without_apex, false, 50 * pi, 2},
+      {"hole_over_seam", "a hole over the seam that nothing splits there", [] { return hole_over_seam(0.1); },
+       false, 600 * pi},
+      {"hole_over_seam_end", "the same, over the other end of the parameter plane",
+       [] { return hole_over_seam(2 * pi); }, false, 600 * pi},
       {"false_poles", "edges said to be degenerate that are not", false_poles, false, 400 * pi},
       {"narrow_frame", "a frame of width size / 20", narrow_frame, false, 800 - 39.9 * 19.9},
       {"narrow_band", "a band along a circle, of width size / 30", narrow_band, false,
