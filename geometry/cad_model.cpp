@@ -232,9 +232,10 @@ const std::vector<std::string>& CadModel::problems() const {
   return shape_->problems;
 }
 
-double CadModel::area() const {
+double CadModel::area(const ExecutionContext& context) const {
   double sum = 0;
   for (const CadFace& face : shape_->faces) {
+    context.check();
     GProp_GProps properties;
     BRepGProp::SurfaceProperties(face.face, properties, 1e-4);
     sum += std::abs(properties.Mass());

@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/execution_context.hpp"
 #include "geometry/vector.hpp"
 
 namespace quadrille {
 
 class CadShape;  // the OpenCASCADE side, see geometry/cad_shape.hpp
-class ExecutionContext;
 
 /// How a CAD file is read.
 struct ReadOptions {
@@ -53,7 +53,7 @@ class CadModel {
   Vector3 box_min() const;
   Vector3 box_max() const;
   /// Sum of the face areas.
-  double area() const;
+  double area(const ExecutionContext& context = {}) const;
   /// Problems noticed while reading (invalid faces, loose tolerances, ...), one sentence each.
   const std::vector<std::string>& problems() const;
 

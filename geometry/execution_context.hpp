@@ -17,12 +17,12 @@
 namespace quadrille {
 
 /// Passed by reference through every stage. Thread-safe. Granularity: stages check for cancellation at least
-/// once a face and once every few thousand elements.
+/// once a face and once in some milliseconds of work.
 class ExecutionContext {
  public:
   /// Called with a stage name and the fraction of the stage done, in [0, 1]; returning false cancels the
   /// work. Calls are serialised; they come from whichever thread does the work. Where a stage takes long, the
-  /// same is told again: twenty times a second at most.
+  /// same is told again: twenty times a second at most (see ask_every()).
   using Progress = std::function<bool(std::string_view stage, double fraction)>;
 
   ExecutionContext() = default;
@@ -31,6 +31,10 @@ class ExecutionContext {
       : threads_(threads), progress_(std::move(progress)) {}
 
   int threads() const noexcept { return threads_; }
+
+  /// Asks the progress function again at the first check later than this since it was asked last; 0 asks at
+  /// every check.
+  void ask_every(std::chrono::milliseconds interval) noexcept { interval_ = interval.count(); }
 
   /// Ends the work with an Error (failure) at the first check later than so many seconds from now.
   void limit_time(double seconds) {
@@ -84,8 +88,7 @@ class ExecutionContext {
   }
 
   void ask_again() const {
-    constexpr std::int64_t interval = 50;  // milliseconds
-    if (now() - asked_.load(std::memory_order_relaxed) < interval) return;
+    if (now() - asked_.load(std::memory_order_relaxed) < interval_) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);  // another thread that asks now does it for all
     if (lock && !stage_.empty()) ask();
   }
@@ -97,7 +100,8 @@ class ExecutionContext {
 
   int threads_ = 0;
   Progress progress_;
-  double limit_seconds_ = 0;  // 0 = none
+  std::int64_t interval_ = 50;  // milliseconds
+  double limit_seconds_ = 0;    // 0 = none
   std::chrono::steady_clock::time_point deadline_;
   mutable std::atomic<bool> cancelled_{false};
   mutable std::atomic<std::int64_t> asked_{0};  // when, in milliseconds
@@ -105,6 +109,24 @@ class ExecutionContext {
   std::string stage_;  // last reported
   double fraction_ = 0;
   std::map<std::string, double> seconds_;
+};
+
+/// Checks a context once in so many calls: for loops whose turns are too short for a check in each. Not
+/// thread-safe.
+class SparseCheck {
+ public:
+  explicit SparseCheck(const ExecutionContext& context, int calls = 1024)
+      : context_(context), calls_(calls), left_(calls) {}
+
+  void operator()() {
+    if (--left_ > 0) return;
+    left_ = calls_;
+    context_.check();
+  }
+
+ private:
+  const ExecutionContext& context_;
+  int calls_, left_;
 };
 
 /// Adds its own lifetime to a stage of the context.

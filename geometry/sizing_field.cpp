@@ -119,7 +119,7 @@ class Builder {
  public:
   Builder(const CadModel& model, const SizingOptions& options, SizingField::Impl& field,
           ExecutionContext& context)
-      : shape_(model.shape()), options_(options), field_(field), context_(context) {
+      : shape_(model.shape()), options_(options), field_(field), context_(context), check_(context, 256) {
     if (options.size_field.empty()) return;
     const std::string path = options.size_field.string();
     const auto open = [&] {
@@ -137,7 +137,10 @@ class Builder {
   }
 
   void run() {
-    for (std::size_t i = 0; i < shape_.edges.size(); ++i) add_edge(static_cast<int>(i));
+    for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
+      check_();
+      add_edge(static_cast<int>(i));
+    }
     for (std::size_t i = 0; i < shape_.faces.size(); ++i) {
       context_.report("size", static_cast<double>(i) / shape_.faces.size());
       add_face(static_cast<int>(i));
@@ -215,6 +218,7 @@ class Builder {
   template <class SizeAt>
   void split_edge(const EdgeCurve& curve, const SizeAt& size_at, double t0, double t1, const Vector3& p0,
                   const Vector3& p1, double s0, double s1, int depth) {
+    check_();
     if ((p1 - p0).norm() <= std::min(s0, s1) || depth > 10) return;
     const double t = 0.5 * (t0 + t1);
     const Vector3 p = curve.point(t);
@@ -255,6 +259,7 @@ class Builder {
   template <class SizeAt>
   void split_cell(const FaceSurface& surface, const TrimmedDomain& domain, const SizeAt& size_at,
                   const Vector2& middle, const Vector2& cell, int depth) {
+    check_();
     const SurfacePoint at = surface.evaluate(middle);
     const double size = size_at(middle, at.point);
     const double du = cell.x() * at.du.norm(), dv = cell.y() * at.dv.norm();
@@ -291,7 +296,7 @@ class Builder {
 
   /// Lets a level's values grow outward up to its coverage, after taking over those of the finer level.
   void grade(int level) {
-    context_.check();
+    SparseCheck check(context_);
     const int finest = static_cast<int>(field_.levels.size()) - 1;
     const bool finer = level < finest && field_.levels[level + 1];
     if (!field_.levels[level] && !finer) return;
@@ -299,6 +304,7 @@ class Builder {
     Accessor accessor(grid);
     if (finer) {
       for_each_voxel(*field_.levels[level + 1], [&](const Coord& c, float value) {
+        check();
         if ((c.x() | c.y() | c.z()) & 1) return;
         const Coord half(c.x() >> 1, c.y() >> 1, c.z() >> 1);
         if (value < accessor.value(half)) accessor.set(half, value);
@@ -312,17 +318,19 @@ class Builder {
       }
     };
     std::vector<Item> items;
-    for_each_voxel(grid, [&](const Coord& c, float value) { items.push_back({value, c}); });
+    for_each_voxel(grid, [&](const Coord& c, float value) {
+      check();
+      items.push_back({value, c});
+    });
     std::priority_queue<Item> queue(std::less<Item>(), std::move(items));
     const double voxel = field_.voxel(level);
     const auto limit = static_cast<float>(std::min(field_.size_max, coverage * voxel));
     std::array<float, 4> step{};
     for (int k = 1; k < 4; ++k) step[k] = static_cast<float>(field_.growth * voxel * std::sqrt(k));
-    long visited = 0;
     while (!queue.empty()) {
       const Item item = queue.top();
       queue.pop();
-      if (++visited % 100000 == 0) context_.check();
+      check();
       if (item.value + step[1] >= limit) break;
       if (item.value > accessor.value(item.coord)) continue;
       for (int k = 0; k < 27; ++k) {
@@ -343,6 +351,7 @@ class Builder {
   const SizingOptions& options_;
   SizingField::Impl& field_;
   ExecutionContext& context_;
+  SparseCheck check_;
   std::function<double(const Vector3&)> external_;
   std::optional<Accessor> accessor_;
   int last_level_ = -1;

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/execution_context.hpp"
 #include "mesher/mesh_types.hpp"
 #include "mesher/side_twins.hpp"
 
@@ -200,11 +201,14 @@ class PathFinder {
 /// Pairs free triangles along alternating paths, as long as there are any within reach.
 /// \param list the free triangles. \return how many of them are still free.
 template <class Pairs, class Order>
-int augment_pairs(Pairs& pairs, const std::vector<int>& list, Order order, int reach) {
+int augment_pairs(Pairs& pairs, const std::vector<int>& list, Order order, int reach,
+                  const ExecutionContext& context = {}) {
   if (list.empty()) return 0;
   PathFinder<Pairs, Order> finder(pairs, std::move(order));
   int left = 0;
+  SparseCheck check(context, 16);
   for (std::size_t k = 0; k < list.size(); ++k) {
+    check();
     if (pairs.free(list[k])) left += finder.augment(list[k], static_cast<int>(k), reach) ? 0 : 1;
   }
   if (left == 0) return 0;

@@ -103,13 +103,14 @@ class CleanUp {
  public:
   /// \param doubtful nodes to begin with; empty = all. Out (by write_back()): those to begin with next time.
   CleanUp(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, ImproveReport& report,
-          std::vector<char>& doubtful)
+          std::vector<char>& doubtful, const ExecutionContext& context)
       : doubtful_(doubtful),
         mesh_(surface_mesh),
         surface_(surface),
         report_(report),
+        context_(context),
         topology_(surface_mesh.mesh.quads, surface_mesh.mesh.quad_tags,
-                  static_cast<int>(surface_mesh.mesh.points.size())),
+                  static_cast<int>(surface_mesh.mesh.points.size()), context),
         locked_(surface_mesh.fixed) {
     for (const auto& triangle : mesh_.mesh.triangles)
       for (const int node : triangle) locked_[node] = 1;
@@ -121,22 +122,28 @@ class CleanUp {
   /// Interior nodes with two quads go; the two quads become one.
   bool collapse_doublets() {
     bool any = false;
-    for (int node = 0; node < node_count(); ++node)
+    SparseCheck check(context_);
+    for (int node = 0; node < node_count(); ++node) {
+      check();
       while (removable(node) && topology_.valence(topology_.side_of(node)) == 2 && collapse_doublet(node))
         any = true;
+    }
     return any;
   }
 
   /// Quads with two opposite corners under 45 degrees are closed: the two blunt corners become one node.
   bool merge_slender_quads() {
     bool any = false;
-    for (int quad = 0; quad < topology_.size(); ++quad)
+    SparseCheck check(context_);
+    for (int quad = 0; quad < topology_.size(); ++quad) {
+      check();
       if (topology_.alive(quad)) any |= merge_slender(quad);
+    }
     return any;
   }
 
   /// Meshes small patches round irregular nodes anew where the valences gain.
-  bool improve_valences(ExecutionContext& context);
+  bool improve_valences();
 
   void write_back();
 
@@ -194,6 +201,7 @@ class CleanUp {
   SurfaceMesh& mesh_;
   const SmoothingSurface& surface_;
   ImproveReport& report_;
+  const ExecutionContext& context_;
   QuadTopology topology_;
   std::vector<char> locked_;    ///< fixed, or on a triangle
   std::vector<double> angles_;  ///< total corner angle of a node's quads, a fan
@@ -204,7 +212,9 @@ class CleanUp {
 void CleanUp::measure_boundary() {
   angles_.assign(mesh_.mesh.points.size(), 0);
   std::vector<int> fans(mesh_.mesh.points.size(), 0);
+  SparseCheck check(context_);
   for (int side = 0; side < 4 * topology_.size(); ++side) {
+    check();
     const int node = topology_.origin(side);
     const int before = topology_.origin(QuadTopology::previous(side));
     const Vector3& normal = mesh_.normals[node];
@@ -382,17 +392,21 @@ void CleanUp::push(int node) {
   queue_.push_back(node);
 }
 
-bool CleanUp::improve_valences(ExecutionContext& context) {
+bool CleanUp::improve_valences() {
   queue_.clear();
   queued_.assign(mesh_.mesh.points.size(), 0);
   const int moves = report_.valence_moves;
-  for (int node = 0; node < node_count(); ++node)
+  SparseCheck check(context_);
+  for (int node = 0; node < node_count(); ++node) {
+    check();
     if (doubtful_[node] && cost_at(node) > regular_cost) push(node);
+  }
   std::fill(doubtful_.begin(), doubtful_.end(), 0);
   // Each move lowers the cost by at least min_gain, so the queue runs dry; the bound is for safety only.
   const std::size_t bound = 40 * queue_.size() + 1000;
+  SparseCheck check_often(context_, 16);
   for (std::size_t head = 0; head < queue_.size() && head < bound; ++head) {
-    if (head % 4096 == 0) context.check();
+    check_often();
     const int node = queue_[head];
     queued_[node] = 0;
     if (topology_.side_of(node) < 0 || cost_at(node) <= regular_cost) continue;
@@ -641,7 +655,9 @@ void CleanUp::write_back() {
   std::vector<int> number(mesh_.mesh.points.size(), -1);
   SurfaceMesh result;
   std::vector<char> doubtful;
+  SparseCheck check(context_);
   const auto keep = [&](int node) {
+    check();
     number[node] = static_cast<int>(result.mesh.points.size());
     result.mesh.points.push_back(mesh_.mesh.points[node]);
     result.parameters.push_back(mesh_.parameters[node]);
@@ -655,6 +671,7 @@ void CleanUp::write_back() {
   for (int node = 0; node < node_count(); ++node)
     if (!mesh_.fixed[node] && (locked_[node] || topology_.side_of(node) >= 0)) keep(node);
   for (int quad = 0; quad < topology_.size(); ++quad) {
+    check();
     if (!topology_.alive(quad)) continue;
     const Quad& q = topology_.quad(quad);
     result.mesh.quads.push_back({number[q[0]], number[q[1]], number[q[2]], number[q[3]]});
@@ -663,6 +680,7 @@ void CleanUp::write_back() {
   for (auto& triangle : mesh_.mesh.triangles)
     result.mesh.triangles.push_back({number[triangle[0]], number[triangle[1]], number[triangle[2]]});
   result.mesh.triangle_tags = std::move(mesh_.mesh.triangle_tags);
+  context_.check();
   mesh_ = std::move(result);
   doubtful_ = std::move(doubtful);
 }
@@ -677,9 +695,9 @@ void clean_up(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const 
   std::vector<char> doubtful;
   for (int round = 0; round < 4; ++round) {
     context.check();
-    CleanUp work(surface_mesh, surface, report, doubtful);
+    CleanUp work(surface_mesh, surface, report, doubtful, context);
     bool any = work.collapse_doublets();
-    any |= work.improve_valences(context);
+    any |= work.improve_valences();
     if (round > 0) any |= work.merge_slender_quads();
     any |= work.collapse_doublets();
     work.write_back();

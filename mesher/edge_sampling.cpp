@@ -400,6 +400,7 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
   std::vector<double> wanted(n, 0);
   for (int i = 0; i < n; ++i) {
     if (i % 256 == 0) context.report("sample", 0.5 * i / n);
+    context.check();
     const CadEdge& edge = shape.edges[i];
     if (edge.degenerate || edge.length <= 0 || !used_edges[i] || plan.tiny.collapsed_edges[i]) continue;
     tables[i] = EdgeTabulator(edge, sampler).table;
@@ -440,6 +441,8 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
     for (const InnerVertex& point : shape.faces[face].inner_vertices)
       vertex_node(point.vertex, Vector3::Zero());
   }
+  context.check();
+  SparseCheck check(context, 64);
   for (int i = 0; i < n; ++i) {
     if (counts[i] == 0) continue;
     const CadEdge& edge = shape.edges[i];
@@ -448,6 +451,7 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
     const int segments = counts[i] * result.stride;
     const bool along_chord = plan.bare[i] && !plan.tiny.closed(edge);
     for (int k = 0; k <= segments; ++k) {
+      check();
       double t = along_chord ? parameter_near_chord(edge, curve, k, segments, nodes.parameters)
                              : tables[i].parameter_at(tables[i].total() * k / segments);
       if (k == 0) t = edge.first;

@@ -121,8 +121,8 @@ class FaceMesher {
     FaceQuads quads = recombine_face(triangulation);
     improve(quads, attempt.clean_up);
     if (nodes_.stride == 2) {
-      cut_flat_quads(quads.surface_mesh.mesh, quads.surface_mesh.normals);
-      quads = subdivide(quads, triangulation.segments, nodes_.points, surface_);
+      cut_flat_quads(quads.surface_mesh.mesh, quads.surface_mesh.normals, context_);
+      quads = subdivide(quads, triangulation.segments, nodes_.points, surface_, context_);
       improve(quads, false);
     }
     return finish(std::move(quads), attempt);
@@ -132,9 +132,10 @@ class FaceMesher {
     const StageTimer timer(context_, "triangulate");
     std::optional<PlacedPoints> placed;
     if (attempt.mapped)
-      placed = place_mapped(boundary_, surface_, domain_, size_at_, attempt.placement.scale);
+      placed = place_mapped(boundary_, surface_, domain_, size_at_, attempt.placement.scale, context_);
     if (!placed) placed = place_points(boundary_, surface_, domain_, size_at_, attempt.placement, context_);
-    return triangulate_face(face_ + 1, boundary_, *placed, surface_);
+    context_.check();
+    return triangulate_face(face_ + 1, boundary_, *placed, surface_, context_);
   }
 
   FaceQuads recombine_face(const FaceTriangulation& triangulation) {
@@ -181,7 +182,9 @@ class FaceMesher {
     result.note = attempt.note;
     result.surface = shared_surface_;
     result.q_min = 1;
+    SparseCheck check(context_);
     for (auto& quad : result.quads) {
+      check();
       if (reversed_) std::swap(quad[1], quad[3]);
       const auto& p = result.points;
       result.inverted += quad_scaled_jacobian(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]) <= 0;

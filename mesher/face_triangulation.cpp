@@ -4,13 +4,16 @@
 // CGAL first: OpenCASCADE defines a macro named Handle.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/spatial_sort.h>
 
 #include "mesher/face_triangulation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include <fmt/format.h>
@@ -46,10 +49,31 @@ Error crossing(int face, const Vector3& near) {
                         name, near.x(), near.y(), near.z()));
 }
 
+/// Points by their index, for CGAL's sorting, which is one call: looking at them checks the context now and
+/// then.
+struct CheckedPoints {
+  using key_type = std::size_t;
+  using value_type = Kernel::Point_2;
+  using reference = const Kernel::Point_2&;
+  using category = boost::readable_property_map_tag;
+  friend reference get(const CheckedPoints& points, key_type i) {
+    (*points.check)();
+    return points.data[i];
+  }
+  const Kernel::Point_2* data;
+  SparseCheck* check;
+};
+
 class Triangulator {
  public:
-  Triangulator(int face, const FaceBoundary& boundary, const PlacedPoints& placed, const FaceSurface& surface)
-      : face_(face), boundary_(boundary), placed_(placed), scale_(surface.mean_scale()) {}
+  Triangulator(int face, const FaceBoundary& boundary, const PlacedPoints& placed, const FaceSurface& surface,
+               const ExecutionContext& context)
+      : face_(face),
+        boundary_(boundary),
+        placed_(placed),
+        scale_(surface.mean_scale()),
+        context_(context),
+        check_(context) {}
 
   /// Triangles over the boundary's points followed by the placed ones.
   std::vector<std::array<int, 3>> run() {
@@ -58,6 +82,7 @@ class Triangulator {
     mark_domain();
     std::vector<std::array<int, 3>> triangles;
     for (auto f = cdt_.finite_faces_begin(); f != cdt_.finite_faces_end(); ++f) {
+      check_();
       if (f->mark == 1)
         triangles.push_back({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
     }
@@ -68,23 +93,41 @@ class Triangulator {
   Kernel::Point_2 scaled(const Vector2& uv) const { return {uv.x() * scale_.x(), uv.y() * scale_.y()}; }
 
   void insert_points() {
-    std::vector<std::pair<Kernel::Point_2, int>> points;
+    std::vector<Kernel::Point_2> points;
     points.reserve(boundary_.uv.size() + placed_.uv.size());
-    for (const Vector2& uv : boundary_.uv) points.emplace_back(scaled(uv), static_cast<int>(points.size()));
-    for (const Vector2& uv : placed_.uv) points.emplace_back(scaled(uv), static_cast<int>(points.size()));
-    cdt_.insert(points.begin(), points.end());
+    for (const Vector2& uv : boundary_.uv) points.push_back(scaled(uv));
+    for (const Vector2& uv : placed_.uv) points.push_back(scaled(uv));
+    insert_along_curve(points);
     if (cdt_.dimension() < 2) throw crossing(face_, boundary_.points.front());
     handles_.assign(points.size(), nullptr);
     for (auto v = cdt_.finite_vertices_begin(); v != cdt_.finite_vertices_end(); ++v) handles_[v->info()] = v;
     // A point that coincides with another one was not inserted: find the one that was.
     for (std::size_t i = 0; i < boundary_.uv.size(); ++i) {
       if (handles_[i] != nullptr) continue;
-      handles_[i] = cdt_.insert(points[i].first);
+      handles_[i] = cdt_.insert(points[i]);
+    }
+  }
+
+  /// As CGAL inserts a range of points, which is one call of a second for a million.
+  void insert_along_curve(const std::vector<Kernel::Point_2>& points) {
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    constexpr int looks = 1 << 16;
+    SparseCheck check_sorting(context_, looks);
+    using Traits = CGAL::Spatial_sort_traits_adapter_2<Kernel, CheckedPoints>;
+    CGAL::spatial_sort(order.begin(), order.end(), Traits(CheckedPoints{points.data(), &check_sorting}));
+    Cdt::Face_handle hint;
+    for (const std::size_t i : order) {
+      check_();
+      const Cdt::Vertex_handle vertex = cdt_.insert(points[i], hint);
+      vertex->info() = static_cast<int>(i);
+      hint = vertex->face();
     }
   }
 
   void insert_segments() {
     for (const auto& segment : boundary_.segments) {
+      check_();
       const auto a = handles_[segment.a], b = handles_[segment.b];
       if (a == b) throw crossing(face_, boundary_.points[segment.a]);
       // Used twice (a slit) or internal: the face lies on both sides.
@@ -115,6 +158,7 @@ class Triangulator {
     std::vector<Cdt::Face_handle> stack{cdt_.infinite_face()};
     cdt_.infinite_face()->mark = 0;
     while (!stack.empty()) {
+      check_();
       const Cdt::Face_handle f = stack.back();
       stack.pop_back();
       for (int i = 0; i < 3; ++i) {
@@ -130,6 +174,8 @@ class Triangulator {
   const FaceBoundary& boundary_;
   const PlacedPoints& placed_;
   Vector2 scale_;
+  const ExecutionContext& context_;
+  SparseCheck check_;
   Cdt cdt_;
   std::vector<Cdt::Vertex_handle> handles_;
   std::set<std::pair<int, int>> seen_, transparent_;
@@ -137,7 +183,9 @@ class Triangulator {
 
 /// Triangle neighbours over sides: neighbour[3 t + k] is across the side from corner k to corner k + 1.
 /// Unlike join_twins() it takes the double sides that a collapsed pole may leave, for the flips to undo.
-std::vector<int> triangle_neighbours(const std::vector<std::array<int, 3>>& triangles, int points) {
+std::vector<int> triangle_neighbours(const std::vector<std::array<int, 3>>& triangles, int points,
+                                     const ExecutionContext& context) {
+  SparseCheck check(context);
   // Sides bucketed by their lower end.
   std::vector<int> offsets(points + 1, 0), sides(3 * triangles.size());
   const auto low = [&](int side) {
@@ -149,11 +197,18 @@ std::vector<int> triangle_neighbours(const std::vector<std::array<int, 3>>& tria
     return std::max(t[side % 3], t[(side % 3 + 1) % 3]);
   };
   const int n = static_cast<int>(sides.size());
-  for (int side = 0; side < n; ++side) ++offsets[low(side) + 1];
+  for (int side = 0; side < n; ++side) {
+    check();
+    ++offsets[low(side) + 1];
+  }
   for (int i = 0; i < points; ++i) offsets[i + 1] += offsets[i];
   std::vector<int> next(offsets.begin(), offsets.end() - 1), neighbour(n, -1);
-  for (int side = 0; side < n; ++side) sides[next[low(side)]++] = side;
+  for (int side = 0; side < n; ++side) {
+    check();
+    sides[next[low(side)]++] = side;
+  }
   for (int p = 0; p < points; ++p) {
+    check();
     for (int i = offsets[p]; i < offsets[p + 1]; ++i) {
       for (int j = i + 1; j < offsets[p + 1]; ++j) {
         if (high(sides[i]) == high(sides[j])) {
@@ -169,11 +224,12 @@ std::vector<int> triangle_neighbours(const std::vector<std::array<int, 3>>& tria
 /// Flips sides in space.
 class SpaceFlipper {
  public:
-  SpaceFlipper(FaceTriangulation& face)
+  SpaceFlipper(FaceTriangulation& face, const ExecutionContext& context)
       : triangles_(face.mesh.triangles),
         points_(face.mesh.points),
         normals_(face.normals),
-        across_(triangle_neighbours(triangles_, static_cast<int>(points_.size()))) {
+        check_(context),
+        across_(triangle_neighbours(triangles_, static_cast<int>(points_.size()), context)) {
     for (const auto& segment : face.segments) {
       if (segment.internal) kept_.insert(std::minmax(segment.a, segment.b));
     }
@@ -184,6 +240,7 @@ class SpaceFlipper {
     for (std::size_t i = 0; i < queue.size(); ++i) queue[i] = static_cast<int>(i);
     const std::size_t bound = 30 * across_.size() + 1000;
     for (std::size_t k = 0; k < queue.size() && k < bound; ++k) {
+      check_();
       const int side = queue[k];
       if (!improves(side)) continue;
       flip(side);
@@ -271,6 +328,7 @@ class SpaceFlipper {
   std::vector<std::array<int, 3>>& triangles_;
   const std::vector<Vector3>& points_;
   const std::vector<Vector3>& normals_;
+  SparseCheck check_;
   std::vector<int> across_;
   std::set<std::pair<int, int>> kept_;
 };
@@ -279,8 +337,9 @@ class SpaceFlipper {
 /// boundary of its own: recombination then keeps them as sides of the mesh.
 class CrackOpener {
  public:
-  CrackOpener(FaceBoundary& boundary, std::vector<std::array<int, 3>>& triangles)
-      : boundary_(boundary), triangles_(triangles), inner_start_(boundary.size()) {}
+  CrackOpener(FaceBoundary& boundary, std::vector<std::array<int, 3>>& triangles,
+              const ExecutionContext& context)
+      : boundary_(boundary), triangles_(triangles), inner_start_(boundary.size()), check_(context) {}
 
   void run() {
     find_cracks();
@@ -311,6 +370,7 @@ class CrackOpener {
   void collect_corners(const std::set<int>& ends) {
     original_.reserve(3 * triangles_.size());
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      check_();
       for (int k = 0; k < 3; ++k) {
         original_.push_back(triangles_[t][k]);
         if (ends.contains(triangles_[t][k]))
@@ -374,6 +434,7 @@ class CrackOpener {
       return true;
     });
     for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
+      check_();
       for (int k = 0; k < 3; ++k) {
         const auto it = replaced.find(key(original(t, k), original(t, k + 1)));
         if (it == replaced.end()) continue;
@@ -388,6 +449,7 @@ class CrackOpener {
   FaceBoundary& boundary_;
   std::vector<std::array<int, 3>>& triangles_;
   int inner_start_;
+  SparseCheck check_;
   std::map<Key, FaceBoundary::Segment> cracks_;
   std::map<int, std::vector<int>> corners_;
   std::vector<int> original_;
@@ -429,9 +491,9 @@ void choose_sides(FaceTriangulation& face) {
 }  // namespace
 
 FaceTriangulation triangulate_face(int face, FaceBoundary boundary, const PlacedPoints& placed,
-                                   const FaceSurface& surface) {
-  std::vector<std::array<int, 3>> triangles = Triangulator(face, boundary, placed, surface).run();
-  CrackOpener(boundary, triangles).run();
+                                   const FaceSurface& surface, const ExecutionContext& context) {
+  std::vector<std::array<int, 3>> triangles = Triangulator(face, boundary, placed, surface, context).run();
+  CrackOpener(boundary, triangles, context).run();
 
   const int count = boundary.size() + static_cast<int>(placed.uv.size());
   std::vector<int> target(count);
@@ -446,6 +508,7 @@ FaceTriangulation triangulate_face(int face, FaceBoundary boundary, const Placed
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
   });
   if (triangles.empty()) throw crossing(face, boundary.points.front());
+  context.check();
 
   // Keep what is used, boundary first.
   std::vector<int> renumbered(count, -1);
@@ -453,7 +516,9 @@ FaceTriangulation triangulate_face(int face, FaceBoundary boundary, const Placed
     for (const int corner : t) renumbered[corner] = 0;
   }
   FaceTriangulation result;
+  SparseCheck check(context);
   for (int i = 0; i < count; ++i) {
+    check();
     if (renumbered[i] < 0) continue;
     renumbered[i] = static_cast<int>(result.uv.size());
     const bool on_boundary = i < boundary.size();
@@ -478,8 +543,10 @@ FaceTriangulation triangulate_face(int face, FaceBoundary boundary, const Placed
     if (kept.a < 0 || kept.b < 0) throw crossing(face, boundary.points[segment.a]);
     result.segments.push_back(kept);
   }
-  if (!surface.planar()) SpaceFlipper(result).run();
+  if (!surface.planar()) SpaceFlipper(result, context).run();
+  context.check();
   choose_sides(result);
+  context.check();
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "geometry/execution_context.hpp"
 #include "geometry/face_surface.hpp"
 #include "mesher/face_boundary.hpp"
 #include "mesher/mesh_types.hpp"
@@ -29,6 +30,6 @@ struct FaceTriangulation {
 /// Error (failure) naming the face when boundary segments cross or meet where they should not; the caller may
 /// then sample the edges finer.
 FaceTriangulation triangulate_face(int face, FaceBoundary boundary, const PlacedPoints& placed,
-                                   const FaceSurface& surface);
+                                   const FaceSurface& surface, const ExecutionContext& context = {});
 
 }  // namespace quadrille

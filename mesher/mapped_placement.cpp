@@ -67,8 +67,11 @@ class Grid {
  public:
   /// \param sides point instances of the four sides, ends included, each in the direction of its grid
   /// coordinate.
-  Grid(const FaceBoundary& boundary, const FaceSurface& surface, std::array<std::vector<int>, 4> sides)
-      : columns_(static_cast<int>(sides[0].size())), rows_(static_cast<int>(sides[1].size())) {
+  Grid(const FaceBoundary& boundary, const FaceSurface& surface, std::array<std::vector<int>, 4> sides,
+       const ExecutionContext& context)
+      : columns_(static_cast<int>(sides[0].size())),
+        rows_(static_cast<int>(sides[1].size())),
+        checked_(context) {
     uv_.resize(static_cast<std::size_t>(columns_) * rows_);
     points_.resize(uv_.size());
     const auto& [bottom, right, top, left] = sides;
@@ -86,6 +89,7 @@ class Grid {
     }
     for (int j = 1; j + 1 < rows_; ++j) {
       for (int i = 1; i + 1 < columns_; ++i) {
+        checked_();
         uv_[index(i, j)] = interpolate(i, j);
         points_[index(i, j)] = surface.point(uv_[index(i, j)]);
       }
@@ -106,6 +110,7 @@ class Grid {
   bool cells_are_good() const {
     for (int j = 0; j + 1 < rows_; ++j) {
       for (int i = 0; i + 1 < columns_; ++i) {
+        checked_();
         if (quad_scaled_jacobian(points_[index(i, j)], points_[index(i + 1, j)], points_[index(i + 1, j + 1)],
                                  points_[index(i, j + 1)]) < least_jacobian) {
           return false;
@@ -135,6 +140,7 @@ class Grid {
     const int last_row = rows_ - 1, last_column = columns_ - 1;
     for (int j = 1; j < last_row; ++j) {
       for (int i = 1; i < last_column; ++i) {
+        checked_();
         check(index(i, j), index(i + 1, j),
               std::max(length(index(i, 0), index(i + 1, 0)),
                        length(index(i, last_row), index(i + 1, last_row))));
@@ -169,13 +175,14 @@ class Grid {
   int columns_, rows_;
   std::vector<Vector2> uv_;
   std::vector<Vector3> points_;
+  mutable SparseCheck checked_;
 };
 
 }  // namespace
 
 std::optional<PlacedPoints> place_mapped(const FaceBoundary& boundary, const FaceSurface& surface,
                                          const TrimmedDomain& domain, SizingField::Sampler& size_at,
-                                         double scale) {
+                                         double scale, const ExecutionContext& context) {
   const std::vector<int> loop = single_loop(boundary);
   if (loop.size() < 4) return std::nullopt;
   const std::vector<int> corners = find_corners(boundary, surface, loop);
@@ -192,10 +199,12 @@ std::optional<PlacedPoints> place_mapped(const FaceBoundary& boundary, const Fac
   if (sides[0].size() != sides[2].size() || sides[1].size() != sides[3].size()) return std::nullopt;
   // The loop runs round; the grid's coordinates run from left to right and from bottom to top.
   for (const int k : {2, 3}) sides[k] = {sides[k].rbegin(), sides[k].rend()};
-  const Grid grid(boundary, surface, std::move(sides));
+  const Grid grid(boundary, surface, std::move(sides), context);
   if (!grid.cells_are_good() || !grid.follows(size_at, scale)) return std::nullopt;
   PlacedPoints placed = grid.inner_points();
+  SparseCheck check(context);
   for (const Vector2& uv : placed.uv) {
+    check();
     if (!domain.inside(uv)) return std::nullopt;
   }
   return placed;

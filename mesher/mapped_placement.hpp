@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "geometry/execution_context.hpp"
 #include "geometry/face_surface.hpp"
 #include "geometry/sizing_field.hpp"
 #include "geometry/trimmed_domain.hpp"
@@ -17,6 +18,6 @@ namespace quadrille {
 /// field: 2 for Strategy::subdivide.
 std::optional<PlacedPoints> place_mapped(const FaceBoundary& boundary, const FaceSurface& surface,
                                          const TrimmedDomain& domain, SizingField::Sampler& size_at,
-                                         double scale);
+                                         double scale, const ExecutionContext& context = {});
 
 }  // namespace quadrille

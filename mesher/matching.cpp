@@ -78,7 +78,7 @@ class ForcedPairs {
 };
 
 /// The inner sides in order of cost, equal ones (to 1/256) in the order of the mesh.
-std::vector<Side> sides_by_cost(const TriangleGraph& graph) {
+std::vector<Side> sides_by_cost(const TriangleGraph& graph, SparseCheck& check) {
   constexpr int buckets = 1024;
   // A cost that is no number (points too far away for products of their distances) comes last.
   const auto bucket = [](float cost) {
@@ -86,6 +86,7 @@ std::vector<Side> sides_by_cost(const TriangleGraph& graph) {
   };
   const auto for_each_inner_side = [&](auto&& visit) {
     for (int t = 0; t < graph.size(); ++t) {
+      check();
       for (int i = 0; i < 3; ++i) {
         if (graph.triangles[t].twin[i] > make_side(t, i))
           visit(make_side(t, i), bucket(graph.triangles[t].cost[i]));
@@ -102,25 +103,27 @@ std::vector<Side> sides_by_cost(const TriangleGraph& graph) {
 
 }  // namespace
 
-void pair_greedily(TriangleGraph& graph) {
+void pair_greedily(TriangleGraph& graph, const ExecutionContext& context) {
+  SparseCheck check(context);
   ForcedPairs forced(graph);
   for (int t = 0; t < graph.size(); ++t) {
     const auto& twin = graph.triangles[t].twin;
     if ((twin[0] < 0) + (twin[1] < 0) + (twin[2] < 0) == 2) forced.start(t);
   }
-  for (Side s : sides_by_cost(graph)) {
+  for (Side s : sides_by_cost(graph, check)) {
+    check();
     if (!graph.free(triangle_of(s)) || !graph.free(triangle_of(graph.twin_of(s)))) continue;
     forced.pair(s);
     forced.settle();
   }
 }
 
-int augment(TriangleGraph& graph, int reach) {
+int augment(TriangleGraph& graph, int reach, const ExecutionContext& context) {
   std::vector<int> free;
   for (int t = 0; t < graph.size(); ++t) {
     if (graph.free(t)) free.push_back(t);
   }
-  return augment_pairs(graph, free, NearestFirst(), reach);
+  return augment_pairs(graph, free, NearestFirst(), reach, context);
 }
 
 namespace {
@@ -130,11 +133,12 @@ class Walker {
  public:
   /// \param piece of each triangle. \param free the triangles to walk.
   Walker(TriangleGraph& graph, const std::vector<Vector3>& points, const std::vector<int>& piece,
-         const std::vector<int>& free)
+         const std::vector<int>& free, const ExecutionContext& context)
       : graph_(graph),
         points_(points),
         piece_(piece),
         free_(free),
+        check_(context),
         reached_(static_cast<Reached*>(std::calloc(4 * graph.triangles.size(), sizeof(Reached)))) {
     if (!reached_) throw std::bad_alloc();
   }
@@ -223,6 +227,7 @@ class Walker {
     queue_ = {};
     for (Side s : graph_.triangles[root].twin) offer(s, 0, -1, aim);
     while (!queue_.empty()) {
+      check_();
       const auto [key, s] = queue_.top();
       queue_.pop();
       const int distance = reached_[s].distance - 1;
@@ -297,6 +302,7 @@ class Walker {
   const std::vector<Vector3>& points_;
   const std::vector<int>& piece_;
   const std::vector<int>& free_;
+  SparseCheck check_;
   std::unique_ptr<Reached[], Free> reached_;  // by side; mostly pages never touched
   std::vector<Side> touched_;
   std::priority_queue<std::pair<double, Side>, std::vector<std::pair<double, Side>>, std::greater<>> queue_;
@@ -305,13 +311,15 @@ class Walker {
 };
 
 /// The connected piece of each triangle, as its lowest triangle: by union and find in the order of the mesh.
-std::vector<int> label_pieces(const TriangleGraph& graph) {
+std::vector<int> label_pieces(const TriangleGraph& graph, const ExecutionContext& context) {
+  SparseCheck check(context);
   std::vector<int> piece(graph.size());
   const auto root = [&](int t) {
     while (piece[t] != t) t = piece[t] = piece[piece[t]];
     return t;
   };
   for (int t = 0; t < graph.size(); ++t) {
+    check();
     piece[t] = t;
     for (Side s : graph.triangles[t].twin) {
       if (s < 0 || triangle_of(s) > t) continue;
@@ -325,16 +333,16 @@ std::vector<int> label_pieces(const TriangleGraph& graph) {
 
 }  // namespace
 
-int walk(TriangleGraph& graph, const std::vector<Vector3>& points) {
+int walk(TriangleGraph& graph, const std::vector<Vector3>& points, const ExecutionContext& context) {
   std::vector<int> free;
   for (int t = 0; t < graph.size(); ++t) {
     if (graph.free(t)) free.push_back(t);
   }
   if (free.size() < 2) return static_cast<int>(free.size());
-  const std::vector<int> piece = label_pieces(graph);
+  const std::vector<int> piece = label_pieces(graph, context);
   std::unordered_map<int, int> free_in;
   for (int t : free) ++free_in[piece[t]];
-  Walker walker(graph, points, piece, free);
+  Walker walker(graph, points, piece, free, context);
   for (int t : free) {
     if (free_in[piece[t]] < 2 || !graph.free(t)) continue;
     if (walker.walk(t)) free_in[piece[t]] -= 2;
@@ -640,7 +648,7 @@ int exchange_around(TriangleGraph& graph, Exchanger& exchanger, std::vector<int>
   for (int round = 0; round < max_rounds && !current.empty(); ++round) {
     next.clear();
     for (std::size_t k = 0; k < current.size(); ++k) {
-      if (k % 8192 == 0) context.check();
+      if (k % 512 == 0) context.check();
       queued[current[k]] = 0;
       const std::vector<int>& touched = exchanger.improve(current[k]);
       if (touched.empty()) continue;
@@ -684,6 +692,7 @@ std::vector<char> mark_inner(const TriangleGraph& graph, std::size_t point_count
 
 int exchange(TriangleGraph& graph, const std::vector<Vector3>& points, ExecutionContext& context) {
   Valences valences(graph, points);
+  context.check();
   std::vector<char> queued(graph.size(), 0);
   std::vector<int> remaining;
   std::atomic<int> exchanged = 0;
@@ -693,6 +702,7 @@ int exchange(TriangleGraph& graph, const std::vector<Vector3>& points, Execution
   } else {
     // Blocks share no triangle and no point that they use: they can be worked on in any order, at once.
     const std::vector<char> inner = mark_inner(graph, points.size());
+    context.check();
     const int blocks = (graph.size() + block_size - 1) / block_size;
     const auto work = [&](int block) {
       std::vector<int> members(std::min(block_size, graph.size() - block * block_size));

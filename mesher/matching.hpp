@@ -10,7 +10,7 @@ namespace quadrille {
 
 /// Pairs triangles that have but one free neighbour (ears first) with it, then along the sides in order of
 /// cost. Needs the costs. Time: linear (the order is a bucket sort).
-void pair_greedily(TriangleGraph& graph);
+void pair_greedily(TriangleGraph& graph, const ExecutionContext& context = {});
 
 /// How many triangles a search for a partner looks at.
 constexpr int reach_of_paths = 100'000;
@@ -18,13 +18,13 @@ constexpr int reach_of_paths = 100'000;
 /// Pairs more triangles by exchange along alternating paths: a free triangle, a pair, ..., a pair, a free
 /// triangle. The nearest partner is taken, searched for over at most `reach` triangles. \return the number of
 /// triangles still free: 0 if there is a way to pair all within reach.
-int augment(TriangleGraph& graph, int reach = reach_of_paths);
+int augment(TriangleGraph& graph, int reach = reach_of_paths, const ExecutionContext& context = {});
 
 /// Lets the remaining free triangles walk: a triangle and a quad beside it are a pentagon, which can be cut
 /// into a quad and a triangle on the far side. Two that meet become a quad. Diagonals of pairs are flipped
 /// where the way needs it. Afterwards no connected piece has more than one free triangle. \return the number
 /// of triangles still free.
-int walk(TriangleGraph& graph, const std::vector<Vector3>& points);
+int walk(TriangleGraph& graph, const std::vector<Vector3>& points, const ExecutionContext& context = {});
 
 /// Exchanges pairs along alternating cycles as long as that lowers the cost:
 /// the sum over the quads of pair_cost() and over the points of a charge for the deviation from the ideal

@@ -20,7 +20,7 @@ namespace {
 /// Points in buckets by cell and size level. Buckets may hold strangers: the caller tests the distance.
 class PointGrid {
  public:
-  explicit PointGrid(std::size_t expected) { rebuild(expected); }
+  PointGrid(std::size_t expected, const ExecutionContext& context) : check_(context) { rebuild(expected); }
 
   void insert(const Vector3& p, double size) {
     if (4 * (entries_.size() + 1) > 3 * heads_.size()) rebuild(2 * heads_.size());
@@ -84,9 +84,13 @@ class PointGrid {
     std::size_t n = 64;
     while (n < buckets) n *= 2;
     heads_.assign(n, -1);
-    for (std::size_t i = 0; i < entries_.size(); ++i) link(static_cast<int>(i));
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      check_();
+      link(static_cast<int>(i));
+    }
   }
 
+  SparseCheck check_;
   std::vector<Entry> entries_;
   std::vector<int> heads_;
   int low_level_ = 10000, high_level_ = -10000;
@@ -124,13 +128,13 @@ class Placer {
         size_at_(size_at),
         options_(options),
         context_(context),
-        grid_(4 * boundary.uv.size()) {}
+        grid_(4 * boundary.uv.size(), context) {}
 
   PlacedPoints run() {
     add_boundary();
     const std::size_t first = front_.size();
     for (std::size_t i = 0; i < front_.size(); ++i) {
-      if (i % 4096 == 0) {
+      if (i % 256 == 0) {
         context_.check();
         if (front_.size() > most_points) {
           throw failure("", fmt::format("a face would take more than {} points at this size", most_points));
@@ -138,6 +142,7 @@ class Placer {
       }
       if (front_[i].proposes) propose_neighbours(i);
     }
+    context_.check();
     PlacedPoints result;
     for (std::size_t i = first; i < front_.size(); ++i) {
       result.uv.push_back(front_[i].uv);

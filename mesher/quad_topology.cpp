@@ -21,25 +21,35 @@ constexpr int boundary = -1;
 
 }  // namespace
 
-QuadTopology::QuadTopology(std::vector<Quad> quads, const std::vector<int>& tags, int node_count)
+QuadTopology::QuadTopology(std::vector<Quad> quads, const std::vector<int>& tags, int node_count,
+                           const ExecutionContext& context)
     : quads_(std::move(quads)), tags_(tags) {
+  context.check();
   sides_.assign(node_count, -1);
-  link();
+  link(context);
 }
 
-void QuadTopology::link() {
+void QuadTopology::link(const ExecutionContext& context) {
+  SparseCheck check(context);
   twins_.assign(4 * quads_.size(), boundary);
   // Sides in rows by their lower node; within the few sides of a row, those with the same ends are met by
   // search.
   std::vector<int> first(sides_.size() + 1, 0);
   const int count = 4 * size();
   const auto low = [&](int side) { return std::min(origin(side), end(side)); };
-  for (int side = 0; side < count; ++side) ++first[low(side) + 1];
+  for (int side = 0; side < count; ++side) {
+    check();
+    ++first[low(side) + 1];
+  }
   for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
   std::vector<int> rows(count), place(first.begin(), first.end() - 1);
-  for (int side = 0; side < count; ++side) rows[place[low(side)]++] = side;
+  for (int side = 0; side < count; ++side) {
+    check();
+    rows[place[low(side)]++] = side;
+  }
   for (std::size_t node = 0; node + 1 < first.size(); ++node)
     for (int i = first[node]; i < first[node + 1]; ++i) {
+      check();
       int same = 0, opposite = -1, opposites = 0;
       for (int j = first[node]; j < first[node + 1]; ++j) {
         if (origin(rows[j]) == origin(rows[i]) && end(rows[j]) == end(rows[i])) ++same;
@@ -53,6 +63,7 @@ void QuadTopology::link() {
   uses_.assign(sides_.size(), 0);
   openings_.assign(sides_.size(), 0);
   for (int side = 0; side < count; ++side) {
+    check();
     sides_[origin(side)] = side;
     ++uses_[origin(side)];
     if (twins_[side] < 0) ++openings_[origin(side)];

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/execution_context.hpp"
 #include "mesher/mesh_types.hpp"
 
 namespace quadrille {
@@ -24,7 +25,8 @@ class QuadTopology {
   };
 
   /// \param tags one a quad or empty; quads of different tags do not count as neighbours.
-  QuadTopology(std::vector<Quad> quads, const std::vector<int>& tags, int node_count);
+  QuadTopology(std::vector<Quad> quads, const std::vector<int>& tags, int node_count,
+               const ExecutionContext& context = {});
 
   int size() const { return static_cast<int>(quads_.size()); }  ///< slots, dead ones included
   bool alive(int quad) const { return quads_[quad][0] >= 0; }
@@ -63,7 +65,7 @@ class QuadTopology {
   bool replace(std::span<const int> old_quads, std::span<const Quad> new_quads);
 
  private:
-  void link();
+  void link(const ExecutionContext& context);
   bool joined_outside(int from, int to, std::span<const int> patch) const;
 
   std::vector<Quad> quads_;

@@ -45,10 +45,9 @@ QuadMesh collect(const TriangleGraph& graph, const TriangleMesh& mesh) {
 void pair_by_cost(TriangleGraph& graph, const TriangleMesh& mesh, const RecombineOptions& options,
                   ExecutionContext& context) {
   graph.objective = options.objective;
-  graph.compute_costs(mesh.points);
-  context.check();
-  pair_greedily(graph);
-  if (augment(graph) > 0) walk(graph, mesh.points);
+  graph.compute_costs(mesh.points, context);
+  pair_greedily(graph, context);
+  if (augment(graph, reach_of_paths, context) > 0) walk(graph, mesh.points, context);
   context.check();
   if (options.exchange) exchange(graph, mesh.points, context);
 }
@@ -125,22 +124,23 @@ QuadMesh pair_by_color(const TriangleMesh& mesh, const RecombineOptions& options
   for (int t = 0; blanks > 0 && t < coloring.size(); ++t) {
     if (coloring.side_of(t, color) < 0) free.push_back(t);
   }
-  if (augment_pairs(pairs, free, StraightToNext(mesh, free), reach_of_paths) == 0)
+  if (augment_pairs(pairs, free, StraightToNext(mesh, free), reach_of_paths, context) == 0)
     return collect(pairs, mesh);
   // Those that no path joins walk, for which diagonals are turned.
   TriangleGraph graph(mesh, coloring);
   for (int t = 0; t < pairs.size(); ++t) {
     if (!pairs.free(t)) graph.triangles[t].mate = index_of(pairs.diagonal_of(t));
   }
-  walk(graph, mesh.points);
+  walk(graph, mesh.points, context);
   return collect(graph, mesh);
 }
 
 QuadMesh recombine_in_order(const TriangleMesh& mesh, const RecombineOptions& options,
                             ExecutionContext& context) {
   if (options.paper_mode) return pair_by_color(mesh, options, context);
-  TriangleGraph graph(mesh);
+  TriangleGraph graph(mesh, context);
   pair_by_cost(graph, mesh, options, context);
+  context.check();
   return collect(graph, mesh);
 }
 
@@ -150,7 +150,7 @@ QuadMesh recombine(const TriangleMesh& mesh, const RecombineOptions& options, Ex
   if (!is_scattered(mesh)) return recombine_in_order(mesh, options, context);
   check_indices(mesh);
   try {
-    RenumberedMesh ordered = order_by_place(mesh);
+    RenumberedMesh ordered = order_by_place(mesh, context);
     QuadMesh result = recombine_in_order(ordered.mesh, options, context);
     ordered.mesh = {};
     for (auto& quad : result.quads) {

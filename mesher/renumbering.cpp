@@ -66,7 +66,8 @@ bool is_scattered(const TriangleMesh& mesh) {
   return jump / static_cast<double>(count) > static_cast<double>(mesh.points.size()) / 5;
 }
 
-RenumberedMesh order_by_place(const TriangleMesh& mesh) {
+RenumberedMesh order_by_place(const TriangleMesh& mesh, const ExecutionContext& context) {
+  SparseCheck check(context);
   RenumberedMesh result;
   const std::vector<int> order = along_curve(mesh);
   std::vector<int> number(mesh.points.size(), -1);
@@ -74,6 +75,7 @@ RenumberedMesh order_by_place(const TriangleMesh& mesh) {
   result.old_point.reserve(mesh.points.size());
   if (!mesh.tags.empty()) result.mesh.tags.reserve(mesh.tags.size());
   for (int t : order) {
+    check();
     std::array<int, 3> triangle = mesh.triangles[t];
     for (int& v : triangle) {
       if (number[v] < 0) {

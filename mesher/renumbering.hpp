@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "geometry/execution_context.hpp"
 #include "mesher/mesh_types.hpp"
 
 namespace quadrille {
@@ -20,6 +21,6 @@ bool is_scattered(const TriangleMesh& mesh);
 /// Triangles in the order of a space-filling curve, points in the order in which
 /// triangles use them first; points that no triangle uses are left out. Deterministic. Time: linear. Indices
 /// must have been checked.
-RenumberedMesh order_by_place(const TriangleMesh& mesh);
+RenumberedMesh order_by_place(const TriangleMesh& mesh, const ExecutionContext& context = {});
 
 }  // namespace quadrille

@@ -50,7 +50,9 @@ class Smoother {
     // Where a triangle was left, its nodes stay: only quads are measured here.
     for (const auto& triangle : surface_mesh.mesh.triangles)
       for (const int node : triangle) free_[node] = 0;
+    context_.check();
     link_corners();
+    context_.check();
     find_sharp_turns();
     quality_.resize(quads_.size());
     measure_all();
@@ -94,6 +96,7 @@ class Smoother {
   bool untangle() {
     bool any = false;
     for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
+      check(node);
       if (free_[node] && !(least_round(node) > 0) && spread_corners(node)) any = true;
     }
     return any;
@@ -122,7 +125,10 @@ class Smoother {
 
   /// Exactly, where sweeps have judged in tangent planes.
   void measure_all() {
-    for (std::size_t i = 0; i < quads_.size(); ++i) quality_[i] = measure(static_cast<int>(i));
+    for (int i = 0; i < static_cast<int>(quads_.size()); ++i) {
+      check(i);
+      quality_[i] = measure(i);
+    }
   }
 
   int bad_elements() const {
@@ -133,8 +139,9 @@ class Smoother {
  private:
   enum class Goal { raise, untangle };
 
-  void check(int node) const {
-    if (node % 4096 == 0) context_.check();
+  /// For loops over nodes or elements.
+  void check(int i) const {
+    if (i % 256 == 0) context_.check();
   }
 
   /// Corners round each node, in compressed rows: 4 * quad + corner.
@@ -145,8 +152,10 @@ class Smoother {
     for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
     corners_.resize(first_.back());
     std::vector<int> place(first_.begin(), first_.end() - 1);
-    for (int i = 0; i < static_cast<int>(quads_.size()); ++i)
+    for (int i = 0; i < static_cast<int>(quads_.size()); ++i) {
+      check(i);
       for (int j = 0; j < 4; ++j) corners_[place[quads_[i][j]]++] = 4 * i + j;
+    }
   }
 
   /// Where the surface turns far from one node to the next, as round a tube of four coarse quads, averages in
@@ -577,7 +586,7 @@ void smooth(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const Im
   if (smoother.loosen_below(std::sin(half_pi * std::clamp(options.q_floor, 0.0, 0.9)), most_failures))
     for (int i = 0; i < 2 && smoother.optimise_below(bad_jacobian); ++i) continue;
   for (int i = 0; i < 2 && smoother.optimise_below(poor_jacobian); ++i) continue;
-  for (int i = 0; i < 10 && smoother.untangle(); ++i) context.check();
+  for (int i = 0; i < 10 && smoother.untangle(); ++i) continue;
   report.bad_elements = smoother.bad_elements();
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 class Subdivider {
  public:
-  Subdivider(const FaceQuads& coarse, const FaceSurface& surface) : coarse_(coarse), surface_(surface) {}
+  Subdivider(const FaceQuads& coarse, const FaceSurface& surface, const ExecutionContext& context)
+      : coarse_(coarse), surface_(surface), check_(context, 256) {}
 
   FaceQuads run(const std::vector<FaceBoundary::Segment>& segments, const std::vector<Vector3>& node_points) {
     const int fixed = static_cast<int>(coarse_.nodes.size());
@@ -122,6 +123,7 @@ class Subdivider {
 
   template <std::size_t n>
   void split(const std::array<int, n>& element) {
+    check_();
     std::array<int, n> middles;
     for (std::size_t k = 0; k < n; ++k) middles[k] = middle(element[k], element[(k + 1) % n]);
     const int centre = add_centre(middles);
@@ -134,6 +136,7 @@ class Subdivider {
 
   const FaceQuads& coarse_;
   const FaceSurface& surface_;
+  SparseCheck check_;
   FaceQuads fine_;
   std::vector<int> renumbered_;
   std::unordered_map<std::uint64_t, int> middles_;
@@ -156,10 +159,12 @@ double worst_part(const std::array<Vector3, n>& corners, const Vector3& normal) 
 
 }  // namespace
 
-void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals) {
+void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals, const ExecutionContext& context) {
+  SparseCheck check(context);
   constexpr double bad = 0.3, gain = 0.1, flat = 1e-6;
   const auto& p = mesh.points;
   std::erase_if(mesh.quads, [&](const std::array<int, 4>& quad) {
+    check();
     const auto [a, b, c, d] = quad;
     const Vector3 normal = normals[a] + normals[b] + normals[c] + normals[d];
     const double whole = worst_part(std::array<Vector3, 4>{p[a], p[b], p[c], p[d]}, normal);
@@ -182,8 +187,9 @@ void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals) {
 }
 
 FaceQuads subdivide(const FaceQuads& coarse, const std::vector<FaceBoundary::Segment>& segments,
-                    const std::vector<Vector3>& node_points, const FaceSurface& surface) {
-  return Subdivider(coarse, surface).run(segments, node_points);
+                    const std::vector<Vector3>& node_points, const FaceSurface& surface,
+                    const ExecutionContext& context) {
+  return Subdivider(coarse, surface, context).run(segments, node_points);
 }
 
 }  // namespace quadrille

@@ -1,6 +1,7 @@
 #pragma once
 /// Midpoint subdivision of a face's quads. Internal.
 
+#include "geometry/execution_context.hpp"
 #include "geometry/face_surface.hpp"
 #include "mesher/face_triangulation.hpp"
 #include "mesher/improve.hpp"
@@ -17,12 +18,14 @@ struct FaceQuads {
 /// Cuts those quads into two triangles whose four parts would be worse than the six parts of the triangles:
 /// quads with a corner that is almost straight or more, which no smoothing mends where the boundary makes it.
 /// \param normals (points) unit normals of the surface.
-void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals);
+void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
+                    const ExecutionContext& context = {});
 
 /// Splits each quad into four and each triangle into three quads. New points on boundary sides are the edges'
 /// own nodes, others are put on the surface. \param segments the boundary sides, which carry the nodes in
 /// their middle.
 FaceQuads subdivide(const FaceQuads& coarse, const std::vector<FaceBoundary::Segment>& segments,
-                    const std::vector<Vector3>& node_points, const FaceSurface& surface);
+                    const std::vector<Vector3>& node_points, const FaceSurface& surface,
+                    const ExecutionContext& context = {});
 
 }  // namespace quadrille

@@ -67,14 +67,17 @@ float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, 
   return 0.5F * worst + 0.3F * squares + 4 * bad * bad + 10 * reflex + 2 * (1 - aligned);
 }
 
-TriangleGraph::TriangleGraph(const TriangleMesh& mesh) {
+TriangleGraph::TriangleGraph(const TriangleMesh& mesh, const ExecutionContext& context) {
   check_indices(mesh);
   triangles.resize(mesh.triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& c = mesh.triangles[t];
     triangles[t] = {{c[0], c[1], c[2]}, {-1, -1, -1}, {0, 0, 0}, -1};
   }
-  join_twins(mesh, [this](Side a, Side b) {
+  context.check();
+  SparseCheck check(context);
+  join_twins(mesh, [&](Side a, Side b) {
+    check();
     triangles[triangle_of(a)].twin[index_of(a)] = b;
     triangles[triangle_of(b)].twin[index_of(b)] = a;
   });
@@ -94,10 +97,15 @@ TriangleGraph::TriangleGraph(const TriangleMesh& mesh, const EdgeColoring& conne
 
 constexpr float worst_cost = 1e6f;
 
-void TriangleGraph::compute_costs(const std::vector<Vector3>& points) {
+void TriangleGraph::compute_costs(const std::vector<Vector3>& points, const ExecutionContext& context) {
+  SparseCheck check(context);
   std::vector<TriangleShape> shapes(triangles.size());
-  for (int t = 0; t < size(); ++t) shapes[t] = shape_of(triangles[t], points);
   for (int t = 0; t < size(); ++t) {
+    check();
+    shapes[t] = shape_of(triangles[t], points);
+  }
+  for (int t = 0; t < size(); ++t) {
+    check();
     for (int i = 0; i < 3; ++i) {
       const Side twin = triangles[t].twin[i];
       if (twin < make_side(t, i)) continue;  // boundary, or done from the other side

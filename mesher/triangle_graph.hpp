@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/execution_context.hpp"
 #include "geometry/vector.hpp"
 #include "mesher/mesh_types.hpp"
 #include "mesher/options.hpp"
@@ -27,7 +28,7 @@ class TriangleGraph {
   /// Throws Error (failure) naming the triangle where indices are out of range or repeated, where more than
   /// two triangles of a tag share a side, or where two of them run along it the same way. Time and memory:
   /// linear.
-  explicit TriangleGraph(const TriangleMesh& mesh);
+  explicit TriangleGraph(const TriangleMesh& mesh, const ExecutionContext& context = {});
   /// The same where the neighbours are known already: those of the colouring of this mesh.
   TriangleGraph(const TriangleMesh& mesh, const EdgeColoring& connected);
 
@@ -51,7 +52,7 @@ class TriangleGraph {
   }
 
   /// Fills in the cost of every inner side. Time: about 20 ns a triangle.
-  void compute_costs(const std::vector<Vector3>& points);
+  void compute_costs(const std::vector<Vector3>& points, const ExecutionContext& context = {});
 
   /// Turns the diagonal of the two triangles at an inner side to their other two corners. The costs around
   /// are computed anew; the pairing of the two with each other is kept, any other is the caller's to restore.

@@ -1,10 +1,13 @@
 /// The whole way from CAD to quads, on every sample model.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <time.h>
 
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <set>
@@ -244,6 +247,53 @@ TEST(Mesh, CanBeCancelled) {
       ADD_FAILURE() << "not cancelled";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), Error::Kind::cancelled);
+    }
+  }
+}
+
+double thread_seconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// The longest time of computing between two checks of the context, as a share of all the computing.
+double longest_unchecked(const CadModel& model, const MeshOptions& options) {
+  double longest = 0, last = thread_seconds();
+  const double start = last;
+  const auto measure = [&] {
+    const double now = thread_seconds();
+    longest = std::max(longest, now - last);
+    last = now;
+  };
+  ExecutionContext context(1, [&](std::string_view, double) {
+    measure();
+    return true;
+  });
+  context.ask_every(std::chrono::milliseconds(0));
+  mesh(model, options, context);
+  measure();
+  return longest / (last - start);
+}
+
+/// What takes time looks whether to go on: a face of any size is no single step.
+TEST(Mesh, ChecksAllTheWhile) {
+  // A torus is one curved face, the plate a plane one with holes.
+  for (const char* name : {"torus", "plate_with_holes"}) {
+    const CadModel model = CadModel::read(sample_model(name).path());
+    for (const Strategy strategy : {Strategy::subdivide, Strategy::direct}) {
+      for (const int order : {1, 2}) {
+        SCOPED_TRACE(fmt::format("{}, strategy {}, order {}", name, static_cast<int>(strategy), order));
+        MeshOptions options;
+        options.sizing.size = suggested_size(model, 100'000);
+        options.strategy = strategy;
+        options.order = order;
+        // In computing time, which other work on the machine hardly changes; once is enough.
+        double share = 1;
+        for (int tries = 0; tries < 3 && share > 0.05; ++tries)
+          share = std::min(share, longest_unchecked(model, options));
+        EXPECT_LT(share, 0.05);
+      }
     }
   }
 }

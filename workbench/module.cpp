@@ -244,7 +244,8 @@ void bind_model(py::module_& module) {
       .def_property_readonly("solid_count", &CadModel::solid_count)
       .def_property_readonly("shell_count", &CadModel::shell_count)
       .def_property_readonly("diagonal", &CadModel::diagonal, "Length of the bounding box's diagonal, in mm.")
-      .def_property_readonly("area", &CadModel::area, "Sum of the face areas, in mm^2.")
+      .def_property_readonly(
+          "area", [](const CadModel& model) { return model.area(); }, "Sum of the face areas, in mm^2.")
       .def_property_readonly("problems", &CadModel::problems,
                              "Problems noticed while reading, one sentence each.")
       .def_property_readonly(
