@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "geometry/edge_curve.hpp"
 #include "geometry/face_surface.hpp"
@@ -17,25 +18,22 @@ namespace {
 /// Moves the midside nodes inside one face where curved boundary sides make second-order elements invalid.
 class MidsideRepair {
  public:
-  /// \param first_quad the face's elements are those from here to the end of mesh.midsides
+  /// \param first_quad,end_quad the face's elements
   /// \param first_inner index of the first midside node inside a face; `parameters` are theirs
-  MidsideRepair(ShellMesh& mesh, const FaceSurface& surface, std::size_t first_quad, std::size_t first_inner,
-                std::vector<Vector2>& parameters)
+  MidsideRepair(ShellMesh& mesh, const FaceSurface& surface, std::size_t first_quad, std::size_t end_quad,
+                std::size_t first_inner, std::vector<Vector2>& parameters, const ExecutionContext& context)
       : mesh_(mesh),
         surface_(surface),
-        first_quad_(first_quad),
         first_inner_(first_inner),
-        parameters_(parameters) {}
-
-  void run() {
-    std::vector<std::size_t> bad;
-    for (std::size_t quad = first_quad_; quad < mesh_.midsides.size(); ++quad) {
-      if (jacobian_bound(mesh_, quad) <= 0) bad.push_back(quad);
-    }
-    if (bad.empty()) return;
-    for (std::size_t quad = first_quad_; quad < mesh_.midsides.size(); ++quad) {
+        parameters_(parameters),
+        check_(context, 256) {
+    for (std::size_t quad = first_quad; quad < end_quad; ++quad) {
+      check_();
       for (const int node : mesh_.midsides[quad]) users_[node].push_back(quad);
     }
+  }
+
+  void run(const std::vector<std::size_t>& bad) {
     constexpr int sweeps = 4;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       for (const std::size_t quad : bad) repair(quad);
@@ -59,6 +57,7 @@ class MidsideRepair {
 
   /// Compass search in the tangent plane for the best of the node's elements at their worst.
   void search(int node, int a, int b) {
+    check_();
     Vector2& uv = parameters_[node - first_inner_];
     const Vector3 along = mesh_.points[b] - mesh_.points[a];
     const Vector3 across = surface_.normal(uv).cross(along);
@@ -83,16 +82,22 @@ class MidsideRepair {
 
   ShellMesh& mesh_;
   const FaceSurface& surface_;
-  std::size_t first_quad_, first_inner_;
+  std::size_t first_inner_;
   std::vector<Vector2>& parameters_;
+  SparseCheck check_;
   std::unordered_map<int, std::vector<std::size_t>> users_;
 };
 
 class Assembler {
  public:
   Assembler(const CadShape& shape, const BoundaryNodes& nodes,
-            const std::vector<std::optional<FaceMesh>>& faces)
-      : shape_(shape), nodes_(nodes), faces_(faces), renumbered_(nodes.points.size(), -1) {}
+            const std::vector<std::optional<FaceMesh>>& faces, const ExecutionContext& context)
+      : shape_(shape),
+        nodes_(nodes),
+        faces_(faces),
+        context_(context),
+        check_(context),
+        renumbered_(nodes.points.size(), -1) {}
 
   ShellMesh run(int order) {
     number_boundary();
@@ -104,6 +109,9 @@ class Assembler {
     return std::move(mesh_);
   }
 
+  /// (faces) how many second-order elements fold; empty at first order.
+  const std::vector<int>& folded() const { return folded_; }
+
  private:
   void number_boundary() {
     std::vector<char> used(nodes_.points.size(), 0);
@@ -111,6 +119,7 @@ class Assembler {
       if (!face) continue;
       const int fixed = static_cast<int>(face->nodes.size());
       for (const auto& quad : face->quads) {
+        check_();
         for (const int corner : quad) {
           if (corner < fixed) used[face->nodes[corner]] = 1;
         }
@@ -135,13 +144,15 @@ class Assembler {
   void add_face(int index) {
     const FaceMesh& face = *faces_[index];
     const int fixed = static_cast<int>(face.nodes.size());
-    std::vector<int>& global = globals_.emplace_back(face.points.size(), -1);
+    std::vector<int> global(face.points.size(), -1);
     for (int i = 0; i < fixed; ++i) global[i] = renumbered_[face.nodes[i]];
     for (std::size_t i = fixed; i < face.points.size(); ++i) {
+      check_();
       global[i] = static_cast<int>(mesh_.points.size());
       mesh_.points.push_back(face.points[i]);
     }
     for (const auto& quad : face.quads) {
+      check_();
       mesh_.quads.push_back({global[quad[0]], global[quad[1]], global[quad[2]], global[quad[3]]});
       mesh_.quad_faces.push_back(index + 1);
     }
@@ -160,44 +171,135 @@ class Assembler {
     }
   }
 
+  /// The midside nodes of one face that are not on CAD edges.
+  struct FaceMidsides {
+    std::vector<std::array<int, 4>> of_quads;  ///< index of each side's, or -1 - node on a CAD edge
+    std::vector<Vector3> points;
+    std::vector<Vector2> parameters;
+    /// Sides between two nodes on the boundary: index and key, ascending. Another face may have them, too.
+    std::vector<std::pair<int, std::uint64_t>> chords;
+  };
+
   /// Midside nodes of CAD edges on their curves, of other sides on the surface of their face.
   void add_midsides() {
     mesh_.order = 2;
-    std::unordered_map<std::uint64_t, int> middles;
-    middles.reserve(2 * mesh_.quads.size() + 16);
     for (std::size_t s = 0; s < mesh_.segments.size(); ++s) {
+      check_();
       auto& segment = mesh_.segments[s];
       const auto [edge, k] = segment_origins_[s];
       const EdgeCurve curve(shape_.edges[edge]);
       const auto& t = nodes_.edges[edge].parameters;
       segment.middle = static_cast<int>(mesh_.points.size());
       mesh_.points.push_back(curve_middle(curve, t[k], t[k + 1]));
-      middles.emplace(side_key(segment.nodes[0], segment.nodes[1]), segment.middle);
+      middles_.emplace(side_key(segment.nodes[0], segment.nodes[1]), segment.middle);
     }
     const std::size_t first_inner = mesh_.points.size();
+    std::vector<FaceMidsides> midsides(faces_.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t face) {
+      if (faces_[face]) midsides[face] = place_midsides(face);
+    });
     std::vector<Vector2> parameters;  // of the midside nodes inside faces
-    std::size_t face_rank = 0, first_quad = 0;
-    for (std::size_t index = 0; index < faces_.size(); ++index) {
-      if (!faces_[index]) continue;
-      const FaceMesh& face = *faces_[index];
-      const auto surface_of_face =
-          face.surface ? face.surface : std::make_shared<const FaceSurface>(shape_.faces[index]);
-      const FaceSurface& surface = *surface_of_face;
-      const std::vector<int>& global = globals_[face_rank++];
-      for (const auto& quad : face.quads) {
-        std::array<int, 4>& midsides = mesh_.midsides.emplace_back();
-        for (int k = 0; k < 4; ++k) {
-          const int a = quad[k], b = quad[(k + 1) % 4];
-          const auto [it, is_new] = middles.emplace(side_key(global[a], global[b]), -1);
-          if (is_new) {
-            it->second = static_cast<int>(mesh_.points.size());
-            mesh_.points.push_back(surface_middle(surface, face, a, b, parameters.emplace_back()));
-          }
-          midsides[k] = it->second;
+    for (FaceMidsides& face : midsides) {
+      number_midsides(face, parameters);
+      face = {};
+    }
+    mend_midsides(first_inner, parameters);
+  }
+
+  std::shared_ptr<const FaceSurface> surface_of(std::size_t face) const {
+    return faces_[face]->surface ? faces_[face]->surface
+                                 : std::make_shared<const FaceSurface>(shape_.faces[face]);
+  }
+
+  FaceMidsides place_midsides(std::size_t index) const {
+    const FaceMesh& face = *faces_[index];
+    const auto surface = surface_of(index);
+    SparseCheck check(context_, 256);
+    // Sides in rows by their lower end; a row ends at the first place that is free.
+    struct Side {
+      int high = -1, midside = -1;
+    };
+    std::vector<int> rows(face.points.size() + 1, 0);
+    for (const auto& quad : face.quads) {
+      for (int k = 0; k < 4; ++k) ++rows[std::min(quad[k], quad[(k + 1) % 4]) + 1];
+    }
+    for (std::size_t i = 1; i < rows.size(); ++i) rows[i] += rows[i - 1];
+    std::vector<Side> sides(rows.back());
+    FaceMidsides result;
+    result.of_quads.reserve(face.quads.size());
+    result.points.reserve(2 * face.quads.size());
+    result.parameters.reserve(2 * face.quads.size());
+    const int fixed = static_cast<int>(face.nodes.size());
+    const auto place = [&](int a, int b) {
+      result.points.push_back(surface_middle(*surface, face, a, b, result.parameters.emplace_back()));
+      return static_cast<int>(result.points.size()) - 1;
+    };
+    for (const auto& quad : face.quads) {
+      check();
+      std::array<int, 4>& of_quad = result.of_quads.emplace_back();
+      for (int k = 0; k < 4; ++k) {
+        const int a = quad[k], b = quad[(k + 1) % 4], high = std::max(a, b);
+        if (high < fixed) {
+          const std::uint64_t key = side_key(renumbered_[face.nodes[a]], renumbered_[face.nodes[b]]);
+          const auto on_edge = middles_.find(key);
+          of_quad[k] = on_edge != middles_.end() ? -1 - on_edge->second : place(a, b);
+          if (of_quad[k] >= 0) result.chords.emplace_back(of_quad[k], key);
+          continue;
         }
+        auto side = sides.begin() + rows[std::min(a, b)];
+        while (side->high >= 0 && side->high != high) ++side;
+        if (side->high < 0) *side = {high, place(a, b)};
+        of_quad[k] = side->midside;
       }
-      MidsideRepair(mesh_, surface, first_quad, first_inner, parameters).run();
-      first_quad = mesh_.midsides.size();
+    }
+    return result;
+  }
+
+  void number_midsides(const FaceMidsides& face, std::vector<Vector2>& parameters) {
+    std::vector<int> numbers;
+    numbers.reserve(face.points.size());
+    auto chord = face.chords.begin();
+    for (std::size_t i = 0; i < face.points.size(); ++i) {
+      check_();
+      const int next = static_cast<int>(mesh_.points.size());
+      numbers.push_back(next);
+      if (chord != face.chords.end() && chord->first == static_cast<int>(i)) {
+        numbers.back() = middles_.emplace(chord++->second, next).first->second;
+        if (numbers.back() != next) continue;
+      }
+      mesh_.points.push_back(face.points[i]);
+      parameters.push_back(face.parameters[i]);
+    }
+    for (const auto& of_quad : face.of_quads) {
+      check_();
+      auto& midsides = mesh_.midsides.emplace_back();
+      for (int k = 0; k < 4; ++k) midsides[k] = of_quad[k] < 0 ? -1 - of_quad[k] : numbers[of_quad[k]];
+    }
+  }
+
+  /// Moves midside nodes where elements fold, and counts those that still do.
+  void mend_midsides(std::size_t first_inner, std::vector<Vector2>& parameters) {
+    std::vector<std::size_t> first_quad(faces_.size() + 1, 0);
+    for (std::size_t i = 0; i < faces_.size(); ++i)
+      first_quad[i + 1] = first_quad[i] + (faces_[i] ? faces_[i]->quads.size() : 0);
+    std::vector<std::vector<std::size_t>> folded(faces_.size());
+    const auto find_folded = [&](std::size_t face) {
+      SparseCheck check(context_, 256);
+      folded[face].clear();
+      for (std::size_t quad = first_quad[face]; quad < first_quad[face + 1]; ++quad) {
+        check();
+        if (jacobian_bound(mesh_, quad) <= 0) folded[face].push_back(quad);
+      }
+    };
+    oneapi::tbb::parallel_for(std::size_t{0}, faces_.size(), find_folded);
+    folded_.assign(faces_.size(), 0);
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      if (folded[i].empty()) continue;
+      const auto surface = surface_of(i);
+      MidsideRepair(mesh_, *surface, first_quad[i], first_quad[i + 1], first_inner, parameters, context_)
+          .run(folded[i]);
+      find_folded(i);
+      folded_[i] = static_cast<int>(folded[i].size());
     }
   }
 
@@ -227,18 +329,18 @@ class Assembler {
   const CadShape& shape_;
   const BoundaryNodes& nodes_;
   const std::vector<std::optional<FaceMesh>>& faces_;
+  const ExecutionContext& context_;
+  SparseCheck check_;
   std::vector<int> renumbered_;
-  std::vector<std::vector<int>> globals_;
   std::vector<std::pair<int, int>> segment_origins_;
+  std::unordered_map<std::uint64_t, int> middles_;  ///< of sides between nodes on the boundary
+  std::vector<int> folded_;
   ShellMesh mesh_;
 };
 
 /// Says where second-order elements stay invalid: between curves that touch each other (a cusp) no position
-/// of the midside nodes mends them.
-void note_folded(ShellMesh& mesh) {
-  std::vector<int> folded(mesh.faces.size(), 0);
-  for (std::size_t i = 0; i < mesh.quads.size(); ++i)
-    folded[mesh.quad_faces[i] - 1] += jacobian_bound(mesh, i) <= 0;
+/// of the midside nodes mends them. \param folded (faces) how many elements do.
+void note_folded(ShellMesh& mesh, const std::vector<int>& folded) {
   for (std::size_t face = 0; face < folded.size(); ++face) {
     if (folded[face] == 0) continue;
     std::string& note = mesh.faces[face].note;
@@ -254,9 +356,10 @@ ShellMesh assemble(const CadShape& shape, const BoundaryNodes& nodes,
                    std::vector<ShellMesh::FaceStatus> statuses, const MeshOptions& options,
                    ExecutionContext& context) {
   const StageTimer timer(context, "assemble");
-  ShellMesh mesh = Assembler(shape, nodes, faces).run(options.order);
+  Assembler assembler(shape, nodes, faces, context);
+  ShellMesh mesh = assembler.run(options.order);
   mesh.faces = std::move(statuses);
-  if (mesh.order == 2) note_folded(mesh);
+  note_folded(mesh, assembler.folded());
   return mesh;
 }
 
