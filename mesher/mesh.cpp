@@ -1,15 +1,16 @@
 /// The facade: model in, mesh out.
 
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <BRepBndLib.hxx>
+#include <Bnd_Box.hxx>
 #include <Standard_Failure.hxx>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -19,6 +20,7 @@
 #include "mesher/edge_sampling.hpp"
 #include "mesher/face_mesher.hpp"
 #include "mesher/quadrille.hpp"
+#include "mesher/threads.hpp"
 
 namespace quadrille {
 
@@ -40,7 +42,21 @@ std::vector<char> faces_used(const CadModel& model, const std::vector<int>& face
   return used;
 }
 
-void check_options(const CadModel& model, const MeshOptions& options, double size) {
+/// About how many elements the model can take at most: of each face those of two squares over its box's
+/// diagonal (a sphere takes a little more than one).
+double most_elements(const CadShape& shape, double size, const ExecutionContext& context) {
+  double count = 0;
+  for (const CadFace& face : shape.faces) {
+    context.check();
+    Bnd_Box box;
+    BRepBndLib::Add(face.face, box, Standard_False);
+    if (!box.IsVoid()) count += 2 * box.SquareExtent() / (size * size);
+  }
+  return count;
+}
+
+void check_options(const CadModel& model, const MeshOptions& options, double size,
+                   const ExecutionContext& context) {
   if (!(options.merge_tiny >= 0) || options.merge_tiny > size) {
     throw usage_error("--merge-tiny",
                       fmt::format("the length below which features are left out must lie between 0 and "
@@ -50,10 +66,11 @@ void check_options(const CadModel& model, const MeshOptions& options, double siz
   if (options.order != 1 && options.order != 2) {
     throw usage_error("--order", fmt::format("the order must be 1 or 2, not {}", options.order));
   }
-  // The exact area takes long to compute: only where the bounding box says that it may matter.
+  // The exact area takes long to compute: only where the bounding boxes say that it may matter.
   const double box = model.diagonal() / size;
-  const double estimate =
-      options.force || box * box * model.face_count() < element_limit ? 0 : model.area() / (size * size);
+  const bool is_few = box * box * model.face_count() < element_limit ||
+                      most_elements(model.shape(), size, context) < element_limit;
+  const double estimate = options.force || is_few ? 0 : model.area(context) / (size * size);
   if (estimate > element_limit) {
     throw usage_error("--size",
                       fmt::format("the size {:.6g} would give about {:.3g} million elements: use --force "
@@ -140,8 +157,9 @@ class Job {
   void mesh_faces(const SizingField& field) {
     const int n = static_cast<int>(shape_.faces.size());
     errors_.assign(n, std::nullopt);
-    std::atomic<int> done{0};
-    oneapi::tbb::parallel_for(0, n, [&](int face) {
+    const std::vector<int> order = longest_first();
+    std::atomic<int> started{0}, done{0};
+    const auto mesh_one = [&](int face) {
       if (!used_[face] || meshes_[face]) return;
       try {
         meshes_[face] = mesh_face(shape_, face, nodes_, field, options_, rungs_[face] > twice, context_);
@@ -157,9 +175,26 @@ class Job {
             failure(name, fmt::format("{} cannot be evaluated ({})", name, problem.GetMessageString()));
       }
       context_.report("mesh", static_cast<double>(++done) / n);
+    };
+    // Each thread takes the largest face that is left: at the end none waits long for another.
+    oneapi::tbb::parallel_for(0, oneapi::tbb::this_task_arena::max_concurrency(), [&](int) {
+      for (int i = started++; i < n; i = started++) mesh_one(order[i]);
     });
     // oneTBB has joined its threads. The thread sanitizer does not see into it, but sees this.
     static_cast<void>(done.load());
+  }
+
+  /// The faces, those first that have most segments on their boundary.
+  std::vector<int> longest_first() const {
+    std::vector<int> segments(shape_.faces.size(), 0), order(shape_.faces.size());
+    for (std::size_t face = 0; face < segments.size(); ++face) {
+      for (const CadWire& wire : shape_.faces[face].wires) {
+        for (const Coedge& coedge : wire.coedges) segments[face] += nodes_.edges[coedge.edge - 1].segments();
+      }
+    }
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return segments[a] > segments[b]; });
+    return order;
   }
 
   std::vector<int> failed_faces() const {
@@ -285,7 +320,7 @@ class Job {
 ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
   const double size =
       options.sizing.size > 0 ? options.sizing.size : model.diagonal() / options.sizing.elements_per_diagonal;
-  check_options(model, options, size);
+  check_options(model, options, size, context);
   Job job(model, options, size, context);
   std::optional<SizingField> field;
   {
@@ -293,12 +328,7 @@ ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionConte
     field = SizingField::build(model, options.sizing, context);
   }
   if (!options.write_size_field.empty()) field->write(options.write_size_field);
-  const int threads =
-      context.threads() > 0 ? context.threads() : static_cast<int>(std::thread::hardware_concurrency());
-  // Without it oneTBB warns when more threads are asked for than there are cores.
-  const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
-  oneapi::tbb::task_arena arena(threads);
-  return arena.execute([&] { return job.run(*field); });
+  return on_threads(context.threads(), [&] { return job.run(*field); });
 }
 
 double suggested_size(const CadModel& model, int quads) {
