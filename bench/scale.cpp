@@ -55,7 +55,9 @@ Run run_here(const std::filesystem::path& path, double size, int threads,
   run.mesh = wall() - start;
   run.cpu = cpu() - cpu_before;
   start = wall();
-  write_mesh(mesh, output);
+  WriteOptions write_options;
+  write_options.threads = threads;
+  write_mesh(mesh, output, write_options);
   run.write = wall() - start;
   run.quads = static_cast<double>(mesh.quads.size());
   rusage usage{};

@@ -291,7 +291,7 @@ void bind_mesh(py::module_& module) {
           "write",
           [](const PythonMesh& self, const std::filesystem::path& path, double msh_version,
              const std::string& title) {
-            write_mesh(self.mesh, path, {msh_version, title});
+            write_mesh(self.mesh, path, {msh_version, title, 0});
           },
           py::arg("path"), py::kw_only(), py::arg("msh_version") = 2.2, py::arg("title") = "",
           py::call_guard<py::gil_scoped_release>(),

@@ -173,6 +173,7 @@ void write_outputs(const ShellMesh& mesh, const MeshArguments& arguments, Execut
   const StageTimer timer(context, "write");
   WriteOptions options;
   options.msh_version = arguments.msh_version;
+  options.threads = arguments.threads;
   options.title = fmt::format("Quadrille {}: {}", version(), arguments.input.filename().string());
   const double count = static_cast<double>(arguments.outputs.size());
   for (std::size_t i = 0; i < arguments.outputs.size(); ++i) {

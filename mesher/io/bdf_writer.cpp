@@ -84,24 +84,25 @@ void write_bdf(const OutputMesh& mesh, const WriteOptions& options, TextWriter& 
   out << "$ " << (options.title.empty() ? "Quadrille mesh" : options.title.c_str()) << "\nCEND\n";
   write_sets(mesh, out);
   out << "BEGIN BULK\n";
-  for (std::size_t i = 0; i < mesh.nodes().size(); ++i) {
+  write_in_order(mesh.nodes().size(), out, [&](std::size_t i, TextWriter& to) {
     const Vector3& point = mesh.point(static_cast<int>(i));
-    out << "GRID*," << i + 1 << ",,";
-    write_real(point.x(), out);
-    out << ',';
-    write_real(point.y(), out);
-    out << "\n*,";
-    write_real(point.z(), out);
-    out << '\n';
-  }
-  for (int shell = 0; shell < mesh.shell_count(); ++shell) {
+    to << "GRID*," << i + 1 << ",,";
+    write_real(point.x(), to);
+    to << ',';
+    write_real(point.y(), to);
+    to << "\n*,";
+    write_real(point.z(), to);
+    to << '\n';
+  });
+  write_in_order(mesh.shell_count(), out, [&](std::size_t i, TextWriter& to) {
+    const int shell = static_cast<int>(i);
     const ElementNodes element = mesh.shell_nodes(shell);
     // A property number is positive; elements of no face share the number after the largest.
     const int property = mesh.face(shell) > 0 ? mesh.face(shell) : mesh.faces().back().number + 1;
-    out << card(element) << ',' << shell + 1 << ',' << std::max(property, 1);
-    for (int i = 0; i < element.count; ++i) out << (i == 6 ? "\n," : ",") << mesh.number(element.nodes[i]);
-    out << '\n';
-  }
+    to << card(element) << ',' << shell + 1 << ',' << std::max(property, 1);
+    for (int k = 0; k < element.count; ++k) to << (k == 6 ? "\n," : ",") << mesh.number(element.nodes[k]);
+    to << '\n';
+  });
   out << "ENDDATA\n";
 }
 

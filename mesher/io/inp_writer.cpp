@@ -1,5 +1,7 @@
 /// Abaqus / CalculiX .inp: nodes, shells, and a set for each CAD entity. Based on: the CalculiX 2.20 manual.
 
+#include <algorithm>
+
 #include "mesher/io/writers.hpp"
 
 namespace quadrille {
@@ -23,21 +25,20 @@ const char* element_type(const OutputMesh& mesh, bool quad) {
 
 /// The quads, or the triangles, of one face.
 void write_elements(const OutputMesh& mesh, const CadGroup& group, bool quads, TextWriter& out) {
-  bool opened = false;
-  for (const int shell : group.members) {
-    if (mesh.is_quad(shell) != quads) continue;
-    if (!opened) {
-      out << "*ELEMENT, TYPE=" << element_type(mesh, quads) << ", ELSET=";
-      if (group.number > 0)
-        out << "Face" << group.number << '\n';
-      else
-        out << "Eother\n";
-    }
-    opened = true;
-    out << shell + 1;
-    for (const int node : mesh.shell_nodes(shell)) out << ", " << mesh.number(node);
-    out << '\n';
-  }
+  const auto is_wanted = [&](int shell) { return mesh.is_quad(shell) == quads; };
+  if (std::none_of(group.members.begin(), group.members.end(), is_wanted)) return;
+  out << "*ELEMENT, TYPE=" << element_type(mesh, quads) << ", ELSET=";
+  if (group.number > 0)
+    out << "Face" << group.number << '\n';
+  else
+    out << "Eother\n";
+  write_in_order(group.members.size(), out, [&](std::size_t i, TextWriter& to) {
+    const int shell = group.members[i];
+    if (!is_wanted(shell)) return;
+    to << shell + 1;
+    for (const int node : mesh.shell_nodes(shell)) to << ", " << mesh.number(node);
+    to << '\n';
+  });
 }
 
 void write_all_elements_set(const OutputMesh& mesh, TextWriter& out) {
@@ -61,15 +62,14 @@ void write_node_set(const char* kind, int cad, const std::vector<int>& numbers, 
 void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out) {
   out << "*HEADING\n" << (options.title.empty() ? "Quadrille mesh" : options.title.c_str()) << '\n';
   out << "*NODE, NSET=Nall\n";
-  for (std::size_t i = 0; i < mesh.nodes().size(); ++i) {
-    const Vector3& point = mesh.point(static_cast<int>(i));
-    out << i + 1;
-    for (const double coordinate : {point.x(), point.y(), point.z()}) {
-      out << ", ";
-      out.within(coordinate, characters_of_a_number);
+  write_in_order(mesh.nodes().size(), out, [&](std::size_t i, TextWriter& to) {
+    to << i + 1;
+    for (const double coordinate : mesh.point(static_cast<int>(i))) {
+      to << ", ";
+      to.within(coordinate, characters_of_a_number);
     }
-    out << '\n';
-  }
+    to << '\n';
+  });
   for (const CadGroup& group : mesh.faces()) {
     write_elements(mesh, group, true, out);
     write_elements(mesh, group, false, out);

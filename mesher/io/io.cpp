@@ -11,6 +11,7 @@
 #include "mesher/io/modules.hpp"
 #include "mesher/io/readers.hpp"
 #include "mesher/io/writers.hpp"
+#include "mesher/threads.hpp"
 
 namespace quadrille {
 
@@ -47,7 +48,7 @@ void write_format(const ShellMesh& mesh, const std::filesystem::path& path, cons
     file.write(vtk_file(mesh, ending == ".vtk"));
   } else {
     TextWriter out(file);
-    write_text(output, ending, options, out);
+    on_threads(options.threads, [&] { write_text(output, ending, options, out); });
     out.flush();
   }
 }

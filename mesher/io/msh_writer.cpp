@@ -113,10 +113,10 @@ void write_node_blocks(const OutputMesh& mesh, const std::vector<Entities>& all,
       if (nodes.empty()) continue;
       out << entities.dimension << ' ' << entities.tags[i] << " 0 " << nodes.size() << '\n';
       for (const int number : nodes) out << number << '\n';
-      for (const int number : nodes) {
-        write_point(mesh.point(number - 1), out);
-        out << '\n';
-      }
+      write_in_order(nodes.size(), out, [&](std::size_t k, TextWriter& to) {
+        write_point(mesh.point(nodes[k] - 1), to);
+        to << '\n';
+      });
     }
   out << "$EndNodes\n";
 }
@@ -148,13 +148,14 @@ void write_element_blocks(const OutputMesh& mesh, const std::vector<Entities>& a
   std::size_t count = 0;
   for (const ElementBlock& block : blocks) count += block.members.size();
   out << "$Elements\n" << blocks.size() << ' ' << count << " 1 " << count << '\n';
-  int number = 0;
+  std::size_t number = 0;
   for (const ElementBlock& block : blocks) {
     out << block.dimension << ' ' << block.tag << ' ' << block.type << ' ' << block.members.size() << '\n';
-    for (const int member : block.members) {
-      out << ++number;
-      write_node_numbers(mesh, element_nodes(mesh, block.dimension, member), out);
-    }
+    write_in_order(block.members.size(), out, [&](std::size_t i, TextWriter& to) {
+      to << number + i + 1;
+      write_node_numbers(mesh, element_nodes(mesh, block.dimension, block.members[i]), to);
+    });
+    number += block.members.size();
   }
   out << "$EndElements\n";
 }
@@ -165,32 +166,34 @@ void write_msh2(const OutputMesh& mesh, TextWriter& out) {
   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
   write_physical_names(mesh, out);
   out << "$Nodes\n" << mesh.nodes().size() << '\n';
-  for (std::size_t i = 0; i < mesh.nodes().size(); ++i) {
-    const Vector3& point = mesh.point(static_cast<int>(i));
-    out << i + 1 << ' ' << point.x() << ' ' << point.y() << ' ' << point.z() << '\n';
-  }
+  write_in_order(mesh.nodes().size(), out, [&](std::size_t i, TextWriter& to) {
+    to << i + 1 << ' ';
+    write_point(mesh.point(static_cast<int>(i)), to);
+    to << '\n';
+  });
   const ShellMesh& source = mesh.mesh();
   out << "$EndNodes\n$Elements\n"
       << source.corners.size() + source.segments.size() + mesh.shell_count() << '\n';
-  int number = 0;
+  std::size_t number = 0;
   // Tags: the physical group and the CAD entity, which are the same number.
-  const auto begin_element = [&](int type, int cad) {
-    out << ++number << ' ' << type << " 2 " << cad << ' ' << cad;
+  const auto begin_element = [](std::size_t element, int type, int cad, TextWriter& to) {
+    to << element << ' ' << type << " 2 " << cad << ' ' << cad;
   };
   for (const ShellMesh::Corner& corner : source.corners) {
-    begin_element(type_point, corner.vertex);
+    begin_element(++number, type_point, corner.vertex, out);
     out << ' ' << mesh.number(corner.node) << '\n';
   }
   for (std::size_t i = 0; i < source.segments.size(); ++i) {
     const ElementNodes element = mesh.segment_nodes(static_cast<int>(i));
-    begin_element(element_type(element, 1), source.segments[i].edge);
+    begin_element(++number, element_type(element, 1), source.segments[i].edge, out);
     write_node_numbers(mesh, element, out);
   }
-  for (int shell = 0; shell < mesh.shell_count(); ++shell) {
+  write_in_order(mesh.shell_count(), out, [&](std::size_t i, TextWriter& to) {
+    const int shell = static_cast<int>(i);
     const ElementNodes element = mesh.shell_nodes(shell);
-    begin_element(element_type(element, 2), mesh.face(shell));
-    write_node_numbers(mesh, element, out);
-  }
+    begin_element(number + i + 1, element_type(element, 2), mesh.face(shell), to);
+    write_node_numbers(mesh, element, to);
+  });
   out << "$EndElements\n";
 }
 

@@ -2,27 +2,30 @@
 /// Fast text output: numbers go by std::to_chars into a large buffer, since writing must cost less than
 /// meshing.
 
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <cstring>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "mesher/io/atomic_file.hpp"
 
 namespace quadrille {
 
-/// Appends text to a file. flush() must be called at the end.
+/// Appends text to a file, which flush() must be called for at the end, or keeps it.
 class TextWriter {
  public:
-  explicit TextWriter(AtomicFile& file) : file_(file), buffer_(capacity) {}
+  explicit TextWriter(AtomicFile& file) : file_(&file), buffer_(capacity) {}
+  TextWriter() = default;
 
   TextWriter& operator<<(std::string_view text) {
-    if (text.size() > room()) flush();
-    if (text.size() > capacity) {
-      file_.write(text);
-      return *this;
-    }
+    if (file_ != nullptr && text.size() > capacity / 4) return pass_on(text);
+    reserve(text.size());
     std::memcpy(buffer_.data() + size_, text.data(), text.size());
     size_ += text.size();
     return *this;
@@ -62,16 +65,27 @@ class TextWriter {
   }
 
   void flush() {
-    file_.write({buffer_.data(), size_});
+    file_->write({buffer_.data(), size_});
     size_ = 0;
   }
+
+  /// What is kept, where there is no file.
+  std::string_view text() const { return {buffer_.data(), size_}; }
 
  private:
   static constexpr std::size_t capacity = std::size_t{1} << 20;
 
-  std::size_t room() const { return capacity - size_; }
+  TextWriter& pass_on(std::string_view text) {
+    flush();
+    file_->write(text);
+    return *this;
+  }
   void reserve(std::size_t bytes) {
-    if (bytes > room()) flush();
+    if (bytes <= buffer_.size() - size_) return;
+    if (file_ != nullptr)
+      flush();
+    else
+      buffer_.resize(2 * buffer_.size() + bytes + capacity / 2);
   }
   template <class Number>
   static std::size_t to_text(char* begin, Number value) {
@@ -89,9 +103,41 @@ class TextWriter {
     return *this << text;
   }
 
-  AtomicFile& file_;
+  AtomicFile* file_ = nullptr;
   std::vector<char> buffer_;
   std::size_t size_ = 0;
 };
+
+/// Writes items 0 .. count - 1 as write(item, out) does one after the other: the text of some thousand at a
+/// time is made on all threads of the arena.
+template <class Write>
+void write_in_order(std::size_t count, TextWriter& out, Write&& write) {
+  constexpr std::size_t at_once = 8192;
+  const auto write_range = [&](std::size_t begin, TextWriter& to) {
+    for (std::size_t i = begin; i < std::min(begin + at_once, count); ++i) write(i, to);
+  };
+  namespace tbb = oneapi::tbb;
+  const int threads = tbb::this_task_arena::max_concurrency();
+  std::size_t next = 0;
+  if (threads == 1 || count <= at_once) {
+    for (; next < count; next += at_once) write_range(next, out);
+    return;
+  }
+  const auto take = [&](tbb::flow_control& control) {
+    if (next >= count) control.stop();
+    return std::exchange(next, next + at_once);
+  };
+  const auto make_text = [&](std::size_t begin) {
+    TextWriter text;
+    write_range(begin, text);
+    return text;
+  };
+  tbb::parallel_pipeline(
+      2 * threads,
+      tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, take) &
+          tbb::make_filter<std::size_t, TextWriter>(tbb::filter_mode::parallel, make_text) &
+          tbb::make_filter<TextWriter, void>(tbb::filter_mode::serial_in_order,
+                                             [&](const TextWriter& text) { out << text.text(); }));
+}
 
 }  // namespace quadrille

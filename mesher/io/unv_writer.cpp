@@ -43,11 +43,11 @@ class Fields {
 
 void write_nodes(const OutputMesh& mesh, TextWriter& out) {
   begin_dataset(2411, out);
-  for (std::size_t i = 0; i < mesh.nodes().size(); ++i) {
-    out.padded(static_cast<int>(i) + 1, 10) << "         1         1        11\n";
-    for (const double coordinate : mesh.point(static_cast<int>(i))) out.scientific(coordinate, 25);
-    out << '\n';
-  }
+  write_in_order(mesh.nodes().size(), out, [&](std::size_t i, TextWriter& to) {
+    to.padded(static_cast<int>(i) + 1, 10) << "         1         1        11\n";
+    for (const double coordinate : mesh.point(static_cast<int>(i))) to.scientific(coordinate, 25);
+    to << '\n';
+  });
   end_dataset(out);
 }
 
@@ -79,8 +79,10 @@ void write_element(const OutputMesh& mesh, int number, const ElementNodes& eleme
 
 void write_elements(const OutputMesh& mesh, TextWriter& out) {
   begin_dataset(2412, out);
-  for (int i = 0; i < mesh.shell_count(); ++i)
-    write_element(mesh, i + 1, mesh.shell_nodes(i), mesh.face(i), false, out);
+  write_in_order(mesh.shell_count(), out, [&](std::size_t i, TextWriter& to) {
+    const int shell = static_cast<int>(i);
+    write_element(mesh, shell + 1, mesh.shell_nodes(shell), mesh.face(shell), false, to);
+  });
   const auto& segments = mesh.mesh().segments;
   for (std::size_t i = 0; i < segments.size(); ++i)
     write_element(mesh, mesh.shell_count() + static_cast<int>(i) + 1, mesh.segment_nodes(static_cast<int>(i)),
