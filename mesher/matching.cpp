@@ -709,7 +709,8 @@ int exchange(TriangleGraph& graph, const std::vector<Vector3>& points, Execution
       std::iota(members.begin(), members.end(), block * block_size);
       const int first = members.front();
       Exchanger exchanger(graph, valences, inner.data(), first, first + static_cast<int>(members.size()));
-      exchanged += exchange_around(graph, exchanger, std::move(members), queued, context);
+      const int count = exchange_around(graph, exchanger, std::move(members), queued, context);
+      exchanged.fetch_add(count, std::memory_order_relaxed);
     };
     tbb::task_arena arena(context.threads() > 0 ? context.threads() : tbb::task_arena::automatic);
     arena.execute([&] { tbb::parallel_for(0, blocks, work); });

@@ -174,14 +174,13 @@ class Job {
         errors_[face] =
             failure(name, fmt::format("{} cannot be evaluated ({})", name, problem.GetMessageString()));
       }
-      context_.report("mesh", static_cast<double>(++done) / n);
+      context_.report("mesh", static_cast<double>(done.fetch_add(1, std::memory_order_relaxed) + 1) / n);
     };
+    const auto next = [&] { return started.fetch_add(1, std::memory_order_relaxed); };
     // Each thread takes the largest face that is left: at the end none waits long for another.
     oneapi::tbb::parallel_for(0, oneapi::tbb::this_task_arena::max_concurrency(), [&](int) {
-      for (int i = started++; i < n; i = started++) mesh_one(order[i]);
+      for (int i = next(); i < n; i = next()) mesh_one(order[i]);
     });
-    // oneTBB has joined its threads. The thread sanitizer does not see into it, but sees this.
-    static_cast<void>(done.load());
   }
 
   /// The faces, those first that have most segments on their boundary.
