@@ -85,7 +85,7 @@ for preset in "${presets[@]}"; do
   models=0
   for model in "$corpus"/*.{brep,step,stp,igs}; do
     if [[ $preset == tsan ]]; then
-      mesh_model "$model" "$folder" --elements-per-diagonal 40 --threads 2
+      mesh_model "$model" "$folder" --elements-per-diagonal 40 --order 2 --threads 2
     else
       mesh_model "$model" "$folder" --elements-per-diagonal 60 --threads 1
     fi
