@@ -11,6 +11,7 @@
 #include <queue>
 
 #include "geometry/edge_curve.hpp"
+#include "geometry/face_surface.hpp"
 
 namespace quadrille {
 
@@ -154,8 +155,7 @@ std::vector<char> find_used_edges(const CadShape& shape, const std::vector<char>
   return result;
 }
 
-/// Edges that get the same count, because they are opposite sides of four-sided faces. A union-find
-/// structure.
+/// Edges that get the same count, because they face each other across a face. A union-find structure.
 class TiedEdges {
  public:
   explicit TiedEdges(const std::vector<double>& wanted)
@@ -182,24 +182,80 @@ class TiedEdges {
   std::vector<double> low_, high_;
 };
 
-/// Whether one wire of four edges, in order, bounds the face.
-bool is_four_sided(const CadFace& face) {
-  return face.wires.size() == 1 && face.wires[0].coedges.size() == 4 && face.wires[0].ordered;
+/// Two sides of a face that run along each other.
+struct FacingSides {
+  const Coedge *first, *second;
+  double width;  ///< between them, at most, about
+};
+
+/// How far it is across the face from the middle of one coedge to that of another.
+double distance_across(const CadShape& shape, const CadFace& face, const Coedge& a, const Coedge& b) {
+  constexpr int steps = 8;
+  const auto middle = [&](const Coedge& coedge) {
+    const CadEdge& edge = shape.edges[coedge.edge - 1];
+    return parametric_point(coedge, 0.5 * (edge.first + edge.last));
+  };
+  const FaceSurface surface(face);
+  const Vector2 from = middle(a), to = middle(b);
+  double length = 0;
+  for (int i = 0; i < steps; ++i) {
+    const auto at = [&](int k) { return surface.point(from + (to - from) * k / steps); };
+    length += (at(i + 1) - at(i)).norm();
+  }
+  return length;
 }
 
-/// Opposite edges of four-sided faces.
-void tie_opposite_edges(const CadShape& shape, const std::vector<char>& used, TiedEdges& tied) {
-  for (std::size_t i = 0; i < shape.faces.size(); ++i) {
-    const CadFace& face = shape.faces[i];
-    if (!used[i] || !is_four_sided(face)) continue;
-    const auto& c = face.wires[0].coedges;
-    const auto unusable = [&](const Coedge& coedge) {
-      return coedge.internal || shape.edges[coedge.edge - 1].degenerate;
-    };
-    if (std::any_of(c.begin(), c.end(), unusable)) continue;
-    tied.tie(c[0].edge - 1, c[2].edge - 1);
-    tied.tie(c[1].edge - 1, c[3].edge - 1);
+bool has_unusual_edges(const CadShape& shape, const CadFace& face) {
+  const auto& c = face.wires[0].coedges;
+  return std::any_of(c.begin(), c.end(), [&](const Coedge& coedge) {
+    return coedge.internal || shape.edges[coedge.edge - 1].degenerate;
+  });
+}
+
+/// The sides that face each other: both pairs of a face of four edges, poles among them, the longer two of a
+/// wedge of three, the two of a crescent.
+std::vector<FacingSides> facing_sides(const CadShape& shape, const CadFace& face) {
+  if (face.wires.size() != 1 || !face.wires[0].ordered) return {};
+  const auto& c = face.wires[0].coedges;
+  const auto edge = [&](std::size_t k) -> const CadEdge& { return shape.edges[c[k].edge - 1]; };
+  if (c.size() == 4) {
+    return {{&c[0], &c[2], std::max(edge(1).length, edge(3).length)},
+            {&c[1], &c[3], std::max(edge(0).length, edge(2).length)}};
   }
+  if (has_unusual_edges(shape, face)) return {};
+  if (c.size() == 3) {
+    std::size_t k = 0;
+    for (const std::size_t other : {1, 2}) {
+      if (edge(other).length < edge(k).length) k = other;
+    }
+    return {{&c[(k + 1) % 3], &c[(k + 2) % 3], edge(k).length}};
+  }
+  if (c.size() == 2 && c[0].edge != c[1].edge)
+    return {{&c[0], &c[1], distance_across(shape, face, c[0], c[1])}};
+  return {};
+}
+
+constexpr double narrow = 0.5;  // of a segment
+
+/// Sides that face each other: of faces with four always, of wedges and crescents where they are narrow.
+/// \returns a flag for each face, whether it is a narrow wedge.
+std::vector<char> tie_facing_sides(const CadShape& shape, const std::vector<char>& used,
+                                   const std::vector<double>& wanted, TiedEdges& tied) {
+  std::vector<char> is_wedge(shape.faces.size(), 0);
+  for (std::size_t i = 0; i < shape.faces.size(); ++i) {
+    if (!used[i]) continue;
+    const auto pairs = facing_sides(shape, shape.faces[i]);
+    if (pairs.empty() || has_unusual_edges(shape, shape.faces[i])) continue;
+    for (const FacingSides& sides : pairs) {
+      const int a = sides.first->edge - 1, b = sides.second->edge - 1;
+      const double segment = shape.edges[a].length / std::max(wanted[a], 1.0);
+      const std::size_t count = shape.faces[i].wires[0].coedges.size();
+      const bool is_narrow = sides.width < narrow * segment;
+      if (count == 4 || is_narrow) tied.tie(a, b);
+      if (count == 3 && is_narrow) is_wedge[i] = 1;
+    }
+  }
+  return is_wedge;
 }
 
 /// Whether one more or one fewer segment fits the wanted count better.
@@ -215,13 +271,19 @@ double cost_of_change(int count, double wanted, int least) {
 /// The counts of all edges: tied ones alike, rounded, and changed so that every face becomes even.
 std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& used,
                                const std::vector<double>& wanted, const std::vector<int>& least,
-                               const TinyFeatures& tiny, bool tie, std::vector<int>& odd_faces) {
+                               const TinyFeatures& tiny, bool tie, int stride, std::vector<int>& odd_faces) {
   const int n = static_cast<int>(wanted.size());
   TiedEdges tied(wanted);
   for (int i = 0; i < n; ++i) {
     if (tiny.edges[i] != i) tied.tie(tiny.edges[i], i, std::numeric_limits<double>::infinity());
   }
-  if (tie) tie_opposite_edges(shape, used, tied);
+  // One node more at the base of a wedge would make its elements far shorter than it is wide; the triangle
+  // that is left is cut up by the subdivision.
+  std::vector<char> may_be_odd(shape.faces.size(), 0);
+  if (tie) {
+    const std::vector<char> is_wedge = tie_facing_sides(shape, used, wanted, tied);
+    if (stride == 2) may_be_odd = is_wedge;
+  }
   struct Class {
     double wanted = 0;
     int members = 0, least = 0, count = 0;
@@ -248,6 +310,7 @@ std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& u
     if (least[i] == 0) continue;
     const int c = tied.find(i);
     for (const int face : odd_uses(shape.edges[i], used)) {
+      if (may_be_odd[face]) continue;
       auto& faces = parity[c].faces;
       const auto it = std::find(faces.begin(), faces.end(), face);
       if (it == faces.end()) {
@@ -297,9 +360,9 @@ double parameter_near_chord(const CadEdge& edge, const EdgeCurve& curve, int k, 
   return best;
 }
 
-/// Moves the nodes of one side of narrow four-sided faces to face those of the other: what shifts them by
-/// less than a segment shears the quads between by more than a right angle where the face is far narrower
-/// than that.
+/// Moves the nodes of one side of narrow faces to face those of the other: what shifts them by less than a
+/// segment shears the quads between by more than a right angle where the face is far narrower than that, and
+/// makes the sides of a wedge cross towards its tip.
 class NarrowFaces {
  public:
   NarrowFaces(const CadShape& shape, const std::vector<char>& used, BoundaryNodes& nodes)
@@ -307,25 +370,20 @@ class NarrowFaces {
 
   void run() {
     for (std::size_t i = 0; i < shape_.faces.size(); ++i) {
-      const CadFace& face = shape_.faces[i];
-      if (!used_[i] || !is_four_sided(face)) continue;
-      const auto& c = face.wires[0].coedges;
-      for (const int k : {0, 1}) align(c[k], c[k + 2], c[k + 1], c[3 - 3 * k]);
+      if (!used_[i]) continue;
+      for (const FacingSides& sides : facing_sides(shape_, shape_.faces[i])) align(sides);
     }
   }
 
  private:
-  /// \param across, other_across the two sides between them.
-  void align(const Coedge& first, const Coedge& second, const Coedge& across, const Coedge& other_across) {
-    constexpr double narrow = 0.5;  // of a segment
+  void align(const FacingSides& sides) {
+    const Coedge &first = *sides.first, &second = *sides.second;
     const int a = first.edge - 1, b = second.edge - 1;
     const CadEdge &edge_a = shape_.edges[a], &edge_b = shape_.edges[b];
     const int n = nodes_.edges[a].segments();
     if (a == b || n < 2 || nodes_.edges[b].segments() != n || first.internal || second.internal) return;
     if (edge_a.closed() || edge_b.closed() || nodes_.edges[a].borrowed || nodes_.edges[b].borrowed) return;
-    const double width =
-        std::max(shape_.edges[across.edge - 1].length, shape_.edges[other_across.edge - 1].length);
-    if (!(width < narrow * edge_a.length / n) || (settled_[a] && settled_[b])) return;
+    if (!(sides.width < narrow * edge_a.length / n) || (settled_[a] && settled_[b])) return;
     // Both run round the face, one against the other.
     const bool against = first.forward == second.forward;
     if (settled_[b])
@@ -411,9 +469,10 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
     least[i] = least_segments(plan.tiny.closed(edge), plan.bare[i] ? 0 : tables[i].turning, shared_ends[i],
                               inner[i], result.stride);
   }
-  std::vector<int> counts = choose_counts(shape, used, wanted, least, plan.tiny, true, result.odd_faces);
+  std::vector<int> counts =
+      choose_counts(shape, used, wanted, least, plan.tiny, true, result.stride, result.odd_faces);
   if (!result.odd_faces.empty()) {
-    counts = choose_counts(shape, used, wanted, least, plan.tiny, false, result.odd_faces);
+    counts = choose_counts(shape, used, wanted, least, plan.tiny, false, result.stride, result.odd_faces);
   }
 
   const auto vertex_node = [&](int vertex, const Vector3& fallback) {

@@ -351,6 +351,47 @@ int walk(TriangleGraph& graph, const std::vector<Vector3>& points, const Executi
                                         [](const GraphTriangle& t) { return t.mate < 0; }));
 }
 
+void move_free(TriangleGraph& graph, const ExecutionContext& context) {
+  SparseCheck check(context);
+  constexpr std::size_t reach = 1000;
+  constexpr float least_gain = 1e-3F;
+  // A way to a triangle that is set free: the mate it had is paired across `across` with the one before.
+  struct Step {
+    int triangle;
+    float gain;
+    int before;
+    Side across;
+  };
+  std::vector<Step> steps;
+  std::vector<int> reached_in(graph.size(), -1);
+  for (int start = 0; start < graph.size(); ++start) {
+    check();
+    if (graph.triangles[start].mate >= 0) continue;
+    steps.assign(1, {start, 0, -1, -1});
+    reached_in[start] = start;
+    std::size_t best = 0;
+    for (std::size_t k = 0; k < steps.size() && steps.size() < reach; ++k) {
+      for (int i = 0; i < 3; ++i) {
+        const Side side = make_side(steps[k].triangle, i);
+        if (graph.twin_of(side) < 0) continue;
+        const int taken = triangle_of(graph.twin_of(side));
+        const int freed = graph.mate_of(taken);
+        if (freed < 0 || reached_in[taken] == start || reached_in[freed] == start) continue;
+        reached_in[taken] = reached_in[freed] = start;
+        const float opened = graph.cost_of(make_side(taken, graph.triangles[taken].mate));
+        const float gain = steps[k].gain + opened - graph.cost_of(side);
+        if (gain > steps[best].gain + least_gain) best = steps.size();
+        steps.push_back({freed, gain, static_cast<int>(k), side});
+      }
+    }
+    if (best == 0) continue;
+    const int freed = steps[best].triangle;
+    for (int k = static_cast<int>(best); steps[k].before >= 0; k = steps[k].before)
+      graph.pair(steps[k].across);
+    graph.triangles[freed].mate = -1;
+  }
+}
+
 namespace {
 
 /// How far the number of quads at each point is from the ideal, and what that costs.

@@ -26,6 +26,11 @@ int augment(TriangleGraph& graph, int reach = reach_of_paths, const ExecutionCon
 /// of triangles still free.
 int walk(TriangleGraph& graph, const std::vector<Vector3>& points, const ExecutionContext& context = {});
 
+/// Leaves each remaining free triangle free, or instead of it another one of its neighbourhood: exchanges
+/// pairs along the alternating path from it that lowers the sum of their costs most. Needs the costs. Time:
+/// that of a search over a thousand triangles for each.
+void move_free(TriangleGraph& graph, const ExecutionContext& context = {});
+
 /// Exchanges pairs along alternating cycles as long as that lowers the cost:
 /// the sum over the quads of pair_cost() and over the points of a charge for the deviation from the ideal
 /// number of quads there (4 inside; on the boundary one for every 90 degrees). The graph's objective weighs

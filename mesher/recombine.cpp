@@ -41,13 +41,14 @@ QuadMesh collect(const TriangleGraph& graph, const TriangleMesh& mesh) {
   return result;
 }
 
-/// Pairs by quality: greedily, by augmentation, by walks, by exchange.
+/// Pairs by quality: greedily, by augmentation, by walks, by exchange along paths and cycles.
 void pair_by_cost(TriangleGraph& graph, const TriangleMesh& mesh, const RecombineOptions& options,
                   ExecutionContext& context) {
   graph.objective = options.objective;
   graph.compute_costs(mesh.points, context);
   pair_greedily(graph, context);
-  if (augment(graph, reach_of_paths, context) > 0) walk(graph, mesh.points, context);
+  if (augment(graph, reach_of_paths, context) > 0 && walk(graph, mesh.points, context) > 0)
+    move_free(graph, context);
   context.check();
   if (options.exchange) exchange(graph, mesh.points, context);
 }

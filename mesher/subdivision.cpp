@@ -87,18 +87,21 @@ class Subdivider {
     return add_point(at.point, uv, surface_.normal(at, uv), false, false);
   }
 
-  /// Between two boundaries that bend alike (a narrow ring) the centre lies where a Coons patch has it,
-  /// beyond the mean of the middles: taken if that is better for the worst of the four parts.
-  void improve_centre(const std::array<int, 4>& quad, const std::array<int, 4>& middles, int centre) {
+  /// Between two boundaries that bend alike (a narrow ring, the tip of a wedge) the centre lies where a Coons
+  /// patch or the triangle of second order has it, beyond the mean of the middles: taken if that is better
+  /// for the worst of the parts.
+  template <std::size_t n>
+  void improve_centre(const std::array<int, n>& element, const std::array<int, n>& middles, int centre) {
     const int fixed = static_cast<int>(fine_.nodes.size());
     if (std::none_of(middles.begin(), middles.end(), [&](int i) { return i < fixed; })) return;
     auto& fine = fine_.surface_mesh;
     auto& points = fine.mesh.points;
     const auto worst = [&](const Vector3& at) {
       double result = 1;
-      for (int k = 0; k < 4; ++k) {
-        result = std::min(result, folded_scaled_jacobian(points[renumbered_[quad[k]]], points[middles[k]], at,
-                                                         points[middles[(k + 3) % 4]], fine.normals[centre]));
+      for (std::size_t k = 0; k < n; ++k) {
+        result =
+            std::min(result, folded_scaled_jacobian(points[renumbered_[element[k]]], points[middles[k]], at,
+                                                    points[middles[(k + n - 1) % n]], fine.normals[centre]));
       }
       return result;
     };
@@ -106,7 +109,9 @@ class Subdivider {
     const double before = worst(points[centre]);
     if (before > good) return;
     Vector3 target = Vector3::Zero();
-    for (int k = 0; k < 4; ++k) target += 0.5 * points[middles[k]] - 0.25 * points[renumbered_[quad[k]]];
+    constexpr double of_middle = n == 4 ? 0.5 : 4.0 / 9, of_corner = n == 4 ? -0.25 : -1.0 / 9;
+    for (std::size_t k = 0; k < n; ++k)
+      target += of_middle * points[middles[k]] + of_corner * points[renumbered_[element[k]]];
     Vector2 uv = fine.parameters[centre];
     const SurfacePoint at = surface_.move(uv, target);
     if (!(worst(at.point) > before)) return;
@@ -127,7 +132,7 @@ class Subdivider {
     std::array<int, n> middles;
     for (std::size_t k = 0; k < n; ++k) middles[k] = middle(element[k], element[(k + 1) % n]);
     const int centre = add_centre(middles);
-    if constexpr (n == 4) improve_centre(element, middles, centre);
+    improve_centre(element, middles, centre);
     for (std::size_t k = 0; k < n; ++k) {
       fine_.surface_mesh.mesh.quads.push_back(
           {renumbered_[element[k]], middles[k], centre, middles[(k + n - 1) % n]});

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <random>
+
 #include "geometry/error.hpp"
 #include "mesher/matching.hpp"
 #include "mesher/quality.hpp"
@@ -207,6 +210,45 @@ TEST(Recombine, FreeTrianglesFarApartMeet) {
   graph.compute_costs(cut.points);
   EXPECT_EQ(walk(graph, cut.points), 0);
   for (int t = 0; t < graph.size(); ++t) EXPECT_EQ(graph.mate_of(graph.mate_of(t)), t);
+}
+
+TEST(Recombine, LeavesTheTriangleFreeThatCostsLeast) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(0, 0.8);
+  for (const int n : {3, 7, 31, 101}) {
+    TriangleMesh mesh = strip(n);
+    for (Vector3& p : mesh.points) p.x() += place(random);
+    TriangleGraph graph(mesh);
+    graph.compute_costs(mesh.points);
+    const auto side_to = [&](int t, int other) {
+      for (int i = 0; i < 3; ++i) {
+        if (const Side twin = graph.twin_of(make_side(t, i)); twin >= 0 && triangle_of(twin) == other)
+          return make_side(t, i);
+      }
+      return -1;
+    };
+    // A strip of an odd number of triangles can do without any of those with even numbers.
+    double least = std::numeric_limits<double>::infinity();
+    for (int free = 0; free < n; free += 2) {
+      double cost = 0;
+      for (int t = 0; t < n; t += 2) {
+        if (t == free) ++t;
+        if (t < n) cost += graph.cost_of(side_to(t, t + 1));
+      }
+      least = std::min(least, cost);
+    }
+    for (int t = 0; t + 1 < n; t += 2) graph.pair(side_to(t, t + 1));
+    move_free(graph);
+    double cost = 0;
+    int free = 0;
+    for (int t = 0; t < n; ++t) {
+      const GraphTriangle& triangle = graph.triangles[t];
+      free += triangle.mate < 0;
+      if (triangle.mate >= 0) cost += 0.5 * triangle.cost[triangle.mate];
+    }
+    EXPECT_EQ(free, 1);
+    EXPECT_NEAR(cost, least, 2e-3) << n;
+  }
 }
 
 TEST(Recombine, CanBeCancelled) {

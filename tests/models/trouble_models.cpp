@@ -203,6 +203,19 @@ TopoDS_Shape crescent() {
 }
 
 /// A quarter of a cylinder of radius 10 and height 30, on a cylindrical surface.
+/// Half a disc with a rim round it that tapers to a tip of half a degree.
+TopoDS_Shape wedge() {
+  const gp_Pnt tip(10, 0, 0), inner_end(-10, 0, 0), outer_end(-10.1, 0, 0), centre(-0.05, 0.1, 0);
+  const TopoDS_Edge inner = BRepBuilderAPI_MakeEdge(gp_Circ(gp::XOY(), 10), tip, inner_end).Edge();
+  const gp_Circ rim(gp_Ax2(centre, gp::DZ()), centre.Distance(tip));
+  const TopoDS_Edge outer = BRepBuilderAPI_MakeEdge(rim, tip, outer_end).Edge();
+  const TopoDS_Edge base = BRepBuilderAPI_MakeEdge(outer_end, inner_end).Edge(),
+                    chord = BRepBuilderAPI_MakeEdge(inner_end, tip).Edge();
+  const gp_Pln plane(gp::XOY());
+  return sewn({BRepBuilderAPI_MakeFace(plane, BRepBuilderAPI_MakeWire(inner, chord).Wire()).Face(),
+               BRepBuilderAPI_MakeFace(plane, BRepBuilderAPI_MakeWire(outer, base, inner).Wire()).Face()});
+}
+
 TopoDS_Face quarter_cylinder() {
   return BRepBuilderAPI_MakeFace(new Geom_CylindricalSurface(gp::XOY(), 10), 0.3, 0.3 + pi / 2, 0.0, 30.0,
                                  1e-7)
@@ -714,6 +727,8 @@ std::vector<TroubleModel> all_models() {
       {"thin_annulus", "wires that cross when sampled coarsely", [] { return annulus(10, 9.9); }, false,
        pi * (100 - 9.9 * 9.9)},
       {"crescent", "two arcs that share their ends", crescent, false, 0},
+      {"wedge", "a rim that tapers to a tip of half a degree", wedge, false,
+       101.0125 * std::acos(-0.1 / std::sqrt(101.0125)) + 0.1 * 10.05},
       {"missing_curves", "no parametric curves", missing_curves, false, 150 * pi},
       {"wrong_curves", "parametric curves far from their edges", wrong_curves, false, 150 * pi},
       {"other_parameters", "parametric curves at other speeds", other_parameters, false, 150 * pi},
