@@ -13,10 +13,14 @@
 #include <openvdb/tree/LeafNode.h>
 #include <openvdb/tree/RootNode.h>
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <queue>
 
@@ -119,7 +123,7 @@ class Builder {
  public:
   Builder(const CadModel& model, const SizingOptions& options, SizingField::Impl& field,
           ExecutionContext& context)
-      : shape_(model.shape()), options_(options), field_(field), context_(context), check_(context, 256) {
+      : shape_(model.shape()), options_(options), field_(field), context_(context) {
     if (options.size_field.empty()) return;
     const std::string path = options.size_field.string();
     const auto open = [&] {
@@ -137,19 +141,49 @@ class Builder {
   }
 
   void run() {
-    for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
-      check_();
-      add_edge(static_cast<int>(i));
-    }
-    for (std::size_t i = 0; i < shape_.faces.size(); ++i) {
-      context_.report("size", static_cast<double>(i) / shape_.faces.size());
-      add_face(static_cast<int>(i));
-    }
-    for (const auto& [vertex, size] : options_.vertex_sizes) add_source(shape_.vertices[vertex - 1], size);
+    Sources sources(*this);
+    for (std::size_t i = 0; i < shape_.edges.size(); ++i) add_edge(static_cast<int>(i), sources);
+    std::atomic<int> done{0};
+    const int faces = static_cast<int>(shape_.faces.size());
+    oneapi::tbb::parallel_for(0, faces, [&](int face) {
+      Sources sources_here(*this);
+      add_face(face, sources_here);
+      sources_here.pass_on();
+      context_.report("size", static_cast<double>(done.fetch_add(1, std::memory_order_relaxed) + 1) / faces);
+    });
+    for (const auto& [vertex, size] : options_.vertex_sizes) sources.add(shape_.vertices[vertex - 1], size);
+    sources.pass_on();
     for (int level = static_cast<int>(field_.levels.size()) - 1; level >= 0; --level) grade(level);
   }
 
  private:
+  /// Sizes that one thread has found. What is passed on is the least at each voxel, whoever comes first.
+  class Sources {
+   public:
+    explicit Sources(Builder& builder) : builder_(builder), check_(builder.context_, 256) {}
+
+    /// To be called at each step of a search.
+    void check() { check_(); }
+
+    void add(const Vector3& p, double size) {
+      if (!(size < builder_.field_.size_max)) return;
+      sources_.emplace_back(p, size);
+      constexpr std::size_t most = 4096;
+      if (sources_.size() >= most) pass_on();
+    }
+
+    void pass_on() {
+      const std::lock_guard lock(builder_.mutex_);
+      for (const auto& [p, size] : sources_) builder_.add_source(p, size);
+      sources_.clear();
+    }
+
+   private:
+    Builder& builder_;
+    SparseCheck check_;
+    std::vector<std::pair<Vector3, double>> sources_;
+  };
+
   double size_of_curvature(double curvature) const {
     if (options_.elements_per_circle <= 0 || curvature <= 0) return field_.size_max;
     return std::max(field_.size_min, 2 * M_PI / (curvature * options_.elements_per_circle));
@@ -160,7 +194,6 @@ class Builder {
   }
 
   void add_source(const Vector3& p, double size) {
-    if (!(size < field_.size_max)) return;
     const int level = field_.level_of(size);
     if (level != last_level_) {
       accessor_.emplace(field_.grid(level));
@@ -175,7 +208,8 @@ class Builder {
     }
   }
 
-  void add_edge(int index) {
+  void add_edge(int index, Sources& sources) const {
+    sources.check();
     const CadEdge& edge = shape_.edges[index];
     if (edge.degenerate || edge.faces.empty() || edge.length <= 0) return;
     const EdgeCurve curve(edge);
@@ -185,14 +219,15 @@ class Builder {
     // A short edge is one element: its surroundings are refined towards it.
     cap = std::min(cap, std::max(edge.length, field_.size_min));
     if (curve.straight()) {
-      if (cap < field_.size_max || external_) sample_edge(curve, edge, cap, false);
+      if (cap < field_.size_max || external_) sample_edge(curve, edge, cap, false, sources);
       return;
     }
     if (curve.circular()) cap = std::min(cap, size_of_curvature(curve.curvature(edge.first)));
-    sample_edge(curve, edge, cap, !curve.circular());
+    sample_edge(curve, edge, cap, !curve.circular(), sources);
   }
 
-  void sample_edge(const EdgeCurve& curve, const CadEdge& edge, double cap, bool with_curvature) {
+  void sample_edge(const EdgeCurve& curve, const CadEdge& edge, double cap, bool with_curvature,
+                   Sources& sources) const {
     const int intervals = std::max({4, with_curvature ? 3 * curve.spans() : 1,
                                     static_cast<int>(std::ceil(edge.length / field_.size_max))});
     const auto size_at = [&](double t, const Vector3& p) {
@@ -202,13 +237,13 @@ class Builder {
     double t0 = edge.first;
     Vector3 p0 = curve.point(t0);
     double s0 = size_at(t0, p0);
-    add_source(p0, s0);
+    sources.add(p0, s0);
     for (int i = 1; i <= intervals; ++i) {
       const double t1 = edge.first + (edge.last - edge.first) * i / intervals;
       const Vector3 p1 = curve.point(t1);
       const double s1 = size_at(t1, p1);
-      split_edge(curve, size_at, t0, t1, p0, p1, s0, s1, 0);
-      add_source(p1, s1);
+      split_edge(curve, size_at, t0, t1, p0, p1, s0, s1, 0, sources);
+      sources.add(p1, s1);
       t0 = t1;
       p0 = p1;
       s0 = s1;
@@ -217,19 +252,19 @@ class Builder {
 
   template <class SizeAt>
   void split_edge(const EdgeCurve& curve, const SizeAt& size_at, double t0, double t1, const Vector3& p0,
-                  const Vector3& p1, double s0, double s1, int depth) {
-    check_();
+                  const Vector3& p1, double s0, double s1, int depth, Sources& sources) const {
+    sources.check();
     if ((p1 - p0).norm() <= std::min(s0, s1) || depth > 10) return;
     const double t = 0.5 * (t0 + t1);
     const Vector3 p = curve.point(t);
     const double s = size_at(t, p);
     if (std::min({s0, s, s1}) >= field_.size_max) return;
-    add_source(p, s);
-    split_edge(curve, size_at, t0, t, p0, p, s0, s, depth + 1);
-    split_edge(curve, size_at, t, t1, p, p1, s, s1, depth + 1);
+    sources.add(p, s);
+    split_edge(curve, size_at, t0, t, p0, p, s0, s, depth + 1, sources);
+    split_edge(curve, size_at, t, t1, p, p1, s, s1, depth + 1, sources);
   }
 
-  void add_face(int index) {
+  void add_face(int index, Sources& sources) const {
     const CadFace& face = shape_.faces[index];
     const FaceSurface surface(face);
     double cap = field_.size_max;
@@ -250,7 +285,7 @@ class Builder {
     for (int j = 0; j < nv; ++j) {
       for (int i = 0; i < nu; ++i) {
         split_cell(surface, domain, size_at, low + Vector2((i + 0.5) * cell.x(), (j + 0.5) * cell.y()), cell,
-                   0);
+                   0, sources);
       }
     }
   }
@@ -258,12 +293,12 @@ class Builder {
   /// Samples the middle of a cell of the parameter plane, and its parts where the size is below the cell's.
   template <class SizeAt>
   void split_cell(const FaceSurface& surface, const TrimmedDomain& domain, const SizeAt& size_at,
-                  const Vector2& middle, const Vector2& cell, int depth) {
-    check_();
+                  const Vector2& middle, const Vector2& cell, int depth, Sources& sources) const {
+    sources.check();
     const SurfacePoint at = surface.evaluate(middle);
     const double size = size_at(middle, at.point);
     const double du = cell.x() * at.du.norm(), dv = cell.y() * at.dv.norm();
-    if (size < field_.size_max && domain.inside(middle)) add_source(at.point, size);
+    if (size < field_.size_max && domain.inside(middle)) sources.add(at.point, size);
     const bool split_u = du > 1.5 * size, split_v = dv > 1.5 * size;
     if ((!split_u && !split_v) || depth > 9 || size >= field_.size_max) return;
     const int nu = split_u ? 2 : 1, nv = split_v ? 2 : 1;
@@ -271,7 +306,7 @@ class Builder {
     for (int j = 0; j < nv; ++j) {
       for (int i = 0; i < nu; ++i) {
         const Vector2 offset((i + 0.5) * part.x() - 0.5 * cell.x(), (j + 0.5) * part.y() - 0.5 * cell.y());
-        split_cell(surface, domain, size_at, middle + offset, part, depth + 1);
+        split_cell(surface, domain, size_at, middle + offset, part, depth + 1, sources);
       }
     }
   }
@@ -351,7 +386,7 @@ class Builder {
   const SizingOptions& options_;
   SizingField::Impl& field_;
   ExecutionContext& context_;
-  SparseCheck check_;
+  std::mutex mutex_;  // of what follows but external_, and of the grids
   std::function<double(const Vector3&)> external_;
   std::optional<Accessor> accessor_;
   int last_level_ = -1;

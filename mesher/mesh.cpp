@@ -321,13 +321,15 @@ ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionConte
       options.sizing.size > 0 ? options.sizing.size : model.diagonal() / options.sizing.elements_per_diagonal;
   check_options(model, options, size, context);
   Job job(model, options, size, context);
-  std::optional<SizingField> field;
-  {
-    const StageTimer timer(context, "size");
-    field = SizingField::build(model, options.sizing, context);
-  }
-  if (!options.write_size_field.empty()) field->write(options.write_size_field);
-  return on_threads(context.threads(), [&] { return job.run(*field); });
+  return on_threads(context.threads(), [&] {
+    std::optional<SizingField> field;
+    {
+      const StageTimer timer(context, "size");
+      field = SizingField::build(model, options.sizing, context);
+    }
+    if (!options.write_size_field.empty()) field->write(options.write_size_field);
+    return job.run(*field);
+  });
 }
 
 double suggested_size(const CadModel& model, int quads) {
