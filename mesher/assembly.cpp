@@ -101,9 +101,7 @@ class Assembler {
 
   ShellMesh run(int order) {
     number_boundary();
-    for (std::size_t face = 0; face < faces_.size(); ++face) {
-      if (faces_[face]) add_face(static_cast<int>(face));
-    }
+    add_faces();
     add_segments();
     if (order == 2) add_midsides();
     return std::move(mesh_);
@@ -113,17 +111,32 @@ class Assembler {
   const std::vector<int>& folded() const { return folded_; }
 
  private:
+  /// On all threads, for those that are meshed.
+  template <class Work>
+  void for_each_face(Work&& work) const {
+    oneapi::tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t face) {
+      if (faces_[face]) work(face);
+    });
+  }
+
   void number_boundary() {
-    std::vector<char> used(nodes_.points.size(), 0);
-    for (const auto& face : faces_) {
-      if (!face) continue;
-      const int fixed = static_cast<int>(face->nodes.size());
-      for (const auto& quad : face->quads) {
-        check_();
+    std::vector<std::vector<char>> used_by(faces_.size());
+    for_each_face([&](std::size_t index) {
+      const FaceMesh& face = *faces_[index];
+      const int fixed = static_cast<int>(face.nodes.size());
+      std::vector<char>& used = used_by[index];
+      used.assign(fixed, 0);
+      SparseCheck check(context_);
+      for (const auto& quad : face.quads) {
+        check();
         for (const int corner : quad) {
-          if (corner < fixed) used[face->nodes[corner]] = 1;
+          if (corner < fixed) used[corner] = 1;
         }
       }
+    });
+    std::vector<char> used(nodes_.points.size(), 0);
+    for (std::size_t face = 0; face < faces_.size(); ++face) {
+      for (std::size_t i = 0; i < used_by[face].size(); ++i) used[faces_[face]->nodes[i]] |= used_by[face][i];
     }
     for (std::size_t i = 0; i < used.size(); ++i) {
       if (!used[i]) continue;
@@ -141,20 +154,40 @@ class Assembler {
     }
   }
 
-  void add_face(int index) {
-    const FaceMesh& face = *faces_[index];
-    const int fixed = static_cast<int>(face.nodes.size());
-    std::vector<int> global(face.points.size(), -1);
-    for (int i = 0; i < fixed; ++i) global[i] = renumbered_[face.nodes[i]];
-    for (std::size_t i = fixed; i < face.points.size(); ++i) {
-      check_();
-      global[i] = static_cast<int>(mesh_.points.size());
-      mesh_.points.push_back(face.points[i]);
+  void add_faces() {
+    std::vector<std::size_t> first_point(faces_.size());
+    std::size_t points = mesh_.points.size();
+    first_quad_.assign(faces_.size() + 1, 0);
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      first_point[i] = points;
+      first_quad_[i + 1] = first_quad_[i];
+      if (!faces_[i]) continue;
+      points += faces_[i]->points.size() - faces_[i]->nodes.size();
+      first_quad_[i + 1] += faces_[i]->quads.size();
     }
+    mesh_.points.resize(points);
+    mesh_.quads.resize(first_quad_.back());
+    mesh_.quad_faces.resize(first_quad_.back());
+    for_each_face([&](std::size_t face) { add_face(face, first_point[face]); });
+  }
+
+  void add_face(std::size_t index, std::size_t first_point) {
+    const FaceMesh& face = *faces_[index];
+    const std::size_t fixed = face.nodes.size();
+    SparseCheck check(context_);
+    std::vector<int> global(face.points.size());
+    for (std::size_t i = 0; i < fixed; ++i) global[i] = renumbered_[face.nodes[i]];
+    for (std::size_t i = fixed; i < face.points.size(); ++i) {
+      check();
+      const std::size_t node = first_point + i - fixed;
+      global[i] = static_cast<int>(node);
+      mesh_.points[node] = face.points[i];
+    }
+    std::size_t at = first_quad_[index];
     for (const auto& quad : face.quads) {
-      check_();
-      mesh_.quads.push_back({global[quad[0]], global[quad[1]], global[quad[2]], global[quad[3]]});
-      mesh_.quad_faces.push_back(index + 1);
+      check();
+      mesh_.quads[at] = {global[quad[0]], global[quad[1]], global[quad[2]], global[quad[3]]};
+      mesh_.quad_faces[at++] = static_cast<int>(index) + 1;
     }
   }
 
@@ -195,9 +228,7 @@ class Assembler {
     }
     const std::size_t first_inner = mesh_.points.size();
     std::vector<FaceMidsides> midsides(faces_.size());
-    oneapi::tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t face) {
-      if (faces_[face]) midsides[face] = place_midsides(face);
-    });
+    for_each_face([&](std::size_t face) { midsides[face] = place_midsides(face); });
     std::vector<Vector2> parameters;  // of the midside nodes inside faces
     for (FaceMidsides& face : midsides) {
       number_midsides(face, parameters);
@@ -279,24 +310,21 @@ class Assembler {
 
   /// Moves midside nodes where elements fold, and counts those that still do.
   void mend_midsides(std::size_t first_inner, std::vector<Vector2>& parameters) {
-    std::vector<std::size_t> first_quad(faces_.size() + 1, 0);
-    for (std::size_t i = 0; i < faces_.size(); ++i)
-      first_quad[i + 1] = first_quad[i] + (faces_[i] ? faces_[i]->quads.size() : 0);
     std::vector<std::vector<std::size_t>> folded(faces_.size());
     const auto find_folded = [&](std::size_t face) {
       SparseCheck check(context_, 256);
       folded[face].clear();
-      for (std::size_t quad = first_quad[face]; quad < first_quad[face + 1]; ++quad) {
+      for (std::size_t quad = first_quad_[face]; quad < first_quad_[face + 1]; ++quad) {
         check();
         if (jacobian_bound(mesh_, quad) <= 0) folded[face].push_back(quad);
       }
     };
-    oneapi::tbb::parallel_for(std::size_t{0}, faces_.size(), find_folded);
+    for_each_face(find_folded);
     folded_.assign(faces_.size(), 0);
     for (std::size_t i = 0; i < faces_.size(); ++i) {
       if (folded[i].empty()) continue;
       const auto surface = surface_of(i);
-      MidsideRepair(mesh_, *surface, first_quad[i], first_quad[i + 1], first_inner, parameters, context_)
+      MidsideRepair(mesh_, *surface, first_quad_[i], first_quad_[i + 1], first_inner, parameters, context_)
           .run(folded[i]);
       find_folded(i);
       folded_[i] = static_cast<int>(folded[i].size());
@@ -332,6 +360,7 @@ class Assembler {
   const ExecutionContext& context_;
   SparseCheck check_;
   std::vector<int> renumbered_;
+  std::vector<std::size_t> first_quad_;  ///< (faces and one more)
   std::vector<std::pair<int, int>> segment_origins_;
   std::unordered_map<std::uint64_t, int> middles_;  ///< of sides between nodes on the boundary
   std::vector<int> folded_;
