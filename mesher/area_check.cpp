@@ -4,6 +4,8 @@
 #include <GProp_GProps.hxx>
 #include <Standard_Failure.hxx>
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <cmath>
 
 #include <fmt/format.h>
@@ -21,17 +23,21 @@ std::vector<std::string> area_differences(const CadModel& model, const ShellMesh
     const auto& p = mesh.points;
     areas[mesh.quad_faces[i] - 1] += 0.5 * (p[c] - p[a]).cross(p[d] - p[b]).norm();
   }
-  std::vector<std::string> result;
-  for (std::size_t face = 0; face < areas.size(); ++face) {
-    if (!(areas[face] > 0)) continue;
-    double area = 0;
+  std::vector<double> integrals(areas.size(), 0);
+  oneapi::tbb::parallel_for(std::size_t{0}, areas.size(), [&](std::size_t face) {
+    integrals[face] = areas[face];
+    if (!(areas[face] > 0)) return;
     try {
       GProp_GProps properties;
       BRepGProp::SurfaceProperties(shape.faces[face].face, properties);
-      area = std::abs(properties.Mass());
+      integrals[face] = std::abs(properties.Mass());
     } catch (const Standard_Failure&) {
-      continue;  // no integral to compare with
+      return;  // no integral to compare with
     }
+  });
+  std::vector<std::string> result;
+  for (std::size_t face = 0; face < areas.size(); ++face) {
+    const double area = integrals[face];
     if (std::abs(areas[face] - area) <= largest * area) continue;
     result.push_back(
         fmt::format("Face{} has an area of {:.6g} in the mesh and of {:.6g} by OpenCASCADE's integration: "

@@ -12,6 +12,7 @@
 #include "mesher/command/print_quality.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/report.hpp"
+#include "mesher/threads.hpp"
 
 namespace quadrille::command {
 
@@ -210,9 +211,12 @@ void run(const MeshArguments& arguments) {
   write_outputs(result, arguments, context);
   list_left_out(result);
   if (arguments.quiet && arguments.report.empty()) return;
-  const QualitySummary summary = quality(result);
+  QualitySummary summary;
   std::vector<std::string> warnings = model.problems();
-  for (std::string& warning : area_differences(model, result)) warnings.push_back(std::move(warning));
+  on_threads(arguments.threads, [&] {
+    summary = quality(result);
+    for (std::string& warning : area_differences(model, result)) warnings.push_back(std::move(warning));
+  });
   if (!arguments.report.empty())
     write_report(result, summary, context, arguments.input, arguments.report, warnings);
   if (arguments.quiet) return;
