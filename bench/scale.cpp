@@ -54,6 +54,7 @@ Run run_here(const std::filesystem::path& path, double size, int threads,
   const ShellMesh mesh = quadrille::mesh(model, options, context);
   run.mesh = wall() - start;
   run.cpu = cpu() - cpu_before;
+  std::filesystem::remove(output);  // to replace a file of a hundred megabytes takes as long as to write it
   start = wall();
   WriteOptions write_options;
   write_options.threads = threads;
