@@ -124,6 +124,25 @@ TEST_P(RoundTrip, InpKeepsNodesAndQuadsWithFaces) {
     EXPECT_TRUE(contains(text, set)) << set;
 }
 
+/// Large enough for several pieces of text to be made at once.
+TEST(Writers, GiveTheSameBytesOnAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  const ShellGrid grid(150, 2);
+  WriteOptions options;
+  for (const char* ending : {".msh", "-4.msh", ".inp", ".unv", ".bdf"}) {
+    options.msh_version = ending[0] == '-' ? 4.1 : 2.2;
+    std::string one;
+    for (const int threads : {1, 2, 8}) {
+      options.threads = threads;
+      const auto path = folder / (std::to_string(threads) + ending);
+      write_mesh(grid.mesh(), path, options);
+      if (threads == 1) one = test::file_text(path);
+      EXPECT_TRUE(test::file_text(path) == one) << ending << ", " << threads << " threads";
+    }
+    EXPECT_GT(one.size(), 1'000'000U) << ending;
+  }
+}
+
 TEST(Writers, LeaveOutUnusedNodes) {
   const TemporaryFolder folder;
   ShellMesh mesh = ShellGrid(3, 1).mesh();
