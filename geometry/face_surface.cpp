@@ -316,6 +316,14 @@ Vector2 FaceSurface::clamp(Vector2 uv) const {
   return uv;
 }
 
+Vector2 FaceSurface::step_towards(const Vector2& uv, const SurfacePoint& at, const Vector3& target) const {
+  Vector2 step = parameter_step(at, target - at.point);
+  // Near a pole steps round it may be as long as they like.
+  if (u_periodic()) step.x() = std::clamp(step.x(), -0.5 * u_period_, 0.5 * u_period_);
+  if (v_periodic()) step.y() = std::clamp(step.y(), -0.5 * v_period_, 0.5 * v_period_);
+  return clamp(uv + step);
+}
+
 /// Exact closest point on an elementary surface.
 Vector2 FaceSurface::inverse(const Vector2& near, const Vector3& target) const {
   const Vector3 d = target - origin_;
@@ -355,7 +363,7 @@ SurfacePoint FaceSurface::move(Vector2& uv, const Vector3& target) const {
     return evaluate_elementary(uv);
   }
   const SurfacePoint from = evaluate_other(uv);
-  uv = clamp(uv + parameter_step(from, target - from.point));
+  uv = step_towards(uv, from, target);
   return evaluate_other(uv);
 }
 
@@ -364,7 +372,7 @@ SurfacePoint FaceSurface::project(Vector2& uv, const Vector3& target) const {
   constexpr int max_iterations = 10;
   SurfacePoint at = evaluate_other(uv);
   for (int i = 0; i < max_iterations; ++i) {
-    const Vector2 next = clamp(uv + parameter_step(at, target - at.point));
+    const Vector2 next = step_towards(uv, at, target);
     const SurfacePoint candidate = evaluate_other(next);
     if ((candidate.point - target).norm() > (at.point - target).norm() * (1 + 1e-12)) break;
     const double moved = (candidate.point - at.point).norm();

@@ -80,6 +80,8 @@ class FaceSurface {
   SurfacePoint evaluate_view(const Vector2& xy) const;
   Vector2 inverse(const Vector2& near, const Vector3& target) const;
   Vector2 clamp(Vector2 uv) const;
+  /// One step of Newton's method.
+  Vector2 step_towards(const Vector2& uv, const SurfacePoint& at, const Vector3& target) const;
   void measure_scale();
 
   Kind kind_ = Kind::other;

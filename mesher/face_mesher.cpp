@@ -48,8 +48,9 @@ class FaceMesher {
  public:
   FaceMesher(const CadShape& shape, int face, const CadFace& cad_face,
              std::shared_ptr<const FaceSurface> surface, const BoundaryNodes& nodes, const SizingField& field,
-             const MeshOptions& options, ExecutionContext& context)
+             const MeshOptions& options, int fineness, ExecutionContext& context)
       : face_(face),
+        fineness_(fineness),
         reversed_(shape.faces[face].reversed),
         nodes_(nodes),
         options_(options),
@@ -62,23 +63,24 @@ class FaceMesher {
 
   FaceMesh run() {
     const double scale = nodes_.stride;
-    const Attempt attempts[] = {
+    std::vector<Attempt> attempts{
         {{scale, 0.72, true}, true, true, ""},
         {{scale, 0.72, true}, false, false, "without clean-up"},
         {{scale, 0.60, true}, false, true, "denser points"},
         {{scale, 0.85, true}, false, true, "sparser points"},
         {{scale, 0.75, false}, false, true, "hexagonal points"},
     };
+    if (fineness_ > 1) attempts.push_back({{scale / fineness_, 0.72, true}, false, true, "points as fine"});
     const double acceptable = acceptable_q();
     std::optional<FaceMesh> best;
     std::optional<Error> error;
-    for (const Attempt& attempt : attempts) {
+    for (std::size_t i = 0; i < attempts.size(); ++i) {
       context_.check();
       try {
-        FaceMesh mesh = mesh_once(attempt);
+        FaceMesh mesh = mesh_once(attempts[i]);
         if (!best || better(mesh, *best)) best = std::move(mesh);
         // Slender quads are worth a second look, inverted ones all the ladder.
-        if (best->inverted == 0 && (best->q_min > acceptable || &attempt > attempts)) break;
+        if (best->inverted == 0 && (best->q_min > acceptable || i > 0)) break;
       } catch (const Error& problem) {
         if (problem.kind() == Error::Kind::cancelled) throw;
         error = problem;
@@ -194,6 +196,7 @@ class FaceMesher {
   }
 
   int face_;
+  int fineness_;
   bool reversed_;
   const BoundaryNodes& nodes_;
   const MeshOptions& options_;
@@ -230,14 +233,15 @@ std::vector<Vector3> widest_loop(const CadFace& face, const BoundaryNodes& nodes
 enum class StandIn { none, new_curves, view };
 
 FaceMesh mesh_as(StandIn stand_in, const CadShape& shape, int face, const BoundaryNodes& nodes,
-                 const SizingField& field, const MeshOptions& options, ExecutionContext& context) {
+                 const SizingField& field, const MeshOptions& options, int fineness,
+                 ExecutionContext& context) {
   std::optional<CadFace> other;
   if (stand_in == StandIn::new_curves) other = with_new_curves(shape.faces[face]);
   const CadFace& cad_face = other ? *other : shape.faces[face];
   const auto surface = std::make_shared<const FaceSurface>(
       stand_in == StandIn::view ? FaceSurface::seen_from_above(cad_face, widest_loop(cad_face, nodes))
                                 : FaceSurface(cad_face));
-  FaceMesh mesh = FaceMesher(shape, face, cad_face, surface, nodes, field, options, context).run();
+  FaceMesh mesh = FaceMesher(shape, face, cad_face, surface, nodes, field, options, fineness, context).run();
   if (stand_in == StandIn::none) {
     mesh.surface.reset();  // made again where it is wanted
     return mesh;
@@ -250,18 +254,18 @@ FaceMesh mesh_as(StandIn stand_in, const CadShape& shape, int face, const Bounda
 }  // namespace
 
 FaceMesh mesh_face(const CadShape& shape, int face, const BoundaryNodes& nodes, const SizingField& field,
-                   const MeshOptions& options, bool try_stand_ins, ExecutionContext& context) {
+                   const MeshOptions& options, int fineness, ExecutionContext& context) {
   const auto start = std::chrono::steady_clock::now();
   std::optional<FaceMesh> mesh;
   std::optional<Error> own_problem;  // of its own parametrisation, which users know
   for (const StandIn stand_in : {StandIn::none, StandIn::new_curves, StandIn::view}) {
     try {
-      mesh = mesh_as(stand_in, shape, face, nodes, field, options, context);
+      mesh = mesh_as(stand_in, shape, face, nodes, field, options, fineness, context);
       break;
     } catch (const Error& problem) {
       if (problem.kind() == Error::Kind::cancelled) throw;
       if (!own_problem) own_problem = problem;
-      if (!try_stand_ins) break;
+      if (fineness <= 2) break;
     }
   }
   if (!mesh) throw *own_problem;

@@ -30,9 +30,10 @@ struct FaceMesh {
 };
 
 /// Triangulates, recombines and improves one face.
-/// \param try_stand_ins where it fails, the face is tried with parametric curves made anew, and as it is seen
-/// from above. Throws Error (failure) naming the face.
+/// \param fineness how many times as many segments as asked for the boundary has. Where the face fails, its
+/// points are tried as fine; from 4 on, it is tried with parametric curves made anew, and as it is seen from
+/// above. Throws Error (failure) naming the face.
 FaceMesh mesh_face(const CadShape& shape, int face, const BoundaryNodes& nodes, const SizingField& field,
-                   const MeshOptions& options, bool try_stand_ins, ExecutionContext& context);
+                   const MeshOptions& options, int fineness, ExecutionContext& context);
 
 }  // namespace quadrille

@@ -162,7 +162,8 @@ class Job {
     const auto mesh_one = [&](int face) {
       if (!used_[face] || meshes_[face]) return;
       try {
-        meshes_[face] = mesh_face(shape_, face, nodes_, field, options_, rungs_[face] > twice, context_);
+        const int fineness = 1 << std::min<int>(rungs_[face], eight_times);
+        meshes_[face] = mesh_face(shape_, face, nodes_, field, options_, fineness, context_);
       } catch (const Error& error) {
         if (error.kind() == Error::Kind::cancelled) throw;
         errors_[face] = error;

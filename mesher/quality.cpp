@@ -13,6 +13,8 @@
 #include <numbers>
 #include <utility>
 
+#include "mesher/quad_geometry.hpp"
+
 namespace quadrille {
 namespace {
 
@@ -30,7 +32,7 @@ struct Corners {
 struct Frame {
   std::array<Vector3, 4> sides, crosses;
   std::array<double, 4> lengths;
-  Vector3 normal;  ///< unit, or zero for a degenerate quad
+  Vector3 normal;  ///< unit, or zero for a degenerate quad: one without area, or with a side of no length
 
   explicit Frame(const std::array<const Vector3*, 4>& p) {
     for (int j = 0; j < 4; ++j) {
@@ -44,6 +46,8 @@ struct Frame {
     }
     const double norm = normal.norm();
     if (norm > 0) normal /= norm;
+    const auto [shortest, longest] = std::minmax_element(lengths.begin(), lengths.end());
+    if (*shortest < no_length * *longest) normal.setZero();
   }
 
   /// Sine and cosine of the angle of corner j, signed by the mean normal.

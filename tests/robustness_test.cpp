@@ -91,6 +91,19 @@ TEST_P(EveryTrouble, GivesAValidMesh) {
   }
 }
 
+TEST_P(EveryTrouble, IsMeshedFarTooCoarselyToo) {
+  const TroubleModel& trouble = GetParam();
+  const CadModel model = model_of(trouble);
+  MeshOptions options;
+  options.sizing.elements_per_diagonal = 8;
+  options.sizing.elements_per_circle = 0;
+  ExecutionContext context(1);
+  const ShellMesh coarse = mesh(model, options, context);
+  EXPECT_EQ(joined(validate(coarse, trouble.closed)), "");
+  const std::set<int> faces(coarse.quad_faces.begin(), coarse.quad_faces.end());
+  EXPECT_EQ(static_cast<int>(faces.size()), model.face_count());
+}
+
 INSTANTIATE_TEST_SUITE_P(Robustness, EveryTrouble, testing::ValuesIn(trouble_models()),
                          [](const auto& test) { return test.param.name; });
 

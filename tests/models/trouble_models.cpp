@@ -3,6 +3,7 @@
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
+#include <BRepBuilderAPI_GTransform.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
@@ -54,6 +55,8 @@
 #include <TopoDS_Wire.hxx>
 #include <cmath>
 #include <gp_Ax2.hxx>
+#include <gp_GTrsf.hxx>
+#include <gp_Mat.hxx>
 #include <gp_Pln.hxx>
 #include <gp_Trsf.hxx>
 
@@ -333,6 +336,13 @@ TopoDS_Shape collapsed_patch() {
 TopoDS_Shape creased_patch() {
   return natural_face(spline_surface(
       7, 3, [](double s, double t) { return gp_Pnt(30 * s, 30 * t, 8 * (1 - std::abs(2 * s - 1))); }, true));
+}
+
+/// A sphere stretched into a B-spline with two poles.
+TopoDS_Shape ellipsoid() {
+  gp_GTrsf stretch;
+  stretch.SetVectorialPart(gp_Mat(1, 0, 0, 0, 2, 0, 0, 0, 0.5));
+  return BRepBuilderAPI_GTransform(BRepPrimAPI_MakeSphere(10).Shape(), stretch).Shape();
 }
 
 TopoDS_Shape offset_patch() {
@@ -737,6 +747,7 @@ std::vector<TroubleModel> all_models() {
       {"creased_patch", "a C0 B-spline", creased_patch, false, 0},
       {"collapsed_patch", "a B-spline with poles in one point", collapsed_patch, false, 0},
       {"uneven_patch", "parameter speeds of 1:1000", uneven_patch, false, 0},
+      {"ellipsoid", "a B-spline with two poles", ellipsoid, true, 0, 2},
       {"offset_patch", "an offset surface", offset_patch, false, 0},
       {"rational_sphere", "a rational sphere",
        [] { return BRepBuilderAPI_NurbsConvert(BRepPrimAPI_MakeSphere(10).Shape()).Shape(); }, true,
