@@ -43,8 +43,8 @@ build_onetbb() {
     -o "Dir::State::Lists=$folder/lists" -o Dir::Cache::PkgCache= -o Dir::Cache::SrcPkgCache= -o APT::Sandbox::User=)
   # Its memory comes from malloc, which the sanitizer knows: were libtbbmalloc loaded by chance, it would be taken.
   {
-    (cd "$folder" && "${apt[@]}" update && "${apt[@]}" source --download-only onetbb &&
-      dpkg-source -x onetbb_*.dsc source) &&
+    (cd "$folder" && "${apt[@]}" update && "${apt[@]}" source --download-only --tar-only onetbb &&
+      mkdir source && tar -xf onetbb_*.orig.tar.* --strip-components=1 -C source) &&
       cmake -G Ninja -S "$folder/source" -B "$folder/build" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
         -DCMAKE_INSTALL_PREFIX="$folder/install" -DCMAKE_INSTALL_LIBDIR=lib -DTBB_SANITIZE=thread -DTBB_TEST=OFF \
         -DTBB_STRICT=OFF -DTBB_ENABLE_IPO=OFF -DTBBMALLOC_BUILD=OFF -DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON \
