@@ -71,6 +71,8 @@ class TextWriter {
 
   /// What is kept, where there is no file.
   std::string_view text() const { return {buffer_.data(), size_}; }
+  /// Forgets what is kept, not its memory.
+  void clear() { size_ = 0; }
 
  private:
   static constexpr std::size_t capacity = std::size_t{1} << 20;
@@ -127,17 +129,21 @@ void write_in_order(std::size_t count, TextWriter& out, Write&& write) {
     if (next >= count) control.stop();
     return std::exchange(next, next + at_once);
   };
+  // The pipeline passes pointers: what it holds when a filter throws, it does not destroy. Texts are passed
+  // on in order, so that those under way are that many in a row, and their places free when they come round.
+  const int under_way = 2 * threads;
+  std::vector<TextWriter> texts(under_way);
   const auto make_text = [&](std::size_t begin) {
-    TextWriter text;
+    TextWriter& text = texts[begin / at_once % texts.size()];
+    text.clear();
     write_range(begin, text);
-    return text;
+    return &text;
   };
   tbb::parallel_pipeline(
-      2 * threads,
-      tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, take) &
-          tbb::make_filter<std::size_t, TextWriter>(tbb::filter_mode::parallel, make_text) &
-          tbb::make_filter<TextWriter, void>(tbb::filter_mode::serial_in_order,
-                                             [&](const TextWriter& text) { out << text.text(); }));
+      under_way, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, take) &
+                     tbb::make_filter<std::size_t, TextWriter*>(tbb::filter_mode::parallel, make_text) &
+                     tbb::make_filter<TextWriter*, void>(tbb::filter_mode::serial_in_order,
+                                                         [&](TextWriter* text) { out << text->text(); }));
 }
 
 }  // namespace quadrille
