@@ -21,6 +21,7 @@
 
 #include "geometry/cad_shape.hpp"
 #include "geometry/seams.hpp"
+#include "mesher/area_check.hpp"
 #include "mesher/quadrille.hpp"
 #include "tests/models/trouble_models.hpp"
 #include "tests/process.hpp"
@@ -175,6 +176,23 @@ TEST(Robustness, SewsFacesThatTouch) {
   EXPECT_EQ(open_sides(joined_mesh), 2 * (10 + 10 + 20) / 2);
   EXPECT_THROW(apart.sewn(0), Error);
   EXPECT_THROW(apart.sewn(1e6), Error);
+}
+
+TEST(Robustness, WarnsOfAreasThatFlatElementsDoNotExplain) {
+  // Coarse, and of the right shape.
+  for (const char* name : {"seam_and_poles", "rational_torus", "apex", "disc", "hole_across_seam"}) {
+    const CadModel model = model_of(trouble_named(name));
+    EXPECT_EQ(joined(area_differences(model, mesh_of(model, 8))), "") << name;
+  }
+  // Twice the area, by OpenCASCADE's integration.
+  const CadModel model = model_of(trouble_named("false_poles"));
+  EXPECT_EQ(area_differences(model, mesh_of(model, 20)).size(), 1u);
+  // A fifth of the quads is missing.
+  const CadModel sphere = model_of(trouble_named("seam_and_poles"));
+  ShellMesh part = mesh_of(sphere, 20);
+  part.quads.resize(part.quads.size() * 4 / 5);
+  part.quad_faces.resize(part.quads.size());
+  EXPECT_EQ(area_differences(sphere, part).size(), 1u);
 }
 
 TEST(Robustness, KeepsTheNumbersOfEdgesThatAreSplit) {
