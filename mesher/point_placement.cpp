@@ -196,7 +196,9 @@ class Placer {
       const int pieces = static_cast<int>(std::ceil(length / (0.6 * size)));
       for (int k = 1; k < pieces; ++k) {
         grid_.insert(a + (b - a) * k / pieces, size);
-        grid_index_.push_back(-1);
+        grid_index_.push_back(-1 - static_cast<int>(blockers_.size()));
+        blockers_.push_back(boundary_.uv[segment.a] +
+                            (boundary_.uv[segment.b] - boundary_.uv[segment.a]) * k / pieces);
       }
     }
   }
@@ -254,15 +256,31 @@ class Placer {
     return domain_.inside(to.uv);
   }
 
+  /// How far it is from one place to another along the surface, by its derivatives at one place.
+  double way_along(const SurfacePoint& at, const Vector2& from, const Vector2& to) const {
+    Vector2 change = to - from;
+    if (surface_.u_periodic()) change.x() = std::remainder(change.x(), surface_.u_period());
+    if (surface_.v_periodic()) change.y() = std::remainder(change.y(), surface_.v_period());
+    return (change.x() * at.du + change.y() * at.dv).norm();
+  }
+
+  /// Whether another point is too near, on the same sheet: rolled faces come near themselves.
   bool refused(const FrontPoint& p) const {
+    constexpr double same_sheet = 4;
     const Vector3 across = p.normal.cross(p.direction);
     const double limit = options_.refusal * p.size;
     const double reach = options_.aligned ? limit * M_SQRT2 : limit;
     return grid_.any_near(p.at.point, reach, p.size, [&](int entry) {
       const int i = grid_index_[entry];
       const Vector3 d = grid_.point(entry) - p.at.point;
-      if (i < 0) return d.squaredNorm() < 0.36 * p.size * p.size;
+      if (i < 0) {
+        return d.squaredNorm() < 0.36 * p.size * p.size &&
+               way_along(p.at, p.uv, blockers_[-1 - i]) < same_sheet * reach;
+      }
       if (d.squaredNorm() > reach * reach || front_[i].normal.dot(p.normal) < -0.2) return false;
+      if (std::min(way_along(p.at, p.uv, front_[i].uv), way_along(front_[i].at, p.uv, front_[i].uv)) >
+          same_sheet * reach)
+        return false;
       if (!options_.aligned) return true;
       return std::abs(d.dot(p.direction)) < limit && std::abs(d.dot(across)) < limit;
     });
@@ -276,7 +294,8 @@ class Placer {
   ExecutionContext& context_;
   std::vector<FrontPoint> front_;
   PointGrid grid_;
-  std::vector<int> grid_index_;  // entry of the grid -> front point, -1 for blockers
+  std::vector<int> grid_index_;    // entry of the grid -> front point, or -1 - blocker
+  std::vector<Vector2> blockers_;  // their parameters
 };
 
 }  // namespace

@@ -178,6 +178,18 @@ TEST(Robustness, SewsFacesThatTouch) {
   EXPECT_THROW(apart.sewn(1e6), Error);
 }
 
+TEST(Robustness, MeshesEveryLayerOfARolledSheetAsFinely) {
+  const CadModel model = model_of(trouble_named("rolled_sheet"));
+  const double size = model.diagonal() / 20;
+  const ShellMesh mesh = mesh_of(model, 20);
+  double longest = 0;
+  for (const auto& quad : mesh.quads) {
+    for (int k = 0; k < 4; ++k)
+      longest = std::max(longest, (mesh.points[quad[(k + 1) % 4]] - mesh.points[quad[k]]).norm());
+  }
+  EXPECT_LT(longest, 4 * size);
+}
+
 TEST(Robustness, WarnsOfAreasThatFlatElementsDoNotExplain) {
   // Coarse, and of the right shape.
   for (const char* name : {"seam_and_poles", "rational_torus", "apex", "disc", "hole_across_seam"}) {

@@ -166,8 +166,8 @@ PARTS = {
     "wedge": lambda: Part.makeWedge(0, 0, 0, 2, 2, 10, 10, 10, 8, 8),
     "ruled surface": lambda: Part.makeRuledSurface(
         Part.makeCircle(10), Part.makeCircle(5, Vector(0, 0, 10), Vector(0, 0.3, 1))),
-    "helicoid": lambda: Part.makeRuledSurface(
-        Part.makeHelix(5, 10, 10).Edges[0], Part.makeHelix(5, 10, 4).Edges[0]),
+    "helicoid": lambda: Part.Wire(Part.makeHelix(5, 10, 10).Edges).makePipeShell(
+        [path((4, 0, 0), (10, 0, 0))], False, True),
     "filled face": lambda: Part.makeFilledFace(
         [Part.makeCircle(10, Vector(), UP, 0, 180), spline((-10, 0, 0), (0, 0, 6), (10, 0, 0))]),
     "Bezier patch": bezier,

@@ -27,6 +27,7 @@
 #include <Geom2d_Circle.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom2d_Line.hxx>
+#include <GeomAPI_Interpolate.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_Circle.hxx>
@@ -42,6 +43,7 @@
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt2d.hxx>
 #include <TColgp_Array2OfPnt.hxx>
+#include <TColgp_HArray1OfPnt.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -600,6 +602,22 @@ TopoDS_Shape false_poles() {
   return face;
 }
 
+/// A sheet rolled up, its layers 0.2 apart, with a hole through them all.
+TopoDS_Shape rolled_sheet() {
+  constexpr int count = 105;
+  const Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, count);
+  for (int i = 0; i < count; ++i) {
+    const double angle = 0.3 * i, radius = 8 + 0.2 * angle / (2 * pi);
+    points->SetValue(i + 1, {radius * std::cos(angle), radius * std::sin(angle), 0});
+  }
+  GeomAPI_Interpolate spiral(points, Standard_False, 1e-7);
+  spiral.Perform();
+  const TopoDS_Shape sheet =
+      BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeEdge(spiral.Curve()).Edge(), gp_Vec(0, 0, 20)).Shape();
+  const gp_Ax2 drill({0, 0, 10}, gp_Dir(1, 0.2, 0));
+  return BRepAlgoAPI_Cut(sheet, BRepPrimAPI_MakeCylinder(drill, 3, 40).Shape()).Shape();
+}
+
 /// A plate with a hole of its shape that leaves a frame far narrower than the size.
 TopoDS_Shape narrow_frame() {
   BRepBuilderAPI_MakeFace maker(gp_Pln(gp::XOY()), polygon({{0, 0, 0}, {40, 0, 0}, {40, 20, 0}, {0, 20, 0}}));
@@ -800,6 +818,7 @@ std::vector<TroubleModel> all_models() {
       {"narrow_frame", "a frame of width size / 20", narrow_frame, false, 800 - 39.9 * 19.9},
       {"narrow_band", "a band along a circle, of width size / 30", narrow_band, false,
        (pi - 0.3) * (400 - 19.95 * 19.95)},
+      {"rolled_sheet", "a face whose layers lie closer than its elements are long", rolled_sheet, false, 0},
       {"thin_pin", "a cylinder thinner than the elements", thin_pin, true,
        2 * (1200 + 800 + 600) + 2 * pi * 0.15 * (8 + 0.15)},
       {"hole_at_short_edge", "wires that touch along an edge shorter than its tolerance", hole_at_short_edge,
