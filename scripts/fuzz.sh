@@ -18,13 +18,13 @@ if [[ ${#targets[@]} -eq 0 ]]; then targets=(options msh inp vdb brep step iges)
 cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz --target make_seeds "${targets[@]/%/_fuzz}"
 cd build-fuzz
+# OpenCASCADE keeps static data to the end of the program.
+export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1
 if [[ ! -d corpus ]]; then
   fuzz/make_seeds corpus.new
   mv corpus.new corpus
 fi
 mkdir -p found
-# OpenCASCADE keeps static data to the end of the program.
-export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1
 status=0
 for target in "${targets[@]}"; do
   # stderr holds the program's own sentences as well: one line for each input.
