@@ -237,6 +237,72 @@ std::vector<FacingSides> facing_sides(const CadShape& shape, const CadFace& face
 
 constexpr double narrow = 0.5;  // of a segment
 
+/// A narrow face, one long side of which is one edge and the other several.
+struct SplitStrip {
+  int face;
+  const Coedge* whole;
+  std::vector<const Coedge*> parts;  ///< in the order of the wire
+};
+
+/// How far the parts of a strip are from its whole side, at most.
+double width_of(const CadShape& shape, const SplitStrip& strip) {
+  constexpr int places = 8, samples = 256;
+  const CadEdge& whole = shape.edges[strip.whole->edge - 1];
+  const EdgeCurve curve(whole);
+  std::vector<Vector3> points;
+  for (int i = 0; i <= samples; ++i)
+    points.push_back(curve.point(whole.first + (whole.last - whole.first) * i / samples));
+  double width = 0;
+  for (const Coedge* part : strip.parts) {
+    const CadEdge& edge = shape.edges[part->edge - 1];
+    const EdgeCurve other(edge);
+    for (int i = 0; i <= places; ++i) {
+      const Vector3 p = other.point(edge.first + (edge.last - edge.first) * i / places);
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Vector3& q : points) nearest = std::min(nearest, (p - q).norm());
+      width = std::max(width, nearest);
+    }
+  }
+  return width;
+}
+
+/// The strips of faces whose wire is two runs of long edges between short ones.
+std::vector<SplitStrip> find_split_strips(const CadShape& shape, const std::vector<char>& used,
+                                          const std::vector<double>& wanted) {
+  constexpr double is_short = 0.1;  // of the longest edge
+  std::vector<SplitStrip> strips;
+  for (std::size_t i = 0; i < shape.faces.size(); ++i) {
+    const CadFace& face = shape.faces[i];
+    if (!used[i] || face.wires.size() != 1 || !face.wires[0].ordered || face.wires[0].coedges.size() < 4)
+      continue;
+    const auto& c = face.wires[0].coedges;
+    const std::size_t n = c.size();
+    if (has_unusual_edges(shape, face)) continue;
+    const auto length = [&](std::size_t k) { return shape.edges[c[k % n].edge - 1].length; };
+    double longest = 0;
+    for (std::size_t k = 0; k < n; ++k) longest = std::max(longest, length(k));
+    std::size_t start = 0;
+    while (start < n && length(start) >= is_short * longest) ++start;
+    if (start == n) continue;
+    std::vector<std::vector<const Coedge*>> runs;
+    bool inside = false;
+    for (std::size_t k = start; k < start + n; ++k) {
+      const bool is_long = length(k) >= is_short * longest;
+      if (is_long && !inside) runs.emplace_back();
+      if (is_long) runs.back().push_back(&c[k % n]);
+      inside = is_long;
+    }
+    if (runs.size() != 2) continue;
+    if (runs[0].size() > 1) std::swap(runs[0], runs[1]);
+    if (runs[0].size() != 1 || runs[1].size() < 2) continue;
+    const SplitStrip strip{static_cast<int>(i), runs[0][0], runs[1]};
+    const int whole = strip.whole->edge - 1;
+    const double segment = shape.edges[whole].length / std::max(wanted[whole], 1.0);
+    if (width_of(shape, strip) < narrow * segment) strips.push_back(strip);
+  }
+  return strips;
+}
+
 /// Sides that face each other: of faces with four always, of wedges and crescents where they are narrow.
 /// \returns a flag for each face, whether it is a narrow wedge.
 std::vector<char> tie_facing_sides(const CadShape& shape, const std::vector<char>& used,
@@ -277,12 +343,15 @@ std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& u
   for (int i = 0; i < n; ++i) {
     if (tiny.edges[i] != i) tied.tie(tiny.edges[i], i, std::numeric_limits<double>::infinity());
   }
-  // One node more at the base of a wedge would make its elements far shorter than it is wide; the triangle
-  // that is left is cut up by the subdivision.
+  // One node more at the base of a wedge or the end of a strip would make elements far shorter than they are
+  // wide; the triangle that is left is cut up by the subdivision.
+  std::vector<SplitStrip> strips;
   std::vector<char> may_be_odd(shape.faces.size(), 0);
   if (tie) {
     const std::vector<char> is_wedge = tie_facing_sides(shape, used, wanted, tied);
     if (stride == 2) may_be_odd = is_wedge;
+    strips = find_split_strips(shape, used, wanted);
+    for (const SplitStrip& strip : strips) may_be_odd[strip.face] = stride == 2;
   }
   struct Class {
     double wanted = 0;
@@ -330,6 +399,23 @@ std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& u
     counts[i] = classes[c].count;
     if (change[c]) counts[i] += change_of(classes[c].count, classes[c].wanted, classes[c].least);
   }
+  const auto raise = [&](int edge, int by) {
+    for (int i = 0; i < n; ++i) {
+      if (counts[i] > 0 && tied.find(i) == tied.find(edge)) counts[i] += by;
+    }
+  };
+  // Both sides of a strip get as many nodes. A face that becomes odd by that keeps a triangle, which
+  // subdivision cuts up.
+  for (const SplitStrip& strip : strips) {
+    int more = -counts[strip.whole->edge - 1];
+    int longest = strip.parts[0]->edge - 1;
+    for (const Coedge* part : strip.parts) {
+      more += counts[part->edge - 1];
+      if (shape.edges[part->edge - 1].length > shape.edges[longest].length) longest = part->edge - 1;
+    }
+    if (more % 2 != 0 && stride == 1) continue;
+    raise(more > 0 ? strip.whole->edge - 1 : longest, std::abs(more));
+  }
   return counts;
 }
 
@@ -365,14 +451,20 @@ double parameter_near_chord(const CadEdge& edge, const EdgeCurve& curve, int k, 
 /// makes the sides of a wedge cross towards its tip.
 class NarrowFaces {
  public:
-  NarrowFaces(const CadShape& shape, const std::vector<char>& used, BoundaryNodes& nodes)
-      : shape_(shape), used_(used), nodes_(nodes), settled_(shape.edges.size(), 0) {}
+  NarrowFaces(const CadShape& shape, const std::vector<char>& used, const std::vector<double>& wanted,
+              BoundaryNodes& nodes)
+      : shape_(shape),
+        used_(used),
+        nodes_(nodes),
+        strips_(find_split_strips(shape, used, wanted)),
+        settled_(shape.edges.size(), 0) {}
 
   void run() {
     for (std::size_t i = 0; i < shape_.faces.size(); ++i) {
       if (!used_[i]) continue;
       for (const FacingSides& sides : facing_sides(shape_, shape_.faces[i])) align(sides);
     }
+    for (const SplitStrip& strip : strips_) align(strip);
   }
 
  private:
@@ -391,6 +483,35 @@ class NarrowFaces {
     else
       follow(a, b, against);
     settled_[a] = settled_[b] = 1;
+  }
+
+  /// The parts have nodes that cannot move, between them: the whole side follows.
+  void align(const SplitStrip& strip) {
+    const int whole = strip.whole->edge - 1;
+    const CadEdge& edge = shape_.edges[whole];
+    if (edge.closed() || nodes_.edges[whole].borrowed || settled_[whole]) return;
+    std::vector<int> targets;
+    for (const Coedge* part : strip.parts) {
+      std::vector<int> nodes = nodes_.edges[part->edge - 1].nodes;
+      if (nodes.empty()) return;
+      if (!part->forward) std::reverse(nodes.begin(), nodes.end());
+      targets.insert(targets.end(), nodes.begin() + (targets.empty() ? 0 : 1), nodes.end());
+    }
+    // The wire runs along the parts, and back along the whole side.
+    if (strip.whole->forward) std::reverse(targets.begin(), targets.end());
+    BoundaryNodes::Edge& to = nodes_.edges[whole];
+    const int n = to.segments();
+    if (static_cast<int>(targets.size()) != n + 1) return;
+    const EdgeCurve curve(edge);
+    std::vector<double> parameters = to.parameters;
+    for (int k = 1; k < n; ++k) {
+      const Vector3& target = nodes_.points[targets[k]];
+      parameters[k] = nearest(curve, target, parameters[k - 1], to.parameters[k], to.parameters[k + 1]);
+      if (!(parameters[k] > parameters[k - 1])) return;
+    }
+    to.parameters = parameters;
+    for (int k = 1; k < n; ++k) nodes_.points[to.nodes[k]] = curve.point(parameters[k]);
+    settled_[whole] = 1;
   }
 
   void follow(int leader, int follower, bool against) {
@@ -429,6 +550,7 @@ class NarrowFaces {
   const CadShape& shape_;
   const std::vector<char>& used_;
   BoundaryNodes& nodes_;
+  std::vector<SplitStrip> strips_;
   std::vector<char> settled_;
 };
 
@@ -528,7 +650,7 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
       }
     }
   }
-  NarrowFaces(shape, used, result).run();
+  NarrowFaces(shape, used, wanted, result).run();
   for (int i = 0; i < n; ++i) {
     if (counts[i] == 0 || plan.tiny.edges[i] == i) continue;
     result.edges[i].nodes = result.edges[plan.tiny.edges[i]].nodes;

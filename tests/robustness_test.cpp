@@ -178,6 +178,12 @@ TEST(Robustness, SewsFacesThatTouch) {
   EXPECT_THROW(apart.sewn(1e6), Error);
 }
 
+TEST(Robustness, LetsNodesFaceEachOtherAcrossARimInParts) {
+  const ShellMesh mesh = mesh_of(model_of(trouble_named("split_rim")), 20);
+  const std::vector<double> q = quad_qualities(mesh);
+  EXPECT_GT(*std::min_element(q.begin(), q.end()), 0.3);
+}
+
 TEST(Robustness, MeshesEveryLayerOfARolledSheetAsFinely) {
   const CadModel model = model_of(trouble_named("rolled_sheet"));
   const double size = model.diagonal() / 20;

@@ -221,6 +221,27 @@ TopoDS_Shape wedge() {
                BRepBuilderAPI_MakeFace(plane, BRepBuilderAPI_MakeWire(outer, base, inner).Wire()).Face()});
 }
 
+/// Half a disc with a rim round it, 0.0003 wide at its ends, whose inner side is two edges and the outer one.
+TopoDS_Shape split_rim() {
+  const double end = 0.03;
+  const gp_Circ inner(gp::XOY(), 1.25), outer(gp_Ax2({0.02, 0, 0}, gp::DZ()), 1.25);
+  const auto on = [&](const gp_Circ& circle, double sign) {
+    const double x = end - circle.Location().X();
+    return gp_Pnt(end, sign * std::sqrt(circle.Radius() * circle.Radius() - x * x), 0);
+  };
+  const gp_Pnt middle(1.25, 0, 0);
+  const TopoDS_Edge first = BRepBuilderAPI_MakeEdge(inner, on(inner, -1), middle).Edge(),
+                    second = BRepBuilderAPI_MakeEdge(inner, middle, on(inner, 1)).Edge(),
+                    whole = BRepBuilderAPI_MakeEdge(outer, on(outer, -1), on(outer, 1)).Edge();
+  const auto line = [](const gp_Pnt& a, const gp_Pnt& b) { return BRepBuilderAPI_MakeEdge(a, b).Edge(); };
+  BRepBuilderAPI_MakeWire disc(first, second, line(on(inner, 1), on(inner, -1)));
+  BRepBuilderAPI_MakeWire rim(whole, line(on(outer, 1), on(inner, 1)), second, first);
+  rim.Add(line(on(inner, -1), on(outer, -1)));
+  const gp_Pln plane(gp::XOY());
+  return sewn({BRepBuilderAPI_MakeFace(plane, disc.Wire()).Face(),
+               BRepBuilderAPI_MakeFace(plane, rim.Wire()).Face()});
+}
+
 TopoDS_Face quarter_cylinder() {
   return BRepBuilderAPI_MakeFace(new Geom_CylindricalSurface(gp::XOY(), 10), 0.3, 0.3 + pi / 2, 0.0, 30.0,
                                  1e-7)
@@ -757,6 +778,7 @@ std::vector<TroubleModel> all_models() {
       {"crescent", "two arcs that share their ends", crescent, false, 0},
       {"wedge", "a rim that tapers to a tip of half a degree", wedge, false,
        101.0125 * std::acos(-0.1 / std::sqrt(101.0125)) + 0.1 * 10.05},
+      {"split_rim", "a rim far narrower than an element, one side of it in two edges", split_rim, false, 0},
       {"missing_curves", "no parametric curves", missing_curves, false, 150 * pi},
       {"wrong_curves", "parametric curves far from their edges", wrong_curves, false, 150 * pi},
       {"other_parameters", "parametric curves at other speeds", other_parameters, false, 150 * pi},
