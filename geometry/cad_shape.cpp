@@ -59,9 +59,11 @@ void CadShape::read_topology() {
   std::vector<EdgePiece> pieces;
   if (seams_lack) pieces = add_seams(sources, problems);
   // What is new comes after the model's own edges and vertices, whose numbers stay.
+  TopTools_IndexedMapOfShape used_vertices;
   for (const TopoDS_Face& face : sources) {
     TopExp::MapShapes(face, TopAbs_EDGE, edge_map);
     TopExp::MapShapes(face, TopAbs_VERTEX, vertex_map);
+    if (seams_lack) TopExp::MapShapes(face, TopAbs_VERTEX, used_vertices);
   }
 
   vertices.reserve(vertex_map.Extent());
@@ -70,11 +72,12 @@ void CadShape::read_topology() {
     vertices.push_back(to_vector(BRep_Tool::Pnt(vertex)));
     vertex_tolerances.push_back(BRep_Tool::Tolerance(vertex));
   }
-  // Where a new vertex lies on one of the model's own, it is that one.
+  // Where a new vertex has taken the place of one of the model's own, it is that one.
   const auto vertex_number = [&](const TopoDS_Vertex& vertex) {
     const int index = vertex.IsNull() ? 0 : vertex_map.FindIndex(vertex);
-    if (index <= own_vertices) return index;
+    if (index <= own_vertices || !seams_lack) return index;
     for (int i = 1; i <= own_vertices; ++i) {
+      if (used_vertices.Contains(vertex_map(i))) continue;
       const double reach = std::max(vertex_tolerances[i - 1], vertex_tolerances[index - 1]);
       if ((vertices[i - 1] - vertices[index - 1]).norm() <= reach) return i;
     }
