@@ -30,6 +30,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/trimmed_domain.hpp"
 #include "geometry/vector.hpp"
 
 namespace quadrille {
@@ -46,9 +47,19 @@ struct SampledWire {
   std::vector<Polyline> lines;  ///< of the edges, along the wire
   bool has_seam = false;        ///< or a pole
   Vector2 low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
-  Vector2 advance{0, 0};  ///< from start to end, jumps between edges left out
-  double area = 0;        ///< enclosed, positive where the wire runs anticlockwise
+  Vector2 advance{0, 0};      ///< from start to end, jumps between edges left out
+  double area = 0;            ///< enclosed, positive where the wire runs anticlockwise
+  bool crosses_seam = false;  ///< a hole that crosses a seam, or has a piece of one in it
 };
+
+/// What a wire goes round, its edges joined end to start.
+TrimmedDomain enclosed_by(const SampledWire& wire) {
+  std::vector<Vector2> loop;
+  for (const Polyline& line : wire.lines) loop.insert(loop.end(), line.begin(), line.end() - 1);
+  std::vector<TrimmedDomain::Segment> segments;
+  for (std::size_t i = 0; i < loop.size(); ++i) segments.push_back({loop[i], loop[(i + 1) % loop.size()]});
+  return TrimmedDomain(std::move(segments));
+}
 
 class ClosedSurfaceFace {
  public:
@@ -63,6 +74,7 @@ class ClosedSurfaceFace {
     for (TopoDS_Iterator it(face_); it.More() && complete_; it.Next()) {
       if (it.Value().ShapeType() == TopAbs_WIRE) sample(TopoDS::Wire(it.Value()));
     }
+    for (SampledWire& wire : wires_) wire.crosses_seam = crosses_seam(wire);
   }
 
   bool goes_round() const {
@@ -82,36 +94,9 @@ class ClosedSurfaceFace {
     return widest->area < 0;
   }
 
-  /// Whether a wire is a hole that crosses a seam, or has a piece of one in it.
-  bool crosses_seam(const SampledWire& hole) const {
-    if (!usable() || hole.has_seam || !is_closed(hole)) return false;
-    for (const SampledWire& outer : wires_) {
-      for (std::size_t i = 0; i < outer.edges.size(); ++i) {
-        if (!BRep_Tool::IsClosed(outer.edges[i], face_)) continue;
-        if (encloses(hole, outer.lines[i][samples / 2])) return true;
-        for (int k = 0; k < samples; ++k) {
-          if (crosses(hole, outer.lines[i][k], outer.lines[i][k + 1])) return true;
-        }
-      }
-    }
-    return false;
-  }
-
   bool has_crossing_hole() const {
     return std::any_of(wires_.begin(), wires_.end(),
-                       [&](const SampledWire& wire) { return crosses_seam(wire); });
-  }
-
-  static bool encloses(const SampledWire& wire, const Vector2& p) {
-    std::vector<Vector2> loop;
-    for (const Polyline& line : wire.lines) loop.insert(loop.end(), line.begin(), line.end() - 1);
-    bool odd = false;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Vector2 &a = loop[i], &b = loop[(i + 1) % loop.size()];
-      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-      if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) odd = !odd;
-    }
-    return odd;
+                       [](const SampledWire& wire) { return wire.crosses_seam; });
   }
 
   double period(int axis) const { return period_[axis]; }
@@ -162,6 +147,21 @@ class ClosedSurfaceFace {
       }
     }
     wires_.push_back(std::move(sampled));
+  }
+
+  bool crosses_seam(const SampledWire& hole) const {
+    if (!usable() || hole.has_seam || !is_closed(hole)) return false;
+    const TrimmedDomain enclosed = enclosed_by(hole);
+    for (const SampledWire& outer : wires_) {
+      for (std::size_t i = 0; i < outer.edges.size(); ++i) {
+        if (!BRep_Tool::IsClosed(outer.edges[i], face_)) continue;
+        if (enclosed.inside(outer.lines[i][samples / 2])) return true;
+        for (int k = 0; k < samples; ++k) {
+          if (crosses(hole, outer.lines[i][k], outer.lines[i][k + 1])) return true;
+        }
+      }
+    }
+    return false;
   }
 
   static bool crosses(const SampledWire& hole, const Vector2& a, const Vector2& b) {
@@ -221,7 +221,7 @@ std::vector<std::pair<TopoDS_Edge, std::vector<Cut>>> crossings(const TopoDS_Fac
   };
   const BRep_Builder builder;
   for (const SampledWire& hole : sampled.wires()) {
-    if (!sampled.crosses_seam(hole)) continue;
+    if (!hole.crosses_seam) continue;
     for (const SampledWire& outer : sampled.wires()) {
       for (const TopoDS_Edge& seam : outer.edges) {
         if (!BRep_Tool::IsClosed(seam, face)) continue;
@@ -313,13 +313,13 @@ TopoDS_Face joined_with_seam(const TopoDS_Face& source) {
   TopTools_IndexedMapOfShape left_out;
   std::vector<TopoDS_Edge> edges;
   Vector2 low(-INFINITY, -INFINITY), high(INFINITY, INFINITY);  // between the sides of the seam
-  for (const SampledWire& outer : sampled.wires()) {
-    if (!outer.has_seam) continue;
-    for (std::size_t i = 0; i < outer.edges.size(); ++i) {
-      if (!BRep_Tool::IsClosed(outer.edges[i], face)) continue;
-      const Vector2 middle = outer.lines[i][samples / 2];
-      for (const SampledWire& hole : sampled.wires()) {
-        if (!sampled.crosses_seam(hole) || !ClosedSurfaceFace::encloses(hole, middle)) continue;
+  for (const SampledWire& hole : sampled.wires()) {
+    if (!hole.crosses_seam) continue;
+    const TrimmedDomain enclosed = enclosed_by(hole);
+    for (const SampledWire& outer : sampled.wires()) {
+      for (std::size_t i = 0; i < outer.edges.size(); ++i) {
+        if (!BRep_Tool::IsClosed(outer.edges[i], face)) continue;
+        if (!enclosed.inside(outer.lines[i][samples / 2])) continue;
         left_out.Add(outer.edges[i]);
         const Vector2 along = (outer.lines[i].back() - outer.lines[i].front()).cwiseAbs();
         const int axis = along.x() < along.y() ? 0 : 1;
@@ -336,15 +336,14 @@ TopoDS_Face joined_with_seam(const TopoDS_Face& source) {
     if (it.Value().ShapeType() != TopAbs_WIRE) builder.Add(result, it.Value());
   }
   for (const SampledWire& wire : sampled.wires()) {
-    const bool crosses = sampled.crosses_seam(wire);
-    if (!crosses && !wire.has_seam) {
+    if (!wire.crosses_seam && !wire.has_seam) {
       builder.Add(result, wire.wire);
       continue;
     }
     for (std::size_t i = 0; i < wire.edges.size(); ++i) {
       if (left_out.Contains(wire.edges[i])) continue;
       edges.push_back(wire.edges[i]);
-      if (!crosses) continue;
+      if (!wire.crosses_seam) continue;
       const Vector2 middle = wire.lines[i][samples / 2];
       Vector2 shift(0, 0);
       for (const int axis : {0, 1}) {

@@ -3,10 +3,16 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace quadrille {
 
 using Vector2 = Eigen::Vector2d;
 using Vector3 = Eigen::Vector3d;
+
+/// Between two vectors of any length, 0 to pi; exact for small angles too.
+inline double angle_between(const Vector3& a, const Vector3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
 }  // namespace quadrille

@@ -27,10 +27,6 @@ Vector3 area_vector(const ShellMesh& mesh, std::size_t quad) {
   return 0.5 * (p[c] - p[a]).cross(p[d] - p[b]);
 }
 
-double angle_between(const Vector3& a, const Vector3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
 /// How much area faces lose because elements are flat and their sides straight, about: from the angles by
 /// which elements and curves turn. Angle / sine of a circular arc and its chord, to the second order.
 class FlatLoss {

@@ -65,7 +65,7 @@ class EdgeTabulator {
       table.counts.push_back(0);
     } else {
       table.counts.push_back(table.counts.back() + 0.5 * length * (1 / size + 1 / size_));
-      table.turning += std::atan2(direction.cross(direction_).norm(), direction.dot(direction_));
+      table.turning += angle_between(direction, direction_);
     }
     table.parameters.push_back(t);
     point_ = p;
@@ -244,26 +244,30 @@ struct SplitStrip {
   std::vector<const Coedge*> parts;  ///< in the order of the wire
 };
 
-/// How far the parts of a strip are from its whole side, at most.
-double width_of(const CadShape& shape, const SplitStrip& strip) {
+/// Length of an edge's segments, about.
+double segment_length(const CadShape& shape, const std::vector<double>& wanted, int edge) {
+  return shape.edges[edge].length / std::max(wanted[edge], 1.0);
+}
+
+/// Whether no part of a strip is as far as `limit` from its whole side.
+bool is_narrower(const CadShape& shape, const SplitStrip& strip, double limit) {
   constexpr int places = 8, samples = 256;
   const CadEdge& whole = shape.edges[strip.whole->edge - 1];
   const EdgeCurve curve(whole);
   std::vector<Vector3> points;
   for (int i = 0; i <= samples; ++i)
     points.push_back(curve.point(whole.first + (whole.last - whole.first) * i / samples));
-  double width = 0;
   for (const Coedge* part : strip.parts) {
     const CadEdge& edge = shape.edges[part->edge - 1];
     const EdgeCurve other(edge);
     for (int i = 0; i <= places; ++i) {
       const Vector3 p = other.point(edge.first + (edge.last - edge.first) * i / places);
-      double nearest = std::numeric_limits<double>::infinity();
-      for (const Vector3& q : points) nearest = std::min(nearest, (p - q).norm());
-      width = std::max(width, nearest);
+      if (std::none_of(points.begin(), points.end(),
+                       [&](const Vector3& q) { return (p - q).norm() < limit; }))
+        return false;
     }
   }
-  return width;
+  return true;
 }
 
 /// The strips of faces whose wire is two runs of long edges between short ones.
@@ -296,9 +300,8 @@ std::vector<SplitStrip> find_split_strips(const CadShape& shape, const std::vect
     if (runs[0].size() > 1) std::swap(runs[0], runs[1]);
     if (runs[0].size() != 1 || runs[1].size() < 2) continue;
     const SplitStrip strip{static_cast<int>(i), runs[0][0], runs[1]};
-    const int whole = strip.whole->edge - 1;
-    const double segment = shape.edges[whole].length / std::max(wanted[whole], 1.0);
-    if (width_of(shape, strip) < narrow * segment) strips.push_back(strip);
+    if (is_narrower(shape, strip, narrow * segment_length(shape, wanted, strip.whole->edge - 1)))
+      strips.push_back(strip);
   }
   return strips;
 }
@@ -314,9 +317,8 @@ std::vector<char> tie_facing_sides(const CadShape& shape, const std::vector<char
     if (pairs.empty() || has_unusual_edges(shape, shape.faces[i])) continue;
     for (const FacingSides& sides : pairs) {
       const int a = sides.first->edge - 1, b = sides.second->edge - 1;
-      const double segment = shape.edges[a].length / std::max(wanted[a], 1.0);
       const std::size_t count = shape.faces[i].wires[0].coedges.size();
-      const bool is_narrow = sides.width < narrow * segment;
+      const bool is_narrow = sides.width < narrow * segment_length(shape, wanted, a);
       if (count == 4 || is_narrow) tied.tie(a, b);
       if (count == 3 && is_narrow) is_wedge[i] = 1;
     }
@@ -335,9 +337,11 @@ double cost_of_change(int count, double wanted, int least) {
 }
 
 /// The counts of all edges: tied ones alike, rounded, and changed so that every face becomes even.
+/// \param strips both sides of these get as many nodes; none where edges are not to be tied.
 std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& used,
                                const std::vector<double>& wanted, const std::vector<int>& least,
-                               const TinyFeatures& tiny, bool tie, int stride, std::vector<int>& odd_faces) {
+                               const TinyFeatures& tiny, bool tie, const std::vector<SplitStrip>& strips,
+                               int stride, std::vector<int>& odd_faces) {
   const int n = static_cast<int>(wanted.size());
   TiedEdges tied(wanted);
   for (int i = 0; i < n; ++i) {
@@ -345,14 +349,12 @@ std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& u
   }
   // One node more at the base of a wedge or the end of a strip would make elements far shorter than they are
   // wide; the triangle that is left is cut up by the subdivision.
-  std::vector<SplitStrip> strips;
   std::vector<char> may_be_odd(shape.faces.size(), 0);
   if (tie) {
     const std::vector<char> is_wedge = tie_facing_sides(shape, used, wanted, tied);
     if (stride == 2) may_be_odd = is_wedge;
-    strips = find_split_strips(shape, used, wanted);
-    for (const SplitStrip& strip : strips) may_be_odd[strip.face] = stride == 2;
   }
+  for (const SplitStrip& strip : strips) may_be_odd[strip.face] = stride == 2;
   struct Class {
     double wanted = 0;
     int members = 0, least = 0, count = 0;
@@ -404,8 +406,7 @@ std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& u
       if (counts[i] > 0 && tied.find(i) == tied.find(edge)) counts[i] += by;
     }
   };
-  // Both sides of a strip get as many nodes. A face that becomes odd by that keeps a triangle, which
-  // subdivision cuts up.
+  // A face that becomes odd by that keeps a triangle, which subdivision cuts up.
   for (const SplitStrip& strip : strips) {
     int more = -counts[strip.whole->edge - 1];
     int longest = strip.parts[0]->edge - 1;
@@ -451,13 +452,9 @@ double parameter_near_chord(const CadEdge& edge, const EdgeCurve& curve, int k, 
 /// makes the sides of a wedge cross towards its tip.
 class NarrowFaces {
  public:
-  NarrowFaces(const CadShape& shape, const std::vector<char>& used, const std::vector<double>& wanted,
+  NarrowFaces(const CadShape& shape, const std::vector<char>& used, const std::vector<SplitStrip>& strips,
               BoundaryNodes& nodes)
-      : shape_(shape),
-        used_(used),
-        nodes_(nodes),
-        strips_(find_split_strips(shape, used, wanted)),
-        settled_(shape.edges.size(), 0) {}
+      : shape_(shape), used_(used), strips_(strips), nodes_(nodes), settled_(shape.edges.size(), 0) {}
 
   void run() {
     for (std::size_t i = 0; i < shape_.faces.size(); ++i) {
@@ -478,10 +475,10 @@ class NarrowFaces {
     if (!(sides.width < narrow * edge_a.length / n) || (settled_[a] && settled_[b])) return;
     // Both run round the face, one against the other.
     const bool against = first.forward == second.forward;
-    if (settled_[b])
-      follow(b, a, against);
-    else
-      follow(a, b, against);
+    const int leader = settled_[b] ? b : a;
+    std::vector<int> targets = nodes_.edges[leader].nodes;
+    if (against) std::reverse(targets.begin(), targets.end());
+    follow(targets, leader == a ? b : a, false);
     settled_[a] = settled_[b] = 1;
   }
 
@@ -499,34 +496,27 @@ class NarrowFaces {
     }
     // The wire runs along the parts, and back along the whole side.
     if (strip.whole->forward) std::reverse(targets.begin(), targets.end());
-    BoundaryNodes::Edge& to = nodes_.edges[whole];
-    const int n = to.segments();
-    if (static_cast<int>(targets.size()) != n + 1) return;
-    const EdgeCurve curve(edge);
-    std::vector<double> parameters = to.parameters;
-    for (int k = 1; k < n; ++k) {
-      const Vector3& target = nodes_.points[targets[k]];
-      parameters[k] = nearest(curve, target, parameters[k - 1], to.parameters[k], to.parameters[k + 1]);
-      if (!(parameters[k] > parameters[k - 1])) return;
-    }
-    to.parameters = parameters;
-    for (int k = 1; k < n; ++k) nodes_.points[to.nodes[k]] = curve.point(parameters[k]);
-    settled_[whole] = 1;
+    if (static_cast<int>(targets.size()) != nodes_.edges[whole].segments() + 1) return;
+    if (follow(targets, whole, true)) settled_[whole] = 1;
   }
 
-  void follow(int leader, int follower, bool against) {
-    const BoundaryNodes::Edge& from = nodes_.edges[leader];
+  /// Moves the nodes of an edge to where it is nearest to the targets, one for each node; false, and nothing
+  /// is moved, if that would put two in one place.
+  /// \param after_moved nodes come after where the one before has moved to, not after where it was.
+  bool follow(const std::vector<int>& targets, int follower, bool after_moved) {
     BoundaryNodes::Edge& to = nodes_.edges[follower];
     const EdgeCurve curve(shape_.edges[follower]);
     const int n = to.segments();
     std::vector<double> parameters = to.parameters;
+    const std::vector<double>& before = after_moved ? parameters : to.parameters;
     for (int k = 1; k < n; ++k) {
-      const Vector3& target = nodes_.points[from.nodes[against ? n - k : k]];
-      parameters[k] = nearest(curve, target, to.parameters[k - 1], to.parameters[k], to.parameters[k + 1]);
-      if (!(parameters[k] > parameters[k - 1])) return;
+      const Vector3& target = nodes_.points[targets[k]];
+      parameters[k] = nearest(curve, target, before[k - 1], to.parameters[k], to.parameters[k + 1]);
+      if (!(parameters[k] > parameters[k - 1])) return false;
     }
     to.parameters = parameters;
     for (int k = 1; k < n; ++k) nodes_.points[to.nodes[k]] = curve.point(parameters[k]);
+    return true;
   }
 
   /// The parameter nearest to a point by golden sections, no further than four fifths of the way to the nodes
@@ -549,8 +539,8 @@ class NarrowFaces {
 
   const CadShape& shape_;
   const std::vector<char>& used_;
+  const std::vector<SplitStrip>& strips_;
   BoundaryNodes& nodes_;
-  std::vector<SplitStrip> strips_;
   std::vector<char> settled_;
 };
 
@@ -591,10 +581,11 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
     least[i] = least_segments(plan.tiny.closed(edge), plan.bare[i] ? 0 : tables[i].turning, shared_ends[i],
                               inner[i], result.stride);
   }
+  const std::vector<SplitStrip> strips = find_split_strips(shape, used, wanted);
   std::vector<int> counts =
-      choose_counts(shape, used, wanted, least, plan.tiny, true, result.stride, result.odd_faces);
+      choose_counts(shape, used, wanted, least, plan.tiny, true, strips, result.stride, result.odd_faces);
   if (!result.odd_faces.empty()) {
-    counts = choose_counts(shape, used, wanted, least, plan.tiny, false, result.stride, result.odd_faces);
+    counts = choose_counts(shape, used, wanted, least, plan.tiny, false, {}, result.stride, result.odd_faces);
   }
 
   const auto vertex_node = [&](int vertex, const Vector3& fallback) {
@@ -650,7 +641,7 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, cons
       }
     }
   }
-  NarrowFaces(shape, used, wanted, result).run();
+  NarrowFaces(shape, used, strips, result).run();
   for (int i = 0; i < n; ++i) {
     if (counts[i] == 0 || plan.tiny.edges[i] == i) continue;
     result.edges[i].nodes = result.edges[plan.tiny.edges[i]].nodes;

@@ -478,7 +478,7 @@ void choose_sides(FaceTriangulation& face) {
       if (t[k] >= face.boundary_count) continue;
       const Vector3& p = face.mesh.points[t[k]];
       const Vector3 a = face.mesh.points[t[(k + 1) % 3]] - p, b = face.mesh.points[t[(k + 2) % 3]] - p;
-      filled[t[k]] += std::atan2(a.cross(b).norm(), a.dot(b));
+      filled[t[k]] += angle_between(a, b);
     }
   }
   for (int i = 0; i < face.boundary_count; ++i) {

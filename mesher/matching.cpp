@@ -5,7 +5,6 @@
 #include "mesher/matching.hpp"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -20,6 +19,7 @@
 #include <utility>
 
 #include "mesher/augmenting_paths.hpp"
+#include "mesher/threads.hpp"
 
 namespace quadrille {
 
@@ -443,7 +443,7 @@ class Valences {
   static float angle_at(const GraphTriangle& t, int i, const std::vector<Vector3>& points) {
     const Vector3& p = points[t.corner[i]];
     const Vector3 a = points[t.corner[next_index(i)]] - p, b = points[t.corner[previous_index(i)]] - p;
-    return static_cast<float>(std::atan2(a.cross(b).norm(), a.dot(b)));
+    return static_cast<float>(angle_between(a, b));
   }
 
   float change(int v, int by) {
@@ -753,8 +753,7 @@ int exchange(TriangleGraph& graph, const std::vector<Vector3>& points, Execution
       const int count = exchange_around(graph, exchanger, std::move(members), queued, context);
       exchanged.fetch_add(count, std::memory_order_relaxed);
     };
-    tbb::task_arena arena(context.threads() > 0 ? context.threads() : tbb::task_arena::automatic);
-    arena.execute([&] { tbb::parallel_for(0, blocks, work); });
+    on_threads(context.threads(), [&] { tbb::parallel_for(0, blocks, work); });
     for (int t = 0; t < graph.size(); ++t) {
       if (!inner[t]) remaining.push_back(t);
     }

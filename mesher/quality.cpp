@@ -72,9 +72,7 @@ Corners measure(const std::array<const Vector3*, 4>& p) {
     const auto [sine, cosine] = frame.sine_cosine(j);
     corners.scaled_jacobian = std::min(corners.scaled_jacobian, sine);
     off = std::max(off, std::abs(pi / 2 - corner_angle(sine, cosine)));
-    const double tilt =
-        std::atan2(frame.crosses[j].cross(frame.normal).norm(), frame.crosses[j].dot(frame.normal));
-    corners.warping = std::max(corners.warping, tilt);
+    corners.warping = std::max(corners.warping, angle_between(frame.crosses[j], frame.normal));
   }
   corners.q = std::max(1 - 2 / pi * off, 0.0);
   corners.longest = *std::max_element(frame.lengths.begin(), frame.lengths.end());
