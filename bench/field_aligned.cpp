@@ -8,14 +8,15 @@
 #include <gp_Pln.hxx>
 #include <memory>
 
-#include "geometry/cad_model.hpp"
-#include "geometry/cad_shape.hpp"
-#include "geometry/face_surface.hpp"
-#include "geometry/sizing_field.hpp"
-#include "mesher/edge_sampling.hpp"
-#include "mesher/face_boundary.hpp"
-#include "mesher/face_triangulation.hpp"
-#include "mesher/point_placement.hpp"
+#include "geometry/cad/cad_model.hpp"
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/sizing/sizing_field.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+#include "mesher/edges/edge_sampling.hpp"
+#include "mesher/faces/face_boundary.hpp"
+#include "mesher/faces/face_triangulation.hpp"
+#include "mesher/faces/point_placement.hpp"
+#include "mesher/options.hpp"
 
 namespace quadrille::bench {
 
@@ -59,7 +60,8 @@ TriangleMesh triangulate_along_field(const std::vector<Ring>& rings, const Gradi
     options.sizing.edge_sizes[edge] = grading.boundary_size;
   ExecutionContext context(1);
   const SizingField field = SizingField::build(model, options.sizing, context);
-  const BoundaryNodes nodes = sample_edges(shape, field, options, {1}, SamplingPlan(shape), context);
+  const BoundaryNodes nodes =
+      sample_edges(shape, field, stride(options.strategy), {1}, SamplingPlan(shape), context);
   const FaceSurface surface(shape.faces[0]);
   const FaceBoundary boundary = face_boundary(shape, 0, surface, nodes);
   SizingField::Sampler size_at(field);

@@ -33,15 +33,15 @@
 #include "bench/best_pairing.hpp"
 #include "bench/field_aligned.hpp"
 #include "bench/planar_triangulation.hpp"
-#include "geometry/error.hpp"
-#include "mesher/edge_coloring.hpp"
+#include "geometry/base/error.hpp"
 #include "mesher/io/io.hpp"
-#include "mesher/paper_steps.hpp"
-#include "mesher/quality.hpp"
-#include "mesher/recombine.hpp"
-#include "mesher/renumbering.hpp"
-#include "mesher/triangle_graph.hpp"
-#include "mesher/triangulated_surface.hpp"
+#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/renumbering.hpp"
+#include "mesher/pairing/edge_coloring.hpp"
+#include "mesher/pairing/paper_steps.hpp"
+#include "mesher/pairing/recombine.hpp"
+#include "mesher/pairing/triangle_graph.hpp"
+#include "mesher/quads/triangulated_surface.hpp"
 
 namespace quadrille::bench {
 

@@ -13,8 +13,8 @@
 #include <sstream>
 #include <string>
 
-#include "geometry/error.hpp"
-#include "geometry/trimmed_domain.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/trimmed_domain.hpp"
 
 namespace quadrille::bench {
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "geometry/vector.hpp"
-#include "mesher/mesh_types.hpp"
+#include "geometry/base/vector.hpp"
+#include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille::bench {
 

@@ -14,13 +14,13 @@
 
 #include <fmt/format.h>
 
-#include "geometry/cad_shape.hpp"
-#include "geometry/sizing_field.hpp"
-#include "mesher/assembly.hpp"
-#include "mesher/edge_sampling.hpp"
-#include "mesher/face_mesher.hpp"
+#include "geometry/base/threads.hpp"
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/sizing/sizing_field.hpp"
+#include "mesher/edges/edge_sampling.hpp"
 #include "mesher/quadrille.hpp"
-#include "mesher/threads.hpp"
+#include "mesher/shell/assembly.hpp"
+#include "mesher/shell/face_mesher.hpp"
 
 namespace quadrille {
 
@@ -121,7 +121,7 @@ class Job {
 
   void sample(const SizingField& field) {
     const StageTimer timer(context_, "sample");
-    BoundaryNodes nodes = sample_edges(shape_, field, options_, used_, plan_, context_);
+    BoundaryNodes nodes = sample_edges(shape_, field, stride(options_.strategy), used_, plan_, context_);
     keep_meshes(nodes);
     nodes_ = std::move(nodes);
   }

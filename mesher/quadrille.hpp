@@ -11,15 +11,15 @@
 #include <filesystem>
 #include <string>
 
-#include "geometry/cad_model.hpp"
-#include "geometry/error.hpp"
-#include "geometry/execution_context.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/execution_context.hpp"
+#include "geometry/cad/cad_model.hpp"
 #include "mesher/io/io.hpp"
-#include "mesher/mesh_types.hpp"
+#include "mesher/mesh/mesh_types.hpp"
+#include "mesher/mesh/quality.hpp"
 #include "mesher/options.hpp"
-#include "mesher/quality.hpp"
-#include "mesher/recombine.hpp"
-#include "mesher/validate.hpp"
+#include "mesher/pairing/recombine.hpp"
+#include "mesher/shell/validate.hpp"
 
 namespace quadrille {
 

@@ -12,9 +12,9 @@
 #include <map>
 #include <set>
 
-#include "geometry/cad_shape.hpp"
+#include "geometry/cad/cad_shape.hpp"
 #include "mesher/quadrille.hpp"
-#include "tests/sample_models.hpp"
+#include "tests/support/sample_models.hpp"
 
 namespace quadrille {
 namespace {

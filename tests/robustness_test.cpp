@@ -19,12 +19,12 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "geometry/cad_shape.hpp"
-#include "geometry/seams.hpp"
-#include "mesher/area_check.hpp"
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/cad/seams.hpp"
 #include "mesher/quadrille.hpp"
+#include "mesher/shell/area_check.hpp"
 #include "tests/models/trouble_models.hpp"
-#include "tests/process.hpp"
+#include "tests/support/process.hpp"
 
 namespace quadrille {
 

@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 
 #include "mesher/quadrille.hpp"
-#include "tests/process.hpp"
+#include "tests/support/process.hpp"
 
 namespace quadrille {
 namespace {

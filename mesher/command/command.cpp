@@ -11,7 +11,7 @@
 #include <csignal>
 #include <cstring>
 
-#include "geometry/error.hpp"
+#include "geometry/base/error.hpp"
 #include "mesher/io/atomic_file.hpp"
 
 namespace quadrille::command {

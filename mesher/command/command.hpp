@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "geometry/execution_context.hpp"
+#include "geometry/base/execution_context.hpp"
 
 namespace quadrille::command {
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <optional>
 
-#include "mesher/area_check.hpp"
+#include "geometry/base/threads.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/print_quality.hpp"
+#include "mesher/io/report.hpp"
 #include "mesher/quadrille.hpp"
-#include "mesher/report.hpp"
-#include "mesher/threads.hpp"
+#include "mesher/shell/area_check.hpp"
 
 namespace quadrille::command {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "mesher/quality.hpp"
+#include "mesher/mesh/quality.hpp"
 
 namespace quadrille::command {
 

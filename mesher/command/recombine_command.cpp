@@ -8,10 +8,10 @@
 
 #include "mesher/command/command.hpp"
 #include "mesher/command/print_quality.hpp"
-#include "mesher/improve.hpp"
+#include "mesher/io/report.hpp"
 #include "mesher/quadrille.hpp"
-#include "mesher/report.hpp"
-#include "mesher/triangulated_surface.hpp"
+#include "mesher/quads/improve.hpp"
+#include "mesher/quads/triangulated_surface.hpp"
 
 namespace quadrille::command {
 

@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "geometry/error.hpp"
+#include "geometry/base/error.hpp"
 
 namespace quadrille {
 

@@ -6,12 +6,12 @@
 #include <cctype>
 #include <fstream>
 
-#include "geometry/error.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/threads.hpp"
 #include "mesher/io/atomic_file.hpp"
 #include "mesher/io/modules.hpp"
 #include "mesher/io/readers.hpp"
 #include "mesher/io/writers.hpp"
-#include "mesher/threads.hpp"
 
 namespace quadrille {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "mesher/mesh_types.hpp"
+#include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
 

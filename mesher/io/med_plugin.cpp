@@ -12,7 +12,7 @@ using MPI_Info = void*;
 #include <exception>
 #include <string>
 
-#include "geometry/error.hpp"
+#include "geometry/base/error.hpp"
 #include "mesher/io/module_export.hpp"
 #include "mesher/io/modules.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/error.hpp"
+#include "geometry/base/error.hpp"
 
 namespace quadrille {
 

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "mesher/mesh_types.hpp"
+#include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
 

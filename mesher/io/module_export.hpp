@@ -1,4 +1,4 @@
 #pragma once
 /// How the modules of modules.hpp make their functions visible.
 
-#include "geometry/module_loader.hpp"
+#include "geometry/base/module_loader.hpp"

@@ -1,8 +1,8 @@
 #include "mesher/io/modules.hpp"
 
-#include "geometry/error.hpp"
-#include "geometry/module_loader.hpp"
-#include "mesher/quality.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/module_loader.hpp"
+#include "mesher/mesh/quality.hpp"
 
 namespace quadrille {
 

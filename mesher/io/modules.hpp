@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesher/io/output_mesh.hpp"
-#include "mesher/mesh_types.hpp"
+#include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "geometry/error.hpp"
+#include "geometry/base/error.hpp"
 
 namespace quadrille {
 

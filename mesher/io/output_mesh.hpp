@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/mesh_types.hpp"
+#include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "mesher/mesh_types.hpp"
+#include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "geometry/error.hpp"
+#include "geometry/base/error.hpp"
 
 namespace quadrille {
 

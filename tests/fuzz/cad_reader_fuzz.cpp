@@ -3,9 +3,9 @@
 
 #include <cstdlib>
 
-#include "geometry/cad_model.hpp"
-#include "geometry/error.hpp"
-#include "geometry/execution_context.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/execution_context.hpp"
+#include "geometry/cad/cad_model.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

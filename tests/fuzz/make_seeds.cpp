@@ -13,7 +13,7 @@
 #include <fstream>
 #include <memory>
 
-#include "geometry/cad_shape.hpp"
+#include "geometry/cad/cad_shape.hpp"
 #include "mesher/quadrille.hpp"
 #include "tests/models/trouble_models.hpp"
 

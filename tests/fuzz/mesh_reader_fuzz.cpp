@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "geometry/error.hpp"
+#include "geometry/base/error.hpp"
 #include "mesher/io/readers.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

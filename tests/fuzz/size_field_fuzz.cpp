@@ -1,9 +1,9 @@
 /// Any bytes given as a .vdb size field make a sizing field or one Error, nothing else.
 
-#include "geometry/cad_model.hpp"
-#include "geometry/error.hpp"
-#include "geometry/execution_context.hpp"
-#include "geometry/sizing_field.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/execution_context.hpp"
+#include "geometry/cad/cad_model.hpp"
+#include "geometry/sizing/sizing_field.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

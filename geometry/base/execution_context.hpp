@@ -1,0 +1,150 @@
+#pragma once
+/// Progress, cancellation, thread count and stage times of one piece of long work.
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+
+namespace quadrille {
+
+/// Passed by reference through every stage. Thread-safe. Granularity: stages check for cancellation at least
+/// once a face and once in some milliseconds of work.
+class ExecutionContext {
+ public:
+  /// Called with a stage name and the fraction of the stage done, in [0, 1]; returning false cancels the
+  /// work. Calls are serialised; they come from whichever thread does the work. Where a stage takes long, the
+  /// same is told again: twenty times a second at most (see ask_every()).
+  using Progress = std::function<bool(std::string_view stage, double fraction)>;
+
+  ExecutionContext() = default;
+  /// \param threads number of threads to use; 0 = all cores.
+  explicit ExecutionContext(int threads, Progress progress = {})
+      : threads_(threads), progress_(std::move(progress)) {}
+
+  int threads() const noexcept { return threads_; }
+
+  /// Asks the progress function again at the first check later than this since it was asked last; 0 asks at
+  /// every check.
+  void ask_every(std::chrono::milliseconds interval) noexcept { interval_ = interval.count(); }
+
+  /// Ends the work with an Error (failure) at the first check later than so many seconds from now.
+  void limit_time(double seconds) {
+    limit_seconds_ = seconds;
+    deadline_ =
+        std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                               std::chrono::duration<double>(seconds));
+  }
+
+  void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
+  bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
+
+  /// Throws Error (cancelled) once the work has been cancelled, Error (failure) once its time is over.
+  void check() const {
+    if (progress_) ask_again();
+    if (limit_seconds_ > 0 && std::chrono::steady_clock::now() > deadline_) throw time_is_over();
+    if (cancelled()) throw Error(Error::Kind::cancelled, "", "the work was cancelled");
+  }
+
+  /// Reports progress, then behaves as check().
+  void report(std::string_view stage, double fraction) {
+    if (progress_) {
+      const std::lock_guard lock(mutex_);
+      stage_ = stage;
+      fraction_ = fraction;
+      ask();
+    }
+    check();
+  }
+
+  /// Adds to the wall-clock seconds of a stage.
+  void add_seconds(const std::string& stage, double seconds) {
+    const std::lock_guard lock(mutex_);
+    seconds_[stage] += seconds;
+  }
+  /// Wall-clock seconds by stage so far; for stages run on several threads, the sum over the threads.
+  std::map<std::string, double> seconds() const {
+    const std::lock_guard lock(mutex_);
+    return seconds_;
+  }
+
+ private:
+  static std::int64_t now() {
+    return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::milliseconds(1);
+  }
+
+  /// Needs the lock.
+  void ask() const {
+    asked_.store(now(), std::memory_order_relaxed);
+    if (!progress_(stage_, fraction_)) cancelled_.store(true, std::memory_order_relaxed);
+  }
+
+  void ask_again() const {
+    if (now() - asked_.load(std::memory_order_relaxed) < interval_) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);  // another thread that asks now does it for all
+    if (lock && !stage_.empty()) ask();
+  }
+
+  Error time_is_over() const {
+    return failure("--time-limit",
+                   fmt::format("the time limit of {:g} s is over, and nothing was written", limit_seconds_));
+  }
+
+  int threads_ = 0;
+  Progress progress_;
+  std::int64_t interval_ = 50;  // milliseconds
+  double limit_seconds_ = 0;    // 0 = none
+  std::chrono::steady_clock::time_point deadline_;
+  mutable std::atomic<bool> cancelled_{false};
+  mutable std::atomic<std::int64_t> asked_{0};  // when, in milliseconds
+  mutable std::mutex mutex_;
+  std::string stage_;  // last reported
+  double fraction_ = 0;
+  std::map<std::string, double> seconds_;
+};
+
+/// Checks a context once in so many calls: for loops whose turns are too short for a check in each. Not
+/// thread-safe.
+class SparseCheck {
+ public:
+  explicit SparseCheck(const ExecutionContext& context, int calls = 1024)
+      : context_(context), calls_(calls), left_(calls) {}
+
+  void operator()() {
+    if (--left_ > 0) return;
+    left_ = calls_;
+    context_.check();
+  }
+
+ private:
+  const ExecutionContext& context_;
+  int calls_, left_;
+};
+
+/// Adds its own lifetime to a stage of the context.
+class StageTimer {
+ public:
+  StageTimer(ExecutionContext& context, std::string stage)
+      : context_(context), stage_(std::move(stage)), start_(std::chrono::steady_clock::now()) {}
+  ~StageTimer() {
+    context_.add_seconds(stage_,
+                         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
+  }
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  ExecutionContext& context_;
+  std::string stage_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace quadrille

@@ -1,0 +1,246 @@
+/// Reading CAD files through OpenCASCADE.
+
+#include "geometry/cad/cad_model.hpp"
+
+#include <BRepGProp.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <GProp_GProps.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_PrinterOStream.hxx>
+#include <Standard_Failure.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <streambuf>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/module_loader.hpp"
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/cad/isolated_reading.hpp"
+#include "geometry/cad/readers/exchange_module.hpp"
+#include "geometry/cad/sewing.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// A string as an input stream without a copy.
+class ViewBuffer : public std::streambuf {
+ public:
+  explicit ViewBuffer(std::string_view text) {
+    char* begin = const_cast<char*>(text.data());  // setg asks for char*, reading only
+    setg(begin, begin, begin + text.size());
+  }
+
+ protected:
+  pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
+    char* base = from == std::ios_base::beg ? eback() : from == std::ios_base::cur ? gptr() : egptr();
+    if (base + offset < eback() || base + offset > egptr()) return pos_type(off_type(-1));
+    setg(eback(), base + offset, egptr());
+    return gptr() - eback();
+  }
+  pos_type seekpos(pos_type position, std::ios_base::openmode mode) override {
+    return seekoff(off_type(position), std::ios_base::beg, mode);
+  }
+};
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+/// OpenCASCADE prints its transfer log to standard output otherwise.
+void silence_opencascade() {
+  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
+}
+
+/// \param prefix of the module that reads the format.
+TopoDS_Shape read_exchange(const std::filesystem::path& path, const std::string& prefix) {
+  const Module module(prefix);
+  TopoDS_Shape shape;
+  const std::string problem = module.function<ExchangeReadFunction>("_read")(path.string(), shape);
+  if (!problem.empty()) throw failure(path.string(), problem);
+  return shape;
+}
+
+/// OpenCASCADE prints to standard output when a file does not begin as a BREP does.
+bool begins_as_brep(std::istream& stream) {
+  std::string line;
+  for (int i = 0; i < 5 && std::getline(stream, line); ++i) {
+    if (line.find("CASCADE Topology V") != std::string::npos) {
+      stream.clear();
+      stream.seekg(0);
+      return true;
+    }
+  }
+  return false;
+}
+
+/// While it lives, what OpenCASCADE prints to the standard output goes nowhere.
+class SilentOutput {
+ public:
+  SilentOutput() : before_(std::cout.rdbuf(&nowhere_)) {}
+  ~SilentOutput() { std::cout.rdbuf(before_); }
+  SilentOutput(const SilentOutput&) = delete;
+  SilentOutput& operator=(const SilentOutput&) = delete;
+
+ private:
+  class Nowhere : public std::streambuf {
+    int_type overflow(int_type c) override { return traits_type::not_eof(c); }
+  };
+  Nowhere nowhere_;
+  std::streambuf* before_;
+};
+
+TopoDS_Shape read_brep(std::istream& stream, const std::string& name) {
+  const SilentOutput silent;
+  if (!begins_as_brep(stream)) throw failure(name, fmt::format("{} is not a readable BREP file", name));
+  TopoDS_Shape shape;
+  const BRep_Builder builder;
+  // OpenCASCADE's reader looks for its next word for ever where the text ends too early.
+  stream.exceptions(std::ios::failbit | std::ios::badbit);
+  try {
+    BRepTools::Read(shape, stream, builder);
+  } catch (const std::ios_base::failure&) {
+    throw failure(name, fmt::format("{} is not a readable BREP file: it is cut off or damaged", name));
+  }
+  if (shape.IsNull()) throw failure(name, fmt::format("{} is not a readable BREP file", name));
+  return shape;
+}
+
+/// Millimetres, a light hour: costs of elements are kept in single precision.
+constexpr double largest_diagonal = 1e15;
+
+CadModel build(const TopoDS_Shape& shape, const std::string& name) {
+  if (shape.IsNull()) throw failure(name, fmt::format("{} holds no shape", name));
+  auto result = std::make_shared<CadShape>(shape, name);
+  if (result->faces.empty()) throw failure(name, fmt::format("{} holds no face to mesh", name));
+  if (!(result->diagonal() > 0) || !(result->diagonal() < largest_diagonal)) {
+    throw failure(
+        name, fmt::format("{} holds a shape of no size or an infinite one: the file may be damaged", name));
+  }
+  return CadModel(std::move(result));
+}
+
+/// The reading behind one guard: OpenCASCADE's own exceptions become one sentence.
+template <class Read>
+CadModel guarded(const std::string& name, const ReadOptions& options, Read read) {
+  silence_opencascade();
+  try {
+    if (!options.isolated) return build(read(), name);
+    const auto read_and_check = [&] {
+      const TopoDS_Shape shape = read();
+      build(shape, name);
+      return shape;
+    };
+    return build(read_isolated(name, read_and_check, options.context), name);
+  } catch (const Standard_Failure& problem) {
+    throw failure(name, fmt::format("{} could not be read as CAD ({})", name, problem.GetMessageString()));
+  }
+}
+
+}  // namespace
+
+CadModel CadModel::read(const std::filesystem::path& path, const ReadOptions& options) {
+  const std::string name = path.string();
+  std::error_code code;
+  if (!std::filesystem::exists(path, code)) throw failure(name, fmt::format("{} does not exist", name));
+  if (std::filesystem::is_directory(path, code)) throw failure(name, fmt::format("{} is a folder", name));
+  if (!std::ifstream(path)) throw failure(name, fmt::format("{} cannot be opened for reading", name));
+  const std::string extension = lower_extension(path);
+  if (extension == ".step" || extension == ".stp")
+    return guarded(name, options, [&] { return read_exchange(path, "quadrille_step"); });
+  if (extension == ".iges" || extension == ".igs")
+    return guarded(name, options, [&] { return read_exchange(path, "quadrille_iges"); });
+  if (extension == ".brep" || extension == ".brp") {
+    return guarded(name, options, [&] {
+      std::ifstream stream(path, std::ios::binary);
+      return read_brep(stream, name);
+    });
+  }
+  throw usage_error(name,
+                    fmt::format("{} has an unknown ending: STEP (.step, .stp), IGES (.iges, .igs) and BREP "
+                                "(.brep, .brp) can be read",
+                                name));
+}
+
+CadModel CadModel::from_brep(std::string_view text, const std::string& name, const ReadOptions& options) {
+  return guarded(name, options, [&] {
+    ViewBuffer buffer(text);
+    std::istream stream(&buffer);
+    return read_brep(stream, name);
+  });
+}
+
+CadModel CadModel::sewn(double tolerance) const {
+  const std::string& name = shape_->name;
+  if (!(tolerance > 0) || !(tolerance < diagonal())) {
+    throw usage_error("--sew", fmt::format("the tolerance to sew with must be positive and smaller than the "
+                                           "model ({:.6g}), not {:.6g}",
+                                           diagonal(), tolerance));
+  }
+  try {
+    int joined = 0;
+    auto result = std::make_shared<CadShape>(sew(shape_->shape, tolerance, joined), name);
+    if (result->faces.size() != shape_->faces.size()) {
+      throw failure(
+          name, fmt::format("{} loses faces when it is sewn with a tolerance of {:.6g}: try a smaller one",
+                            name, tolerance));
+    }
+    result->problems.push_back(fmt::format("{} edges were joined to others by sewing", joined));
+    return CadModel(std::move(result));
+  } catch (const Standard_Failure& problem) {
+    throw failure(name, fmt::format("{} cannot be sewn with a tolerance of {:.6g} ({})", name, tolerance,
+                                    problem.GetMessageString()));
+  }
+}
+
+int CadModel::face_count() const {
+  return static_cast<int>(shape_->faces.size());
+}
+int CadModel::edge_count() const {
+  return static_cast<int>(shape_->edges.size());
+}
+int CadModel::vertex_count() const {
+  return static_cast<int>(shape_->vertices.size());
+}
+int CadModel::solid_count() const {
+  return shape_->solids;
+}
+int CadModel::shell_count() const {
+  return shape_->shells;
+}
+double CadModel::diagonal() const {
+  return shape_->diagonal();
+}
+Vector3 CadModel::box_min() const {
+  return shape_->box_min;
+}
+Vector3 CadModel::box_max() const {
+  return shape_->box_max;
+}
+const std::vector<std::string>& CadModel::problems() const {
+  return shape_->problems;
+}
+
+double CadModel::area(const ExecutionContext& context) const {
+  double sum = 0;
+  for (const CadFace& face : shape_->faces) {
+    context.check();
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(face.face, properties, 1e-4);
+    sum += std::abs(properties.Mass());
+  }
+  return sum;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,195 @@
+/// Topology tables of a shape, numbered as FreeCAD does (the order of TopExp::MapShapes).
+
+#include "geometry/cad/cad_shape.hpp"
+
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Copy.hxx>
+#include <BRepTools.hxx>
+#include <BRepTools_WireExplorer.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GCPnts_AbscissaPoint.hxx>
+#include <Precision.hxx>
+#include <ShapeAnalysis_Surface.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Iterator.hxx>
+#include <TopoDS_Wire.hxx>
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "geometry/cad/seams.hpp"
+#include "geometry/cad/shape_completion.hpp"
+
+namespace quadrille {
+
+CadShape::CadShape(const TopoDS_Shape& source, std::string shape_name)
+    : name(std::move(shape_name)), shape(with_parametric_curves(source, problems)) {
+  read_topology();
+  measure();
+}
+
+void CadShape::read_topology() {
+  TopTools_IndexedMapOfShape face_map;
+  TopExp::MapShapes(shape, TopAbs_FACE, face_map);
+  const bool seams_lack = std::any_of(face_map.cbegin(), face_map.cend(), [](const TopoDS_Shape& face) {
+    return lacks_seam(TopoDS::Face(face));
+  });
+  if (seams_lack) {
+    shape = BRepBuilderAPI_Copy(shape, Standard_True).Shape();
+    face_map.Clear();
+    TopExp::MapShapes(shape, TopAbs_FACE, face_map);
+  }
+  TopTools_IndexedMapOfShape edge_map, vertex_map, solid_map, shell_map;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edge_map);
+  TopExp::MapShapes(shape, TopAbs_VERTEX, vertex_map);
+  TopExp::MapShapes(shape, TopAbs_SOLID, solid_map);
+  TopExp::MapShapes(shape, TopAbs_SHELL, shell_map);
+  solids = solid_map.Extent();
+  shells = shell_map.Extent();
+  std::vector<TopoDS_Face> sources;
+  for (int i = 1; i <= face_map.Extent(); ++i) {
+    sources.push_back(with_natural_bounds(TopoDS::Face(face_map(i))));
+    if (!sources.back().IsSame(face_map(i)))
+      problems.push_back(fmt::format("Face{} has no wire: it is bounded where its surface ends", i));
+  }
+  const int own_edges = edge_map.Extent(), own_vertices = vertex_map.Extent();
+  std::vector<EdgePiece> pieces;
+  if (seams_lack) pieces = add_seams(sources, problems);
+  // What is new comes after the model's own edges and vertices, whose numbers stay.
+  TopTools_IndexedMapOfShape used_vertices;
+  for (const TopoDS_Face& face : sources) {
+    TopExp::MapShapes(face, TopAbs_EDGE, edge_map);
+    TopExp::MapShapes(face, TopAbs_VERTEX, vertex_map);
+    if (seams_lack) TopExp::MapShapes(face, TopAbs_VERTEX, used_vertices);
+  }
+
+  vertices.reserve(vertex_map.Extent());
+  for (int i = 1; i <= vertex_map.Extent(); ++i) {
+    const TopoDS_Vertex& vertex = TopoDS::Vertex(vertex_map(i));
+    vertices.push_back(to_vector(BRep_Tool::Pnt(vertex)));
+    vertex_tolerances.push_back(BRep_Tool::Tolerance(vertex));
+  }
+  // Where a new vertex has taken the place of one of the model's own, it is that one.
+  const auto vertex_number = [&](const TopoDS_Vertex& vertex) {
+    const int index = vertex.IsNull() ? 0 : vertex_map.FindIndex(vertex);
+    if (index <= own_vertices || !seams_lack) return index;
+    for (int i = 1; i <= own_vertices; ++i) {
+      if (used_vertices.Contains(vertex_map(i))) continue;
+      const double reach = std::max(vertex_tolerances[i - 1], vertex_tolerances[index - 1]);
+      if ((vertices[i - 1] - vertices[index - 1]).norm() <= reach) return i;
+    }
+    return index;
+  };
+
+  edges.resize(edge_map.Extent());
+  for (int i = 1; i <= edge_map.Extent(); ++i) {
+    CadEdge& edge = edges[i - 1];
+    edge.edge = TopoDS::Edge(edge_map(i).Oriented(TopAbs_FORWARD));
+    edge.degenerate = BRep_Tool::Degenerated(edge.edge);
+    edge.tolerance = BRep_Tool::Tolerance(edge.edge);
+    TopoDS_Vertex first, last;
+    TopExp::Vertices(edge.edge, first, last);
+    edge.first_vertex = vertex_number(first);
+    edge.last_vertex = vertex_number(last);
+    BRep_Tool::Range(edge.edge, edge.first, edge.last);
+    edge.number = i;
+  }
+  for (const EdgePiece& piece : pieces) {
+    const int index = edge_map.FindIndex(piece.piece);
+    if (index > own_edges) edges[index - 1].number = edge_map.FindIndex(piece.whole);
+  }
+
+  faces.resize(face_map.Extent());
+  for (int i = 1; i <= face_map.Extent(); ++i) {
+    read_face(i - 1, sources[i - 1], edge_map, vertex_map);
+  }
+
+  for (CadEdge& edge : edges) {
+    std::sort(edge.faces.begin(), edge.faces.end());
+    if (edge.degenerate || edge.faces.empty()) continue;
+    try {
+      const BRepAdaptor_Curve curve(edge.edge);
+      edge.length = GCPnts_AbscissaPoint::Length(curve, edge.first, edge.last);
+    } catch (const Standard_Failure&) {
+      problems.push_back(fmt::format("Edge{} has no usable curve", &edge - edges.data() + 1));
+    }
+  }
+}
+
+namespace {
+
+/// The edges of a wire, each once a use, in the order of the wire if one can be found.
+std::vector<TopoDS_Edge> ordered_edges(const TopoDS_Wire& wire, const TopoDS_Face& face, bool& ordered) {
+  std::vector<TopoDS_Edge> plain;
+  for (TopoDS_Iterator it(wire); it.More(); it.Next()) {
+    if (it.Value().ShapeType() == TopAbs_EDGE) plain.push_back(TopoDS::Edge(it.Value()));
+  }
+  std::vector<TopoDS_Edge> result;
+  for (BRepTools_WireExplorer it(wire, face); it.More() && result.size() <= plain.size(); it.Next()) {
+    result.push_back(it.Current());
+  }
+  ordered = result.size() == plain.size();
+  return ordered ? result : plain;
+}
+
+/// Where a vertex lies in the parameter plane of a face.
+Vector2 parameters_on(const TopoDS_Face& face, const TopoDS_Vertex& vertex) {
+  ShapeAnalysis_Surface surface(BRep_Tool::Surface(face));
+  const gp_Pnt2d uv = surface.ValueOfUV(BRep_Tool::Pnt(vertex), Precision::Confusion());
+  return {uv.X(), uv.Y()};
+}
+
+}  // namespace
+
+void CadShape::read_face(int index, const TopoDS_Face& source, const TopTools_IndexedMapOfShape& edge_map,
+                         const TopTools_IndexedMapOfShape& vertex_map) {
+  CadFace& face = faces[index];
+  face.reversed = source.Orientation() == TopAbs_REVERSED;
+  face.face = TopoDS::Face(source.Oriented(TopAbs_FORWARD));
+  face.tolerance = BRep_Tool::Tolerance(face.face);
+  BRepTools::UVBounds(face.face, face.u_min, face.u_max, face.v_min, face.v_max);
+  for (TopoDS_Iterator it(face.face); it.More(); it.Next()) {
+    if (it.Value().ShapeType() == TopAbs_VERTEX) {
+      const TopoDS_Vertex& vertex = TopoDS::Vertex(it.Value());
+      face.inner_vertices.push_back({vertex_map.FindIndex(vertex), parameters_on(face.face, vertex)});
+    }
+    if (it.Value().ShapeType() != TopAbs_WIRE) continue;
+    CadWire wire;
+    for (const TopoDS_Edge& edge : ordered_edges(TopoDS::Wire(it.Value()), face.face, wire.ordered)) {
+      Coedge coedge;
+      coedge.edge = edge_map.FindIndex(edge);
+      coedge.source = edge;
+      coedge.internal = edge.Orientation() == TopAbs_INTERNAL || edge.Orientation() == TopAbs_EXTERNAL;
+      coedge.forward = edge.Orientation() != TopAbs_REVERSED;
+      double first = 0, last = 0;
+      coedge.parametric_curve = BRep_Tool::CurveOnSurface(edge, face.face, first, last);
+      if (coedge.parametric_curve.IsNull()) {
+        problems.push_back(fmt::format("Edge{} has no parametric curve on Face{}", coedge.edge, index + 1));
+        continue;
+      }
+      CadEdge& cad_edge = edges[coedge.edge - 1];
+      cad_edge.faces.push_back(index + 1);
+      if (coedge.internal) cad_edge.faces.push_back(index + 1);  // the face lies on both sides
+      wire.coedges.push_back(coedge);
+    }
+    if (!wire.coedges.empty()) face.wires.push_back(std::move(wire));
+  }
+}
+
+void CadShape::measure() {
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, Standard_False);  // AddOptimal takes longer than reading the file
+  if (box.IsVoid()) {
+    box_min = box_max = Vector3::Zero();
+  } else {
+    double x0 = 0, y0 = 0, z0 = 0, x1 = 0, y1 = 0, z1 = 0;
+    box.Get(x0, y0, z0, x1, y1, z1);
+    box_min = {x0, y0, z0};
+    box_max = {x1, y1, z1};
+  }
+}
+
+}  // namespace quadrille

@@ -1,0 +1,100 @@
+#pragma once
+/// The OpenCASCADE side of a CAD model: topology tables and handles. Internal: users see CadModel.
+
+#include <BRepAdaptor_Curve.hxx>
+#include <Geom2d_Curve.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
+#include <string>
+#include <vector>
+
+#include "geometry/base/vector.hpp"
+
+namespace quadrille {
+
+inline Vector3 to_vector(const gp_XYZ& p) {
+  return {p.X(), p.Y(), p.Z()};
+}
+inline Vector3 to_vector(const gp_Pnt& p) {
+  return {p.X(), p.Y(), p.Z()};
+}
+inline Vector3 to_vector(const gp_Vec& p) {
+  return {p.X(), p.Y(), p.Z()};
+}
+
+/// A CAD edge: a curve between two vertices. Numbers start at 1.
+struct CadEdge {
+  TopoDS_Edge edge;      ///< oriented forward: its parameter runs from `first` to `last`
+  int number = 0;        ///< the CAD file's: a piece of an edge that was split has that of the whole
+  int first_vertex = 0;  ///< vertex at the parameter `first`; 0 on an edge without vertices
+  int last_vertex = 0;
+  double first = 0, last = 0;
+  double length = 0;
+  double tolerance = 0;
+  bool degenerate = false;  ///< a single point in space (pole, apex)
+  bool closed() const { return first_vertex == last_vertex; }
+  std::vector<int> faces;  ///< the faces that use it, a seam's face twice, ascending
+};
+
+/// The use of an edge by a face.
+struct Coedge {
+  int edge = 0;
+  bool forward = true;                    ///< the wire runs along the edge's parameter
+  bool internal = false;                  ///< lies inside the face (a crack), both sides belong to the face
+  Handle(Geom2d_Curve) parametric_curve;  ///< same parameter as the edge's curve
+  TopoDS_Edge source;                     ///< as the wire has it
+};
+
+/// Where a coedge lies in the parameter plane at the edge's parameter t.
+inline Vector2 parametric_point(const Coedge& coedge, double t) {
+  const gp_Pnt2d p = coedge.parametric_curve->Value(t);
+  return {p.X(), p.Y()};
+}
+
+struct CadWire {
+  std::vector<Coedge> coedges;  ///< in order: each ends where the next one starts
+  bool ordered = true;          ///< false where no such order was found
+};
+
+/// A vertex inside a face, on none of its edges.
+struct InnerVertex {
+  int vertex = 0;
+  Vector2 uv{0, 0};
+};
+
+struct CadFace {
+  TopoDS_Face face;       ///< oriented forward: its normal is the surface's
+  bool reversed = false;  ///< the model uses the other side
+  std::vector<CadWire> wires;
+  std::vector<InnerVertex> inner_vertices;
+  double u_min = 0, u_max = 0, v_min = 0, v_max = 0;  ///< bounds of the trimmed face in the parameter plane
+  double tolerance = 0;
+};
+
+/// Immutable once built. Indices into the vectors are CAD numbers minus 1.
+class CadShape {
+ public:
+  CadShape(const TopoDS_Shape& shape, std::string name);
+
+  std::string name;
+  std::vector<std::string> problems;  ///< found and mended while reading, one sentence each
+  TopoDS_Shape shape;
+  std::vector<CadFace> faces;
+  std::vector<CadEdge> edges;
+  std::vector<Vector3> vertices;
+  std::vector<double> vertex_tolerances;
+  int solids = 0, shells = 0;
+  Vector3 box_min, box_max;
+
+  double diagonal() const { return (box_max - box_min).norm(); }
+
+ private:
+  void read_topology();
+  void read_face(int index, const TopoDS_Face& face, const TopTools_IndexedMapOfShape& edge_map,
+                 const TopTools_IndexedMapOfShape& vertex_map);
+  void measure();
+};
+
+}  // namespace quadrille

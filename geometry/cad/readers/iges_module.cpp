@@ -1,0 +1,13 @@
+/// The module libquadrille_iges.so: reads IGES.
+
+#include <IGESControl_Reader.hxx>
+
+#include "geometry/cad/readers/exchange_module.hpp"
+
+QUADRILLE_EXPORT const char* quadrille_iges_version() {
+  return QUADRILLE_VERSION;
+}
+
+QUADRILLE_EXPORT std::string quadrille_iges_read(const std::string& path, TopoDS_Shape& shape) {
+  return quadrille::transfer<IGESControl_Reader>(path, "IGES", shape);
+}

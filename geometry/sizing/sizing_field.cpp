@@ -1,0 +1,527 @@
+/// Gradation by Dijkstra's algorithm over the voxels (chamfer distances over 26 neighbours, Borgefors 1986):
+/// a monotone min-update, so that the result is the largest field under the sources with the slope asked for.
+/// Size from curvature: 2 pi R / (elements a circle), as in Gmsh's and Netgen's manuals.
+
+#include "geometry/sizing/sizing_field.hpp"
+
+// The tree alone, without what would load leaves from files later: that needs OpenVDB's library, whose
+// loading takes longer than meshing a small part. Files go through the module of vdb_module.hpp, as plain
+// values.
+#include <openvdb/version.h>
+#undef OPENVDB_USE_DELAYED_LOADING
+#include <openvdb/tree/InternalNode.h>
+#include <openvdb/tree/LeafNode.h>
+#include <openvdb/tree/RootNode.h>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <queue>
+
+#include <fmt/format.h>
+
+#include "geometry/base/module_loader.hpp"
+#include "geometry/base/trimmed_domain.hpp"
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/cad/isolated_reading.hpp"
+#include "geometry/sizing/vdb_module.hpp"
+#include "geometry/surfaces/edge_curve.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+
+namespace quadrille {
+
+namespace {
+
+using openvdb::Coord;
+using Leaf = openvdb::tree::LeafNode<float, 3>;
+/// The nodes of OpenVDB's FloatTree.
+using Root = openvdb::tree::RootNode<openvdb::tree::InternalNode<openvdb::tree::InternalNode<Leaf, 4>, 5>>;
+
+/// A level's grid covers sizes up to this many of its voxels.
+constexpr double coverage = 1.3;
+constexpr int max_levels = 16;
+
+/// Reads and writes voxels, remembering the leaf it was in.
+class Accessor {
+ public:
+  explicit Accessor(Root& root) : root_(&root) {}
+
+  float value(const Coord& c) {
+    enter(c);
+    return leaf_ ? leaf_->getValue(c) : root_->background();
+  }
+  /// \return whether the voxel is active.
+  bool probe(const Coord& c, float& value) {
+    enter(c);
+    if (leaf_) return leaf_->probeValue(c, value);
+    value = root_->background();
+    return false;
+  }
+  void set(const Coord& c, float value) {
+    enter(c);
+    if (!leaf_) leaf_ = root_->touchLeaf(c);
+    leaf_->setValueOn(c, value);
+  }
+
+ private:
+  void enter(const Coord& c) {
+    const Coord origin = c & ~(Leaf::DIM - 1);
+    if (known_ && origin == origin_) return;
+    known_ = true;
+    origin_ = origin;
+    leaf_ = root_->probeLeaf(c);
+  }
+
+  Root* root_;
+  Leaf* leaf_ = nullptr;
+  Coord origin_;
+  bool known_ = false;
+};
+
+template <class Visit>
+void for_each_voxel(Root& root, Visit&& visit) {
+  std::vector<Leaf*> leaves;
+  root.getNodes(leaves);
+  for (Leaf* leaf : leaves) {
+    for (auto it = leaf->cbeginValueOn(); it; ++it) visit(it.getCoord(), *it);
+  }
+}
+
+const Module& vdb_module() {
+  static const Module module("quadrille_vdb");
+  return module;
+}
+
+}  // namespace
+
+class SizingField::Impl {
+ public:
+  double size_max = 0, size_min = 0, growth = 0;
+  std::vector<std::unique_ptr<Root>> levels;  // voxel size_max / 2^k; null where no size is as small
+
+  double voxel(int level) const { return std::ldexp(size_max, -level); }
+  int level_of(double size) const {
+    return std::clamp(static_cast<int>(std::floor(std::log2(size_max / size))), 0, max_levels - 1);
+  }
+  Root& grid(int level) {
+    if (static_cast<int>(levels.size()) <= level) levels.resize(level + 1);
+    if (!levels[level]) levels[level] = std::make_unique<Root>(static_cast<float>(size_max));
+    return *levels[level];
+  }
+};
+
+namespace {
+
+/// Collects the sources of a model into the grids of a field.
+class Builder {
+ public:
+  Builder(const CadModel& model, const SizingOptions& options, SizingField::Impl& field,
+          ExecutionContext& context)
+      : shape_(model.shape()), options_(options), field_(field), context_(context) {
+    if (options.size_field.empty()) return;
+    const std::string path = options.size_field.string();
+    const auto open = [&] {
+      const std::string problem = vdb_module().function<VdbOpenFunction>("_open")(path, external_);
+      if (!problem.empty()) throw failure(path, problem);
+      return TopoDS_Shape();
+    };
+    // OpenVDB believes whatever lengths a damaged file gives: tried apart, where it may crash or want no end
+    // of memory.
+    constexpr std::size_t room = std::size_t{1} << 30, room_each_byte = 20;
+    std::error_code unknown;
+    const std::uintmax_t bytes = std::filesystem::file_size(options.size_field, unknown);
+    read_isolated(path, open, &context, room + (unknown ? 0 : room_each_byte * bytes));
+    open();
+  }
+
+  void run() {
+    Sources sources(*this);
+    for (std::size_t i = 0; i < shape_.edges.size(); ++i) add_edge(static_cast<int>(i), sources);
+    std::atomic<int> done{0};
+    const int faces = static_cast<int>(shape_.faces.size());
+    oneapi::tbb::parallel_for(0, faces, [&](int face) {
+      Sources sources_here(*this);
+      add_face(face, sources_here);
+      sources_here.pass_on();
+      context_.report("size", static_cast<double>(done.fetch_add(1, std::memory_order_relaxed) + 1) / faces);
+    });
+    for (const auto& [vertex, size] : options_.vertex_sizes) sources.add(shape_.vertices[vertex - 1], size);
+    sources.pass_on();
+    for (int level = static_cast<int>(field_.levels.size()) - 1; level >= 0; --level) grade(level);
+  }
+
+ private:
+  /// Sizes that one thread has found. What is passed on is the least at each voxel, whoever comes first.
+  class Sources {
+   public:
+    explicit Sources(Builder& builder) : builder_(builder), check_(builder.context_, 256) {}
+
+    /// To be called at each step of a search.
+    void check() { check_(); }
+
+    void add(const Vector3& p, double size) {
+      if (!(size < builder_.field_.size_max)) return;
+      sources_.emplace_back(p, size);
+      constexpr std::size_t most = 4096;
+      if (sources_.size() >= most) pass_on();
+    }
+
+    void pass_on() {
+      const std::lock_guard lock(builder_.mutex_);
+      for (const auto& [p, size] : sources_) builder_.add_source(p, size);
+      sources_.clear();
+    }
+
+   private:
+    Builder& builder_;
+    SparseCheck check_;
+    std::vector<std::pair<Vector3, double>> sources_;
+  };
+
+  double size_of_curvature(double curvature) const {
+    if (options_.elements_per_circle <= 0 || curvature <= 0) return field_.size_max;
+    return std::max(field_.size_min, 2 * M_PI / (curvature * options_.elements_per_circle));
+  }
+
+  double external_size(const Vector3& p) const {
+    return external_ ? std::max(external_(p), field_.size_min) : field_.size_max;
+  }
+
+  void add_source(const Vector3& p, double size) {
+    const int level = field_.level_of(size);
+    if (level != last_level_) {
+      accessor_.emplace(field_.grid(level));
+      last_level_ = level;
+    }
+    const double scale = 1 / field_.voxel(level);
+    const Coord base = Coord::floor(openvdb::Vec3d(p.x() * scale, p.y() * scale, p.z() * scale));
+    const auto value = static_cast<float>(size);
+    for (int k = 0; k < 8; ++k) {
+      const Coord c = base.offsetBy(k & 1, k >> 1 & 1, k >> 2);
+      if (value < accessor_->value(c)) accessor_->set(c, value);
+    }
+  }
+
+  void add_edge(int index, Sources& sources) const {
+    sources.check();
+    const CadEdge& edge = shape_.edges[index];
+    if (edge.degenerate || edge.faces.empty() || edge.length <= 0) return;
+    const EdgeCurve curve(edge);
+    double cap = field_.size_max;
+    if (const auto it = options_.edge_sizes.find(edge.number); it != options_.edge_sizes.end())
+      cap = it->second;
+    // A short edge is one element: its surroundings are refined towards it.
+    cap = std::min(cap, std::max(edge.length, field_.size_min));
+    if (curve.straight()) {
+      if (cap < field_.size_max || external_) sample_edge(curve, edge, cap, false, sources);
+      return;
+    }
+    if (curve.circular()) cap = std::min(cap, size_of_curvature(curve.curvature(edge.first)));
+    sample_edge(curve, edge, cap, !curve.circular(), sources);
+  }
+
+  void sample_edge(const EdgeCurve& curve, const CadEdge& edge, double cap, bool with_curvature,
+                   Sources& sources) const {
+    const int intervals = std::max({4, with_curvature ? 3 * curve.spans() : 1,
+                                    static_cast<int>(std::ceil(edge.length / field_.size_max))});
+    const auto size_at = [&](double t, const Vector3& p) {
+      const double size = std::min(cap, external_size(p));
+      return with_curvature ? std::min(size, size_of_curvature(curve.curvature(t))) : size;
+    };
+    double t0 = edge.first;
+    Vector3 p0 = curve.point(t0);
+    double s0 = size_at(t0, p0);
+    sources.add(p0, s0);
+    for (int i = 1; i <= intervals; ++i) {
+      const double t1 = edge.first + (edge.last - edge.first) * i / intervals;
+      const Vector3 p1 = curve.point(t1);
+      const double s1 = size_at(t1, p1);
+      split_edge(curve, size_at, t0, t1, p0, p1, s0, s1, 0, sources);
+      sources.add(p1, s1);
+      t0 = t1;
+      p0 = p1;
+      s0 = s1;
+    }
+  }
+
+  template <class SizeAt>
+  void split_edge(const EdgeCurve& curve, const SizeAt& size_at, double t0, double t1, const Vector3& p0,
+                  const Vector3& p1, double s0, double s1, int depth, Sources& sources) const {
+    sources.check();
+    if ((p1 - p0).norm() <= std::min(s0, s1) || depth > 10) return;
+    const double t = 0.5 * (t0 + t1);
+    const Vector3 p = curve.point(t);
+    const double s = size_at(t, p);
+    if (std::min({s0, s, s1}) >= field_.size_max) return;
+    sources.add(p, s);
+    split_edge(curve, size_at, t0, t, p0, p, s0, s, depth + 1, sources);
+    split_edge(curve, size_at, t, t1, p, p1, s, s1, depth + 1, sources);
+  }
+
+  void add_face(int index, Sources& sources) const {
+    const CadFace& face = shape_.faces[index];
+    const FaceSurface surface(face);
+    double cap = field_.size_max;
+    if (const auto it = options_.face_sizes.find(index + 1); it != options_.face_sizes.end())
+      cap = it->second;
+    const bool curved = !surface.planar() && options_.elements_per_circle > 0;
+    if (!curved && cap >= field_.size_max && !external_) return;
+    const TrimmedDomain domain = coarse_domain(face);
+    const auto size_at = [&](const Vector2& uv, const Vector3& p) {
+      const double size = std::min(cap, external_size(p));
+      return curved ? std::min(size, size_of_curvature(surface.max_curvature(uv))) : size;
+    };
+    const Vector2 low(face.u_min, face.v_min), extent(face.u_max - face.u_min, face.v_max - face.v_min);
+    const Vector2 lengths = extent.cwiseProduct(surface.mean_scale());
+    const int nu = std::clamp(static_cast<int>(std::ceil(lengths.x() / field_.size_max)), 4, 400);
+    const int nv = std::clamp(static_cast<int>(std::ceil(lengths.y() / field_.size_max)), 4, 400);
+    const Vector2 cell(extent.x() / nu, extent.y() / nv);
+    for (int j = 0; j < nv; ++j) {
+      for (int i = 0; i < nu; ++i) {
+        split_cell(surface, domain, size_at, low + Vector2((i + 0.5) * cell.x(), (j + 0.5) * cell.y()), cell,
+                   0, sources);
+      }
+    }
+  }
+
+  /// Samples the middle of a cell of the parameter plane, and its parts where the size is below the cell's.
+  template <class SizeAt>
+  void split_cell(const FaceSurface& surface, const TrimmedDomain& domain, const SizeAt& size_at,
+                  const Vector2& middle, const Vector2& cell, int depth, Sources& sources) const {
+    sources.check();
+    const SurfacePoint at = surface.evaluate(middle);
+    const double size = size_at(middle, at.point);
+    const double du = cell.x() * at.du.norm(), dv = cell.y() * at.dv.norm();
+    if (size < field_.size_max && domain.inside(middle)) sources.add(at.point, size);
+    const bool split_u = du > 1.5 * size, split_v = dv > 1.5 * size;
+    if ((!split_u && !split_v) || depth > 9 || size >= field_.size_max) return;
+    const int nu = split_u ? 2 : 1, nv = split_v ? 2 : 1;
+    const Vector2 part(cell.x() / nu, cell.y() / nv);
+    for (int j = 0; j < nv; ++j) {
+      for (int i = 0; i < nu; ++i) {
+        const Vector2 offset((i + 0.5) * part.x() - 0.5 * cell.x(), (j + 0.5) * part.y() - 0.5 * cell.y());
+        split_cell(surface, domain, size_at, middle + offset, part, depth + 1, sources);
+      }
+    }
+  }
+
+  TrimmedDomain coarse_domain(const CadFace& face) const {
+    constexpr int intervals = 16;
+    std::vector<TrimmedDomain::Segment> segments;
+    for (const CadWire& wire : face.wires) {
+      for (const Coedge& coedge : wire.coedges) {
+        if (coedge.internal) continue;
+        const CadEdge& edge = shape_.edges[coedge.edge - 1];
+        Vector2 from = parametric_point(coedge, edge.first);
+        for (int i = 1; i <= intervals; ++i) {
+          const Vector2 to = parametric_point(coedge, edge.first + (edge.last - edge.first) * i / intervals);
+          segments.push_back({from, to});
+          from = to;
+        }
+      }
+    }
+    return TrimmedDomain(std::move(segments));
+  }
+
+  /// Lets a level's values grow outward up to its coverage, after taking over those of the finer level.
+  void grade(int level) {
+    SparseCheck check(context_);
+    const int finest = static_cast<int>(field_.levels.size()) - 1;
+    const bool finer = level < finest && field_.levels[level + 1];
+    if (!field_.levels[level] && !finer) return;
+    Root& grid = field_.grid(level);
+    Accessor accessor(grid);
+    if (finer) {
+      for_each_voxel(*field_.levels[level + 1], [&](const Coord& c, float value) {
+        check();
+        if ((c.x() | c.y() | c.z()) & 1) return;
+        const Coord half(c.x() >> 1, c.y() >> 1, c.z() >> 1);
+        if (value < accessor.value(half)) accessor.set(half, value);
+      });
+    }
+    struct Item {
+      float value;
+      Coord coord;
+      bool operator<(const Item& other) const {
+        return value != other.value ? value > other.value : other.coord < coord;
+      }
+    };
+    std::vector<Item> items;
+    for_each_voxel(grid, [&](const Coord& c, float value) {
+      check();
+      items.push_back({value, c});
+    });
+    std::priority_queue<Item> queue(std::less<Item>(), std::move(items));
+    const double voxel = field_.voxel(level);
+    const auto limit = static_cast<float>(std::min(field_.size_max, coverage * voxel));
+    std::array<float, 4> step{};
+    for (int k = 1; k < 4; ++k) step[k] = static_cast<float>(field_.growth * voxel * std::sqrt(k));
+    while (!queue.empty()) {
+      const Item item = queue.top();
+      queue.pop();
+      check();
+      if (item.value + step[1] >= limit) break;
+      if (item.value > accessor.value(item.coord)) continue;
+      for (int k = 0; k < 27; ++k) {
+        const int dx = k % 3 - 1, dy = k / 3 % 3 - 1, dz = k / 9 - 1;
+        const int steps = std::abs(dx) + std::abs(dy) + std::abs(dz);
+        if (steps == 0) continue;
+        const float value = item.value + step[steps];
+        const Coord c = item.coord.offsetBy(dx, dy, dz);
+        if (value < limit && value < accessor.value(c)) {
+          accessor.set(c, value);
+          queue.push({value, c});
+        }
+      }
+    }
+  }
+
+  const CadShape& shape_;
+  const SizingOptions& options_;
+  SizingField::Impl& field_;
+  ExecutionContext& context_;
+  std::mutex mutex_;  // of what follows but external_, and of the grids
+  std::function<double(const Vector3&)> external_;
+  std::optional<Accessor> accessor_;
+  int last_level_ = -1;
+};
+
+void check_size(double size, const std::string& name) {
+  if (!(size > 0) || !std::isfinite(size)) {
+    throw usage_error(name, fmt::format("the size on {} must be a positive number, not {}", name, size));
+  }
+}
+
+void check_options(const CadModel& model, const SizingOptions& options) {
+  if (options.size != 0) check_size(options.size, "--size");
+  if (options.size > model.diagonal()) {
+    throw usage_error("--size", fmt::format("the size {} is larger than the model, whose diagonal is {:.6g}",
+                                            options.size, model.diagonal()));
+  }
+  if (options.size_min < 0 || !std::isfinite(options.size_min)) {
+    throw usage_error("--size-min",
+                      fmt::format("the smallest size must be positive, not {}", options.size_min));
+  }
+  if (!(options.growth > 0) || !std::isfinite(options.growth)) {
+    throw usage_error("--growth", fmt::format("the growth must be positive, not {}", options.growth));
+  }
+  if (!(options.elements_per_circle >= 0) || !std::isfinite(options.elements_per_circle)) {
+    throw usage_error("--curvature", fmt::format("the elements per 2 pi must be 0 or more, not {}",
+                                                 options.elements_per_circle));
+  }
+  const auto check_all = [](const std::map<int, double>& sizes, int count, const std::string& kind) {
+    for (const auto& [number, size] : sizes) {
+      const std::string name = kind + std::to_string(number);
+      if (number < 1 || number > count) {
+        throw usage_error(
+            name, fmt::format("{} does not exist: the model has {}1 to {}{}", name, kind, kind, count));
+      }
+      check_size(size, name);
+    }
+  };
+  check_all(options.face_sizes, model.face_count(), "Face");
+  check_all(options.edge_sizes, model.edge_count(), "Edge");
+  check_all(options.vertex_sizes, model.vertex_count(), "Vertex");
+}
+
+double smallest(const SizingOptions& options) {
+  double result = std::numeric_limits<double>::infinity();
+  for (const auto* sizes : {&options.face_sizes, &options.edge_sizes, &options.vertex_sizes}) {
+    for (const auto& [number, size] : *sizes) result = std::min(result, size);
+  }
+  return result;
+}
+
+}  // namespace
+
+SizingField SizingField::build(const CadModel& model, const SizingOptions& options,
+                               ExecutionContext& context) {
+  check_options(model, options);
+  auto impl = std::make_shared<Impl>();
+  impl->growth = options.growth;
+  impl->size_max = options.size > 0 ? options.size : model.diagonal() / options.elements_per_diagonal;
+  impl->size_min = options.size_min > 0 ? std::min(options.size_min, impl->size_max) : impl->size_max / 8;
+  impl->size_min = std::min(impl->size_min, smallest(options));
+  Builder(model, options, *impl, context).run();
+  return SizingField(std::move(impl));
+}
+
+double SizingField::size_max() const {
+  return impl_->size_max;
+}
+double SizingField::size_min() const {
+  return impl_->size_min;
+}
+
+void SizingField::write(const std::filesystem::path& path) const {
+  VdbField field{{}, impl_->size_max, impl_->growth};
+  for (std::size_t k = 0; k < std::max<std::size_t>(impl_->levels.size(), 1); ++k) {
+    Root* root = k < impl_->levels.size() ? impl_->levels[k].get() : nullptr;
+    if (!root && k > 0) continue;
+    VdbLevel& level = field.levels.emplace_back();
+    level.name = k == 0 ? "size" : fmt::format("size_{}", k);
+    level.voxel = impl_->voxel(static_cast<int>(k));
+    if (!root) continue;
+    for_each_voxel(*root, [&](const Coord& c, float value) {
+      level.coordinates.push_back({c.x(), c.y(), c.z()});
+      level.values.push_back(value);
+    });
+  }
+  const std::filesystem::path temporary = path.string() + ".part";
+  std::error_code code;
+  std::string problem = vdb_module().function<VdbWriteFunction>("_write")(temporary.string(), field);
+  if (problem.empty()) {
+    std::filesystem::rename(temporary, path, code);
+    if (code) problem = fmt::format("{} cannot be written ({})", path.string(), code.message());
+  }
+  if (problem.empty()) return;
+  std::filesystem::remove(temporary, code);
+  throw failure(path.string(), problem);
+}
+
+struct SizingField::Sampler::Accessors {
+  struct Level {
+    double scale, limit;
+    Accessor accessor;
+  };
+  std::vector<Level> levels;  // finest first
+};
+
+SizingField::Sampler::Sampler(const SizingField& field)
+    : accessors_(std::make_unique<Accessors>()), impl_(*field.impl_) {
+  for (int level = static_cast<int>(impl_.levels.size()) - 1; level >= 0; --level) {
+    if (!impl_.levels[level]) continue;
+    const double voxel = impl_.voxel(level);
+    accessors_->levels.push_back({1 / voxel, voxel, Accessor(*impl_.levels[level])});
+  }
+}
+
+SizingField::Sampler::~Sampler() = default;
+
+double SizingField::Sampler::operator()(const Vector3& point) {
+  for (auto& [scale, limit, accessor] : accessors_->levels) {
+    const Vector3 index = point * scale;
+    const Coord base = Coord::floor(openvdb::Vec3d(index.x(), index.y(), index.z()));
+    const Vector3 t(index.x() - base.x(), index.y() - base.y(), index.z() - base.z());
+    double value = 0;
+    int active = 0;
+    for (int k = 0; k < 8; ++k) {
+      const double weight =
+          ((k & 1) ? t.x() : 1 - t.x()) * ((k >> 1 & 1) ? t.y() : 1 - t.y()) * ((k >> 2) ? t.z() : 1 - t.z());
+      float corner = 0;
+      active += accessor.probe(base.offsetBy(k & 1, k >> 1 & 1, k >> 2), corner);
+      value += weight * corner;
+    }
+    const bool coarsest = scale * impl_.size_max < 1.5;
+    if (coarsest || (active == 8 && value <= limit)) return std::clamp(value, impl_.size_min, impl_.size_max);
+  }
+  return impl_.size_max;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,55 @@
+#pragma once
+/// The size wanted at each point of space, in OpenVDB grids.
+
+#include <filesystem>
+#include <memory>
+
+#include "geometry/base/execution_context.hpp"
+#include "geometry/base/vector.hpp"
+#include "geometry/cad/cad_model.hpp"
+#include "geometry/sizing/sizing_options.hpp"
+
+namespace quadrille {
+
+/// h(x): the largest size that respects every source and the gradation |grad h| <= growth.
+///
+/// Sources (global size, curvature of faces and edges, lengths of short edges, sizes asked for on faces,
+/// edges and vertices, an external grid) are sampled on the model. Values live in a cascade of OpenVDB float
+/// grids with voxels of size_max / 2^k: each is active only where the size is about its voxel, so that small
+/// features cost what they need and no more. Gradation goes through space, not along the surface: thin walls
+/// see each other's sizes. Immutable and thread-safe; look-ups go through one Sampler a thread.
+class SizingField {
+ public:
+  /// Throws Error (usage) for sizes that make no sense, (failure) for an unreadable external grid.
+  static SizingField build(const CadModel& model, const SizingOptions& options, ExecutionContext& context);
+
+  /// Writes the grids as .vdb: `size` (coarsest), `size_1`, ... with metadata unit, growth, size_max,
+  /// version.
+  void write(const std::filesystem::path& path) const;
+
+  double size_max() const;
+  double size_min() const;
+
+  class Impl;
+
+  /// Looks sizes up; holds the accessors.
+  class Sampler {
+   public:
+    explicit Sampler(const SizingField& field);
+    ~Sampler();
+    Sampler(const Sampler&) = delete;
+    Sampler& operator=(const Sampler&) = delete;
+    double operator()(const Vector3& point);
+
+   private:
+    struct Accessors;
+    std::unique_ptr<Accessors> accessors_;
+    const Impl& impl_;
+  };
+
+ private:
+  explicit SizingField(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace quadrille

@@ -1,0 +1,34 @@
+#pragma once
+/// What the module libquadrille_vdb.so does: .vdb files. The sizing field itself needs OpenVDB's headers
+/// alone; loading its library takes longer than meshing a small part.
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "geometry/base/vector.hpp"
+
+namespace quadrille {
+
+/// One level of a sizing field as plain values.
+struct VdbLevel {
+  std::string name;
+  double voxel = 0;                             ///< edge length of a voxel
+  std::vector<std::array<int, 3>> coordinates;  ///< of the active voxels
+  std::vector<float> values;                    ///< as many
+};
+
+struct VdbField {
+  std::vector<VdbLevel> levels;
+  double size_max = 0;
+  double growth = 0;
+};
+
+/// Both return an empty string, or the sentence that says what went wrong.
+using VdbWriteFunction = std::string(const std::string& path, const VdbField& field);
+/// \param size_at gives the least size at a point that the file's float grids ask for, infinite where they
+/// are silent.
+using VdbOpenFunction = std::string(const std::string& path, std::function<double(const Vector3&)>& size_at);
+
+}  // namespace quadrille

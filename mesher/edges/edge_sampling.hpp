@@ -1,0 +1,57 @@
+#pragma once
+/// Nodes on CAD edges: each edge once, by the sizing field, with counts that make every face even. Internal.
+
+#include <vector>
+
+#include "geometry/base/execution_context.hpp"
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/sizing/sizing_field.hpp"
+#include "mesher/edges/tiny_features.hpp"
+
+namespace quadrille {
+
+/// The nodes of the model's vertices and edges, shared by all faces.
+struct BoundaryNodes {
+  struct Edge {
+    std::vector<double> parameters;  ///< of each node, ascending, both ends included; empty = edge not used
+    std::vector<int> nodes;          ///< indices into `points`; the ends are the vertices' nodes
+    bool borrowed = false;           ///< the nodes are those of another edge (TinyFeatures)
+    int segments() const { return static_cast<int>(nodes.size()) - 1; }
+  };
+  std::vector<Vector3> points;
+  std::vector<int> vertex_nodes;  ///< CAD vertex (from 1) minus 1 -> node, -1 = not used
+  std::vector<Edge> edges;        ///< CAD edge (from 1) minus 1
+  /// Segments of the final mesh to one segment of the mesh that is recombined: 2 with Strategy::subdivide,
+  /// else 1.
+  int stride = 1;
+  std::vector<int> odd_faces;  ///< faces whose count could not be made even; empty in all but odd topologies
+};
+
+/// How edges are sampled where faces failed with what the sizing field asks for.
+struct SamplingPlan {
+  explicit SamplingPlan(const CadShape& shape);  ///< as the field asks
+  std::vector<int> refine;                       ///< (edges) factor on the number of segments
+  std::vector<char> bare;  ///< (edges) 1 = by length alone, though the curve turns: it may have loops in it
+  TinyFeatures tiny;
+};
+
+/// Samples the edges of the faces used by true arc length and the sizing field.
+/// \param stride BoundaryNodes::stride, which see.
+/// \param used (faces) 1 = the face is meshed; none that plan.tiny merges.
+BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int stride,
+                           const std::vector<char>& used, const SamplingPlan& plan,
+                           ExecutionContext& context);
+
+/// A model's edges for the parity problem: which faces change parity with the edge's count.
+struct ParityEdge {
+  std::vector<int> faces;  ///< faces (from 0) that use the edge an odd number of times
+  double cost = 0;         ///< of changing the edge's count by one; infinite = must not change
+};
+
+/// Chooses a cheap set of edges to change by one so that every odd face becomes even (a T-join; by shortest
+/// paths, and by elimination over GF(2) where edges join three faces and more). Faces that cannot be made
+/// even are returned in `left_odd`. \return (edge count) 1 = change the edge.
+std::vector<char> make_even(const std::vector<ParityEdge>& edges, std::vector<char> odd,
+                            std::vector<int>& left_odd);
+
+}  // namespace quadrille

@@ -1,0 +1,143 @@
+#include "mesher/edges/tiny_features.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "geometry/surfaces/edge_curve.hpp"
+
+namespace quadrille {
+
+namespace {
+
+class Finder {
+ public:
+  Finder(const CadShape& shape, const std::vector<char>& used, double length)
+      : shape_(shape), used_(used), length_(length) {
+    tiny_.vertices.resize(shape.vertices.size());
+    std::iota(tiny_.vertices.begin(), tiny_.vertices.end(), 0);
+    tiny_.edges.resize(shape.edges.size());
+    std::iota(tiny_.edges.begin(), tiny_.edges.end(), 0);
+    tiny_.collapsed_edges.assign(shape.edges.size(), 0);
+    tiny_.reversed_edges.assign(shape.edges.size(), 0);
+    tiny_.merged_faces.assign(shape.faces.size(), 0);
+  }
+
+  TinyFeatures run(const std::vector<Collapse>& collapse) {
+    for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
+      const CadEdge& edge = shape_.edges[i];
+      if (edge.degenerate || edge.first_vertex == 0 || edge.last_vertex == 0 || !(edge.length > 0)) continue;
+      const double limit = std::max(length_, collapse[i] == Collapse::below_tolerance ? tolerance(edge) : 0);
+      if (edge.length < limit || collapse[i] == Collapse::always) make_point(static_cast<int>(i));
+    }
+    for (std::size_t face = 0; face < shape_.faces.size(); ++face) {
+      if (used_[face]) merge(static_cast<int>(face));
+    }
+    resolve_edges();
+    return std::move(tiny_);
+  }
+
+ private:
+  /// Within which the two ends are one place. Translators give vertices tolerances as large as a face: no
+  /// more than a little of the model is believed.
+  double tolerance(const CadEdge& edge) const {
+    constexpr double largest = 1e-4;
+    const auto& vertices = shape_.vertex_tolerances;
+    return std::min({std::max(edge.tolerance, vertices[edge.first_vertex - 1]),
+                     std::max(edge.tolerance, vertices[edge.last_vertex - 1]), largest * shape_.diagonal()});
+  }
+
+  void make_point(int index) {
+    const CadEdge& edge = shape_.edges[index];
+    tiny_.collapsed_edges[index] = 1;
+    const int a = tiny_.vertices[edge.first_vertex - 1], b = tiny_.vertices[edge.last_vertex - 1];
+    std::replace(tiny_.vertices.begin(), tiny_.vertices.end(), std::max(a, b), std::min(a, b));
+  }
+
+  /// A face that is left with no edge, or with two that lie close together, goes.
+  void merge(int face) {
+    std::vector<int> left;
+    bool any_collapsed = false;
+    for (const CadWire& wire : shape_.faces[face].wires) {
+      for (const Coedge& coedge : wire.coedges) {
+        const int edge = coedge.edge - 1;
+        any_collapsed |= tiny_.collapsed_edges[edge] != 0;
+        if (!tiny_.collapsed_edges[edge] && !shape_.edges[edge].degenerate) left.push_back(edge);
+      }
+    }
+    // Poles and seams without edges are not tiny.
+    if (left.empty() && any_collapsed) tiny_.merged_faces[face] = 1;
+    if (length_ <= 0 || left.size() != 2 || left[0] == left[1]) return;
+    const CadEdge &a = shape_.edges[left[0]], &b = shape_.edges[left[1]];
+    const bool along = tiny_.end(a.first_vertex) == tiny_.end(b.first_vertex) &&
+                       tiny_.end(a.last_vertex) == tiny_.end(b.last_vertex);
+    const bool against = tiny_.end(a.first_vertex) == tiny_.end(b.last_vertex) &&
+                         tiny_.end(a.last_vertex) == tiny_.end(b.first_vertex);
+    if (!(along || against) || !close(a, b)) return;
+    // Of two closed edges either sense would fit the ends: the nearer points tell.
+    const bool reversed = along && against ? !runs_along(a, b) : against;
+    tiny_.merged_faces[face] = 1;
+    tiny_.edges[left[1]] = left[0];
+    tiny_.reversed_edges[left[1]] = reversed;
+  }
+
+  static Vector3 at(const CadEdge& edge, double t) {
+    return EdgeCurve(edge).point(edge.first + t * (edge.last - edge.first));
+  }
+
+  static bool runs_along(const CadEdge& a, const CadEdge& b) {
+    const Vector3 p = at(a, 0.25);
+    return (p - at(b, 0.25)).norm() < (p - at(b, 0.75)).norm();
+  }
+
+  /// Whether each curve stays within the length of the other, at samples.
+  bool close(const CadEdge& a, const CadEdge& b) const {
+    constexpr int samples = 16, dense = 256;
+    std::vector<Vector3> points;
+    for (int i = 0; i <= dense; ++i) points.push_back(at(b, static_cast<double>(i) / dense));
+    for (int i = 1; i < samples; ++i) {
+      const Vector3 p = at(a, static_cast<double>(i) / samples);
+      double nearest = (p - points[0]).norm();
+      for (int k = 0; k < dense; ++k) {
+        const Vector3 side = points[k + 1] - points[k];
+        const double square = side.squaredNorm();
+        const double t = square > 0 ? std::clamp((p - points[k]).dot(side) / square, 0.0, 1.0) : 0;
+        nearest = std::min(nearest, (p - points[k] - t * side).norm());
+      }
+      if (!(nearest < length_)) return false;
+    }
+    return true;
+  }
+
+  /// Chains of merged edges end in one that keeps its nodes. Each merge removes a face, so a ring of them
+  /// would be a closed fan of slivers: the one that closes it is kept apart.
+  void resolve_edges() {
+    for (std::size_t i = 0; i < tiny_.edges.size(); ++i) {
+      int end = static_cast<int>(i);
+      char reversed = 0;
+      for (std::size_t step = 0; tiny_.edges[end] != end && step < tiny_.edges.size(); ++step) {
+        reversed ^= tiny_.reversed_edges[end];
+        end = tiny_.edges[end];
+        if (end == static_cast<int>(i)) {
+          tiny_.edges[i] = end;
+          reversed = 0;
+        }
+      }
+      tiny_.edges[i] = end;
+      tiny_.reversed_edges[i] = reversed;
+    }
+  }
+
+  const CadShape& shape_;
+  const std::vector<char>& used_;
+  double length_;
+  TinyFeatures tiny_;
+};
+
+}  // namespace
+
+TinyFeatures find_tiny_features(const CadShape& shape, const std::vector<char>& used,
+                                const std::vector<Collapse>& collapse, double length) {
+  return Finder(shape, used, length).run(collapse);
+}
+
+}  // namespace quadrille

@@ -1,0 +1,321 @@
+#include "mesher/faces/face_boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/surfaces/edge_curve.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// Parameter points along a pole: as many as elements that meet there, so that the triangulation fans out
+/// evenly.
+constexpr int pole_segments = 6;
+
+class BoundaryWalker {
+ public:
+  BoundaryWalker(const CadShape& shape, const CadFace& face, const FaceSurface& surface,
+                 const BoundaryNodes& nodes)
+      : shape_(shape), face_(face), surface_(surface), scale_(surface.mean_scale()), nodes_(nodes) {}
+
+  FaceBoundary walk() {
+    std::vector<int> starts;
+    for (const CadWire& wire : face_.wires) {
+      starts.push_back(boundary_.size());
+      walk_wire(wire);
+    }
+    starts.push_back(boundary_.size());
+    if (surface_.u_periodic()) gather_wires(starts, 0, surface_.u_period());
+    if (surface_.v_periodic()) gather_wires(starts, 1, surface_.v_period());
+    join_touching();
+    for (const InnerVertex& inner : face_.inner_vertices) {
+      const int node = nodes_.vertex_nodes[inner.vertex - 1];
+      add_point(surface_.is_view() ? surface_.seen_at(nodes_.points[node]) : inner.uv, node);
+    }
+    return std::move(boundary_);
+  }
+
+ private:
+  struct Run {
+    int first = -1, last = -1;  // point instances at the start and the end, in the wire's direction
+    int first_segment = 0, end_segment = 0;
+    Vector3 leaving{0, 0, 0},
+        arriving{0, 0, 0};  // tangents at the start and the end, in the wire's direction
+  };
+
+  int add_point(const Vector2& uv, int node) {
+    boundary_.uv.push_back(uv);
+    boundary_.points.push_back(nodes_.points[node]);
+    boundary_.nodes.push_back(node);
+    boundary_.angles.push_back(0);
+    return boundary_.size() - 1;
+  }
+
+  /// Each coedge gets its own end points first; consecutive coedges are joined afterwards.
+  void walk_wire(const CadWire& wire) {
+    std::vector<Run> runs;
+    for (const Coedge& coedge : wire.coedges) {
+      const CadEdge& edge = shape_.edges[coedge.edge - 1];
+      const Run run = edge.degenerate ? walk_pole(coedge, edge) : walk_edge(coedge);
+      if (run.first >= 0) runs.push_back(run);
+    }
+    const std::size_t n = runs.size();
+    for (std::size_t i = 1; i < n; ++i) unwrap(runs[i - 1], runs[i]);
+    for (std::size_t i = 0; i < n; ++i) join(runs[i], runs[(i + 1) % n]);
+    drop_joined();
+  }
+
+  /// Moves a coedge by whole periods to where the one before it ends: files may have them turns away.
+  void unwrap(const Run& previous, const Run& run) {
+    if (boundary_.nodes[previous.last] != boundary_.nodes[run.first]) return;
+    const Vector2 jump = boundary_.uv[run.first] - boundary_.uv[previous.last];
+    Vector2 shift(0, 0);
+    if (surface_.u_periodic()) shift.x() = surface_.u_period() * std::round(jump.x() / surface_.u_period());
+    if (surface_.v_periodic()) shift.y() = surface_.v_period() * std::round(jump.y() / surface_.v_period());
+    if (shift.isZero() || is_one_point(boundary_.uv[previous.last], boundary_.uv[run.first])) return;
+    for (int point = run.first; point <= run.last; ++point) boundary_.uv[point] -= shift;
+    for (int i = run.first_segment; i < run.end_segment; ++i) boundary_.segments[i].middle_uv -= shift;
+  }
+
+  /// Whether the line between two places in the parameter plane is one point in space, a pole.
+  bool is_one_point(const Vector2& from, const Vector2& to) const {
+    constexpr double nearness = 0.01;
+    const double reach = nearness * (to - from).cwiseProduct(scale_).norm();
+    const Vector3 first = surface_.point(from);
+    for (const double t : {0.25, 0.5, 0.75}) {
+      if (!((surface_.point((1 - t) * from + t * to) - first).norm() <= reach)) return false;
+    }
+    return true;
+  }
+
+  /// Node i of an edge in the parameter plane.
+  Vector2 place_of(const Coedge& coedge, const BoundaryNodes::Edge& edge, int i) const {
+    if (surface_.is_view()) return surface_.seen_at(nodes_.points[edge.nodes[i]]);
+    return parametric_point(coedge, edge.parameters[i]);
+  }
+
+  Run walk_edge(const Coedge& coedge) {
+    const BoundaryNodes::Edge& edge = nodes_.edges[coedge.edge - 1];
+    const int count = edge.segments() / nodes_.stride;
+    if (count <= 0) return {};
+    Run run;
+    run.first_segment = static_cast<int>(boundary_.segments.size());
+    for (int k = 0; k <= count; ++k) {
+      const int i = nodes_.stride * (coedge.forward ? k : count - k);
+      const int point = add_point(place_of(coedge, edge, i), edge.nodes[i]);
+      if (k == 0) {
+        run.first = point;
+        continue;
+      }
+      FaceBoundary::Segment segment;
+      segment.a = point - 1;
+      segment.b = point;
+      segment.edge = coedge.edge;
+      segment.internal = coedge.internal;
+      if (nodes_.stride == 2) {
+        const int middle = i + (coedge.forward ? -1 : 1);
+        segment.middle_node = edge.nodes[middle];
+        segment.middle_uv = place_of(coedge, edge, middle);
+      }
+      boundary_.segments.push_back(segment);
+      run.last = point;
+    }
+    run.end_segment = static_cast<int>(boundary_.segments.size());
+    const EdgeCurve curve(shape_.edges[coedge.edge - 1]);
+    run.leaving = curve.derivative(edge.parameters.front());
+    run.arriving = curve.derivative(edge.parameters.back());
+    if (!coedge.forward) {
+      std::swap(run.leaving, run.arriving);
+      run.leaving *= -1;
+      run.arriving *= -1;
+    }
+    for (int point = run.first + 1; point < run.last; ++point) boundary_.angles[point] = M_PI;
+    return run;
+  }
+
+  Run walk_pole(const Coedge& coedge, const CadEdge& edge) {
+    const int node = edge.first_vertex > 0 ? nodes_.vertex_nodes[edge.first_vertex - 1] : -1;
+    if (node < 0 || surface_.is_view()) return {};
+    Vector2 from = parametric_point(coedge, edge.first), to = parametric_point(coedge, edge.last);
+    // Translators close wires by such edges where nothing is degenerate.
+    if (!is_one_point(from, to)) return {};
+    if (!coedge.forward) std::swap(from, to);
+    return add_pole(from, to, node);
+  }
+
+  Run add_pole(const Vector2& from, const Vector2& to, int node) {
+    Run run;
+    run.first_segment = static_cast<int>(boundary_.segments.size());
+    run.first = add_point(from, node);
+    for (int k = 1; k <= pole_segments; ++k) {
+      const double t = static_cast<double>(k) / pole_segments;
+      run.last = add_point((1 - t) * from + t * to, node);
+      FaceBoundary::Segment segment;
+      segment.a = run.last - 1;
+      segment.b = run.last;
+      segment.degenerate = true;
+      boundary_.segments.push_back(segment);
+    }
+    run.end_segment = static_cast<int>(boundary_.segments.size());
+    return run;
+  }
+
+  double scaled_distance(int a, int b) const {
+    return (boundary_.uv[a] - boundary_.uv[b]).cwiseProduct(scale_).norm();
+  }
+
+  /// Makes the end of one coedge and the start of the next one point; a jump between them at one node is a
+  /// pole that the file does not say.
+  void join(const Run& run, const Run& next) {
+    const int a = run.last, b = next.first;
+    if (a == b || boundary_.nodes[a] != boundary_.nodes[b]) return;
+    const auto& last = boundary_.segments[run.end_segment - 1];
+    const auto& first = boundary_.segments[next.first_segment];
+    const double nearby = std::max(scaled_distance(last.a, last.b), scaled_distance(first.a, first.b));
+    const double jump = scaled_distance(a, b);
+    if (jump > 0.5 * nearby) {
+      FaceBoundary::Segment gap;
+      gap.a = a;
+      gap.b = b;
+      gap.degenerate = true;
+      boundary_.segments.push_back(gap);
+      return;
+    }
+    boundary_.uv[b] = 0.5 * (boundary_.uv[a] + boundary_.uv[b]);
+    if (run.arriving.norm() * next.leaving.norm() > 0) {
+      const Vector3 normal = surface_.normal(boundary_.uv[b]);
+      boundary_.angles[b] =
+          M_PI - std::atan2(run.arriving.cross(next.leaving).dot(normal), run.arriving.dot(next.leaving));
+    }
+    joined_.push_back({a, b});
+  }
+
+  /// Moves wires by whole periods to where the widest one is: files may have holes a turn away.
+  void gather_wires(const std::vector<int>& starts, int axis, double period) {
+    const auto bounds = [&](std::size_t wire) {
+      std::pair<double, double> range{std::numeric_limits<double>::infinity(),
+                                      -std::numeric_limits<double>::infinity()};
+      for (int i = starts[wire]; i < starts[wire + 1]; ++i) {
+        range.first = std::min(range.first, boundary_.uv[i][axis]);
+        range.second = std::max(range.second, boundary_.uv[i][axis]);
+      }
+      return range;
+    };
+    std::pair<double, double> widest{0, 0};
+    for (std::size_t wire = 0; wire + 1 < starts.size(); ++wire) {
+      const auto range = bounds(wire);
+      if (range.second - range.first > widest.second - widest.first) widest = range;
+    }
+    for (std::size_t wire = 0; wire + 1 < starts.size(); ++wire) {
+      const auto [low, high] = bounds(wire);
+      // Only those that lie outside altogether: one that reaches over an end belongs there.
+      if (!(low >= widest.second) && !(high <= widest.first)) continue;
+      const double away = 0.5 * (widest.first + widest.second - low - high);
+      const double shift = period * std::round(away / period);
+      for (int i = starts[wire]; i < starts[wire + 1]; ++i) boundary_.uv[i][axis] += shift;
+      for (auto& segment : boundary_.segments) {
+        if (segment.a >= starts[wire] && segment.a < starts[wire + 1]) segment.middle_uv[axis] += shift;
+      }
+    }
+  }
+
+  /// Where wires touch, as a hole and the seam may, and along slits, one point is left of each place.
+  void join_touching() {
+    constexpr double nearness = 0.01;  // of the shortest segment around
+    std::vector<double> reach(boundary_.size(), std::numeric_limits<double>::infinity());
+    for (const auto& segment : boundary_.segments) {
+      const double length = nearness * scaled_distance(segment.a, segment.b);
+      for (const int i : {segment.a, segment.b}) reach[i] = std::min(reach[i], length);
+    }
+    std::vector<int> order(boundary_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return boundary_.nodes[a] < boundary_.nodes[b]; });
+    std::vector<int> kept;  // of the node at hand
+    for (const int i : order) {
+      if (!kept.empty() && boundary_.nodes[kept.front()] != boundary_.nodes[i]) kept.clear();
+      const auto near = std::find_if(kept.begin(), kept.end(), [&](int other) {
+        return scaled_distance(other, i) <= std::min(reach[i], reach[other]);
+      });
+      if (near != kept.end()) {
+        joined_.push_back({i, *near});
+        boundary_.angles[*near] = 0;
+      } else {
+        kept.push_back(i);
+      }
+    }
+    drop_joined();
+  }
+
+  /// Renumbers without the points that were joined to others.
+  void drop_joined() {
+    if (joined_.empty()) return;
+    std::vector<int> target(boundary_.size());
+    for (int i = 0; i < boundary_.size(); ++i) target[i] = i;
+    for (const auto& [from, to] : joined_) target[from] = to;
+    std::vector<int> renumbered(boundary_.size(), -1);
+    int n = 0;
+    for (int i = 0; i < boundary_.size(); ++i) {
+      if (target[i] != i) continue;
+      renumbered[i] = n;
+      boundary_.uv[n] = boundary_.uv[i];
+      boundary_.points[n] = boundary_.points[i];
+      boundary_.nodes[n] = boundary_.nodes[i];
+      boundary_.angles[n] = boundary_.angles[i];
+      ++n;
+    }
+    boundary_.uv.resize(n);
+    boundary_.points.resize(n);
+    boundary_.nodes.resize(n);
+    boundary_.angles.resize(n);
+    for (auto& segment : boundary_.segments) {
+      segment.a = renumbered[target[segment.a]];
+      segment.b = renumbered[target[segment.b]];
+    }
+    joined_.clear();
+  }
+
+  const CadShape& shape_;
+  const CadFace& face_;
+  const FaceSurface& surface_;
+  Vector2 scale_;
+  const BoundaryNodes& nodes_;
+  FaceBoundary boundary_;
+  std::vector<std::pair<int, int>> joined_;
+};
+
+}  // namespace
+
+FaceBoundary face_boundary(const CadShape& shape, int face, const CadFace& cad_face,
+                           const FaceSurface& surface, const BoundaryNodes& nodes) {
+  FaceBoundary boundary = BoundaryWalker(shape, cad_face, surface, nodes).walk();
+  if (boundary.segments.empty()) {
+    const std::string name = fmt::format("Face{}", face + 1);
+    throw failure(name, fmt::format("{} has no usable boundary in its parameter plane", name));
+  }
+  constexpr double largest = 1e50;  // products of several must not overflow
+  const auto finite = [&](const auto& p) { return p.cwiseAbs().maxCoeff() < largest; };
+  if (!std::all_of(boundary.uv.begin(), boundary.uv.end(), finite) ||
+      !std::all_of(boundary.points.begin(), boundary.points.end(), finite)) {
+    const std::string name = fmt::format("Face{}", face + 1);
+    throw failure(name, fmt::format("the boundary of {} runs to infinity: the file may be damaged", name));
+  }
+  return boundary;
+}
+
+TrimmedDomain enclosed_domain(const FaceBoundary& boundary) {
+  std::vector<TrimmedDomain::Segment> segments;
+  segments.reserve(boundary.segments.size());
+  for (const auto& segment : boundary.segments) {
+    if (!segment.internal) segments.push_back({boundary.uv[segment.a], boundary.uv[segment.b]});
+  }
+  return TrimmedDomain(std::move(segments));
+}
+
+}  // namespace quadrille

@@ -1,0 +1,553 @@
+/// Based on: Lawson (1977) for the flips; CGAL, 2D Triangulations, for the constrained Delaunay
+/// triangulation.
+
+// CGAL first: OpenCASCADE defines a macro named Handle.
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/spatial_sort.h>
+
+#include "mesher/faces/face_triangulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+
+namespace quadrille {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
+using CdtFaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel>;
+/// Carries the domain mark: -1 = not visited, 0 = outside, 1 = inside.
+template <class Base = CdtFaceBase>
+class MarkedFace : public Base {
+ public:
+  using Base::Base;
+  template <class Triangulation>
+  struct Rebind_TDS {
+    using Other = MarkedFace<typename Base::template Rebind_TDS<Triangulation>::Other>;
+  };
+  int mark = -1;
+};
+using Structure = CGAL::Triangulation_data_structure_2<VertexBase, MarkedFace<>>;
+using Cdt =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
+
+Error crossing(int face, const Vector3& near) {
+  const std::string name = fmt::format("Face{}", face);
+  return failure(
+      name, fmt::format("the sampled boundary of {} crosses or touches itself near ({:.6g}, {:.6g}, {:.6g})",
+                        name, near.x(), near.y(), near.z()));
+}
+
+/// Points by their index, for CGAL's sorting, which is one call: looking at them checks the context now and
+/// then.
+struct CheckedPoints {
+  using key_type = std::size_t;
+  using value_type = Kernel::Point_2;
+  using reference = const Kernel::Point_2&;
+  using category = boost::readable_property_map_tag;
+  friend reference get(const CheckedPoints& points, key_type i) {
+    (*points.check)();
+    return points.data[i];
+  }
+  const Kernel::Point_2* data;
+  SparseCheck* check;
+};
+
+class Triangulator {
+ public:
+  Triangulator(int face, const FaceBoundary& boundary, const PlacedPoints& placed, const FaceSurface& surface,
+               const ExecutionContext& context)
+      : face_(face),
+        boundary_(boundary),
+        placed_(placed),
+        scale_(surface.mean_scale()),
+        context_(context),
+        check_(context) {}
+
+  /// Triangles over the boundary's points followed by the placed ones.
+  std::vector<std::array<int, 3>> run() {
+    insert_points();
+    insert_segments();
+    mark_domain();
+    std::vector<std::array<int, 3>> triangles;
+    for (auto f = cdt_.finite_faces_begin(); f != cdt_.finite_faces_end(); ++f) {
+      check_();
+      if (f->mark == 1)
+        triangles.push_back({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
+    }
+    return triangles;
+  }
+
+ private:
+  Kernel::Point_2 scaled(const Vector2& uv) const { return {uv.x() * scale_.x(), uv.y() * scale_.y()}; }
+
+  void insert_points() {
+    std::vector<Kernel::Point_2> points;
+    points.reserve(boundary_.uv.size() + placed_.uv.size());
+    for (const Vector2& uv : boundary_.uv) points.push_back(scaled(uv));
+    for (const Vector2& uv : placed_.uv) points.push_back(scaled(uv));
+    insert_along_curve(points);
+    if (cdt_.dimension() < 2) throw crossing(face_, boundary_.points.front());
+    handles_.assign(points.size(), nullptr);
+    for (auto v = cdt_.finite_vertices_begin(); v != cdt_.finite_vertices_end(); ++v) handles_[v->info()] = v;
+    // A point that coincides with another one was not inserted: find the one that was.
+    for (std::size_t i = 0; i < boundary_.uv.size(); ++i) {
+      if (handles_[i] != nullptr) continue;
+      handles_[i] = cdt_.insert(points[i]);
+    }
+  }
+
+  /// As CGAL inserts a range of points, which is one call of a second for a million.
+  void insert_along_curve(const std::vector<Kernel::Point_2>& points) {
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    constexpr int looks = 1 << 16;
+    SparseCheck check_sorting(context_, looks);
+    using Traits = CGAL::Spatial_sort_traits_adapter_2<Kernel, CheckedPoints>;
+    CGAL::spatial_sort(order.begin(), order.end(), Traits(CheckedPoints{points.data(), &check_sorting}));
+    Cdt::Face_handle hint;
+    for (const std::size_t i : order) {
+      check_();
+      const Cdt::Vertex_handle vertex = cdt_.insert(points[i], hint);
+      vertex->info() = static_cast<int>(i);
+      hint = vertex->face();
+    }
+  }
+
+  void insert_segments() {
+    for (const auto& segment : boundary_.segments) {
+      check_();
+      const auto a = handles_[segment.a], b = handles_[segment.b];
+      if (a == b) throw crossing(face_, boundary_.points[segment.a]);
+      // Used twice (a slit) or internal: the face lies on both sides.
+      const auto key = std::minmax(a->info(), b->info());
+      const bool is_new = seen_.insert(key).second;
+      if (segment.internal || !is_new) transparent_.insert(key);
+      if (!is_new) continue;
+      try {
+        cdt_.insert_constraint(a, b);
+      } catch (const Cdt::Intersection_of_constraints_exception&) {
+        throw crossing(face_, boundary_.points[segment.a]);
+      }
+      // A point on the segment would have split it.
+      Cdt::Face_handle f;
+      int i = 0;
+      if (!cdt_.is_edge(a, b, f, i)) throw crossing(face_, boundary_.points[segment.a]);
+    }
+  }
+
+  bool switches_side(Cdt::Face_handle f, int i) const {
+    if (!f->is_constrained(i)) return false;
+    if (transparent_.empty()) return true;
+    return !transparent_.contains(std::minmax(f->vertex(Cdt::cw(i))->info(), f->vertex(Cdt::ccw(i))->info()));
+  }
+
+  /// Inside by nesting, from the infinite face inward.
+  void mark_domain() {
+    std::vector<Cdt::Face_handle> stack{cdt_.infinite_face()};
+    cdt_.infinite_face()->mark = 0;
+    while (!stack.empty()) {
+      check_();
+      const Cdt::Face_handle f = stack.back();
+      stack.pop_back();
+      for (int i = 0; i < 3; ++i) {
+        const Cdt::Face_handle neighbour = f->neighbor(i);
+        if (neighbour->mark >= 0) continue;
+        neighbour->mark = switches_side(f, i) ? 1 - f->mark : f->mark;
+        stack.push_back(neighbour);
+      }
+    }
+  }
+
+  int face_;
+  const FaceBoundary& boundary_;
+  const PlacedPoints& placed_;
+  Vector2 scale_;
+  const ExecutionContext& context_;
+  SparseCheck check_;
+  Cdt cdt_;
+  std::vector<Cdt::Vertex_handle> handles_;
+  std::set<std::pair<int, int>> seen_, transparent_;
+};
+
+/// Triangle neighbours over sides: neighbour[3 t + k] is across the side from corner k to corner k + 1.
+/// Unlike join_twins() it takes the double sides that a collapsed pole may leave, for the flips to undo.
+std::vector<int> triangle_neighbours(const std::vector<std::array<int, 3>>& triangles, int points,
+                                     const ExecutionContext& context) {
+  SparseCheck check(context);
+  // Sides bucketed by their lower end.
+  std::vector<int> offsets(points + 1, 0), sides(3 * triangles.size());
+  const auto low = [&](int side) {
+    const auto& t = triangles[side / 3];
+    return std::min(t[side % 3], t[(side % 3 + 1) % 3]);
+  };
+  const auto high = [&](int side) {
+    const auto& t = triangles[side / 3];
+    return std::max(t[side % 3], t[(side % 3 + 1) % 3]);
+  };
+  const int n = static_cast<int>(sides.size());
+  for (int side = 0; side < n; ++side) {
+    check();
+    ++offsets[low(side) + 1];
+  }
+  for (int i = 0; i < points; ++i) offsets[i + 1] += offsets[i];
+  std::vector<int> next(offsets.begin(), offsets.end() - 1), neighbour(n, -1);
+  for (int side = 0; side < n; ++side) {
+    check();
+    sides[next[low(side)]++] = side;
+  }
+  for (int p = 0; p < points; ++p) {
+    check();
+    for (int i = offsets[p]; i < offsets[p + 1]; ++i) {
+      for (int j = i + 1; j < offsets[p + 1]; ++j) {
+        if (high(sides[i]) == high(sides[j])) {
+          neighbour[sides[i]] = sides[j];
+          neighbour[sides[j]] = sides[i];
+        }
+      }
+    }
+  }
+  return neighbour;
+}
+
+/// Flips sides in space.
+class SpaceFlipper {
+ public:
+  SpaceFlipper(FaceTriangulation& face, const ExecutionContext& context)
+      : triangles_(face.mesh.triangles),
+        points_(face.mesh.points),
+        normals_(face.normals),
+        check_(context),
+        across_(triangle_neighbours(triangles_, static_cast<int>(points_.size()), context)) {
+    for (const auto& segment : face.segments) {
+      if (segment.internal) kept_.insert(std::minmax(segment.a, segment.b));
+    }
+  }
+
+  void run() {
+    std::vector<int> queue(across_.size());
+    for (std::size_t i = 0; i < queue.size(); ++i) queue[i] = static_cast<int>(i);
+    const std::size_t bound = 30 * across_.size() + 1000;
+    for (std::size_t k = 0; k < queue.size() && k < bound; ++k) {
+      check_();
+      const int side = queue[k];
+      if (!improves(side)) continue;
+      flip(side);
+      const int t = side / 3, u = across_[side] / 3;
+      for (int i = 0; i < 3; ++i) {
+        queue.push_back(3 * t + i);
+        queue.push_back(3 * u + i);
+      }
+    }
+  }
+
+ private:
+  int corner(int side, int k) const { return triangles_[side / 3][(side % 3 + k) % 3]; }
+
+  Vector3 area_normal(int a, int b, int c) const {
+    return (points_[b] - points_[a]).cross(points_[c] - points_[a]);
+  }
+
+  /// How well a triangle faces the surface's side: cosine against the mean normal of its corners.
+  double facing(int a, int b, int c) const {
+    const Vector3 n = area_normal(a, b, c);
+    const double length = n.norm();
+    const double scale = (points_[b] - points_[a]).squaredNorm() + (points_[c] - points_[a]).squaredNorm();
+    if (!(length > 1e-10 * scale)) return -1;
+    return n.dot((normals_[a] + normals_[b] + normals_[c]).normalized()) / length;
+  }
+
+  /// Cotangent of the angle at c over the side a b.
+  double cotangent(int a, int b, int c) const {
+    const Vector3 x = points_[a] - points_[c], y = points_[b] - points_[c];
+    return x.dot(y) / std::max(x.cross(y).norm(), 1e-300);
+  }
+
+  bool improves(int side) const {
+    const int other = across_[side];
+    if (other < 0) return false;
+    const int a = corner(side, 0), b = corner(side, 1), c = corner(side, 2), d = corner(other, 2);
+    if (c == d || (!kept_.empty() && kept_.contains(std::minmax(a, b)))) return false;
+    const double now = std::min(facing(a, b, c), facing(b, a, d));
+    const double then = std::min(facing(c, d, b), facing(d, c, a));
+    if (now < 0.1) return then > now + 0.05 && !has_side(side, c, d);
+    if (then < std::min(0.3, 0.8 * now)) return false;
+    return cotangent(a, b, c) + cotangent(a, b, d) < -1e-7 && !has_side(side, c, d);
+  }
+
+  /// True if c and d are joined already, round the corner a of the side (only possible at low valence).
+  bool has_side(int side, int c, int d) const {
+    for (const int start : {side, across_[side]}) {
+      int s = start;  // walk round the first corner of the side
+      for (int k = 0; k < 8; ++k) {
+        if (corner(s, 2) == c || corner(s, 2) == d) {
+          // The side opposite the corner joins corner(s, 1) and corner(s, 2).
+          const int other_end = corner(s, 2) == c ? d : c;
+          if (corner(s, 1) == other_end) return true;
+        }
+        const int previous = 3 * (s / 3) + (s % 3 + 2) % 3;
+        s = across_[previous];
+        if (s < 0 || s == start) break;
+      }
+    }
+    return false;
+  }
+
+  void link(int side, int other) {
+    across_[side] = other;
+    if (other >= 0) across_[other] = side;
+  }
+
+  /// Triangles (a, b, c) and (b, a, d) become (d, b, c) and (c, a, d).
+  void flip(int side) {
+    const int other = across_[side], t = side / 3, u = other / 3;
+    const auto next = [](int s) { return 3 * (s / 3) + (s % 3 + 1) % 3; };
+    const int a = corner(side, 0), b = corner(side, 1), c = corner(side, 2), d = corner(other, 2);
+    const int bc = across_[next(side)], ca = across_[next(next(side))];
+    const int ad = across_[next(other)], db = across_[next(next(other))];
+    triangles_[t] = {d, b, c};
+    triangles_[u] = {c, a, d};
+    link(3 * t, db);
+    link(3 * t + 1, bc);
+    link(3 * t + 2, 3 * u + 2);
+    link(3 * u, ca);
+    link(3 * u + 1, ad);
+  }
+
+  std::vector<std::array<int, 3>>& triangles_;
+  const std::vector<Vector3>& points_;
+  const std::vector<Vector3>& normals_;
+  SparseCheck check_;
+  std::vector<int> across_;
+  std::set<std::pair<int, int>> kept_;
+};
+
+/// Opens the triangulation along the segments that have the face on both sides, as if each side had a
+/// boundary of its own: recombination then keeps them as sides of the mesh.
+class CrackOpener {
+ public:
+  CrackOpener(FaceBoundary& boundary, std::vector<std::array<int, 3>>& triangles,
+              const ExecutionContext& context)
+      : boundary_(boundary), triangles_(triangles), inner_start_(boundary.size()), check_(context) {}
+
+  void run() {
+    find_cracks();
+    if (cracks_.empty()) return;
+    std::set<int> ends;
+    for (const auto& [key, segment] : cracks_) ends.insert({key.first, key.second});
+    collect_corners(ends);
+    for (const int point : ends) split(point);
+    renumber_inner_points();
+    replace_segments();
+  }
+
+ private:
+  using Key = std::pair<int, int>;
+  static Key key(int a, int b) { return std::minmax(a, b); }
+
+  void find_cracks() {
+    std::map<Key, int> uses;
+    for (const auto& segment : boundary_.segments) {
+      if (segment.degenerate) continue;
+      if (segment.internal || ++uses[key(segment.a, segment.b)] > 1) {
+        cracks_.emplace(key(segment.a, segment.b), segment);
+      }
+    }
+  }
+
+  /// The corners (3 t + k) at each of the points, and the points that they had before the splits.
+  void collect_corners(const std::set<int>& ends) {
+    original_.reserve(3 * triangles_.size());
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      check_();
+      for (int k = 0; k < 3; ++k) {
+        original_.push_back(triangles_[t][k]);
+        if (ends.contains(triangles_[t][k]))
+          corners_[triangles_[t][k]].push_back(static_cast<int>(3 * t) + k);
+      }
+    }
+  }
+
+  int original(int triangle, int k) const { return original_[3 * triangle + k % 3]; }
+
+  /// A point of its own for every fan of triangles but the first.
+  void split(int point) {
+    std::vector<int> left = corners_[point];
+    for (bool first = true; !left.empty(); first = false) {
+      std::vector<int> fan{left.back()};
+      left.pop_back();
+      for (std::size_t i = 0; i < fan.size(); ++i) {
+        std::erase_if(left, [&](int corner) {
+          if (!joined(fan[i], corner)) return false;
+          fan.push_back(corner);
+          return true;
+        });
+      }
+      if (first) continue;
+      const int copy = inner_start_ + static_cast<int>(copies_.size());
+      copies_.push_back(point);
+      for (const int corner : fan) triangles_[corner / 3][corner % 3] = -1 - copy;  // renumbered below
+    }
+  }
+
+  /// Whether two triangles at a point share a side there that is no crack.
+  bool joined(int corner, int other) const {
+    const int t = corner / 3, k = corner % 3, u = other / 3, j = other % 3;
+    const auto open = [&](int end) { return cracks_.contains(key(original(t, k), end)); };
+    if (original(t, k + 1) == original(u, j + 2) && !open(original(t, k + 1))) return true;
+    return original(t, k + 2) == original(u, j + 1) && !open(original(t, k + 2));
+  }
+
+  void renumber_inner_points() {
+    const int shift = static_cast<int>(copies_.size());
+    for (auto& triangle : triangles_) {
+      for (int& corner : triangle)
+        corner = corner < 0 ? -1 - corner : corner < inner_start_ ? corner : corner + shift;
+    }
+    for (const int point : copies_) {
+      boundary_.uv.push_back(boundary_.uv[point]);
+      boundary_.points.push_back(boundary_.points[point]);
+      boundary_.nodes.push_back(boundary_.nodes[point]);
+      boundary_.angles[point] = 0;
+      boundary_.angles.push_back(0);
+    }
+  }
+
+  /// One segment for each side of a crack; those that end at one get the point of their side.
+  void replace_segments() {
+    std::map<Key, FaceBoundary::Segment> replaced;
+    std::erase_if(boundary_.segments, [&](const auto& segment) {
+      if (segment.degenerate || (!corners_.contains(segment.a) && !corners_.contains(segment.b)))
+        return false;
+      replaced.emplace(key(segment.a, segment.b), segment);
+      return true;
+    });
+    for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
+      check_();
+      for (int k = 0; k < 3; ++k) {
+        const auto it = replaced.find(key(original(t, k), original(t, k + 1)));
+        if (it == replaced.end()) continue;
+        FaceBoundary::Segment segment = it->second;
+        segment.a = triangles_[t][k];
+        segment.b = triangles_[t][(k + 1) % 3];
+        boundary_.segments.push_back(segment);
+      }
+    }
+  }
+
+  FaceBoundary& boundary_;
+  std::vector<std::array<int, 3>>& triangles_;
+  int inner_start_;
+  SparseCheck check_;
+  std::map<Key, FaceBoundary::Segment> cracks_;
+  std::map<int, std::vector<int>> corners_;
+  std::vector<int> original_;
+  std::vector<int> copies_;
+};
+
+/// One point for all parameter points of a pole; triangles with two corners in it vanish.
+void collapse_poles(const FaceBoundary& boundary, std::vector<int>& target) {
+  const auto root = [&](int i) {
+    while (target[i] != i) i = target[i];
+    return i;
+  };
+  for (const auto& segment : boundary.segments) {
+    if (!segment.degenerate) continue;
+    const int a = root(segment.a), b = root(segment.b);
+    target[std::max(a, b)] = std::min(a, b);
+  }
+  for (int& i : target) i = root(i);
+}
+
+/// Wires may run the wrong way round: takes of an angle and its rest to 2 pi the one that the triangles fill.
+void choose_sides(FaceTriangulation& face) {
+  std::vector<double> filled(face.boundary_count, 0);
+  for (const auto& t : face.mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      if (t[k] >= face.boundary_count) continue;
+      const Vector3& p = face.mesh.points[t[k]];
+      const Vector3 a = face.mesh.points[t[(k + 1) % 3]] - p, b = face.mesh.points[t[(k + 2) % 3]] - p;
+      filled[t[k]] += angle_between(a, b);
+    }
+  }
+  for (int i = 0; i < face.boundary_count; ++i) {
+    double& angle = face.angles[i];
+    if (angle <= 0) continue;
+    if (std::abs(2 * M_PI - angle - filled[i]) < std::abs(angle - filled[i])) angle = 2 * M_PI - angle;
+  }
+}
+
+}  // namespace
+
+FaceTriangulation triangulate_face(int face, FaceBoundary boundary, const PlacedPoints& placed,
+                                   const FaceSurface& surface, const ExecutionContext& context) {
+  std::vector<std::array<int, 3>> triangles = Triangulator(face, boundary, placed, surface, context).run();
+  CrackOpener(boundary, triangles, context).run();
+
+  const int count = boundary.size() + static_cast<int>(placed.uv.size());
+  std::vector<int> target(count);
+  for (int i = 0; i < count; ++i) target[i] = i;
+  collapse_poles(boundary, target);
+  std::vector<char> pole(count, 0);
+  for (const auto& segment : boundary.segments) {
+    if (segment.degenerate) pole[target[segment.a]] = 1;
+  }
+  std::erase_if(triangles, [&](std::array<int, 3>& t) {
+    for (int& corner : t) corner = target[corner];
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  });
+  if (triangles.empty()) throw crossing(face, boundary.points.front());
+  context.check();
+
+  // Keep what is used, boundary first.
+  std::vector<int> renumbered(count, -1);
+  for (const auto& t : triangles) {
+    for (const int corner : t) renumbered[corner] = 0;
+  }
+  FaceTriangulation result;
+  SparseCheck check(context);
+  for (int i = 0; i < count; ++i) {
+    check();
+    if (renumbered[i] < 0) continue;
+    renumbered[i] = static_cast<int>(result.uv.size());
+    const bool on_boundary = i < boundary.size();
+    result.uv.push_back(on_boundary ? boundary.uv[i] : placed.uv[i - boundary.size()]);
+    result.mesh.points.push_back(on_boundary ? boundary.points[i] : placed.points[i - boundary.size()]);
+    result.normals.push_back(surface.normal(result.uv.back()));
+    result.pole.push_back(pole[i]);
+    if (!on_boundary) continue;
+    result.nodes.push_back(boundary.nodes[i]);
+    result.angles.push_back(pole[i] ? 0 : boundary.angles[i]);
+  }
+  result.boundary_count = static_cast<int>(result.nodes.size());
+  for (auto& t : triangles) {
+    for (int& corner : t) corner = renumbered[corner];
+  }
+  result.mesh.triangles = std::move(triangles);
+  for (const auto& segment : boundary.segments) {
+    if (segment.degenerate) continue;
+    FaceBoundary::Segment kept = segment;
+    kept.a = renumbered[target[segment.a]];
+    kept.b = renumbered[target[segment.b]];
+    if (kept.a < 0 || kept.b < 0) throw crossing(face, boundary.points[segment.a]);
+    result.segments.push_back(kept);
+  }
+  if (!surface.planar()) SpaceFlipper(result, context).run();
+  context.check();
+  choose_sides(result);
+  context.check();
+  return result;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,309 @@
+/// Based on: Remacle et al., A frontal Delaunay quad mesh generator using the L-infinity norm (2013), for the
+/// frontal idea and the norm; here all points are placed first with a hash grid in space and triangulated in
+/// bulk afterwards.
+
+#include "mesher/faces/point_placement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// Points in buckets by cell and size level. Buckets may hold strangers: the caller tests the distance.
+class PointGrid {
+ public:
+  PointGrid(std::size_t expected, const ExecutionContext& context) : check_(context) { rebuild(expected); }
+
+  void insert(const Vector3& p, double size) {
+    if (4 * (entries_.size() + 1) > 3 * heads_.size()) rebuild(2 * heads_.size());
+    const int level = level_of(size);
+    low_level_ = std::min(low_level_, level);
+    high_level_ = std::max(high_level_, level);
+    entries_.push_back({p, level, -1});
+    link(static_cast<int>(entries_.size()) - 1);
+  }
+
+  /// True if `visit(index)` is true for some point that may lie within `radius` of p, among those of about
+  /// `size`.
+  template <class Visit>
+  bool any_near(const Vector3& p, double radius, double size, Visit&& visit) const {
+    const int level = level_of(size);
+    for (int k = std::max(level - 2, low_level_); k <= std::min(level + 2, high_level_); ++k) {
+      const double inverse = std::ldexp(1.0, -k - 1);
+      const std::array<long, 3> low = cell_of(p - Vector3::Constant(radius), inverse);
+      const std::array<long, 3> high = cell_of(p + Vector3::Constant(radius), inverse);
+      for (long z = low[2]; z <= high[2]; ++z) {
+        for (long y = low[1]; y <= high[1]; ++y) {
+          for (long x = low[0]; x <= high[0]; ++x) {
+            for (int i = heads_[bucket({x, y, z}, k)]; i >= 0; i = entries_[i].next) {
+              if (visit(i)) return true;
+            }
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+  const Vector3& point(int entry) const { return entries_[entry].point; }
+
+ private:
+  struct Entry {
+    Vector3 point;
+    int level;
+    int next;
+  };
+
+  static int level_of(double size) { return std::ilogb(size); }
+  static std::array<long, 3> cell_of(const Vector3& p, double inverse) {
+    return {std::lround(std::floor(p.x() * inverse)), std::lround(std::floor(p.y() * inverse)),
+            std::lround(std::floor(p.z() * inverse))};
+  }
+  std::size_t bucket(const std::array<long, 3>& cell, int level) const {
+    std::uint64_t h = static_cast<std::uint64_t>(cell[0]) * 0x9E3779B97F4A7C15ULL;
+    h ^= static_cast<std::uint64_t>(cell[1]) * 0xC2B2AE3D27D4EB4FULL + (h >> 29);
+    h ^= static_cast<std::uint64_t>(cell[2]) * 0x165667B19E3779F9ULL + (h >> 31);
+    h ^= static_cast<std::uint64_t>(level) * 0x27D4EB2F165667C5ULL;
+    return (h ^ (h >> 32)) & (heads_.size() - 1);
+  }
+  void link(int i) {
+    Entry& entry = entries_[i];
+    int& head = heads_[bucket(cell_of(entry.point, std::ldexp(1.0, -entry.level - 1)), entry.level)];
+    entry.next = head;
+    head = i;
+  }
+  void rebuild(std::size_t buckets) {
+    std::size_t n = 64;
+    while (n < buckets) n *= 2;
+    heads_.assign(n, -1);
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      check_();
+      link(static_cast<int>(i));
+    }
+  }
+
+  SparseCheck check_;
+  std::vector<Entry> entries_;
+  std::vector<int> heads_;
+  int low_level_ = 10000, high_level_ = -10000;
+};
+
+/// Damaged files have faces without end.
+constexpr std::size_t most_points = 20'000'000;
+
+/// A point of the front.
+struct FrontPoint {
+  Vector2 uv;
+  SurfacePoint at;
+  Vector3 normal;
+  Vector3 direction;  // unit, tangent: one of the four of the cross
+  double size = 0;
+  bool proposes = false;
+};
+
+/// The 4-fold mean of two tangents in the plane of `normal`.
+Vector3 cross_mean(const Vector3& a, const Vector3& b, const Vector3& normal) {
+  const Vector3 e1 = (a - a.dot(normal) * normal).normalized();
+  const Vector3 e2 = normal.cross(e1);
+  const double angle = std::atan2(b.dot(e2), b.dot(e1));
+  const double fourfold = std::remainder(angle, M_PI / 2);
+  return (std::cos(fourfold / 2) * e1 + std::sin(fourfold / 2) * e2).normalized();
+}
+
+class Placer {
+ public:
+  Placer(const FaceBoundary& boundary, const FaceSurface& surface, const TrimmedDomain& domain,
+         SizingField::Sampler& size_at, const PlacementOptions& options, ExecutionContext& context)
+      : boundary_(boundary),
+        surface_(surface),
+        domain_(domain),
+        size_at_(size_at),
+        options_(options),
+        context_(context),
+        grid_(4 * boundary.uv.size(), context) {}
+
+  PlacedPoints run() {
+    add_boundary();
+    const std::size_t first = front_.size();
+    for (std::size_t i = 0; i < front_.size(); ++i) {
+      if (i % 256 == 0) {
+        context_.check();
+        if (front_.size() > most_points) {
+          throw failure("", fmt::format("a face would take more than {} points at this size", most_points));
+        }
+      }
+      if (front_[i].proposes) propose_neighbours(i);
+    }
+    context_.check();
+    PlacedPoints result;
+    for (std::size_t i = first; i < front_.size(); ++i) {
+      result.uv.push_back(front_[i].uv);
+      result.points.push_back(front_[i].at.point);
+    }
+    return result;
+  }
+
+ private:
+  void add_boundary() {
+    const int n = boundary_.size();
+    std::vector<Vector3> tangent(n, Vector3::Zero());
+    std::vector<char> pole(n, 0);
+    for (int i = 0; i < n; ++i) {
+      FrontPoint point;
+      point.uv = boundary_.uv[i];
+      point.at = surface_.evaluate(point.uv);
+      point.normal = surface_.normal(point.at, point.uv);
+      point.size = options_.scale * size_at_(boundary_.points[i]);
+      front_.push_back(point);
+    }
+    for (const auto& segment : boundary_.segments) {
+      if (segment.degenerate) {
+        pole[segment.a] = pole[segment.b] = 1;
+        continue;
+      }
+      const Vector3 along = (boundary_.points[segment.b] - boundary_.points[segment.a]).normalized();
+      for (const int i : {segment.a, segment.b}) {
+        tangent[i] = tangent[i].isZero() ? along : cross_mean(tangent[i], along, front_[i].normal);
+      }
+    }
+    for (int i = 0; i < n; ++i) {
+      FrontPoint& point = front_[i];
+      const Vector3 flat = tangent[i] - tangent[i].dot(point.normal) * point.normal;
+      point.proposes = !pole[i] && flat.norm() > 1e-6;
+      point.direction = point.proposes ? flat.normalized() : Vector3::Zero();
+      grid_.insert(boundary_.points[i], point.size);
+      grid_index_.push_back(i);
+    }
+    add_blockers();
+  }
+
+  /// Long boundary segments refuse points near their middle too.
+  void add_blockers() {
+    for (const auto& segment : boundary_.segments) {
+      if (segment.degenerate) continue;
+      const Vector3& a = boundary_.points[segment.a];
+      const Vector3& b = boundary_.points[segment.b];
+      const double length = (b - a).norm(), size = front_[segment.a].size;
+      if (length < 1.1 * size) continue;
+      const int pieces = static_cast<int>(std::ceil(length / (0.6 * size)));
+      for (int k = 1; k < pieces; ++k) {
+        grid_.insert(a + (b - a) * k / pieces, size);
+        grid_index_.push_back(-1 - static_cast<int>(blockers_.size()));
+        blockers_.push_back(boundary_.uv[segment.a] +
+                            (boundary_.uv[segment.b] - boundary_.uv[segment.a]) * k / pieces);
+      }
+    }
+  }
+
+  void propose_neighbours(std::size_t i) {
+    const FrontPoint from = front_[i];
+    const Vector3 across = from.normal.cross(from.direction);
+    if (options_.aligned) {
+      for (const Vector3& direction : {across, Vector3(-across), from.direction, Vector3(-from.direction)}) {
+        propose(from, direction);
+      }
+      return;
+    }
+    for (int k = 0; k < 6; ++k) {
+      const double angle = M_PI / 2 + k * M_PI / 3;
+      propose(from, std::cos(angle) * from.direction + std::sin(angle) * across);
+    }
+  }
+
+  void propose(const FrontPoint& from, const Vector3& direction) {
+    FrontPoint to;
+    double length = from.size;
+    if (!step(from, direction, length, to)) return;
+    const double size = options_.scale * size_at_(to.at.point);
+    const double wanted = 0.5 * (from.size + size);
+    if (std::abs(wanted - length) > 0.05 * length) {
+      length = wanted;
+      if (!step(from, direction, length, to)) return;
+    }
+    to.size = size;
+    to.normal = surface_.normal(to.at, to.uv);
+    const Vector3 flat = from.direction - from.direction.dot(to.normal) * to.normal;
+    if (flat.squaredNorm() < 0.01) return;
+    to.direction = flat.normalized();
+    to.proposes = true;
+    if (refused(to)) return;
+    grid_.insert(to.at.point, to.size);
+    grid_index_.push_back(static_cast<int>(front_.size()));
+    front_.push_back(to);
+  }
+
+  /// One step on the surface, its length in space corrected once. False if it leaves the face.
+  bool step(const FrontPoint& from, const Vector3& direction, double length, FrontPoint& to) const {
+    Vector2 change = FaceSurface::parameter_step(from.at, length * direction);
+    to.uv = from.uv + change;
+    to.at = surface_.evaluate(to.uv);
+    if (!surface_.planar()) {
+      const double reached = (to.at.point - from.at.point).norm();
+      if (!(reached > 1e-3 * length)) return false;
+      if (std::abs(reached - length) > 0.02 * length) {
+        to.uv = from.uv + change * (length / reached);
+        to.at = surface_.evaluate(to.uv);
+      }
+    }
+    return domain_.inside(to.uv);
+  }
+
+  /// How far it is from one place to another along the surface, by its derivatives at one place.
+  double way_along(const SurfacePoint& at, const Vector2& from, const Vector2& to) const {
+    Vector2 change = to - from;
+    if (surface_.u_periodic()) change.x() = std::remainder(change.x(), surface_.u_period());
+    if (surface_.v_periodic()) change.y() = std::remainder(change.y(), surface_.v_period());
+    return (change.x() * at.du + change.y() * at.dv).norm();
+  }
+
+  /// Whether another point is too near, on the same sheet: rolled faces come near themselves.
+  bool refused(const FrontPoint& p) const {
+    constexpr double same_sheet = 4;
+    const Vector3 across = p.normal.cross(p.direction);
+    const double limit = options_.refusal * p.size;
+    const double reach = options_.aligned ? limit * M_SQRT2 : limit;
+    return grid_.any_near(p.at.point, reach, p.size, [&](int entry) {
+      const int i = grid_index_[entry];
+      const Vector3 d = grid_.point(entry) - p.at.point;
+      if (i < 0) {
+        return d.squaredNorm() < 0.36 * p.size * p.size &&
+               way_along(p.at, p.uv, blockers_[-1 - i]) < same_sheet * reach;
+      }
+      if (d.squaredNorm() > reach * reach || front_[i].normal.dot(p.normal) < -0.2) return false;
+      if (std::min(way_along(p.at, p.uv, front_[i].uv), way_along(front_[i].at, p.uv, front_[i].uv)) >
+          same_sheet * reach)
+        return false;
+      if (!options_.aligned) return true;
+      return std::abs(d.dot(p.direction)) < limit && std::abs(d.dot(across)) < limit;
+    });
+  }
+
+  const FaceBoundary& boundary_;
+  const FaceSurface& surface_;
+  const TrimmedDomain& domain_;
+  SizingField::Sampler& size_at_;
+  const PlacementOptions& options_;
+  ExecutionContext& context_;
+  std::vector<FrontPoint> front_;
+  PointGrid grid_;
+  std::vector<int> grid_index_;    // entry of the grid -> front point, or -1 - blocker
+  std::vector<Vector2> blockers_;  // their parameters
+};
+
+}  // namespace
+
+PlacedPoints place_points(const FaceBoundary& boundary, const FaceSurface& surface,
+                          const TrimmedDomain& domain, SizingField::Sampler& size_at,
+                          const PlacementOptions& options, ExecutionContext& context) {
+  return Placer(boundary, surface, domain, size_at, options, context).run();
+}
+
+}  // namespace quadrille

@@ -1,0 +1,25 @@
+#pragma once
+/// The report of one run as JSON.
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+
+#include "geometry/base/execution_context.hpp"
+#include "mesher/mesh/mesh_types.hpp"
+#include "mesher/mesh/quality.hpp"
+
+namespace quadrille {
+
+/// counts (nodes, quads, triangles), quality (q_min, q_mean, sj_min, sj_mean, irregular_percent, histogram,
+/// ...), seconds by stage, cpu_seconds and peak_bytes of the process, faces (name, status, quads, q_min,
+/// note), warnings, versions of the libraries.
+nlohmann::json make_report(const ShellMesh& mesh, const QualitySummary& summary,
+                           const ExecutionContext& context, const std::filesystem::path& input,
+                           const std::vector<std::string>& warnings = {});
+
+/// Writes make_report() to a file that appears whole or not at all. Throws Error (failure).
+void write_report(const ShellMesh& mesh, const QualitySummary& summary, const ExecutionContext& context,
+                  const std::filesystem::path& input, const std::filesystem::path& path,
+                  const std::vector<std::string>& warnings = {});
+
+}  // namespace quadrille

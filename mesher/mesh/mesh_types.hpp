@@ -1,0 +1,68 @@
+#pragma once
+/// Meshes as arrays of indices. All indices start at 0; CAD numbers (faces, edges, vertices) start at 1, as
+/// in FreeCAD, and 0 means "none".
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/base/vector.hpp"
+
+namespace quadrille {
+
+/// Triangles over points; consistently oriented, manifold, with or without boundary.
+struct TriangleMesh {
+  std::vector<Vector3> points;                ///< (n)
+  std::vector<std::array<int, 3>> triangles;  ///< (m) indices into points, counter-clockwise
+  /// (m) or empty. Elements of different tags are never joined: the sides between them are kept as boundary.
+  std::vector<int> tags;
+};
+
+/// Quadrilaterals over points, and the triangle that an odd count leaves.
+struct QuadMesh {
+  std::vector<Vector3> points;                ///< (n)
+  std::vector<std::array<int, 4>> quads;      ///< (m) indices into points, counter-clockwise
+  std::vector<std::array<int, 3>> triangles;  ///< what could not be paired; empty wherever the count is even
+  std::vector<int> quad_tags;                 ///< (m) or empty
+  std::vector<int> triangle_tags;             ///< as many as triangles, or empty
+};
+
+/// The mesh of a CAD model: all quads, conforming, each element and node tied to its CAD entity.
+struct ShellMesh {
+  /// A side of the mesh that lies on a CAD edge.
+  struct Segment {
+    std::array<int, 2> nodes{-1, -1};  ///< end nodes, in the direction of the CAD edge's parameter
+    int middle = -1;                   ///< midside node at second order, else -1
+    int edge = 0;                      ///< CAD edge, from 1
+  };
+  /// A node that lies on a CAD vertex.
+  struct Corner {
+    int node = -1;
+    int vertex = 0;  ///< CAD vertex, from 1
+  };
+  /// What became of one CAD face.
+  struct FaceStatus {
+    int face = 0;  ///< CAD face, from 1
+    /// "meshed", "skipped" (not asked for), "failed", or "merged" (left out as tiny)
+    std::string status;
+    std::string note;  ///< which fallback was taken, or why it failed; empty if nothing to say
+    int quads = 0;
+    double q_min = 0;
+    double seconds = 0;
+  };
+
+  int order = 1;                          ///< 1: four-node quads; 2: eight-node (serendipity) quads
+  std::vector<Vector3> points;            ///< (n) all nodes, corner nodes first, then midside nodes
+  std::vector<std::array<int, 4>> quads;  ///< (m) corner nodes, counter-clockwise seen from outside
+  std::vector<std::array<int, 4>>
+      midsides;                 ///< (m) at second order: node between corner j and j + 1; else empty
+  std::vector<int> quad_faces;  ///< (m) CAD face of each quad, from 1
+  std::vector<std::array<int, 3>> triangles;  ///< empty, except in meshes read from other programs' files
+  std::vector<int> triangle_faces;            ///< as many as triangles
+  std::vector<Segment> segments;              ///< the sides on CAD edges, each once
+  std::vector<Corner> corners;                ///< the nodes on CAD vertices
+  std::vector<FaceStatus> faces;              ///< one entry a CAD face; empty in meshes read from files
+};
+
+}  // namespace quadrille

@@ -1,0 +1,36 @@
+#pragma once
+/// The measure of a quad that clean-up and smoothing share; not part of the public interface.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/base/vector.hpp"
+
+namespace quadrille {
+
+/// A side this much shorter than the longest one has no direction but that of rounding errors.
+constexpr double no_length = 1e-9;
+
+/// Scaled Jacobian of the quad a, b, c, d; negative also when the quad is folded against the surface normal.
+/// For convex quads q = (2 / pi) asin(scaled Jacobian): one decides as the other does, without an arc
+/// function.
+inline double folded_scaled_jacobian(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d,
+                                     const Vector3& normal) {
+  Vector3 mean = (c - a).cross(d - b);
+  const double norm = mean.norm();
+  if (!(norm > 0)) return -1;
+  mean /= norm;
+  const Vector3 ab = b - a, bc = c - b, cd = d - c, da = a - d;
+  const double lab = ab.squaredNorm(), lbc = bc.squaredNorm(), lcd = cd.squaredNorm(), lda = da.squaredNorm();
+  const double longest = std::max(std::max(lab, lbc), std::max(lcd, lda));
+  if (std::min(std::min(lab, lbc), std::min(lcd, lda)) < no_length * no_length * longest) return -1e-3;
+  const auto sine = [&](const Vector3& u, const Vector3& v, double squares) {
+    return u.cross(v).dot(mean) / std::sqrt(std::max(squares, std::numeric_limits<double>::min()));
+  };
+  const double least = std::min(std::min(sine(da, ab, lda * lab), sine(ab, bc, lab * lbc)),
+                                std::min(sine(bc, cd, lbc * lcd), sine(cd, da, lcd * lda)));
+  return mean.dot(normal) > 0 ? least : std::min(-std::abs(least), -1e-3);
+}
+
+}  // namespace quadrille

@@ -1,0 +1,241 @@
+// Measures of quads.
+// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018), eq. 1 (q);
+// Knupp, Achieving finite element mesh quality via optimization of the Jacobian matrix norm, part I (2000).
+
+#include "mesher/mesh/quality.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "mesher/mesh/quad_geometry.hpp"
+
+namespace quadrille {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// What the corners of one quad say.
+struct Corners {
+  double q = 0;
+  double scaled_jacobian = 0;
+  double warping = 0;  ///< largest angle between a corner's normal and the mean normal
+  double longest = 0, shortest = 0;
+};
+
+/// The side j -> j + 1 of each corner, the cross products at the corners, and their sum.
+struct Frame {
+  std::array<Vector3, 4> sides, crosses;
+  std::array<double, 4> lengths;
+  Vector3 normal;  ///< unit, or zero for a degenerate quad: one without area, or with a side of no length
+
+  explicit Frame(const std::array<const Vector3*, 4>& p) {
+    for (int j = 0; j < 4; ++j) {
+      sides[j] = *p[(j + 1) & 3] - *p[j];
+      lengths[j] = sides[j].norm();
+    }
+    normal.setZero();
+    for (int j = 0; j < 4; ++j) {
+      crosses[j] = sides[(j + 3) & 3].cross(sides[j]);
+      normal += crosses[j];
+    }
+    const double norm = normal.norm();
+    if (norm > 0) normal /= norm;
+    const auto [shortest, longest] = std::minmax_element(lengths.begin(), lengths.end());
+    if (*shortest < no_length * *longest) normal.setZero();
+  }
+
+  /// Sine and cosine of the angle of corner j, signed by the mean normal.
+  std::pair<double, double> sine_cosine(int j) const {
+    const int before = (j + 3) & 3;
+    const double length = std::max(lengths[before] * lengths[j], std::numeric_limits<double>::min());
+    return {crosses[j].dot(normal) / length, -sides[before].dot(sides[j]) / length};
+  }
+};
+
+double corner_angle(double sine, double cosine) {
+  const double angle = std::atan2(sine, cosine);
+  return angle < 0 ? angle + 2 * pi : angle;
+}
+
+Corners measure(const std::array<const Vector3*, 4>& p) {
+  const Frame frame(p);
+  Corners corners;
+  corners.scaled_jacobian = 1;
+  double off = 0;
+  for (int j = 0; j < 4; ++j) {
+    const auto [sine, cosine] = frame.sine_cosine(j);
+    corners.scaled_jacobian = std::min(corners.scaled_jacobian, sine);
+    off = std::max(off, std::abs(pi / 2 - corner_angle(sine, cosine)));
+    corners.warping = std::max(corners.warping, angle_between(frame.crosses[j], frame.normal));
+  }
+  corners.q = std::max(1 - 2 / pi * off, 0.0);
+  corners.longest = *std::max_element(frame.lengths.begin(), frame.lengths.end());
+  corners.shortest = *std::min_element(frame.lengths.begin(), frame.lengths.end());
+  return corners;
+}
+
+/// A side of the mesh, met from one element.
+struct Side {
+  int low, high;
+};
+
+/// All sides of all elements, sorted; a side with k elements comes k times.
+std::vector<Side> sorted_sides(const ShellMesh& mesh) {
+  const auto each_side = [&](auto&& visit) {
+    for (const auto& quad : mesh.quads)
+      for (int j = 0; j < 4; ++j) visit(quad[j], quad[(j + 1) & 3]);
+    for (const auto& triangle : mesh.triangles)
+      for (int j = 0; j < 3; ++j) visit(triangle[j], triangle[(j + 1) % 3]);
+  };
+  // Counting sort by the lower node: the few sides of one node are then sorted among themselves.
+  std::vector<std::size_t> first(mesh.points.size() + 1, 0);
+  each_side([&](int a, int b) { ++first[std::min(a, b) + 1]; });
+  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+  std::vector<Side> sides(first.back());
+  std::vector<std::size_t> place(first.begin(), first.end() - 1);
+  each_side([&](int a, int b) { sides[place[std::min(a, b)]++] = {std::min(a, b), std::max(a, b)}; });
+  for (std::size_t i = 0; i + 1 < first.size(); ++i)
+    std::sort(sides.begin() + static_cast<std::ptrdiff_t>(first[i]),
+              sides.begin() + static_cast<std::ptrdiff_t>(first[i + 1]),
+              [](const Side& a, const Side& b) { return a.high < b.high; });
+  return sides;
+}
+
+/// Marks the nodes that elements of two faces share.
+void mark_shared_nodes(const ShellMesh& mesh, std::vector<char>& border) {
+  if (mesh.quad_faces.size() != mesh.quads.size()) return;
+  std::vector<int> face_of(mesh.points.size(), 0);
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i)
+    for (const int node : mesh.quads[i]) {
+      if (face_of[node] != 0 && face_of[node] != mesh.quad_faces[i]) border[node] = 1;
+      face_of[node] = mesh.quad_faces[i];
+    }
+}
+
+/// Measures of some of the elements; sums where the summary has means.
+QualitySummary measure_range(const ShellMesh& mesh, std::size_t begin, std::size_t end) {
+  const auto& x = mesh.points;
+  QualitySummary summary;
+  summary.q_min = summary.sj_min = 1;
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto& quad = mesh.quads[i];
+    const Corners corners = measure({&x[quad[0]], &x[quad[1]], &x[quad[2]], &x[quad[3]]});
+    summary.q_min = std::min(summary.q_min, corners.q);
+    summary.q_mean += corners.q;
+    summary.sj_min = std::min(summary.sj_min, corners.scaled_jacobian);
+    summary.sj_mean += corners.scaled_jacobian;
+    summary.inverted += corners.scaled_jacobian <= 0;
+    ++summary.q_histogram[std::min(static_cast<int>(corners.q * 20), 19)];
+    const double aspect = corners.longest / std::max(corners.shortest, std::numeric_limits<double>::min());
+    summary.aspect_max = std::max(summary.aspect_max, aspect);
+    summary.aspect_mean += aspect;
+    summary.warping_max_degrees = std::max(summary.warping_max_degrees, corners.warping * 180 / pi);
+  }
+  return summary;
+}
+
+void measure_elements(const ShellMesh& mesh, QualitySummary& summary) {
+  // Sums are put together in the order of the mesh: the same on any number of threads.
+  constexpr std::size_t at_once = 16384;
+  const std::size_t size = mesh.quads.size();
+  std::vector<QualitySummary> parts((size + at_once - 1) / at_once);
+  oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    parts[i] = measure_range(mesh, i * at_once, std::min((i + 1) * at_once, size));
+  });
+  summary.q_min = summary.sj_min = 1;
+  for (const QualitySummary& part : parts) {
+    summary.q_min = std::min(summary.q_min, part.q_min);
+    summary.q_mean += part.q_mean;
+    summary.sj_min = std::min(summary.sj_min, part.sj_min);
+    summary.sj_mean += part.sj_mean;
+    summary.inverted += part.inverted;
+    for (std::size_t k = 0; k < part.q_histogram.size(); ++k) summary.q_histogram[k] += part.q_histogram[k];
+    summary.aspect_max = std::max(summary.aspect_max, part.aspect_max);
+    summary.aspect_mean += part.aspect_mean;
+    summary.warping_max_degrees = std::max(summary.warping_max_degrees, part.warping_max_degrees);
+  }
+  const auto count = static_cast<double>(size);
+  summary.q_mean /= count;
+  summary.sj_mean /= count;
+  summary.aspect_mean /= count;
+}
+
+void measure_sides(const ShellMesh& mesh, QualitySummary& summary) {
+  const std::vector<Side> sides = sorted_sides(mesh);
+  std::vector<int> valence(mesh.points.size(), 0);
+  std::vector<char> border(mesh.points.size(), 0);
+  std::vector<double> lengths;
+  lengths.reserve(sides.size() / 2 + 1);
+  for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
+    while (j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high) ++j;
+    const auto [low, high] = sides[i];
+    lengths.push_back((mesh.points[low] - mesh.points[high]).norm());
+    ++valence[low];
+    ++valence[high];
+    if (j - i != 2) border[low] = border[high] = 1;
+  }
+  mark_shared_nodes(mesh, border);
+  int interior = 0, irregular = 0;
+  for (std::size_t i = 0; i < valence.size(); ++i) {
+    if (valence[i] == 0) continue;
+    ++summary.nodes;
+    if (border[i]) continue;
+    ++interior;
+    irregular += valence[i] != 4;
+    if (summary.valence_counts.size() <= static_cast<std::size_t>(valence[i]))
+      summary.valence_counts.resize(valence[i] + 1, 0);
+    ++summary.valence_counts[valence[i]];
+  }
+  if (interior > 0) summary.irregular_percent = 100.0 * irregular / interior;
+  if (lengths.empty()) return;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  summary.edge_median = *middle;
+  summary.edge_min = *std::min_element(lengths.begin(), lengths.end());
+  summary.edge_max = *std::max_element(lengths.begin(), lengths.end());
+}
+
+}  // namespace
+
+double quad_q(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+  const Frame frame({&a, &b, &c, &d});
+  double off = 0;
+  for (int j = 0; j < 4; ++j) {
+    const auto [sine, cosine] = frame.sine_cosine(j);
+    off = std::max(off, std::abs(pi / 2 - corner_angle(sine, cosine)));
+  }
+  return std::max(1 - 2 / pi * off, 0.0);
+}
+
+double quad_scaled_jacobian(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+  const Frame frame({&a, &b, &c, &d});
+  double least = 1;
+  for (int j = 0; j < 4; ++j) least = std::min(least, frame.sine_cosine(j).first);
+  return least;
+}
+
+QualitySummary quality(const ShellMesh& mesh) {
+  QualitySummary summary;
+  summary.quads = static_cast<int>(mesh.quads.size());
+  summary.triangles = static_cast<int>(mesh.triangles.size());
+  if (!mesh.quads.empty()) measure_elements(mesh, summary);
+  measure_sides(mesh, summary);
+  return summary;
+}
+
+std::vector<double> quad_qualities(const ShellMesh& mesh) {
+  std::vector<double> result;
+  result.reserve(mesh.quads.size());
+  for (const auto& quad : mesh.quads)
+    result.push_back(
+        quad_q(mesh.points[quad[0]], mesh.points[quad[1]], mesh.points[quad[2]], mesh.points[quad[3]]));
+  return result;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,45 @@
+#pragma once
+/// Measures of quads.
+///
+/// q = max(1 - (2/pi) max_j |pi/2 - a_j|, 0), a_j the corner angles (Giuliani & Krivodonova 2018, eq. 1).
+/// Scaled Jacobian: least over the corners of the sine of the corner angle, signed by the element's mean
+/// normal (Knupp 2000): 1 for a rectangle, <= 0 for an inverted, concave or degenerate quad.
+
+#include <array>
+#include <vector>
+
+#include "geometry/base/vector.hpp"
+#include "mesher/mesh/mesh_types.hpp"
+
+namespace quadrille {
+
+/// q of the quad a, b, c, d in [0, 1]; reflex corners (against the mean normal) count with their angle over
+/// pi.
+double quad_q(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
+
+/// Scaled Jacobian of the quad, in [-1, 1].
+double quad_scaled_jacobian(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
+
+struct QualitySummary {
+  int nodes = 0;  ///< nodes used
+  int quads = 0;
+  int triangles = 0;
+  double q_min = 0, q_mean = 0;
+  double sj_min = 0, sj_mean = 0;
+  int inverted = 0;  ///< quads with scaled Jacobian <= 0
+  double irregular_percent =
+      0;  ///< interior nodes (all sides with two elements, one face) of valence other than 4
+  std::array<int, 20> q_histogram{};       ///< counts in 20 equal bins over [0, 1]
+  std::vector<int> valence_counts;         ///< interior nodes by valence
+  double aspect_max = 0, aspect_mean = 0;  ///< longest over shortest side
+  double warping_max_degrees = 0;          ///< largest angle between a corner's normal and the mean normal
+  double edge_min = 0, edge_median = 0, edge_max = 0;
+};
+
+/// Complexity: linear in the mesh, plus sorting of the sides.
+QualitySummary quality(const ShellMesh& mesh);
+
+/// q of each quad of the mesh.
+std::vector<double> quad_qualities(const ShellMesh& mesh);
+
+}  // namespace quadrille

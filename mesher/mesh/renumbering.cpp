@@ -1,0 +1,95 @@
+/// Based on: Morton, A computer oriented geodetic data base (1966), for the curve.
+
+#include "mesher/mesh/renumbering.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+namespace quadrille {
+
+namespace {
+
+constexpr std::size_t large = 1 << 18;  // smaller ones fit the caches
+constexpr std::size_t samples = 1024;
+
+/// The bits of a number below 2^10, two places free after each.
+std::uint32_t spread(std::uint32_t x) {
+  x = (x | x << 16) & 0x030000ffU;
+  x = (x | x << 8) & 0x0300f00fU;
+  x = (x | x << 4) & 0x030c30c3U;
+  return (x | x << 2) & 0x09249249U;
+}
+
+/// The triangles along a Morton curve through cells, by their first corners; those of a cell in the order of
+/// the mesh.
+std::vector<int> along_curve(const TriangleMesh& mesh) {
+  Vector3 low = mesh.points[mesh.triangles[0][0]], high = low;
+  for (const auto& t : mesh.triangles) {
+    low = low.cwiseMin(mesh.points[t[0]]);
+    high = high.cwiseMax(mesh.points[t[0]]);
+  }
+  const double extent = (high - low).maxCoeff();
+  constexpr int cells = 128;  // along an axis: some hundred triangles in each, whose own order hardly matters
+  const double scale = extent > 0 ? (cells - 1e-6) / extent : 0;
+  std::vector<std::uint32_t> keys(mesh.triangles.size());
+  std::vector<int> start(cells * cells * cells + 1, 0);
+  for (std::size_t t = 0; t < keys.size(); ++t) {
+    const Vector3 at = scale * (mesh.points[mesh.triangles[t][0]] - low);
+    const auto bits = [&](int k) { return spread(static_cast<std::uint32_t>(at[k])); };
+    keys[t] = bits(0) | bits(1) << 1 | bits(2) << 2;
+    ++start[keys[t] + 1];
+  }
+  for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
+  std::vector<int> order(keys.size());
+  for (std::size_t t = 0; t < keys.size(); ++t) order[start[keys[t]]++] = static_cast<int>(t);
+  return order;
+}
+
+}  // namespace
+
+bool is_scattered(const TriangleMesh& mesh) {
+  if (mesh.triangles.size() < large) return false;
+  double jump = 0;
+  std::size_t count = 0;
+  const std::size_t every = mesh.triangles.size() / samples;
+  for (std::size_t t = 0; t + 1 < mesh.triangles.size(); t += every, ++count) {
+    jump += std::abs(mesh.triangles[t][0] - mesh.triangles[t][1]);
+    jump += std::abs(mesh.triangles[t][0] - mesh.triangles[t + 1][0]);
+  }
+  // At random, each jump is over a third of all points. Triangulations of points that were inserted in
+  // another order than that of their places come to a tenth of that: to order them takes longer than it
+  // saves.
+  return jump / static_cast<double>(count) > static_cast<double>(mesh.points.size()) / 5;
+}
+
+RenumberedMesh order_by_place(const TriangleMesh& mesh, const ExecutionContext& context) {
+  SparseCheck check(context);
+  RenumberedMesh result;
+  const std::vector<int> order = along_curve(mesh);
+  std::vector<int> number(mesh.points.size(), -1);
+  result.mesh.triangles.reserve(mesh.triangles.size());
+  result.old_point.reserve(mesh.points.size());
+  if (!mesh.tags.empty()) result.mesh.tags.reserve(mesh.tags.size());
+  for (int t : order) {
+    check();
+    std::array<int, 3> triangle = mesh.triangles[t];
+    for (int& v : triangle) {
+      if (number[v] < 0) {
+        number[v] = static_cast<int>(result.old_point.size());
+        result.old_point.push_back(v);
+      }
+      v = number[v];
+    }
+    result.mesh.triangles.push_back(triangle);
+    if (!mesh.tags.empty()) result.mesh.tags.push_back(mesh.tags[t]);
+  }
+  result.mesh.points.reserve(result.old_point.size());
+  for (int old : result.old_point) result.mesh.points.push_back(mesh.points[old]);
+  return result;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,26 @@
+#pragma once
+/// Large triangulations in an order in which neighbours are near each other in memory. Internal.
+
+#include <vector>
+
+#include "geometry/base/execution_context.hpp"
+#include "mesher/mesh/mesh_types.hpp"
+
+namespace quadrille {
+
+/// A mesh in another order; the elements are the same ones.
+struct RenumberedMesh {
+  TriangleMesh mesh;
+  std::vector<int> old_point;  ///< by point of `mesh`: its index before
+};
+
+/// Whether the mesh is large enough to be worth it, and its points or triangles do not lie in memory as they
+/// lie in space. Looks at a sample: constant time.
+bool is_scattered(const TriangleMesh& mesh);
+
+/// Triangles in the order of a space-filling curve, points in the order in which
+/// triangles use them first; points that no triangle uses are left out. Deterministic. Time: linear. Indices
+/// must have been checked.
+RenumberedMesh order_by_place(const TriangleMesh& mesh, const ExecutionContext& context = {});
+
+}  // namespace quadrille

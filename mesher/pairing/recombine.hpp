@@ -1,0 +1,19 @@
+#pragma once
+/// Triangles into quads by edge colouring.
+
+#include "geometry/base/execution_context.hpp"
+#include "mesher/mesh/mesh_types.hpp"
+#include "mesher/pairing/recombine_options.hpp"
+
+namespace quadrille {
+
+/// Pairs the triangles of a mesh into quads. Points are kept (same indices) unless triangles have to be
+/// walked, and boundary nodes never move; no new point is made. Zero triangles remain in each connected piece
+/// (of one tag) whose count is even, exactly one where it is odd. Quads may be badly shaped or concave where
+/// the triangulation leaves no choice: improve() mends them. Throws Error (failure) naming the triangle when
+/// the mesh is not manifold or not oriented alike. Deterministic for input, options and seed, whatever the
+/// thread count. Time: linear in practice. Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral
+/// mesh generation (2018).
+QuadMesh recombine(const TriangleMesh& mesh, const RecombineOptions& options, ExecutionContext& context);
+
+}  // namespace quadrille

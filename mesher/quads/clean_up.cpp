@@ -1,0 +1,709 @@
+// Topological clean-up of quad meshes.
+// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018), section 5
+// (quad-vertex merge, doublet collapse); Kinney, CleanUp: improving quadrilateral finite element meshes
+// (1997); Bunin, Non-local topological clean-up (2006), for the idea of meshing small patches anew inside
+// their boundary.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <span>
+
+#include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/quads/improve.hpp"
+#include "mesher/quads/patch_templates.hpp"
+#include "mesher/quads/quad_topology.hpp"
+
+namespace quadrille {
+namespace {
+
+using Quad = QuadTopology::Quad;
+constexpr double pi = std::numbers::pi;
+constexpr int max_patch = 32;        ///< quads in a patch
+constexpr double max_stretch = 1.9;  ///< no side gets longer than this times the mean side of its patch
+/// A patch that is better connected may be this badly shaped at first: smoothing mends it.
+constexpr double mendable = 0.05;
+constexpr double regular_cost = 0.5;  ///< nodes that cost less are left alone
+constexpr double min_gain = 0.5;      ///< a patch is filled anew only for more than this
+constexpr double worth_trying = 1.5;  ///< a patch whose nodes cost less in all cannot gain
+constexpr double resize_cost = 0.2;   ///< of each node more or fewer: keeps the density
+constexpr double drift_cost = 50;     ///< of each node more, by the share of quads already gained
+
+double angle_between(const Vector3& from, const Vector3& to, const Vector3& normal) {
+  const double angle = std::atan2(from.cross(to).dot(normal), from.dot(to));
+  return angle < 0 ? angle + 2 * pi : angle;
+}
+
+/// Quads of a mesh and what is to stand in their place. A node may move along.
+struct Change {
+  std::array<int, max_patch> old_quads;
+  int old_count = 0;
+  std::array<Quad, max_patch> quads;
+  int count = 0;
+  int moved = -1;  ///< node that is placed anew, at the mean of its neighbours
+
+  bool add_old(int quad) {
+    if (std::find(old_quads.begin(), old_quads.begin() + old_count, quad) != old_quads.begin() + old_count)
+      return true;
+    if (old_count == max_patch) return false;
+    old_quads[old_count++] = quad;
+    return true;
+  }
+  std::span<const int> old_span() const { return {old_quads.data(), static_cast<std::size_t>(old_count)}; }
+  std::span<const Quad> new_span() const { return {quads.data(), static_cast<std::size_t>(count)}; }
+};
+
+/// A patch of quads as a polygon with nodes inside.
+struct Outline {
+  std::array<int, PatchTemplate::max_sides> ring;  ///< nodes, counter-clockwise
+  std::array<int, PatchTemplate::max_sides>
+      sides;  ///< side of the patch from each node of the ring to the next
+  int length = 0;
+  std::array<int, 4> inside;
+  int inside_count = 0;
+};
+
+/// Quads that are tried as one patch.
+struct Patch {
+  static constexpr int max_quads = 8;
+  std::array<int, max_quads> quads;
+  int count = 0;
+
+  /// The same for the same quads in any order, as long as they and the valences of their nodes do not change.
+  std::uint64_t fingerprint(const QuadTopology& topology) const {
+    const auto mix = [](std::uint64_t value) {
+      value = (value ^ (value >> 31)) * 0x9E3779B97F4A7C15u;
+      return value ^ (value >> 29);
+    };
+    std::uint64_t sum = 0;
+    for (int i = 0; i < count; ++i)
+      for (int side = 4 * quads[i]; side < 4 * quads[i] + 4; ++side)
+        sum += mix(static_cast<std::uint64_t>(side) << 32 ^
+                   static_cast<std::uint64_t>(topology.origin(side)) << 6 ^
+                   static_cast<std::uint64_t>(topology.valence(side)));
+    return sum;
+  }
+
+  bool contains(int quad) const {
+    return std::find(quads.begin(), quads.begin() + count, quad) != quads.begin() + count;
+  }
+  bool add(int quad) {
+    if (quad < 0) return false;
+    if (contains(quad)) return true;
+    if (count == max_quads) return false;
+    quads[count++] = quad;
+    return true;
+  }
+};
+
+class CleanUp {
+ public:
+  /// \param doubtful nodes to begin with; empty = all. Out (by write_back()): those to begin with next time.
+  CleanUp(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, ImproveReport& report,
+          std::vector<char>& doubtful, const ExecutionContext& context)
+      : doubtful_(doubtful),
+        mesh_(surface_mesh),
+        surface_(surface),
+        report_(report),
+        context_(context),
+        topology_(surface_mesh.mesh.quads, surface_mesh.mesh.quad_tags,
+                  static_cast<int>(surface_mesh.mesh.points.size()), context),
+        locked_(surface_mesh.fixed) {
+    for (const auto& triangle : mesh_.mesh.triangles)
+      for (const int node : triangle) locked_[node] = 1;
+    measure_boundary();
+    if (doubtful_.empty()) doubtful_.assign(mesh_.mesh.points.size(), 1);
+    tried_.assign(tried_slots, 0);
+  }
+
+  /// Interior nodes with two quads go; the two quads become one.
+  bool collapse_doublets() {
+    bool any = false;
+    SparseCheck check(context_);
+    for (int node = 0; node < node_count(); ++node) {
+      check();
+      while (removable(node) && topology_.valence(topology_.side_of(node)) == 2 && collapse_doublet(node))
+        any = true;
+    }
+    return any;
+  }
+
+  /// Quads with two opposite corners under 45 degrees are closed: the two blunt corners become one node.
+  bool merge_slender_quads() {
+    bool any = false;
+    SparseCheck check(context_);
+    for (int quad = 0; quad < topology_.size(); ++quad) {
+      check();
+      if (topology_.alive(quad)) any |= merge_slender(quad);
+    }
+    return any;
+  }
+
+  /// Meshes small patches round irregular nodes anew where the valences gain.
+  bool improve_valences();
+
+  void write_back();
+
+ private:
+  int node_count() const { return static_cast<int>(mesh_.mesh.points.size()); }
+  const Vector3& point(int node) const { return mesh_.mesh.points[node]; }
+
+  void measure_boundary();
+
+  bool removable(int node) const {
+    const int side = topology_.side_of(node);
+    return side >= 0 && !locked_[node] && topology_.closed(node);
+  }
+
+  /// How far a node with `quads` quads is from what its angle asks for.
+  double node_cost(int node, int quads) const {
+    if (topology_.closed(node) && !locked_[node]) {
+      if (quads < 3) return 20;
+      return (quads - 4) * (quads - 4);
+    }
+    if (quads < 1) return 1e9;
+    const double angle = angles_[node] * 180 / pi;
+    const double wanted = std::max(1.0, std::round(angle / 90));
+    // No smoothing mends the mean angle at a boundary node: beyond 130 degrees it soon rules everything.
+    // Opening a straight corner costs two or three irregular nodes inside, and is worth it from 150 degrees
+    // on.
+    const double mean = angle / quads;
+    const double flat = std::max(0.0, mean - 130) / 15, sharp = std::max(0.0, 40 - mean) / 20;
+    return (quads - wanted) * (quads - wanted) + 3 * flat * flat + 3 * sharp * sharp;
+  }
+
+  double cost_change(const Change& change) const;
+  double worst(std::span<const Quad> quads) const;
+  bool too_long(const Change& change) const;
+  bool apply(Change& change, double allowed_cost);
+  bool collapse_doublet(int node);
+  bool merge_slender(int quad);
+  bool merge_corners(int quad, int corner);
+
+  double cost_at(int node) const;
+  double cost_of(int side) const { return node_cost(topology_.origin(side), topology_.valence(side)); }
+  bool improve_round(int node);
+  bool try_patch(const Patch& patch);
+  bool trace(const Patch& patch, Outline& outline) const;
+  bool fill(const Patch& patch, const Outline& outline, const PatchTemplate& filling);
+  void push(int node);
+
+  static constexpr std::size_t tried_slots = 1 << 13;
+
+  std::vector<char>& doubtful_;       ///< nodes where something may still be gained
+  int drift_ = 0;                     ///< quads more than at first
+  bool blocked_ = false;              ///< a gain was refused for the shapes it would give
+  std::vector<std::uint64_t> tried_;  ///< fingerprints of patches that gave nothing, by their low bits
+
+  SurfaceMesh& mesh_;
+  const SmoothingSurface& surface_;
+  ImproveReport& report_;
+  const ExecutionContext& context_;
+  QuadTopology topology_;
+  std::vector<char> locked_;    ///< fixed, or on a triangle
+  std::vector<double> angles_;  ///< total corner angle of a node's quads, a fan
+  std::vector<int> queue_;      ///< nodes whose surroundings are to be tried
+  std::vector<char> queued_;
+};
+
+void CleanUp::measure_boundary() {
+  angles_.assign(mesh_.mesh.points.size(), 0);
+  std::vector<int> fans(mesh_.mesh.points.size(), 0);
+  SparseCheck check(context_);
+  for (int side = 0; side < 4 * topology_.size(); ++side) {
+    check();
+    const int node = topology_.origin(side);
+    const int before = topology_.origin(QuadTopology::previous(side));
+    const Vector3& normal = mesh_.normals[node];
+    const Vector3 forth = point(topology_.end(side)) - point(node), back = point(before) - point(node);
+    angles_[node] += angle_between(forth, back, normal);
+    if (topology_.twin(side) < 0) ++fans[node];
+  }
+  for (std::size_t i = 0; i < angles_.size(); ++i)
+    if (fans[i] > 1) angles_[i] /= fans[i];
+  if (mesh_.boundary_angles.empty()) return;
+  for (std::size_t i = 0; i < angles_.size(); ++i)
+    if (fans[i] == 1 && mesh_.boundary_angles[i] > 0) angles_[i] = mesh_.boundary_angles[i];
+}
+
+double CleanUp::cost_change(const Change& change) const {
+  std::array<int, 4 * max_patch> nodes, delta;
+  int count = 0;
+  const auto tally = [&](const Quad& quad, int by) {
+    for (const int node : quad) {
+      const auto end = nodes.begin() + count;
+      const auto at = std::find(nodes.begin(), end, node);
+      if (at == end) {
+        nodes[count] = node;
+        delta[count++] = by;
+      } else {
+        delta[at - nodes.begin()] += by;
+      }
+    }
+  };
+  for (const int quad : change.old_span()) tally(topology_.quad(quad), -1);
+  for (const Quad& quad : change.new_span()) tally(quad, 1);
+  double sum = 0;
+  for (int i = 0; i < count; ++i) {
+    if (delta[i] == 0) continue;
+    const int node = nodes[i];
+    int side = -1;
+    for (int k = 0; k < change.old_count && side < 0; ++k)
+      side = topology_.side_at(change.old_quads[k], node);
+    if (side < 0) {  // a new node, inside the patch
+      sum += node_cost(node, delta[i]);
+      continue;
+    }
+    const int valence = topology_.valence(side), quads = valence + delta[i];
+    sum -= node_cost(node, valence);
+    if (quads > 0 || !removable(node)) sum += node_cost(node, quads);
+  }
+  return sum;
+}
+
+double CleanUp::worst(std::span<const Quad> quads) const {
+  double least = 1;
+  for (const Quad& q : quads) {
+    const Vector3 normal =
+        mesh_.normals[q[0]] + mesh_.normals[q[1]] + mesh_.normals[q[2]] + mesh_.normals[q[3]];
+    least =
+        std::min(least, folded_scaled_jacobian(point(q[0]), point(q[1]), point(q[2]), point(q[3]), normal));
+  }
+  return least;
+}
+
+bool CleanUp::too_long(const Change& change) const {
+  double sum = 0, longest_old = 0, longest = 0;
+  for (const int quad : change.old_span())
+    for (int k = 0; k < 4; ++k) {
+      const Quad& q = topology_.quad(quad);
+      const double length = (point(q[k]) - point(q[(k + 1) & 3])).norm();
+      sum += length;
+      longest_old = std::max(longest_old, length);
+    }
+  for (const Quad& q : change.new_span())
+    for (int k = 0; k < 4; ++k) longest = std::max(longest, (point(q[k]) - point(q[(k + 1) & 3])).norm());
+  return longest > std::max(longest_old, max_stretch * sum / (4 * change.old_count));
+}
+
+/// Carries a change out if the valences gain enough and no element becomes worse than it was (or than can be
+/// mended).
+bool CleanUp::apply(Change& change, double allowed_cost) {
+  if (change.count == 0 || cost_change(change) > allowed_cost) return false;
+  std::array<Quad, max_patch> before;
+  for (int i = 0; i < change.old_count; ++i) before[i] = topology_.quad(change.old_quads[i]);
+  const double worst_before = worst({before.data(), static_cast<std::size_t>(change.old_count)});
+  const int node = change.moved;
+  Vector3 place = Vector3::Zero(), normal = Vector3::Zero();
+  Vector2 uv = Vector2::Zero();
+  if (node >= 0) {
+    place = mesh_.mesh.points[node];
+    normal = mesh_.normals[node];
+    uv = mesh_.parameters[node];
+    Vector3 sum = Vector3::Zero();
+    int neighbours = 0;
+    for (const Quad& quad : change.new_span())
+      for (int k = 0; k < 4; ++k)
+        if (quad[k] == node) {
+          sum += point(quad[(k + 1) & 3]);
+          ++neighbours;
+        }
+    mesh_.mesh.points[node] =
+        surface_.move(mesh_.parameters[node], sum / std::max(neighbours, 1), mesh_.normals[node]);
+  }
+  const bool done = worst(change.new_span()) > std::min(worst_before, mendable) && !too_long(change) &&
+                    topology_.replace(change.old_span(), change.new_span());
+  if (!done && node >= 0) {
+    mesh_.mesh.points[node] = place;
+    mesh_.normals[node] = normal;
+    mesh_.parameters[node] = uv;
+  }
+  return done;
+}
+
+bool CleanUp::collapse_doublet(int node) {
+  const int side = topology_.side_of(node);
+  const int other = topology_.rotate(side);
+  // The quads (node, a, x, b) and (node, b, y, a) become (a, x, b, y).
+  const Quad& one = topology_.quad(side >> 2);
+  const Quad& two = topology_.quad(other >> 2);
+  const int k = side & 3, j = other & 3;
+  Change change;
+  change.add_old(side >> 2);
+  change.add_old(other >> 2);
+  change.quads[change.count++] = {one[(k + 1) & 3], one[(k + 2) & 3], one[(k + 3) & 3], two[(j + 2) & 3]};
+  if (!apply(change, 1e9)) return false;
+  for (const int corner : change.quads[0]) doubtful_[corner] = 1;
+  ++report_.doublet_collapses;
+  return true;
+}
+
+bool CleanUp::merge_slender(int quad) {
+  const Quad& q = topology_.quad(quad);
+  for (int k = 0; k < 2; ++k) {
+    const auto sharp = [&](int j) {
+      const Vector3 u = point(q[(j + 1) & 3]) - point(q[j & 3]), v = point(q[(j + 3) & 3]) - point(q[j & 3]);
+      return u.dot(v) > std::sqrt(0.5) * u.norm() * v.norm();
+    };
+    if (sharp(k) && sharp(k + 2)) return merge_corners(quad, k + 1) || merge_corners(quad, (k + 3) & 3);
+  }
+  return false;
+}
+
+/// Merges the node at a corner into the opposite one; the quad between them vanishes.
+bool CleanUp::merge_corners(int quad, int corner) {
+  const Quad q = topology_.quad(quad);
+  const int gone = q[corner], kept = q[(corner + 2) & 3];
+  if (!removable(gone)) return false;
+  Change change;
+  for (const int node : {gone, kept}) {
+    const QuadTopology::Fan fan = topology_.fan(topology_.side_at(quad, node));
+    int side = fan.first;
+    for (int i = 0; i < fan.quads; ++i, side = topology_.rotate(side))
+      if (!change.add_old(side >> 2)) return false;
+  }
+  for (const int old : change.old_span()) {
+    if (old == quad) continue;
+    Quad changed = topology_.quad(old);
+    std::replace(changed.begin(), changed.end(), gone, kept);
+    change.quads[change.count++] = changed;
+  }
+  if (removable(kept)) change.moved = kept;
+  if (!apply(change, 2)) return false;
+  for (const Quad& changed : change.new_span())
+    for (const int node : changed) doubtful_[node] = 1;
+  ++report_.quad_vertex_merges;
+  return true;
+}
+
+double CleanUp::cost_at(int node) const {
+  const int side = topology_.side_of(node);
+  if (side < 0) return 0;
+  return node_cost(node, topology_.valence(side));
+}
+
+void CleanUp::push(int node) {
+  if (queued_.size() < mesh_.mesh.points.size()) queued_.resize(mesh_.mesh.points.size(), 0);
+  if (queued_[node]) return;
+  queued_[node] = 1;
+  queue_.push_back(node);
+}
+
+bool CleanUp::improve_valences() {
+  queue_.clear();
+  queued_.assign(mesh_.mesh.points.size(), 0);
+  const int moves = report_.valence_moves;
+  SparseCheck check(context_);
+  for (int node = 0; node < node_count(); ++node) {
+    check();
+    if (doubtful_[node] && cost_at(node) > regular_cost) push(node);
+  }
+  std::fill(doubtful_.begin(), doubtful_.end(), 0);
+  // Each move lowers the cost by at least min_gain, so the queue runs dry; the bound is for safety only.
+  const std::size_t bound = 40 * queue_.size() + 1000;
+  SparseCheck check_often(context_, 16);
+  for (std::size_t head = 0; head < queue_.size() && head < bound; ++head) {
+    check_often();
+    const int node = queue_[head];
+    queued_[node] = 0;
+    if (topology_.side_of(node) < 0 || cost_at(node) <= regular_cost) continue;
+    blocked_ = false;
+    if (!improve_round(node) && blocked_) doubtful_[node] = 1;
+  }
+  return report_.valence_moves > moves;
+}
+
+/// Tries the patches round a node, the smallest first.
+bool CleanUp::improve_round(int node) {
+  const QuadTopology::Fan fan = topology_.fan(topology_.side_of(node));
+  if (fan.quads > 12) return false;
+  std::array<int, 12> sides;
+  for (int i = 0, at = fan.first; i < fan.quads; ++i, at = topology_.rotate(at)) sides[i] = at;
+  const auto quad_across = [&](int side) {
+    return topology_.twin(side) < 0 ? -1 : topology_.twin(side) >> 2;
+  };
+
+  // The node's own ring.
+  Patch ring;
+  bool whole = true;
+  for (int i = 0; i < fan.quads; ++i) whole = ring.add(sides[i] >> 2) && whole;
+  if (whole && ring.count > 1 && try_patch(ring)) return true;
+  // Pairs of quads, then chains of three.
+  for (int i = 0; i < fan.quads; ++i)
+    for (int k = 0; k < 4; ++k) {
+      Patch pair;
+      pair.add(sides[i] >> 2);
+      if (quad_across(4 * (sides[i] >> 2) + k) == (sides[(i + 1) % fan.quads] >> 2))
+        continue;  // met from there
+      if (pair.add(quad_across(4 * (sides[i] >> 2) + k)) && try_patch(pair)) return true;
+    }
+  for (int i = 0; i < fan.quads; ++i)
+    for (int k = 0; k < 4; ++k) {
+      Patch pair;
+      pair.add(sides[i] >> 2);
+      if (!pair.add(quad_across(4 * (sides[i] >> 2) + k))) continue;
+      for (int member = 0; member < 2; ++member)
+        for (int j = 0; j < 4; ++j) {
+          Patch triple = pair;
+          if (triple.add(quad_across(4 * pair.quads[member] + j)) && triple.count == 3 && try_patch(triple))
+            return true;
+        }
+    }
+  // The node's ring with the ring of each other node of its quads.
+  for (int i = 0; i < fan.quads && whole; ++i)
+    for (int step = 1; step <= 2; ++step) {
+      const Quad& q = topology_.quad(sides[i] >> 2);
+      const int other_side = topology_.side_at(sides[i] >> 2, q[((sides[i] & 3) + step) & 3]);
+      if (!topology_.closed(topology_.origin(other_side))) continue;
+      const QuadTopology::Fan other = topology_.fan(other_side);
+      Patch both = ring;
+      bool fits = true;
+      for (int j = 0, at = other.first; j < other.quads && fits; ++j, at = topology_.rotate(at))
+        fits = both.add(at >> 2);
+      if (fits && try_patch(both)) return true;
+    }
+  return false;
+}
+
+/// The polygon round a patch; false if it is not a disc, too long, or holds nodes that must stay.
+bool CleanUp::trace(const Patch& patch, Outline& outline) const {
+  int start = -1, outer = 0;
+  for (int i = 0; i < patch.count; ++i)
+    for (int k = 0; k < 4; ++k) {
+      const int twin = topology_.twin(4 * patch.quads[i] + k);
+      if (twin >= 0 && patch.contains(twin >> 2)) continue;
+      start = 4 * patch.quads[i] + k;
+      ++outer;
+    }
+  if (start < 0 || outer > PatchTemplate::max_sides) return false;
+  int side = start;
+  do {
+    if (outline.length == outer) return false;
+    outline.sides[outline.length] = side;
+    outline.ring[outline.length++] = topology_.origin(side);
+    side = QuadTopology::next(side);
+    for (int twin = topology_.twin(side); twin >= 0 && patch.contains(twin >> 2); twin = topology_.twin(side))
+      side = QuadTopology::next(twin);
+  } while (side != start);
+  if (outline.length != outer) return false;
+  const auto ring_end = outline.ring.begin() + outline.length;
+  for (auto at = outline.ring.begin(); at != ring_end; ++at)
+    if (std::find(at + 1, ring_end, *at) != ring_end) return false;
+  for (int i = 0; i < patch.count; ++i)
+    for (const int node : topology_.quad(patch.quads[i])) {
+      if (std::find(outline.ring.begin(), ring_end, node) != ring_end) continue;
+      const auto inside_end = outline.inside.begin() + outline.inside_count;
+      if (std::find(outline.inside.begin(), inside_end, node) != inside_end) continue;
+      if (outline.inside_count == 4 || !removable(node)) return false;
+      outline.inside[outline.inside_count++] = node;
+    }
+  return patch.count == outline.length / 2 - 1 + outline.inside_count;
+}
+
+/// Fills the patch anew by the template that costs least, if that gains.
+bool CleanUp::try_patch(const Patch& patch) {
+  // Nothing is gained where no two nodes are irregular. A node counts here with each of its quads.
+  double most = 0;
+  for (int i = 0; i < patch.count; ++i)
+    for (int k = 0; k < 4; ++k) most += cost_of(4 * patch.quads[i] + k);
+  if (most < worth_trying) return false;
+  const std::uint64_t fingerprint = patch.fingerprint(topology_);
+  std::uint64_t& slot = tried_[fingerprint % tried_slots];
+  if (slot == fingerprint) return false;
+  slot = fingerprint;
+  Outline outline;
+  if (!trace(patch, outline)) return false;
+  constexpr int max_uses = 6;
+  std::array<std::array<double, max_uses>, PatchTemplate::max_sides> costs;
+  double cost = 0;
+  for (int i = 0; i < outline.length; ++i) {
+    // Quads of the patch at the node, and beyond it.
+    int inside = 0;
+    for (int k = 0; k < patch.count; ++k) inside += topology_.side_at(patch.quads[k], outline.ring[i]) >= 0;
+    const int valence = topology_.valence(outline.sides[i]);
+    for (int uses = 1; uses < max_uses; ++uses)
+      costs[i][uses] = node_cost(outline.ring[i], valence - inside + uses);
+    cost += costs[i][std::min(inside, max_uses - 1)];
+  }
+  for (int i = 0; i < outline.inside_count; ++i) cost += cost_at(outline.inside[i]);
+  if (cost < worth_trying) return false;
+
+  struct Candidate {
+    double cost;
+    const PatchTemplate* filling;
+  };
+  // Where two fillings gain alike, the one that brings the number of quads back to the first count.
+  const double drift = std::clamp(drift_cost * drift_ / topology_.size(), -resize_cost, resize_cost);
+  constexpr int candidates = 4;
+  std::array<Candidate, candidates> best;
+  int count = 0;
+  for (const PatchTemplate& filling : patch_templates(outline.length)) {
+    const int added = filling.interior - outline.inside_count;
+    double sum = filling.interior_cost + resize_cost * std::abs(added) + drift * added;
+    for (int i = 0; i < outline.length && sum <= cost - min_gain; ++i) sum += costs[i][filling.uses[i]];
+    if (sum > cost - min_gain || (count == candidates && sum >= best[count - 1].cost)) continue;
+    int at = count < candidates ? count++ : count - 1;
+    for (; at > 0 && best[at - 1].cost > sum; --at) best[at] = best[at - 1];
+    best[at] = {sum, &filling};
+  }
+  for (int i = 0; i < count; ++i)
+    if (fill(patch, outline, *best[i].filling)) return true;
+  if (count > 0) {
+    // Met again from another node, the patch is to count as blocked there too.
+    blocked_ = true;
+    slot = 0;
+  }
+  return false;
+}
+
+bool CleanUp::fill(const Patch& patch, const Outline& outline, const PatchTemplate& filling) {
+  // Nodes inside start from the middle of the polygon and are relaxed among themselves and towards it.
+  std::array<Vector3, PatchTemplate::max_sides + PatchTemplate::max_interior> x;
+  std::array<int, PatchTemplate::max_sides + PatchTemplate::max_interior> nodes;
+  Vector3 centre = Vector3::Zero();
+  for (int i = 0; i < outline.length; ++i) {
+    nodes[i] = outline.ring[i];
+    x[i] = point(nodes[i]);
+    centre += x[i] / outline.length;
+  }
+  const int n = outline.length;
+  for (int i = 0; i < filling.interior; ++i) x[n + i] = centre;
+  for (int sweep = 0; sweep < 6; ++sweep)
+    for (int i = n; i < n + filling.interior; ++i) {
+      Vector3 sum = Vector3::Zero();
+      int neighbours = 0;
+      for (int k = 0; k < filling.quads; ++k)
+        for (int j = 0; j < 4; ++j)
+          if (filling.corners[k][j] == i) {
+            sum += x[filling.corners[k][(j + 1) & 3]];
+            ++neighbours;
+          }
+      x[i] = sum / neighbours;
+    }
+  Vector3 normal = Vector3::Zero();
+  for (int i = 0; i < n; ++i) normal += mesh_.normals[nodes[i]];
+  const auto worst_now = [&] {
+    double least = 1;
+    for (int k = 0; k < filling.quads; ++k) {
+      const auto& c = filling.corners[k];
+      least = std::min(least, folded_scaled_jacobian(x[c[0]], x[c[1]], x[c[2]], x[c[3]], normal));
+    }
+    return least;
+  };
+  Change change;
+  std::array<Quad, Patch::max_quads> before;
+  for (int i = 0; i < patch.count; ++i) {
+    change.add_old(patch.quads[i]);
+    before[i] = topology_.quad(patch.quads[i]);
+  }
+  const double floor = std::min(worst({before.data(), static_cast<std::size_t>(patch.count)}), mendable);
+  if (!(worst_now() > floor)) return false;
+
+  // Only now the surface is asked.
+  struct Saved {
+    Vector3 point, normal;
+    Vector2 uv;
+  };
+  std::array<Saved, PatchTemplate::max_interior> saved;
+  int donor = nodes[0];
+  for (int i = 0; i < n; ++i)
+    if (!mesh_.fixed[nodes[i]]) donor = nodes[i];
+  for (int i = 0; i < filling.interior; ++i) {
+    int node;
+    if (i < outline.inside_count) {
+      node = outline.inside[i];
+      saved[i] = {point(node), mesh_.normals[node], mesh_.parameters[node]};
+    } else {
+      node = topology_.add_node();
+      mesh_.mesh.points.push_back(point(donor));
+      mesh_.normals.push_back(mesh_.normals[donor]);
+      mesh_.parameters.push_back(mesh_.parameters[donor]);
+      mesh_.fixed.push_back(0);
+      if (!mesh_.boundary_angles.empty()) mesh_.boundary_angles.push_back(0);
+      locked_.push_back(0);
+      angles_.push_back(0);
+      doubtful_.push_back(0);
+      saved[i] = {point(node), mesh_.normals[node], mesh_.parameters[node]};
+    }
+    nodes[n + i] = node;
+    x[n + i] = mesh_.mesh.points[node] = surface_.move(mesh_.parameters[node], x[n + i], mesh_.normals[node]);
+  }
+  for (int k = 0; k < filling.quads; ++k) {
+    const auto& c = filling.corners[k];
+    change.quads[change.count++] = {nodes[c[0]], nodes[c[1]], nodes[c[2]], nodes[c[3]]};
+  }
+  if (worst_now() > floor && !too_long(change) && topology_.replace(change.old_span(), change.new_span())) {
+    ++report_.valence_moves;
+    drift_ += change.count - change.old_count;
+    for (int i = 0; i < n + filling.interior; ++i) push(nodes[i]);
+    return true;
+  }
+  for (int i = 0; i < filling.interior; ++i) {
+    const int node = nodes[n + i];
+    mesh_.mesh.points[node] = saved[i].point;
+    mesh_.normals[node] = saved[i].normal;
+    mesh_.parameters[node] = saved[i].uv;
+  }
+  return false;
+}
+
+/// The fixed points first, in their old order, then the free ones still used, in theirs.
+void CleanUp::write_back() {
+  std::vector<int> number(mesh_.mesh.points.size(), -1);
+  SurfaceMesh result;
+  std::vector<char> doubtful;
+  SparseCheck check(context_);
+  const auto keep = [&](int node) {
+    check();
+    number[node] = static_cast<int>(result.mesh.points.size());
+    result.mesh.points.push_back(mesh_.mesh.points[node]);
+    result.parameters.push_back(mesh_.parameters[node]);
+    result.normals.push_back(mesh_.normals[node]);
+    result.fixed.push_back(mesh_.fixed[node]);
+    if (!mesh_.boundary_angles.empty()) result.boundary_angles.push_back(mesh_.boundary_angles[node]);
+    doubtful.push_back(doubtful_[node]);
+  };
+  for (int node = 0; node < node_count(); ++node)
+    if (mesh_.fixed[node]) keep(node);
+  for (int node = 0; node < node_count(); ++node)
+    if (!mesh_.fixed[node] && (locked_[node] || topology_.side_of(node) >= 0)) keep(node);
+  for (int quad = 0; quad < topology_.size(); ++quad) {
+    check();
+    if (!topology_.alive(quad)) continue;
+    const Quad& q = topology_.quad(quad);
+    result.mesh.quads.push_back({number[q[0]], number[q[1]], number[q[2]], number[q[3]]});
+    if (topology_.tagged()) result.mesh.quad_tags.push_back(topology_.tag(quad));
+  }
+  for (auto& triangle : mesh_.mesh.triangles)
+    result.mesh.triangles.push_back({number[triangle[0]], number[triangle[1]], number[triangle[2]]});
+  result.mesh.triangle_tags = std::move(mesh_.mesh.triangle_tags);
+  context_.check();
+  mesh_ = std::move(result);
+  doubtful_ = std::move(doubtful);
+}
+
+}  // namespace
+
+void clean_up(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const ImproveOptions& options,
+              ImproveReport& report, ExecutionContext& context) {
+  if (!options.clean_up) return;
+  ImproveOptions relaxing = options;
+  relaxing.smoothing_sweeps = 2;
+  std::vector<char> doubtful;
+  for (int round = 0; round < 4; ++round) {
+    context.check();
+    CleanUp work(surface_mesh, surface, report, doubtful, context);
+    bool any = work.collapse_doublets();
+    any |= work.improve_valences();
+    if (round > 0) any |= work.merge_slender_quads();
+    any |= work.collapse_doublets();
+    work.write_back();
+    if (!any) break;
+    smooth(surface_mesh, surface, relaxing, report, context);
+  }
+}
+
+}  // namespace quadrille

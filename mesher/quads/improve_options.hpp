@@ -1,0 +1,12 @@
+#pragma once
+/// How quads are improved.
+
+namespace quadrille {
+
+struct ImproveOptions {
+  bool clean_up = true;  ///< quad-vertex merge, doublet collapse, valence-driven moves
+  int smoothing_sweeps = 8;
+  double q_floor = 0.25;  ///< elements below this are worked on one by one at the end
+};
+
+}  // namespace quadrille

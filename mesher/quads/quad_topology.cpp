@@ -1,0 +1,201 @@
+// Quads with their neighbours: half-edges kept implicitly, four a quad.
+
+#include "mesher/quads/quad_topology.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace quadrille {
+namespace {
+
+constexpr int max_patch = 48;  ///< quads in a patch; larger ones are refused
+
+/// A side of the new quads of a patch, on its way to its twin.
+struct PendingSide {
+  int from, to;
+  int twin;     ///< index of the new side opposite, or -1
+  int outside;  ///< side of a quad outside the patch, or -1
+};
+
+constexpr int boundary = -1;
+
+}  // namespace
+
+QuadTopology::QuadTopology(std::vector<Quad> quads, const std::vector<int>& tags, int node_count,
+                           const ExecutionContext& context)
+    : quads_(std::move(quads)), tags_(tags) {
+  context.check();
+  sides_.assign(node_count, -1);
+  link(context);
+}
+
+void QuadTopology::link(const ExecutionContext& context) {
+  SparseCheck check(context);
+  twins_.assign(4 * quads_.size(), boundary);
+  // Sides in rows by their lower node; within the few sides of a row, those with the same ends are met by
+  // search.
+  std::vector<int> first(sides_.size() + 1, 0);
+  const int count = 4 * size();
+  const auto low = [&](int side) { return std::min(origin(side), end(side)); };
+  for (int side = 0; side < count; ++side) {
+    check();
+    ++first[low(side) + 1];
+  }
+  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+  std::vector<int> rows(count), place(first.begin(), first.end() - 1);
+  for (int side = 0; side < count; ++side) {
+    check();
+    rows[place[low(side)]++] = side;
+  }
+  for (std::size_t node = 0; node + 1 < first.size(); ++node)
+    for (int i = first[node]; i < first[node + 1]; ++i) {
+      check();
+      int same = 0, opposite = -1, opposites = 0;
+      for (int j = first[node]; j < first[node + 1]; ++j) {
+        if (origin(rows[j]) == origin(rows[i]) && end(rows[j]) == end(rows[i])) ++same;
+        if (origin(rows[j]) == end(rows[i]) && end(rows[j]) == origin(rows[i])) {
+          opposite = rows[j];
+          ++opposites;
+        }
+      }
+      if (same == 1 && opposites == 1 && tag(opposite >> 2) == tag(rows[i] >> 2)) twins_[rows[i]] = opposite;
+    }
+  uses_.assign(sides_.size(), 0);
+  openings_.assign(sides_.size(), 0);
+  for (int side = 0; side < count; ++side) {
+    check();
+    sides_[origin(side)] = side;
+    ++uses_[origin(side)];
+    if (twins_[side] < 0) ++openings_[origin(side)];
+  }
+}
+
+int QuadTopology::side_at(int quad, int node) const {
+  for (int k = 0; k < 4; ++k)
+    if (quads_[quad][k] == node) return 4 * quad + k;
+  return -1;
+}
+
+QuadTopology::Fan QuadTopology::fan(int side) const {
+  Fan result;
+  result.first = side;
+  while (twins_[result.first] >= 0) {
+    result.first = next(twins_[result.first]);
+    if (result.first == side) {
+      result.closed = true;
+      break;
+    }
+  }
+  int at = result.first;
+  do {
+    ++result.quads;
+    at = rotate(at);
+  } while (at >= 0 && at != result.first);
+  return result;
+}
+
+int QuadTopology::add_node() {
+  sides_.push_back(-1);
+  uses_.push_back(0);
+  openings_.push_back(0);
+  return static_cast<int>(sides_.size()) - 1;
+}
+
+bool QuadTopology::joined_outside(int from, int to, std::span<const int> patch) const {
+  for (const int quad : patch) {
+    const int start = side_at(quad, from);
+    if (start < 0) continue;
+    const Fan round = fan(start);
+    int at = round.first;
+    for (int i = 0; i < round.quads; ++i, at = rotate(at)) {
+      if (std::find(patch.begin(), patch.end(), at >> 2) != patch.end()) continue;
+      if (end(at) == to || origin(previous(at)) == to) return true;
+    }
+    return false;
+  }
+  return false;
+}
+
+bool QuadTopology::replace(std::span<const int> old_quads, std::span<const Quad> new_quads) {
+  if (old_quads.size() > max_patch || new_quads.size() > max_patch || new_quads.empty()) return false;
+  std::array<PendingSide, 4 * max_patch> pending;
+  const int count = 4 * static_cast<int>(new_quads.size());
+  for (int i = 0; i < count; ++i) {
+    const Quad& quad = new_quads[i >> 2];
+    pending[i] = {quad[i & 3], quad[(i + 1) & 3], -1, boundary};
+    for (int k = 0; k < (i & 3); ++k)
+      if (quad[k] == quad[i & 3]) return false;
+  }
+  std::array<char, 4 * max_patch> outer{};
+  const auto in_patch = [&](int quad) {
+    return std::find(old_quads.begin(), old_quads.end(), quad) != old_quads.end();
+  };
+  // The outer sides must all be found again, once each.
+  int outer_count = 0;
+  for (const int quad : old_quads)
+    for (int k = 0; k < 4; ++k) {
+      const int side = 4 * quad + k, beyond = twins_[side];
+      if (beyond >= 0 && in_patch(beyond >> 2)) continue;
+      int found = -1;
+      for (int i = 0; i < count; ++i)
+        if (pending[i].from == origin(side) && pending[i].to == end(side)) {
+          if (found >= 0 || outer[i]) return false;
+          found = i;
+        }
+      if (found < 0) return false;
+      outer[found] = 1;
+      pending[found].outside = beyond;
+      ++outer_count;
+    }
+  for (int i = 0; i < count; ++i) {
+    if (outer[i]) continue;
+    for (int j = 0; j < count; ++j) {
+      if (j != i && pending[j].from == pending[i].from && pending[j].to == pending[i].to) return false;
+      if (pending[j].from != pending[i].to || pending[j].to != pending[i].from) continue;
+      if (outer[j] || pending[i].twin >= 0) return false;
+      pending[i].twin = j;
+    }
+    if (pending[i].twin < 0) return false;
+    if (i < pending[i].twin && joined_outside(pending[i].from, pending[i].to, old_quads)) return false;
+  }
+
+  // Nothing can fail from here on.
+  const int patch_tag = tag(old_quads[0]);
+  for (const int quad : old_quads) {
+    for (const int node : quads_[quad]) --uses_[node];
+    for (const int node : quads_[quad])
+      if (sides_[node] >= 0 && in_patch(sides_[node] >> 2)) sides_[node] = -1;
+    quads_[quad] = {-1, -1, -1, -1};
+  }
+  std::array<int, max_patch> slots;
+  for (std::size_t i = 0; i < new_quads.size(); ++i) {
+    if (i < old_quads.size()) {
+      slots[i] = old_quads[i];
+    } else if (!dead_.empty()) {
+      slots[i] = dead_.back();
+      dead_.pop_back();
+    } else {
+      slots[i] = size();
+      quads_.push_back({});
+      twins_.resize(twins_.size() + 4, boundary);
+      if (tagged()) tags_.push_back(0);
+    }
+    quads_[slots[i]] = new_quads[i];
+    if (tagged()) tags_[slots[i]] = patch_tag;
+  }
+  for (std::size_t i = new_quads.size(); i < old_quads.size(); ++i) dead_.push_back(old_quads[i]);
+  for (int i = 0; i < count; ++i) {
+    const int side = 4 * slots[i >> 2] + (i & 3);
+    sides_[pending[i].from] = side;
+    ++uses_[pending[i].from];
+    if (pending[i].twin >= 0) {
+      twins_[side] = 4 * slots[pending[i].twin >> 2] + (pending[i].twin & 3);
+    } else {
+      twins_[side] = pending[i].outside;
+      if (pending[i].outside >= 0) twins_[pending[i].outside] = side;
+    }
+  }
+  return true;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,80 @@
+#pragma once
+/// Quads with their neighbours, changed patch by patch; not part of the public interface.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "geometry/base/execution_context.hpp"
+#include "mesher/mesh/mesh_types.hpp"
+
+namespace quadrille {
+
+/// The quads of a mesh and which side meets which. Side k of quad q, from its node k to node k + 1, is number
+/// 4 * q + k. A side's twin is the same side seen from the quad beyond it; -1 on the boundary, between tags,
+/// and where the mesh is not manifold.
+class QuadTopology {
+ public:
+  using Quad = std::array<int, 4>;
+
+  /// The sides that leave one node, counter-clockwise, as far as they hang together.
+  struct Fan {
+    int first = -1;  ///< first side; where the fan is open, the one on the boundary
+    int quads = 0;
+    bool closed = false;
+  };
+
+  /// \param tags one a quad or empty; quads of different tags do not count as neighbours.
+  QuadTopology(std::vector<Quad> quads, const std::vector<int>& tags, int node_count,
+               const ExecutionContext& context = {});
+
+  int size() const { return static_cast<int>(quads_.size()); }  ///< slots, dead ones included
+  bool alive(int quad) const { return quads_[quad][0] >= 0; }
+  const Quad& quad(int quad) const { return quads_[quad]; }
+  int tag(int quad) const { return tags_.empty() ? 0 : tags_[quad]; }
+  bool tagged() const { return !tags_.empty(); }
+
+  int twin(int side) const { return twins_[side]; }
+  int origin(int side) const { return quads_[side >> 2][side & 3]; }
+  int end(int side) const { return quads_[side >> 2][(side + 1) & 3]; }
+  static int next(int side) { return (side & ~3) | ((side + 1) & 3); }
+  static int previous(int side) { return (side & ~3) | ((side + 3) & 3); }
+  /// The next side round the origin, counter-clockwise; -1 past the last quad of an open fan.
+  int rotate(int side) const { return twins_[previous(side)]; }
+  /// The fan round the origin of a side. Time: linear in its quads.
+  Fan fan(int side) const;
+  /// The number of quads in the fan round the origin of a side. Constant time where the node has one fan
+  /// only.
+  int valence(int side) const {
+    const int node = origin(side);
+    return openings_[node] < 2 ? uses_[node] : fan(side).quads;
+  }
+  /// Whether the quads close round the node.
+  bool closed(int node) const { return openings_[node] == 0; }
+  /// The number of open fans of the node.
+  int openings(int node) const { return openings_[node]; }
+  /// One side that leaves the node, or -1 when no quad uses it. A boundary node may have several fans.
+  int side_of(int node) const { return sides_[node]; }
+  /// The side of the quad that leaves the node, or -1.
+  int side_at(int quad, int node) const;
+
+  int add_node();
+
+  /// Replaces the quads of a patch by others with the same outer sides; nodes inside may change.
+  /// \return false, with nothing changed, if the outer sides differ or the result would not be manifold.
+  bool replace(std::span<const int> old_quads, std::span<const Quad> new_quads);
+
+ private:
+  void link(const ExecutionContext& context);
+  bool joined_outside(int from, int to, std::span<const int> patch) const;
+
+  std::vector<Quad> quads_;
+  std::vector<int> twins_;
+  std::vector<int> sides_;
+  std::vector<int> uses_;       ///< quads of each node
+  std::vector<char> openings_;  ///< open fans of each node; patches never change them
+  std::vector<int> tags_;
+  std::vector<int> dead_;  ///< slots to use again
+};
+
+}  // namespace quadrille

@@ -1,0 +1,593 @@
+// Smoothing of quad meshes on a surface.
+// Based on: Field, Laplacian smoothing and Delaunay triangulations (1988), made "smart" by the acceptance
+// test of Freitag, On combining Laplacian and optimization-based mesh smoothing techniques (1997): sweeps of
+// averages first, then the worst elements node by node, by a compass search on the least scaled Jacobian
+// round the node. Untangling maximises the negative part of the corner areas, as Freitag & Plassmann (2000).
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/quads/improve.hpp"
+
+namespace quadrille {
+namespace {
+
+/// A move that leaves every element above this scaled Jacobian is good even if the least one falls a little.
+constexpr double good_jacobian = 0.6;
+constexpr double opposite_weight =
+    0.5;                           ///< weight of the corner opposite in a quad, beside 1 for the neighbours
+constexpr double overshoot = 1.3;  ///< of a sweep's moves
+/// Moves below this fraction of the mean side round the node are not worth evaluating the surface for.
+constexpr double still_share = 4e-3;
+/// A place on the surface within this share of the size of the place judged needs no second judgement.
+constexpr double near_share = 0.01;
+/// A side shorter than this share of the mean side round the node counts against the node's place.
+constexpr double short_side = 0.5;
+/// Elements with a scaled Jacobian below this (q < 0.5) are worked on node by node.
+constexpr double poor_jacobian = 0.7071;
+/// These (q < 0.33) are worked on longer; they are few.
+constexpr double bad_jacobian = 0.5;
+
+/// Smooths one surface mesh in place. Nodes are visited in index order and see the moves of the nodes before
+/// them.
+class Smoother {
+ public:
+  Smoother(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const ExecutionContext& context)
+      : points_(surface_mesh.mesh.points),
+        quads_(surface_mesh.mesh.quads),
+        parameters_(surface_mesh.parameters),
+        normals_(surface_mesh.normals),
+        surface_(surface),
+        context_(context) {
+    const std::size_t n = points_.size();
+    free_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) free_[i] = surface_mesh.fixed[i] ? 0 : 1;
+    // Where a triangle was left, its nodes stay: only quads are measured here.
+    for (const auto& triangle : surface_mesh.mesh.triangles)
+      for (const int node : triangle) free_[node] = 0;
+    context_.check();
+    link_corners();
+    context_.check();
+    find_sharp_turns();
+    quality_.resize(quads_.size());
+    measure_all();
+    active_.assign(n, 1);
+    next_active_.assign(n, 0);
+  }
+
+  /// Moves each active node once; false when nothing is active any more.
+  bool sweep() {
+    bool any = false;
+    for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
+      check(node);
+      if (!free_[node] || !active_[node] || turns_sharply_[node]) continue;
+      if (relax(node)) {
+        any = true;
+        activate(node, next_active_);
+      }
+    }
+    active_.swap(next_active_);
+    std::fill(next_active_.begin(), next_active_.end(), 0);
+    return any;
+  }
+
+  /// Works on the nodes of the elements below `floor`, worst node first by index; returns whether a node
+  /// moved.
+  bool optimise_below(double floor) {
+    bool any = false;
+    for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
+      check(node);
+      if (!free_[node] || !(least_round(node) < floor)) continue;
+      if (!search(node, least_round(node) > 0 ? Goal::raise : Goal::untangle)) continue;
+      any = true;
+      activate(node, active_);
+    }
+    return any;
+  }
+
+  /// Moves the nodes of inverted elements to where the least of their corner areas, each over the lengths of
+  /// its sides, is largest: exactly, so that the thin wedges at cusps are found too. Returns whether a node
+  /// moved.
+  bool untangle() {
+    bool any = false;
+    for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
+      check(node);
+      if (free_[node] && !(least_round(node) > 0) && spread_corners(node)) any = true;
+    }
+    return any;
+  }
+
+  /// Where single nodes cannot help an element (rows of flat quads against a wall), all nodes near it are
+  /// averaged without regard to shapes, then mended; kept only if the worst element there is better than
+  /// before. \param most_failures gives up after so many elements in a row: the face is then too narrow for
+  /// its size.
+  bool loosen_below(double floor, int most_failures) {
+    bool any = false;
+    int failures = 0;
+    // Places are few; where all of a face is folded, no work on single elements mends it.
+    constexpr std::size_t nodes_each = 4, nodes_at_least = 2000;
+    std::size_t left = nodes_each * points_.size() + nodes_at_least;
+    for (int quad = 0; quad < static_cast<int>(quads_.size()) && failures < most_failures; ++quad) {
+      if (!(quality_[quad] < floor) || pinned(quad)) continue;
+      context_.check();
+      const bool better = loosen(quad, left);
+      if (left == 0) break;
+      failures = better ? 0 : failures + 1;
+      any |= better;
+    }
+    return any;
+  }
+
+  /// Exactly, where sweeps have judged in tangent planes.
+  void measure_all() {
+    for (int i = 0; i < static_cast<int>(quads_.size()); ++i) {
+      check(i);
+      quality_[i] = measure(i);
+    }
+  }
+
+  int bad_elements() const {
+    return static_cast<int>(
+        std::count_if(quality_.begin(), quality_.end(), [](double s) { return !(s > 0); }));
+  }
+
+ private:
+  enum class Goal { raise, untangle };
+
+  /// For loops over nodes or elements.
+  void check(int i) const {
+    if (i % 256 == 0) context_.check();
+  }
+
+  /// Corners round each node, in compressed rows: 4 * quad + corner.
+  void link_corners() {
+    first_.assign(points_.size() + 1, 0);
+    for (const auto& quad : quads_)
+      for (const int node : quad) ++first_[node + 1];
+    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    corners_.resize(first_.back());
+    std::vector<int> place(first_.begin(), first_.end() - 1);
+    for (int i = 0; i < static_cast<int>(quads_.size()); ++i) {
+      check(i);
+      for (int j = 0; j < 4; ++j) corners_[place[quads_[i][j]]++] = 4 * i + j;
+    }
+  }
+
+  /// Where the surface turns far from one node to the next, as round a tube of four coarse quads, averages in
+  /// tangent planes pull a node on to the side that it is drawn to already.
+  void find_sharp_turns() {
+    constexpr double least_cosine = 0.1;
+    turns_sharply_.assign(points_.size(), 0);
+    for (const auto& quad : quads_)
+      for (int k = 0; k < 4; ++k) {
+        const int a = quad[k], b = quad[(k + 1) & 3];
+        if (normals_[a].dot(normals_[b]) < least_cosine) turns_sharply_[a] = turns_sharply_[b] = 1;
+      }
+  }
+
+  double measure(int quad) const {
+    const auto& q = quads_[quad];
+    const Vector3 normal = normals_[q[0]] + normals_[q[1]] + normals_[q[2]] + normals_[q[3]];
+    return folded_scaled_jacobian(points_[q[0]], points_[q[1]], points_[q[2]], points_[q[3]], normal);
+  }
+
+  double least_round(int node) const {
+    double least = 1;
+    for (int i = first_[node]; i < first_[node + 1]; ++i) least = std::min(least, quality_[corners_[i] >> 2]);
+    return least;
+  }
+
+  /// Least scaled Jacobian round the node if it were at `p`; stops early below `enough`.
+  double least_at(int node, const Vector3& p, const Vector3& normal, double enough) const {
+    double least = 1;
+    for (int i = first_[node]; i < first_[node + 1]; ++i) {
+      const auto& q = quads_[corners_[i] >> 2];
+      const int j = corners_[i] & 3;
+      least = std::min(least, folded_scaled_jacobian(p, points_[q[(j + 1) & 3]], points_[q[(j + 2) & 3]],
+                                                     points_[q[(j + 3) & 3]], normal));
+      if (least < enough) break;
+    }
+    return least;
+  }
+
+  /// Negative part of the corner areas that `p` touches, over the squared size: 0 when none is folded.
+  double tangle_at(int node, const Vector3& p, const Vector3& normal, double size) const {
+    double sum = 0;
+    const double wanted = 0.02 * size * size;
+    for (int i = first_[node]; i < first_[node + 1]; ++i) {
+      const auto& q = quads_[corners_[i] >> 2];
+      const int j = corners_[i] & 3;
+      const Vector3 &b = points_[q[(j + 1) & 3]], &c = points_[q[(j + 2) & 3]], &d = points_[q[(j + 3) & 3]];
+      sum += std::min(0.0, (b - p).cross(d - p).dot(normal) - wanted);
+      sum += std::min(0.0, (c - b).cross(p - b).dot(normal) - wanted);
+      sum += std::min(0.0, (p - d).cross(c - d).dot(normal) - wanted);
+    }
+    return sum / (size * size);
+  }
+
+  /// What the search raises: the least scaled Jacobian, less where a side gets short beside the others. The
+  /// worst angle alone would often be best at a neighbour's place.
+  double merit_at(int node, const Vector3& p, const Vector3& normal, double enough) const {
+    const double least = least_at(node, p, normal, enough);
+    if (least < enough || least <= 0) return least;
+    double shortest = std::numeric_limits<double>::max(), sum = 0;
+    for (int i = first_[node]; i < first_[node + 1]; ++i) {
+      const double side = (points_[quads_[corners_[i] >> 2][((corners_[i] & 3) + 1) & 3]] - p).squaredNorm();
+      shortest = std::min(shortest, side);
+      sum += std::sqrt(side);
+    }
+    const double share = std::sqrt(shortest) * (first_[node + 1] - first_[node]) / (short_side * sum);
+    return least * std::min(1.0, share);
+  }
+
+  double mean_side(int node) const {
+    double sum = 0;
+    for (int i = first_[node]; i < first_[node + 1]; ++i)
+      sum += (points_[quads_[corners_[i] >> 2][((corners_[i] & 3) + 1) & 3]] - points_[node]).norm();
+    return sum / std::max(first_[node + 1] - first_[node], 1);
+  }
+
+  /// The mean of the neighbours, in the tangent plane of the node.
+  Vector3 middle_of(int node) const {
+    Vector3 sum = Vector3::Zero();
+    for (int i = first_[node]; i < first_[node + 1]; ++i)
+      sum += points_[quads_[corners_[i] >> 2][((corners_[i] & 3) + 1) & 3]];
+    const Vector3 shift = sum / (first_[node + 1] - first_[node]) - points_[node];
+    return points_[node] + shift - normals_[node].dot(shift) * normals_[node];
+  }
+
+  /// The quads round a node, in the tangent plane at it: sweeps are judged there, with a third of the
+  /// arithmetic.
+  struct Plan {
+    static constexpr int max_quads = 16;
+    struct Corner {
+      double bx, by, cx, cy, dx, dy;  ///< the next, opposite and previous corner, from the node
+    };
+    int count = 0;
+    std::array<Corner, max_quads> corners;
+    std::array<double, max_quads> quality;  ///< of the quads, for the place judged last
+    Vector3 u, v;
+  };
+
+  /// False where the node has too many quads.
+  bool draw(int node, Plan& plan) const {
+    plan.count = first_[node + 1] - first_[node];
+    if (plan.count > Plan::max_quads) return false;
+    const Vector3 &origin = points_[node], &normal = normals_[node];
+    // Duff et al., Building an orthonormal basis, revisited (2017).
+    const double sign = std::copysign(1.0, normal.z()), a = -1 / (sign + normal.z());
+    const double b = normal.x() * normal.y() * a;
+    plan.u = {1 + sign * normal.x() * normal.x() * a, sign * b, -sign * normal.x()};
+    plan.v = {b, sign + normal.y() * normal.y() * a, -normal.y()};
+    for (int i = 0; i < plan.count; ++i) {
+      const int corner = corners_[first_[node] + i], j = corner & 3;
+      const auto& q = quads_[corner >> 2];
+      const Vector3 b3 = points_[q[(j + 1) & 3]] - origin, c3 = points_[q[(j + 2) & 3]] - origin,
+                    d3 = points_[q[(j + 3) & 3]] - origin;
+      plan.corners[i] = {plan.u.dot(b3), plan.v.dot(b3), plan.u.dot(c3),
+                         plan.v.dot(c3), plan.u.dot(d3), plan.v.dot(d3)};
+    }
+    return true;
+  }
+
+  /// Whether all quads round the node stay above the floor with the node at (x, y); their qualities go to the
+  /// plan.
+  static bool fits(Plan& plan, double x, double y, double floor) {
+    // Sines are compared by their signed squares, which needs no root.
+    const double bound = floor * std::abs(floor);
+    for (int i = 0; i < plan.count; ++i) {
+      const auto& [bx, by, cx, cy, dx, dy] = plan.corners[i];
+      const double ux = bx - x, uy = by - y, vx = cx - bx, vy = cy - by;
+      const double wx = dx - cx, wy = dy - cy, tx = x - dx, ty = y - dy;
+      const double uu = ux * ux + uy * uy, vv = vx * vx + vy * vy, ww = wx * wx + wy * wy,
+                   tt = tx * tx + ty * ty;
+      const double tu = tx * uy - ty * ux, uv = ux * vy - uy * vx, vw = vx * wy - vy * wx,
+                   wt = wx * ty - wy * tx;
+      const auto square = [](double sine, double lengths) {
+        return sine * std::abs(sine) / std::max(lengths, std::numeric_limits<double>::min());
+      };
+      const double least = std::min(std::min(square(tu, tt * uu), square(uv, uu * vv)),
+                                    std::min(square(vw, vv * ww), square(wt, ww * tt)));
+      if (least < bound) return false;
+      plan.quality[i] = least;
+    }
+    return true;
+  }
+
+  /// One step of a sweep: towards the mean of the nodes of the quads round the node, overshot. Corners
+  /// opposite count half as much as neighbours: measured on graded meshes, that and the overshooting reach in
+  /// 3 sweeps the mean quality that plain averages of neighbours reach in 8; weights by length or area, and
+  /// parallelogram targets, gave less.
+  bool relax(int node) {
+    Plan plan;
+    if (!draw(node, plan) || plan.count == 0) return false;
+    double x = 0, y = 0, size2 = 0;
+    for (int i = 0; i < plan.count; ++i) {
+      const auto& [bx, by, cx, cy, dx, dy] = plan.corners[i];
+      x += bx + dx + opposite_weight * cx;
+      y += by + dy + opposite_weight * cy;
+      size2 += bx * bx + by * by;
+    }
+    const double share = overshoot / ((2 + opposite_weight) * plan.count);
+    x *= share;
+    y *= share;
+    size2 /= plan.count;
+    if (x * x + y * y < still_share * still_share * size2) return false;
+    const double floor = std::min(least_round(node), good_jacobian);
+    if (!fits(plan, x, y, floor)) {
+      x *= 0.5;
+      y *= 0.5;
+      if (!fits(plan, x, y, floor)) return false;
+    }
+    return settle_sweep(node, plan, x, y, floor, size2);
+  }
+
+  /// Puts the node on the surface near the place in its tangent plane that was found fit.
+  bool settle_sweep(int node, Plan& plan, double x, double y, double floor, double size2) {
+    Vector2 uv = parameters_[node];
+    Vector3 normal = normals_[node];
+    const Vector3 place = surface_.move(uv, points_[node] + x * plan.u + y * plan.v, normal);
+    const Vector3 shift = place - points_[node];
+    const double px = plan.u.dot(shift), py = plan.v.dot(shift);
+    const double off2 = (px - x) * (px - x) + (py - y) * (py - y);
+    // Off by more than a little (or not a number), the place is judged anew.
+    if (!(off2 < near_share * near_share * size2) && !(place.allFinite() && fits(plan, px, py, floor)))
+      return false;
+    points_[node] = place;
+    parameters_[node] = uv;
+    normals_[node] = normal;
+    for (int i = 0; i < plan.count; ++i) {
+      const double square = plan.quality[i];
+      quality_[corners_[first_[node] + i] >> 2] = std::copysign(std::sqrt(std::abs(square)), square);
+    }
+    return true;
+  }
+
+  void put(int node, const Vector3& place, const Vector2& uv, const Vector3& normal) {
+    points_[node] = place;
+    parameters_[node] = uv;
+    normals_[node] = normal;
+    measure_round(node);
+  }
+
+  void measure_round(int node) {
+    for (int i = first_[node]; i < first_[node + 1]; ++i)
+      quality_[corners_[i] >> 2] = measure(corners_[i] >> 2);
+  }
+
+  void activate(int node, std::vector<char>& active) const {
+    for (int i = first_[node]; i < first_[node + 1]; ++i)
+      for (const int other : quads_[corners_[i] >> 2]) active[other] = 1;
+  }
+
+  /// Compass search in the tangent plane for the place where the worst element round the node is best.
+  bool search(int node, Goal goal) {
+    const Vector3 origin = points_[node], normal = normals_[node];
+    const double size = mean_side(node);
+    if (!(size > 0)) return false;
+    const auto value_at = [&](const Vector3& p, double best) {
+      return goal == Goal::raise ? merit_at(node, p, normal, best) : tangle_at(node, p, normal, size);
+    };
+    const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
+    Vector3 best = middle_of(node);
+    const double start = value_at(origin, -2);
+    double value = value_at(best, start);
+    if (value <= start) {
+      value = start;
+      best = origin;
+    }
+    constexpr double diagonal_step = 0.70710678118654752;
+    constexpr double compass[8][2] = {{1, 0},
+                                      {0, 1},
+                                      {-1, 0},
+                                      {0, -1},
+                                      {diagonal_step, diagonal_step},
+                                      {-diagonal_step, diagonal_step},
+                                      {-diagonal_step, -diagonal_step},
+                                      {diagonal_step, -diagonal_step}};
+    double step = 0.25 * size;
+    for (int halvings = 0; halvings < 4; ++halvings, step *= 0.5) {
+      for (int tries = 0, moved = 1; moved && tries < 3; ++tries) {
+        moved = 0;
+        const Vector3 centre = best;
+        for (const auto& way : compass) {
+          const Vector3 p = centre + step * (way[0] * u + way[1] * v);
+          const double candidate = value_at(p, value);
+          if (candidate > value) {
+            value = candidate;
+            best = p;
+            moved = 1;
+          }
+        }
+      }
+    }
+    if (value <= start || best == origin) return false;
+    return settle(node, best, goal, size);
+  }
+
+  /// The corner areas are linear in the node's place, so the least of them is concave: golden sections, one
+  /// in the other, find where it is largest.
+  bool spread_corners(int node) {
+    struct Area {
+      double x, y, constant;
+      double at(double px, double py) const { return constant + x * px + y * py; }
+    };
+    const Vector3& origin = points_[node];
+    const Vector3& normal = normals_[node];
+    const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
+    std::vector<Area> areas;
+    // The corner at b between a and c, of which one is the node: constant + gradient times its move.
+    const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& gradient) {
+      const double scale = std::max((a - b).norm() * (c - b).norm(), std::numeric_limits<double>::min());
+      areas.push_back(
+          {gradient.dot(u) / scale, gradient.dot(v) / scale, (c - b).cross(a - b).dot(normal) / scale});
+    };
+    for (int i = first_[node]; i < first_[node + 1]; ++i) {
+      const auto& q = quads_[corners_[i] >> 2];
+      const int j = corners_[i] & 3;
+      const Vector3 &b = points_[q[(j + 1) & 3]], &c = points_[q[(j + 2) & 3]], &d = points_[q[(j + 3) & 3]];
+      add(d, origin, b, normal.cross(b - d));
+      add(origin, b, c, normal.cross(c - b));
+      add(c, d, origin, normal.cross(d - c));
+    }
+    const auto least = [&](double x, double y) {
+      double value = std::numeric_limits<double>::max();
+      for (const Area& area : areas) value = std::min(value, area.at(x, y));
+      return value;
+    };
+    const double reach = 1.5 * mean_side(node);
+    const auto best_y = [&](double x) {
+      return golden_section(reach, [&](double y) { return least(x, y); });
+    };
+    const double x = golden_section(reach, [&](double trial) { return least(trial, best_y(trial)); });
+    Vector2 uv = parameters_[node];
+    Vector3 moved_normal = normal;
+    const Vector3 place = surface_.move(uv, origin + x * u + best_y(x) * v, moved_normal);
+    if (!place.allFinite() || !(least_at(node, place, moved_normal, -2) > least_round(node))) return false;
+    put(node, place, uv, moved_normal);
+    return true;
+  }
+
+  /// Where in [-reach, reach] a concave function is largest.
+  template <class Function>
+  static double golden_section(double reach, Function&& function) {
+    constexpr double golden_ratio = 0.61803398874989485;
+    double low = -reach, high = reach;
+    double a = high - golden_ratio * (high - low), b = low + golden_ratio * (high - low);
+    double at_a = function(a), at_b = function(b);
+    for (int i = 0; i < 32; ++i) {
+      if (at_a > at_b) {
+        high = b;
+        b = a;
+        at_b = at_a;
+        a = high - golden_ratio * (high - low);
+        at_a = function(a);
+      } else {
+        low = a;
+        a = b;
+        at_a = at_b;
+        b = low + golden_ratio * (high - low);
+        at_b = function(b);
+      }
+    }
+    return 0.5 * (low + high);
+  }
+
+  /// Puts the node on the surface near the place found, if that is better there too.
+  bool settle(int node, const Vector3& target, Goal goal, double size) {
+    Vector2 uv = parameters_[node];
+    Vector3 normal = normals_[node];
+    const Vector3 place = surface_.move(uv, target, normal);
+    if (!place.allFinite()) return false;
+    const Vector3& p = points_[node];
+    const bool better = goal == Goal::raise
+                            ? merit_at(node, place, normal, -2) > merit_at(node, p, normals_[node], -2)
+                            : tangle_at(node, place, normal, size) > tangle_at(node, p, normals_[node], size);
+    if (better) put(node, place, uv, normal);
+    return better;
+  }
+
+  /// Whether three fixed nodes in a row make the quad as bad as it is.
+  bool pinned(int quad) const {
+    const auto& q = quads_[quad];
+    const Vector3& normal = normals_[q[0]];
+    for (int k = 0; k < 4; ++k) {
+      if (free_[q[k]] || free_[q[(k + 1) & 3]] || free_[q[(k + 3) & 3]]) continue;
+      const Vector3 a = points_[q[(k + 1) & 3]] - points_[q[k]], b = points_[q[(k + 3) & 3]] - points_[q[k]];
+      if (a.cross(b).dot(normal) <= 1.05 * quality_[quad] * a.norm() * b.norm()) return true;
+    }
+    return false;
+  }
+
+  /// \param left nodes that may still be worked on, in this call and later ones
+  bool loosen(int quad, std::size_t& left) {
+    struct Saved {
+      int node;
+      Vector3 point, normal;
+      Vector2 uv;
+    };
+    std::vector<int> nodes(quads_[quad].begin(), quads_[quad].end());
+    constexpr int rings = 3;
+    for (int ring = 0; ring < rings; ++ring) {
+      const std::size_t count = nodes.size();
+      for (std::size_t i = 0; i < count; ++i)
+        for (int k = first_[nodes[i]]; k < first_[nodes[i] + 1]; ++k)
+          for (const int other : quads_[corners_[k] >> 2]) nodes.push_back(other);
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    }
+    std::erase_if(nodes, [&](int node) { return !free_[node]; });
+    left -= std::min(left, nodes.size());
+    std::vector<Saved> saved;
+    double before = 1, after = 1;
+    for (const int node : nodes) {
+      saved.push_back({node, points_[node], normals_[node], parameters_[node]});
+      before = std::min(before, least_round(node));
+    }
+    constexpr int averages = 12, mends = 6;
+    for (int i = 0; i < averages; ++i)
+      for (const int node : nodes) points_[node] = middle_of(node);
+    for (const Saved& was : saved) {
+      const Vector3 place = surface_.move(parameters_[was.node], points_[was.node], normals_[was.node]);
+      points_[was.node] = place;
+      if (place.allFinite()) continue;
+      points_[was.node] = was.point;
+      parameters_[was.node] = was.uv;
+      normals_[was.node] = was.normal;
+    }
+    for (const int node : nodes) measure_round(node);
+    for (int i = 0; i < mends; ++i)
+      for (const int node : nodes)
+        if (least_round(node) < bad_jacobian)
+          search(node, least_round(node) > 0 ? Goal::raise : Goal::untangle);
+    for (const int node : nodes) after = std::min(after, least_round(node));
+    if (after > before) return true;
+    for (const Saved& was : saved) {
+      points_[was.node] = was.point;
+      normals_[was.node] = was.normal;
+      parameters_[was.node] = was.uv;
+    }
+    for (const int node : nodes) measure_round(node);
+    return false;
+  }
+
+  std::vector<Vector3>& points_;
+  const std::vector<std::array<int, 4>>& quads_;
+  std::vector<Vector2>& parameters_;
+  std::vector<Vector3>& normals_;
+  const SmoothingSurface& surface_;
+  const ExecutionContext& context_;
+  std::vector<char> free_, active_, next_active_, turns_sharply_;
+  std::vector<int> first_, corners_;
+  std::vector<double> quality_;  ///< scaled Jacobian of each quad
+};
+
+}  // namespace
+
+void smooth(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const ImproveOptions& options,
+            ImproveReport& report, ExecutionContext& context) {
+  Smoother smoother(surface_mesh, surface, context);
+  for (int i = 0; i < 10 && smoother.optimise_below(1e-3); ++i) continue;
+  for (int i = 0; i < options.smoothing_sweeps && smoother.sweep(); ++i) continue;
+  smoother.measure_all();
+  for (int i = 0; i < 10 && smoother.optimise_below(1e-3); ++i) continue;
+  // The worst by turns with their surroundings, which have to give way.
+  for (int i = 0; i < 8 && smoother.optimise_below(bad_jacobian); ++i) {
+    for (int k = 0; k < 3 && smoother.sweep(); ++k) continue;
+    smoother.measure_all();
+  }
+  constexpr double half_pi = 1.57079632679489662;
+  constexpr int most_failures = 4;
+  if (smoother.loosen_below(std::sin(half_pi * std::clamp(options.q_floor, 0.0, 0.9)), most_failures))
+    for (int i = 0; i < 2 && smoother.optimise_below(bad_jacobian); ++i) continue;
+  for (int i = 0; i < 2 && smoother.optimise_below(poor_jacobian); ++i) continue;
+  for (int i = 0; i < 10 && smoother.untangle(); ++i) continue;
+  report.bad_elements = smoother.bad_elements();
+}
+
+}  // namespace quadrille

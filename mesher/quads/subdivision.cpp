@@ -1,0 +1,200 @@
+#include "mesher/quads/subdivision.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/mesh/side_key.hpp"
+
+namespace quadrille {
+
+namespace {
+
+class Subdivider {
+ public:
+  Subdivider(const FaceQuads& coarse, const FaceSurface& surface, const ExecutionContext& context)
+      : coarse_(coarse), surface_(surface), check_(context, 256) {}
+
+  FaceQuads run(const std::vector<FaceBoundary::Segment>& segments, const std::vector<Vector3>& node_points) {
+    const int fixed = static_cast<int>(coarse_.nodes.size());
+    const auto& old = coarse_.surface_mesh;
+    const int count = static_cast<int>(old.mesh.points.size());
+    renumbered_.assign(count, -1);
+    for (int i = 0; i < fixed; ++i) copy_point(i);
+    fine_.nodes = coarse_.nodes;
+    middles_.reserve(2 * old.mesh.quads.size() + segments.size());
+    for (const auto& segment : segments) add_boundary_middle(segment, node_points);
+    for (int i = fixed; i < count; ++i) copy_point(i);
+    for (const auto& quad : old.mesh.quads) split(quad);
+    for (const auto& triangle : old.mesh.triangles) split(triangle);
+    return std::move(fine_);
+  }
+
+ private:
+  int add_point(const Vector3& point, const Vector2& uv, const Vector3& normal, bool fixed, bool pole) {
+    auto& mesh = fine_.surface_mesh;
+    mesh.mesh.points.push_back(point);
+    mesh.parameters.push_back(uv);
+    mesh.normals.push_back(normal);
+    mesh.fixed.push_back(fixed);
+    fine_.pole.push_back(pole);
+    return static_cast<int>(mesh.mesh.points.size()) - 1;
+  }
+
+  void copy_point(int i) {
+    const auto& old = coarse_.surface_mesh;
+    renumbered_[i] =
+        add_point(old.mesh.points[i], old.parameters[i], old.normals[i], old.fixed[i], coarse_.pole[i]);
+  }
+
+  void add_boundary_middle(const FaceBoundary::Segment& segment, const std::vector<Vector3>& node_points) {
+    const int point = add_point(node_points[segment.middle_node], segment.middle_uv,
+                                surface_.normal(segment.middle_uv), true, false);
+    fine_.nodes.push_back(segment.middle_node);
+    middles_.emplace(side_key(segment.a, segment.b), point);
+  }
+
+  /// The surface point near the mean of some coarse points.
+  template <std::size_t n>
+  int add_mean(const std::array<int, n>& corners) {
+    const auto& old = coarse_.surface_mesh;
+    Vector3 target = Vector3::Zero();
+    Vector2 uv(0, 0);
+    int regular = 0;
+    for (const int i : corners) {
+      target += old.mesh.points[i] / static_cast<double>(n);
+      if (coarse_.pole[i]) continue;
+      uv += old.parameters[i];
+      ++regular;
+    }
+    uv = regular > 0 ? Vector2(uv / regular) : old.parameters[corners[0]];
+    const SurfacePoint at = surface_.move(uv, target);
+    return add_point(at.point, uv, surface_.normal(at, uv), false, false);
+  }
+
+  /// The surface point near the mean of the middles of an element's sides. At curved boundaries that lies
+  /// further inside than the mean of the corners.
+  template <std::size_t n>
+  int add_centre(const std::array<int, n>& middles) {
+    const auto& fine = fine_.surface_mesh;
+    Vector3 target = Vector3::Zero();
+    Vector2 uv(0, 0);
+    for (const int i : middles) {
+      target += fine.mesh.points[i] / static_cast<double>(n);
+      uv += fine.parameters[i] / static_cast<double>(n);
+    }
+    const SurfacePoint at = surface_.move(uv, target);
+    return add_point(at.point, uv, surface_.normal(at, uv), false, false);
+  }
+
+  /// Between two boundaries that bend alike (a narrow ring, the tip of a wedge) the centre lies where a Coons
+  /// patch or the triangle of second order has it, beyond the mean of the middles: taken if that is better
+  /// for the worst of the parts.
+  template <std::size_t n>
+  void improve_centre(const std::array<int, n>& element, const std::array<int, n>& middles, int centre) {
+    const int fixed = static_cast<int>(fine_.nodes.size());
+    if (std::none_of(middles.begin(), middles.end(), [&](int i) { return i < fixed; })) return;
+    auto& fine = fine_.surface_mesh;
+    auto& points = fine.mesh.points;
+    const auto worst = [&](const Vector3& at) {
+      double result = 1;
+      for (std::size_t k = 0; k < n; ++k) {
+        result =
+            std::min(result, folded_scaled_jacobian(points[renumbered_[element[k]]], points[middles[k]], at,
+                                                    points[middles[(k + n - 1) % n]], fine.normals[centre]));
+      }
+      return result;
+    };
+    constexpr double good = 0.3;
+    const double before = worst(points[centre]);
+    if (before > good) return;
+    Vector3 target = Vector3::Zero();
+    constexpr double of_middle = n == 4 ? 0.5 : 4.0 / 9, of_corner = n == 4 ? -0.25 : -1.0 / 9;
+    for (std::size_t k = 0; k < n; ++k)
+      target += of_middle * points[middles[k]] + of_corner * points[renumbered_[element[k]]];
+    Vector2 uv = fine.parameters[centre];
+    const SurfacePoint at = surface_.move(uv, target);
+    if (!(worst(at.point) > before)) return;
+    points[centre] = at.point;
+    fine.parameters[centre] = uv;
+    fine.normals[centre] = surface_.normal(at, uv);
+  }
+
+  int middle(int a, int b) {
+    const auto [it, is_new] = middles_.emplace(side_key(a, b), -1);
+    if (is_new) it->second = add_mean(std::array<int, 2>{a, b});
+    return it->second;
+  }
+
+  template <std::size_t n>
+  void split(const std::array<int, n>& element) {
+    check_();
+    std::array<int, n> middles;
+    for (std::size_t k = 0; k < n; ++k) middles[k] = middle(element[k], element[(k + 1) % n]);
+    const int centre = add_centre(middles);
+    improve_centre(element, middles, centre);
+    for (std::size_t k = 0; k < n; ++k) {
+      fine_.surface_mesh.mesh.quads.push_back(
+          {renumbered_[element[k]], middles[k], centre, middles[(k + n - 1) % n]});
+    }
+  }
+
+  const FaceQuads& coarse_;
+  const FaceSurface& surface_;
+  SparseCheck check_;
+  FaceQuads fine_;
+  std::vector<int> renumbered_;
+  std::unordered_map<std::uint64_t, int> middles_;
+};
+
+/// Least scaled Jacobian of the parts that an element is split into, its sides taken as straight; negative
+/// where a part lies the wrong way round.
+template <std::size_t n>
+double worst_part(const std::array<Vector3, n>& corners, const Vector3& normal) {
+  Vector3 centre = Vector3::Zero();
+  for (const Vector3& corner : corners) centre += corner / static_cast<double>(n);
+  double worst = 1;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vector3& at = corners[k];
+    worst = std::min(worst, folded_scaled_jacobian(at, 0.5 * (at + corners[(k + 1) % n]), centre,
+                                                   0.5 * (at + corners[(k + n - 1) % n]), normal));
+  }
+  return worst;
+}
+
+}  // namespace
+
+void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals, const ExecutionContext& context) {
+  SparseCheck check(context);
+  constexpr double bad = 0.3, gain = 0.1, flat = 1e-6;
+  const auto& p = mesh.points;
+  std::erase_if(mesh.quads, [&](const std::array<int, 4>& quad) {
+    check();
+    const auto [a, b, c, d] = quad;
+    const Vector3 normal = normals[a] + normals[b] + normals[c] + normals[d];
+    const double whole = worst_part(std::array<Vector3, 4>{p[a], p[b], p[c], p[d]}, normal);
+    if (whole > bad) return false;
+    const double first = std::min(worst_part(std::array<Vector3, 3>{p[a], p[b], p[c]}, normal),
+                                  worst_part(std::array<Vector3, 3>{p[a], p[c], p[d]}, normal));
+    const double second = std::min(worst_part(std::array<Vector3, 3>{p[a], p[b], p[d]}, normal),
+                                   worst_part(std::array<Vector3, 3>{p[b], p[c], p[d]}, normal));
+    // A corner of 180 degrees has to go at any price.
+    if (std::max(first, second) < whole + (whole > flat ? gain : flat)) return false;
+    if (first > second) {
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({a, c, d});
+    } else {
+      mesh.triangles.push_back({a, b, d});
+      mesh.triangles.push_back({b, c, d});
+    }
+    return true;
+  });
+}
+
+FaceQuads subdivide(const FaceQuads& coarse, const std::vector<FaceBoundary::Segment>& segments,
+                    const std::vector<Vector3>& node_points, const FaceSurface& surface,
+                    const ExecutionContext& context) {
+  return Subdivider(coarse, surface, context).run(segments, node_points);
+}
+
+}  // namespace quadrille

@@ -1,0 +1,31 @@
+#pragma once
+/// Midpoint subdivision of a face's quads. Internal.
+
+#include "geometry/base/execution_context.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+#include "mesher/faces/face_triangulation.hpp"
+#include "mesher/quads/improve.hpp"
+
+namespace quadrille {
+
+/// A quad mesh of one face with what ties it to its boundary.
+struct FaceQuads {
+  SurfaceMesh surface_mesh;  ///< fixed points first
+  std::vector<char> pole;    ///< (n) 1 = uv is one of many
+  std::vector<int> nodes;    ///< (fixed points) index into BoundaryNodes::points
+};
+
+/// Cuts those quads into two triangles whose four parts would be worse than the six parts of the triangles:
+/// quads with a corner that is almost straight or more, which no smoothing mends where the boundary makes it.
+/// \param normals (points) unit normals of the surface.
+void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
+                    const ExecutionContext& context = {});
+
+/// Splits each quad into four and each triangle into three quads. New points on boundary sides are the edges'
+/// own nodes, others are put on the surface. \param segments the boundary sides, which carry the nodes in
+/// their middle.
+FaceQuads subdivide(const FaceQuads& coarse, const std::vector<FaceBoundary::Segment>& segments,
+                    const std::vector<Vector3>& node_points, const FaceSurface& surface,
+                    const ExecutionContext& context = {});
+
+}  // namespace quadrille

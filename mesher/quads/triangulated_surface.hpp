@@ -1,0 +1,52 @@
+#pragma once
+/// A triangulation as the surface that quads made of it are smoothed on.
+
+#include <array>
+#include <vector>
+
+#include "geometry/base/execution_context.hpp"
+#include "mesher/mesh/mesh_types.hpp"
+#include "mesher/mesh/side_twins.hpp"
+#include "mesher/quads/improve.hpp"
+
+namespace quadrille {
+
+/// A point is known by its triangle (the first of its parameters); moving it walks over the triangles, and
+/// ends on the nearest point of the last one. Normals vary linearly between those of the points.
+class TriangulatedSurface : public SmoothingSurface {
+ public:
+  /// One patch: all triangles are neighbours across the sides they share, whatever their tags.
+  explicit TriangulatedSurface(TriangleMesh patch);
+
+  Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const override;
+
+  /// Parameters of a point of the patch; the point must belong to a triangle.
+  Vector2 parameters_of(int point) const { return {triangle_at_[point], 0}; }
+  const Vector3& normal_of(int point) const { return normals_[point]; }
+  /// Whether the point lies on the patch's boundary.
+  bool on_boundary(int point) const { return boundary_[point] != 0; }
+
+ private:
+  struct Nearest {
+    double squared_distance;
+    Vector3 weights;  // barycentric
+  };
+
+  Nearest nearest(int triangle, const Vector3& target) const;
+
+  std::vector<Vector3> points_;
+  std::vector<std::array<int, 3>> triangles_;
+  std::vector<std::array<Side, 3>> twins_;
+  std::vector<Vector3> normals_;
+  std::vector<int> triangle_at_;
+  std::vector<char> boundary_;
+};
+
+/// Cleans up and smooths quads that recombine() made of a triangulation, tag by tag, on the triangulation
+/// itself. Nodes on the boundary of a tag stay where they are; others move, go or come, so that points are
+/// renumbered. \param renumbered out, by point of the triangulation: the point of the result if it is one of
+/// those that stay, else -1. Throws Error (cancelled). Time: linear in practice.
+QuadMesh improve_on(const TriangleMesh& triangulation, const QuadMesh& quads, const ImproveOptions& options,
+                    std::vector<int>& renumbered, ImproveReport& report, ExecutionContext& context);
+
+}  // namespace quadrille

@@ -1,0 +1,139 @@
+#include "mesher/shell/area_check.hpp"
+
+#include <BRepGProp.hxx>
+#include <GProp_GProps.hxx>
+#include <Standard_Failure.hxx>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/surfaces/edge_curve.hpp"
+#include "mesher/mesh/side_key.hpp"
+
+namespace quadrille {
+
+namespace {
+
+Vector3 area_vector(const ShellMesh& mesh, std::size_t quad) {
+  const auto [a, b, c, d] = mesh.quads[quad];
+  const auto& p = mesh.points;
+  return 0.5 * (p[c] - p[a]).cross(p[d] - p[b]);
+}
+
+/// How much area faces lose because elements are flat and their sides straight, about: from the angles by
+/// which elements and curves turn. Angle / sine of a circular arc and its chord, to the second order.
+class FlatLoss {
+ public:
+  FlatLoss(const CadShape& shape, const ShellMesh& mesh, const std::vector<char>& faces)
+      : shape_(shape), mesh_(mesh), losses_(faces.size(), 0) {
+    for (const auto& segment : mesh.segments) ++segments_of_[segment.edge];
+    for (const auto& segment : mesh.segments)
+      edges_.emplace(side_key(segment.nodes[0], segment.nodes[1]), segment.edge);
+    for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
+      if (!faces[mesh.quad_faces[i] - 1]) continue;
+      for (int k = 0; k < 4; ++k) sides_[key(i, k)].push_back(i);
+    }
+    for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
+      if (faces[mesh.quad_faces[i] - 1]) losses_[mesh.quad_faces[i] - 1] += loss_of(i);
+    }
+  }
+
+  double of(std::size_t face) const { return losses_[face]; }
+
+ private:
+  std::uint64_t key(std::size_t quad, int k) const {
+    return side_key(mesh_.quads[quad][k], mesh_.quads[quad][(k + 1) % 4]);
+  }
+
+  double loss_of(std::size_t quad) {
+    double loss = 0;
+    double turning[2] = {0, 0};  // along sides 0 and 2, along sides 1 and 3
+    const Vector3 normal = area_vector(mesh_, quad);
+    for (int k = 0; k < 4; ++k) {
+      for (const std::size_t other : sides_[key(quad, k)]) {
+        if (other == quad || mesh_.quad_faces[other] != mesh_.quad_faces[quad]) continue;
+        double& across = turning[(k + 1) % 2];
+        across = std::max(across, angle_between(normal, area_vector(mesh_, other)));
+      }
+      const auto edge = edges_.find(key(quad, k));
+      if (edge == edges_.end()) continue;
+      const double along = turning_of(edge->second);
+      turning[k % 2] = std::max(turning[k % 2], along);
+      const Vector3 side = mesh_.points[mesh_.quads[quad][(k + 1) % 4]] - mesh_.points[mesh_.quads[quad][k]];
+      loss += side.squaredNorm() * along / 12;
+    }
+    return loss + normal.norm() * (turning[0] * turning[0] + turning[1] * turning[1]) / 24;
+  }
+
+  /// The angle by which a CAD edge turns along one of its segments.
+  double turning_of(int number) {
+    auto& turning = turnings_[number];
+    if (turning) return *turning;
+    constexpr int samples = 32;
+    const CadEdge& edge = shape_.edges[number - 1];
+    const EdgeCurve curve(edge);
+    double sum = 0;
+    for (int i = 0; i < samples; ++i) {
+      const auto at = [&](int k) {
+        return curve.derivative(edge.first + (edge.last - edge.first) * k / samples);
+      };
+      sum += angle_between(at(i), at(i + 1));
+    }
+    turning = sum / segments_of_[number];
+    return *turning;
+  }
+
+  const CadShape& shape_;
+  const ShellMesh& mesh_;
+  std::vector<double> losses_;
+  std::unordered_map<std::uint64_t, int> edges_;
+  std::unordered_map<std::uint64_t, std::vector<std::size_t>> sides_;
+  std::unordered_map<int, int> segments_of_;
+  std::unordered_map<int, std::optional<double>> turnings_;
+};
+
+}  // namespace
+
+std::vector<std::string> area_differences(const CadModel& model, const ShellMesh& mesh) {
+  constexpr double largest = 0.03, of_loss = 2;
+  const CadShape& shape = model.shape();
+  std::vector<double> areas(shape.faces.size(), 0);
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i)
+    areas[mesh.quad_faces[i] - 1] += area_vector(mesh, i).norm();
+  std::vector<double> integrals(areas.size(), 0);
+  oneapi::tbb::parallel_for(std::size_t{0}, areas.size(), [&](std::size_t face) {
+    integrals[face] = areas[face];
+    if (!(areas[face] > 0)) return;
+    try {
+      GProp_GProps properties;
+      BRepGProp::SurfaceProperties(shape.faces[face].face, properties);
+      integrals[face] = std::abs(properties.Mass());
+    } catch (const Standard_Failure&) {
+      return;  // no integral to compare with
+    }
+  });
+  const auto difference = [&](std::size_t face) { return std::abs(areas[face] - integrals[face]); };
+  std::vector<char> differ(areas.size(), 0);
+  for (std::size_t face = 0; face < areas.size(); ++face)
+    differ[face] = difference(face) > largest * integrals[face];
+  std::vector<std::string> result;
+  if (std::none_of(differ.begin(), differ.end(), [](char d) { return d != 0; })) return result;
+  const FlatLoss loss(shape, mesh, differ);
+  for (std::size_t face = 0; face < areas.size(); ++face) {
+    if (!differ[face] || difference(face) <= largest * integrals[face] + of_loss * loss.of(face)) continue;
+    result.push_back(fmt::format(
+        "Face{} has an area of {:.6g} in the mesh and of {:.6g} by OpenCASCADE's integration: the "
+        "size is too coarse for its shape, or the file or the integral wrong",
+        face + 1, areas[face], integrals[face]));
+  }
+  return result;
+}
+
+}  // namespace quadrille

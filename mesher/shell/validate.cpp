@@ -1,0 +1,387 @@
+// Checks of every invariant of a mesh.
+
+#include "mesher/shell/validate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+
+#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/side_key.hpp"
+#include "mesher/shell/second_order.hpp"
+
+namespace quadrille {
+namespace {
+
+constexpr std::size_t max_sentences = 20;
+constexpr double coincident = 1e-9;  ///< of the diagonal
+
+/// Gathers sentences up to the limit; the checks go on cheaply beyond it.
+class Findings {
+ public:
+  template <typename... Arguments>
+  void add(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    if (sentences_.size() < max_sentences)
+      sentences_.push_back(fmt::format(format, std::forward<Arguments>(arguments)...));
+  }
+  bool empty() const { return sentences_.empty(); }
+  std::vector<std::string> take() { return std::move(sentences_); }
+
+ private:
+  std::vector<std::string> sentences_;
+};
+
+/// Triangles and quads alike; triangles come after the quads.
+struct Elements {
+  std::span<const Vector3> points;
+  std::span<const std::array<int, 4>> quads;
+  std::span<const std::array<int, 3>> triangles;
+
+  int count() const { return static_cast<int>(quads.size() + triangles.size()); }
+  std::span<const int> nodes(int element) const {
+    const auto i = static_cast<std::size_t>(element);
+    if (i < quads.size()) return quads[i];
+    return triangles[i - quads.size()];
+  }
+  std::string name(int element) const {
+    const auto i = static_cast<std::size_t>(element);
+    return i < quads.size() ? fmt::format("quad {}", i) : fmt::format("triangle {}", i - quads.size());
+  }
+};
+
+/// A side of one element.
+struct Side {
+  int low, high;
+  int element;
+  bool forward;  ///< the element runs it from low to high
+
+  bool same_place(const Side& other) const { return low == other.low && high == other.high; }
+};
+
+bool check_indices(const Elements& elements, Findings& findings) {
+  const int n = static_cast<int>(elements.points.size());
+  bool in_range = true;
+  for (int e = 0; e < elements.count(); ++e) {
+    const auto nodes = elements.nodes(e);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (nodes[i] < 0 || nodes[i] >= n) {
+        findings.add("{} refers to point {}, but there are {} points", elements.name(e), nodes[i], n);
+        in_range = false;
+      }
+      for (std::size_t j = 0; j < i; ++j)
+        if (nodes[i] == nodes[j]) findings.add("{} has point {} twice", elements.name(e), nodes[i]);
+    }
+  }
+  for (int i = 0; i < n; ++i)
+    if (!elements.points[i].allFinite()) findings.add("point {} has a coordinate that is not a number", i);
+  return in_range;
+}
+
+void check_used(std::size_t points, const std::vector<char>& used, Findings& findings) {
+  for (std::size_t i = 0; i < points; ++i)
+    if (!used[i]) findings.add("point {} belongs to no element", i);
+}
+
+std::vector<char> used_points(const Elements& elements) {
+  std::vector<char> used(elements.points.size(), 0);
+  for (int e = 0; e < elements.count(); ++e)
+    for (const int node : elements.nodes(e)) used[node] = 1;
+  return used;
+}
+
+std::vector<Side> sorted_sides(const Elements& elements) {
+  std::vector<Side> sides;
+  sides.reserve(elements.quads.size() * 4 + elements.triangles.size() * 3);
+  for (int e = 0; e < elements.count(); ++e) {
+    const auto nodes = elements.nodes(e);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const int a = nodes[i], b = nodes[(i + 1) % nodes.size()];
+      sides.push_back({std::min(a, b), std::max(a, b), e, a < b});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    if (a.low != b.low) return a.low < b.low;
+    if (a.high != b.high) return a.high < b.high;
+    return a.element < b.element;
+  });
+  return sides;
+}
+
+/// Calls `visit` with each group of sides between the same two points.
+template <typename Visit>
+void each_side(const std::vector<Side>& sides, Visit&& visit) {
+  for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
+    while (j < sides.size() && sides[j].same_place(sides[i])) ++j;
+    visit(std::span<const Side>(sides.data() + i, j - i));
+  }
+}
+
+void check_manifold(const Elements& elements, Findings& findings) {
+  each_side(sorted_sides(elements), [&](std::span<const Side> group) {
+    const Side& side = group[0];
+    if (group.size() > 2)
+      findings.add("the side between points {} and {} has {} elements", side.low, side.high, group.size());
+    else if (group.size() == 2 && group[0].forward == group[1].forward)
+      findings.add("{} and {} run the side between points {} and {} in the same direction",
+                   elements.name(group[0].element), elements.name(group[1].element), side.low, side.high);
+  });
+}
+
+void check_areas(const Elements& elements, Findings& findings) {
+  for (std::size_t i = 0; i < elements.triangles.size(); ++i) {
+    const auto& t = elements.triangles[i];
+    const Vector3 &a = elements.points[t[0]], &b = elements.points[t[1]], &c = elements.points[t[2]];
+    const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    if (!((b - a).cross(c - a).norm() > 1e-14 * longest)) findings.add("triangle {} has no area", i);
+  }
+}
+
+void check_convex(const Elements& elements, Findings& findings) {
+  for (std::size_t i = 0; i < elements.quads.size(); ++i) {
+    const auto& q = elements.quads[i];
+    const double sj = quad_scaled_jacobian(elements.points[q[0]], elements.points[q[1]],
+                                           elements.points[q[2]], elements.points[q[3]]);
+    if (!(sj > 0)) findings.add("quad {} is not convex: its scaled Jacobian is {:.3g}", i, sj);
+  }
+}
+
+void check_tags(std::size_t tags, std::size_t count, const char* what, Findings& findings) {
+  if (tags != 0 && tags != count) findings.add("there are {} tags for {} {}", tags, count, what);
+}
+
+/// The checks that triangles and quads share; false if indices are out of range and nothing more can be said.
+bool check_elements(const Elements& elements, Findings& findings) {
+  if (!check_indices(elements, findings)) return false;
+  check_used(elements.points.size(), used_points(elements), findings);
+  check_manifold(elements, findings);
+  check_areas(elements, findings);
+  return true;
+}
+
+/// Finds points within a distance of one another by cells far larger than that distance.
+class CoincidenceSearch {
+ public:
+  CoincidenceSearch(std::span<const Vector3> points, double distance)
+      : points_(points), distance_(distance), cell_(1000 * distance) {
+    next_.assign(points.size(), -1);
+    heads_.reserve(points.size());
+  }
+
+  void run(Findings& findings) {
+    for (int i = 0; i < static_cast<int>(points_.size()) && findings.empty(); ++i) {
+      visit_cells(points_[i], distance_, [&](std::uint64_t key) {
+        const auto head = heads_.find(key);
+        for (int j = head == heads_.end() ? -1 : head->second; j >= 0; j = next_[j])
+          if ((points_[j] - points_[i]).norm() <= distance_) findings.add("points {} and {} coincide", j, i);
+      });
+      visit_cells(points_[i], 0, [&](std::uint64_t key) {
+        const auto [head, fresh] = heads_.try_emplace(key, -1);
+        next_[i] = head->second;
+        head->second = i;
+      });
+    }
+  }
+
+ private:
+  /// The cells that a point comes within `reach` of: one, rarely up to eight.
+  template <typename Visit>
+  void visit_cells(const Vector3& p, double reach, Visit&& visit) const {
+    std::array<std::array<std::int64_t, 2>, 3> range;
+    for (int axis = 0; axis < 3; ++axis)
+      range[axis] = {static_cast<std::int64_t>(std::floor((p[axis] - reach) / cell_)),
+                     static_cast<std::int64_t>(std::floor((p[axis] + reach) / cell_))};
+    for (auto i = range[0][0]; i <= range[0][1]; ++i)
+      for (auto j = range[1][0]; j <= range[1][1]; ++j)
+        for (auto k = range[2][0]; k <= range[2][1]; ++k)
+          visit(static_cast<std::uint64_t>(i) * 0x9E3779B97F4A7C15u ^
+                static_cast<std::uint64_t>(j) * 0xC2B2AE3D27D4EB4Fu ^
+                static_cast<std::uint64_t>(k) * 0x165667B19E3779F9u);
+  }
+
+  std::span<const Vector3> points_;
+  double distance_, cell_;
+  std::vector<int> next_;
+  std::unordered_map<std::uint64_t, int> heads_;
+};
+
+void check_coincident(std::span<const Vector3> points, Findings& findings) {
+  if (points.empty()) return;
+  Vector3 low = points[0], high = points[0];
+  for (const Vector3& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double diagonal = (high - low).norm();
+  if (!(diagonal > 0)) {
+    if (points.size() > 1) findings.add("all {} points coincide", points.size());
+    return;
+  }
+  Findings pairs;
+  CoincidenceSearch(points, coincident * diagonal).run(pairs);
+  for (const auto& sentence : pairs.take()) findings.add("{}", sentence);
+}
+
+using SegmentIndex = std::unordered_map<std::uint64_t, int>;
+
+/// The segments by their side; each side is listed once.
+SegmentIndex index_segments(const ShellMesh& mesh, Findings& findings) {
+  SegmentIndex index;
+  index.reserve(mesh.segments.size());
+  const int n = static_cast<int>(mesh.points.size());
+  for (std::size_t i = 0; i < mesh.segments.size(); ++i) {
+    const auto& segment = mesh.segments[i];
+    const auto [a, b] = segment.nodes;
+    if (a < 0 || b < 0 || a >= n || b >= n || a == b) {
+      findings.add("segment {} has the nodes {} and {}", i, a, b);
+      continue;
+    }
+    if (segment.edge < 1) findings.add("segment {} has no CAD edge", i);
+    const auto [entry, fresh] = index.try_emplace(side_key(a, b), static_cast<int>(i));
+    if (!fresh) findings.add("segments {} and {} have the same nodes {} and {}", entry->second, i, a, b);
+  }
+  return index;
+}
+
+void check_shell_sides(const ShellMesh& mesh, const Elements& elements, bool closed, Findings& findings) {
+  const SegmentIndex segments = index_segments(mesh, findings);
+  const auto face = [&](const Side& side) { return mesh.quad_faces[side.element]; };
+  std::vector<char> met(mesh.segments.size(), 0);
+  each_side(sorted_sides(elements), [&](std::span<const Side> group) {
+    const Side& side = group[0];
+    const auto segment = segments.find(side_key(side.low, side.high));
+    if (segment != segments.end()) met[segment->second] = 1;
+    if (closed && group.size() < 2)
+      findings.add("the side between nodes {} and {} of quad {} is open", side.low, side.high, side.element);
+    // Files of other programs carry no segments: which sides lie on CAD edges is then unknown.
+    if (segment == segments.end() && !mesh.segments.empty()) {
+      if (group.size() != 2)
+        findings.add("the side between nodes {} and {} lies on no CAD edge and has {} elements", side.low,
+                     side.high, group.size());
+      else if (face(group[0]) != face(group[1]))
+        findings.add("the side between nodes {} and {} lies on no CAD edge, but parts faces {} and {}",
+                     side.low, side.high, face(group[0]), face(group[1]));
+    }
+    if (group.size() == 2 && face(group[0]) == face(group[1]) && group[0].forward == group[1].forward)
+      findings.add("quads {} and {} of face {} run the side between nodes {} and {} in the same direction",
+                   group[0].element, group[1].element, face(group[0]), side.low, side.high);
+  });
+  for (std::size_t i = 0; i < met.size(); ++i)
+    if (!met[i]) findings.add("segment {} is no side of any quad", i);
+}
+
+void check_corners(const ShellMesh& mesh, Findings& findings) {
+  std::unordered_map<int, int> nodes, vertices;
+  for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
+    const auto& corner = mesh.corners[i];
+    if (corner.node < 0 || corner.node >= static_cast<int>(mesh.points.size()) || corner.vertex < 1) {
+      findings.add("corner {} has node {} and vertex {}", i, corner.node, corner.vertex);
+      continue;
+    }
+    if (!nodes.try_emplace(corner.node, i).second)
+      findings.add("node {} is listed as a corner twice", corner.node);
+    if (!vertices.try_emplace(corner.vertex, i).second)
+      findings.add("vertex {} is listed twice", corner.vertex);
+  }
+}
+
+/// Midside nodes: one a side, the same from every element, and no other side's.
+void check_midsides(const ShellMesh& mesh, Findings& findings) {
+  if (mesh.order == 1) {
+    if (!mesh.midsides.empty()) findings.add("a mesh of order 1 has {} midside rows", mesh.midsides.size());
+    return;
+  }
+  if (mesh.midsides.size() != mesh.quads.size()) {
+    findings.add("there are {} midside rows for {} quads", mesh.midsides.size(), mesh.quads.size());
+    return;
+  }
+  const int n = static_cast<int>(mesh.points.size());
+  std::unordered_map<std::uint64_t, int> middle_of;
+  std::vector<std::uint64_t> side_of(mesh.points.size(), 0);
+  std::vector<char> corner(mesh.points.size(), 0);
+  for (const auto& quad : mesh.quads)
+    for (const int node : quad) corner[node] = 1;
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i)
+    for (int k = 0; k < 4; ++k) {
+      const int middle = mesh.midsides[i][k];
+      if (middle < 0 || middle >= n || corner[middle]) {
+        findings.add("quad {} has {} as a midside node", i, middle);
+        continue;
+      }
+      const std::uint64_t key = side_key(mesh.quads[i][k], mesh.quads[i][(k + 1) & 3]);
+      const auto [entry, fresh] = middle_of.try_emplace(key, middle);
+      if (entry->second != middle)
+        findings.add("side {} of quad {} has midside node {}, but {} from another quad", k, i, middle,
+                     entry->second);
+      if (fresh && side_of[middle] != 0) findings.add("midside node {} serves two sides", middle);
+      side_of[middle] = key;
+    }
+  for (std::size_t i = 0; i < mesh.segments.size(); ++i) {
+    const auto& segment = mesh.segments[i];
+    const auto entry = middle_of.find(side_key(segment.nodes[0], segment.nodes[1]));
+    if (entry != middle_of.end() && entry->second != segment.middle)
+      findings.add("segment {} has midside node {}, but its quads {}", i, segment.middle, entry->second);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> validate(const TriangleMesh& mesh) {
+  Findings findings;
+  check_tags(mesh.tags.size(), mesh.triangles.size(), "triangles", findings);
+  check_elements({mesh.points, {}, mesh.triangles}, findings);
+  return findings.take();
+}
+
+std::vector<std::string> validate(const QuadMesh& mesh, bool require_convex) {
+  Findings findings;
+  const Elements elements{mesh.points, mesh.quads, mesh.triangles};
+  check_tags(mesh.quad_tags.size(), mesh.quads.size(), "quads", findings);
+  check_tags(mesh.triangle_tags.size(), mesh.triangles.size(), "triangles", findings);
+  if (check_elements(elements, findings) && require_convex) check_convex(elements, findings);
+  return findings.take();
+}
+
+namespace {
+
+/// Second-order elements valid everywhere, not at their corners alone.
+void check_curved(const ShellMesh& mesh, Findings& findings) {
+  if (mesh.order != 2 || mesh.midsides.size() != mesh.quads.size()) return;
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
+    const double bound = jacobian_bound(mesh, i);
+    if (!(bound > 0)) findings.add("quad {} folds between its nodes: its Jacobian falls to {:.3g}", i, bound);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> validate(const ShellMesh& mesh, bool closed) {
+  Findings findings;
+  const Elements elements{mesh.points, mesh.quads, mesh.triangles};
+  if (mesh.order != 1 && mesh.order != 2) findings.add("the order is {}", mesh.order);
+  if (!mesh.triangles.empty()) findings.add("{} triangles remain", mesh.triangles.size());
+  if (mesh.quad_faces.size() != mesh.quads.size())
+    findings.add("there are {} face numbers for {} quads", mesh.quad_faces.size(), mesh.quads.size());
+  // Without sound indices nothing below can be looked up; with triangles, face numbers do not line up.
+  if (!check_indices(elements, findings) || !findings.empty()) return findings.take();
+  std::vector<char> used = used_points(elements);
+  const int n = static_cast<int>(mesh.points.size());
+  for (const auto& row : mesh.midsides)
+    for (const int node : row)
+      if (node >= 0 && node < n) used[node] = 1;
+  check_used(mesh.points.size(), used, findings);
+  check_coincident(mesh.points, findings);
+  check_convex(elements, findings);
+  check_shell_sides(mesh, elements, closed, findings);
+  check_corners(mesh, findings);
+  check_midsides(mesh, findings);
+  if (findings.empty()) check_curved(mesh, findings);
+  return findings.take();
+}
+
+}  // namespace quadrille

@@ -1,0 +1,368 @@
+/// The command as users meet it: exit codes, one line for each mistake, no partial file, what comes out.
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <TopoDS_Compound.hxx>
+#include <gp_Pln.hxx>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "mesher/io/io.hpp"
+#include "tests/support/process.hpp"
+
+namespace quadrille {
+namespace {
+
+using test::TemporaryFolder;
+
+const std::string program = QUADRILLE_BINARY_DIR "/quadrille";
+/// A box of 30 x 20 x 10, diagonal 37.4: small enough to mesh in an instant.
+const std::string box = QUADRILLE_SOURCE_DIR "/examples/models/box.brep";
+const std::string bracket = QUADRILLE_SOURCE_DIR "/examples/models/bracket.step";
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Runs the command in a folder; the result holds stderr alone.
+test::ProcessResult stderr_of(const TemporaryFolder& folder, const std::string& arguments) {
+  return test::run(
+      fmt::format("cd {} && timeout 60 {} {} 2>&1 >/dev/null", folder.path().string(), program, arguments));
+}
+
+test::ProcessResult stdout_of(const TemporaryFolder& folder, const std::string& arguments) {
+  return test::run(
+      fmt::format("cd {} && timeout 60 {} {} 2>/dev/null", folder.path().string(), program, arguments));
+}
+
+struct Mistake {
+  std::string arguments;  ///< IN stands for the box, OUT for "-o out.msh"
+  int exit_code;
+  std::string says;
+};
+
+std::string filled(std::string text) {
+  for (const auto& [from, to] :
+       {std::pair{std::string("IN"), box}, std::pair{std::string("OUT"), std::string("-o out.msh")}})
+    for (std::size_t place; (place = text.find(from)) != std::string::npos;)
+      text.replace(place, from.size(), to);
+  return text;
+}
+
+void PrintTo(const Mistake& mistake, std::ostream* out) {
+  *out << mistake.arguments;
+}
+
+class Mistakes : public testing::TestWithParam<Mistake> {};
+
+TEST_P(Mistakes, GiveOneLineAndNoFile) {
+  const TemporaryFolder folder;
+  test::write_text(folder / "text.step", "this is not CAD\n");
+  test::write_text(folder / "empty.step", "");
+  test::write_text(folder / "empty.brep", "");
+  test::write_text(folder / "cut.brep", test::file_text(box).substr(0, 2000));
+  test::write_text(folder / "broken.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n");
+  std::filesystem::create_directory(folder / "folder.msh");
+  const int before = folder.file_count();
+  const auto result = stderr_of(folder, filled(GetParam().arguments));
+  EXPECT_EQ(result.exit_code, GetParam().exit_code) << result.out;
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+  EXPECT_PRED2(contains, result.out, GetParam().says);
+  EXPECT_EQ(folder.file_count(), before);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Use, Mistakes,
+    testing::Values(
+        Mistake{"", 2, "subcommand"}, Mistake{"mash IN OUT", 2, "quadrille: "},
+        Mistake{"mesh", 2, "IN is required"}, Mistake{"mesh IN", 2, "--output is required"},
+        Mistake{"mesh IN OUT --fast", 2, "--fast"}, Mistake{"mesh IN OUT extra", 2, "extra"},
+        Mistake{"mesh IN OUT --size 0", 2, "--size"}, Mistake{"mesh IN OUT --size -1", 2, "--size"},
+        Mistake{"mesh IN OUT --size nan", 2, "--size"}, Mistake{"mesh IN OUT --size inf", 2, "--size"},
+        Mistake{"mesh IN OUT --size big", 2, "--size"},
+        Mistake{"mesh IN OUT --size 38", 2, "larger than the model"},
+        Mistake{"mesh IN OUT --size", 2, "--size"},
+        Mistake{"mesh IN OUT --size 1 --elements-per-diagonal 9", 2, "--size"},
+        Mistake{"mesh IN OUT --elements-per-diagonal 0", 2, "--elements-per-diagonal"},
+        Mistake{"mesh IN OUT --size-min 0", 2, "--size-min"},
+        Mistake{"mesh IN OUT --size 1 --size-min 2", 2, "--size-min"},
+        Mistake{"mesh IN OUT --growth 0", 2, "--growth"},
+        Mistake{"mesh IN OUT --curvature -3", 2, "--curvature"},
+        Mistake{"mesh IN OUT --order 3", 2, "--order"}, Mistake{"mesh IN OUT --order 0", 2, "--order"},
+        Mistake{"mesh IN OUT --threads -1", 2, "--threads"},
+        Mistake{"mesh IN OUT --strategy best", 2, "--strategy"}, Mistake{"mesh IN OUT --seed x", 2, "--seed"},
+        Mistake{"mesh IN OUT --msh-version 3", 2, "--msh-version"},
+        Mistake{"mesh IN OUT --faces Fase1", 2, "Fase1"}, Mistake{"mesh IN OUT --faces Face7", 2, "no Face7"},
+        Mistake{"mesh IN OUT --faces Face1,Face0", 2, "Face0"},
+        Mistake{"mesh IN OUT --size-on Face3", 2, "--size-on"},
+        Mistake{"mesh IN OUT --size-on Face3=x", 2, "--size-on"},
+        Mistake{"mesh IN OUT --size-on Face3=-1", 2, "--size-on"},
+        Mistake{"mesh IN OUT --size-on Solid1=1", 2, "Solid1"},
+        Mistake{"mesh IN OUT --size-on Edge13=1", 2, "no Edge13"},
+        Mistake{"mesh IN OUT --size-on Vertex9=1", 2, "no Vertex9"},
+        Mistake{"mesh IN -o out.stl", 2, "unknown mesh format"},
+        Mistake{"mesh IN -o out", 2, "unknown mesh format"},
+        Mistake{"mesh IN -o none/out.msh", 2, "none does not exist"},
+        Mistake{"mesh IN -o folder.msh", 2, "is a folder"}, Mistake{"mesh IN OUT OUT", 2, "twice"},
+        Mistake{"mesh IN OUT --report none/r.json", 2, "none does not exist"},
+        Mistake{"mesh IN OUT --picture out.jpg", 2, ".png"},
+        Mistake{"mesh IN OUT --write-size-field out.txt", 2, ".vdb"},
+        Mistake{"mesh IN OUT --picture none/out.png", 2, "none"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Input, Mistakes,
+    testing::Values(
+        Mistake{"mesh none.step OUT", 1, "none.step"}, Mistake{"mesh text.step OUT", 1, "text.step"},
+        Mistake{"mesh empty.step OUT", 1, "empty.step"}, Mistake{"mesh empty.brep OUT", 1, "empty.brep"},
+        Mistake{"mesh cut.brep OUT", 1, "cut.brep"}, Mistake{"mesh folder.msh OUT", 1, "folder"},
+        Mistake{"mesh broken.msh OUT", 2, "unknown ending"},
+        Mistake{"mesh IN OUT --size-field none.vdb", 1, "none.vdb"},
+        Mistake{"info none.step", 1, "none.step"}, Mistake{"info text.step", 1, "text.step"},
+        Mistake{"quality none.msh", 1, "none.msh"}, Mistake{"quality broken.msh", 1, "broken.msh"},
+        Mistake{"quality text.step", 1, "text.step"}, Mistake{"mesh IN OUT --size 1e-4", 2, "million"}));
+
+TEST(Command, MeshesTheBox) {
+  const TemporaryFolder folder;
+  const auto result =
+      stdout_of(folder, "mesh " + box +
+                            " -o a.msh -o a.inp --size 1 --report r.json --size-on Face1=0.5,Edge2=0.5"
+                            " --threads 1 --write-size-field s.vdb");
+  ASSERT_EQ(result.exit_code, 0);
+  EXPECT_PRED2(contains, result.out, "scaled Jacobian");
+  const ShellMesh mesh = read_mesh(folder / "a.msh");
+  EXPECT_EQ(mesh.corners.size(), 8u);
+  EXPECT_EQ(mesh.triangles.size(), 0u);
+  const auto report = nlohmann::json::parse(test::file_text(folder / "r.json"));
+  EXPECT_EQ(report["counts"]["quads"], mesh.quads.size());
+  EXPECT_EQ(report["counts"]["nodes"], mesh.points.size());
+  EXPECT_EQ(report["counts"]["triangles"], 0);
+  EXPECT_EQ(report["faces"].size(), 6u);
+  EXPECT_EQ(report["faces"][0]["name"], "Face1");
+  EXPECT_TRUE(report["warnings"].empty());
+  EXPECT_EQ(report["faces"][0]["status"], "meshed");
+  EXPECT_EQ(report["versions"]["quadrille"], QUADRILLE_VERSION);
+  EXPECT_GT(report["peak_bytes"], 1000000);
+  EXPECT_GT(report["quality"]["q_mean"], 0.8);
+  for (const char* stage :
+       {"read", "size", "sample", "triangulate", "color", "recombine", "improve", "write"})
+    EXPECT_TRUE(report["seconds"].contains(stage)) << stage;
+  EXPECT_TRUE(std::filesystem::exists(folder / "s.vdb"));
+  const auto measured = stdout_of(folder, "quality a.inp");
+  EXPECT_EQ(measured.exit_code, 0);
+  EXPECT_PRED2(contains, measured.out, fmt::format("quads              {}\n", mesh.quads.size()));
+}
+
+TEST(Command, QuietSaysNothing) {
+  const TemporaryFolder folder;
+  const auto result = test::run(fmt::format("cd {} && {} mesh {} -o a.msh --size 2 --quiet 2>&1",
+                                            folder.path().string(), program, box));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, "");
+}
+
+TEST(Command, MeshesChosenFacesOnly) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(stdout_of(folder, "mesh " + box + " -o a.msh --size 2 --faces Face2,Face5 --order 2").exit_code,
+            0);
+  const ShellMesh mesh = read_mesh(folder / "a.msh");
+  EXPECT_EQ(mesh.order, 2);
+  EXPECT_TRUE(std::all_of(mesh.quad_faces.begin(), mesh.quad_faces.end(),
+                          [](int face) { return face == 2 || face == 5; }));
+  EXPECT_NE(std::count(mesh.quad_faces.begin(), mesh.quad_faces.end(), 5), 0);
+}
+
+TEST(Command, TellsWhatAModelHolds) {
+  const TemporaryFolder folder;
+  const auto result = stdout_of(folder, "info " + box);
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* line :
+       {"solids       1\n", "faces        6\n", "edges        12\n", "vertices     8\n", "37.4166 mm"})
+    EXPECT_PRED2(contains, result.out, line);
+}
+
+TEST(Command, AnswersHelpAndVersion) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(stdout_of(folder, "--version").out, "quadrille " QUADRILLE_VERSION "\n");
+  EXPECT_EQ(stdout_of(folder, "mesh --help").exit_code, 0);
+  EXPECT_PRED2(contains, stdout_of(folder, "mesh --help").out, "--size-on");
+}
+
+/// Runs the command in a small file system of its own, mounted where nobody else sees it, with what it says
+/// on stderr and then "exit CODE" and the files that are left. `prepare` is a shell command run before in
+/// there. Nothing where this machine lets us mount nothing.
+std::string outcome_on_small_disk(const std::string& arguments, const std::string& prepare = "true") {
+  const TemporaryFolder folder;
+  const std::string unshare = ::geteuid() == 0 ? "unshare -m" : "unshare -rm";
+  const std::string mount = fmt::format("mount -t tmpfs -o size=80k none {}", folder.path().string());
+  if (test::run(fmt::format("{} sh -c '{}' 2>/dev/null", unshare, mount)).exit_code != 0) return {};
+  return test::run(fmt::format("{} sh -c '{} && cd {} && {} && {{ {} {} 2>&1; echo exit $?; ls -A; }}'",
+                               unshare, mount, folder.path().string(), prepare, program, arguments))
+      .out;
+}
+
+class FullDisk : public testing::TestWithParam<const char*> {};
+
+TEST_P(FullDisk, GivesOneSentenceAndNoFile) {
+  const std::string out = fmt::format("out.{}", GetParam());
+  // Some fifty times what there is room for.
+  const std::string outcome =
+      outcome_on_small_disk(fmt::format("mesh {} -o {} --size 0.25 --quiet", box, out));
+  if (outcome.empty()) GTEST_SKIP() << "NOT TESTED: no file system can be mounted here";
+  EXPECT_EQ(outcome, fmt::format("quadrille: {}: cannot be written: No space left on device\nexit 1\n", out));
+}
+
+INSTANTIATE_TEST_SUITE_P(Command, FullDisk, testing::Values("msh", "inp", "unv", "bdf", "vtu", "vtk", "med"));
+
+TEST(Command, ReportsAFullDisk) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("/dev/full", folder / "full.msh");
+  const auto result = stderr_of(folder, "mesh " + box + " -o full.msh --size 2");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_PRED2(contains, result.out, "No space left on device");
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+}
+
+TEST(Command, ReportsAFullStandardOutput) {
+  const TemporaryFolder folder;
+  const auto result = test::run(fmt::format("{} info {} 2>&1 >/dev/full", program, box));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "quadrille: cannot write to the standard output: No space left on device\n");
+}
+
+TEST(Command, ReportsAReadOnlyFolder) {
+  const std::string outcome =
+      outcome_on_small_disk(fmt::format("mesh {} -o a.msh", box), "mount -o remount,ro .");
+  if (outcome.empty()) GTEST_SKIP() << "NOT TESTED: no file system can be mounted here";
+  EXPECT_EQ(outcome, "quadrille: a.msh: the folder . is not writable: Read-only file system\nexit 2\n");
+}
+
+TEST(Command, ReportsAFolderThatTakesNoFiles) {
+  const TemporaryFolder folder;
+  const auto result = stderr_of(folder, "mesh " + box + " -o /proc/a.msh --size 3 --quiet");
+  EXPECT_EQ(result.exit_code, ::geteuid() == 0 ? 1 : 2);
+  EXPECT_PRED2(contains, result.out, "/proc/a.msh: ");
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+}
+
+TEST(Command, ReportsAPipeWhoseReaderHasGone) {
+  const TemporaryFolder folder;
+  const auto result = test::run(fmt::format(
+      "cd {} && mkfifo out.msh && {{ head -c 10 out.msh >/dev/null & timeout 60 {} mesh {} -o out.msh "
+      "--size 0.25 --quiet 2>&1; }}",
+      folder.path().string(), program, box));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "quadrille: out.msh: cannot be written: Broken pipe\n");
+}
+
+TEST(Command, ReportsAClosedPipe) {
+  const TemporaryFolder folder;
+  const auto result = test::run(fmt::format(
+      "cd {} && {{ {{ sleep 0.3; {} info {} 2>err; echo $? >code; }} | true; }}; sleep 0.5; cat err code",
+      folder.path().string(), program, box));
+  EXPECT_PRED2(contains, result.out, "Broken pipe");
+  EXPECT_PRED2(contains, result.out, "\n1\n");
+}
+
+/// The command at work in a folder, its stderr in the file "err" there.
+class Running {
+ public:
+  Running(const TemporaryFolder& folder, const std::string& arguments) : id_(::fork()) {
+    if (id_ != 0) return;
+    if (::chdir(folder.path().c_str()) != 0) ::_exit(126);
+    const std::string line = fmt::format("exec {} {} 2>err </dev/null", program, arguments);
+    ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+    ::_exit(127);
+  }
+  void send(int signal_number) const { ::kill(id_, signal_number); }
+  /// Until the program handles the signal: starting takes long on busy machines and under sanitizers.
+  void wait_until_handled(int signal_number) const {
+    for (int i = 0; i < 2000; ++i) {
+      std::ifstream status(fmt::format("/proc/{}/status", id_));
+      for (std::string line; std::getline(status, line);) {
+        if (line.rfind("SigCgt:", 0) != 0) continue;
+        if (std::stoull(line.substr(7), nullptr, 16) >> (signal_number - 1) & 1) return;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+  int exit_code() const {
+    int status = 0;
+    ::waitpid(id_, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+ private:
+  pid_t id_;
+};
+
+class Interrupted : public testing::TestWithParam<std::tuple<int, int>> {};
+
+/// Reading, sizing, the faces, writing: the signal comes at different times. Fine enough to be at work for
+/// some ten seconds.
+TEST_P(Interrupted, EndsAtOnceWithoutPartialFile) {
+  const auto [signal_number, milliseconds] = GetParam();
+  const TemporaryFolder folder;
+  const Running command(folder, "mesh " + bracket + " -o a.msh --elements-per-diagonal 2000 --force --quiet");
+  command.wait_until_handled(signal_number);
+  std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+  const auto start = std::chrono::steady_clock::now();
+  command.send(signal_number);
+  EXPECT_EQ(command.exit_code(), 130);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  RecordProperty("seconds", fmt::format("{:.3f}", seconds));
+  // 0.2 s on an idle machine; the rest is for busy ones and sanitizers.
+  EXPECT_LT(seconds, 2);
+  EXPECT_EQ(test::file_text(folder / "err"), "quadrille: the work was cancelled\n");
+  EXPECT_EQ(folder.file_count(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Command, Interrupted,
+                         testing::Combine(testing::Values(SIGINT, SIGTERM), testing::Values(100, 600, 1600)));
+
+/// The box with a seventh face beside it that no mesher can fill: its wire crosses itself.
+void write_with_folded_face(const std::filesystem::path& path) {
+  const BRep_Builder builder;
+  TopoDS_Shape solid;
+  ASSERT_TRUE(BRepTools::Read(solid, box.c_str(), builder));
+  BRepBuilderAPI_MakePolygon wire(gp_Pnt(40, 0, 0), gp_Pnt(50, 10, 0), gp_Pnt(50, 0, 0), gp_Pnt(40, 10, 0),
+                                  true);
+  TopoDS_Compound compound;
+  builder.MakeCompound(compound);
+  builder.Add(compound, solid);
+  builder.Add(compound, BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), wire.Wire()).Face());
+  ASSERT_TRUE(BRepTools::Write(compound, path.c_str()));
+}
+
+TEST(Command, ListsWhatPartialLeavesOut) {
+  const TemporaryFolder folder, models;
+  const std::filesystem::path folded = models / "folded.brep";
+  write_with_folded_face(folded);
+  const std::string faces = "mesh " + folded.string() + " -o a.msh --size 2 --quiet";
+  const auto whole = stderr_of(folder, faces);
+  EXPECT_EQ(whole.exit_code, 1);
+  EXPECT_PRED2(contains, whole.out, "Face7");
+  EXPECT_EQ(std::count(whole.out.begin(), whole.out.end(), '\n'), 1) << whole.out;
+  EXPECT_EQ(folder.file_count(), 0);
+  const auto part = stderr_of(folder, faces + " --partial");
+  EXPECT_EQ(part.exit_code, 0);
+  EXPECT_EQ(part.out.rfind("quadrille: left out: Face7: ", 0), 0u) << part.out;
+  EXPECT_EQ(std::count(part.out.begin(), part.out.end(), '\n'), 1) << part.out;
+  const ShellMesh mesh = read_mesh(folder / "a.msh");
+  EXPECT_EQ(std::set<int>(mesh.quad_faces.begin(), mesh.quad_faces.end()).size(), 6u);
+}
+
+}  // namespace
+}  // namespace quadrille

@@ -1,0 +1,314 @@
+/// Recombination: no triangle is left where their number is even, one where it is odd, and the boundary
+/// stays.
+
+#include "mesher/pairing/recombine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "geometry/base/error.hpp"
+#include "mesher/mesh/quality.hpp"
+#include "mesher/pairing/matching.hpp"
+#include "tests/support/triangulations.hpp"
+
+namespace quadrille {
+namespace {
+
+using namespace testing;
+
+QuadMesh recombined(const TriangleMesh& mesh, bool paper_mode = false, std::uint64_t seed = 1) {
+  RecombineOptions options;
+  options.paper_mode = paper_mode;
+  options.seed = seed;
+  ExecutionContext context;
+  return recombine(mesh, options, context);
+}
+
+/// Both modes must give a faultless mesh; a case that does not is made small before it is shown.
+void expect_faultless(const TriangleMesh& mesh, const std::string& name) {
+  for (const bool paper_mode : {false, true}) {
+    const auto fault = [paper_mode](const TriangleMesh& m) { return faults(m, recombined(m, paper_mode)); };
+    const std::string what = fault(mesh);
+    if (what.empty()) continue;
+    const TriangleMesh small = shrink(mesh, [&](const TriangleMesh& m) { return !fault(m).empty(); });
+    ADD_FAILURE() << name << (paper_mode ? " (paper mode): " : ": ") << what << "; shrunk to "
+                  << small.triangles.size() << " triangles: " << fault(small) << ": " << describe(small);
+  }
+}
+
+TEST(Shrink, MakesAFailingCaseSmall) {
+  // What fails where a point has seven triangles needs seven.
+  const auto fails = [](const TriangleMesh& mesh) {
+    std::vector<int> count(mesh.points.size(), 0);
+    for (const auto& triangle : mesh.triangles) {
+      for (int v : triangle) ++count[v];
+    }
+    return std::any_of(count.begin(), count.end(), [](int n) { return n >= 7; });
+  };
+  const TriangleMesh mesh = random_square(300, 2);
+  ASSERT_TRUE(fails(mesh));
+  const TriangleMesh small = shrink(mesh, fails);
+  EXPECT_TRUE(fails(small));
+  EXPECT_EQ(small.triangles.size(), 7U) << describe(small);
+}
+
+TEST(Recombine, TakesTheSmallestInputs) {
+  const QuadMesh nothing = recombined({});
+  EXPECT_TRUE(nothing.quads.empty());
+  EXPECT_TRUE(nothing.triangles.empty());
+  expect_faultless(strip(1), "one triangle");
+  expect_faultless(strip(2), "two triangles");
+  expect_faultless(with_ears(strip(1)), "a triangle with three ears");
+  EXPECT_EQ(recombined(strip(2)).quads.size(), 1U);
+  EXPECT_EQ(recombined(with_ears(strip(1))).quads.size(), 2U);
+}
+
+TEST(Recombine, PairsRightAngledTrianglesIntoSquares) {
+  const QuadMesh quads = recombined(grid(20, 10));
+  ASSERT_EQ(quads.quads.size(), 200U);
+  for (const auto& [a, b, c, d] : quads.quads) {
+    EXPECT_NEAR(quad_q(quads.points[a], quads.points[b], quads.points[c], quads.points[d]), 1, 1e-12);
+  }
+}
+
+TEST(Recombine, StripsBandsAndFans) {
+  for (int n = 1; n < 40; ++n) {
+    expect_faultless(strip(n), fmt::format("strip of {}", n));
+    expect_faultless(fan(n, false), fmt::format("fan of {}", n));
+    if (n >= 3) expect_faultless(fan(n, true), fmt::format("closed fan of {}", n));
+    if (n >= 3) expect_faultless(band(n), fmt::format("band of {}", n));
+  }
+}
+
+TEST(Recombine, EarsInARow) {
+  for (int n = 1; n < 40; ++n) {
+    expect_faultless(with_ears(strip(n)), fmt::format("strip of {} with ears", n));
+    expect_faultless(with_ears(fan(n, false)), fmt::format("fan of {} with ears", n));
+    if (n >= 3) expect_faultless(with_ears(band(n)), fmt::format("band of {} with ears", n));
+    expect_faultless(with_ears(with_ears(strip(n))), fmt::format("strip of {} with ears on ears", n));
+  }
+}
+
+TEST(Recombine, RandomPlanarWithHoles) {
+  for (unsigned seed = 1; seed <= 150; ++seed) {
+    const int count = 4 + static_cast<int>(seed * seed % 700);
+    expect_faultless(random_square(count, seed), fmt::format("square {}", seed));
+    expect_faultless(random_with_holes(count, 6, seed), fmt::format("holes {}", seed));
+    expect_faultless(perforated(random_square(count, seed), 0.05 + 0.4 * (seed % 10) / 10, seed),
+                     fmt::format("perforated {}", seed));
+  }
+}
+
+TEST(Recombine, ClosedSurfaces) {
+  for (int level = 0; level <= 4; ++level)
+    expect_faultless(icosphere(level), fmt::format("icosphere {}", level));
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const int n = 3 + static_cast<int>(seed);
+    expect_faultless(torus(n, 3 + n / 2, seed), fmt::format("torus {}", seed));
+    expect_faultless(double_torus(n, 3 + n / 2, seed), fmt::format("double torus {}", seed));
+  }
+  TriangleMesh tetrahedron;
+  tetrahedron.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  tetrahedron.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  expect_faultless(tetrahedron, "tetrahedron");
+}
+
+TEST(Recombine, TagsAreBoundaries) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    TriangleMesh mesh = random_square(300, seed);
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const double x = (mesh.points[a] + mesh.points[b] + mesh.points[c]).x();
+      mesh.tags.push_back(x < 1 ? 7 : x < 2 ? -3 : 12);
+    }
+    expect_faultless(mesh, fmt::format("tags {}", seed));
+  }
+}
+
+TEST(Recombine, SeveralPiecesThatTouchInPoints) {
+  TriangleMesh bow_tie;
+  bow_tie.points = {{0, 0, 0}, {1, 1, 0}, {1, -1, 0}, {-1, -1, 0}, {-1, 1, 0}, {2, 0, 0}};
+  bow_tie.triangles = {{0, 2, 1}, {0, 4, 3}, {1, 2, 5}};
+  expect_faultless(bow_tie, "bow tie");
+}
+
+TEST(Recombine, AMillionTriangles) {
+  TriangleMesh mesh = random_square(500'000, 3);
+  const QuadMesh quads = recombined(mesh);
+  EXPECT_EQ(faults(mesh, quads), "");
+  mesh.triangles.pop_back();
+  EXPECT_EQ(faults(mesh, recombined(mesh, true)), "");
+}
+
+TEST(Recombine, IsDeterministicForAnyThreadCount) {
+  // Large enough to be worked on in several blocks.
+  const TriangleMesh mesh = grid(400, 300, 9);
+  for (const Objective objective : {Objective::regular, Objective::shape}) {
+    RecombineOptions options;
+    options.objective = objective;
+    ExecutionContext one(1), four(4);
+    EXPECT_EQ(recombine(mesh, options, one).quads, recombine(mesh, options, four).quads);
+  }
+}
+
+TEST(Recombine, PaperModeFollowsItsSeed) {
+  const TriangleMesh mesh = random_square(500, 4);
+  EXPECT_EQ(recombined(mesh, true, 5).quads, recombined(mesh, true, 5).quads);
+  EXPECT_NE(recombined(mesh, true, 5).quads, recombined(mesh, true, 6).quads);
+}
+
+TEST(Recombine, ExchangeLowersTheNumberOfIrregularPoints) {
+  const TriangleMesh mesh = random_square(2000, 6);
+  RecombineOptions plain;
+  plain.exchange = false;
+  ExecutionContext context;
+  const auto irregular = [](const QuadMesh& quads) {
+    std::vector<int> valence(quads.points.size(), 0);
+    for (const auto& quad : quads.quads) {
+      for (int v : quad) ++valence[v];
+    }
+    return std::count_if(valence.begin(), valence.end(), [](int n) { return n != 4; });
+  };
+  EXPECT_LT(irregular(recombine(mesh, {}, context)), irregular(recombine(mesh, plain, context)));
+}
+
+TEST(Recombine, TheObjectiveShapeGivesTheGreaterMean) {
+  const auto mean_q = [](const QuadMesh& mesh) {
+    double sum = 0;
+    for (const auto& [a, b, c, d] : mesh.quads)
+      sum += quad_q(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]);
+    return sum / static_cast<double>(mesh.quads.size());
+  };
+  RecombineOptions shape;
+  shape.objective = Objective::shape;
+  ExecutionContext context;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const TriangleMesh mesh = random_with_holes(600, 3, seed);
+    const QuadMesh quads = recombine(mesh, shape, context);
+    EXPECT_EQ(faults(mesh, quads), "");
+    EXPECT_GT(mean_q(quads), mean_q(recombine(mesh, {}, context)));
+  }
+}
+
+TEST(Recombine, FreeTrianglesFarApartMeet) {
+  // One triangle less in each of two far corners: what the cheapest way is searched for does not reach.
+  const TriangleMesh mesh = grid(300, 150);
+  const TriangleMesh cut = keep_triangles(mesh, [&](int t, const Vector3&) {
+    return t != 0 && t + 1 != static_cast<int>(mesh.triangles.size());
+  });
+  TriangleGraph graph(cut);
+  for (Side s = 0; s < 4 * graph.size(); ++s) {
+    if (index_of(s) == 3) continue;
+    // The squares of the grid: paired across their diagonals.
+    const Vector3 along = cut.points[graph.end_of(s)] - cut.points[graph.corner_at(s)];
+    if (along.x() * along.y() != 0 && graph.twin_of(s) > s) graph.pair(s);
+  }
+  EXPECT_EQ(std::count_if(graph.triangles.begin(), graph.triangles.end(),
+                          [](const GraphTriangle& t) { return t.mate < 0; }),
+            2);
+  graph.compute_costs(cut.points);
+  EXPECT_EQ(walk(graph, cut.points), 0);
+  for (int t = 0; t < graph.size(); ++t) EXPECT_EQ(graph.mate_of(graph.mate_of(t)), t);
+}
+
+TEST(Recombine, LeavesTheTriangleFreeThatCostsLeast) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(0, 0.8);
+  for (const int n : {3, 7, 31, 101}) {
+    TriangleMesh mesh = strip(n);
+    for (Vector3& p : mesh.points) p.x() += place(random);
+    TriangleGraph graph(mesh);
+    graph.compute_costs(mesh.points);
+    const auto side_to = [&](int t, int other) {
+      for (int i = 0; i < 3; ++i) {
+        if (const Side twin = graph.twin_of(make_side(t, i)); twin >= 0 && triangle_of(twin) == other)
+          return make_side(t, i);
+      }
+      return -1;
+    };
+    // A strip of an odd number of triangles can do without any of those with even numbers.
+    double least = std::numeric_limits<double>::infinity();
+    for (int free = 0; free < n; free += 2) {
+      double cost = 0;
+      for (int t = 0; t < n; t += 2) {
+        if (t == free) ++t;
+        if (t < n) cost += graph.cost_of(side_to(t, t + 1));
+      }
+      least = std::min(least, cost);
+    }
+    for (int t = 0; t + 1 < n; t += 2) graph.pair(side_to(t, t + 1));
+    move_free(graph);
+    double cost = 0;
+    int free = 0;
+    for (int t = 0; t < n; ++t) {
+      const GraphTriangle& triangle = graph.triangles[t];
+      free += triangle.mate < 0;
+      if (triangle.mate >= 0) cost += 0.5 * triangle.cost[triangle.mate];
+    }
+    EXPECT_EQ(free, 1);
+    EXPECT_NEAR(cost, least, 2e-3) << n;
+  }
+}
+
+TEST(Recombine, CanBeCancelled) {
+  ExecutionContext context;
+  context.cancel();
+  try {
+    recombine(grid(4, 4), {}, context);
+    FAIL() << "not cancelled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Error::Kind::cancelled);
+  }
+}
+
+/// The message of the Error that recombine throws.
+std::string complaint(const TriangleMesh& mesh) {
+  try {
+    recombined(mesh);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Error::Kind::failure);
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Recombine, RefusesBadTriangulationsByName) {
+  TriangleMesh mesh = strip(3);
+  mesh.triangles[1] = {1, 3, 2};
+  EXPECT_EQ(complaint(mesh), "triangle 1 runs along its side 2-1 the same way as triangle 0");
+  mesh = strip(2);
+  mesh.points.emplace_back(0, 0, 1);
+  mesh.triangles.push_back({1, 2, 4});
+  EXPECT_EQ(complaint(mesh), "triangle 2 is the third on the side 1-2");
+  mesh = strip(2);
+  mesh.triangles[1][2] = 9;
+  EXPECT_EQ(complaint(mesh), "triangle 1 refers to point 9, which does not exist");
+  mesh.triangles[1] = {3, 3, 1};
+  EXPECT_EQ(complaint(mesh), "triangle 1 has the same point twice");
+  // Sides that come twice the same way, whichever way their points are numbered, alone or with others.
+  for (const bool mirrored : {false, true}) {
+    mesh = strip(2);
+    if (mirrored) {
+      for (auto& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
+    }
+    const std::array<int, 3> first = mesh.triangles[0];
+    mesh.points.emplace_back(3, 3, 0);
+    mesh.triangles = {first, {first[0], first[1], 4}};
+    EXPECT_NE(complaint(mesh).find("the same way as triangle 0"), std::string::npos) << complaint(mesh);
+    mesh.points.emplace_back(4, 4, 0);
+    mesh.triangles.push_back({first[1], first[0], 5});
+    EXPECT_NE(complaint(mesh).find("the same way as triangle 0"), std::string::npos) << complaint(mesh);
+    mesh.points.emplace_back(5, 4, 0);
+    mesh.triangles.push_back({first[1], first[0], 6});
+    EXPECT_NE(complaint(mesh).find("the same way as triangle 0"), std::string::npos) << complaint(mesh);
+    std::swap(mesh.triangles[1], mesh.triangles[2]);
+    EXPECT_NE(complaint(mesh).find("is the third on the side"), std::string::npos) << complaint(mesh);
+  }
+  mesh = strip(2);
+  mesh.tags = {1};
+  EXPECT_EQ(complaint(mesh), "1 tags were given for 2 triangles");
+}
+
+}  // namespace
+}  // namespace quadrille

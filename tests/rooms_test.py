@@ -1,0 +1,59 @@
+"""Data flows one way: each room of geometry/ and mesher/ includes only itself and rooms that stand before it."""
+
+import pathlib
+import re
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+# In the order of the pipeline. A file in mesher/ itself stands where its name says.
+ROOMS = [
+    "geometry/base",
+    "geometry/cad",
+    "geometry/surfaces",
+    "geometry/sizing",
+    "mesher/mesh",
+    "mesher/edges",
+    "mesher/faces",
+    "mesher/pairing",
+    "mesher/quads",
+    "mesher/options.hpp",
+    "mesher/shell",
+    "mesher/io",
+    "mesher/quadrille.hpp",
+    "mesher/mesh.cpp",
+    "mesher/command",
+]
+# What lies in folders of a room belongs to the room.
+INCLUDE = re.compile(r'^#include "((?:geometry|mesher)/[^"]+)"', re.MULTILINE)
+
+
+def room_of(path):
+    for name in (path, "/".join(path.split("/")[:2])):
+        if name in ROOMS:
+            return ROOMS.index(name)
+    raise AssertionError(f"{path} is in no room that tests/rooms_test.py knows")
+
+
+class Rooms(unittest.TestCase):
+    def test_flow_is_one_way(self):
+        files = sorted(p for top in ("geometry", "mesher") for p in (ROOT / top).rglob("*.?pp"))
+        self.assertGreater(len(files), 100)
+        wrong = []
+        for file in files:
+            name = str(file.relative_to(ROOT))
+            for included in INCLUDE.findall(file.read_text()):
+                if room_of(included) > room_of(name):
+                    wrong.append(f"{name} includes {included}")
+        self.assertEqual(wrong, [])
+
+    def test_tests_mirror_modules(self):
+        modules = {p.stem for top in ("geometry", "mesher") for p in (ROOT / top).rglob("*.?pp")}
+        for test in sorted((ROOT / "tests").rglob("*/*_test.cpp")):
+            room = test.parent.name
+            self.assertIn(room, {name.split("/")[1] for name in ROOMS}, test)
+            stem = test.stem.removesuffix("_test")
+            self.assertTrue(stem in modules, f"{test} tests no module of that name")
+
+
+if __name__ == "__main__":
+    unittest.main()

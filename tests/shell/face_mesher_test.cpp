@@ -1,0 +1,221 @@
+/// The stages inside a face, one by one, on every face of every sample model.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "geometry/cad/cad_shape.hpp"
+#include "mesher/faces/face_boundary.hpp"
+#include "mesher/faces/face_triangulation.hpp"
+#include "mesher/faces/mapped_placement.hpp"
+#include "mesher/quadrille.hpp"
+#include "mesher/quads/subdivision.hpp"
+#include "tests/support/sample_models.hpp"
+
+namespace quadrille {
+namespace {
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string result;
+  for (const auto& line : lines) result += line + "\n";
+  return result;
+}
+
+/// What the stages before a face give, for one model.
+struct Prepared {
+  CadModel model;
+  MeshOptions options;
+  ExecutionContext context;
+  SizingField field;
+  BoundaryNodes nodes;
+
+  Prepared(const SampleModel& sample, double divisions, Strategy strategy)
+      : model(CadModel::read(sample.path())),
+        options(make_options(model, divisions, strategy)),
+        field(SizingField::build(model, options.sizing, context)),
+        nodes(sample_edges(model.shape(), field, stride(options.strategy), std::vector<char>(sample.faces, 1),
+                           SamplingPlan(model.shape()), context)) {}
+
+  static MeshOptions make_options(const CadModel& model, double divisions, Strategy strategy) {
+    MeshOptions options;
+    options.strategy = strategy;
+    options.sizing.size = model.diagonal() / divisions;
+    return options;
+  }
+};
+
+template <class Visit>
+void for_each_face(Visit&& visit) {
+  int faces = 0;
+  for (const SampleModel& sample : sample_models()) {
+    for (const Strategy strategy : {Strategy::direct, Strategy::subdivide}) {
+      for (const double divisions : {10.0, 37.0}) {
+        Prepared prepared(sample, divisions, strategy);
+        for (int face = 0; face < sample.faces; ++face) {
+          SCOPED_TRACE(sample.name + " Face" + std::to_string(face + 1) + " at 1/" +
+                       std::to_string(divisions));
+          const FaceSurface surface(prepared.model.shape().faces[face]);
+          visit(prepared, face, surface,
+                face_boundary(prepared.model.shape(), face, surface, prepared.nodes));
+          ++faces;
+        }
+      }
+    }
+  }
+  EXPECT_GT(faces, 100);
+}
+
+PlacedPoints place(Prepared& prepared, const FaceSurface& surface, const FaceBoundary& boundary) {
+  SizingField::Sampler size_at(prepared.field);
+  PlacementOptions options;
+  options.scale = prepared.nodes.stride;
+  return place_points(boundary, surface, enclosed_domain(boundary), size_at, options, prepared.context);
+}
+
+TEST(FaceBoundary, LiesOnTheEdgesAndCloses) {
+  for_each_face([](Prepared& prepared, int, const FaceSurface& surface, const FaceBoundary& boundary) {
+    std::vector<int> leaving(boundary.size(), 0), arriving(boundary.size(), 0);
+    for (const auto& segment : boundary.segments) {
+      ++leaving[segment.a];
+      ++arriving[segment.b];
+    }
+    for (int i = 0; i < boundary.size(); ++i) {
+      EXPECT_EQ(leaving[i], arriving[i]);
+      const double off = (surface.point(boundary.uv[i]) - boundary.points[i]).norm();
+      EXPECT_LT(off, 1e-5 * prepared.model.diagonal());
+    }
+    const auto with_length = std::count_if(boundary.segments.begin(), boundary.segments.end(),
+                                           [](const FaceBoundary::Segment& s) { return !s.degenerate; });
+    EXPECT_EQ(with_length % 2, 0);
+  });
+}
+
+TEST(Placement, KeepsItsDistanceAndStaysInside) {
+  for_each_face([](Prepared& prepared, int, const FaceSurface& surface, const FaceBoundary& boundary) {
+    const TrimmedDomain domain = enclosed_domain(boundary);
+    const PlacedPoints placed = place(prepared, surface, boundary);
+    SizingField::Sampler size_at(prepared.field);
+    for (std::size_t i = 0; i < placed.uv.size(); ++i) {
+      EXPECT_TRUE(domain.inside(placed.uv[i]));
+      EXPECT_LT((surface.point(placed.uv[i]) - placed.points[i]).norm(), 1e-9 * prepared.model.diagonal());
+      const double limit = 0.5 * prepared.nodes.stride * size_at(placed.points[i]);
+      for (std::size_t j = i + 1; j < std::min(placed.uv.size(), i + 50); ++j) {
+        EXPECT_GT((placed.points[i] - placed.points[j]).norm(), limit);
+      }
+    }
+  });
+}
+
+TEST(Triangulation, IsValidAndKeepsTheBoundary) {
+  for_each_face([](Prepared& prepared, int face, const FaceSurface& surface, const FaceBoundary& boundary) {
+    const FaceTriangulation result =
+        triangulate_face(face + 1, boundary, place(prepared, surface, boundary), surface);
+    EXPECT_EQ(joined(validate(result.mesh)), "");
+    EXPECT_EQ(result.mesh.triangles.size() % 2, 0U);
+    std::set<std::pair<int, int>> open;
+    for (const auto& t : result.mesh.triangles) {
+      for (int k = 0; k < 3; ++k) {
+        const auto side = std::minmax(t[k], t[(k + 1) % 3]);
+        if (!open.insert(side).second) open.erase(side);
+      }
+    }
+    std::set<std::pair<int, int>> wanted;
+    for (const auto& segment : result.segments) wanted.insert(std::minmax(segment.a, segment.b));
+    EXPECT_EQ(open, wanted);
+  });
+}
+
+TEST(Recombination, LeavesNoTriangleAndKeepsTheArea) {
+  for_each_face([](Prepared& prepared, int face, const FaceSurface& surface, const FaceBoundary& boundary) {
+    const FaceTriangulation triangulation =
+        triangulate_face(face + 1, boundary, place(prepared, surface, boundary), surface);
+    const QuadMesh quads = recombine(triangulation.mesh, prepared.options.recombine, prepared.context);
+    EXPECT_EQ(joined(validate(quads)), "");
+    EXPECT_TRUE(quads.triangles.empty());
+    EXPECT_EQ(2 * quads.quads.size(), triangulation.mesh.triangles.size());
+  });
+}
+
+TEST(MappedPlacement, GridsTheFourSidedFacesOfABox) {
+  Prepared prepared(sample_model("box"), 20, Strategy::direct);
+  SizingField::Sampler size_at(prepared.field);
+  for (int face = 0; face < 6; ++face) {
+    const FaceSurface surface(prepared.model.shape().faces[face]);
+    const FaceBoundary boundary = face_boundary(prepared.model.shape(), face,
+                                                prepared.model.shape().faces[face], surface, prepared.nodes);
+    const auto placed = place_mapped(boundary, surface, enclosed_domain(boundary), size_at, 1);
+    ASSERT_TRUE(placed);
+    int corners = 0;
+    for (const double angle : boundary.angles) corners += std::abs(angle - M_PI / 2) < 1e-6;
+    EXPECT_EQ(corners, 4);
+    EXPECT_GT(placed->uv.size(), 10U);
+  }
+}
+
+TEST(MappedPlacement, LeavesOtherFacesAlone) {
+  for (const char* name : {"disc", "plate_with_holes", "sphere"}) {
+    SCOPED_TRACE(name);
+    Prepared prepared(sample_model(name), 20, Strategy::direct);
+    SizingField::Sampler size_at(prepared.field);
+    const FaceSurface surface(prepared.model.shape().faces[0]);
+    const FaceBoundary boundary = face_boundary(prepared.model.shape(), 0, surface, prepared.nodes);
+    EXPECT_FALSE(place_mapped(boundary, surface, enclosed_domain(boundary), size_at, 1));
+  }
+}
+
+TEST(FaceSurface, IsTheSameSeenFromAbove) {
+  const CadModel model = CadModel::read(sample_model("bezier_patch").path());
+  const CadFace& face = model.shape().faces[0];
+  const FaceSurface own(face);
+  std::vector<Vector3> loop;
+  const Vector2 low(face.u_min, face.v_min), span(face.u_max - face.u_min, face.v_max - face.v_min);
+  for (const Vector2& corner : {Vector2(0, 0), Vector2(1, 0), Vector2(1, 1), Vector2(0, 1)})
+    loop.push_back(own.point(low + corner.cwiseProduct(span)));
+  const FaceSurface view = FaceSurface::seen_from_above(face, loop);
+  EXPECT_TRUE(view.is_view());
+  const double size = (loop[2] - loop[0]).norm();
+  for (int i = 0; i < 100; ++i) {
+    const Vector2 uv = low + Vector2(0.05 + i % 10 / 11.0, 0.05 + i / 10 / 11.0).cwiseProduct(span);
+    const Vector3 point = own.point(uv);
+    const Vector2 seen = view.seen_at(point);
+    const SurfacePoint at = view.evaluate(seen);
+    EXPECT_LT((at.point - point).norm(), 1e-6 * size);
+    EXPECT_GT(view.normal(seen).dot(own.normal(uv)), 1 - 1e-6);
+    const double step = 1e-5 * size;
+    EXPECT_LT((view.point(seen + Vector2(step, 0)) - at.point - step * at.du).norm(), 1e-3 * step);
+    EXPECT_LT((view.point(seen + Vector2(0, step)) - at.point - step * at.dv).norm(), 1e-3 * step);
+    Vector2 moved = seen;
+    EXPECT_LT((view.project(moved, point + 0.01 * size * view.normal(seen)).point - point).norm(),
+              0.02 * size);
+  }
+}
+
+TEST(CutFlatQuads, CutsAQuadWithAStraightCornerAlone) {
+  QuadMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {4, 0, 0}, {4, 2, 0}, {2, 2, 0}};
+  mesh.quads = {{0, 1, 2, 3}, {2, 4, 5, 6}};
+  cut_flat_quads(mesh, std::vector<Vector3>(mesh.points.size(), Vector3::UnitZ()));
+  ASSERT_EQ(mesh.quads.size(), 1U);
+  EXPECT_EQ(mesh.quads[0], (std::array<int, 4>{2, 4, 5, 6}));
+  ASSERT_EQ(mesh.triangles.size(), 2U);
+  for (const auto& t : mesh.triangles) {
+    // The cut leaves from the straight corner.
+    EXPECT_TRUE(std::find(t.begin(), t.end(), 1) != t.end() && std::find(t.begin(), t.end(), 3) != t.end());
+  }
+}
+
+TEST(CutFlatQuads, CutsTheMitreOfANarrowFrameInside) {
+  // The other cut would span the hole of the frame with triangles of a better shape.
+  QuadMesh mesh;
+  mesh.points = {{0, 0, 0}, {4, 0, 0}, {0.1, 0.1, 0}, {0, 4, 0}};
+  mesh.quads = {{0, 1, 2, 3}};
+  cut_flat_quads(mesh, std::vector<Vector3>(mesh.points.size(), Vector3::UnitZ()));
+  ASSERT_EQ(mesh.triangles.size(), 2U);
+  for (const auto& t : mesh.triangles) {
+    EXPECT_TRUE(std::find(t.begin(), t.end(), 0) != t.end() && std::find(t.begin(), t.end(), 2) != t.end());
+  }
+}
+
+}  // namespace
+}  // namespace quadrille

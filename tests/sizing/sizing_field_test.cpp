@@ -1,0 +1,298 @@
+/// The sizing field, edge sampling with parity, and the geometry they stand on.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "geometry/base/trimmed_domain.hpp"
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/sizing/sizing_field.hpp"
+#include "geometry/surfaces/edge_curve.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+#include "mesher/edges/edge_sampling.hpp"
+#include "mesher/options.hpp"
+#include "tests/support/sample_models.hpp"
+
+namespace quadrille {
+namespace {
+
+SizingField field_of(const CadModel& model, const SizingOptions& options) {
+  ExecutionContext context;
+  return SizingField::build(model, options, context);
+}
+
+Vector3 random_point(const CadModel& model, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  const Vector3 extent = model.box_max() - model.box_min();
+  return model.box_min() +
+         Vector3(unit(random) * extent.x(), unit(random) * extent.y(), unit(random) * extent.z());
+}
+
+TEST(SizingField, IsUniformWhereNothingAsksForLess) {
+  const CadModel model = CadModel::read(sample_model("box").path());
+  SizingOptions options;
+  options.size = 2;
+  const SizingField field = field_of(model, options);
+  SizingField::Sampler size_at(field);
+  std::mt19937 random(1);
+  for (int i = 0; i < 100; ++i) EXPECT_DOUBLE_EQ(size_at(random_point(model, random)), 2);
+}
+
+TEST(SizingField, StaysBetweenItsLimitsAndGrowsNoFasterThanAsked) {
+  for (const SampleModel& sample : sample_models()) {
+    SCOPED_TRACE(sample.name);
+    const CadModel model = CadModel::read(sample.path());
+    SizingOptions options;
+    options.size = model.diagonal() / 20;
+    options.vertex_sizes[1] = options.size / 10;
+    const SizingField field = field_of(model, options);
+    SizingField::Sampler size_at(field);
+    std::mt19937 random(2);
+    std::normal_distribution<double> step(0, 1);
+    for (int i = 0; i < 2000; ++i) {
+      const Vector3 a = random_point(model, random);
+      const Vector3 b = a + options.size * Vector3(step(random), step(random), step(random));
+      const double at_a = size_at(a), at_b = size_at(b);
+      EXPECT_GE(at_a, field.size_min());
+      EXPECT_LE(at_a, field.size_max());
+      // Voxels smear by up to one of their own size, which is about the size itself.
+      const double slack = options.growth * 2 * std::max(at_a, at_b);
+      EXPECT_LE(std::abs(at_a - at_b), options.growth * (a - b).norm() * 1.1 + slack);
+    }
+  }
+}
+
+TEST(SizingField, TakesSizesFromNamesAndCurvature) {
+  const CadModel cylinder = CadModel::read(sample_model("cylinder").path());
+  SizingOptions options;
+  options.size = cylinder.diagonal() / 3;
+  options.elements_per_circle = 30;
+  const SizingField curved = field_of(cylinder, options);
+  SizingField::Sampler curved_at(curved);
+  const CadEdge* circle = nullptr;
+  for (const CadEdge& edge : cylinder.shape().edges) {
+    if (edge.closed()) circle = &edge;
+  }
+  ASSERT_NE(circle, nullptr);
+  const EdgeCurve curve(*circle);
+  const double wanted = circle->length / 30;
+  for (int i = 0; i < 20; ++i) {
+    const Vector3 p = curve.point(circle->first + (circle->last - circle->first) * i / 20);
+    EXPECT_NEAR(curved_at(p), wanted, 0.1 * wanted);
+  }
+  const CadModel box = CadModel::read(sample_model("box").path());
+  SizingOptions named;
+  named.size = 4;
+  named.vertex_sizes[2] = 0.4;
+  named.edge_sizes[5] = 1;
+  const SizingField field = field_of(box, named);
+  SizingField::Sampler size_at(field);
+  EXPECT_NEAR(size_at(box.shape().vertices[1]), 0.4, 0.1);
+  const EdgeCurve straight(box.shape().edges[4]);
+  const CadEdge& edge = box.shape().edges[4];
+  for (int i = 1; i < 10; ++i)
+    EXPECT_LE(size_at(straight.point(edge.first + (edge.last - edge.first) * i / 10)), 1.05);
+}
+
+TEST(SizingField, ComesBackFromItsFile) {
+  const CadModel model = CadModel::read(sample_model("bracket").path());
+  SizingOptions options;
+  options.size = model.diagonal() / 30;
+  const SizingField field = field_of(model, options);
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / "quadrille_sizing_test.vdb";
+  field.write(path);
+  SizingOptions reread;
+  reread.size = options.size;
+  reread.elements_per_circle = 0;
+  reread.size_field = path;
+  const SizingField again = field_of(model, reread);
+  SizingField::Sampler first(field), second(again);
+  int refined = 0;
+  for (const CadEdge& edge : model.shape().edges) {
+    if (edge.degenerate) continue;
+    const Vector3 p = EdgeCurve(edge).point(0.5 * (edge.first + edge.last));
+    EXPECT_LE(second(p), 1.05 * first(p));
+    EXPECT_GE(second(p), 0.4 * first(p));
+    refined += first(p) < 0.9 * options.size;
+  }
+  EXPECT_GT(refined, 0);
+  std::filesystem::remove(path);
+}
+
+TEST(SizingField, RefusesFilesThatAreNotGrids) {
+  const CadModel model = CadModel::read(sample_model("box").path());
+  SizingOptions options;
+  options.size = 1;
+  options.size_field = sample_model("box").path();
+  EXPECT_THROW(field_of(model, options), Error);
+}
+
+/// Every face's number of segments, seams twice.
+std::vector<int> face_counts(const CadModel& model, const BoundaryNodes& nodes) {
+  std::vector<int> counts(model.face_count(), 0);
+  for (int i = 0; i < model.edge_count(); ++i) {
+    if (nodes.edges[i].nodes.empty()) continue;
+    for (const int face : model.shape().edges[i].faces)
+      counts[face - 1] += nodes.edges[i].segments() / nodes.stride;
+  }
+  return counts;
+}
+
+TEST(EdgeSampling, MakesEveryFaceEvenWithSegmentsOfTheSize) {
+  for (const SampleModel& sample : sample_models()) {
+    const CadModel model = CadModel::read(sample.path());
+    for (const Strategy strategy : {Strategy::direct, Strategy::subdivide}) {
+      for (const double divisions : {5.0, 13.0, 40.0, 111.0}) {
+        SCOPED_TRACE(sample.name + " " + std::to_string(divisions));
+        MeshOptions options;
+        options.strategy = strategy;
+        options.sizing.size = model.diagonal() / divisions;
+        ExecutionContext context;
+        const SizingField field = field_of(model, options.sizing);
+        const BoundaryNodes nodes =
+            sample_edges(model.shape(), field, stride(options.strategy), std::vector<char>(sample.faces, 1),
+                         SamplingPlan(model.shape()), context);
+        EXPECT_TRUE(nodes.odd_faces.empty());
+        for (const int count : face_counts(model, nodes)) {
+          EXPECT_EQ(count % 2, 0);
+          EXPECT_GE(count, 4);
+        }
+        for (int i = 0; i < model.edge_count(); ++i) {
+          const auto& edge = nodes.edges[i];
+          const CadEdge& cad = model.shape().edges[i];
+          if (cad.degenerate) {
+            EXPECT_TRUE(edge.nodes.empty());
+            continue;
+          }
+          ASSERT_GE(edge.segments(), cad.closed() ? 4 : 1);
+          EXPECT_TRUE(std::is_sorted(edge.parameters.begin(), edge.parameters.end()));
+          EXPECT_EQ(cad.closed(), edge.nodes.front() == edge.nodes.back());
+          const EdgeCurve curve(cad);
+          for (std::size_t k = 0; k < edge.nodes.size(); ++k) {
+            EXPECT_LT((curve.point(edge.parameters[k]) - nodes.points[edge.nodes[k]]).norm(),
+                      1e-6 * model.diagonal());
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(EdgeSampling, NoSegmentIsFarFromItsNeighbourOnAUniformField) {
+  const CadModel model = CadModel::read(sample_model("bezier_patch").path());
+  MeshOptions options;
+  options.sizing.size = model.diagonal() / 80;
+  options.sizing.elements_per_circle = 0;
+  ExecutionContext context;
+  const BoundaryNodes nodes =
+      sample_edges(model.shape(), field_of(model, options.sizing), stride(options.strategy), {1},
+                   SamplingPlan(model.shape()), context);
+  for (const auto& edge : nodes.edges) {
+    double low = 1e9, high = 0;
+    for (int k = 0; k < edge.segments(); ++k) {
+      const double length = (nodes.points[edge.nodes[k + 1]] - nodes.points[edge.nodes[k]]).norm();
+      low = std::min(low, length);
+      high = std::max(high, length);
+    }
+    EXPECT_LT(high / low, 1.02);
+  }
+}
+
+TEST(MakeEven, SolvesRandomClosedAndOpenTopologies) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 300; ++trial) {
+    const int faces = 2 + trial % 40;
+    const bool open = trial % 3 == 0, three = trial % 4 == 0;
+    std::uniform_int_distribution<int> pick(0, faces - 1);
+    std::uniform_real_distribution<double> cost(0.01, 1);
+    std::vector<ParityEdge> edges;
+    for (int i = 1; i < faces; ++i)
+      edges.push_back({{i, std::uniform_int_distribution<int>(0, i - 1)(random)}, cost(random)});
+    for (int i = 0; i < faces; ++i) {
+      const int a = pick(random), b = pick(random);
+      if (a != b) edges.push_back({{a, b}, cost(random)});
+    }
+    if (open) edges.push_back({{pick(random)}, cost(random)});
+    if (three && faces > 2) edges.push_back({{0, 1, 2}, cost(random)});
+    std::vector<char> odd(faces, 0);
+    int sum = 0;
+    for (char& o : odd) sum += (o = static_cast<char>(random() % 2));
+    // On a closed two-manifold the number of odd faces is even: each edge counts twice.
+    if (!open && !(three && faces > 2) && sum % 2 != 0) odd[0] ^= 1;
+    std::vector<int> left;
+    const std::vector<char> change = make_even(edges, odd, left);
+    EXPECT_TRUE(left.empty());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (!change[i]) continue;
+      for (const int face : edges[i].faces) odd[face] ^= 1;
+    }
+    EXPECT_EQ(std::count(odd.begin(), odd.end(), 1), 0);
+  }
+}
+
+TEST(MakeEven, NamesWhatCannotBeEven) {
+  std::vector<int> left;
+  const std::vector<char> change = make_even({{{0, 1}, 1.0}}, {1, 0}, left);
+  EXPECT_EQ(left.size(), 1U);
+  EXPECT_EQ(change.size(), 1U);
+}
+
+TEST(FaceSurface, AgreesWithItsDerivativesAndItsInverse) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(0.05, 0.95);
+  int faces = 0;
+  for (const SampleModel& sample : sample_models()) {
+    SCOPED_TRACE(sample.name);
+    const CadModel model = CadModel::read(sample.path());
+    for (const CadFace& face : model.shape().faces) {
+      const FaceSurface surface(face);
+      ++faces;
+      for (int i = 0; i < 20; ++i) {
+        const Vector2 extent(face.u_max - face.u_min, face.v_max - face.v_min);
+        const Vector2 uv(face.u_min + unit(random) * extent.x(), face.v_min + unit(random) * extent.y());
+        const SurfacePoint at = surface.evaluate(uv);
+        const double h = 1e-6;
+        const Vector3 du =
+            (surface.point(uv + Vector2(h * extent.x(), 0)) - surface.point(uv - Vector2(h * extent.x(), 0)));
+        EXPECT_LT((du / (2 * h * extent.x()) - at.du).norm(),
+                  1e-4 * (at.du.norm() + model.diagonal() / extent.x()));
+        const Vector3 n = surface.normal(uv);
+        EXPECT_NEAR(n.norm(), 1, 1e-9);
+        EXPECT_NEAR(n.dot(at.du.normalized()), 0, 1e-9);
+        // A point lifted off the surface comes back to it.
+        const double lift = 1e-3 * model.diagonal();
+        Vector2 found = uv + 0.01 * extent;
+        EXPECT_LT((surface.project(found, at.point + lift * n).point - at.point).norm(),
+                  1e-5 * model.diagonal());
+      }
+    }
+  }
+  EXPECT_GT(faces, 20);
+}
+
+TEST(TrimmedDomain, TellsInsideFromOutsideAndFromHoles) {
+  std::vector<TrimmedDomain::Segment> segments;
+  const auto add_circle = [&](double radius, int n) {
+    for (int i = 0; i < n; ++i) {
+      const double a = 2 * M_PI * i / n, b = 2 * M_PI * (i + 1) / n;
+      segments.push_back(
+          {radius * Vector2(std::cos(a), std::sin(a)), radius * Vector2(std::cos(b), std::sin(b))});
+    }
+  };
+  add_circle(3, 97);
+  add_circle(1, 41);
+  const TrimmedDomain domain(segments);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> coordinate(-4, 4);
+  for (int i = 0; i < 20000; ++i) {
+    const Vector2 p(coordinate(random), coordinate(random));
+    const double r = p.norm();
+    if (std::abs(r - 3) < 0.01 || std::abs(r - 1) < 0.01) continue;
+    EXPECT_EQ(domain.inside(p), r > 1 && r < 3) << p.transpose();
+  }
+  EXPECT_FALSE(TrimmedDomain().inside({0, 0}));
+}
+
+}  // namespace
+}  // namespace quadrille
