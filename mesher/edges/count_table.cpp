@@ -1,0 +1,72 @@
+/// Equidistribution of 1 / size along the arc length.
+
+#include "mesher/edges/count_table.hpp"
+
+#include "geometry/surfaces/edge_curve.hpp"
+
+namespace quadrille {
+
+namespace {
+
+class EdgeTabulator {
+ public:
+  EdgeTabulator(const CadEdge& edge, SizingField::Sampler& size_at)
+      : curve_(edge), size_at_(size_at), uniform_(curve_.straight() || curve_.circular()) {
+    const int intervals = std::max(uniform_ ? 4 : 8, 2 * curve_.spans());
+    add(edge.first, curve_.point(edge.first), 0);
+    for (int i = 1; i <= intervals; ++i) {
+      const double t = edge.first + (edge.last - edge.first) * i / intervals;
+      split(t, curve_.point(t), 0);
+    }
+  }
+  CountTable table;
+
+ private:
+  void split(double t, const Vector3& p, int depth) {
+    const double chord = (p - point_).norm();
+    if (depth < 14 && chord > 0.5 * std::min(size_, size_at_(p))) {
+      const double middle = 0.5 * (table.parameters.back() + t);
+      split(middle, curve_.point(middle), depth + 1);
+      split(t, p, depth + 1);
+      return;
+    }
+    add(t, p, arc(table.parameters.back(), t, chord));
+  }
+
+  void add(double t, const Vector3& p, double length) {
+    const double size = size_at_(p);
+    const Vector3 direction = curve_.derivative(t);
+    if (table.parameters.empty()) {
+      table.counts.push_back(0);
+    } else {
+      table.counts.push_back(table.counts.back() + 0.5 * length * (1 / size + 1 / size_));
+      table.turning += angle_between(direction, direction_);
+    }
+    table.parameters.push_back(t);
+    point_ = p;
+    size_ = size;
+    direction_ = direction;
+  }
+
+  /// Arc length by Simpson's rule on the speed.
+  double arc(double a, double b, double chord) const {
+    if (curve_.straight()) return chord;
+    const double speeds = curve_.derivative(a).norm() + curve_.derivative(b).norm() +
+                          4 * curve_.derivative(0.5 * (a + b)).norm();
+    return std::max(chord, (b - a) * speeds / 6);
+  }
+
+  EdgeCurve curve_;
+  SizingField::Sampler& size_at_;
+  bool uniform_;
+  Vector3 point_, direction_;
+  double size_ = 0;
+};
+
+}  // namespace
+
+CountTable tabulate(const CadEdge& edge, SizingField::Sampler& size_at) {
+  return EdgeTabulator(edge, size_at).table;
+}
+
+}  // namespace quadrille

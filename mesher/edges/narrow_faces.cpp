@@ -1,0 +1,112 @@
+#include "mesher/edges/narrow_faces.hpp"
+
+#include <algorithm>
+
+#include "geometry/surfaces/edge_curve.hpp"
+
+namespace quadrille {
+
+namespace {
+
+class NarrowFaces {
+ public:
+  NarrowFaces(const CadShape& shape, const std::vector<char>& used, const std::vector<SplitStrip>& strips,
+              BoundaryNodes& nodes)
+      : shape_(shape), used_(used), strips_(strips), nodes_(nodes), settled_(shape.edges.size(), 0) {}
+
+  void run() {
+    for (std::size_t i = 0; i < shape_.faces.size(); ++i) {
+      if (!used_[i]) continue;
+      for (const FacingSides& sides : facing_sides(shape_, shape_.faces[i])) align(sides);
+    }
+    for (const SplitStrip& strip : strips_) align(strip);
+  }
+
+ private:
+  void align(const FacingSides& sides) {
+    const Coedge &first = *sides.first, &second = *sides.second;
+    const int a = first.edge - 1, b = second.edge - 1;
+    const CadEdge &edge_a = shape_.edges[a], &edge_b = shape_.edges[b];
+    const int n = nodes_.edges[a].segments();
+    if (a == b || n < 2 || nodes_.edges[b].segments() != n || first.internal || second.internal) return;
+    if (edge_a.closed() || edge_b.closed() || nodes_.edges[a].borrowed || nodes_.edges[b].borrowed) return;
+    if (!(sides.width < narrow * edge_a.length / n) || (settled_[a] && settled_[b])) return;
+    // Both run round the face, one against the other.
+    const bool against = first.forward == second.forward;
+    const int leader = settled_[b] ? b : a;
+    std::vector<int> targets = nodes_.edges[leader].nodes;
+    if (against) std::reverse(targets.begin(), targets.end());
+    follow(targets, leader == a ? b : a, false);
+    settled_[a] = settled_[b] = 1;
+  }
+
+  /// The parts have nodes that cannot move, between them: the whole side follows.
+  void align(const SplitStrip& strip) {
+    const int whole = strip.whole->edge - 1;
+    const CadEdge& edge = shape_.edges[whole];
+    if (edge.closed() || nodes_.edges[whole].borrowed || settled_[whole]) return;
+    std::vector<int> targets;
+    for (const Coedge* part : strip.parts) {
+      std::vector<int> nodes = nodes_.edges[part->edge - 1].nodes;
+      if (nodes.empty()) return;
+      if (!part->forward) std::reverse(nodes.begin(), nodes.end());
+      targets.insert(targets.end(), nodes.begin() + (targets.empty() ? 0 : 1), nodes.end());
+    }
+    // The wire runs along the parts, and back along the whole side.
+    if (strip.whole->forward) std::reverse(targets.begin(), targets.end());
+    if (static_cast<int>(targets.size()) != nodes_.edges[whole].segments() + 1) return;
+    if (follow(targets, whole, true)) settled_[whole] = 1;
+  }
+
+  /// Moves the nodes of an edge to where it is nearest to the targets, one for each node; false, and nothing
+  /// is moved, if that would put two in one place.
+  /// \param after_moved nodes come after where the one before has moved to, not after where it was.
+  bool follow(const std::vector<int>& targets, int follower, bool after_moved) {
+    BoundaryNodes::Edge& to = nodes_.edges[follower];
+    const EdgeCurve curve(shape_.edges[follower]);
+    const int n = to.segments();
+    std::vector<double> parameters = to.parameters;
+    const std::vector<double>& before = after_moved ? parameters : to.parameters;
+    for (int k = 1; k < n; ++k) {
+      const Vector3& target = nodes_.points[targets[k]];
+      parameters[k] = nearest(curve, target, before[k - 1], to.parameters[k], to.parameters[k + 1]);
+      if (!(parameters[k] > parameters[k - 1])) return false;
+    }
+    to.parameters = parameters;
+    for (int k = 1; k < n; ++k) nodes_.points[to.nodes[k]] = curve.point(parameters[k]);
+    return true;
+  }
+
+  /// The parameter nearest to a point by golden sections, no further than four fifths of the way to the nodes
+  /// beside.
+  static double nearest(const EdgeCurve& curve, const Vector3& target, double before, double at,
+                        double after) {
+    constexpr double golden = 0.61803398874989485, reach = 0.8;
+    constexpr int sections = 40;
+    double low = at - reach * (at - before), high = at + reach * (after - at);
+    const auto distance = [&](double t) { return (curve.point(t) - target).squaredNorm(); };
+    for (int i = 0; i < sections; ++i) {
+      const double a = high - golden * (high - low), b = low + golden * (high - low);
+      if (distance(a) < distance(b))
+        high = b;
+      else
+        low = a;
+    }
+    return 0.5 * (low + high);
+  }
+
+  const CadShape& shape_;
+  const std::vector<char>& used_;
+  const std::vector<SplitStrip>& strips_;
+  BoundaryNodes& nodes_;
+  std::vector<char> settled_;
+};
+
+}  // namespace
+
+void align_narrow_faces(const CadShape& shape, const std::vector<char>& used,
+                        const std::vector<SplitStrip>& strips, BoundaryNodes& nodes) {
+  NarrowFaces(shape, used, strips, nodes).run();
+}
+
+}  // namespace quadrille
