@@ -31,10 +31,10 @@ class QuadrilleWorkbench(FreeCADGui.Workbench):
 
 def _start():
     """The commands are known from the start, so that the FEM workbench and macros have them too."""
-    from quadrille.gui import commands
+    from quadrille.gui import commands, fem_workbench
 
     commands.register()
-    commands.join_fem_workbench()
+    fem_workbench.join()
 
 
 FreeCADGui.addWorkbench(QuadrilleWorkbench())

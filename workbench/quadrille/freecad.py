@@ -11,9 +11,10 @@ mesher is a child process: it can neither freeze nor crash FreeCAD, and fits any
 import json
 import os
 import tempfile
+from collections import OrderedDict
 from dataclasses import asdict
 from pathlib import Path
-from typing import Dict, Mapping, Optional, Sequence, Tuple, Union
+from typing import Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import FreeCAD
 import Fem
@@ -96,12 +97,16 @@ def mesh_object(
         partial=partial,
     )
     _check_analysis(analysis)
-    fem_mesh, report = mesh_shape(_shape_of(doc_object), settings, progress, command, outputs, picture)
+    shape = _shape_of(doc_object)
+    job = ShapeJob(shape, settings, command, outputs, picture)
+    job.made_of = (shapes.fingerprint(shape), "")
+    fem_mesh, report = job.start().wait_for_result(progress)
     mesh = _add_mesh(doc_object, name)
     _store_settings(mesh, settings)
     if analysis is not None:
         analysis.addObject(mesh)
-    _store_result(mesh, fem_mesh, report)
+    job.made_of = (job.made_of[0], _settings_key(mesh))
+    _store_result(mesh, fem_mesh, report, job)
     return mesh
 
 
@@ -158,15 +163,17 @@ def start(mesh, command: Optional[str] = None, outputs: Sequence[Union[str, Path
     running = _running.get(key)
     if running is not None and running.running:
         raise Error(f"{mesh.Label}: is being meshed already; wait for it, or cancel it first", "usage", mesh.Name)
-    job = ShapeJob(_shape_to_mesh(mesh), _settings_to_use(mesh), command, outputs).start()
-    _running[key] = job
+    job = ShapeJob(_shape_to_mesh(mesh), _settings_to_use(mesh), command, outputs, brep=_brep_as_meshed(mesh))
+    # What is changed while the child works makes the mesh stale when it comes.
+    job.made_of = (shapes.fingerprint(mesh.Shape.Shape), _settings_key(mesh))
+    _running[key] = job.start()
     return job
 
 
 def finish(mesh, job: "ShapeJob") -> None:
     """Puts the mesh of a job that has ended into its mesh object; on an Error the object keeps its old mesh."""
     _running.pop((mesh.Document.Name, mesh.Name), None)
-    _store_result(mesh, *job.result())
+    _store_result(mesh, *job.result(), job)
 
 
 def forget(document_name: str, name: str) -> None:
@@ -227,8 +234,8 @@ def export(mesh, path: Union[str, Path]) -> None:
         job = start(mesh, outputs=[written])
         fem_mesh, _ = job.wait_for_result()
         if (fem_mesh.FaceCount, fem_mesh.NodeCount) != (mesh.FemMesh.FaceCount, mesh.FemMesh.NodeCount):
-            raise Error(f"{mesh.Label}: another version of the mesher made it; mesh again, then export", "failure",
-                        mesh.Name)
+            raise Error(f"{mesh.Label}: the mesher gives another mesh now (it is of another version, or the part was computed "
+                        "anew and differs by rounding): mesh again, then export", "failure", mesh.Name)
         try:
             Path(path).write_bytes(Path(written).read_bytes())
         except OSError as error:
@@ -266,6 +273,7 @@ class ShapeJob:
         command: Optional[str] = None,
         outputs: Sequence[Union[str, Path]] = (),
         picture: Optional[Union[str, Path]] = None,
+        brep: Optional[bytes] = None,
     ) -> None:
         if shape.isNull() or not shape.Faces:
             raise Error("the shape has no faces to mesh", "usage")
@@ -273,7 +281,13 @@ class ShapeJob:
         self._folder = tempfile.TemporaryDirectory(prefix="quadrille-", dir=scratch_folder())
         model = os.path.join(self._folder.name, "shape.brep")
         self._output = os.path.join(self._folder.name, "mesh.med")
-        shape.exportBrep(model)
+        if brep is None:
+            shape.exportBrep(model)
+            brep = Path(model).read_bytes()
+        else:
+            Path(model).write_bytes(brep)
+        self.brep = brep  #: the shape as the mesher sees it
+        self.made_of: Tuple[List[float], str] = ([], "")  #: fingerprint of the part, and settings, when it was started
         self._job = MeshJob(model, [self._output, *outputs], settings, self._command, picture)
         self._report: Optional[Dict] = None
 
@@ -510,8 +524,10 @@ def complaint(mesh) -> str:
     if getattr(getattr(mesh, "Proxy", None), "Type", "") != MeshFeature.Type:
         return ""
     reason = status(mesh)
-    if reason in (UP_TO_DATE, _OTHER_MEANS):
+    if reason == _OTHER_MEANS:
         return ""
+    if reason == UP_TO_DATE:
+        return "; ".join(groups.left_out(mesh))
     return f"{mesh.Label}: {reason}; what is solved with the mesh as it is would not be right"
 
 
@@ -591,12 +607,29 @@ def _load_settings(mesh) -> MeshSettings:
     )
 
 
-def _store_result(mesh, fem_mesh, report: Dict) -> None:
+#: The shapes that meshes were made of, by the mesh objects' tokens: the faces that were flipped, and the BREP.
+_breps: "OrderedDict[str, Tuple[List[str], bytes]]" = OrderedDict()
+_KEPT_BREPS = 20
+
+
+def _brep_as_meshed(mesh) -> Optional[bytes]:
+    """The BREP that a mesh object's mesh was made of, where the part is still equal to it but for rounding: a part that is
+    computed anew comes out a little different, and the mesh need not. None where it is not known."""
+    flipped, brep = _breps.get(mesh.MeshToken, (None, None))
+    if brep is None or flipped != list(mesh.FlippedFaces):
+        return None
+    same = shapes.same_fingerprint(list(mesh.MeshedShape), shapes.fingerprint(mesh.Shape.Shape))
+    return brep if same else None
+
+
+def _store_result(mesh, fem_mesh, report: Dict, job: ShapeJob) -> None:
     groups.add_groups(mesh, fem_mesh)
     undo.put(mesh, fem_mesh)
-    mesh.MeshedShape = shapes.fingerprint(mesh.Shape.Shape)
-    mesh.MeshedSettings = _settings_key(mesh)
-    mesh.Status = UP_TO_DATE
+    _breps[mesh.MeshToken] = (list(mesh.FlippedFaces), job.brep)
+    while len(_breps) > _KEPT_BREPS:
+        _breps.popitem(last=False)
+    mesh.MeshedShape, mesh.MeshedSettings = job.made_of
+    mesh.Status = status(mesh)
     quality = report.get("quality", {})
     mesh.QuadCount = fem_mesh.FaceCount
     mesh.NodeCount = fem_mesh.NodeCount

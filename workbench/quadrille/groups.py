@@ -10,7 +10,7 @@ from typing import Dict, Iterable, List, Optional, Set, Tuple
 
 import FreeCAD
 
-from . import shapes, undo
+from . import shapes, solvers, undo
 from .errors import Error
 
 _KINDS = {"Face": "Face", "Edge": "Edge", "Vertex": "Node"}
@@ -80,6 +80,24 @@ def wanted_groups(mesh, fem_mesh) -> Groups:
     return wanted
 
 
+def left_out(mesh) -> List[str]:
+    """What the analysis refers to and the mesh does not have, since only some faces are meshed: a sentence each. FreeCAD's
+    writers would leave such loads and supports out without a word."""
+    part_groups = _PartGroups(mesh.FemMesh)
+    sentences = []
+    for member in _members(mesh):
+        try:
+            elements = shapes.references_to_names(mesh.Shape.Shape, mesh.Shape, member.References)
+        except Error as error:
+            sentences.append(f"{member.Label}: {error}")
+            continue
+        missing = [name for name in elements if not part_groups.elements(name)]
+        if missing:
+            sentences.append(f"{member.Label} is on {missing[0]}, which is not in the mesh {mesh.Label}: mesh that face too, or "
+                             f"take it out of {member.Label}")
+    return sentences
+
+
 class _PartGroups:
     """The groups Face1..., Edge1..., Vertex1... of a mesh."""
 
@@ -129,6 +147,9 @@ def _members(mesh) -> List:
 class _Watcher:
     """A document observer: constraints that are added or changed after meshing get their groups at once."""
 
+    def __init__(self) -> None:
+        self._told: Set[Tuple[str, str]] = set()
+
     def slotChangedObject(self, obj, name: str) -> None:
         """FreeCAD calls this after a property has changed."""
         if name not in ("References", "Group", "MeshGroupList", "UseLabel"):
@@ -136,9 +157,21 @@ class _Watcher:
         document = obj.Document
         if document is None or getattr(document, "Restoring", False) or getattr(document, "Transacting", False):
             return
+        if name == "Group" and obj.isDerivedFrom("Fem::FemAnalysis"):
+            self._hint(obj)
         for mesh in self._meshes(obj, name):
             if mesh.FemMesh.FaceCount and mesh.Shape is not None:
                 refresh(mesh)
+
+    def _hint(self, analysis) -> None:
+        """Tells once of each result of our meshes what it does not show."""
+        if not any(_is_ours(member) for member in analysis.Group):
+            return
+        for member in analysis.Group:
+            key = (analysis.Document.Uid, member.Name)
+            if member.isDerivedFrom("Fem::FemResultObject") and key not in self._told:
+                self._told.add(key)
+                solvers.hint_at_surfaces(member, analysis)
 
     def slotUndoDocument(self, document) -> None:
         """FreeCAD calls this after an undo."""

@@ -208,14 +208,10 @@ def with_reversed_faces(shape, names: Sequence[str]):
 
 def references_to_names(shape, owner, references: Sequence[Tuple]) -> List[str]:
     """FEM references as names in the meshed shape ("Face3"): those of other objects are found by their geometry."""
-    from femtools import geomtools
-
     names: List[str] = []
     for target, elements in references:
         for element in [elements] if isinstance(elements, str) else elements:
-            found = element if target == owner else None
-            if found is None:
-                found = geomtools.find_element_in_shape(shape, geomtools.get_element(target, element))
+            found = element if target == owner else find_element(shape, _element_in(owner, target, element))
             if found and found.startswith("Solid"):
                 names += _faces_of_solid(shape, int(found[5:]))
             elif found and _exists(shape, found):
@@ -225,10 +221,55 @@ def references_to_names(shape, owner, references: Sequence[Tuple]) -> List[str]:
     return names
 
 
+def _element_in(owner, target, name: str):
+    """The shape of an element of another object, where the owner's shape has it; None when there is none."""
+    try:
+        solids = target.Shape.Solids if name.startswith("Solid") else ()
+        element = solids[int(name[5:]) - 1] if solids else target.getSubObject(name)
+    except (Part.OCCError, AttributeError, IndexError, RuntimeError, ValueError):
+        return None
+    # The features of a Body have its coordinates, the Body's own shape those of what holds it.
+    if element is not None and target in getattr(owner, "Group", ()):
+        element = element.copy()
+        element.Placement = owner.Placement.multiply(element.Placement)
+    return element
+
+
+#: Lengths differ by less than this share of the shape's diagonal where two shapes are equal but for rounding.
+_ROUNDING = 1e-7
+_KINDS = {"Solid": "Solids", "Face": "Faces", "Edge": "Edges", "Vertex": "Vertexes"}
+
+
+def find_element(shape, element) -> Optional[str]:
+    """The name of the solid, face, edge or vertex of a shape that an element of an equal shape is, or None. By geometry
+    where it is not the same one: shapes are computed anew, and then differ by rounding."""
+    kind = getattr(element, "ShapeType", "")
+    if kind not in _KINDS:
+        return None
+    candidates = getattr(shape, _KINDS[kind])
+    for index, candidate in enumerate(candidates, 1):
+        if candidate.isSame(element):
+            return f"{kind}{index}"
+    tolerance = _ROUNDING * max(shape.BoundBox.DiagonalLength, 1e-300)
+    wanted = _measures(element)
+    for index, candidate in enumerate(candidates, 1):
+        if all(abs(a - b) <= tolerance for a, b in zip(_measures(candidate), wanted)):
+            return f"{kind}{index}"
+    return None
+
+
+def _measures(element) -> List[float]:
+    """Lengths that tell an element from the others of its shape."""
+    if element.ShapeType == "Vertex":
+        return list(element.Point)
+    box = element.BoundBox
+    measures = [*element.CenterOfMass, box.XMin, box.XMax, box.YMin, box.YMax, box.ZMin, box.ZMax]
+    return [*measures, element.Length if element.ShapeType == "Edge" else math.sqrt(abs(element.Area))]
+
+
 def _exists(shape, name: str) -> bool:
     kind = name.rstrip("0123456789")
-    lists = {"Face": shape.Faces, "Edge": shape.Edges, "Vertex": shape.Vertexes}
-    return kind in lists and 1 <= int(name[len(kind):] or 0) <= len(lists[kind])
+    return kind in _KINDS and 1 <= int(name[len(kind):] or 0) <= len(getattr(shape, _KINDS[kind]))
 
 
 def _faces_of_solid(shape, number: int) -> List[str]:

@@ -13,6 +13,7 @@ list is made a set, and where there is no volume, all faces belong to none.
 Meshes without such groups, and mesh objects that are not ours, give the same as before. Runs inside FreeCAD."""
 
 import functools
+import importlib
 from typing import Callable, List, Optional, Sequence
 
 import FreeCAD
@@ -29,23 +30,48 @@ def wrap_solvers(complaint: Complaint) -> None:
     global _complaint
     if _complaint is not None:
         return
-    from femmesh import meshtools
-    from femsolver import run
-    from femtools import checksanalysis, membertools
-
     _complaint = complaint
-    run.Check.check_mesh_exists = _checked_in_framework(run.Check.check_mesh_exists, membertools.get_mesh_to_solve)
-    checksanalysis.check_member_for_solver_calculix = _checked_by_ccxtools(
-        checksanalysis.check_member_for_solver_calculix)
-    membertools.get_mesh_to_solve = _announced(membertools.get_mesh_to_solve)
-    meshtools.get_femelement_faces_table = _of_shells(meshtools.get_femelement_faces_table)
-    meshtools.get_femelement_sets = _noting_objects(meshtools.get_femelement_sets)
-    meshtools.get_femelements_by_references = _from_groups(meshtools.get_femelements_by_references)
-    meshtools.get_femelements_by_femnodes_std = _with_set(meshtools.get_femelements_by_femnodes_std)
+    for module, name, wrapper in (
+        ("femsolver.run", "Check.check_mesh_exists", _checked_in_framework),
+        ("femtools.checksanalysis", "check_member_for_solver_calculix", _checked_by_ccxtools),
+        ("femtools.membertools", "get_mesh_to_solve", _announced),
+        ("femmesh.meshtools", "get_femelement_faces_table", _of_shells),
+        ("femmesh.meshtools", "get_femelement_sets", _noting_objects),
+        ("femmesh.meshtools", "get_femelements_by_references", _from_groups),
+        ("femmesh.meshtools", "get_femelements_by_femnodes_std", _with_set),
+    ):
+        _wrap(module, name, wrapper)
 
 
-def _checked_in_framework(function, mesh_of_analysis):
+def _wrap(module: str, name: str, wrapper) -> None:
+    """Wraps one function of FreeCAD. They are FreeCAD's own affair and may go: then one feature is missing, with a warning,
+    and all else works."""
+    try:
+        owner = importlib.import_module(module)
+        *outer, last = name.split(".")
+        for part in outer:
+            owner = getattr(owner, part)
+        setattr(owner, last, wrapper(getattr(owner, last)))
+    except (ImportError, AttributeError) as error:
+        FreeCAD.Console.PrintWarning(f"Quadrille: this FreeCAD has no {module}.{name} ({error}): "
+                                     f"{_LOST[wrapper.__name__]}\n")
+
+
+#: What is missing without each of FreeCAD's functions.
+_LOST = {
+    "_checked_in_framework": "solvers of the framework do not refuse a mesh that is out of date",
+    "_checked_by_ccxtools": "CalculiX does not refuse a mesh that is out of date",
+    "_announced": "scripts are not told that a mesh is out of date",
+    "_of_shells": "large meshes take long to write for solvers",
+    "_noting_objects": "several materials or thicknesses take long to write for solvers",
+    "_from_groups": "several materials or thicknesses take long to write for solvers",
+    "_with_set": "several materials or thicknesses take long to write for solvers",
+}
+
+
+def _checked_in_framework(function):
     """For solver objects of the framework: CalculiX, Elmer, Mystran, Z88."""
+    mesh_of_analysis = importlib.import_module("femtools.membertools").get_mesh_to_solve  # before it is wrapped
 
     @functools.wraps(function)
     def check_mesh_exists(self):
@@ -142,3 +168,26 @@ def _with_set(function):
         return function(femelement_table, set(node_list))
 
     return get_femelements_by_femnodes_std
+
+
+# Results of shells
+
+#: FreeCAD's property of CalculiX solver objects: results at the shell's surfaces, not only at its middle.
+SURFACE_RESULTS = "BeamShellResultOutput3D"
+
+
+def solvers_of(analysis) -> List[object]:
+    """The solver objects of an analysis that can give results at the surfaces of shells."""
+    members = analysis.Group if analysis is not None else ()
+    return [member for member in members if SURFACE_RESULTS in member.PropertiesList]
+
+
+def hint_at_surfaces(result, analysis) -> None:
+    """Says in the report view that a result has the middle of the shell only. Its stresses are the mean through the
+    thickness: in bending, next to nothing."""
+    for solver in solvers_of(analysis):
+        if not getattr(solver, SURFACE_RESULTS):
+            FreeCAD.Console.PrintWarning(
+                f"{result.Label}: shows stresses at the middle of the shell; those of bending are at its surfaces: set "
+                f"{SURFACE_RESULTS} of {solver.Label} to true, and solve again\n")
+            return

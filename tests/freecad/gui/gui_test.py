@@ -10,6 +10,7 @@ import tempfile
 import time
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
@@ -34,6 +35,22 @@ def picture(name):
     """A screenshot, where they are wanted."""
     if PICTURES is not None:
         screenshot(PICTURES / f"{name}.png")
+
+
+def fem_entries():
+    """What the FEM workbench shows of the addon: the texts in its menus, and of the buttons that can be seen."""
+    FreeCADGui.activateWorkbench("FemWorkbench")
+    process(0.5)
+    ours = {command.text for command in commands.COMMANDS.values()}
+    menus = [entry.text().replace("&", "") for entry in window().menuBar().actions() if entry.isVisible()
+             and entry.menu() is not None and ours <= {action.text() for action in entry.menu().actions()}]
+    bars = [bar.objectName() for bar in window().findChildren(QtGui.QToolBar)
+            if bar.isVisible() and ours <= {action.text() for action in bar.actions()}]
+    return menus, bars
+
+
+#: Before the addon's own workbench was ever chosen.
+AT_THE_START = fem_entries()
 
 
 class GuiTest(unittest.TestCase):
@@ -254,7 +271,12 @@ class GuiTest(unittest.TestCase):
         force.References = [(plate, ends[-1][1])]
         force.Force = "100 N" if FreeCAD.Version()[0] != "0" else 100.0
         self.document.recompute()
-        mesh = self.meshed(plate)
+        mesh = self.open_panel(plate)
+        self.assertFalse(solver.BeamShellResultOutput3D)
+        find("QuadrilleSurfaces").setChecked(True)
+        self.press_mesh()
+        close_panel()
+        self.assertTrue(solver.BeamShellResultOutput3D)
         self.assertIn(mesh, analysis.Group)
         with tempfile.TemporaryDirectory() as folder:
             fea = ccxtools.FemToolsCcx(analysis, solver)
@@ -272,6 +294,171 @@ class GuiTest(unittest.TestCase):
         result.Mesh.ViewObject.setNodeColorByScalars(list(result.NodeNumbers), list(result.vonMises))
         self.show()
         picture("stresses")
+
+    # In the FEM workbench
+
+    def test_fem_has_the_commands_from_the_start(self):
+        self.assertEqual(AT_THE_START, (["Mesh"], ["QuadrilleInFem"]))
+        self.assertEqual(fem_entries(), (["Mesh"], ["QuadrilleInFem"]))
+        box = self.box()
+        FreeCADGui.Selection.addSelection(box)
+        bar = window().findChild(QtGui.QToolBar, "QuadrilleInFem")
+        button = next(action for action in bar.actions() if action.text() == "Quad mesh from shape")
+        wait_for(button.isEnabled, 5, "the button")
+        button.trigger()
+        process(0.3)
+        self.assertTrue(FreeCADGui.Control.activeDialog())
+        wait_for(lambda: not button.isEnabled(), 5, "the button while a panel is open")
+        close_panel()
+        FreeCADGui.activateWorkbench("PartWorkbench")
+        process(0.2)
+        self.assertFalse(bar.isVisible())
+
+    def test_context_menu_of_a_mesh(self):
+        mesh = self.meshed(self.box())
+        menu = QtGui.QMenu()
+        mesh.ViewObject.Proxy.setupContextMenu(mesh.ViewObject, menu)
+        next(action for action in menu.actions() if action.text() == "Show shell normals").trigger()
+        self.assertTrue(overlays.is_shown(mesh, overlays.NORMALS))
+
+    def test_seen_from_both_sides(self):
+        view = self.meshed(self.box()).ViewObject
+        self.assertEqual((view.BackfaceCulling, view.LineWidth), (False, 2.0))
+
+    # Picked on a Body
+
+    def body(self):
+        """A plate with a round pocket through it, made in PartDesign, in its container's own place."""
+        body = self.document.addObject("PartDesign::Body", "Body")
+        attachment = "Support" if hasattr(body.newObject("Sketcher::SketchObject", "Outline"), "Support") else \
+            "AttachmentSupport"
+        outline = self.document.Outline
+        setattr(outline, attachment, (body.Origin.OriginFeatures[3], [""]))
+        outline.MapMode = "FlatFace"
+        corners = [(0, 0), (20, 0), (20, 10), (0, 10)]
+        for a, b in zip(corners, corners[1:] + corners[:1]):
+            outline.addGeometry(Part.LineSegment(FreeCAD.Vector(*a, 0), FreeCAD.Vector(*b, 0)))
+        pad = body.newObject("PartDesign::Pad", "Pad")
+        pad.Profile, pad.Length = outline, 5
+        self.document.recompute()
+        top = max(range(len(pad.Shape.Faces)), key=lambda i: pad.Shape.Faces[i].CenterOfMass.z)
+        circle = body.newObject("Sketcher::SketchObject", "Circle")
+        setattr(circle, attachment, (pad, [f"Face{top + 1}"]))
+        circle.MapMode = "FlatFace"
+        circle.addGeometry(Part.Circle(FreeCAD.Vector(10, 5, 0), FreeCAD.Vector(0, 0, 1), 2))
+        pocket = body.newObject("PartDesign::Pocket", "Pocket")
+        pocket.Profile, pocket.Type = circle, 1
+        body.Placement.Base = FreeCAD.Vector(7, -3, 1)
+        self.document.recompute()
+        self.show()
+        return body, pocket
+
+    def select(self, body, *names):
+        FreeCADGui.Selection.clearSelection()
+        for name in names:
+            FreeCADGui.Selection.addSelection(self.document.Name, body.Name, name)
+
+    def test_a_click_on_a_body_meshes_the_body(self):
+        body, pocket = self.body()
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(self.document.Name, body.Name, "Pocket.Face2")
+        with Boxes() as boxes:
+            trigger("Quadrille_Mesh")
+        self.assertEqual(boxes.texts, [])
+        mesh = next(obj for obj in self.document.Objects if commands.is_quad_mesh(obj))
+        self.assertEqual(mesh.Shape, body)
+        self.press_mesh()
+        self.select(body, "Pocket.Face3", "Pocket.Face5")
+        find("QuadrilleTakeSelection").click()
+        self.assertEqual(find("QuadrilleFaces").text(), "Face3, Face5")
+        find("QuadrilleFaces").setText("")
+        close_panel()
+        pocket.Type, pocket.Length = 0, 2  # no more through all
+        self.document.recompute()
+        self.assertIn("changed", mesh.Status)
+
+    def test_every_face_of_a_body_is_known(self):
+        body, _ = self.body()
+        mesh = quadrille.freecad.mesh_object(body, size=2)
+        for count in (1, 2):
+            for index in range(1, len(body.Shape.Faces) + 1):
+                self.select(body, f"Pocket.Face{index}")
+                with Boxes(lambda dialog: dialog.setDoubleValue(1.0)) as boxes:
+                    trigger("Quadrille_Refine")
+                self.assertEqual(boxes.texts, [])
+                self.assertEqual(mesh.MeshRegionList[-1].References, [(body, (f"Face{index}",))])
+            self.assertEqual(len(mesh.MeshRegionList), count * len(body.Shape.Faces))
+            body.touch()
+            body.Tip.touch()
+            self.document.recompute()
+        self.select(body, "Pocket.Face1")
+        with Boxes() as boxes:
+            trigger("Quadrille_Flip")
+        self.assertEqual(boxes.texts, [])
+        self.assertEqual(mesh.FlippedFaces, ["Face1"])
+        self.select(body, "Pocket.Edge1")
+        self.assertIn("face", self.message("Quadrille_Flip"))
+
+    def test_loads_on_a_feature_of_a_body_get_groups(self):
+        body, pocket = self.body()
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        fixed = analysis.addObject(ObjectsFem.makeConstraintFixed(self.document, "Fixed"))[0]
+        fixed.References = [(pocket, "Face2")]
+        mesh = quadrille.freecad.mesh_object(body, size=2, analysis=analysis)
+        self.assertGreater(len(self.group(mesh, "Fixed_Nodes")), 4)
+
+    def test_a_load_on_a_face_left_out_is_refused(self):
+        box = self.box()
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        load = analysis.addObject(ObjectsFem.makeConstraintPressure(self.document, "Load"))[0]
+        load.References = [(box, "Face2")]
+        mesh = quadrille.freecad.mesh_object(box, size=2, analysis=analysis, faces=["Face1"])
+        self.assertIn("Load is on Face2", quadrille.freecad.complaint(mesh))
+        load.References = [(box, "Face1")]
+        self.assertEqual(quadrille.freecad.complaint(mesh), "")
+
+    # Changes meanwhile
+
+    def test_a_part_changed_while_meshing_makes_the_mesh_stale(self):
+        box = self.box()
+        mesh = self.open_panel(box)
+        find("QuadrilleSize").setProperty("rawValue", 0.05)
+        find("QuadrilleMesh").click()
+        box.Length = 12
+        self.document.recompute()
+        wait_for(lambda: find("QuadrilleMesh").isEnabled(), 60, "meshing")
+        self.assertGreater(mesh.FemMesh.FaceCount, 0)
+        self.assertEqual(mesh.Status, "the part has changed: mesh again")
+        close_panel()
+
+    def test_a_part_equal_but_for_rounding_gives_the_same_mesh(self):
+        part = self.bracket()
+        mesh = self.meshed(part)
+        points = mesh.FemMesh.Nodes
+        shape = part.Shape.copy()
+        shape.translate(FreeCAD.Vector(1.1e-14, 0, 0))
+        shape.rotate(FreeCAD.Vector(0, 0, 0), FreeCAD.Vector(0, 0, 1), 1e-13)
+        part.Shape = shape
+        self.document.recompute()
+        self.assertEqual(mesh.Status, "up to date")
+        with tempfile.TemporaryDirectory() as folder:
+            quadrille.freecad.export(mesh, os.path.join(folder, "out.inp"))
+        quadrille.freecad.remesh(mesh)
+        self.assertEqual(mesh.FemMesh.Nodes, points)
+
+    def test_a_result_of_the_middle_says_so(self):
+        box = self.box()
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
+        solver = analysis.addObject(make_solver(self.document, "CalculiX"))[0]
+        quadrille.freecad.mesh_object(box, size=5, analysis=analysis)
+        with mock.patch("FreeCAD.Console.PrintWarning") as told:
+            for flat in (True, False):
+                solver.BeamShellResultOutput3D = not flat
+                analysis.addObject(ObjectsFem.makeResultMechanical(self.document, f"Result{flat}"))
+        warnings = [call.args[0] for call in told.call_args_list if "middle of the shell" in call.args[0]]
+        self.assertEqual(len(warnings), 1, warnings)
+        self.assertIn("ResultTrue", warnings[0])
 
     # The other commands
 

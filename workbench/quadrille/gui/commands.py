@@ -2,13 +2,14 @@
 """The commands of the workbench. What a click does goes through FreeCADGui.doCommand, so that macros record it."""
 
 from pathlib import Path
-from typing import List, Optional
+from typing import Optional
 
 import FreeCAD
 import FreeCADGui
 from PySide import QtGui
 
 from .. import freecad as core
+from .. import picks
 from ..errors import Error
 from . import icon, overlays, tell
 
@@ -29,9 +30,14 @@ def _path(obj) -> str:
     return f"App.getDocument({obj.Document.Name!r}).getObject({obj.Name!r})"
 
 
-def _references(selection) -> str:
-    """A selection as FEM references in Python's spelling."""
-    return "[" + ", ".join(f"({_path(entry.Object)}, {tuple(entry.SubElementNames)!r})" for entry in selection) + "]"
+def _references(references) -> str:
+    """FEM references in Python's spelling."""
+    return "[" + ", ".join(f"({_path(target)}, {names!r})" for target, names in references) + "]"
+
+
+def picked(document) -> list:
+    """What is selected in a document, see picks.py."""
+    return picks.picks_of(FreeCADGui.Selection.getSelectionEx(document.Name, 0))
 
 
 def is_quad_mesh(obj) -> bool:
@@ -47,7 +53,7 @@ def mesh_in_question():
     meshes = [obj for obj in document.Objects if is_quad_mesh(obj)]
     if not meshes:
         raise Error("the document has no quad mesh: select a part and use Quad mesh from shape first", "usage")
-    selected = FreeCADGui.Selection.getSelection(document.Name)
+    selected = picks.parts_of(picked(document))
     for candidates in ([mesh for mesh in meshes if mesh in selected],
                        [mesh for mesh in meshes if mesh.Shape in selected], meshes):
         if len(candidates) == 1:
@@ -122,7 +128,7 @@ class MeshCommand(_Command):
 
     def run(self) -> None:
         document = FreeCAD.ActiveDocument
-        selected = FreeCADGui.Selection.getSelection(document.Name)
+        selected = picks.parts_of(picked(document))
         if len(selected) != 1:
             raise Error("select one part to mesh" if not selected else
                         f"{len(selected)} objects are selected: select one part to mesh (to mesh several as one, "
@@ -156,16 +162,16 @@ class RefineCommand(_Command):
 
     def run(self) -> None:
         mesh = mesh_in_question()
-        selection = [entry for entry in FreeCADGui.Selection.getSelectionEx(mesh.Document.Name)
-                     if entry.SubElementNames and not is_quad_mesh(entry.Object)]
-        if not selection:
+        references = [entry for entry in picks.references_on(mesh.Shape, picked(mesh.Document))
+                      if not is_quad_mesh(entry[0])]
+        if not references:
             raise Error("select faces, edges or vertices of the part first", "usage")
         size = self.ask(mesh)
         if size is None:
             return
         _do("import quadrille.freecad")
-        core.check_references(mesh, [(entry.Object, tuple(entry.SubElementNames)) for entry in selection])
-        _do(f"quadrille.freecad.refine({_path(mesh)}, {_references(selection)}, {size!r})")
+        core.check_references(mesh, references)
+        _do(f"quadrille.freecad.refine({_path(mesh)}, {_references(references)}, {size!r})")
         mesh.Document.recompute()
 
     @staticmethod
@@ -216,8 +222,11 @@ class FlipCommand(_Command):
 
     def run(self) -> None:
         mesh = _meshed_in_question()
-        faces: List[str] = [name for entry in FreeCADGui.Selection.getSelectionEx(mesh.Document.Name)
-                            if entry.Object == mesh.Shape for name in entry.SubElementNames if name.startswith("Face")]
+        chosen = [pick for pick in picked(mesh.Document) if pick[1].split(".")[-1]]
+        faces = [name for name in picks.elements_of(mesh.Shape, chosen) if name.startswith("Face")]
+        if chosen and not faces:
+            raise Error(f"none of what is selected is a face of {mesh.Shape.Label}: select its faces, or nothing to flip "
+                        "all of them", "usage")
         _do("import quadrille.freecad")
         _do(f"quadrille.freecad.flip({_path(mesh)}, {faces!r})")
         if overlays.is_shown(mesh, overlays.NORMALS):
@@ -250,7 +259,8 @@ class ExportCommand(_Command):
         return path or None
 
 
-_COMMANDS = {
+#: The commands by the names that FreeCAD knows them by.
+COMMANDS = {
     "Quadrille_Mesh": MeshCommand, "Quadrille_Refine": RefineCommand, "Quadrille_Quality": QualityCommand,
     "Quadrille_Normals": NormalsCommand, "Quadrille_Flip": FlipCommand, "Quadrille_Export": ExportCommand,
 }
@@ -259,43 +269,6 @@ _COMMANDS = {
 def register() -> None:
     """Makes the commands known to FreeCAD, once."""
     known = FreeCADGui.listCommands()
-    for name, command in _COMMANDS.items():
+    for name, command in COMMANDS.items():
         if name not in known:
             FreeCADGui.addCommand(name, command())
-
-
-class _FemManipulator:
-    """Adds the commands to the FEM workbench, where FreeCAD lets addons do so (1.0)."""
-
-    def modifyMenuBar(self) -> list:
-        """Below FEM's own mesh command, wherever that is in a menu."""
-        return [{"insert": name, "menuItem": "FEM_MeshGmshFromShape", "after": ""} for name in reversed(TOOLBAR)]
-
-
-def join_fem_workbench() -> None:
-    """Puts the commands into the FEM workbench's mesh menu."""
-    if hasattr(FreeCADGui, "addWorkbenchManipulator"):
-        FreeCADGui.addWorkbenchManipulator(_FemManipulator())
-        return
-    window = FreeCADGui.getMainWindow()
-    window.workbenchActivated.connect(_fill_fem_menu)
-    # Started with the FEM workbench, FreeCAD activates it after this.
-
-
-def _fill_fem_menu(workbench: str) -> None:
-    """FreeCAD 0.20 rebuilds the menus when a workbench is activated; this adds ours after that."""
-    if workbench != "FemWorkbench":
-        return
-    bar = FreeCADGui.getMainWindow().menuBar()
-    gmsh = FreeCADGui.Command.get("FEM_MeshGmshFromShape")
-    ours = [action for name in TOOLBAR for action in FreeCADGui.Command.get(name).getAction()]
-    if gmsh is None or not ours:
-        return
-    theirs = gmsh.getAction()
-    for entry in bar.actions():
-        menu = entry.menu()
-        if menu is not None and any(action in menu.actions() for action in theirs):
-            if not any(action in menu.actions() for action in ours):
-                menu.addSeparator()
-                menu.addActions(ours)
-            return

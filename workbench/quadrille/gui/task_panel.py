@@ -13,7 +13,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from .. import freecad as core
-from .. import shapes
+from .. import groups, picks, shapes, solvers
 from ..errors import Error
 from . import icon, tell
 from .quality_view import QualityWidget
@@ -96,10 +96,16 @@ class MeshPanel:
         self.strategy.addItems(self.mesh.getEnumerationsOfProperty("Strategy"))
         self.strategy.setToolTip("How triangles become quads")
         self.faces = QtGui.QLineEdit()
+        self.faces.setObjectName("QuadrilleFaces")
         self.faces.setPlaceholderText("all faces")
         self.faces.setToolTip("Faces to mesh, such as Face1, Face7; empty = all")
         self.take_selection = QtGui.QPushButton("Take selection")
+        self.take_selection.setObjectName("QuadrilleTakeSelection")
         self.take_selection.setToolTip("Mesh only the faces that are selected in the 3-D view")
+        self.surfaces = QtGui.QCheckBox("Stresses at the shell's surfaces")
+        self.surfaces.setObjectName("QuadrilleSurfaces")
+        self.surfaces.setToolTip("CalculiX then gives results at the top and bottom of the shell, where bending stresses are, "
+                                 "and not at its middle alone (the solver's property Beam Shell Result Output 3D)")
         self.estimate = QtGui.QLabel()
         self.estimate.setObjectName("QuadrilleEstimate")
         self.mesh_button = QtGui.QPushButton(QtGui.QIcon(icon("quadrille_mesh")), "Mesh")
@@ -124,6 +130,8 @@ class MeshPanel:
         settings.addRow("Order", self.order)
         settings.addRow("Strategy", self.strategy)
         settings.addRow("Faces", _beside(self.faces, self.take_selection))
+        if self._solvers():
+            settings.addRow("Results", self.surfaces)
         settings.addRow("Expected", self.estimate)
         layout = QtGui.QVBoxLayout(self.form)
         layout.addLayout(settings)
@@ -150,6 +158,10 @@ class MeshPanel:
         self.order.setCurrentText(self.mesh.ElementOrder)
         self.strategy.setCurrentText(self.mesh.Strategy)
         self.faces.setText(", ".join(self.mesh.Faces))
+        self.surfaces.setChecked(all(getattr(solver, solvers.SURFACE_RESULTS) for solver in self._solvers()))
+
+    def _solvers(self) -> list:
+        return solvers.solvers_of(groups.analysis_of(self.mesh))
 
     def _face_names(self) -> list:
         return [name.strip() for name in self.faces.text().split(",") if name.strip()]
@@ -168,11 +180,15 @@ class MeshPanel:
         }
         changes = {name: value for name, value in wanted.items()
                    if getattr(getattr(mesh, name), "Value", getattr(mesh, name)) != value}
-        if not changes:
+        surfaces = self.surfaces.isChecked()
+        others = [solver for solver in self._solvers() if getattr(solver, solvers.SURFACE_RESULTS) != surfaces]
+        if not changes and not others:
             return
         mesh.Document.openTransaction("Quad mesh settings")
         for name, value in changes.items():
             FreeCADGui.doCommand(f"{_path(mesh)}.{name} = {value!r}")
+        for solver in others:
+            FreeCADGui.doCommand(f"{_path(solver)}.{solvers.SURFACE_RESULTS} = {surfaces!r}")
         mesh.Document.commitTransaction()
 
     # Estimate
@@ -195,8 +211,9 @@ class MeshPanel:
             self.size.setProperty("rawValue", self._estimate.suggested(SUGGESTED_QUADS, self.per_circle.value()))
 
     def _take_selection(self) -> None:
-        names = [name for entry in FreeCADGui.Selection.getSelectionEx(self._document_name)
-                 if entry.Object == self.mesh.Shape for name in entry.SubElementNames if name.startswith("Face")]
+        selection = FreeCADGui.Selection.getSelectionEx(self._document_name, 0)
+        names = [name for name in picks.elements_of(self.mesh.Shape, picks.picks_of(selection))
+                 if name.startswith("Face")]
         if not names:
             tell(f"Select faces of {self.mesh.Shape.Label} in the 3-D view first.")
             return

@@ -12,8 +12,9 @@ class MeshViewProvider:
 
     def __init__(self, vobj) -> None:
         vobj.Proxy = self
-        # A wide line hides the shading of a fine mesh.
-        vobj.LineWidth = 1.0
+        vobj.LineWidth = 2.0
+        # An open shell is seen from behind too.
+        vobj.BackfaceCulling = False
         vobj.PointSize = 2.0
         # A shell has no inner faces; looking for them, FreeCAD compares each with each other: 3 s for 46 000 quads.
         vobj.ShowInner = True
@@ -40,6 +41,12 @@ class MeshViewProvider:
     def claimChildren(self) -> list:
         """Mesh regions and groups hang below the mesh."""
         return [*self.Object.MeshRegionList, *self.Object.MeshGroupList]
+
+    def setupContextMenu(self, vobj, menu) -> None:
+        """The commands for a mesh, when it is clicked in the tree."""
+        from . import fem_workbench
+
+        fem_workbench.fill_context_menu(vobj.Object, menu)
 
     def setEdit(self, vobj, _mode=0) -> bool:
         """Opens the task panel."""

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The commands inside FreeCAD's FEM workbench: in its menu Mesh, in a toolbar, and in the context menu of a mesh.
+
+FreeCAD makes the button of a command when a workbench that lists it is first chosen, and addons cannot add to the FEM
+workbench's lists. So the entries here are actions of their own that run the commands: they are there from the start."""
+
+from typing import Dict, Optional
+
+import FreeCADGui
+from PySide import QtCore, QtGui
+
+from . import icon
+from .commands import COMMANDS, TOOLBAR
+
+_FEM = "FemWorkbench"
+#: Milliseconds between two looks at which commands can be used, as often as FreeCAD looks.
+_INTERVAL = 300
+#: What asks for no faces, edges or vertices besides the mesh: its context menu.
+_CONTEXT = ["Quadrille_Mesh", "Quadrille_Quality", "Quadrille_Normals", "Quadrille_Export"]
+
+
+class _FemEntries:
+    """The toolbar, and the menu where FreeCAD has no manipulators (0.20)."""
+
+    def __init__(self) -> None:
+        window = FreeCADGui.getMainWindow()
+        self._actions: Dict[str, QtGui.QAction] = {name: _action(name, window) for name in TOOLBAR}
+        self._toolbar = window.addToolBar("Quadrille in FEM")
+        self._toolbar.setObjectName("QuadrilleInFem")
+        self._toolbar.addActions(list(self._actions.values()))
+        self._timer = QtCore.QTimer(window)
+        self._timer.timeout.connect(self._enable)
+        self._has_menu = hasattr(FreeCADGui, "addWorkbenchManipulator")
+        if self._has_menu:
+            FreeCADGui.addWorkbenchManipulator(_Manipulator())
+        window.workbenchActivated.connect(self.show)
+
+    def show(self, workbench: str) -> None:
+        """FreeCAD has activated a workbench, and built its menus anew."""
+        fem = workbench == _FEM
+        self._toolbar.setVisible(fem)
+        if not fem:
+            self._timer.stop()
+            return
+        if not self._has_menu:
+            self._fill_menu()
+        self._enable()
+        self._timer.start(_INTERVAL)
+
+    def _enable(self) -> None:
+        for name, action in self._actions.items():
+            action.setEnabled(FreeCADGui.Command.get(name).isActive())
+
+    def _fill_menu(self) -> None:
+        """Below FEM's own mesh command, wherever that is in a menu."""
+        gmsh = FreeCADGui.Command.get("FEM_MeshGmshFromShape")
+        theirs = gmsh.getAction() if gmsh is not None else []
+        for entry in FreeCADGui.getMainWindow().menuBar().actions():
+            menu = entry.menu()
+            if menu is None or not any(action in menu.actions() for action in theirs):
+                continue
+            if not any(action in menu.actions() for action in self._actions.values()):
+                menu.addSeparator()
+                menu.addActions(list(self._actions.values()))
+            return
+
+
+class _Manipulator:
+    """Adds the commands to the FEM workbench's menu, where FreeCAD lets addons do so (1.0)."""
+
+    def modifyMenuBar(self) -> list:
+        """Below FEM's own mesh command, wherever that is in a menu."""
+        return [{"insert": name, "menuItem": "FEM_MeshGmshFromShape", "after": ""} for name in reversed(TOOLBAR)]
+
+
+def _action(name: str, parent) -> QtGui.QAction:
+    """An action that runs a command."""
+    command = COMMANDS[name]
+    action = QtGui.QAction(QtGui.QIcon(icon(command.pixmap)), command.text, parent)
+    action.setToolTip(command.tip)
+    action.setStatusTip(command.tip)
+    action.triggered.connect(lambda *_: FreeCADGui.runCommand(name))
+    return action
+
+
+def fill_context_menu(mesh, menu) -> None:
+    """Adds the commands to the context menu of a mesh object, for that mesh."""
+
+    def run(name: str) -> None:
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(mesh)
+        FreeCADGui.runCommand(name)
+
+    for name in _CONTEXT:
+        action = _action(name, menu)
+        action.triggered.disconnect()
+        action.triggered.connect(lambda *_, name=name: run(name))
+        menu.addAction(action)
+
+
+_entries: Optional[_FemEntries] = None
+
+
+def join() -> None:
+    """Puts the commands into the FEM workbench, once."""
+    global _entries
+    if _entries is None:
+        _entries = _FemEntries()
+        # Started with the FEM workbench, FreeCAD activates it after this.
+        _entries.show("")
