@@ -15,6 +15,8 @@
 #include "geometry/base/execution_context.hpp"
 #include "geometry/cad/cad_model.hpp"
 #include "mesher/io/io.hpp"
+#include "mesher/io/limits_reader.hpp"
+#include "mesher/mesh/criteria.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/options.hpp"

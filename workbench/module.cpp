@@ -67,31 +67,14 @@ py::array face_ids(const py::object& self) {
   return view<int>(faces.data(), {static_cast<py::ssize_t>(faces.size())}, self);
 }
 
-py::dict quality_dict(const PythonMesh& mesh) {
-  QualitySummary summary;
+/// \param limits a limits file; none = the usual limits.
+py::object quality_dict(const PythonMesh& mesh, const std::optional<std::filesystem::path>& limits) {
+  std::string text;
   {
     const py::gil_scoped_release release;
-    summary = quality(mesh.mesh);
+    text = quality_json(mesh.mesh, limits ? read_limits(*limits) : CriteriaLimits());
   }
-  py::dict result;
-  result["nodes"] = summary.nodes;
-  result["quads"] = summary.quads;
-  result["triangles"] = summary.triangles;
-  result["q_min"] = summary.q_min;
-  result["q_mean"] = summary.q_mean;
-  result["sj_min"] = summary.sj_min;
-  result["sj_mean"] = summary.sj_mean;
-  result["inverted"] = summary.inverted;
-  result["irregular_percent"] = summary.irregular_percent;
-  result["histogram"] = summary.q_histogram;
-  result["valence_counts"] = summary.valence_counts;
-  result["aspect_max"] = summary.aspect_max;
-  result["aspect_mean"] = summary.aspect_mean;
-  result["warping_max_degrees"] = summary.warping_max_degrees;
-  result["edge_min"] = summary.edge_min;
-  result["edge_median"] = summary.edge_median;
-  result["edge_max"] = summary.edge_max;
-  return result;
+  return py::module_::import("json").attr("loads")(text);
 }
 
 py::list face_statuses(const PythonMesh& mesh) {
@@ -279,7 +262,10 @@ void bind_mesh(py::module_& module) {
           "corners", [](const py::object& self) { return table<int>(mesh_of(self).mesh.corners, self); },
           "(c, 2) int32: node, CAD vertex.")
       .def_property_readonly("faces", &face_statuses, "What became of each CAD face: a list of dicts.")
-      .def("quality", &quality_dict, "Counts and measures: a dict, named as in the command's report.")
+      .def("quality", &quality_dict, py::arg("limits") = py::none(),
+           "Counts and measures: a dict, named as in the command's report, with the criteria of industry "
+           "under "
+           "'criteria'. limits: a limits file, JSON or HyperMesh's.")
       .def(
           "qualities",
           [](const PythonMesh& self) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace quadrille::command {
 
@@ -36,6 +37,32 @@ std::string quality_histogram(const QualitySummary& summary) {
     const int bar = static_cast<int>(static_cast<double>(bins[i]) * width / largest + 0.5);
     text += fmt::format("{:.2f}-{:.2f} {:>10}", low, low + bin, bins[i]);
     text += bar > 0 ? fmt::format(" {:#<{}}\n", "", bar) : "\n";
+  }
+  return text;
+}
+
+std::string criteria_table(const CriteriaSummary& summary, const CriteriaLimits& limits) {
+  const auto share = [&](int failing) {
+    return fmt::format("{:>8} {:>8.3f} %", failing, 100.0 * failing / std::max(summary.quads, 1));
+  };
+  std::string text = fmt::format("{:<16} {:>8} {:>8} {:>10}\n", "criterion", "limit", "failing", "share");
+  for (std::size_t i = 0; i < criterion_count; ++i) {
+    const CriterionInfo& info = criteria_info[i];
+    if (!std::isnan(limits.values[i]))
+      text += fmt::format("{:<16} {:>8g} {}\n", info.name, limits.values[i], share(summary.failing_by[i]));
+  }
+  text += fmt::format("{:<25} {}\n{:<25} {}\n", "any", share(summary.failing), "any but warp",
+                      share(summary.failing_but_warp));
+  for (const std::string& name : limits.not_measured) text += fmt::format("not measured: {}\n", name);
+  if (summary.failing == 0) return text;
+  text += "\nface          quads  failing\n";
+  for (const auto& face : summary.faces)
+    text += fmt::format("{:<11} {:>7} {:>8}\n", fmt::format("Face{}", face.face), face.quads, face.failing);
+  text += "\nworst quads\n";
+  for (const auto& quad : summary.worst) {
+    const CriterionInfo& info = criteria_info[static_cast<std::size_t>(quad.criterion)];
+    text += fmt::format("quad {} on Face{} at ({:.6g}, {:.6g}, {:.6g}): {} {:.4g}\n", quad.quad + 1,
+                        quad.face, quad.center.x(), quad.center.y(), quad.center.z(), info.name, quad.value);
   }
   return text;
 }

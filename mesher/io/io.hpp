@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "mesher/mesh/criteria.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
@@ -26,6 +27,10 @@ bool is_mesh_format(const std::filesystem::path& path);
 /// Reads a surface mesh: Gmsh .msh (2.2 and 4.1, ASCII and binary) or Abaqus/CalculiX .inp.
 /// Throws Error (failure) with one sentence that names the line, element or node at fault.
 ShellMesh read_mesh(const std::filesystem::path& path);
+
+/// The measures of a mesh as a JSON object, named as in the report of the command, with nodes, quads,
+/// triangles and criteria beside them.
+std::string quality_json(const ShellMesh& mesh, const CriteriaLimits& limits = {});
 
 /// Draws the mesh, quads coloured by q, sides drawn, with a colour bar, into a PNG. Works without a screen.
 /// Throws Error (failure) when the picture cannot be drawn.

@@ -5,9 +5,12 @@
 #include <sys/resource.h>
 
 #include <Standard_Version.hxx>
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "mesher/io/atomic_file.hpp"
+#include "mesher/io/io.hpp"
 
 namespace quadrille {
 
@@ -30,6 +33,38 @@ json quality_to_json(const QualitySummary& summary) {
           {"edge_min", summary.edge_min},
           {"edge_median", summary.edge_median},
           {"edge_max", summary.edge_max}};
+}
+
+/// Counts and shares of the quads that fail, by criterion and face, and the worst.
+json criteria_to_json(const CriteriaSummary& summary, const CriteriaLimits& limits) {
+  const auto percent = [&](int failing) { return 100.0 * failing / std::max(summary.quads, 1); };
+  json result{{"quads", summary.quads},
+              {"failing", summary.failing},
+              {"failing_percent", percent(summary.failing)},
+              {"failing_but_warp", summary.failing_but_warp},
+              {"failing_but_warp_percent", percent(summary.failing_but_warp)},
+              {"by_criterion", json::object()},
+              {"by_face", json::object()},
+              {"worst", json::array()}};
+  for (std::size_t i = 0; i < criterion_count; ++i) {
+    const double limit = limits.values[i];
+    result["by_criterion"][std::string(criteria_info[i].name)] = {
+        {"limit", std::isnan(limit) ? json() : json(limit)},
+        {"failing", summary.failing_by[i]},
+        {"failing_percent", percent(summary.failing_by[i])}};
+  }
+  for (const auto& face : summary.faces)
+    result["by_face"]["Face" + std::to_string(face.face)] = {{"quads", face.quads},
+                                                             {"failing", face.failing}};
+  for (const auto& quad : summary.worst) {
+    const CriterionInfo& info = criteria_info[static_cast<std::size_t>(quad.criterion)];
+    result["worst"].push_back({{"quad", quad.quad + 1},
+                               {"face", "Face" + std::to_string(quad.face)},
+                               {"center", {quad.center.x(), quad.center.y(), quad.center.z()}},
+                               {"criterion", info.name},
+                               {"value", quad.value}});
+  }
+  return result;
 }
 
 json seconds_to_json(const ExecutionContext& context) {
@@ -67,6 +102,7 @@ json make_report(const ShellMesh& mesh, const QualitySummary& summary, const Exe
           {"order", mesh.order},
           {"counts", {{"nodes", summary.nodes}, {"quads", summary.quads}, {"triangles", summary.triangles}}},
           {"quality", quality_to_json(summary)},
+          {"criteria", criteria_to_json(check_criteria(mesh), {})},
           {"seconds", seconds_to_json(context)},
           {"cpu_seconds", seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime)},
           {"peak_bytes", static_cast<std::int64_t>(usage.ru_maxrss) * 1024},
@@ -77,6 +113,16 @@ json make_report(const ShellMesh& mesh, const QualitySummary& summary, const Exe
             {"opencascade", OCC_VERSION_COMPLETE},
             {"openvdb", OPENVDB_LIBRARY_VERSION_STRING},
             {"cgal", CGAL_VERSION_STR}}}};
+}
+
+std::string quality_json(const ShellMesh& mesh, const CriteriaLimits& limits) {
+  const QualitySummary summary = quality(mesh);
+  json result = quality_to_json(summary);
+  result["nodes"] = summary.nodes;
+  result["quads"] = summary.quads;
+  result["triangles"] = summary.triangles;
+  result["criteria"] = criteria_to_json(check_criteria(mesh, limits), limits);
+  return result.dump();
 }
 
 void write_report(const ShellMesh& mesh, const QualitySummary& summary, const ExecutionContext& context,

@@ -11,8 +11,9 @@
 namespace quadrille {
 
 /// counts (nodes, quads, triangles), quality (q_min, q_mean, sj_min, sj_mean, irregular_percent, histogram,
-/// ...), seconds by stage, cpu_seconds and peak_bytes of the process, faces (name, status, quads, q_min,
-/// note), warnings, versions of the libraries.
+/// ...), criteria (how many quads fail the usual limits, by criterion and face, and the worst), seconds by
+/// stage, cpu_seconds and peak_bytes of the process, faces (name, status, quads, q_min, note), warnings,
+/// versions of the libraries.
 nlohmann::json make_report(const ShellMesh& mesh, const QualitySummary& summary,
                            const ExecutionContext& context, const std::filesystem::path& input,
                            const std::vector<std::string>& warnings = {});

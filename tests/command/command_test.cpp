@@ -74,6 +74,11 @@ TEST_P(Mistakes, GiveOneLineAndNoFile) {
   test::write_text(folder / "empty.step", "");
   test::write_text(folder / "empty.brep", "");
   test::write_text(folder / "cut.brep", test::file_text(box).substr(0, 2000));
+  ShellMesh square;
+  square.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  square.quads = {{0, 1, 2, 3}};
+  square.quad_faces = {1};
+  write_mesh(square, folder / "square.msh");
   test::write_text(folder / "broken.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n");
   std::filesystem::create_directory(folder / "folder.msh");
   const int before = folder.file_count();
@@ -122,17 +127,23 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"mesh IN OUT --write-size-field out.txt", 2, ".vdb"},
         Mistake{"mesh IN OUT --picture none/out.png", 2, "none"}));
 
-INSTANTIATE_TEST_SUITE_P(
-    Input, Mistakes,
-    testing::Values(
-        Mistake{"mesh none.step OUT", 1, "none.step"}, Mistake{"mesh text.step OUT", 1, "text.step"},
-        Mistake{"mesh empty.step OUT", 1, "empty.step"}, Mistake{"mesh empty.brep OUT", 1, "empty.brep"},
-        Mistake{"mesh cut.brep OUT", 1, "cut.brep"}, Mistake{"mesh folder.msh OUT", 1, "folder"},
-        Mistake{"mesh broken.msh OUT", 2, "unknown ending"},
-        Mistake{"mesh IN OUT --size-field none.vdb", 1, "none.vdb"},
-        Mistake{"info none.step", 1, "none.step"}, Mistake{"info text.step", 1, "text.step"},
-        Mistake{"quality none.msh", 1, "none.msh"}, Mistake{"quality broken.msh", 1, "broken.msh"},
-        Mistake{"quality text.step", 1, "text.step"}, Mistake{"mesh IN OUT --size 1e-4", 2, "million"}));
+INSTANTIATE_TEST_SUITE_P(Input, Mistakes,
+                         testing::Values(Mistake{"mesh none.step OUT", 1, "none.step"},
+                                         Mistake{"mesh text.step OUT", 1, "text.step"},
+                                         Mistake{"mesh empty.step OUT", 1, "empty.step"},
+                                         Mistake{"mesh empty.brep OUT", 1, "empty.brep"},
+                                         Mistake{"mesh cut.brep OUT", 1, "cut.brep"},
+                                         Mistake{"mesh folder.msh OUT", 1, "folder"},
+                                         Mistake{"mesh broken.msh OUT", 2, "unknown ending"},
+                                         Mistake{"mesh IN OUT --size-field none.vdb", 1, "none.vdb"},
+                                         Mistake{"info none.step", 1, "none.step"},
+                                         Mistake{"info text.step", 1, "text.step"},
+                                         Mistake{"quality none.msh", 1, "none.msh"},
+                                         Mistake{"quality broken.msh", 1, "broken.msh"},
+                                         Mistake{"quality text.step", 1, "text.step"},
+                                         Mistake{"quality square.msh --limits none.json", 1, "none.json"},
+                                         Mistake{"quality square.msh --limits text.step", 1, "neither JSON"},
+                                         Mistake{"mesh IN OUT --size 1e-4", 2, "million"}));
 
 TEST(Command, MeshesTheBox) {
   const TemporaryFolder folder;
@@ -156,6 +167,7 @@ TEST(Command, MeshesTheBox) {
   EXPECT_EQ(report["versions"]["quadrille"], QUADRILLE_VERSION);
   EXPECT_GT(report["peak_bytes"], 1000000);
   EXPECT_GT(report["quality"]["q_mean"], 0.8);
+  EXPECT_EQ(report["criteria"]["quads"], mesh.quads.size());
   for (const char* stage :
        {"read", "size", "sample", "triangulate", "color", "recombine", "improve", "write"})
     EXPECT_TRUE(report["seconds"].contains(stage)) << stage;
@@ -163,6 +175,24 @@ TEST(Command, MeshesTheBox) {
   const auto measured = stdout_of(folder, "quality a.inp");
   EXPECT_EQ(measured.exit_code, 0);
   EXPECT_PRED2(contains, measured.out, fmt::format("quads              {}\n", mesh.quads.size()));
+}
+
+TEST(Command, QualityWithLimitsFailsWhereQuadsDo) {
+  const TemporaryFolder folder;
+  ShellMesh mesh;  // a square beside a rectangle of 1 to 6
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {7, 0, 0}, {7, 1, 0}};
+  mesh.quads = {{0, 1, 2, 3}, {1, 4, 5, 2}};
+  mesh.quad_faces = {1, 2};
+  write_mesh(mesh, folder / "slender.msh");
+  test::write_text(folder / "wide.json", R"({"aspect": 6.5})");
+  const auto plain = stdout_of(folder, "quality slender.msh");
+  EXPECT_EQ(plain.exit_code, 0);
+  EXPECT_PRED2(contains, plain.out, "Face2             1        1\n");
+  EXPECT_PRED2(contains, plain.out, "quad 2 on Face2 at (4, 0.5, 0): aspect 6\n");
+  const auto usual = stderr_of(folder, "quality slender.msh --limits");
+  EXPECT_EQ(usual.exit_code, 1);
+  EXPECT_EQ(usual.out, "quadrille: slender.msh: 1 of 2 quads are outside the limits\n");
+  EXPECT_EQ(stdout_of(folder, "quality slender.msh --limits wide.json").exit_code, 0);
 }
 
 TEST(Command, QuietSaysNothing) {

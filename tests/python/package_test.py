@@ -4,6 +4,7 @@ import gc
 import os
 import random
 import re
+import sys
 import tempfile
 import time
 import unittest
@@ -14,6 +15,8 @@ import numpy as np
 import quadrille
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
+#: A folder beside the source tree with the definitions of the criteria, where it exists.
+REFERENCE = Path(__file__).resolve().parents[3] / "shared"
 
 
 class PackageTest(unittest.TestCase):
@@ -83,6 +86,48 @@ class PackageTest(unittest.TestCase):
         self.assertAlmostEqual(values.mean(), quality["q_mean"])
         self.assertAlmostEqual(values.min(), quality["q_min"])
         self.assertEqual(sum(quality["histogram"]), len(values))
+
+    def test_criteria(self):
+        criteria = self.mesh.quality()["criteria"]
+        self.assertEqual(criteria["quads"], len(self.mesh.quads))
+        self.assertEqual(criteria["by_criterion"]["aspect"]["limit"], 5)
+        with tempfile.TemporaryDirectory() as folder:
+            limits = Path(folder) / "limits.json"
+            limits.write_text('{"angle_min": 89.999999, "warp": null}')
+            strict = self.mesh.quality(limits)["criteria"]
+        self.assertIsNone(strict["by_criterion"]["warp"]["limit"])
+        self.assertGreater(strict["failing"], criteria["failing"])
+        worst = strict["worst"][0]
+        points = self.mesh.points[self.mesh.quads[worst["quad"] - 1]]
+        np.testing.assert_allclose(points.mean(axis=0), worst["center"])
+        self.assertEqual(worst["face"], f"Face{self.mesh.face_ids[worst['quad'] - 1]}")
+        faces = sum(face["failing"] for face in strict["by_face"].values())
+        self.assertEqual(faces, strict["failing"])
+
+    @unittest.skipUnless(REFERENCE.is_dir(), "the reference of the criteria is not there")
+    def test_criteria_are_those_of_the_reference(self):
+        sys.path.insert(0, str(REFERENCE / "tools"))
+        import criteria as reference
+
+        parts = sorted((REFERENCE / "corpus_parts").glob("*.st*p"))[:3]
+        self.assertEqual(len(parts), 3)
+        for part in parts:
+            with self.subTest(part=part.name), tempfile.TemporaryDirectory() as folder:
+                path = Path(folder) / "mesh.msh"
+                mesh = quadrille.mesh(quadrille.read(part))
+                mesh.write(path)
+                theirs, ours = reference.criteria(str(path)), mesh.quality()["criteria"]
+                self.assertGreater(theirs["fail_pct"], 0)
+                self.assertAlmostEqual(theirs["fail_pct"], ours["failing_percent"], delta=1e-9)
+                self.assertAlmostEqual(theirs["fail_but_warp_pct"], ours["failing_but_warp_percent"], delta=1e-9)
+                for name, values in ours["by_criterion"].items():
+                    name = {"jacobian_ratio": "jac"}.get(name, name)
+                    self.assertAlmostEqual(theirs[name + "_pct"], values["failing_percent"], delta=1e-9, msg=name)
+                quads = [worst["quad"] - 1 for worst in ours["worst"]]
+                measured = reference.measure(mesh.points[mesh.quads[quads]])
+                for i, worst in enumerate(ours["worst"]):
+                    name = {"jacobian_ratio": "jac"}.get(worst["criterion"], worst["criterion"])
+                    self.assertAlmostEqual(measured[name][i] / worst["value"], 1, delta=1e-9, msg=name)
 
     def test_files(self):
         with tempfile.TemporaryDirectory() as folder:

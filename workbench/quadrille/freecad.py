@@ -414,6 +414,7 @@ class MeshFeature:
             ("App::PropertyFloat", "MeanJacobian", "Result", "Mean scaled Jacobian"),
             ("App::PropertyFloat", "LargestAspect", "Result", "Largest ratio of longest to shortest edge of a quad"),
             ("App::PropertyFloat", "IrregularPercent", "Result", "Inner nodes with other than four quads, percent"),
+            ("App::PropertyFloat", "OutsidePercent", "Result", "Quads outside the limits of industry, percent"),
             ("App::PropertyFloat", "Seconds", "Result", "Seconds that the mesher took, all threads together"),
             ("App::PropertyFloatList", "MeshedShape", "Hidden", "Measures of the part when it was meshed"),
             ("App::PropertyString", "MeshedSettings", "Hidden", "Settings that the mesh was made with"),
@@ -639,4 +640,5 @@ def _store_result(mesh, fem_mesh, report: Dict, job: ShapeJob) -> None:
     mesh.MeanJacobian = quality.get("sj_mean", 0.0)
     mesh.LargestAspect = quality.get("aspect_max", 0.0)
     mesh.IrregularPercent = quality.get("irregular_percent", 0.0)
+    mesh.OutsidePercent = report.get("criteria", {}).get("failing_percent", 0.0)
     mesh.Seconds = sum(report.get("seconds", {}).values())

@@ -79,6 +79,7 @@ class QualityWidget(QtGui.QWidget):
             ("Jacobian, least and mean", f"{mesh.WorstJacobian:.3f}, {mesh.MeanJacobian:.3f}"),
             ("Aspect, largest", f"{mesh.LargestAspect:.2f}"),
             ("Irregular nodes", f"{mesh.IrregularPercent:.2f} %"),
+            ("Outside the limits", f"{mesh.OutsidePercent:.2f} %"),
             ("Mesher's time", f"{mesh.Seconds:.2f} s"),
             ("Status", mesh.Status),
         )

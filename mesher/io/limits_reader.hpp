@@ -1,0 +1,17 @@
+#pragma once
+/// Limits of quality from a file.
+
+#include <filesystem>
+
+#include "mesher/mesh/criteria.hpp"
+
+namespace quadrille {
+
+/// Reads limits from a JSON object, {"aspect": 5, "taper": null}: names as in criteria_info, null = not
+/// checked, criteria that are not named keep their usual limits. Or from a HyperMesh criteria file: a line a
+/// criterion with its name, 1 or 0 (checked or not) and the columns weight, ideal, good, warn, fail, worst,
+/// of which `fail` counts; criteria of it that are not measured here go to CriteriaLimits::not_measured.
+/// Throws Error (failure) with one sentence that names the file and what is wrong with it.
+CriteriaLimits read_limits(const std::filesystem::path& path);
+
+}  // namespace quadrille
