@@ -10,6 +10,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <thread>
 
 #include "geometry/base/error.hpp"
 #include "mesher/io/atomic_file.hpp"
@@ -171,6 +172,17 @@ CancelOnSignal::~CancelOnSignal() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   cancellable.store(nullptr);
+}
+
+void end_with_input() {
+  std::thread([] {
+    char ignored[256];
+    ssize_t count = 0;
+    do {
+      count = ::read(STDIN_FILENO, ignored, sizeof(ignored));
+    } while (count > 0 || (count < 0 && errno == EINTR));
+    ::kill(::getpid(), SIGTERM);
+  }).detach();
 }
 
 void report_crashes(const std::filesystem::path& file, std::string_view work) {

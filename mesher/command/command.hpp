@@ -61,6 +61,10 @@ class ProgressDisplay {
   std::string last_text_;
 };
 
+/// From now on the end of standard input is a SIGTERM: a program that starts this one and is killed takes it
+/// along.
+void end_with_input();
+
 /// While it lives, Ctrl-C and SIGTERM cancel the context, and the time limit, if there is one, ends the work.
 /// Work that does not notice within 0.15 s (CAD files are read in one go) is ended from outside: one line on
 /// stderr, unfinished files removed. A second signal ends the process at once. Outside, a signal ends the

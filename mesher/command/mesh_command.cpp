@@ -31,7 +31,7 @@ struct MeshArguments {
   std::optional<double> time_limit, sew, merge_tiny;
   int threads = 0;
   double msh_version = 2.2;
-  bool partial = false, force = false, quiet = false;
+  bool partial = false, force = false, quiet = false, end_with_input = false;
 };
 
 void require(bool holds, std::string_view option, std::string_view rule, double value) {
@@ -202,6 +202,7 @@ void run(const MeshArguments& arguments) {
   });
   report_crashes(arguments.input, "reading");
   const CancelOnSignal cancel(context, arguments.time_limit.value_or(0));
+  if (arguments.end_with_input) end_with_input();
   const CadModel model = read_model(arguments, context);
   report_crashes(arguments.input, "meshing");
   context.check();
@@ -260,6 +261,8 @@ void add_run_options(CLI::App& command, MeshArguments& arguments) {
   command.add_flag("--partial", arguments.partial,
                    "write what could be meshed when a face fails, and list the rest on stderr");
   command.add_flag("--force", arguments.force, "go on where the mesh would pass 50 million elements");
+  command.add_flag("--end-with-input", arguments.end_with_input,
+                   "end the work when standard input closes, for programs that start this one");
   command.add_flag("--quiet", arguments.quiet, "no progress, no quality table");
 }
 

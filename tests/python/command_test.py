@@ -2,14 +2,17 @@
 
 import os
 import stat
+import subprocess
+import sys
 import tempfile
 import time
 import unittest
 from pathlib import Path
 from unittest import mock
 
+import quadrille.command
 from quadrille import Error
-from quadrille.command import MeshJob, MeshSettings, find_command
+from quadrille.command import MeshJob, MeshSettings, find_command, scratch_folder
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
 
@@ -89,6 +92,35 @@ class CommandTest(unittest.TestCase):
         with self.assertRaises(Error) as caught:
             MeshJob("x.brep", ["x.msh"], command=self.script("kill -9 $$\n")).start().wait()
         self.assertIn("signal 9", str(caught.exception))
+
+    def test_the_child_ends_with_a_killed_parent(self):
+        code = ("import sys; sys.path.insert(0, sys.argv[1])\n"
+                "from quadrille.command import MeshJob, MeshSettings\n"
+                "job = MeshJob(sys.argv[2], [sys.argv[3]], MeshSettings(size=0.01, force=True)).start()\n"
+                "print(job._process.pid, job._folder.name, flush=True)\n"
+                "job.wait()\n")
+        package = str(Path(quadrille.command.__file__).parent.parent)
+        parent = subprocess.Popen([sys.executable, "-c", code, package, str(MODELS / "box.brep"),
+                                   str(self.folder / "box.msh")], stdout=subprocess.PIPE, text=True)
+        child, folder = parent.stdout.readline().split()
+        time.sleep(0.3)
+        parent.kill()
+        parent.wait()
+        parent.stdout.close()
+        end = time.monotonic() + 20
+        while os.path.exists(f"/proc/{child}") and time.monotonic() < end:
+            time.sleep(0.05)
+        self.assertFalse(os.path.exists(f"/proc/{child}"))
+        self.assertEqual(list(self.folder.iterdir()), [])
+        self.assertTrue(os.path.isdir(folder))
+        scratch_folder().cleanup()  # the next one sweeps
+        self.assertFalse(os.path.isdir(folder))
+
+    def test_no_place_for_temporary_files(self):
+        with mock.patch("tempfile.gettempdir", return_value=str(self.folder / "gone")), \
+                self.assertRaises(Error) as caught:
+            MeshJob("x.brep", ["x.msh"], command="/bin/true")
+        self.assertIn("TMPDIR", str(caught.exception))
 
     def test_many_messages_do_not_block(self):
         command = self.script("i=0; while [ $i -lt 5000 ]; do echo line$i >&2; i=$((i+1)); done; exit 1\n")

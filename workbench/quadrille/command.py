@@ -90,14 +90,41 @@ def on_host(arguments: Sequence[str]) -> List[str]:
     return [*_OUT_OF_FLATPAK, *arguments] if FLATPAK_INFO.exists() else list(arguments)
 
 
-def scratch_folder() -> Optional[str]:
-    """Where to make temporary folders that the command sees too; None = where Python makes them."""
-    if not FLATPAK_INFO.exists():
-        return None
-    # The sandbox has a /tmp of its own; its cache folder has the same path inside and outside.
-    folder = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-    os.makedirs(folder, exist_ok=True)
-    return folder
+_SCRATCH = "quadrille-scratch-"
+
+
+def scratch_folder() -> "tempfile.TemporaryDirectory":
+    """A temporary folder that the command sees too. Those that killed processes of this user have left go."""
+    place = "the folder for temporary files"
+    try:
+        place = tempfile.gettempdir()
+        if FLATPAK_INFO.exists():
+            # The sandbox has a /tmp and process numbers of its own; its cache folder has the same path outside.
+            place = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+            os.makedirs(place, exist_ok=True)
+        else:
+            _sweep(Path(place))
+        return tempfile.TemporaryDirectory(prefix=f"{_SCRATCH}{os.getpid()}-", dir=place)
+    except OSError as error:
+        raise Error(f"{place}: no temporary folder can be made there ({error.strerror}); set the environment variable TMPDIR to "
+                    "a folder that can be written", "failure", place) from error
+
+
+def _sweep(place: Path) -> None:
+    for folder in place.glob(f"{_SCRATCH}*"):
+        owner = re.match(r"(\d+)-", folder.name[len(_SCRATCH):])
+        if owner and not _is_running(int(owner.group(1))) and folder.stat().st_uid == os.getuid():
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+def _is_running(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        pass
+    return True
 
 
 def _which(path: str) -> Optional[str]:
@@ -191,13 +218,13 @@ class MeshJob:
         command: Optional[str] = None,
         picture: Optional[Union[str, Path]] = None,
     ) -> None:
-        self._folder = tempfile.TemporaryDirectory(prefix="quadrille-", dir=scratch_folder())
+        self._folder = scratch_folder()
         self._report = Path(self._folder.name) / "report.json"
         self._arguments = [command or find_command(), "mesh", str(model)]
         for output in outputs:
             self._arguments += ["-o", str(output)]
         self._arguments += (settings or MeshSettings()).arguments()
-        self._arguments += ["--report", str(self._report)]
+        self._arguments += ["--report", str(self._report), "--end-with-input"]
         if picture:
             self._arguments += ["--picture", str(picture)]
         self._lines: "queue.Queue[str]" = queue.Queue()
@@ -212,7 +239,7 @@ class MeshJob:
         try:
             self._process = subprocess.Popen(
                 on_host(self._arguments),
-                stdin=subprocess.DEVNULL,
+                stdin=subprocess.PIPE,  # closes when this process ends, however it does, and the child ends then
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.PIPE,
                 text=True,
@@ -301,6 +328,7 @@ class MeshJob:
 
     def _close(self) -> None:
         self._reader.join(1.0)
+        self._process.stdin.close()
         if not self._reader.is_alive():  # a grandchild may hold the pipe open
             self._process.stderr.close()
         self._folder.cleanup()

@@ -10,7 +10,6 @@ mesher is a child process: it can neither freeze nor crash FreeCAD, and fits any
 
 import json
 import os
-import tempfile
 from collections import OrderedDict
 from dataclasses import asdict
 from pathlib import Path
@@ -229,7 +228,7 @@ def export(mesh, path: Union[str, Path]) -> None:
     reason = status(mesh)
     if reason != UP_TO_DATE:
         raise Error(f"{mesh.Label}: {reason}; nothing was exported", "usage", mesh.Name)
-    with tempfile.TemporaryDirectory(prefix="quadrille-", dir=scratch_folder()) as folder:
+    with scratch_folder() as folder:
         written = os.path.join(folder, "export" + Path(path).suffix.lower())
         job = start(mesh, outputs=[written])
         fem_mesh, _ = job.wait_for_result()
@@ -278,7 +277,7 @@ class ShapeJob:
         if shape.isNull() or not shape.Faces:
             raise Error("the shape has no faces to mesh", "usage")
         self._command = find_mesher(command)
-        self._folder = tempfile.TemporaryDirectory(prefix="quadrille-", dir=scratch_folder())
+        self._folder = scratch_folder()
         model = os.path.join(self._folder.name, "shape.brep")
         self._output = os.path.join(self._folder.name, "mesh.med")
         if brep is None:
