@@ -3,39 +3,51 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <string_view>
 
 namespace quadrille {
 
 namespace {
 
-/// The folder of the program or shared library that holds this code.
+/// The folder of the program or shared library that holds this code. Only the kernel knows it for sure: a
+/// name, as the loader keeps it, may mean another file in the current folder.
 std::filesystem::path own_folder() {
-  Dl_info info{};
   static const char anchor = 0;
-  if (::dladdr(&anchor, &info) == 0 || info.dli_fname == nullptr) return {};
-  std::error_code ignored;
-  // A program started by name alone has no path here; the kernel knows it.
-  std::filesystem::path file(info.dli_fname);
-  if (!file.is_absolute() && !std::filesystem::exists(file, ignored)) file = "/proc/self/exe";
-  file = std::filesystem::canonical(file, ignored);
-  return ignored ? std::filesystem::path() : file.parent_path();
+  const auto address = reinterpret_cast<std::uintptr_t>(&anchor);
+  // Each line: begin-end permissions offset device inode /path
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    std::uintptr_t begin = 0, end = 0;
+    const char* const last = line.data() + line.size();
+    const char* const dash = std::from_chars(line.data(), last, begin, 16).ptr;
+    if (dash == last || std::from_chars(dash + 1, last, end, 16).ec != std::errc()) continue;
+    const std::size_t path = line.find('/');
+    if (address < begin || address >= end || path == std::string::npos) continue;
+    return std::filesystem::path(line.substr(path)).parent_path();
+  }
+  return {};
 }
 
 void* open_library(const std::string& name) {
   const std::filesystem::path own = own_folder();
-  // Beside the program, installed (bin/ and lib/), in the build folder (python/quadrille/ and tests/ lie
-  // below).
-  for (const char* place : {".", "../lib", "../lib/" QUADRILLE_MULTIARCH, "..", "../.."}) {
-    const std::filesystem::path candidate = own / place / name;
+  if (!own.is_absolute())
+    throw failure(name, fmt::format("{} cannot be looked for: /proc/self/maps does not tell where this "
+                                    "program lies (is /proc mounted?)",
+                                    name));
+  // In the build tree and in packages of ours beside the program or library, installed where CMake put them.
+  for (const std::string_view place : {"", QUADRILLE_INSTALLED_MODULES}) {
+    const std::filesystem::path candidate = (own / place / name).lexically_normal();
     std::error_code ignored;
     if (!std::filesystem::exists(candidate, ignored)) continue;
     if (void* handle = ::dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
     throw failure(name, fmt::format("{} cannot be loaded: {}", candidate.string(), ::dlerror()));
   }
-  throw failure(
-      name, fmt::format("{}, which this format needs, is neither in {} nor in the lib folder beside it", name,
-                        own.string()));
+  throw failure(name, fmt::format("{}, which this format needs, is neither in {} nor in {}", name,
+                                  own.string(), (own / QUADRILLE_INSTALLED_MODULES).lexically_normal().string()));
 }
 
 }  // namespace

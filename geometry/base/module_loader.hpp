@@ -14,8 +14,9 @@ namespace quadrille {
 /// An open module. It stays open until the program ends: VTK and HDF5 do not survive being unloaded.
 class Module {
  public:
-  /// Opens lib<prefix>.so beside the program or library that holds this code, or in the lib folder beside it.
-  /// Throws Error (failure) when it is missing or of another version.
+  /// Opens lib<prefix>.so of the folder of the program or library that holds this code or, where it is not
+  /// there, of the folder that modules are installed to beside it: never from the current folder or from what
+  /// the environment names. Throws Error (failure) when it is missing or of another version.
   explicit Module(const std::string& prefix);
 
   /// The function <prefix><name>, exported with C linkage. Throws Error (failure) when the module lacks it.

@@ -195,6 +195,21 @@ TEST(Command, QualityWithLimitsFailsWhereQuadsDo) {
   EXPECT_EQ(stdout_of(folder, "quality slender.msh --limits wide.json").exit_code, 0);
 }
 
+/// Started by name from PATH, in a folder that holds a thing of that name and, there and around, files named as
+/// our modules.
+TEST(Command, OpensNoModuleOfTheCurrentFolder) {
+  const TemporaryFolder folder;
+  const std::string by_name = fmt::format("PATH={}:$PATH timeout 60 quadrille", QUADRILLE_BINARY_DIR);
+  for (const char* thing : {"echo planted >quadrille", "mkdir quadrille", "cp /bin/true quadrille"}) {
+    const auto result = test::run(fmt::format(
+        "cd {} && mkdir -p a/b lib && cd a/b && {} && for place in . .. ../.. ../../lib quadrille; do "
+        "[ ! -d $place ] || for module in step vdb med; do echo planted >$place/libquadrille_$module.so; done; "
+        "done; {} mesh {} -o a.med --size 20 --write-size-field s.vdb --quiet 2>&1; rm -r ../../*",
+        folder.path().string(), thing, by_name, bracket));
+    EXPECT_EQ(result.out, "") << thing;
+  }
+}
+
 TEST(Command, QuietSaysNothing) {
   const TemporaryFolder folder;
   const auto result = test::run(fmt::format("cd {} && {} mesh {} -o a.msh --size 2 --quiet 2>&1",
