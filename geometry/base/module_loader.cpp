@@ -46,8 +46,9 @@ void* open_library(const std::string& name) {
     if (void* handle = ::dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
     throw failure(name, fmt::format("{} cannot be loaded: {}", candidate.string(), ::dlerror()));
   }
-  throw failure(name, fmt::format("{}, which this format needs, is neither in {} nor in {}", name,
-                                  own.string(), (own / QUADRILLE_INSTALLED_MODULES).lexically_normal().string()));
+  throw failure(name,
+                fmt::format("{}, which this format needs, is neither in {} nor in {}", name, own.string(),
+                            (own / QUADRILLE_INSTALLED_MODULES).lexically_normal().string()));
 }
 
 }  // namespace

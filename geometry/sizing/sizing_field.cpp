@@ -26,6 +26,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/atomic_file.hpp"
 #include "geometry/base/module_loader.hpp"
 #include "geometry/base/trimmed_domain.hpp"
 #include "geometry/cad/cad_shape.hpp"
@@ -473,16 +474,10 @@ void SizingField::write(const std::filesystem::path& path) const {
       level.values.push_back(value);
     });
   }
-  const std::filesystem::path temporary = path.string() + ".part";
-  std::error_code code;
-  std::string problem = vdb_module().function<VdbWriteFunction>("_write")(temporary.string(), field);
-  if (problem.empty()) {
-    std::filesystem::rename(temporary, path, code);
-    if (code) problem = fmt::format("{} cannot be written ({})", path.string(), code.message());
-  }
-  if (problem.empty()) return;
-  std::filesystem::remove(temporary, code);
-  throw failure(path.string(), problem);
+  std::string bytes;
+  const std::string problem = vdb_module().function<VdbFileFunction>("_file")(field, bytes);
+  if (!problem.empty()) throw failure(path.string(), fmt::format("{}: {}", path.string(), problem));
+  write_file(path, bytes);
 }
 
 struct SizingField::Sampler::Accessors {

@@ -2,6 +2,7 @@
 
 #include "geometry/sizing/vdb_module.hpp"
 
+#include <openvdb/io/Archive.h>
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 
@@ -9,6 +10,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -50,6 +53,16 @@ struct ExternalField {
   }
 };
 
+/// What openvdb::io::File puts into a file. That class writes the file itself and does not look whether the
+/// disk took it; openvdb::io::Stream leaves out the offsets that readers seek by.
+class SeekableArchive : public openvdb::io::Archive {
+ public:
+  void write(std::ostream& out, const openvdb::GridPtrVec& grids) const {
+    constexpr bool seekable = true;
+    Archive::write(out, grids, seekable);
+  }
+};
+
 FloatGrid::Ptr to_grid(const VdbLevel& level, const VdbField& field) {
   FloatGrid::Ptr grid = FloatGrid::create(static_cast<float>(field.size_max));
   grid->setTransform(openvdb::math::Transform::createLinearTransform(level.voxel));
@@ -72,17 +85,17 @@ QUADRILLE_EXPORT const char* quadrille_vdb_version() {
   return QUADRILLE_VERSION;
 }
 
-QUADRILLE_EXPORT std::string quadrille_vdb_write(const std::string& path, const VdbField& field) {
+QUADRILLE_EXPORT std::string quadrille_vdb_file(const VdbField& field, std::string& bytes) {
   try {
     openvdb::initialize();
     openvdb::GridPtrVec grids;
     for (const VdbLevel& level : field.levels) grids.push_back(to_grid(level, field));
-    openvdb::io::File file(path);
-    file.write(grids);
-    file.close();
+    std::ostringstream out;
+    SeekableArchive().write(out, grids);
+    bytes = std::move(out).str();
     return {};
   } catch (const std::exception& problem) {
-    return fmt::format("{} cannot be written ({})", path, problem.what());
+    return fmt::format("OpenVDB could not write the size field ({})", problem.what());
   }
 }
 

@@ -26,7 +26,8 @@ struct VdbField {
 };
 
 /// Both return an empty string, or the sentence that says what went wrong.
-using VdbWriteFunction = std::string(const std::string& path, const VdbField& field);
+/// \param bytes of the .vdb file.
+using VdbFileFunction = std::string(const VdbField& field, std::string& bytes);
 /// \param size_at gives the least size at a point that the file's float grids ask for, infinite where they
 /// are silent.
 using VdbOpenFunction = std::string(const std::string& path, std::function<double(const Vector3&)>& size_at);

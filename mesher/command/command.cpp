@@ -12,8 +12,9 @@
 #include <cstring>
 #include <thread>
 
+#include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
-#include "mesher/io/atomic_file.hpp"
+#include "geometry/base/printable.hpp"
 
 namespace quadrille::command {
 
@@ -56,6 +57,38 @@ void require_ending(const std::filesystem::path& path, std::string_view ending, 
     throw usage_error(std::string(option),
                       fmt::format("{}: the file name must end in {}, not {}", option, ending, path.string()));
   require_writable(path);
+}
+
+namespace {
+
+bool is_regular(const std::filesystem::path& path) {
+  std::error_code none;
+  const auto type = std::filesystem::status(path, none).type();
+  return type == std::filesystem::file_type::regular || type == std::filesystem::file_type::not_found;
+}
+
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code none;
+  if (std::filesystem::equivalent(a, b, none)) return is_regular(a);
+  // Those that are still to be made.
+  const auto place = [&](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(written_file(path), none), none);
+  };
+  return is_regular(a) && is_regular(b) && place(a) == place(b);
+}
+
+}  // namespace
+
+void require_different_files(const std::vector<NamedFile>& files) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const auto& [before, first] = files[k];
+      const auto& [argument, second] = files[i];
+      if (first.empty() || second.empty() || !is_same_file(first, second)) continue;
+      throw usage_error(argument, fmt::format("{} {} is the same file as {} {}: give each a file of its own",
+                                              argument, second.string(), before, first.string()));
+    }
+  }
 }
 
 void require_threads(int threads) {
@@ -189,8 +222,8 @@ void report_crashes(const std::filesystem::path& file, std::string_view work) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   static_cast<void>(file), static_cast<void>(work);  // the sanitizer tells more
 #else
-  copy_line(crash_line,
-            fmt::format("quadrille: {}: {} this file crashed: it may be damaged", file.string(), work));
+  copy_line(crash_line, fmt::format("quadrille: {}: {} this file crashed: it may be damaged",
+                                    printable(file.string()), work));
   static char stack[1 << 16];  // crashes by endless recursion leave no other
   stack_t alternative{};
   alternative.ss_sp = stack;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "geometry/base/execution_context.hpp"
 
@@ -30,6 +31,16 @@ void require_writable(const std::filesystem::path& path);
 
 /// Throws Error (usage) unless the path has the ending (".png") and require_writable() holds.
 void require_ending(const std::filesystem::path& path, std::string_view ending, std::string_view option);
+
+/// A file that the command line names, and by which argument: "-o", "--report", "IN".
+struct NamedFile {
+  std::string argument;
+  std::filesystem::path path;
+};
+
+/// Throws Error (usage) unless all files that have a name are different ones, links followed: what is written
+/// must replace neither what is read nor what was written before. Devices and pipes may come twice.
+void require_different_files(const std::vector<NamedFile>& files);
 
 /// From now on a crash, of the CAD library on a damaged file above all, ends the process with one line on
 /// stderr that names the file, and exit code 1; unfinished files are removed. \param work "reading" or what

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -98,16 +97,13 @@ void check_numbers(const MeshArguments& arguments) {
 }
 
 void check_files(const MeshArguments& arguments) {
-  for (std::size_t i = 0; i < arguments.outputs.size(); ++i) {
-    const std::filesystem::path& output = arguments.outputs[i];
+  for (const std::filesystem::path& output : arguments.outputs) {
     if (!is_mesh_format(output))
       throw usage_error(
           "-o", fmt::format("{}: unknown mesh format (known are .msh, .inp, .unv, .med, .vtu, .vtk and "
                             ".bdf)",
                             output.string()));
     require_writable(output);
-    if (std::count(arguments.outputs.begin(), arguments.outputs.end(), output) > 1)
-      throw usage_error("-o", fmt::format("{}: is named twice as output", output.string()));
   }
   if (!arguments.report.empty()) require_writable(arguments.report);
   if (!arguments.write_size_field.empty())
@@ -115,6 +111,12 @@ void check_files(const MeshArguments& arguments) {
   if (!arguments.picture.empty()) require_ending(arguments.picture, ".png", "--picture");
   if (!arguments.size_field.empty()) require_readable(arguments.size_field);
   require_readable(arguments.input);
+  std::vector<NamedFile> files{{"IN", arguments.input}, {"--size-field", arguments.size_field}};
+  for (const std::filesystem::path& output : arguments.outputs) files.push_back({"-o", output});
+  files.insert(files.end(), {{"--report", arguments.report},
+                             {"--picture", arguments.picture},
+                             {"--write-size-field", arguments.write_size_field}});
+  require_different_files(files);
 }
 
 MeshOptions make_options(const MeshArguments& arguments) {

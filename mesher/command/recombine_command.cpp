@@ -33,6 +33,8 @@ void check(const RecombineArguments& arguments) {
   require_writable(arguments.output);
   if (!arguments.report.empty()) require_writable(arguments.report);
   require_readable(arguments.input);
+  require_different_files(
+      {{"TRI", arguments.input}, {"-o", arguments.output}, {"--report", arguments.report}});
 }
 
 /// Triangles without area, and points of which two lie on one place, leave cracks and folds: throws Error

@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <exception>
 #include <new>
+#include <utility>
 
+#include "geometry/base/printable.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/recombine_command.hpp"
 #include "mesher/quadrille.hpp"
@@ -17,9 +18,7 @@ enum ExitCode : int { success = 0, work_failed = 1, bad_use = 2, work_cancelled 
 /// One line on stderr, whatever the message holds.
 int complain(std::string message, ExitCode code) {
   while (!message.empty() && message.back() == '\n') message.pop_back();
-  std::replace_if(
-      message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, ' ');
-  fmt::print(stderr, "quadrille: {}\n", message);
+  fmt::print(stderr, "quadrille: {}\n", printable(std::move(message), ' '));
   return code;
 }
 

@@ -81,7 +81,7 @@ const char* card(const ElementNodes& element) {
 }  // namespace
 
 void write_bdf(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out) {
-  out << "$ " << (options.title.empty() ? "Quadrille mesh" : options.title.c_str()) << "\nCEND\n";
+  out << "$ " << options.title << "\nCEND\n";
   write_sets(mesh, out);
   out << "BEGIN BULK\n";
   write_in_order(mesh.nodes().size(), out, [&](std::size_t i, TextWriter& to) {

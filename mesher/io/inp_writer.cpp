@@ -60,7 +60,9 @@ void write_node_set(const char* kind, int cad, const std::vector<int>& numbers, 
 }  // namespace
 
 void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out) {
-  out << "*HEADING\n" << (options.title.empty() ? "Quadrille mesh" : options.title.c_str()) << '\n';
+  // What opens with an asterisk would be a card, not a heading.
+  const bool like_card = options.title.find_first_not_of(' ') == options.title.find('*');
+  out << "*HEADING\n" << (like_card ? "Title: " : "") << options.title << '\n';
   out << "*NODE, NSET=Nall\n";
   write_in_order(mesh.nodes().size(), out, [&](std::size_t i, TextWriter& to) {
     to << i + 1;

@@ -6,9 +6,10 @@
 #include <cctype>
 #include <fstream>
 
+#include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/printable.hpp"
 #include "geometry/base/threads.hpp"
-#include "mesher/io/atomic_file.hpp"
 #include "mesher/io/modules.hpp"
 #include "mesher/io/readers.hpp"
 #include "mesher/io/writers.hpp"
@@ -38,12 +39,14 @@ void write_text(const OutputMesh& mesh, const std::string& ending, const WriteOp
     write_msh2(mesh, out);
 }
 
-void write_format(const ShellMesh& mesh, const std::filesystem::path& path, const WriteOptions& options,
+void write_format(const ShellMesh& mesh, const std::filesystem::path& path, WriteOptions options,
                   AtomicFile& file) {
   const std::string ending = lower_ending(path);
+  // A line break in a title would be followed by what solvers take for a card.
+  options.title = options.title.empty() ? "Quadrille mesh" : printable(options.title);
   const OutputMesh output(mesh);
   if (ending == ".med") {
-    file.write(med_file(output, path.stem().string(), options.title));
+    file.write(med_file(output, printable(path.stem().string()), options.title));
   } else if (ending == ".vtu" || ending == ".vtk") {
     file.write(vtk_file(mesh, ending == ".vtk"));
   } else {

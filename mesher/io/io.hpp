@@ -11,8 +11,8 @@ namespace quadrille {
 
 struct WriteOptions {
   double msh_version = 2.2;  ///< Gmsh .msh: 2.2 or 4.1 (both ASCII)
-  std::string title;         ///< put into formats that have a comment or title line
-  int threads = 0;           ///< that make the text of .msh, .inp, .unv and .bdf; 0 = all cores
+  std::string title;  ///< put into formats that have a comment or title line, control characters as '?'
+  int threads = 0;    ///< that make the text of .msh, .inp, .unv and .bdf; 0 = all cores
 };
 
 /// Writes .msh (Gmsh), .inp (Abaqus/CalculiX), .unv (I-deas), .bdf (Nastran), .med (Salome), .vtu, .vtk

@@ -13,6 +13,7 @@ using MPI_Info = void*;
 #include <string>
 
 #include "geometry/base/error.hpp"
+#include "mesher/io/hdf5_times.hpp"
 #include "mesher/io/module_export.hpp"
 #include "mesher/io/modules.hpp"
 
@@ -192,6 +193,7 @@ QUADRILLE_EXPORT std::string quadrille_med_file(const quadrille::OutputMesh& mes
   quadrille::MemoryFile file;
   quadrille::MedWriter(file.id(), mesh, name).write(description);
   bytes = file.close();
+  quadrille::clear_times(bytes);
   return {};
 } catch (const std::exception& error) {
   return error.what();

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "mesher/io/atomic_file.hpp"
+#include "geometry/base/atomic_file.hpp"
 #include "mesher/io/io.hpp"
 
 namespace quadrille {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesher/io/atomic_file.hpp"
+#include "geometry/base/atomic_file.hpp"
 
 namespace quadrille {
 

@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"mesh IN -o out.stl", 2, "unknown mesh format"},
         Mistake{"mesh IN -o out", 2, "unknown mesh format"},
         Mistake{"mesh IN -o none/out.msh", 2, "none does not exist"},
-        Mistake{"mesh IN -o folder.msh", 2, "is a folder"}, Mistake{"mesh IN OUT OUT", 2, "twice"},
+        Mistake{"mesh IN -o folder.msh", 2, "is a folder"}, Mistake{"mesh IN OUT OUT", 2, "same file"},
         Mistake{"mesh IN OUT --report none/r.json", 2, "none does not exist"},
         Mistake{"mesh IN OUT --picture out.jpg", 2, ".png"},
         Mistake{"mesh IN OUT --write-size-field out.txt", 2, ".vdb"},
@@ -195,15 +195,16 @@ TEST(Command, QualityWithLimitsFailsWhereQuadsDo) {
   EXPECT_EQ(stdout_of(folder, "quality slender.msh --limits wide.json").exit_code, 0);
 }
 
-/// Started by name from PATH, in a folder that holds a thing of that name and, there and around, files named as
-/// our modules.
+/// Started by name from PATH, in a folder that holds a thing of that name and, there and around, files named
+/// as our modules.
 TEST(Command, OpensNoModuleOfTheCurrentFolder) {
   const TemporaryFolder folder;
   const std::string by_name = fmt::format("PATH={}:$PATH timeout 60 quadrille", QUADRILLE_BINARY_DIR);
   for (const char* thing : {"echo planted >quadrille", "mkdir quadrille", "cp /bin/true quadrille"}) {
     const auto result = test::run(fmt::format(
         "cd {} && mkdir -p a/b lib && cd a/b && {} && for place in . .. ../.. ../../lib quadrille; do "
-        "[ ! -d $place ] || for module in step vdb med; do echo planted >$place/libquadrille_$module.so; done; "
+        "[ ! -d $place ] || for module in step vdb med; do echo planted >$place/libquadrille_$module.so; "
+        "done; "
         "done; {} mesh {} -o a.med --size 20 --write-size-field s.vdb --quiet 2>&1; rm -r ../../*",
         folder.path().string(), thing, by_name, bracket));
     EXPECT_EQ(result.out, "") << thing;
@@ -278,6 +279,86 @@ TEST(Command, ReportsAFullDisk) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_PRED2(contains, result.out, "No space left on device");
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+}
+
+TEST(Command, ReportsADiskTooFullForTheSizeField) {
+  const std::string outcome =
+      outcome_on_small_disk(fmt::format("mesh {} -o a.msh --size 3 --write-size-field s.vdb --quiet", box),
+                            "head -c 78k /dev/zero >filling");
+  if (outcome.empty()) GTEST_SKIP() << "NOT TESTED: no file system can be mounted here";
+  EXPECT_EQ(outcome, "quadrille: s.vdb: cannot be written: No space left on device\nexit 1\nfilling\n");
+}
+
+class FileSizeLimit : public testing::TestWithParam<const char*> {};
+
+TEST_P(FileSizeLimit, GivesOneSentenceAndNoFile) {
+  const TemporaryFolder folder;
+  const auto result =
+      test::run(fmt::format("cd {} && ulimit -f 1 && timeout 60 {} mesh {} {} --size 0.5 --quiet 2>&1",
+                            folder.path().string(), program, box, GetParam()));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_PRED2(contains, result.out,
+               "cannot be written: it would be larger than this process may write (ulimit -f)\n");
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+  EXPECT_EQ(folder.file_count(), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Command, FileSizeLimit,
+                         testing::Values("-o a.msh", "-o a.med", "-o a.vtu",
+                                         "-o a.msh --write-size-field s.vdb"));
+
+/// Where /proc is hidden, a file without a name cannot get one: named files stand in.
+TEST(Command, WritesWithoutProc) {
+  const TemporaryFolder folder;
+  const std::string unshare = ::geteuid() == 0 ? "unshare -m" : "unshare -rm";
+  const std::string hide = "mount -t tmpfs none /proc";
+  if (test::run(fmt::format("{} {} 2>/dev/null", unshare, hide)).exit_code != 0)
+    GTEST_SKIP() << "NOT TESTED: no file system can be mounted here";
+  test::write_text(folder / "a.msh", "old");
+  const auto result =
+      test::run(fmt::format("cd {} && {} sh -c '{} && {} mesh {} -o a.msh --size 5 --quiet 2>&1'",
+                            folder.path().string(), unshare, hide, program, box));
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_FALSE(read_mesh(folder / "a.msh").quads.empty());
+  EXPECT_EQ(folder.file_count(), 1);
+}
+
+class OneFileTwice : public testing::TestWithParam<const char*> {};
+
+/// What is written replaces neither what is read nor what was written before, links followed.
+TEST_P(OneFileTwice, IsRefused) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(box, folder / "in.brep");
+  test::write_text(folder / "tri.msh", "a triangulation");
+  std::filesystem::create_symlink("in.brep", folder / "link.msh");
+  std::filesystem::create_hard_link(folder / "in.brep", folder / "hard.msh");
+  std::filesystem::create_symlink("new.msh", folder / "dangling.msh");
+  const int before = folder.file_count();
+  const auto result = stderr_of(folder, GetParam());
+  EXPECT_EQ(result.exit_code, 2) << result.out;
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+  EXPECT_PRED2(contains, result.out, "is the same file as");
+  EXPECT_EQ(folder.file_count(), before);
+  EXPECT_EQ(test::file_text(folder / "in.brep"), test::file_text(box));
+}
+
+INSTANTIATE_TEST_SUITE_P(Command, OneFileTwice,
+                         testing::Values("mesh in.brep -o x.msh --report x.msh", "mesh in.brep -o link.msh",
+                                         "mesh in.brep -o hard.msh",
+                                         "mesh in.brep -o new.msh -o dangling.msh",
+                                         "mesh in.brep -o a.msh -o ../$(basename $PWD)/a.msh",
+                                         "mesh in.brep -o a.msh --report ./in.brep",
+                                         "mesh in.brep -o a.msh --report p.png --picture p.png",
+                                         "mesh in.brep -o a.msh --report s.vdb --write-size-field s.vdb",
+                                         "mesh in.brep -o a.msh --size-field in.brep",
+                                         "recombine tri.msh -o tri.msh",
+                                         "recombine tri.msh -o a.msh --report a.msh"));
+
+TEST(Command, WritesManyToOneDevice) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("/dev/null", folder / "a.msh");
+  EXPECT_EQ(stderr_of(folder, "mesh " + box + " -o a.msh --report /dev/null --size 5 --quiet").exit_code, 0);
 }
 
 TEST(Command, ReportsAFullStandardOutput) {

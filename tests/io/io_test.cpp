@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
+#include <map>
 #include <sstream>
+#include <thread>
 
 #include "geometry/base/error.hpp"
-#include "mesher/io/atomic_file.hpp"
 #include "mesher/io/readers.hpp"
 #include "tests/support/process.hpp"
 #include "tests/support/shell_grid.hpp"
@@ -246,32 +248,37 @@ TEST(Writers, InpNumbersFitWhatCalculixReads) {
   }
 }
 
-TEST(AtomicFile, LeavesTheOldFileWhenWritingFails) {
+/// The bytes of the mesh in each format that write_mesh knows.
+std::map<std::string, std::string> all_formats(const ShellMesh& mesh, const WriteOptions& options) {
   const TemporaryFolder folder;
-  test::write_text(folder / "old.msh", "old");
-  {
-    AtomicFile file(folder / "old.msh");
-    file.write("new");
+  std::map<std::string, std::string> files;
+  for (const char* ending : {"msh", "inp", "unv", "bdf", "med", "vtu", "vtk"}) {
+    const auto file = folder / (std::string("a.") + ending);
+    write_mesh(mesh, file, options);
+    files[ending] = test::file_text(file);
   }
-  EXPECT_EQ(test::file_text(folder / "old.msh"), "old");
-  EXPECT_EQ(folder.file_count(), 1);
+  return files;
 }
 
-TEST(AtomicFile, ReplacesAndFollowsLinks) {
-  const TemporaryFolder folder;
-  test::write_text(folder / "old.msh", "old");
-  std::filesystem::create_symlink(folder / "old.msh", folder / "link.msh");
-  write_file(folder / "link.msh", "new");
-  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.msh"));
-  EXPECT_EQ(test::file_text(folder / "old.msh"), "new");
+TEST_P(RoundTrip, BytesDoNotDependOnWhenTheyAreWritten) {
+  const ShellGrid grid(4, GetParam());
+  const auto now = all_formats(grid.mesh(), {});
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // time stamps count seconds
+  for (const auto& [ending, bytes] : all_formats(grid.mesh(), {}))
+    EXPECT_TRUE(bytes == now.at(ending)) << ending;
 }
 
-TEST(AtomicFile, SaysWhyItCannotWrite) {
-  const TemporaryFolder folder;
-  EXPECT_SAYS(write_file(folder / "none" / "a.msh", "x"), "No such file or directory");
-  EXPECT_SAYS(write_file(folder.path(), "x"), "Is a directory");
-  std::filesystem::create_symlink("/dev/full", folder / "full.msh");
-  EXPECT_SAYS(write_file(folder / "full.msh", "x"), "No space left on device");
+TEST(Writers, KeepTitlesOnOneLine) {
+  WriteOptions options;
+  options.title = "part\n*INCLUDE, INPUT=x\r$ a\x1b[2J\x7f.step";
+  for (const auto& [ending, bytes] : all_formats(ShellGrid(2, 1).mesh(), options)) {
+    for (const char* part : {"\n*INCLUDE", "\r$ a", "\x1b["})
+      EXPECT_FALSE(contains(bytes, part)) << ending << ": " << part;
+    const bool has_title = ending == "inp" || ending == "bdf" || ending == "med";
+    EXPECT_EQ(contains(bytes, "part?*INCLUDE"), has_title) << ending;
+  }
+  options.title = " *INCLUDE, INPUT=x";
+  EXPECT_FALSE(contains(all_formats(ShellGrid(2, 1).mesh(), options)["inp"], "\n *INCLUDE"));
 }
 
 // ---- readers ----
