@@ -2,8 +2,6 @@
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
-#include <BRepBndLib.hxx>
-#include <Bnd_Box.hxx>
 #include <Standard_Failure.hxx>
 
 #include <algorithm>
@@ -16,6 +14,7 @@
 
 #include "geometry/base/threads.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/sizing/element_count.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/edges/edge_sampling.hpp"
 #include "mesher/quadrille.hpp"
@@ -26,7 +25,6 @@ namespace quadrille {
 
 namespace {
 
-constexpr double element_limit = 50e6;
 constexpr int max_rounds = 8;
 
 std::vector<char> faces_used(const CadModel& model, const std::vector<int>& faces) {
@@ -42,21 +40,7 @@ std::vector<char> faces_used(const CadModel& model, const std::vector<int>& face
   return used;
 }
 
-/// About how many elements the model can take at most: of each face those of two squares over its box's
-/// diagonal (a sphere takes a little more than one).
-double most_elements(const CadShape& shape, double size, const ExecutionContext& context) {
-  double count = 0;
-  for (const CadFace& face : shape.faces) {
-    context.check();
-    Bnd_Box box;
-    BRepBndLib::Add(face.face, box, Standard_False);
-    if (!box.IsVoid()) count += 2 * box.SquareExtent() / (size * size);
-  }
-  return count;
-}
-
-void check_options(const CadModel& model, const MeshOptions& options, double size,
-                   const ExecutionContext& context) {
+void check_options(const MeshOptions& options, double size) {
   if (!(options.merge_tiny >= 0) || options.merge_tiny > size) {
     throw usage_error("--merge-tiny",
                       fmt::format("the length below which features are left out must lie between 0 and "
@@ -65,17 +49,6 @@ void check_options(const CadModel& model, const MeshOptions& options, double siz
   }
   if (options.order != 1 && options.order != 2) {
     throw usage_error("--order", fmt::format("the order must be 1 or 2, not {}", options.order));
-  }
-  // The exact area takes long to compute: only where the bounding boxes say that it may matter.
-  const double box = model.diagonal() / size;
-  const bool is_few = box * box * model.face_count() < element_limit ||
-                      most_elements(model.shape(), size, context) < element_limit;
-  const double estimate = options.force || is_few ? 0 : model.area(context) / (size * size);
-  if (estimate > element_limit) {
-    throw usage_error("--size",
-                      fmt::format("the size {:.6g} would give about {:.3g} million elements: use --force "
-                                  "to mesh all the same",
-                                  size, estimate / 1e6));
   }
 }
 
@@ -167,6 +140,8 @@ class Job {
       } catch (const Error& error) {
         if (error.kind() == Error::Kind::cancelled) throw;
         errors_[face] = error;
+      } catch (const std::bad_alloc&) {
+        throw;  // not the face's fault
       } catch (const std::exception& problem) {
         const std::string name = fmt::format("Face{}", face + 1);
         errors_[face] = failure(name, fmt::format("{} cannot be meshed ({})", name, problem.what()));
@@ -320,13 +295,17 @@ class Job {
 ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
   const double size =
       options.sizing.size > 0 ? options.sizing.size : model.diagonal() / options.sizing.elements_per_diagonal;
-  check_options(model, options, size, context);
+  check_options(options, size);
+  SizingOptions sizing = options.sizing;
+  if (options.force) sizing.budget = Budget::unlimited();
   Job job(model, options, size, context);
   return on_threads(context.threads(), [&] {
     std::optional<SizingField> field;
     {
       const StageTimer timer(context, "size");
-      field = SizingField::build(model, options.sizing, context);
+      const ElementBudget budget(model, sizing, faces_used(model, options.faces), context);
+      field = SizingField::build(model, sizing, context);
+      budget.check(*field);
     }
     if (!options.write_size_field.empty()) field->write(options.write_size_field);
     return job.run(*field);

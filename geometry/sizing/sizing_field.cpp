@@ -31,6 +31,7 @@
 #include "geometry/base/trimmed_domain.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/cad/isolated_reading.hpp"
+#include "geometry/sizing/element_count.hpp"
 #include "geometry/sizing/vdb_module.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
@@ -46,12 +47,36 @@ using Root = openvdb::tree::RootNode<openvdb::tree::InternalNode<openvdb::tree::
 
 /// A level's grid covers sizes up to this many of its voxels.
 constexpr double coverage = 1.3;
-constexpr int max_levels = 16;
+constexpr int max_levels = 32;
+/// Up to this growth a voxel is as wide as it is with it: then sizes change by as much over one whatever the
+/// growth, and its values reach as few voxels far.
+constexpr double usual_growth = 0.3;
+/// Slower growth is none: single precision does not tell.
+constexpr double least_growth = 1e-9;
+/// Of halving an edge or a face's parameters; the budget ends it before.
+constexpr int max_depth = 40;
+
+/// Counts the leaves of a field against its budget.
+class BlockCount {
+ public:
+  explicit BlockCount(double most) : most_(most) {}
+  void add() {
+    if (++count_ <= most_) return;
+    throw usage_error("size",
+                      fmt::format("the sizes asked for need a sizing field of more than {:.3g} million "
+                                  "voxels: ask for larger ones, or `force` it",
+                                  most_ * Leaf::NUM_VALUES / 1e6));
+  }
+
+ private:
+  double most_, count_ = 0;
+};
 
 /// Reads and writes voxels, remembering the leaf it was in.
 class Accessor {
  public:
-  explicit Accessor(Root& root) : root_(&root) {}
+  /// \param made counts the leaves made; may be null where none is.
+  explicit Accessor(Root& root, BlockCount* made = nullptr) : root_(&root), made_(made) {}
 
   float value(const Coord& c) {
     enter(c);
@@ -66,7 +91,10 @@ class Accessor {
   }
   void set(const Coord& c, float value) {
     enter(c);
-    if (!leaf_) leaf_ = root_->touchLeaf(c);
+    if (!leaf_) {
+      made_->add();
+      leaf_ = root_->touchLeaf(c);
+    }
     leaf_->setValueOn(c, value);
   }
 
@@ -80,6 +108,7 @@ class Accessor {
   }
 
   Root* root_;
+  BlockCount* made_;
   Leaf* leaf_ = nullptr;
   Coord origin_;
   bool known_ = false;
@@ -104,11 +133,15 @@ const Module& vdb_module() {
 class SizingField::Impl {
  public:
   double size_max = 0, size_min = 0, growth = 0;
-  std::vector<std::unique_ptr<Root>> levels;  // voxel size_max / 2^k; null where no size is as small
+  Budget budget;
+  int finest = 0;  // level whose voxels can be numbered all over the model
+  std::vector<std::unique_ptr<Root>>
+      levels;  // for sizes about size_max / 2^k; null where no size is as small
 
-  double voxel(int level) const { return std::ldexp(size_max, -level); }
+  double size(int level) const { return std::ldexp(size_max, -level); }
+  double voxel(int level) const { return size(level) * std::max(1.0, usual_growth / growth); }
   int level_of(double size) const {
-    return std::clamp(static_cast<int>(std::floor(std::log2(size_max / size))), 0, max_levels - 1);
+    return std::clamp(static_cast<int>(std::floor(std::log2(size_max / size))), 0, finest);
   }
   Root& grid(int level) {
     if (static_cast<int>(levels.size()) <= level) levels.resize(level + 1);
@@ -124,7 +157,12 @@ class Builder {
  public:
   Builder(const CadModel& model, const SizingOptions& options, SizingField::Impl& field,
           ExecutionContext& context)
-      : shape_(model.shape()), options_(options), field_(field), context_(context) {
+      : shape_(model.shape()),
+        options_(options),
+        limits_{field.size_max, field.size_min},
+        field_(field),
+        context_(context),
+        blocks_(options.budget.blocks) {
     if (options.size_field.empty()) return;
     const std::string path = options.size_field.string();
     const auto open = [&] {
@@ -142,6 +180,7 @@ class Builder {
   }
 
   void run() {
+    hold_segments();
     Sources sources(*this);
     for (std::size_t i = 0; i < shape_.edges.size(); ++i) add_edge(static_cast<int>(i), sources);
     std::atomic<int> done{0};
@@ -185,10 +224,7 @@ class Builder {
     std::vector<std::pair<Vector3, double>> sources_;
   };
 
-  double size_of_curvature(double curvature) const {
-    if (options_.elements_per_circle <= 0 || curvature <= 0) return field_.size_max;
-    return std::max(field_.size_min, 2 * M_PI / (curvature * options_.elements_per_circle));
-  }
+  double size_of(double curvature) const { return size_of_curvature(options_, limits_, curvature); }
 
   double external_size(const Vector3& p) const {
     return external_ ? std::max(external_(p), field_.size_min) : field_.size_max;
@@ -197,7 +233,7 @@ class Builder {
   void add_source(const Vector3& p, double size) {
     const int level = field_.level_of(size);
     if (level != last_level_) {
-      accessor_.emplace(field_.grid(level));
+      accessor_.emplace(field_.grid(level), &blocks_);
       last_level_ = level;
     }
     const double scale = 1 / field_.voxel(level);
@@ -209,21 +245,51 @@ class Builder {
     }
   }
 
+  /// The size asked for on an edge by itself and by its length.
+  double cap_of(const CadEdge& edge) const {
+    double cap = field_.size_max;
+    if (const auto it = options_.edge_sizes.find(edge.number); it != options_.edge_sizes.end())
+      cap = it->second;
+    // A short edge is one element: its surroundings are refined towards it.
+    return std::min(cap, std::max(edge.length, field_.size_min));
+  }
+
+  /// Throws Error (usage) if the edges' lengths alone pass the budget of segments.
+  void hold_segments() const {
+    double sum = 0, most = 0;
+    std::size_t longest = 0;
+    for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
+      const CadEdge& edge = shape_.edges[i];
+      if (edge.degenerate || edge.faces.empty() || !(edge.length > 0)) continue;
+      const double segments = edge.length / cap_of(edge);
+      sum += segments;
+      if (segments <= most) continue;
+      most = segments;
+      longest = i;
+    }
+    if (sum > options_.budget.segments) throw too_many_segments(longest, most);
+  }
+
+  Error too_many_segments(std::size_t edge, double segments) const {
+    return usage_error(
+        "size",
+        fmt::format(
+            "Edge{} of {:.3g} mm would take about {:.3g} million segments at the sizes asked for, and "
+            "all edges more than {:g} million: `force` meshes all the same",
+            edge + 1, shape_.edges[edge].length, segments / 1e6, options_.budget.segments / 1e6));
+  }
+
   void add_edge(int index, Sources& sources) const {
     sources.check();
     const CadEdge& edge = shape_.edges[index];
     if (edge.degenerate || edge.faces.empty() || edge.length <= 0) return;
     const EdgeCurve curve(edge);
-    double cap = field_.size_max;
-    if (const auto it = options_.edge_sizes.find(edge.number); it != options_.edge_sizes.end())
-      cap = it->second;
-    // A short edge is one element: its surroundings are refined towards it.
-    cap = std::min(cap, std::max(edge.length, field_.size_min));
+    double cap = cap_of(edge);
     if (curve.straight()) {
       if (cap < field_.size_max || external_) sample_edge(curve, edge, cap, false, sources);
       return;
     }
-    if (curve.circular()) cap = std::min(cap, size_of_curvature(curve.curvature(edge.first)));
+    if (curve.circular()) cap = std::min(cap, size_of(curve.curvature(edge.first)));
     sample_edge(curve, edge, cap, !curve.circular(), sources);
   }
 
@@ -233,7 +299,7 @@ class Builder {
                                     static_cast<int>(std::ceil(edge.length / field_.size_max))});
     const auto size_at = [&](double t, const Vector3& p) {
       const double size = std::min(cap, external_size(p));
-      return with_curvature ? std::min(size, size_of_curvature(curve.curvature(t))) : size;
+      return with_curvature ? std::min(size, size_of(curve.curvature(t))) : size;
     };
     double t0 = edge.first;
     Vector3 p0 = curve.point(t0);
@@ -243,6 +309,8 @@ class Builder {
       const double t1 = edge.first + (edge.last - edge.first) * i / intervals;
       const Vector3 p1 = curve.point(t1);
       const double s1 = size_at(t1, p1);
+      const double segments = (p1 - p0).norm() / std::min(s0, s1);
+      if (segments > options_.budget.segments) throw too_many_segments(&edge - shape_.edges.data(), segments);
       split_edge(curve, size_at, t0, t1, p0, p1, s0, s1, 0, sources);
       sources.add(p1, s1);
       t0 = t1;
@@ -255,7 +323,7 @@ class Builder {
   void split_edge(const EdgeCurve& curve, const SizeAt& size_at, double t0, double t1, const Vector3& p0,
                   const Vector3& p1, double s0, double s1, int depth, Sources& sources) const {
     sources.check();
-    if ((p1 - p0).norm() <= std::min(s0, s1) || depth > 10) return;
+    if ((p1 - p0).norm() <= std::min(s0, s1) || depth > max_depth) return;
     const double t = 0.5 * (t0 + t1);
     const Vector3 p = curve.point(t);
     const double s = size_at(t, p);
@@ -273,10 +341,10 @@ class Builder {
       cap = it->second;
     const bool curved = !surface.planar() && options_.elements_per_circle > 0;
     if (!curved && cap >= field_.size_max && !external_) return;
-    const TrimmedDomain domain = coarse_domain(face);
+    const TrimmedDomain domain = coarse_domain(shape_, face);
     const auto size_at = [&](const Vector2& uv, const Vector3& p) {
       const double size = std::min(cap, external_size(p));
-      return curved ? std::min(size, size_of_curvature(surface.max_curvature(uv))) : size;
+      return curved ? std::min(size, size_of(surface.max_curvature(uv))) : size;
     };
     const Vector2 low(face.u_min, face.v_min), extent(face.u_max - face.u_min, face.v_max - face.v_min);
     const Vector2 lengths = extent.cwiseProduct(surface.mean_scale());
@@ -301,7 +369,7 @@ class Builder {
     const double du = cell.x() * at.du.norm(), dv = cell.y() * at.dv.norm();
     if (size < field_.size_max && domain.inside(middle)) sources.add(at.point, size);
     const bool split_u = du > 1.5 * size, split_v = dv > 1.5 * size;
-    if ((!split_u && !split_v) || depth > 9 || size >= field_.size_max) return;
+    if ((!split_u && !split_v) || depth > max_depth || size >= field_.size_max) return;
     const int nu = split_u ? 2 : 1, nv = split_v ? 2 : 1;
     const Vector2 part(cell.x() / nu, cell.y() / nv);
     for (int j = 0; j < nv; ++j) {
@@ -312,24 +380,6 @@ class Builder {
     }
   }
 
-  TrimmedDomain coarse_domain(const CadFace& face) const {
-    constexpr int intervals = 16;
-    std::vector<TrimmedDomain::Segment> segments;
-    for (const CadWire& wire : face.wires) {
-      for (const Coedge& coedge : wire.coedges) {
-        if (coedge.internal) continue;
-        const CadEdge& edge = shape_.edges[coedge.edge - 1];
-        Vector2 from = parametric_point(coedge, edge.first);
-        for (int i = 1; i <= intervals; ++i) {
-          const Vector2 to = parametric_point(coedge, edge.first + (edge.last - edge.first) * i / intervals);
-          segments.push_back({from, to});
-          from = to;
-        }
-      }
-    }
-    return TrimmedDomain(std::move(segments));
-  }
-
   /// Lets a level's values grow outward up to its coverage, after taking over those of the finer level.
   void grade(int level) {
     SparseCheck check(context_);
@@ -337,7 +387,7 @@ class Builder {
     const bool finer = level < finest && field_.levels[level + 1];
     if (!field_.levels[level] && !finer) return;
     Root& grid = field_.grid(level);
-    Accessor accessor(grid);
+    Accessor accessor(grid, &blocks_);
     if (finer) {
       for_each_voxel(*field_.levels[level + 1], [&](const Coord& c, float value) {
         check();
@@ -360,7 +410,7 @@ class Builder {
     });
     std::priority_queue<Item> queue(std::less<Item>(), std::move(items));
     const double voxel = field_.voxel(level);
-    const auto limit = static_cast<float>(std::min(field_.size_max, coverage * voxel));
+    const auto limit = static_cast<float>(std::min(field_.size_max, coverage * field_.size(level)));
     std::array<float, 4> step{};
     for (int k = 1; k < 4; ++k) step[k] = static_cast<float>(field_.growth * voxel * std::sqrt(k));
     while (!queue.empty()) {
@@ -385,8 +435,10 @@ class Builder {
 
   const CadShape& shape_;
   const SizingOptions& options_;
+  SizeLimits limits_;
   SizingField::Impl& field_;
   ExecutionContext& context_;
+  BlockCount blocks_;
   std::mutex mutex_;  // of what follows but external_, and of the grids
   std::function<double(const Vector3&)> external_;
   std::optional<Accessor> accessor_;
@@ -445,14 +497,39 @@ SizingField SizingField::build(const CadModel& model, const SizingOptions& optio
                                ExecutionContext& context) {
   check_options(model, options);
   auto impl = std::make_shared<Impl>();
-  impl->growth = options.growth;
-  impl->size_max = options.size > 0 ? options.size : model.diagonal() / options.elements_per_diagonal;
-  impl->size_min = options.size_min > 0 ? std::min(options.size_min, impl->size_max) : impl->size_max / 8;
-  impl->size_min = std::min(impl->size_min, smallest(options));
+  const SizeLimits limits = size_limits(model, options);
+  impl->growth = std::max(options.growth, least_growth);
+  impl->size_max = limits.largest;
+  impl->size_min = limits.least;
+  impl->budget = options.budget;
+  // The trees number voxels by 32 bits.
+  const double reach = std::max(model.box_min().cwiseAbs().maxCoeff(), model.box_max().cwiseAbs().maxCoeff());
+  const int bits = 30 - std::ilogb(reach / impl->voxel(0) + 1);
+  if (bits < 0) {
+    throw usage_error("size",
+                      fmt::format("the size {:.3g} cannot be told apart at {:.3g} mm from the origin: "
+                                  "move the model there, or ask for a larger size",
+                                  limits.largest, reach));
+  }
+  impl->finest = std::min(bits, max_levels - 1);
   Builder(model, options, *impl, context).run();
   return SizingField(std::move(impl));
 }
 
+SizeLimits size_limits(const CadModel& model, const SizingOptions& options) {
+  const double size = options.size > 0 ? options.size : model.diagonal() / options.elements_per_diagonal;
+  const double least = options.size_min > 0 ? std::min(options.size_min, size) : size / 8;
+  return {size, std::min(least, smallest(options))};
+}
+
+double size_of_curvature(const SizingOptions& options, const SizeLimits& limits, double curvature) {
+  if (options.elements_per_circle <= 0 || curvature <= 0) return limits.largest;
+  return std::max(limits.least, 2 * M_PI / (curvature * options.elements_per_circle));
+}
+
+const Budget& SizingField::Sampler::budget() const {
+  return impl_.budget;
+}
 double SizingField::size_max() const {
   return impl_->size_max;
 }
@@ -483,6 +560,7 @@ void SizingField::write(const std::filesystem::path& path) const {
 struct SizingField::Sampler::Accessors {
   struct Level {
     double scale, limit;
+    bool coarsest;
     Accessor accessor;
   };
   std::vector<Level> levels;  // finest first
@@ -492,15 +570,15 @@ SizingField::Sampler::Sampler(const SizingField& field)
     : accessors_(std::make_unique<Accessors>()), impl_(*field.impl_) {
   for (int level = static_cast<int>(impl_.levels.size()) - 1; level >= 0; --level) {
     if (!impl_.levels[level]) continue;
-    const double voxel = impl_.voxel(level);
-    accessors_->levels.push_back({1 / voxel, voxel, Accessor(*impl_.levels[level])});
+    accessors_->levels.push_back(
+        {1 / impl_.voxel(level), impl_.size(level), level == 0, Accessor(*impl_.levels[level])});
   }
 }
 
 SizingField::Sampler::~Sampler() = default;
 
 double SizingField::Sampler::operator()(const Vector3& point) {
-  for (auto& [scale, limit, accessor] : accessors_->levels) {
+  for (auto& [scale, limit, coarsest, accessor] : accessors_->levels) {
     const Vector3 index = point * scale;
     const Coord base = Coord::floor(openvdb::Vec3d(index.x(), index.y(), index.z()));
     const Vector3 t(index.x() - base.x(), index.y() - base.y(), index.z() - base.z());
@@ -513,7 +591,6 @@ double SizingField::Sampler::operator()(const Vector3& point) {
       active += accessor.probe(base.offsetBy(k & 1, k >> 1 & 1, k >> 2), corner);
       value += weight * corner;
     }
-    const bool coarsest = scale * impl_.size_max < 1.5;
     if (coarsest || (active == 8 && value <= limit)) return std::clamp(value, impl_.size_min, impl_.size_max);
   }
   return impl_.size_max;

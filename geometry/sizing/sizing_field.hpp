@@ -11,16 +11,28 @@
 
 namespace quadrille {
 
+/// Between which sizes a field lies.
+struct SizeLimits {
+  double largest;  ///< the global size
+  double least;    ///< that any source may ask for
+};
+SizeLimits size_limits(const CadModel& model, const SizingOptions& options);
+
+/// The size that a curvature (1 / length) asks for, within the limits.
+double size_of_curvature(const SizingOptions& options, const SizeLimits& limits, double curvature);
+
 /// h(x): the largest size that respects every source and the gradation |grad h| <= growth.
 ///
 /// Sources (global size, curvature of faces and edges, lengths of short edges, sizes asked for on faces,
 /// edges and vertices, an external grid) are sampled on the model. Values live in a cascade of OpenVDB float
 /// grids with voxels of size_max / 2^k: each is active only where the size is about its voxel, so that small
-/// features cost what they need and no more. Gradation goes through space, not along the surface: thin walls
-/// see each other's sizes. Immutable and thread-safe; look-ups go through one Sampler a thread.
+/// features cost what they need and no more; where sizes grow slowly, voxels are wider by as much. Gradation
+/// goes through space, not along the surface: thin walls see each other's sizes. Immutable and thread-safe;
+/// look-ups go through one Sampler a thread.
 class SizingField {
  public:
-  /// Throws Error (usage) for sizes that make no sense, (failure) for an unreadable external grid.
+  /// Throws Error (usage) for sizes that make no sense or pass options.budget, (failure) for an unreadable
+  /// external grid.
   static SizingField build(const CadModel& model, const SizingOptions& options, ExecutionContext& context);
 
   /// Writes the grids as .vdb: `size` (coarsest), `size_1`, ... with metadata unit, growth, size_max,
@@ -40,6 +52,7 @@ class SizingField {
     Sampler(const Sampler&) = delete;
     Sampler& operator=(const Sampler&) = delete;
     double operator()(const Vector3& point);
+    const Budget& budget() const;  ///< the field's
 
    private:
     struct Accessors;

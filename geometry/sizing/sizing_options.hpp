@@ -2,9 +2,23 @@
 /// What size is wanted where.
 
 #include <filesystem>
+#include <limits>
 #include <map>
 
 namespace quadrille {
+
+/// What one run may make, so that no setting and no damaged file takes all memory. Estimated before anything
+/// is made, and counted while it is.
+struct Budget {
+  double elements = 50e6;
+  double segments = 5e6;  ///< of all edges
+  double blocks = 4e5;    ///< of 512 voxels (2.1 kB) in the sizing field
+
+  static Budget unlimited() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {infinity, infinity, infinity};
+  }
+};
 
 /// The size wanted, by source; the smallest wins, and the result varies no faster than `growth`.
 struct SizingOptions {
@@ -17,6 +31,7 @@ struct SizingOptions {
   std::map<int, double> edge_sizes;    ///< CAD edge -> size on it
   std::map<int, double> vertex_sizes;  ///< CAD vertex -> size at it
   std::filesystem::path size_field;    ///< external .vdb grid that caps the size; empty = none
+  Budget budget;
 };
 
 }  // namespace quadrille

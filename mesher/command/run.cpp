@@ -15,6 +15,19 @@ namespace {
 
 enum ExitCode : int { success = 0, work_failed = 1, bad_use = 2, work_cancelled = 130 };
 
+/// The core names settings as `size_min`: here they are options.
+std::string with_options(std::string message) {
+  for (std::size_t start = 0; (start = message.find('`', start)) != std::string::npos;) {
+    const std::size_t end = message.find('`', start + 1);
+    if (end == std::string::npos) break;
+    std::string option = "--" + message.substr(start + 1, end - start - 1);
+    std::replace(option.begin(), option.end(), '_', '-');
+    message.replace(start, end + 1 - start, option);
+    start += option.size();
+  }
+  return message;
+}
+
 /// One line on stderr, whatever the message holds.
 int complain(std::string message, ExitCode code) {
   while (!message.empty() && message.back() == '\n') message.pop_back();
@@ -25,13 +38,13 @@ int complain(std::string message, ExitCode code) {
 int complain(const Error& error) {
   switch (error.kind()) {
     case Error::Kind::usage:
-      return complain(error.what(), bad_use);
+      return complain(with_options(error.what()), bad_use);
     case Error::Kind::cancelled:
       return complain(error.what(), work_cancelled);
     case Error::Kind::failure:
       break;
   }
-  return complain(error.what(), work_failed);
+  return complain(with_options(error.what()), work_failed);
 }
 
 void add_commands(CLI::App& app) {

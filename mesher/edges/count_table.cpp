@@ -2,6 +2,9 @@
 
 #include "mesher/edges/count_table.hpp"
 
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 
 namespace quadrille {
@@ -11,7 +14,7 @@ namespace {
 class EdgeTabulator {
  public:
   EdgeTabulator(const CadEdge& edge, SizingField::Sampler& size_at)
-      : curve_(edge), size_at_(size_at), uniform_(curve_.straight() || curve_.circular()) {
+      : edge_(edge), curve_(edge), size_at_(size_at), uniform_(curve_.straight() || curve_.circular()) {
     const int intervals = std::max(uniform_ ? 4 : 8, 2 * curve_.spans());
     add(edge.first, curve_.point(edge.first), 0);
     for (int i = 1; i <= intervals; ++i) {
@@ -24,7 +27,8 @@ class EdgeTabulator {
  private:
   void split(double t, const Vector3& p, int depth) {
     const double chord = (p - point_).norm();
-    if (depth < 14 && chord > 0.5 * std::min(size_, size_at_(p))) {
+    constexpr int max_depth = 40;  // a sharp rise of the size is met long before
+    if (depth < max_depth && chord > 0.5 * std::min(size_, size_at_(p))) {
       const double middle = 0.5 * (table.parameters.back() + t);
       split(middle, curve_.point(middle), depth + 1);
       split(t, p, depth + 1);
@@ -40,6 +44,7 @@ class EdgeTabulator {
       table.counts.push_back(0);
     } else {
       table.counts.push_back(table.counts.back() + 0.5 * length * (1 / size + 1 / size_));
+      hold_segments(table.total(), size_at_.budget(), edge_);
       table.turning += angle_between(direction, direction_);
     }
     table.parameters.push_back(t);
@@ -56,6 +61,7 @@ class EdgeTabulator {
     return std::max(chord, (b - a) * speeds / 6);
   }
 
+  const CadEdge& edge_;
   EdgeCurve curve_;
   SizingField::Sampler& size_at_;
   bool uniform_;
@@ -64,6 +70,14 @@ class EdgeTabulator {
 };
 
 }  // namespace
+
+void hold_segments(double segments, const Budget& budget, const CadEdge& edge) {
+  if (!(segments > budget.segments)) return;
+  throw usage_error("size",
+                    fmt::format("the edges take more than {:g} million segments at the sizes asked for, "
+                                "Edge{} many of them: `force` meshes all the same",
+                                budget.segments / 1e6, edge.number));
+}
 
 CountTable tabulate(const CadEdge& edge, SizingField::Sampler& size_at) {
   return EdgeTabulator(edge, size_at).table;

@@ -25,7 +25,12 @@ struct CountTable {
   }
 };
 
-/// Tabulates an edge by its arc length and the sizing field, as finely as the size asks for.
+/// Throws Error (usage) if so many segments are more than the budget has.
+/// \param edge the last one counted.
+void hold_segments(double segments, const Budget& budget, const CadEdge& edge);
+
+/// Tabulates an edge by its arc length and the sizing field, as finely as the size asks for. Throws Error
+/// (usage) if it takes more segments than the field's budget has.
 CountTable tabulate(const CadEdge& edge, SizingField::Sampler& size_at);
 
 }  // namespace quadrille

@@ -134,6 +134,7 @@ class EdgeSampler {
     tables_.resize(n_);
     wishes_.least.assign(n_, 0);
     wishes_.wanted.assign(n_, 0);
+    double segments = 0;
     for (int i = 0; i < n_; ++i) {
       if (i % 256 == 0) context_.report("sample", 0.5 * i / n_);
       context_.check();
@@ -145,6 +146,8 @@ class EdgeSampler {
       // A segment more where there would be one in any case.
       if (plan_.refine[i] > 1) wanted = std::max(wanted, 1.0) * plan_.refine[i];
       if (along_chord(i)) wanted *= chord_of(edge) / edge.length;
+      segments += result_.stride * wanted;
+      hold_segments(segments, sampler.budget(), edge);
       wishes_.least[i] = least_segments(plan_.tiny.closed(edge), plan_.bare[i] ? 0 : tables_[i].turning,
                                         shared_ends[i], inner[i], result_.stride);
     }

@@ -145,6 +145,62 @@ INSTANTIATE_TEST_SUITE_P(Input, Mistakes,
                                          Mistake{"quality square.msh --limits text.step", 1, "neither JSON"},
                                          Mistake{"mesh IN OUT --size 1e-4", 2, "million"}));
 
+/// Refused before anything is spent: within 5 s of CPU, and 2 GB of memory beyond what libraries map.
+class TooMuch : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(TooMuch, IsRefusedWithItsNumber) {
+  const TemporaryFolder folder;
+  const auto& [arguments, says] = GetParam();
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  const char* limits = "ulimit -t 20";
+#else
+  const char* limits = "ulimit -t 5; ulimit -v 3000000";
+#endif
+  const auto result = test::run(fmt::format("cd {} && {} && {} mesh {} -o out.msh {} 2>&1 >/dev/null",
+                                            folder.path().string(), limits, program, bracket, arguments));
+  EXPECT_EQ(result.exit_code, 2) << result.out;
+  EXPECT_PRED2(contains, result.out, says);
+  EXPECT_PRED2(contains, result.out, "--force");
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+  EXPECT_EQ(folder.file_count(), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Command, TooMuch,
+                         testing::Values(std::pair("--size 1e-3", "million elements"),
+                                         std::pair("--size-on Face1=1e-6", "million elements"),
+                                         std::pair("--size-on Face1=1e-3 --growth 1e-9", "million elements"),
+                                         std::pair("--size-on Vertex1=1e-3 --growth 1e-9",
+                                                   "million elements"),
+                                         std::pair("--curvature 1e9 --size-min 1e-9", "million elements"),
+                                         std::pair("--size-on Edge1=1e-6", "Edge1 of")));
+
+TEST(Command, RefusesAnEnormousEdge) {
+  const TemporaryFolder folder;
+  // The box's first edge, of 10 mm, as the range of its curve's parameter has it.
+  std::string text = test::file_text(box);
+  const std::size_t range = text.find("\n1  1 0 0 10\n");
+  ASSERT_NE(range, std::string::npos);
+  text.replace(range, 13, "\n1  1 0 0 1e8\n");
+  test::write_text(folder / "long.brep", text);
+  const auto result = stderr_of(folder, "mesh long.brep -o out.msh --size 1 --quiet");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_PRED2(contains, result.out, "million");
+}
+
+TEST(Command, TakesTheThreadsThatThereAre) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(stderr_of(folder, "mesh " + box + " -o a.msh --size 4 --quiet --threads 4096").out, "");
+  // A user who may have no more processes; root may have any number, and becomes nobody.
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
+  const std::string nobody = ::geteuid() == 0 ? "setpriv --reuid=65534 --clear-groups " : "";
+  const auto result =
+      test::run(fmt::format("cd {} && {} prlimit --nproc=1 {} mesh {} -o b.msh --size 4 --quiet 2>&1",
+                            folder.path().string(), nobody, program, box));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(test::file_text(folder / "a.msh"), test::file_text(folder / "b.msh"));
+}
+
 TEST(Command, MeshesTheBox) {
   const TemporaryFolder folder;
   const auto result =

@@ -7,6 +7,7 @@
 
 #include "geometry/base/trimmed_domain.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/sizing/element_count.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
@@ -60,6 +61,66 @@ TEST(SizingField, StaysBetweenItsLimitsAndGrowsNoFasterThanAsked) {
       const double slack = options.growth * 2 * std::max(at_a, at_b);
       EXPECT_LE(std::abs(at_a - at_b), options.growth * (a - b).norm() * 1.1 + slack);
     }
+  }
+}
+
+TEST(SizingField, TakesNoMoreRoomTheSlowerSizesGrow) {
+  const CadModel model = CadModel::read(sample_model("bracket").path());
+  SizingOptions options;
+  options.size = model.diagonal() / 60;
+  options.budget.blocks = 400;
+  for (const double growth : {1.0, 0.3, 0.05, 0.005, 1e-4, 1e-9, 1e-300}) {
+    SCOPED_TRACE(growth);
+    options.growth = growth;
+    const SizingField field = field_of(model, options);
+    SizingField::Sampler size_at(field);
+    for (const CadEdge& edge : model.shape().edges) {
+      if (edge.degenerate) continue;
+      const double size = size_at(EdgeCurve(edge).point(0.5 * (edge.first + edge.last)));
+      EXPECT_LE(size, std::max(edge.length, field.size_min()) * 1.05);
+    }
+  }
+}
+
+TEST(SizingField, KeepsToItsBudget) {
+  const CadModel model = CadModel::read(sample_model("bracket").path());
+  SizingOptions options;
+  options.size = model.diagonal() / 60;
+  options.budget.blocks = 10;
+  options.vertex_sizes[1] = options.size / 100;
+  EXPECT_THROW(field_of(model, options), Error);
+  options.budget = Budget();
+  options.edge_sizes[1] = 1e-3;
+  options.budget.segments = 1000;
+  EXPECT_THROW(field_of(model, options), Error);
+  options.budget = Budget::unlimited();
+  EXPECT_NO_THROW(field_of(model, options));
+}
+
+TEST(SizingField, IsExactAtATinyVertexToo) {
+  const CadModel model = CadModel::read(sample_model("box").path());
+  SizingOptions options;
+  options.size = 2;
+  options.vertex_sizes[1] = 1e-7;
+  const SizingField field = field_of(model, options);
+  SizingField::Sampler size_at(field);
+  const Vector3 corner = model.shape().vertices[0];
+  EXPECT_NEAR(size_at(corner), 1e-7, 1e-9);
+  for (const double distance : {1e-6, 1e-4, 1e-2, 1.0}) {
+    const double size = size_at(corner + Vector3(distance, 0, 0));
+    EXPECT_LE(size, 1e-7 + options.growth * distance * 1.01);
+    EXPECT_GE(size, 0.2 * options.growth * distance);
+  }
+}
+
+TEST(ElementCount, IsTheAreaOverTheSizeSquared) {
+  for (const SampleModel& sample : sample_models()) {
+    SCOPED_TRACE(sample.name);
+    const CadModel model = CadModel::read(sample.path());
+    ExecutionContext context;
+    const auto samples = sample_faces(model.shape(), std::vector<char>(model.face_count(), 1), context);
+    const double count = count_elements(samples, [](int, const FaceSample&) { return 0.5; });
+    EXPECT_NEAR(count / (4 * model.area()), 1, 0.1);
   }
 }
 

@@ -1,0 +1,38 @@
+#include "geometry/base/threads.hpp"
+
+#include <algorithm>
+#include <future>
+#include <new>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace quadrille {
+
+namespace {
+
+/// How many of so many threads there can be at once. oneTBB ends the program where one cannot be made.
+int makeable_threads(int wanted) {
+  std::promise<void> end;
+  const std::shared_future<void> ended = end.get_future().share();
+  std::vector<std::thread> others;
+  others.reserve(wanted);
+  try {
+    while (static_cast<int>(others.size()) + 1 < wanted) others.emplace_back([ended] { ended.wait(); });
+  } catch (const std::system_error&) {  // a limit on processes
+  } catch (const std::bad_alloc&) {     // or on memory: as many as there are
+  }
+  end.set_value();
+  for (std::thread& other : others) other.join();
+  return static_cast<int>(others.size()) + 1;
+}
+
+}  // namespace
+
+int usable_threads(int wanted) {
+  if (wanted == 1) return 1;
+  static const int available = makeable_threads(std::max(1U, std::thread::hardware_concurrency()));
+  return wanted > 0 ? std::min(wanted, available) : available;
+}
+
+}  // namespace quadrille
