@@ -42,13 +42,13 @@ std::vector<char> faces_used(const CadModel& model, const std::vector<int>& face
 
 void check_options(const MeshOptions& options, double size) {
   if (!(options.merge_tiny >= 0) || options.merge_tiny > size) {
-    throw usage_error("--merge-tiny",
+    throw usage_error("merge_tiny",
                       fmt::format("the length below which features are left out must lie between 0 and "
                                   "the size ({:.6g}), not {:.6g}",
                                   size, options.merge_tiny));
   }
   if (options.order != 1 && options.order != 2) {
-    throw usage_error("--order", fmt::format("the order must be 1 or 2, not {}", options.order));
+    throw usage_error("order", fmt::format("the order must be 1 or 2, not {}", options.order));
   }
 }
 

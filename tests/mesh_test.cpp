@@ -221,11 +221,11 @@ TEST(Mesh, RefusesWhatMakesNoSense) {
   for (const double size : {-1.0, std::nan(""), 1e9, 1e-5}) {
     MeshOptions options = good;
     options.sizing.size = size;
-    expect_usage(options, "--size");
+    expect_usage(options, "size");
   }
   MeshOptions options = good;
   options.order = 3;
-  expect_usage(options, "--order");
+  expect_usage(options, "order");
   options = good;
   options.faces = {7};
   expect_usage(options, "Face7");
@@ -234,7 +234,7 @@ TEST(Mesh, RefusesWhatMakesNoSense) {
   expect_usage(options, "Edge99");
   options = good;
   options.sizing.growth = 0;
-  expect_usage(options, "--growth");
+  expect_usage(options, "growth");
 }
 
 TEST(Mesh, CanBeCancelled) {

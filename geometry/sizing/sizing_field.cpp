@@ -452,20 +452,20 @@ void check_size(double size, const std::string& name) {
 }
 
 void check_options(const CadModel& model, const SizingOptions& options) {
-  if (options.size != 0) check_size(options.size, "--size");
+  if (options.size != 0) check_size(options.size, "size");
   if (options.size > model.diagonal()) {
-    throw usage_error("--size", fmt::format("the size {} is larger than the model, whose diagonal is {:.6g}",
+    throw usage_error("size", fmt::format("the size {} is larger than the model, whose diagonal is {:.6g}",
                                             options.size, model.diagonal()));
   }
   if (options.size_min < 0 || !std::isfinite(options.size_min)) {
-    throw usage_error("--size-min",
+    throw usage_error("size_min",
                       fmt::format("the smallest size must be positive, not {}", options.size_min));
   }
   if (!(options.growth > 0) || !std::isfinite(options.growth)) {
-    throw usage_error("--growth", fmt::format("the growth must be positive, not {}", options.growth));
+    throw usage_error("growth", fmt::format("the growth must be positive, not {}", options.growth));
   }
   if (!(options.elements_per_circle >= 0) || !std::isfinite(options.elements_per_circle)) {
-    throw usage_error("--curvature", fmt::format("the elements per 2 pi must be 0 or more, not {}",
+    throw usage_error("elements_per_circle", fmt::format("the elements per 2 pi must be 0 or more, not {}",
                                                  options.elements_per_circle));
   }
   const auto check_all = [](const std::map<int, double>& sizes, int count, const std::string& kind) {
