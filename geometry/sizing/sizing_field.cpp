@@ -455,7 +455,7 @@ void check_options(const CadModel& model, const SizingOptions& options) {
   if (options.size != 0) check_size(options.size, "size");
   if (options.size > model.diagonal()) {
     throw usage_error("size", fmt::format("the size {} is larger than the model, whose diagonal is {:.6g}",
-                                            options.size, model.diagonal()));
+                                          options.size, model.diagonal()));
   }
   if (options.size_min < 0 || !std::isfinite(options.size_min)) {
     throw usage_error("size_min",
@@ -466,7 +466,7 @@ void check_options(const CadModel& model, const SizingOptions& options) {
   }
   if (!(options.elements_per_circle >= 0) || !std::isfinite(options.elements_per_circle)) {
     throw usage_error("elements_per_circle", fmt::format("the elements per 2 pi must be 0 or more, not {}",
-                                                 options.elements_per_circle));
+                                                         options.elements_per_circle));
   }
   const auto check_all = [](const std::map<int, double>& sizes, int count, const std::string& kind) {
     for (const auto& [number, size] : sizes) {
