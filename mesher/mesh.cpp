@@ -20,6 +20,7 @@
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/assembly.hpp"
 #include "mesher/shell/face_mesher.hpp"
+#include "mesher/shell/node_sliding.hpp"
 
 namespace quadrille {
 
@@ -79,6 +80,7 @@ class Job {
     }
     advise_on_tiny_faces();
     if (!options_.partial) throw_first_error();
+    slide_nodes(shape_, nodes_, meshes_, options_.improve, context_);
     return assemble(shape_, nodes_, meshes_, statuses(), options_, context_);
   }
 

@@ -6,6 +6,9 @@ namespace quadrille {
 struct ImproveOptions {
   bool clean_up = true;  ///< quad-vertex merge, doublet collapse, valence-driven moves
   int smoothing_sweeps = 8;
+  /// Passes of the last optimization over all faces together, in which nodes slide along CAD edges too; 0 =
+  /// none.
+  int sliding_sweeps = 30;
   double q_floor = 0.25;  ///< elements below this are worked on one by one at the end
 };
 

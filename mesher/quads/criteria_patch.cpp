@@ -1,0 +1,111 @@
+#include "mesher/quads/criteria_patch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace quadrille {
+namespace {
+
+constexpr double huge = 1e30;
+constexpr double tiny = std::numeric_limits<double>::min();
+/// Beyond this a quad that the CAD forces out of shape no longer outweighs its neighbors.
+constexpr double most = 1000;
+constexpr double sin2_corner = 0.586824;  // of 50 degrees, squared
+constexpr double sin2_skew = 0.413176;    // of 40 degrees, squared
+constexpr double aspect2 = 25;
+/// With taper t the Jacobian ratio of a plane quad is (1 - t / root 3) / (1 + t / root 3).
+constexpr double taper2 = 0.1875;
+
+double square(double x) {
+  return x * x;
+}
+
+/// A plane quad p, b, c, d. Written without branches: compilers take several at once.
+struct Plane {
+  double sine2, value;  // signed square of the least corner's sine
+
+  Plane(double px, double py, double bx, double by, double cx, double cy, double dx, double dy) {
+    const double sx = bx - px, sy = by - py, tx = cx - bx, ty = cy - by;
+    const double wx = dx - cx, wy = dy - cy, zx = px - dx, zy = py - dy;
+    const double ss = sx * sx + sy * sy, tt = tx * tx + ty * ty, ww = wx * wx + wy * wy,
+                 zz = zx * zx + zy * zy;
+    const double cp = zx * sy - zy * sx, cb = sx * ty - sy * tx, cc = tx * wy - ty * wx,
+                 cd = wx * zy - wy * zx;
+    // One division for all four corners' squared sines would lose small quads to underflow.
+    const double qp = cp / (zz * ss + tiny) * cp, qb = cb / (ss * tt + tiny) * cb,
+                 qc = cc / (tt * ww + tiny) * cc, qd = cd / (ww * zz + tiny) * cd;
+    const double corners = square(1 - qp) + square(1 - qb) + square(1 - qc) + square(1 - qd);
+    const double longest = std::max(std::max(ss, tt), std::max(ww, zz));
+    const double shortest = std::min(std::min(ss, tt), std::min(ww, zz));
+    const double aspect = longest / (shortest + tiny);
+    const double mx = tx - zx, my = ty - zy, nx = wx - sx, ny = wy - sy;  // along the mid-lines
+    const double dot = mx * nx + my * ny;
+    const double skew = dot / ((mx * mx + my * my) * (nx * nx + ny * ny) + tiny) * dot;
+    const double mean = cp + cb + cc + cd;
+    const double taper =
+        (std::abs(cb + cc - cp - cd) + std::abs(cc + cd - cp - cb)) / (std::abs(mean) + tiny);
+    const double sum = corners * (1 / square(sin2_corner)) + square(skew * (1 / sin2_skew)) +
+                       square(aspect * (1 / aspect2)) + square(taper * taper * (1 / taper2));
+    const double least = std::min(std::min(cp, cb), std::min(cc, cd));
+    sine2 = least > 0 ? std::min(std::min(qp, qb), std::min(qc, qd)) : -1;
+    value = least > 0 ? sum / (1 + sum * (1 / most)) : huge;
+  }
+};
+
+/// The plane of a quad's diagonals, the first of which is its x axis.
+struct Frame {
+  Vector3 x, y, normal;
+  double length = 0;  // of the first diagonal
+
+  Frame(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+    const Vector3 first = c - a;
+    normal = first.cross(d - b);
+    const double area = normal.norm();
+    length = first.norm();
+    if (!(area > 0)) {
+      length = 0;
+      normal.setZero();
+      return;
+    }
+    normal /= area;
+    x = first / length;
+    y = normal.cross(x);
+  }
+};
+
+}  // namespace
+
+QuadObjective measure_objective(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+  const Frame frame(a, b, c, d);
+  if (frame.length == 0) return {most, -1, frame.normal};
+  const Vector3 ab = b - a, ad = d - a;
+  const Plane plane(0, 0, frame.x.dot(ab), frame.y.dot(ab), frame.length, 0, frame.x.dot(ad),
+                    frame.y.dot(ad));
+  return {std::min(plane.value, most), plane.sine2 < 0 ? -1 : std::sqrt(plane.sine2), frame.normal};
+}
+
+bool CriteriaPatch::add(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+  const Frame frame(a, b, c, d);
+  if (count_ == max_quads || frame.length == 0) return false;
+  const Vector3 ab = b - a, ad = d - a;
+  quads_[count_++] = {frame.x.dot(ab), frame.y.dot(ab), frame.length,    0,
+                      frame.x.dot(ad), frame.y.dot(ad), frame.x.dot(u_), frame.y.dot(u_),
+                      frame.x.dot(v_), frame.y.dot(v_)};
+  return true;
+}
+
+CriteriaPatch::Lanes CriteriaPatch::evaluate(const Lanes& x, const Lanes& y) const {
+  Lanes result{};
+  for (int i = 0; i < count_; ++i) {
+    const Quad& q = quads_[i];
+    for (int k = 0; k < lanes; ++k) {
+      const Plane plane(x[k] * q.ux + y[k] * q.vx, x[k] * q.uy + y[k] * q.vy, q.bx, q.by, q.cx, q.cy, q.dx,
+                        q.dy);
+      result[k] += plane.value;
+    }
+  }
+  return result;
+}
+
+}  // namespace quadrille

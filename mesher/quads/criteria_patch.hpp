@@ -1,0 +1,49 @@
+#pragma once
+/// What the last optimization lowers: how far quads are from the criteria of industry, as a smooth number.
+/// Not part of the public interface.
+
+#include <array>
+
+#include "geometry/base/vector.hpp"
+
+namespace quadrille {
+
+/// Of one quad.
+struct QuadObjective {
+  double value = 0;         ///< 0 for a square; about 1 where one criterion is at its limit; bounded
+  double least_sine = 0;    ///< of its corners, signed: the scaled Jacobian
+  Vector3 normal{0, 0, 0};  ///< unit; zero for a quad without area
+};
+
+/// The sum over the criteria of (value / limit)^4: aspect / 5, sine of the skew / sine of 40 degrees, for
+/// each corner the sine of its deviation from 90 degrees / sine of 50 degrees, taper at Gauss points / the
+/// taper at which the Jacobian ratio is 0.6. In the plane of the quad's mean normal.
+QuadObjective measure_objective(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
+
+/// The quads round one node, each in its own plane, judged for several places of the node at once.
+class CriteriaPatch {
+ public:
+  static constexpr int max_quads = 16;
+  static constexpr int lanes = 8;
+  using Lanes = std::array<double, lanes>;
+
+  /// \param u,v the two directions that the node can move in; v is zero where it has one only.
+  CriteriaPatch(const Vector3& u, const Vector3& v) : u_(u), v_(v) {}
+
+  /// Adds the quad with the node at `a`. False where the patch is full or the quad has no area.
+  bool add(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
+
+  /// The sum of the objectives with the node moved by x u + y v; huge where a quad would not be convex.
+  Lanes evaluate(const Lanes& x, const Lanes& y) const;
+
+ private:
+  struct Quad {
+    double bx, by, cx, cy, dx, dy;  ///< from the node's present place
+    double ux, uy, vx, vy;          ///< the directions
+  };
+  Vector3 u_, v_;
+  int count_ = 0;
+  std::array<Quad, max_quads> quads_;
+};
+
+}  // namespace quadrille

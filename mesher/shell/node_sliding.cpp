@@ -1,0 +1,427 @@
+// Based on: Freitag, On combining Laplacian and optimization-based mesh smoothing techniques (1997), for
+// moves that are accepted one node at a time; the objective is that of CriteriaPatch.
+
+#include "mesher/shell/node_sliding.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <Standard_Failure.hxx>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "geometry/surfaces/edge_curve.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+#include "mesher/mesh/quality.hpp"
+#include "mesher/quads/criteria_patch.hpp"
+
+namespace quadrille {
+namespace {
+
+/// Nodes of quads above this objective are moved.
+constexpr double poor = 0.1;
+/// What no quad falls below unless one round the same node was: sin 40 degrees, the limit of corner angles.
+constexpr double floor_sine = 0.6428;
+/// A move must lower the objective by this share.
+constexpr double least_gain = 0.001;
+/// Neighbors are looked at again after a move by more than this share of the mean side.
+constexpr double still_share = 0.01;
+/// An edge's node stays this share of the interval between its neighbors away from them.
+constexpr double margin_share = 0.05;
+
+/// The quad round a node: `corner` is the node's place in it.
+struct Use {
+  int face, quad, corner;
+};
+
+/// One face while nodes move.
+struct FaceState {
+  FaceMesh* mesh = nullptr;
+  const CadFace* cad_face = nullptr;
+  std::shared_ptr<const FaceSurface> surface;  // made when first wanted
+  std::vector<int> first, corners;             // 4 * quad + corner round each point, in compressed rows
+  std::vector<double> objective, least_sine;   // (quads)
+  std::vector<char> active;                    // (points) worth a visit
+  std::vector<char> slid;                      // (boundary points) uv is to follow
+  bool touched = false;
+  int moves = 0;
+
+  const FaceSurface& get_surface() {
+    if (!surface) surface = mesh->surface ? mesh->surface : std::make_shared<const FaceSurface>(*cad_face);
+    return *surface;
+  }
+
+  const Vector3& corner(int quad, int k) const { return mesh->points[mesh->quads[quad][k & 3]]; }
+
+  QuadObjective measure(int quad) const {
+    return measure_objective(corner(quad, 0), corner(quad, 1), corner(quad, 2), corner(quad, 3));
+  }
+};
+
+class NodeSliding {
+ public:
+  NodeSliding(const CadShape& shape, BoundaryNodes& nodes, std::vector<std::optional<FaceMesh>>& faces,
+              ExecutionContext& context)
+      : shape_(shape), nodes_(nodes), context_(context), states_(faces.size()) {
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (!faces[i]) continue;
+      states_[i].mesh = &*faces[i];
+      states_[i].cad_face = &shape.faces[i];
+    }
+    for_each_face([&](FaceState& face) { prepare(face); });
+    link_boundary();
+    find_slidable();
+  }
+
+  void run(int sweeps) {
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      int moves = slide_edges();
+      for_each_face([&](FaceState& face) { relax_face(face); });
+      for (const FaceState& face : states_) moves += face.moves;
+      if (moves == 0) break;
+    }
+    for_each_face([&](FaceState& face) { finish(face); });
+  }
+
+ private:
+  struct Instance {
+    int face, point;
+  };
+
+  /// The quads round a node before a move.
+  struct Round {
+    std::vector<Use> uses;
+    double objective = 0, worst_objective = 0, least_sine = 1;
+    double shortest = 0, mean = 0;  // of the sides at the node
+  };
+
+  /// A place for a node, and what the quads are with it.
+  struct Trial {
+    Vector3 point;
+    std::vector<QuadObjective> quads;
+    double objective = 0;
+  };
+
+  template <class Work>
+  void for_each_face(Work&& work) {
+    oneapi::tbb::parallel_for(std::size_t{0}, states_.size(), [&](std::size_t i) {
+      if (states_[i].mesh != nullptr) work(states_[i]);
+    });
+  }
+
+  // ---- before ----
+
+  void prepare(FaceState& face) {
+    const FaceMesh& mesh = *face.mesh;
+    SparseCheck check(context_);
+    face.first.assign(mesh.points.size() + 1, 0);
+    for (const auto& quad : mesh.quads)
+      for (const int node : quad) ++face.first[node + 1];
+    for (std::size_t i = 1; i < face.first.size(); ++i) face.first[i] += face.first[i - 1];
+    face.corners.resize(face.first.back());
+    std::vector<int> place(face.first.begin(), face.first.end() - 1);
+    face.objective.resize(mesh.quads.size());
+    face.least_sine.resize(mesh.quads.size());
+    face.active.assign(mesh.points.size(), 0);
+    face.slid.assign(mesh.nodes.size(), 0);
+    for (int quad = 0; quad < static_cast<int>(mesh.quads.size()); ++quad) {
+      check();
+      const QuadObjective measured = face.measure(quad);
+      face.objective[quad] = measured.value;
+      face.least_sine[quad] = measured.least_sine;
+      for (int k = 0; k < 4; ++k) {
+        const int node = mesh.quads[quad][k];
+        face.corners[place[node]++] = 4 * quad + k;
+        if (measured.value > poor) face.active[node] = 1;
+      }
+    }
+  }
+
+  /// Where each node of the boundary comes up in the faces, in compressed rows.
+  void link_boundary() {
+    first_instance_.assign(nodes_.points.size() + 1, 0);
+    const auto each = [&](auto&& visit) {
+      for (std::size_t i = 0; i < states_.size(); ++i) {
+        if (states_[i].mesh == nullptr) continue;
+        const auto& of_face = states_[i].mesh->nodes;
+        for (std::size_t k = 0; k < of_face.size(); ++k)
+          visit(of_face[k], Instance{static_cast<int>(i), static_cast<int>(k)});
+      }
+    };
+    each([&](int node, const Instance&) { ++first_instance_[node + 1]; });
+    for (std::size_t i = 1; i < first_instance_.size(); ++i) first_instance_[i] += first_instance_[i - 1];
+    instances_.resize(first_instance_.back());
+    std::vector<int> place(first_instance_.begin(), first_instance_.end() - 1);
+    each([&](int node, const Instance& instance) { instances_[place[node]++] = instance; });
+  }
+
+  /// Nodes inside edges that are theirs alone.
+  void find_slidable() {
+    std::vector<char> uses(nodes_.points.size(), 0);
+    for (const auto& edge : nodes_.edges)
+      for (std::size_t k = 1; k + 1 < edge.nodes.size(); ++k) uses[edge.nodes[k]] += uses[edge.nodes[k]] < 2;
+    for (const int node : nodes_.vertex_nodes)
+      if (node >= 0) uses[node] = 2;
+    slidable_.resize(uses.size());
+    for (std::size_t i = 0; i < uses.size(); ++i) slidable_[i] = uses[i] == 1;
+  }
+
+  // ---- the quads round a node ----
+
+  void gather(int face, int point, Round& round) {
+    const FaceState& state = states_[face];
+    for (int i = state.first[point]; i < state.first[point + 1]; ++i) {
+      const int quad = state.corners[i] >> 2, corner = state.corners[i] & 3;
+      round.uses.push_back({face, quad, corner});
+      round.objective += state.objective[quad];
+      round.worst_objective = std::max(round.worst_objective, state.objective[quad]);
+      round.least_sine = std::min(round.least_sine, state.least_sine[quad]);
+    }
+  }
+
+  void measure_sides(Round& round) {
+    round.shortest = std::numeric_limits<double>::max();
+    double sum = 0;
+    for (const Use& use : round.uses) {
+      const FaceState& state = states_[use.face];
+      const Vector3& here = state.corner(use.quad, use.corner);
+      for (const int k : {use.corner + 1, use.corner + 3}) {
+        const double side = (state.corner(use.quad, k) - here).norm();
+        round.shortest = std::min(round.shortest, side);
+        sum += side;
+      }
+    }
+    round.mean = sum / (2.0 * static_cast<double>(round.uses.size()));
+  }
+
+  bool draw(const Round& round, CriteriaPatch& patch) const {
+    for (const Use& use : round.uses) {
+      const FaceState& state = states_[use.face];
+      if (!patch.add(state.corner(use.quad, use.corner), state.corner(use.quad, use.corner + 1),
+                     state.corner(use.quad, use.corner + 2), state.corner(use.quad, use.corner + 3)))
+        return false;
+    }
+    return true;
+  }
+
+  /// Measures the quads with the node at the trial's point; whether that is better and breaks no floor.
+  bool is_better(const Round& round, Trial& trial) const {
+    if (!trial.point.allFinite()) return false;
+    trial.quads.clear();
+    trial.objective = 0;
+    const double floor = std::min(floor_sine, round.least_sine);
+    const double enough = (1 - least_gain) * round.objective;
+    for (const Use& use : round.uses) {
+      const FaceState& state = states_[use.face];
+      const Vector3 &here = state.corner(use.quad, use.corner),
+                    &next = state.corner(use.quad, use.corner + 1),
+                    &opposite = state.corner(use.quad, use.corner + 2),
+                    &previous = state.corner(use.quad, use.corner + 3);
+      const QuadObjective quad = measure_objective(trial.point, next, opposite, previous);
+      trial.objective += quad.value;
+      if (!(trial.objective <= enough) || !(quad.least_sine >= floor) || !(quad.least_sine > 0)) return false;
+      // Not turned over, against what it was: surfaces bend less than that from quad to quad.
+      if (!(quad.normal.dot((opposite - here).cross(previous - next)) > 0)) return false;
+      trial.quads.push_back(quad);
+    }
+    return true;
+  }
+
+  void store(const Round& round, const Trial& trial, bool wakes) {
+    for (std::size_t i = 0; i < round.uses.size(); ++i) {
+      const Use& use = round.uses[i];
+      FaceState& state = states_[use.face];
+      state.objective[use.quad] = trial.quads[i].value;
+      state.least_sine[use.quad] = trial.quads[i].least_sine;
+      state.touched = true;
+      if (!wakes) continue;
+      for (const int node : state.mesh->quads[use.quad]) state.active[node] = 1;
+    }
+  }
+
+  // ---- along CAD edges ----
+
+  int slide_edges() {
+    int moves = 0;
+    SparseCheck check(context_, 64);
+    for (std::size_t i = 0; i < nodes_.edges.size(); ++i) {
+      BoundaryNodes::Edge& edge = nodes_.edges[i];
+      std::optional<EdgeCurve> curve;
+      for (std::size_t k = 1; k + 1 < edge.nodes.size(); ++k) {
+        const int node = edge.nodes[k];
+        if (!slidable_[node] || !take_active(node)) continue;
+        check();
+        if (!curve) curve.emplace(shape_.edges[i]);
+        moves += slide(*curve, edge, k);
+      }
+    }
+    return moves;
+  }
+
+  bool take_active(int node) {
+    bool any = false;
+    for (int i = first_instance_[node]; i < first_instance_[node + 1]; ++i) {
+      char& active = states_[instances_[i].face].active[instances_[i].point];
+      any |= active != 0;
+      active = 0;
+    }
+    return any;
+  }
+
+  bool slide(const EdgeCurve& curve, BoundaryNodes::Edge& edge, std::size_t k) {
+    const int node = edge.nodes[k];
+    Round round;
+    for (int i = first_instance_[node]; i < first_instance_[node + 1]; ++i)
+      gather(instances_[i].face, instances_[i].point, round);
+    if (round.uses.empty() || round.worst_objective <= poor) return false;
+    measure_sides(round);
+    const double t = edge.parameters[k], gap = edge.parameters[k + 1] - edge.parameters[k - 1];
+    const Vector3 derivative = curve.derivative(t);
+    const double speed = derivative.norm();
+    CriteriaPatch patch(derivative / speed, Vector3::Zero());
+    if (!(speed * gap > 0) || !draw(round, patch)) return false;
+    CriteriaPatch::Lanes steps{-0.4, -0.2, -0.08, -0.02, 0.02, 0.08, 0.2, 0.4};
+    for (double& step : steps) step *= round.mean;
+    const double low = edge.parameters[k - 1] + margin_share * gap,
+                 high = edge.parameters[k + 1] - margin_share * gap;
+    const auto lanes = patch.evaluate(steps, {});
+    const auto best = std::min_element(lanes.begin(), lanes.end()) - lanes.begin();
+    Trial trial;
+    for (const double share : {1.0, 0.5}) {
+      const double to = std::clamp(t + share * steps[best] / speed, low, high);
+      trial.point = curve.point(to);
+      if (!is_better(round, trial)) continue;
+      const double moved = (trial.point - nodes_.points[node]).norm();
+      edge.parameters[k] = to;
+      nodes_.points[node] = trial.point;
+      for (int i = first_instance_[node]; i < first_instance_[node + 1]; ++i) {
+        FaceState& state = states_[instances_[i].face];
+        state.mesh->points[instances_[i].point] = trial.point;
+        state.slid[instances_[i].point] = 1;
+      }
+      store(round, trial, moved > still_share * round.mean);
+      return true;
+    }
+    return false;
+  }
+
+  // ---- inside faces ----
+
+  void relax_face(FaceState& face) {
+    face.moves = 0;
+    const int index = static_cast<int>(&face - states_.data());
+    SparseCheck check(context_, 64);
+    for (int node = static_cast<int>(face.mesh->nodes.size()); node < static_cast<int>(face.active.size());
+         ++node) {
+      if (!face.active[node]) continue;
+      check();
+      face.active[node] = 0;
+      try {
+        face.moves += relax(face, index, node);
+      } catch (const Standard_Failure&) {
+        continue;  // the surface cannot be evaluated there: the node stays
+      }
+    }
+  }
+
+  bool relax(FaceState& face, int index, int node) {
+    Round round;
+    gather(index, node, round);
+    if (round.uses.empty() || round.worst_objective <= poor) return false;
+    measure_sides(round);
+    const Vector3& here = face.mesh->points[node];
+    Vector3 normal = Vector3::Zero();
+    for (const Use& use : round.uses)
+      normal += (face.corner(use.quad, 2) - face.corner(use.quad, 0))
+                    .cross(face.corner(use.quad, 3) - face.corner(use.quad, 1));
+    const Vector3 u = normal.unitOrthogonal(), v = normal.normalized().cross(u);
+    CriteriaPatch patch(u, v);
+    if (!draw(round, patch)) return false;
+    const auto [x, y] = lowest(patch, round);
+    Trial trial;
+    for (const double share : {1.0, 0.5}) {
+      Vector2 uv = face.mesh->uv[node];
+      trial.point = face.get_surface().move(uv, here + share * (x * u + y * v)).point;
+      if (!is_better(round, trial)) continue;
+      const double moved = (trial.point - here).norm();
+      face.mesh->points[node] = trial.point;
+      face.mesh->uv[node] = uv;
+      store(round, trial, moved > still_share * round.mean);
+      return true;
+    }
+    return false;
+  }
+
+  /// The best place found by a step of Newton's method, whose derivatives are differences over places that
+  /// are judged together, and by shares of that step.
+  static std::array<double, 2> lowest(const CriteriaPatch& patch, const Round& round) {
+    const double h = 0.1 * round.shortest;
+    const CriteriaPatch::Lanes x{0, h, -h, 0, 0, h, -h, 0}, y{0, 0, 0, h, -h, h, -h, 0};
+    const auto f = patch.evaluate(x, y);
+    const double gx = (f[1] - f[2]) / (2 * h), gy = (f[3] - f[4]) / (2 * h);
+    double xx = (f[1] + f[2] - 2 * f[0]) / (h * h), yy = (f[3] + f[4] - 2 * f[0]) / (h * h);
+    const double xy = (f[5] + f[6] + 2 * f[0] - f[1] - f[2] - f[3] - f[4]) / (2 * h * h);
+    // Made positive definite by a shift of the lower eigenvalue.
+    const double middle = 0.5 * (xx + yy), radius = std::hypot(0.5 * (xx - yy), xy);
+    const double wanted = 0.1 * (std::abs(middle) + radius),
+                 shift = std::max(0.0, wanted - (middle - radius));
+    xx += shift;
+    yy += shift;
+    const double determinant = xx * yy - xy * xy;
+    double sx = -(yy * gx - xy * gy) / determinant, sy = -(xx * gy - xy * gx) / determinant;
+    const double length = std::hypot(sx, sy), longest = 0.5 * round.mean;
+    const auto best = std::min_element(f.begin(), f.end()) - f.begin();
+    if (!std::isfinite(length) || length == 0) return {x[best], y[best]};
+    if (length > longest) {
+      sx *= longest / length;
+      sy *= longest / length;
+    }
+    constexpr CriteriaPatch::Lanes shares{1.5, 1.2, 1, 0.7, 0.4, 0.2, 0.1, 0.03};
+    CriteriaPatch::Lanes px, py;
+    for (int k = 0; k < CriteriaPatch::lanes; ++k) {
+      px[k] = shares[k] * sx;
+      py[k] = shares[k] * sy;
+    }
+    const auto along = patch.evaluate(px, py);
+    const auto lowest = std::min_element(along.begin(), along.end()) - along.begin();
+    if (f[best] < along[lowest]) return {x[best], y[best]};
+    return {px[lowest], py[lowest]};
+  }
+
+  // ---- after ----
+
+  void finish(FaceState& face) {
+    if (!face.touched) return;
+    FaceMesh& mesh = *face.mesh;
+    for (std::size_t i = 0; i < face.slid.size(); ++i)
+      if (face.slid[i]) face.get_surface().project(mesh.uv[i], mesh.points[i]);
+    mesh.inverted = 0;
+    mesh.q_min = 1;
+    SparseCheck check(context_);
+    for (const auto& [a, b, c, d] : mesh.quads) {
+      check();
+      const auto& p = mesh.points;
+      mesh.inverted += quad_scaled_jacobian(p[a], p[b], p[c], p[d]) <= 0;
+      mesh.q_min = std::min(mesh.q_min, quad_q(p[a], p[b], p[c], p[d]));
+    }
+  }
+
+  const CadShape& shape_;
+  BoundaryNodes& nodes_;
+  ExecutionContext& context_;
+  std::vector<FaceState> states_;
+  std::vector<int> first_instance_;
+  std::vector<Instance> instances_;
+  std::vector<char> slidable_;  // (boundary nodes)
+};
+
+}  // namespace
+
+void slide_nodes(const CadShape& shape, BoundaryNodes& nodes, std::vector<std::optional<FaceMesh>>& faces,
+                 const ImproveOptions& options, ExecutionContext& context) {
+  if (options.sliding_sweeps <= 0) return;
+  const StageTimer timer(context, "slide");
+  NodeSliding(shape, nodes, faces, context).run(options.sliding_sweeps);
+}
+
+}  // namespace quadrille

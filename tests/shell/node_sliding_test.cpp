@@ -1,0 +1,177 @@
+/// The last optimization, on every sample model: what it must keep, and what it must reach.
+
+#include "mesher/shell/node_sliding.hpp"
+
+#include <gtest/gtest.h>
+
+#include "geometry/base/threads.hpp"
+#include "geometry/surfaces/edge_curve.hpp"
+#include "mesher/quadrille.hpp"
+#include "mesher/quads/criteria_patch.hpp"
+#include "tests/support/sample_models.hpp"
+
+namespace quadrille {
+namespace {
+
+/// A model's faces, meshed but not yet put together.
+struct MeshedFaces {
+  CadModel model;
+  MeshOptions options;
+  BoundaryNodes nodes;
+  std::vector<std::optional<FaceMesh>> faces;
+
+  MeshedFaces(const SampleModel& sample, double divisions, Strategy strategy)
+      : model(CadModel::read(sample.path())) {
+    options.sizing.size = model.diagonal() / divisions;
+    options.strategy = strategy;
+    ExecutionContext context(1);
+    const SizingField field = SizingField::build(model, options.sizing, context);
+    const std::vector<char> used(sample.faces, 1);
+    nodes = sample_edges(shape(), field, stride(strategy), used, SamplingPlan(shape()), context);
+    for (int face = 0; face < sample.faces; ++face)
+      faces.emplace_back(mesh_face(shape(), face, nodes, field, options, 1, context));
+  }
+
+  const CadShape& shape() const { return model.shape(); }
+
+  void slide(int threads = 1) {
+    ExecutionContext context(threads);
+    on_threads(threads, [&] { slide_nodes(shape(), nodes, faces, options.improve, context); });
+  }
+
+  struct Measures {
+    double objective = 0, least_sine = 1;
+  };
+
+  Measures measure() const {
+    Measures result;
+    for (const auto& face : faces) {
+      for (const auto& [a, b, c, d] : face->quads) {
+        const auto& p = face->points;
+        const QuadObjective quad = measure_objective(p[a], p[b], p[c], p[d]);
+        result.objective += quad.value;
+        result.least_sine = std::min(result.least_sine, quad.least_sine);
+      }
+    }
+    return result;
+  }
+};
+
+template <class Visit>
+void for_each_case(Visit&& visit) {
+  for (const SampleModel& sample : sample_models()) {
+    for (const Strategy strategy : {Strategy::direct, Strategy::subdivide}) {
+      for (const double divisions : {12.0, 41.0}) {
+        SCOPED_TRACE(sample.name + " at 1/" + std::to_string(divisions));
+        MeshedFaces faces(sample, divisions, strategy);
+        visit(faces);
+      }
+    }
+  }
+}
+
+TEST(NodeSliding, KeepsNodesOnTheirCurvesInOrder) {
+  int moved = 0;
+  for_each_case([&](MeshedFaces& faces) {
+    const BoundaryNodes before = faces.nodes;
+    faces.slide();
+    for (const int node : before.vertex_nodes) {
+      if (node < 0) continue;
+      EXPECT_EQ(faces.nodes.points[node], before.points[node]);
+    }
+    for (std::size_t i = 0; i < before.edges.size(); ++i) {
+      const auto& edge = faces.nodes.edges[i];
+      EXPECT_EQ(edge.nodes, before.edges[i].nodes);
+      moved += edge.parameters != before.edges[i].parameters;
+      if (faces.shape().edges[i].degenerate || edge.nodes.empty()) continue;
+      const EdgeCurve curve(faces.shape().edges[i]);
+      for (std::size_t k = 1; k < edge.parameters.size(); ++k) {
+        EXPECT_LT(edge.parameters[k - 1], edge.parameters[k]);
+        if (edge.parameters[k] == before.edges[i].parameters[k]) continue;
+        EXPECT_EQ(curve.point(edge.parameters[k]), faces.nodes.points[edge.nodes[k]]);
+      }
+    }
+  });
+  EXPECT_GT(moved, 20);
+}
+
+TEST(NodeSliding, KeepsNodesOnTheirSurfaces) {
+  int moved = 0;
+  for_each_case([&](MeshedFaces& faces) {
+    const auto before = faces.faces;
+    faces.slide();
+    const double near = 1e-7 * faces.model.diagonal();
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const FaceMesh& face = *faces.faces[i];
+      EXPECT_EQ(face.quads, before[i]->quads);
+      const FaceSurface surface(faces.shape().faces[i]);
+      for (std::size_t k = 0; k < face.points.size(); ++k) {
+        const bool on_boundary = k < face.nodes.size();
+        EXPECT_EQ(face.points[k], on_boundary ? faces.nodes.points[face.nodes[k]] : face.points[k]);
+        if (face.points[k] == before[i]->points[k]) continue;
+        ++moved;
+        EXPECT_LT((surface.point(face.uv[k]) - face.points[k]).norm(), near);
+      }
+    }
+  });
+  EXPECT_GT(moved, 1000);
+}
+
+TEST(NodeSliding, LowersTheObjectiveAndBreaksNoFloor) {
+  constexpr double floor = 0.64;
+  for_each_case([&](MeshedFaces& faces) {
+    const auto before = faces.measure();
+    faces.slide();
+    const auto after = faces.measure();
+    EXPECT_LE(after.objective, before.objective);
+    EXPECT_GE(after.least_sine, std::min(before.least_sine, floor) - 1e-12);
+    for (const auto& face : faces.faces) {
+      EXPECT_EQ(face->inverted, 0);
+      double q_min = 1;
+      for (const auto& [a, b, c, d] : face->quads)
+        q_min = std::min(q_min, quad_q(face->points[a], face->points[b], face->points[c], face->points[d]));
+      EXPECT_EQ(face->q_min, q_min);
+    }
+  });
+}
+
+TEST(NodeSliding, DoesNotDependOnTheThreads) {
+  for (const char* name : {"bracket", "wing"}) {
+    const auto& all = sample_models();
+    const auto sample = std::find_if(all.begin(), all.end(), [&](const auto& m) { return m.name == name; });
+    MeshedFaces one(*sample, 41, Strategy::subdivide), four(*sample, 41, Strategy::subdivide);
+    one.slide(1);
+    four.slide(4);
+    EXPECT_EQ(one.nodes.points, four.nodes.points);
+    for (std::size_t i = 0; i < one.faces.size(); ++i) EXPECT_EQ(one.faces[i]->points, four.faces[i]->points);
+  }
+}
+
+TEST(NodeSliding, CanBeTurnedOff) {
+  MeshedFaces faces(sample_models().front(), 41, Strategy::subdivide);
+  const auto before = faces.nodes.points;
+  faces.options.improve.sliding_sweeps = 0;
+  faces.slide();
+  EXPECT_EQ(faces.nodes.points, before);
+}
+
+/// A chamfer whose two sides are spaced differently: what faces meshed one by one cannot mend.
+TEST(NodeSliding, StraightensRowsBetweenFacingEdges) {
+  const SampleModel& bracket = sample_models().front();
+  const CadModel model = CadModel::read(bracket.path());
+  std::array<CriteriaSummary, 2> summaries;
+  for (const int k : {0, 1}) {
+    MeshOptions options;
+    options.sizing.size = model.diagonal() / 60;
+    if (k == 0) options.improve.sliding_sweeps = 0;
+    ExecutionContext context(1);
+    const ShellMesh result = mesh(model, options, context);
+    EXPECT_TRUE(validate(result, true).empty());
+    summaries[k] = check_criteria(result);
+  }
+  EXPECT_GT(summaries[0].failing_but_warp, 0);
+  EXPECT_LT(summaries[1].failing_but_warp, 0.5 * summaries[0].failing_but_warp);
+}
+
+}  // namespace
+}  // namespace quadrille
