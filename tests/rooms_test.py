@@ -10,6 +10,7 @@ ROOMS = [
     "geometry/base",
     "geometry/cad",
     "geometry/surfaces",
+    "geometry/midsurface",
     "geometry/sizing",
     "mesher/mesh",
     "mesher/edges",

@@ -18,6 +18,7 @@ int run(int argc, char** argv);
 void add_mesh_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_quality_command(CLI::App& app);
+void add_midsurface_command(CLI::App& app);
 
 /// Writes to stdout at once. Throws Error (failure) when it is closed or full.
 void print(std::string_view text);

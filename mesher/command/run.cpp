@@ -54,6 +54,7 @@ void add_commands(CLI::App& app) {
   add_recombine_command(app);
   add_info_command(app);
   add_quality_command(app);
+  add_midsurface_command(app);
 }
 
 /// --help and --version also come as parse "errors".

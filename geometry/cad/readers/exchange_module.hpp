@@ -16,6 +16,9 @@ namespace quadrille {
 /// Type of <prefix>_read: an empty string, or the sentence that says what went wrong.
 using ExchangeReadFunction = std::string(const std::string& path, TopoDS_Shape& shape);
 
+/// Type of <prefix>_write: an empty string, or the sentence that says what went wrong.
+using ExchangeWriteFunction = std::string(const std::string& path, const TopoDS_Shape& shape);
+
 template <class Reader>
 std::string transfer(const std::string& path, const char* format, TopoDS_Shape& shape) {
   try {

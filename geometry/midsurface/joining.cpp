@@ -1,0 +1,248 @@
+#include "geometry/midsurface/joining.hpp"
+
+#include <BOPAlgo_Builder.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <ShapeUpgrade_UnifySameDomain.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_DataMapOfShapeInteger.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopTools_MapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Shell.hxx>
+#include <algorithm>
+
+#include "geometry/base/error.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// The faces on each edge.
+class EdgeUses {
+ public:
+  explicit EdgeUses(const std::vector<JoinedFace>& faces) {
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      for (TopExp_Explorer it(faces[i].face, TopAbs_EDGE); it.More(); it.Next()) {
+        if (BRep_Tool::Degenerated(TopoDS::Edge(it.Current()))) continue;
+        const int edge = edges_.Add(it.Current());
+        uses_.resize(edges_.Extent());
+        uses_[edge - 1].push_back({static_cast<int>(i), it.Current().Orientation()});
+      }
+    }
+  }
+
+  struct Use {
+    int face = 0;
+    TopAbs_Orientation orientation = TopAbs_FORWARD;
+  };
+  int count() const { return edges_.Extent(); }
+  const TopoDS_Shape& edge(int index) const { return edges_(index + 1); }
+  const std::vector<Use>& uses(int index) const { return uses_[index]; }
+
+ private:
+  TopTools_IndexedMapOfShape edges_;
+  std::vector<std::vector<Use>> uses_;
+};
+
+TopoDS_Compound compound_of(const std::vector<TopoDS_Face>& faces) {
+  TopoDS_Compound result;
+  const BRep_Builder builder;
+  builder.MakeCompound(result);
+  for (const TopoDS_Face& face : faces) builder.Add(result, face);
+  return result;
+}
+
+/// What an argument of the fuse has become.
+TopTools_ListOfShape images(const BOPAlgo_Builder& fuse, const TopoDS_Shape& face) {
+  if (fuse.Images().IsBound(face)) return fuse.Images().Find(face);
+  TopTools_ListOfShape itself;
+  itself.Append(face);
+  return itself;
+}
+
+std::vector<JoinedFace> covered_images(const BOPAlgo_Builder& fuse, const Skin& skin,
+                                       const std::vector<Wall>& walls,
+                                       const std::vector<std::vector<TopoDS_Face>>& pieces) {
+  constexpr double least_share = 0.25;
+  std::vector<JoinedFace> result;
+  for (std::size_t wall = 0; wall < walls.size(); ++wall) {
+    for (const TopoDS_Face& piece : pieces[wall]) {
+      for (const TopoDS_Shape& image : images(fuse, piece)) {
+        const TopoDS_Face& face = TopoDS::Face(image);
+        triangulate(face, 0.2 * walls[wall].thickness);
+        const Coverage coverage = coverage_of(face, walls[wall], skin);
+        if (coverage.share < least_share) continue;
+        result.push_back({face, static_cast<int>(wall), false, coverage});
+      }
+    }
+  }
+  return result;
+}
+
+/// Of the two ends at a step the fence of the thicker wall's joins.
+bool joins_step(const WallEnd& end, const std::vector<Wall>& walls) {
+  const double t = walls[end.wall].thickness, next = walls[end.next].thickness;
+  return end.step && (t > next || (t == next && end.wall < end.next));
+}
+
+/// Of the fences at steps, the parts between the two middle surfaces.
+void add_steps(const BOPAlgo_Builder& fuse, const std::vector<Wall>& walls, const std::vector<WallEnd>& ends,
+               std::vector<JoinedFace>& faces) {
+  const EdgeUses uses(faces);
+  TopTools_MapOfShape taken;
+  const auto touches = [&](const TopoDS_Shape& strip, int wall) {
+    for (int i = 0; i < uses.count(); ++i) {
+      for (const EdgeUses::Use& use : uses.uses(i)) {
+        if (faces[use.face].wall != wall) continue;
+        for (TopExp_Explorer it(strip, TopAbs_EDGE); it.More(); it.Next()) {
+          if (it.Current().IsSame(uses.edge(i))) return true;
+        }
+      }
+    }
+    return false;
+  };
+  std::vector<JoinedFace> strips;
+  for (const WallEnd& end : ends) {
+    if (!joins_step(end, walls)) continue;
+    const int thinner = end.next;
+    for (const TopoDS_Shape& image : images(fuse, end.fence)) {
+      if (!touches(image, end.wall) || !touches(image, end.next) || !taken.Add(image)) continue;
+      const double t = walls[thinner].thickness;
+      const auto faces_of_wall = both_sides(walls[thinner]);
+      strips.push_back(
+          {TopoDS::Face(image), thinner, true, {1, t, t, t, {faces_of_wall.begin(), faces_of_wall.end()}}});
+    }
+  }
+  faces.insert(faces.end(), strips.begin(), strips.end());
+}
+
+/// The faces of one wall, joined over edges that no other wall uses.
+void merge_wall(int wall, const Skin& skin, const std::vector<Wall>& walls,
+                const std::vector<JoinedFace>& all, const TopTools_MapOfShape& kept_edges,
+                std::vector<JoinedFace>& merged) {
+  TopoDS_Shell shell;
+  const BRep_Builder builder;
+  builder.MakeShell(shell);
+  int count = 0;
+  for (const JoinedFace& face : all) {
+    if (face.wall != wall || face.step) continue;
+    builder.Add(shell, face.face);
+    ++count;
+  }
+  if (count < 2) {
+    for (const JoinedFace& face : all) {
+      if (face.wall == wall && !face.step) merged.push_back(face);
+    }
+    return;
+  }
+  ShapeUpgrade_UnifySameDomain unify(shell, Standard_False, Standard_True, Standard_False);
+  unify.KeepShapes(kept_edges);
+  unify.Build();
+  for (TopExp_Explorer it(unify.Shape(), TopAbs_FACE); it.More(); it.Next()) {
+    const TopoDS_Face& face = TopoDS::Face(it.Current());
+    triangulate(face, 0.2 * walls[wall].thickness);
+    merged.push_back({face, wall, false, coverage_of(face, walls[wall], skin)});
+  }
+}
+
+std::vector<JoinedFace> merged_faces(const Skin& skin, const std::vector<Wall>& walls,
+                                     const std::vector<JoinedFace>& faces) {
+  const EdgeUses uses(faces);
+  TopTools_MapOfShape kept_edges;
+  for (int i = 0; i < uses.count(); ++i) {
+    const JoinedFace& first = faces[uses.uses(i).front().face];
+    const bool shared = std::any_of(uses.uses(i).begin(), uses.uses(i).end(), [&](const EdgeUses::Use& use) {
+      return faces[use.face].wall != first.wall || faces[use.face].step != first.step;
+    });
+    if (shared) kept_edges.Add(uses.edge(i));
+  }
+  std::vector<JoinedFace> result;
+  for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
+    merge_wall(wall, skin, walls, faces, kept_edges, result);
+  }
+  for (const JoinedFace& face : faces) {
+    if (face.step) result.push_back(face);
+  }
+  return result;
+}
+
+/// Turns faces so that across each edge with two faces they show the same side, as far as that can be.
+void orient_alike(std::vector<JoinedFace>& faces) {
+  const EdgeUses uses(faces);
+  std::vector<std::vector<std::pair<int, bool>>> neighbors(faces.size());  // and whether they differ
+  for (int i = 0; i < uses.count(); ++i) {
+    const auto& around = uses.uses(i);
+    if (around.size() != 2 || around[0].face == around[1].face) continue;
+    const bool differ = around[0].orientation == around[1].orientation;
+    neighbors[around[0].face].emplace_back(around[1].face, differ);
+    neighbors[around[1].face].emplace_back(around[0].face, differ);
+  }
+  std::vector<int> turned(faces.size(), -1);
+  for (std::size_t start = 0; start < faces.size(); ++start) {
+    if (turned[start] >= 0) continue;
+    turned[start] = 0;
+    std::vector<int> open{static_cast<int>(start)};
+    while (!open.empty()) {
+      const int face = open.back();
+      open.pop_back();
+      for (const auto& [next, differ] : neighbors[face]) {
+        if (turned[next] >= 0) continue;
+        turned[next] = differ ? 1 - turned[face] : turned[face];
+        open.push_back(next);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (turned[i] == 1) faces[i].face.Reverse();
+  }
+}
+
+}  // namespace
+
+std::vector<int> connected_parts(const std::vector<JoinedFace>& faces) {
+  const EdgeUses uses(faces);
+  std::vector<int> part(faces.size());
+  for (std::size_t i = 0; i < part.size(); ++i) part[i] = static_cast<int>(i);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (int i = 0; i < uses.count(); ++i) {
+      int least = part[uses.uses(i).front().face];
+      for (const auto& use : uses.uses(i)) least = std::min(least, part[use.face]);
+      for (const auto& use : uses.uses(i)) {
+        if (part[use.face] == least) continue;
+        part[use.face] = least;
+        changed = true;
+      }
+    }
+  }
+  std::vector<int> names = part;
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  for (int& p : part) p = static_cast<int>(std::lower_bound(names.begin(), names.end(), p) - names.begin());
+  return part;
+}
+
+std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& walls,
+                                   const std::vector<WallEnd>& ends,
+                                   const std::vector<std::vector<TopoDS_Face>>& pieces) {
+  BOPAlgo_Builder fuse;
+  fuse.SetNonDestructive(Standard_True);
+  for (const auto& of_wall : pieces) {
+    if (!of_wall.empty()) fuse.AddArgument(compound_of(of_wall));
+  }
+  for (const WallEnd& end : ends) {
+    if (joins_step(end, walls)) fuse.AddArgument(end.fence);
+  }
+  if (fuse.Arguments().Extent() > 1) fuse.Perform();
+  if (fuse.HasErrors()) throw failure("", "the middle surfaces could not be joined where they meet");
+  std::vector<JoinedFace> faces = covered_images(fuse, skin, walls, pieces);
+  add_steps(fuse, walls, ends, faces);
+  faces = merged_faces(skin, walls, faces);
+  orient_alike(faces);
+  return faces;
+}
+
+}  // namespace quadrille

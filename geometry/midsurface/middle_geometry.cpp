@@ -1,0 +1,149 @@
+#include "geometry/midsurface/middle_geometry.hpp"
+
+#include <BRep_Tool.hxx>
+#include <Geom_ConicalSurface.hxx>
+#include <Geom_CylindricalSurface.hxx>
+#include <Geom_Plane.hxx>
+#include <Geom_SphericalSurface.hxx>
+#include <Geom_ToroidalSurface.hxx>
+#include <cmath>
+#include <gp_Cone.hxx>
+#include <gp_Cylinder.hxx>
+#include <gp_Lin.hxx>
+#include <gp_Pln.hxx>
+#include <gp_Sphere.hxx>
+#include <gp_Torus.hxx>
+
+namespace quadrille {
+
+namespace {
+
+constexpr double same_length = 1e-6;     // over the solid's size
+constexpr double same_direction = 1e-5;  // radians
+
+bool same_axis(const gp_Ax1& a, const gp_Ax1& b, double size) {
+  return a.Direction().IsParallel(b.Direction(), same_direction) &&
+         gp_Lin(a).Distance(b.Location()) < same_length * size;
+}
+
+/// Where the apex of a cone lies on an axis that it shares.
+double apex_along(const gp_Cone& cone, const gp_Ax1& axis) {
+  return gp_Vec(axis.Location(), cone.Apex()).Dot(gp_Vec(axis.Direction()));
+}
+
+/// Half-angle of a cone, positive where it widens along the axis.
+double widening(const gp_Cone& cone, const gp_Ax1& axis) {
+  return cone.Axis().Direction().Dot(axis.Direction()) > 0 ? cone.SemiAngle() : -cone.SemiAngle();
+}
+
+bool same_cones(const gp_Cone& a, const gp_Cone& b, double size) {
+  return same_axis(a.Axis(), b.Axis(), size) &&
+         std::abs(widening(a, a.Axis()) - widening(b, a.Axis())) < same_direction;
+}
+
+bool same_planes(const SkinFace& a, const SkinFace& b, double size) {
+  const gp_Pln p = a.surface().Plane(), q = b.surface().Plane();
+  return p.Axis().Direction().IsParallel(q.Axis().Direction(), same_direction) &&
+         p.Distance(q.Location()) < same_length * size;
+}
+
+bool same_surfaces(const SkinFace& a, const SkinFace& b, double size) {
+  const BRepAdaptor_Surface &s = a.surface(), &t = b.surface();
+  const double near = same_length * size;
+  switch (s.GetType()) {
+    case GeomAbs_Plane:
+      return same_planes(a, b, size);
+    case GeomAbs_Cylinder:
+      return same_axis(s.Cylinder().Axis(), t.Cylinder().Axis(), size) &&
+             std::abs(s.Cylinder().Radius() - t.Cylinder().Radius()) < near;
+    case GeomAbs_Cone:
+      return same_cones(s.Cone(), t.Cone(), size) &&
+             std::abs(apex_along(s.Cone(), s.Cone().Axis()) - apex_along(t.Cone(), s.Cone().Axis())) < near;
+    case GeomAbs_Sphere:
+      return s.Sphere().Location().Distance(t.Sphere().Location()) < near &&
+             std::abs(s.Sphere().Radius() - t.Sphere().Radius()) < near;
+    case GeomAbs_Torus:
+      return same_axis(s.Torus().Axis(), t.Torus().Axis(), size) &&
+             s.Torus().Location().Distance(t.Torus().Location()) < near &&
+             std::abs(s.Torus().MajorRadius() - t.Torus().MajorRadius()) < near &&
+             std::abs(s.Torus().MinorRadius() - t.Torus().MinorRadius()) < near;
+    default:
+      return BRep_Tool::Surface(a.face()) == BRep_Tool::Surface(b.face());
+  }
+}
+
+/// The middle of a face's range of parameters, and whether the material's outside is to the side of du x dv
+/// of the elementary surface there.
+gp_Pnt2d middle_of_range(const BRepAdaptor_Surface& surface) {
+  return {0.5 * (surface.FirstUParameter() + surface.LastUParameter()),
+          0.5 * (surface.FirstVParameter() + surface.LastVParameter())};
+}
+
+/// A point that moves outwards with the material: the outside of `a` above it, below it for `b`.
+bool same_outside(const SkinFace& a, const SkinFace& b) {
+  const auto samples = a.samples(1);
+  if (samples.empty()) return false;
+  const auto here = a.outward(samples.front().uv);
+  const auto there = b.outward(b.closest(samples.front().point));
+  return here && there && here->Dot(*there) > 0;
+}
+
+Handle(Geom_Surface) between_planes(const SkinFace& a, const SkinFace& b) {
+  const auto n = a.outward(middle_of_range(a.surface()));
+  const auto m = b.outward(middle_of_range(b.surface()));
+  const gp_Pln p = a.surface().Plane(), q = b.surface().Plane();
+  const gp_XYZ difference =
+      n->XYZ() - m->XYZ();  // as far from one as from the other: difference * x = offset
+  const double offset = n->XYZ().Dot(p.Location().XYZ()) - m->XYZ().Dot(q.Location().XYZ());
+  const gp_Pnt at(p.Location().XYZ() +
+                  difference * ((offset - difference.Dot(p.Location().XYZ())) / difference.SquareModulus()));
+  return new Geom_Plane(gp_Ax3(at, gp_Dir(difference), p.XAxis().Direction()));
+}
+
+Handle(Geom_Surface) between_cones(const gp_Cone& a, const gp_Cone& b) {
+  const gp_Ax1 axis = a.Axis();
+  const double apex = 0.5 * (apex_along(a, axis) + apex_along(b, axis));
+  const double radius = -apex * std::tan(a.SemiAngle());
+  if (radius >= 0) return new Geom_ConicalSurface(a.Position(), a.SemiAngle(), radius);
+  gp_Ax3 moved = a.Position();  // the radius of reference must not be negative
+  moved.SetLocation(gp_Pnt(axis.Location().XYZ() + apex * axis.Direction().XYZ()));
+  return new Geom_ConicalSurface(moved, a.SemiAngle(), 0);
+}
+
+}  // namespace
+
+bool on_one_surface(const SkinFace& a, const SkinFace& b, double size) {
+  return a.surface().GetType() == b.surface().GetType() && same_surfaces(a, b, size) && same_outside(a, b);
+}
+
+Handle(Geom_Surface) middle_surface(const SkinFace& a, const SkinFace& b, double size) {
+  const BRepAdaptor_Surface &s = a.surface(), &t = b.surface();
+  if (s.GetType() != t.GetType()) return {};
+  const double near = same_length * size;
+  switch (s.GetType()) {
+    case GeomAbs_Plane:
+      return between_planes(a, b);
+    case GeomAbs_Cylinder:
+      if (!same_axis(s.Cylinder().Axis(), t.Cylinder().Axis(), size)) return {};
+      return new Geom_CylindricalSurface(s.Cylinder().Position(),
+                                         0.5 * (s.Cylinder().Radius() + t.Cylinder().Radius()));
+    case GeomAbs_Cone:
+      return same_cones(s.Cone(), t.Cone(), size) ? between_cones(s.Cone(), t.Cone())
+                                                  : Handle(Geom_Surface)();
+    case GeomAbs_Sphere:
+      if (s.Sphere().Location().Distance(t.Sphere().Location()) > near) return {};
+      return new Geom_SphericalSurface(s.Sphere().Position(),
+                                       0.5 * (s.Sphere().Radius() + t.Sphere().Radius()));
+    case GeomAbs_Torus:
+      if (!same_axis(s.Torus().Axis(), t.Torus().Axis(), size) ||
+          s.Torus().Location().Distance(t.Torus().Location()) > near ||
+          std::abs(s.Torus().MajorRadius() - t.Torus().MajorRadius()) > near)
+        return {};
+      return new Geom_ToroidalSurface(s.Torus().Position(), s.Torus().MajorRadius(),
+                                      0.5 * (s.Torus().MinorRadius() + t.Torus().MinorRadius()));
+    default:
+      return {};
+  }
+}
+
+}  // namespace quadrille

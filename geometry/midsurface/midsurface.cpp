@@ -1,0 +1,332 @@
+#include "geometry/midsurface/midsurface.hpp"
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Copy.hxx>
+#include <BRepClass3d_SolidClassifier.hxx>
+#include <BRepGProp.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
+#include <Precision.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Shell.hxx>
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/midsurface/joining.hpp"
+#include "geometry/midsurface/skin.hpp"
+#include "geometry/midsurface/wall_pieces.hpp"
+#include "geometry/midsurface/walls.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// What one solid gives.
+struct SolidMiddle {
+  std::vector<JoinedFace> faces;
+  std::vector<Wall> walls;
+  double volume = 0;
+};
+
+double area_of(const TopoDS_Shape& shape) {
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(shape, properties, 1e-6);
+  return std::abs(properties.Mass());
+}
+
+double volume_of(const TopoDS_Shape& shape) {
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties, 1e-6);
+  return std::abs(properties.Mass());
+}
+
+/// Walls that bend into each other count as one when their width is asked for.
+std::vector<int> bent_groups(std::size_t walls, const std::vector<WallEnd>& ends) {
+  std::vector<int> group(walls);
+  for (std::size_t i = 0; i < walls; ++i) group[i] = static_cast<int>(i);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const WallEnd& end : ends) {
+      const int least = std::min(group[end.wall], group[end.next]);
+      changed = changed || group[end.wall] != least || group[end.next] != least;
+      group[end.wall] = group[end.next] = least;
+    }
+  }
+  return group;
+}
+
+/// The shorter side of the rectangle of that area and perimeter.
+double width_of(double area, double perimeter) {
+  const double half = 0.25 * perimeter;
+  return half * half > area ? half - std::sqrt(half * half - area) : std::sqrt(area);
+}
+
+double length_of(const TopoDS_Shape& edge) {
+  GProp_GProps properties;
+  BRepGProp::LinearProperties(edge, properties);
+  return properties.Mass();
+}
+
+/// Area of the faces that are thicker than `thickest` times their width, over the area of all.
+double thick_share(const SolidMiddle& middle, const std::vector<WallEnd>& ends, double thickest) {
+  const std::vector<int> group = bent_groups(middle.walls.size(), ends);
+  double all = 0, thick = 0;
+  for (std::size_t g = 0; g < middle.walls.size(); ++g) {
+    TopTools_IndexedMapOfShape rims;
+    std::vector<int> uses;
+    double area = 0, volume = 0;
+    for (const JoinedFace& face : middle.faces) {
+      if (group[face.wall] != static_cast<int>(g)) continue;
+      const double own = area_of(face.face);
+      area += own;
+      volume += own * face.coverage.mean;
+      for (TopExp_Explorer it(BRepTools::OuterWire(face.face), TopAbs_EDGE); it.More(); it.Next()) {
+        const int rim = rims.Add(it.Current());
+        uses.resize(rims.Extent());
+        ++uses[rim - 1];
+      }
+    }
+    double perimeter = 0;
+    for (int i = 1; i <= rims.Extent(); ++i) perimeter += uses[i - 1] == 1 ? length_of(rims(i)) : 0;
+    all += area;
+    if (area > 0 && volume / area > thickest * width_of(area, perimeter)) thick += area;
+  }
+  return all > 0 ? thick / all : 1;
+}
+
+/// Refused with one sentence.
+Error not_thin(const std::string& name, const MidSurfaceOptions& options) {
+  return failure(name,
+                 fmt::format("{} is not a thin solid: no wall whose thickness is under {:g} of its width "
+                             "makes up its volume; mesh it as a solid, or its skin with quadrille mesh",
+                             name, options.thickest));
+}
+
+SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const MidSurfaceOptions& options,
+                            const ExecutionContext& context) {
+  SolidMiddle result;
+  result.volume = volume_of(skin.solid());
+  const std::vector<int> surfaces = surface_numbers(skin);
+  result.walls = find_walls(skin, surfaces, context);
+  if (result.walls.empty()) throw not_thin(name, options);
+  const std::vector<WallEnd> ends = find_wall_ends(skin, result.walls, surfaces);
+  std::vector<std::vector<TopoDS_Face>> pieces(result.walls.size());
+  for (std::size_t wall = 0; wall < pieces.size(); ++wall) {
+    context.check();
+    pieces[wall] = wall_pieces(skin, result.walls, static_cast<int>(wall), ends);
+  }
+  context.check();
+  result.faces = join_walls(skin, result.walls, ends, pieces);
+  if (thick_share(result, ends, options.thickest) > 0.5) throw not_thin(name, options);
+  return result;
+}
+
+/// Shells where the faces meet two by two, else faces that share edges.
+TopoDS_Compound assemble(const std::vector<JoinedFace>& faces) {
+  TopoDS_Compound result;
+  const BRep_Builder builder;
+  builder.MakeCompound(result);
+  const std::vector<int> part = connected_parts(faces);
+  const int parts = part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end());
+  for (int p = 0; p < parts; ++p) {
+    TopTools_IndexedDataMapOfShapeListOfShape around;
+    TopoDS_Shell shell;
+    builder.MakeShell(shell);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (part[i] != p) continue;
+      builder.Add(shell, faces[i].face);
+      TopExp::MapShapesAndAncestors(faces[i].face, TopAbs_EDGE, TopAbs_FACE, around);
+    }
+    const bool manifold = std::all_of(around.cbegin(), around.cend(),
+                                      [](const TopTools_ListOfShape& list) { return list.Extent() <= 2; });
+    if (manifold) {
+      builder.Add(result, shell);
+      continue;
+    }
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (part[i] == p) builder.Add(result, faces[i].face);
+    }
+  }
+  BRepTools::Clean(result);  // without the triangles that were sampled
+  return result;
+}
+
+/// The faces of the skin that a point lies on.
+std::vector<int> skin_at(const Skin& skin, const gp_Pnt& point, double tolerance) {
+  std::vector<int> result;
+  for (std::size_t i = 0; i < skin.faces().size(); ++i) {
+    if (skin.faces()[i].box().Distance(Bnd_Box(point, point)) > tolerance) continue;
+    const auto foot = skin.faces()[i].foot(point);
+    if (foot && foot->Distance(point) < tolerance) result.push_back(static_cast<int>(i));
+  }
+  return result;
+}
+
+/// Checks the free edges against the skin, and names the faces that no wall accounts for.
+void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_IndexedMapOfShape& edge_numbers,
+                MidSurface& result) {
+  double thinnest = skin.size();
+  for (const Wall& wall : middle.walls) thinnest = std::min(thinnest, wall.thickness);
+  const double tolerance = 1e-3 * thinnest;
+  std::set<int> accounted;
+  for (const JoinedFace& face : middle.faces) {
+    accounted.insert(face.coverage.faces.begin(), face.coverage.faces.end());
+  }
+  TopTools_IndexedDataMapOfShapeListOfShape around;
+  for (const JoinedFace& face : middle.faces) {
+    TopExp::MapShapesAndAncestors(face.face, TopAbs_EDGE, TopAbs_FACE, around);
+  }
+  for (int i = 1; i <= around.Extent(); ++i) {
+    const TopoDS_Edge& edge = TopoDS::Edge(around.FindKey(i));
+    if (around(i).Extent() > 1 || BRep_Tool::Degenerated(edge)) continue;
+    if (BRep_Tool::IsClosed(edge, TopoDS::Face(around(i).First()))) continue;  // a seam
+    ++result.free_edges;
+    const BRepAdaptor_Curve curve(edge);
+    const double length = curve.LastParameter() - curve.FirstParameter();
+    bool stray = false;
+    for (const double share : {0.5, 0.2, 0.8}) {
+      const auto on = skin_at(skin, curve.Value(curve.FirstParameter() + share * length), tolerance);
+      accounted.insert(on.begin(), on.end());
+      stray = stray || on.empty();
+    }
+    if (stray) result.stray_edges.push_back(edge_numbers.FindIndex(edge));
+  }
+  for (std::size_t i = 0; i < skin.faces().size(); ++i) {
+    if (accounted.count(static_cast<int>(i)) == 0) result.unpaired.push_back(skin.faces()[i].number());
+  }
+}
+
+std::string face_names(const std::vector<int>& numbers) {
+  std::vector<std::string> names;
+  constexpr std::size_t most = 12;
+  for (std::size_t i = 0; i < std::min(most, numbers.size()); ++i) {
+    names.push_back(fmt::format("Face{}", numbers[i]));
+  }
+  if (numbers.size() > most) names.push_back(fmt::format("{} more", numbers.size() - most));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// What the checks found wrong, one sentence each.
+std::vector<std::string> find_problems(const MidSurface& result, const std::string& name) {
+  std::vector<std::string> problems;
+  constexpr double most_missing = 0.05;
+  const double share = result.shell_volume / result.volume;
+  constexpr double most_twice = 0.1;  // where walls meet, the corner counts for either
+  if (share < 1 - most_missing || share > 1 + most_twice) {
+    std::string sentence = fmt::format(
+        "{} is thin in places only: area times thickness of its middle surface is {:.1f} % of its volume",
+        name, 100 * share);
+    if (!result.unpaired.empty()) sentence += "; without a partner: " + face_names(result.unpaired);
+    problems.push_back(sentence);
+  }
+  if (result.parts != result.solids) {
+    problems.push_back(
+        fmt::format("{}: the middle surface falls into {} parts where the model has {} solid{}", name,
+                    result.parts, result.solids, result.solids == 1 ? "" : "s"));
+  }
+  if (!result.stray_edges.empty()) {
+    problems.push_back(
+        fmt::format("{}: {} edges of the middle surface end inside the material, the first of them Edge{} of "
+                    "the result",
+                    name, result.stray_edges.size(), result.stray_edges.front()));
+  }
+  return problems;
+}
+
+void describe_faces(const std::vector<SolidMiddle>& middles, const std::deque<Skin>& skins,
+                    MidSurface& result) {
+  const auto& shape = result.model.shape().shape;
+  TopTools_IndexedMapOfShape numbers, edge_numbers;
+  TopExp::MapShapes(shape, TopAbs_FACE, numbers);
+  TopExp::MapShapes(shape, TopAbs_EDGE, edge_numbers);
+  result.faces.resize(numbers.Extent());
+  for (std::size_t solid = 0; solid < middles.size(); ++solid) {
+    const SolidMiddle& middle = middles[solid];
+    for (const JoinedFace& joined : middle.faces) {
+      const Coverage& coverage = joined.coverage;
+      MiddleFace& face = result.faces.at(numbers.FindIndex(joined.face) - 1);
+      face = {coverage.thinnest,           coverage.thickest, coverage.mean, area_of(joined.face), {},
+              static_cast<int>(solid) + 1, joined.step};
+      for (const int index : coverage.faces) {
+        face.solid_faces.push_back(skins[solid].faces()[index].number());
+      }
+      std::sort(face.solid_faces.begin(), face.solid_faces.end());
+      if (!face.step) result.shell_volume += face.area * face.thickness;
+    }
+    result.volume += middle.volume;
+    check_rims(skins[solid], middle, edge_numbers, result);
+  }
+}
+
+/// The solids of the shape, with the material inside and triangles to sample from.
+std::deque<Skin> skins_of(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape numbers, solids;
+  TopExp::MapShapes(shape, TopAbs_FACE, numbers);
+  TopExp::MapShapes(shape, TopAbs_SOLID, solids);
+  std::deque<Skin> result;
+  for (int i = 1; i <= solids.Extent(); ++i) {
+    TopoDS_Solid solid = TopoDS::Solid(solids(i));
+    BRepClass3d_SolidClassifier classifier(solid);
+    classifier.PerformInfinitePoint(Precision::Confusion());
+    if (classifier.State() == TopAbs_IN) solid.Reverse();
+    Bnd_Box box;
+    BRepBndLib::Add(solid, box, Standard_False);
+    triangulate(solid, 1e-3 * std::sqrt(box.SquareExtent()));
+    result.emplace_back(solid, numbers);
+  }
+  return result;
+}
+
+MidSurface make(const CadModel& model, const MidSurfaceOptions& options, ExecutionContext& context) {
+  const std::string& name = model.shape().name;
+  const TopoDS_Shape shape = BRepBuilderAPI_Copy(model.shape().shape).Shape();
+  const std::deque<Skin> skins = skins_of(shape);
+  if (skins.empty())
+    throw failure(name, fmt::format("{} holds no solid, which a middle surface needs", name));
+  std::vector<SolidMiddle> middles;
+  std::vector<JoinedFace> all;
+  for (const Skin& skin : skins) {
+    context.report("midsurface", static_cast<double>(middles.size()) / static_cast<double>(skins.size()));
+    middles.push_back(middle_of_solid(skin, name, options, context));
+    all.insert(all.end(), middles.back().faces.begin(), middles.back().faces.end());
+  }
+  if (all.empty()) throw not_thin(name, options);
+  MidSurface result{CadModel(std::make_shared<CadShape>(assemble(all), name + " (middle surface)"))};
+  result.solids = static_cast<int>(skins.size());
+  const std::vector<int> part = connected_parts(all);
+  result.parts = 1 + *std::max_element(part.begin(), part.end());
+  describe_faces(middles, skins, result);
+  result.problems = find_problems(result, name);
+  if (!options.partial && !result.problems.empty())
+    throw failure(name, result.problems.front() + "; --partial gives what could be paired");
+  return result;
+}
+
+}  // namespace
+
+MidSurface midsurface(const CadModel& model, const MidSurfaceOptions& options, ExecutionContext& context) {
+  const StageTimer timer(context, "midsurface");
+  try {
+    return make(model, options, context);
+  } catch (const Standard_Failure& problem) {
+    throw failure(model.shape().name, fmt::format("{}: its middle surface cannot be made ({})",
+                                                  model.shape().name, problem.GetMessageString()));
+  }
+}
+
+}  // namespace quadrille

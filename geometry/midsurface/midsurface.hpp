@@ -1,0 +1,54 @@
+#pragma once
+/// Thin solids become shells: the middle surface of a solid with its thickness.
+
+#include <string>
+#include <vector>
+
+#include "geometry/base/execution_context.hpp"
+#include "geometry/cad/cad_model.hpp"
+
+namespace quadrille {
+
+struct MidSurfaceOptions {
+  /// Give what could be paired where a part of the solid is not thin, and say what is left out. Otherwise
+  /// that is an error.
+  bool partial = false;
+  /// Largest thickness of a wall over its width that still counts as thin.
+  double thickest = 0.2;
+};
+
+/// One face of the middle surface.
+struct MiddleFace {
+  double thinnest = 0, thickest = 0;  ///< millimetres; equal where the thickness is constant
+  double thickness = 0;               ///< mean over the face
+  double area = 0;
+  std::vector<int> solid_faces;  ///< numbers of the solid's faces that it lies between
+  int solid = 0;                 ///< from 1, in the order of the model
+  /// It joins two middle surfaces that pass each other where the thickness steps; it has the smaller
+  /// thickness of the two.
+  bool step = false;
+};
+
+/// The middle surfaces of the solids of a model, and what the program found when it checked them.
+struct MidSurface {
+  CadModel model;                   ///< its faces, which share their edges where they meet
+  std::vector<MiddleFace> faces{};  ///< by face number minus 1
+  double volume = 0;                ///< of the solids
+  double shell_volume = 0;          ///< sum of area times mean thickness
+  int solids = 0;
+  int parts = 0;                        ///< connected parts of the middle surface
+  int free_edges = 0;                   ///< edges that bound one face only
+  std::vector<int> stray_edges{};       ///< of these, the ones that do not lie on the skin of the solid
+  std::vector<int> unpaired{};          ///< numbers of solid faces that are neither side nor rim of a wall
+  std::vector<std::string> problems{};  ///< with options.partial: what would have been an error
+};
+
+/// The middle surface of each solid of the model: faces that face each other through the material are paired;
+/// the surface in the middle of a pair is exact for planes, cylinders, cones, spheres and tori; surfaces run
+/// on to where they meet and share edges there. Solids are kept apart. Throws Error (failure) with a
+/// sentence: where the model holds no solid, a solid is not thin, or, without options.partial, where more
+/// than a twentieth of the volume is not in walls, or the result is checked and found not connected or with
+/// free edges inside the material; cancelled. Deterministic.
+MidSurface midsurface(const CadModel& model, const MidSurfaceOptions& options, ExecutionContext& context);
+
+}  // namespace quadrille

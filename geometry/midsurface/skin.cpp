@@ -1,0 +1,177 @@
+#include "geometry/midsurface/skin.hpp"
+
+#include <BRepBndLib.hxx>
+#include <BRepGProp.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <Poly_Triangulation.hxx>
+#include <Precision.hxx>
+#include <TopExp.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace quadrille {
+
+namespace {
+
+struct Triangle {
+  std::array<gp_Pnt2d, 3> uv;
+  double area = 0;
+};
+
+std::vector<Triangle> triangles_of(const TopoDS_Face& face) {
+  TopLoc_Location place;
+  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
+  std::vector<Triangle> result;
+  if (mesh.IsNull() || !mesh->HasUVNodes()) return result;
+  for (int i = 1; i <= mesh->NbTriangles(); ++i) {
+    std::array<int, 3> nodes{};
+    mesh->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
+    const gp_Vec ab(mesh->Node(nodes[0]), mesh->Node(nodes[1]));
+    const gp_Vec ac(mesh->Node(nodes[0]), mesh->Node(nodes[2]));
+    Triangle triangle;
+    for (int j = 0; j < 3; ++j) triangle.uv[j] = mesh->UVNode(nodes[j]);
+    triangle.area = 0.5 * ab.Crossed(ac).Magnitude();
+    result.push_back(triangle);
+  }
+  return result;
+}
+
+gp_Pnt2d blend(const std::array<gp_Pnt2d, 3>& corners, double a, double b) {
+  const double c = 1 - a - b;
+  return {a * corners[0].X() + b * corners[1].X() + c * corners[2].X(),
+          a * corners[0].Y() + b * corners[1].Y() + c * corners[2].Y()};
+}
+
+/// The centers of the n * n equal triangles that a triangle divides into.
+void add_centers(const Triangle& triangle, int n, const BRepAdaptor_Surface& surface,
+                 std::vector<FaceSample>& samples) {
+  const auto add = [&](double a, double b) {
+    const gp_Pnt2d uv = blend(triangle.uv, a, b);
+    samples.push_back({uv, surface.Value(uv.X(), uv.Y()), triangle.area / (n * n)});
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; i + j < n; ++j) {
+      add((i + 1.0 / 3) / n, (j + 1.0 / 3) / n);
+      if (i + j + 1 < n) add((i + 2.0 / 3) / n, (j + 2.0 / 3) / n);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least) {
+  const std::vector<Triangle> triangles = triangles_of(face);
+  double area = 0;
+  for (const Triangle& triangle : triangles) area += triangle.area;
+  std::vector<FaceSample> result;
+  if (!(area > 0)) return result;
+  const BRepAdaptor_Surface surface(face, Standard_False);
+  for (const Triangle& triangle : triangles) {
+    const int n = std::clamp(static_cast<int>(std::ceil(std::sqrt(at_least * triangle.area / area))), 1, 64);
+    add_centers(triangle, n, surface, result);
+  }
+  return result;
+}
+
+void triangulate(const TopoDS_Shape& shape, double deflection) {
+  const double angle = 0.4;  // radians between neighboring triangles of a curved face
+  BRepMesh_IncrementalMesh(shape, deflection, Standard_False, angle, Standard_False);
+}
+
+SkinFace::SkinFace(const TopoDS_Face& face, int number)
+    : face_(face),
+      number_(number),
+      adaptor_(std::make_shared<BRepAdaptor_Surface>(face, Standard_False)),
+      inverse_(std::make_shared<ShapeAnalysis_Surface>(BRep_Tool::Surface(face))),
+      inside_(std::make_shared<BRepTopAdaptor_FClass2d>(face, Precision::PConfusion())) {
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(face, properties);
+  area_ = std::abs(properties.Mass());
+  BRepBndLib::Add(face, box_, Standard_False);
+}
+
+std::optional<gp_Dir> SkinFace::outward(const gp_Pnt2d& uv) const {
+  gp_Pnt at;
+  gp_Vec du, dv;
+  adaptor_->D1(uv.X(), uv.Y(), at, du, dv);
+  const gp_Vec normal = du.Crossed(dv);
+  if (normal.Magnitude() <= 1e-12 * (du.SquareMagnitude() + dv.SquareMagnitude())) return std::nullopt;
+  return face_.Orientation() == TopAbs_REVERSED ? gp_Dir(normal.Reversed()) : gp_Dir(normal);
+}
+
+gp_Pnt2d SkinFace::closest(const gp_Pnt& point) const {
+  return inverse_->ValueOfUV(point, Precision::Confusion());
+}
+
+std::optional<gp_Pnt> SkinFace::foot(const gp_Pnt& from) const {
+  const gp_Pnt2d uv = closest(from);
+  const TopAbs_State state = inside_->Perform(uv, Standard_True);
+  if (state != TopAbs_IN && state != TopAbs_ON) return std::nullopt;
+  return point(uv);
+}
+
+Skin::Skin(const TopoDS_Solid& solid, const TopTools_IndexedMapOfShape& numbers) : solid_(solid) {
+  TopExp::MapShapes(solid, TopAbs_FACE, map_);
+  faces_.reserve(map_.Extent());
+  for (int i = 1; i <= map_.Extent(); ++i) {
+    faces_.emplace_back(TopoDS::Face(map_(i)), numbers.FindIndex(map_(i)));
+  }
+  Bnd_Box box;
+  for (const SkinFace& face : faces_) box.Add(face.box());
+  size_ = std::sqrt(box.SquareExtent());
+  for (const SkinFace& face : faces_) {
+    rays_.push_back(std::make_unique<IntCurvesFace_Intersector>(face.face(), 1e-7 * size_));
+  }
+}
+
+std::vector<int> Skin::faces_along(const gp_Lin& line, double from, double to) const {
+  const gp_Pnt a(line.Location().XYZ() + from * line.Direction().XYZ());
+  const gp_Pnt b(line.Location().XYZ() + to * line.Direction().XYZ());
+  std::vector<int> result;
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    const gp_Pnt low = faces_[i].box().CornerMin(), high = faces_[i].box().CornerMax();
+    double first = 0, last = 1;
+    for (int axis = 1; axis <= 3; ++axis) {
+      const double start = a.Coord(axis), change = b.Coord(axis) - start;
+      double enter = (low.Coord(axis) - start) / change, leave = (high.Coord(axis) - start) / change;
+      if (std::abs(change) < 1e-12 * size_) {
+        const bool within = start >= low.Coord(axis) && start <= high.Coord(axis);
+        enter = within ? 0 : 2;
+        leave = within ? 1 : -1;
+      }
+      first = std::max(first, std::min(enter, leave));
+      last = std::min(last, std::max(enter, leave));
+    }
+    if (first <= last) result.push_back(static_cast<int>(i));
+  }
+  return result;
+}
+
+std::optional<Skin::Hit> Skin::first_hit(const gp_Pnt& from, const gp_Dir& direction) const {
+  const gp_Lin line(from, direction);
+  Hit best;
+  for (const int face : faces_along(line, 1e-6 * size_, size_)) {
+    IntCurvesFace_Intersector& ray = *rays_[face];
+    ray.Perform(line, 1e-6 * size_, size_);
+    for (int i = 1; ray.IsDone() && i <= ray.NbPnt(); ++i) {
+      if (best.face >= 0 && ray.WParameter(i) >= best.distance) continue;
+      best = {face, gp_Pnt2d(ray.UParameter(i), ray.VParameter(i)), ray.Pnt(i), ray.WParameter(i)};
+    }
+  }
+  return best.face < 0 ? std::nullopt : std::optional(best);
+}
+
+bool Skin::meets_face(const gp_Pnt& from, const gp_Dir& direction, double reach) const {
+  const gp_Lin line(from, direction);
+  for (const int face : faces_along(line, -reach, reach)) {
+    rays_[face]->Perform(line, -reach, reach);
+    if (rays_[face]->IsDone() && rays_[face]->NbPnt() > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace quadrille

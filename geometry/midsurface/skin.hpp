@@ -1,0 +1,103 @@
+#pragma once
+/// The skin of a solid: its faces with the directions out of the material, sample points on them, and rays
+/// through the material. Internal.
+
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepTopAdaptor_FClass2d.hxx>
+#include <Bnd_Box.hxx>
+#include <IntCurvesFace_Intersector.hxx>
+#include <ShapeAnalysis_Surface.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Solid.hxx>
+#include <gp_Dir.hxx>
+#include <gp_Lin.hxx>
+#include <gp_Pnt.hxx>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace quadrille {
+
+/// A point of a face that stands for a part of its area.
+struct FaceSample {
+  gp_Pnt2d uv;
+  gp_Pnt point;
+  double area = 0;
+};
+
+/// Points inside a face, `at_least` of them or more, spread over its triangulation, which it must carry.
+std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least);
+
+/// Gives the faces of a shape triangles to sample from. \param deflection largest distance from the shape.
+void triangulate(const TopoDS_Shape& shape, double deflection);
+
+/// One face of a solid. Evaluation caches inside: one object a thread.
+class SkinFace {
+ public:
+  /// \param face oriented as the solid has it. \param number in the model, from 1.
+  SkinFace(const TopoDS_Face& face, int number);
+
+  const TopoDS_Face& face() const { return face_; }
+  int number() const { return number_; }
+  const BRepAdaptor_Surface& surface() const { return *adaptor_; }
+  double area() const { return area_; }
+  /// Unit normal out of the material; none where the surface is singular.
+  std::optional<gp_Dir> outward(const gp_Pnt2d& uv) const;
+  /// The closest point of the (untrimmed) surface.
+  gp_Pnt2d closest(const gp_Pnt& point) const;
+  gp_Pnt point(const gp_Pnt2d& uv) const { return adaptor_->Value(uv.X(), uv.Y()); }
+  /// The foot of the perpendicular from the point, if it lies in the face.
+  std::optional<gp_Pnt> foot(const gp_Pnt& point) const;
+  const Bnd_Box& box() const { return box_; }
+
+  std::vector<FaceSample> samples(int at_least) const { return sample_face(face_, at_least); }
+
+ private:
+  TopoDS_Face face_;
+  int number_;
+  double area_ = 0;
+  Bnd_Box box_;
+  std::shared_ptr<BRepAdaptor_Surface> adaptor_;
+  std::shared_ptr<ShapeAnalysis_Surface> inverse_;
+  std::shared_ptr<BRepTopAdaptor_FClass2d> inside_;
+};
+
+/// The faces of one solid.
+class Skin {
+ public:
+  struct Hit {
+    int face = -1;  ///< index into faces()
+    gp_Pnt2d uv;
+    gp_Pnt point;
+    double distance = 0;
+  };
+
+  /// \param solid with triangulated faces, material inside. \param numbers face numbers in the model.
+  Skin(const TopoDS_Solid& solid, const TopTools_IndexedMapOfShape& numbers);
+  Skin(const Skin&) = delete;
+  Skin& operator=(const Skin&) = delete;
+
+  const TopoDS_Solid& solid() const { return solid_; }
+  const std::vector<SkinFace>& faces() const { return faces_; }
+  /// Index of a face of the solid; -1 if it is none.
+  int index_of(const TopoDS_Face& face) const { return map_.FindIndex(face) - 1; }
+  double size() const { return size_; }  ///< diagonal of the bounding box
+
+  /// What a ray into the material meets first.
+  std::optional<Hit> first_hit(const gp_Pnt& from, const gp_Dir& direction) const;
+  /// Whether a face lies within `reach` of the point, along the direction or against it.
+  bool meets_face(const gp_Pnt& from, const gp_Dir& direction, double reach) const;
+
+ private:
+  /// The faces whose boxes a line meets between two parameters.
+  std::vector<int> faces_along(const gp_Lin& line, double from, double to) const;
+
+  TopoDS_Solid solid_;
+  TopTools_IndexedMapOfShape map_;
+  std::vector<SkinFace> faces_;
+  double size_ = 0;
+  std::vector<std::unique_ptr<IntCurvesFace_Intersector>> rays_;  ///< a face
+};
+
+}  // namespace quadrille

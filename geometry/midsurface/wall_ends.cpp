@@ -1,0 +1,179 @@
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRep_Tool.hxx>
+#include <GeomAPI_Interpolate.hxx>
+#include <GeomFill.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Geom_Circle.hxx>
+#include <Geom_Line.hxx>
+#include <Geom_TrimmedCurve.hxx>
+#include <Precision.hxx>
+#include <TColgp_HArray1OfPnt.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <cmath>
+#include <gp_Circ.hxx>
+
+#include "geometry/midsurface/wall_pieces.hpp"
+
+namespace quadrille {
+
+namespace {
+
+const double nearly_parallel = std::cos(45 * M_PI / 180);
+
+/// One edge of a face, with the direction into the material and the one that leads away from the face.
+class FaceEdge {
+ public:
+  FaceEdge(const SkinFace& face, const TopoDS_Edge& edge) : face_(face), edge_(edge), curve_(edge) {}
+
+  double first() const { return curve_.FirstParameter(); }
+  double last() const { return curve_.LastParameter(); }
+  bool closed() const {
+    return curve_.Value(first()).Distance(curve_.Value(last())) < Precision::Confusion();
+  }
+  const BRepAdaptor_Curve& curve() const { return curve_; }
+
+  gp_Dir outward(double t) const {
+    const auto normal = face_.outward(face_.closest(curve_.Value(t)));
+    return normal ? *normal : gp::DZ();
+  }
+  gp_Pnt inside(double t, double depth) const {
+    return curve_.Value(t).Translated(-depth * gp_Vec(outward(t)));
+  }
+  /// In the face's tangent plane, across the edge.
+  gp_Vec away(double t) const {
+    gp_Pnt at;
+    gp_Vec along;
+    curve_.D1(t, at, along);
+    if (along.Magnitude() < Precision::Confusion()) return {};
+    // A face lies to the left of its edges, seen from outside.
+    const gp_Vec right = along.Crossed(gp_Vec(outward(t))).Normalized();
+    return edge_.Orientation() == TopAbs_REVERSED ? right.Reversed() : right;
+  }
+
+ private:
+  const SkinFace& face_;
+  TopoDS_Edge edge_;
+  BRepAdaptor_Curve curve_;
+};
+
+Handle(Geom_Curve) interpolated(const FaceEdge& edge, double depth) {
+  constexpr int intervals = 32;
+  const bool closed = edge.closed();
+  const int count = closed ? intervals : intervals + 1;
+  Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, count);
+  for (int i = 0; i < count; ++i) {
+    const double t = edge.first() + (edge.last() - edge.first()) * i / intervals;
+    points->SetValue(i + 1, edge.inside(t, depth));
+  }
+  GeomAPI_Interpolate spline(points, closed, Precision::Confusion());
+  spline.Perform();
+  return Handle(Geom_Curve)(spline.Curve());
+}
+
+/// The edge moved into the material: lines stay lines, arcs arcs, where all its points do.
+Handle(Geom_Curve) moved(const FaceEdge& edge, double depth) {
+  const double first = edge.first(), last = edge.last(), near = 1e-5 * std::abs(depth);
+  const auto at = [&](double share) { return edge.inside(first + share * (last - first), depth); };
+  if (edge.curve().GetType() == GeomAbs_Line) {
+    const gp_Pnt middle(0.5 * (at(0).XYZ() + at(1).XYZ()));
+    if (middle.Distance(at(0.5)) < near)
+      return new Geom_TrimmedCurve(new Geom_Line(at(0), gp_Dir(gp_Vec(at(0), at(1)))), 0,
+                                   at(0).Distance(at(1)));
+  }
+  if (edge.curve().GetType() == GeomAbs_Circle) {
+    gp_Ax2 frame = edge.curve().Circle().Position();
+    const gp_Vec up(frame.Direction());
+    frame.Translate(gp_Vec(frame.Location(), at(0)).Dot(up) * up);
+    const gp_Circ circle(frame, at(0).Distance(frame.Location()));
+    const bool stays = circle.Distance(at(0.3)) < near && circle.Distance(at(0.6)) < near;
+    if (stays) return new Geom_TrimmedCurve(new Geom_Circle(circle), first, last);
+  }
+  return interpolated(edge, depth);
+}
+
+/// Whether the wall is there at a point, running nearly along the plane across the direction.
+bool runs_through(const Wall& wall, const Skin& skin, const gp_Pnt& point, const gp_Dir& across) {
+  const auto position = position_in(wall, skin, point);
+  if (!position || position->thickness() < Precision::Confusion()) return false;
+  return std::abs(gp_Dir(gp_Vec(position->feet[0], position->feet[1])).Dot(across)) > nearly_parallel;
+}
+
+/// The wall that begins where this one ends at the edge; -1 if there is none.
+int next_wall(const Skin& skin, const std::vector<Wall>& walls, int wall, const FaceEdge& edge) {
+  const double t = walls[wall].thickness;
+  for (const double share : {0.5, 0.25, 0.75}) {
+    const double at = edge.first() + share * (edge.last() - edge.first());
+    const gp_Pnt beyond = edge.inside(at, 0.5 * t).Translated(0.05 * t * edge.away(at));
+    for (int other = 0; other < static_cast<int>(walls.size()); ++other) {
+      if (other == wall) continue;
+      if (runs_through(walls[other], skin, beyond, edge.outward(at))) return other;
+    }
+  }
+  return -1;
+}
+
+/// How deep below the edge the middle of the next wall lies, measured as the depth of this wall's middle is.
+double depth_of_next(const Skin& skin, const Wall& wall, const Wall& next, const FaceEdge& edge) {
+  const double at = 0.5 * (edge.first() + edge.last()), t = wall.thickness;
+  const gp_Pnt beyond = edge.inside(at, 0.5 * t).Translated(1e-3 * t * edge.away(at));
+  const auto position = position_in(next, skin, beyond);
+  if (!position) return 0.5 * t;
+  const gp_Pnt middle(0.5 * (position->feet[0].XYZ() + position->feet[1].XYZ()));
+  return 0.5 * t - gp_Vec(beyond, middle).Dot(gp_Vec(edge.outward(at)));
+}
+
+WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, int next, const FaceEdge& edge) {
+  const double t = walls[wall].thickness;
+  const double own = 0.5 * t, other = depth_of_next(skin, walls[wall], walls[next], edge);
+  const bool step = std::abs(own - other) > 1e-2 * t;
+  const double high = std::min(own, other) - 0.1 * t, low = std::max(own, other) + 0.1 * t;
+  const Handle(Geom_Surface) across = GeomFill::Surface(moved(edge, high), moved(edge, low));
+  return {wall, next, BRepBuilderAPI_MakeFace(across, Precision::Confusion()).Face(), step};
+}
+
+/// A bend has an edge on either side of the wall: one fence does for both.
+bool stands_already(const FaceEdge& edge, const Wall& wall, std::vector<gp_Pnt>& centers) {
+  const gp_Pnt center = edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * wall.thickness);
+  for (const gp_Pnt& other : centers) {
+    if (other.Distance(center) < 1e-2 * wall.thickness) return true;
+  }
+  centers.push_back(center);
+  return false;
+}
+
+}  // namespace
+
+std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,
+                                    const std::vector<int>& surfaces) {
+  TopTools_IndexedDataMapOfShapeListOfShape neighbors;
+  TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, neighbors);
+  const auto inside_surface = [&](const TopoDS_Edge& edge) {
+    const TopTools_ListOfShape& around = neighbors.FindFromKey(edge);
+    const int first = skin.index_of(TopoDS::Face(around.First()));
+    const int last = skin.index_of(TopoDS::Face(around.Last()));
+    return surfaces[first] == surfaces[last];
+  };
+  std::vector<WallEnd> ends;
+  for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
+    std::vector<gp_Pnt> centers;
+    for (const int index : both_sides(walls[wall])) {
+      const SkinFace& face = skin.faces()[index];
+      for (TopExp_Explorer it(face.face(), TopAbs_EDGE); it.More(); it.Next()) {
+        const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
+        if (BRep_Tool::Degenerated(edge) || inside_surface(edge)) continue;
+        const FaceEdge face_edge(face, edge);
+        const int next = next_wall(skin, walls, wall, face_edge);
+        if (next < 0 || stands_already(face_edge, walls[wall], centers)) continue;
+        ends.push_back(make_end(skin, walls, wall, next, face_edge));
+      }
+    }
+  }
+  return ends;
+}
+
+}  // namespace quadrille

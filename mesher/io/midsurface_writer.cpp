@@ -1,0 +1,100 @@
+#include "mesher/io/midsurface_writer.hpp"
+
+#include <unistd.h>
+
+#include <BRepTools.hxx>
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "geometry/base/atomic_file.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/module_loader.hpp"
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/cad/readers/exchange_module.hpp"
+
+namespace quadrille {
+
+namespace {
+
+constexpr std::array<std::string_view, 5> endings{".brep", ".brp", ".step", ".stp", ".json"};
+
+std::string ending_of(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+std::string brep_text(const TopoDS_Shape& shape) {
+  std::ostringstream text;
+  BRepTools::Write(shape, text);
+  return text.str();
+}
+
+/// OpenCASCADE writes STEP to files that it names itself only: by way of a folder of its own.
+std::string step_text(const TopoDS_Shape& shape) {
+  std::string name = (std::filesystem::temp_directory_path() / "quadrille-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) throw failure(name, fmt::format("{}: cannot be made", name));
+  const std::filesystem::path folder(name), file = folder / "middle.step";
+  const std::string problem =
+      Module("quadrille_step").function<ExchangeWriteFunction>("_write")(file.string(), shape);
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+  std::filesystem::remove(folder, ignored);
+  if (!problem.empty()) throw failure(file.string(), problem);
+  return text.str();
+}
+
+nlohmann::json describe(const MidSurface& middle) {
+  nlohmann::json faces = nlohmann::json::array();
+  for (std::size_t i = 0; i < middle.faces.size(); ++i) {
+    const MiddleFace& face = middle.faces[i];
+    faces.push_back({{"name", fmt::format("Face{}", i + 1)},
+                     {"solid", face.solid},
+                     {"solid_faces", face.solid_faces},
+                     {"area", face.area},
+                     {"thickness", face.thickness},
+                     {"thickness_min", face.thinnest},
+                     {"thickness_max", face.thickest},
+                     {"step", face.step}});
+  }
+  return {{"faces", faces},
+          {"volume", middle.volume},
+          {"area_times_thickness", middle.shell_volume},
+          {"solids", middle.solids},
+          {"parts", middle.parts},
+          {"free_edges", middle.free_edges},
+          {"edges_inside_the_material", middle.stray_edges},
+          {"unpaired_solid_faces", middle.unpaired},
+          {"problems", middle.problems}};
+}
+
+}  // namespace
+
+bool is_midsurface_format(const std::filesystem::path& path) {
+  return std::find(endings.begin(), endings.end(), ending_of(path)) != endings.end();
+}
+
+void write_midsurface(const MidSurface& middle, const std::filesystem::path& path) {
+  const std::string ending = ending_of(path);
+  const TopoDS_Shape& shape = middle.model.shape().shape;
+  if (!is_midsurface_format(path))
+    throw usage_error(path.string(),
+                      fmt::format("{}: a middle surface is written as .brep, .step or .json", path.string()));
+  if (ending == ".json")
+    write_file(path, describe(middle).dump(2) + "\n");
+  else if (ending == ".step" || ending == ".stp")
+    write_file(path, step_text(shape));
+  else
+    write_file(path, brep_text(shape));
+}
+
+}  // namespace quadrille

@@ -1,0 +1,19 @@
+#pragma once
+/// Files of middle surfaces. The format follows from the file's ending.
+
+#include <filesystem>
+
+#include "geometry/midsurface/midsurface.hpp"
+
+namespace quadrille {
+
+/// Writes the faces of the middle surface as .brep, .brp, .step or .stp, or what is known of them as .json:
+/// for each face its area, thickness (mean, least and largest) and the solid's faces that it lies between,
+/// and the checks. The file appears whole or not at all. Throws Error: usage for an unknown ending, failure
+/// when the file cannot be written.
+void write_midsurface(const MidSurface& middle, const std::filesystem::path& path);
+
+/// True if write_midsurface knows the file's ending.
+bool is_midsurface_format(const std::filesystem::path& path);
+
+}  // namespace quadrille

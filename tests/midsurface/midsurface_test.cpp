@@ -1,0 +1,184 @@
+#include "geometry/midsurface/midsurface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
+#include <BRepTools.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+#include "geometry/base/error.hpp"
+#include "geometry/cad/cad_shape.hpp"
+#include "mesher/quadrille.hpp"
+#include "tests/models/thin_models.hpp"
+
+namespace quadrille {
+
+void PrintTo(const ThinModel& model, std::ostream* stream) {
+  *stream << model.name;
+}
+
+namespace {
+
+CadModel model_of(const TopoDS_Shape& shape, const std::string& name = "part") {
+  return CadModel(std::make_shared<CadShape>(shape, name));
+}
+
+MidSurface middle_of(const TopoDS_Shape& shape, bool partial = false) {
+  ExecutionContext context;
+  MidSurfaceOptions options;
+  options.partial = partial;
+  return midsurface(model_of(shape), options, context);
+}
+
+std::string brep_of(const MidSurface& middle) {
+  std::ostringstream text;
+  BRepTools::Write(middle.model.shape().shape, text);
+  return text.str();
+}
+
+double area_of(const MidSurface& middle) {
+  return std::accumulate(middle.faces.begin(), middle.faces.end(), 0.0,
+                         [](double sum, const MiddleFace& face) { return sum + face.area; });
+}
+
+/// Closed chains that the free edges form; chains that touch count as one.
+int free_loops(const CadModel& model) {
+  std::vector<int> chain(model.vertex_count() + 1);
+  std::iota(chain.begin(), chain.end(), 0);
+  std::set<int> used;
+  const auto end_of = [&](int vertex) {
+    while (chain[vertex] != vertex) vertex = chain[vertex];
+    return vertex;
+  };
+  for (const CadEdge& edge : model.shape().edges) {
+    if (edge.degenerate || edge.faces.size() != 1) continue;
+    chain[end_of(edge.first_vertex)] = end_of(edge.last_vertex);
+    used.insert({edge.first_vertex, edge.last_vertex});
+  }
+  std::set<int> ends;
+  for (const int vertex : used) ends.insert(end_of(vertex));
+  return static_cast<int>(ends.size());
+}
+
+class Thin : public testing::TestWithParam<ThinModel> {};
+
+TEST_P(Thin, BecomesItsMiddleSurface) {
+  const ThinModel& model = GetParam();
+  const MidSurface middle = middle_of(model.make());
+  EXPECT_TRUE(middle.problems.empty());
+  EXPECT_EQ(middle.parts, 1);
+  EXPECT_TRUE(middle.stray_edges.empty());
+  EXPECT_NEAR(middle.shell_volume / middle.volume, 1, model.share_off);
+  if (model.middle_area > 0) {
+    EXPECT_NEAR(area_of(middle) / model.middle_area, 1, 1e-6);
+  }
+  EXPECT_EQ(free_loops(middle.model), model.free_loops);
+  std::vector<double> thicknesses;
+  for (const MiddleFace& face : middle.faces) {
+    EXPECT_GE(face.solid_faces.size(), 2U);
+    thicknesses.push_back(1e-2 * std::round(1e2 * face.thickness));
+  }
+  std::sort(thicknesses.begin(), thicknesses.end());
+  thicknesses.erase(std::unique(thicknesses.begin(), thicknesses.end()), thicknesses.end());
+  EXPECT_EQ(thicknesses, model.thicknesses);
+}
+
+// Measured without what made the surface: the mesh's nodes against the solid's skin.
+TEST_P(Thin, LiesInTheMiddleAndCanBeMeshed) {
+  const TopoDS_Shape solid = GetParam().make();
+  const MidSurface middle = middle_of(solid);
+  MeshOptions options;
+  options.sizing.elements_per_diagonal = 25;
+  ExecutionContext context;
+  const ShellMesh result = mesh(middle.model, options, context);
+  EXPECT_FALSE(result.quads.empty());
+  const TopoDS_Shape skin = TopExp_Explorer(solid, TopAbs_SHELL).Current();
+  std::vector<bool> on_edge(result.points.size());
+  for (const ShellMesh::Segment& segment : result.segments)
+    on_edge[segment.nodes[0]] = on_edge[segment.nodes[1]] = true;
+  int on_middle = 0, asked = 0;
+  for (std::size_t i = 0; i < result.quads.size() && asked < 50; ++i) {
+    const MiddleFace& face = middle.faces[result.quad_faces[i] - 1];
+    if (face.step || face.thickest > 1.001 * face.thinnest || on_edge[result.quads[i][0]]) continue;
+    const Vector3& node = result.points[result.quads[i][0]];
+    BRepExtrema_DistShapeShape distance(
+        BRepBuilderAPI_MakeVertex(gp_Pnt(node.x(), node.y(), node.z())).Vertex(), skin);
+    ++asked;
+    // Nearer than half the thickness only where another wall's skin is near.
+    if (std::abs(distance.Value() - 0.5 * face.thickness) < 0.01 * face.thickness) ++on_middle;
+  }
+  EXPECT_GE(on_middle, 0.9 * asked);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, Thin, testing::ValuesIn(thin_models()),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(MidSurface, RefusesABlock) {
+  try {
+    middle_of(thick_block(), true);
+    FAIL() << "a block is not thin";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Error::Kind::failure);
+    EXPECT_NE(std::string(error.what()).find("not a thin solid"), std::string::npos);
+  }
+}
+
+TEST(MidSurface, NamesTheFacesWithoutAPartner) {
+  try {
+    middle_of(plate_on_block());
+    FAIL() << "the block under the plate is not thin";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("without a partner: Face"), std::string::npos);
+  }
+  const MidSurface middle = middle_of(plate_on_block(), true);
+  EXPECT_EQ(middle.problems.size(), 1U);
+  ASSERT_EQ(middle.faces.size(), 1U);
+  EXPECT_NEAR(middle.faces[0].thickness, 3, 1e-9);
+  EXPECT_GE(middle.unpaired.size(), 4U);
+}
+
+TEST(MidSurface, TellsTheRangeOfAThicknessThatVaries) {
+  for (const ThinModel& model : thin_models()) {
+    if (model.name != "tapering_web") continue;
+    const MidSurface middle = middle_of(model.make());
+    EXPECT_NEAR(middle.faces[0].thinnest, 2, 1e-2);
+    EXPECT_NEAR(middle.faces[0].thickest, 4, 1e-2);
+  }
+}
+
+TEST(MidSurface, NeedsASolid) {
+  const TopoDS_Shape face = TopExp_Explorer(thick_block(), TopAbs_FACE).Current();
+  EXPECT_THROW(middle_of(face), Error);
+}
+
+TEST(MidSurface, IsTheSameEachTime) {
+  const TopoDS_Shape solid = ribbed_plate(2);
+  EXPECT_EQ(brep_of(middle_of(solid)), brep_of(middle_of(solid)));
+}
+
+TEST(MidSurface, IsQuickAndNeverEditsTheSolid) {
+  const TopoDS_Shape solid = ribbed_plate(6);
+  std::ostringstream before, after;
+  BRepTools::Write(solid, before);
+  const std::clock_t start = std::clock();
+  const MidSurface middle = middle_of(solid);
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  BRepTools::Write(solid, after);
+  EXPECT_GE(model_of(solid).face_count(), 200);
+  EXPECT_EQ(middle.parts, 1);
+  EXPECT_EQ(before.str(), after.str());
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  EXPECT_LT(seconds, 2);
+#endif
+}
+
+}  // namespace
+}  // namespace quadrille

@@ -1,0 +1,261 @@
+#include "tests/models/thin_models.hpp"
+
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <GC_MakeArcOfCircle.hxx>
+#include <Geom_TrimmedCurve.hxx>
+#include <ShapeUpgrade_UnifySameDomain.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Wire.hxx>
+#include <cmath>
+#include <gp_Ax2.hxx>
+#include <gp_Vec.hxx>
+
+namespace quadrille {
+
+namespace {
+
+using Outline = std::vector<Corner2d>;
+
+gp_Pnt at(const Corner2d& corner) {
+  return {corner.x, corner.y, 0};
+}
+
+TopoDS_Wire rounded(const Outline& outline) {
+  BRepBuilderAPI_MakeWire wire;
+  const std::size_t n = outline.size();
+  std::vector<gp_Pnt> into(n), middle(n), out(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const gp_Pnt p = at(outline[i]);
+    gp_Vec back(p, at(outline[(i + n - 1) % n])), ahead(p, at(outline[(i + 1) % n]));
+    back.Normalize();
+    ahead.Normalize();
+    const double half = 0.5 * back.Angle(ahead), radius = outline[i].radius;
+    into[i] = p.Translated(radius / std::tan(half) * back);
+    out[i] = p.Translated(radius / std::tan(half) * ahead);
+    const gp_Vec inward = (back + ahead).Normalized();
+    middle[i] = p.Translated((radius / std::sin(half) - radius) * inward);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (outline[i].radius > 0)
+      wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(into[i], middle[i], out[i]).Value()).Edge());
+    const gp_Pnt& next = into[(i + 1) % n];
+    if (out[i].Distance(next) > 1e-9) wire.Add(BRepBuilderAPI_MakeEdge(out[i], next).Edge());
+  }
+  return wire.Wire();
+}
+
+TopoDS_Shape box(double x, double y, double z, double dx, double dy, double dz) {
+  return BRepPrimAPI_MakeBox(gp_Pnt(x, y, z), dx, dy, dz).Shape();
+}
+
+TopoDS_Shape drill(double x, double y, double z, const gp_Dir& axis, double radius, double depth) {
+  return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(x, y, z), axis), radius, depth).Shape();
+}
+
+TopoDS_Shape cut(const TopoDS_Shape& from, const std::vector<TopoDS_Shape>& tools) {
+  TopoDS_Shape result = from;
+  for (const TopoDS_Shape& tool : tools) result = BRepAlgoAPI_Cut(result, tool).Shape();
+  return result;
+}
+
+/// One solid, without the edges where the parts met.
+TopoDS_Shape fuse(const std::vector<TopoDS_Shape>& parts) {
+  TopoDS_Shape result = parts.front();
+  for (std::size_t i = 1; i < parts.size(); ++i) result = BRepAlgoAPI_Fuse(result, parts[i]).Shape();
+  ShapeUpgrade_UnifySameDomain unify(result);
+  unify.Build();
+  return TopExp_Explorer(unify.Shape(), TopAbs_SOLID).Current();
+}
+
+Outline rectangle(double x, double y, double dx, double dy, double radius = 0) {
+  return {{x, y, radius}, {x + dx, y, radius}, {x + dx, y + dy, radius}, {x, y + dy, radius}};
+}
+
+constexpr double r = 3, t = 2, R = r + t;  // inner and outer radius of bends in sheets of 2 mm
+
+TopoDS_Shape plate_with_holes() {
+  return cut(box(0, 0, 0, 120, 70, 2), {drill(22, 20, -1, gp::DZ(), 9, 4), drill(60, 45, -1, gp::DZ(), 14, 4),
+                                        drill(98, 18, -1, gp::DZ(), 6, 4), box(85, 46, -1, 20, 8, 4)});
+}
+
+TopoDS_Shape l_section() {
+  const Outline outline{{0, 0, R}, {40, 0}, {40, t}, {t, t, r}, {t, 60}, {0, 60}};
+  return cut(profile({outline}, 100), {drill(20, -1, 30, gp::DY(), 5, 4), box(-1, 30, 60, 4, 12, 20)});
+}
+
+TopoDS_Shape u_section() {
+  const Outline outline{{0, 0, R},      {50, 0, R}, {50, 30}, {50 - t, 30},
+                        {50 - t, t, r}, {t, t, r},  {t, 30},  {0, 30}};
+  // A notch that runs through a bend.
+  return cut(profile({outline}, 120), {drill(25, -1, 40, gp::DY(), 8, 4), box(-1, -1, 70, 20, 15, 20)});
+}
+
+TopoDS_Shape z_section() {
+  const Outline outline{{0, 0},   {30, 0, R},      {30, 40 - t, r}, {60, 40 - t},
+                        {60, 40}, {30 - t, 40, R}, {30 - t, t, r},  {0, t}};
+  return cut(profile({outline}, 90), {drill(15, -1, 45, gp::DY(), 6, 4)});
+}
+
+TopoDS_Shape hat_section() {
+  const Outline outline{{0, 0},  {20, 0, R},     {20, 30 - t, r}, {60, 30 - t, r}, {60, 0, R},     {80, 0},
+                        {80, t}, {60 + t, t, r}, {60 + t, 30, R}, {20 - t, 30, R}, {20 - t, t, r}, {0, t}};
+  return cut(profile({outline}, 120), {drill(40, 25, 60, gp::DY(), 9, 10), drill(8, -1, 20, gp::DY(), 3, 4)});
+}
+
+TopoDS_Shape square_tube() {
+  return profile({rectangle(0, 0, 50, 50, 6), rectangle(3, 3, 44, 44, 3)}, 150);
+}
+
+TopoDS_Shape round_tube() {
+  return cut(drill(0, 0, 0, gp::DZ(), 25, 120), {drill(0, 0, -1, gp::DZ(), 22, 122)});
+}
+
+Outline i_outline(double width, double height, double web, double flange, double fillet) {
+  const double a = 0.5 * (width - web), b = a + web, top = height - flange;
+  return {{0, 0},           {width, 0},       {width, flange},     {b, flange, fillet},
+          {b, top, fillet}, {width, top},     {width, height},     {0, height},
+          {0, top},         {a, top, fillet}, {a, flange, fillet}, {0, flange}};
+}
+
+TopoDS_Shape t_beam(double fillet) {
+  return profile({{{0, 0}, {60, 0}, {60, 4}, {32, 4, fillet}, {32, 60}, {28, 60}, {28, 4, fillet}, {0, 4}}},
+                 200);
+}
+
+TopoDS_Shape box_beam(double outer, double inner) {
+  return profile({rectangle(0, 0, 60, 80, outer), rectangle(3, 4, 54, 72, inner)}, 200);
+}
+
+/// Two flat parts of 50 mm, measured in the middle, at 135 degrees, without a radius.
+TopoDS_Shape folded_sheet() {
+  const double c = std::sqrt(0.5), k = std::tan(M_PI / 8);  // the corner's sides end k away from its middle
+  return profile({{{0, -1},
+                   {50 + k, -1},
+                   {50 + 50 * c + c, 50 * c - c},
+                   {50 + 50 * c - c, 50 * c + c},
+                   {50 - k, 1},
+                   {0, 1}}},
+                 80);
+}
+
+/// A tube with a smaller tube on its side, open inside.
+TopoDS_Shape nozzle() {
+  const TopoDS_Shape outer = fuse({drill(0, 0, 0, gp::DZ(), 30, 120), drill(0, 0, 60, gp::DX(), 15, 60)});
+  return cut(outer, {drill(0, 0, -1, gp::DZ(), 27, 122), drill(0, 0, 60, gp::DX(), 13, 61)});
+}
+
+TopoDS_Shape sharp_l() {
+  return profile({{{0, 0}, {40, 0}, {40, 3}, {2, 3}, {2, 60}, {0, 60}}}, 100);
+}
+
+/// A pocket from one side leaves 2 of 3 mm.
+TopoDS_Shape stepped_sheet() {
+  return cut(box(0, 0, 0, 100, 50, 3), {box(50, -1, 2, 51, 52, 2)});
+}
+
+/// A pocket inside, half as deep as the sheet is thick.
+TopoDS_Shape pocket_sheet() {
+  return cut(box(0, 0, 0, 100, 60, 4), {box(30, 20, 2, 40, 20, 3)});
+}
+
+TopoDS_Shape tapering_web() {
+  return profile({{{0, 0}, {100, 0}, {100, 2}, {0, 4}}}, 60);
+}
+
+/// A cylinder with half-spheres as heads.
+TopoDS_Shape tank() {
+  const auto capsule = [](double radius) {
+    return fuse({drill(0, 0, 0, gp::DZ(), radius, 80),
+                 BRepPrimAPI_MakeSphere(gp_Ax2(gp_Pnt(0, 0, 0), gp::DZ()), radius).Shape(),
+                 BRepPrimAPI_MakeSphere(gp_Ax2(gp_Pnt(0, 0, 80), gp::DZ()), radius).Shape()});
+  };
+  return cut(capsule(31), {capsule(29)});
+}
+
+}  // namespace
+
+TopoDS_Shape profile(const std::vector<Outline>& outlines, double length) {
+  BRepBuilderAPI_MakeFace face(rounded(outlines.front()), Standard_True);
+  for (std::size_t i = 1; i < outlines.size(); ++i) {
+    face.Add(TopoDS::Wire(rounded(outlines[i]).Reversed()));
+  }
+  return BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0, 0, length)).Shape();
+}
+
+TopoDS_Shape ribbed_plate(int ribs) {
+  std::vector<TopoDS_Shape> parts{box(0, 0, 0, 200, 200, 3)};
+  for (int i = 1; i <= ribs; ++i) {
+    const double x = 200.0 * i / (ribs + 1);
+    parts.push_back(box(x - 1, 0, 0, 2, 200, 25));
+    parts.push_back(box(0, x - 1, 0, 200, 2, 25));
+  }
+  return fuse(parts);
+}
+
+TopoDS_Shape thick_block() {
+  return box(0, 0, 0, 30, 20, 10);
+}
+
+TopoDS_Shape plate_on_block() {
+  return fuse({box(0, 0, 0, 40, 40, 40), box(18, 0, 40, 3, 40, 60)});
+}
+
+const std::vector<ThinModel>& thin_models() {
+  // Of the middle of a 2 mm sheet: a bend, and what it takes of the two straight ends at it.
+  const double bend = 0.5 * M_PI * (r + 0.5 * t), end = r + t;
+  const auto hole = [](double radius) { return M_PI * radius * radius; };
+  const auto i_beam = [](double fillet) {
+    return [=] { return profile({i_outline(60, 100, 4, 6, fillet)}, 200); };
+  };
+  static const std::vector<ThinModel> models{
+      {"plate_with_holes", plate_with_holes, 120 * 70 - hole(9) - hole(14) - hole(6) - 160, {2}, 0.01, 5},
+      {"l_section", l_section, 100 * (40 + 60 - 2 * end + bend) - hole(5) - 12 * 20, {2}, 0.01, 3},
+      {"u_section",
+       u_section,
+       120 * (50 + 2 * 30 - 4 * end + 2 * bend) - hole(8) - 20 * (19 + 14 - 2 * end + bend),
+       {2},
+       0.01,
+       3},
+      {"z_section", z_section, 90 * (30 + 32 + 40 - 4 * end + 2 * bend) - hole(6), {2}, 0.01, 2},
+      {"hat_section",
+       hat_section,
+       120 * (2 * 20 + 2 * 30 + 44 - 8 * end + 4 * bend) - hole(9) - hole(3),
+       {2},
+       0.01,
+       3},
+      {"square_tube", square_tube, 150 * (4 * 38 + 2 * M_PI * 4.5), {3}, 0.01, 2},
+      {"round_tube", round_tube, 120 * 2 * M_PI * 23.5, {3}, 0.01, 2},
+      {"i_beam", i_beam(0), 200 * (2 * 60 + 94), {4, 6}, 0.03, 1},
+      {"i_beam_with_fillets", i_beam(5), 200 * (2 * 60 + 94), {4, 6}, 0.03, 1},
+      {"h_beam",
+       [] { return profile({i_outline(100, 100, 5, 7, 0)}, 200); },
+       200 * (2 * 100 + 93),
+       {5, 7},
+       0.03,
+       1},
+      {"t_beam", [] { return t_beam(0); }, 200 * (60 + 58), {4}, 0.03, 1},
+      {"t_beam_with_fillets", [] { return t_beam(4); }, 200 * (60 + 58), {4}, 0.03, 1},
+      {"box_beam", [] { return box_beam(0, 0); }, 200 * 2 * (57 + 76), {3, 4}, 0.01, 2},
+      {"box_beam_with_fillets", [] { return box_beam(0, 4); }, 200 * 2 * (57 + 76), {3, 4}, 0.03, 2},
+      {"sharp_l", sharp_l, 100 * (39 + 58.5), {2, 3}, 0.01, 1},
+      {"folded_sheet", folded_sheet, 80 * (50 + 50), {2}, 0.01, 1},
+      {"ribbed_plate", [] { return ribbed_plate(2); }, 200 * 200 + 4 * 200 * 23.5, {2, 3}, 0.02, 1},
+      {"stepped_sheet", stepped_sheet, 100 * 50 + 0.5 * 50, {2, 3}, 0.01, 1},
+      {"pocket_sheet", pocket_sheet, 100 * 60 + 120, {2, 4}, 0.01, 1},
+      {"tapering_web", tapering_web, 60 * 100 / std::cos(0.5 * std::atan(0.02)), {3}, 0.01, 1},
+      {"tank", tank, 80 * 2 * M_PI * 30 + 4 * M_PI * 900, {2}, 0.01, 0},
+      {"nozzle", nozzle, 0, {2, 3}, 0.03, 3},
+  };
+  return models;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,41 @@
+#pragma once
+/// Thin solids whose middle surface is known.
+
+#include <TopoDS_Shape.hxx>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace quadrille {
+
+struct ThinModel {
+  std::string name;  ///< fit for a file name
+  std::function<TopoDS_Shape()> make;
+  double middle_area = 0;           ///< of the true middle surface; 0 = not known
+  std::vector<double> thicknesses;  ///< that occur, ascending
+  double share_off = 0.01;          ///< how far area times thickness may be off the volume
+  int free_loops = 0;               ///< closed chains of free edges
+};
+
+/// Each can be turned into its middle surface.
+const std::vector<ThinModel>& thin_models();
+
+/// A block, which is not thin.
+TopoDS_Shape thick_block();
+
+/// A plate that stands on a block: thin in places only.
+TopoDS_Shape plate_on_block();
+
+/// A plate with many ribs: 200 faces and more.
+TopoDS_Shape ribbed_plate(int ribs_each_way);
+
+/// An outline, its corners in order, rounded by a radius each.
+struct Corner2d {
+  double x = 0, y = 0, radius = 0;
+};
+
+/// The solid between outlines in the plane z = 0, the first one outside, the others holes in it, and the same
+/// at z = length.
+TopoDS_Shape profile(const std::vector<std::vector<Corner2d>>& outlines, double length);
+
+}  // namespace quadrille
