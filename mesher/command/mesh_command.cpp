@@ -194,6 +194,19 @@ void list_left_out(const ShellMesh& mesh) {
   }
 }
 
+/// Tells where the mesh leaves the geometry.
+void warn_off_geometry(const ShellMesh& mesh, std::vector<std::string>& warnings) {
+  const auto worst = std::max_element(mesh.faces.begin(), mesh.faces.end(), [](const auto& a, const auto& b) {
+    return a.off_geometry_max < b.off_geometry_max;
+  });
+  if (mesh.off_geometry.empty() || worst == mesh.faces.end()) return;
+  warnings.push_back(
+      fmt::format("{} midside nodes lie off the geometry so that no element folds, most on "
+                  "Face{} (by {:.3g}): a smaller size there, or more elements by --curvature, "
+                  "keeps them on it",
+                  mesh.off_geometry.size(), worst->face, worst->off_geometry_max));
+}
+
 void run(const MeshArguments& arguments) {
   check_numbers(arguments);
   const MeshOptions options = make_options(arguments);
@@ -216,6 +229,7 @@ void run(const MeshArguments& arguments) {
   if (arguments.quiet && arguments.report.empty()) return;
   QualitySummary summary;
   std::vector<std::string> warnings = model.problems();
+  warn_off_geometry(result, warnings);
   on_threads(arguments.threads, [&] {
     summary = quality(result);
     for (std::string& warning : area_differences(model, result)) warnings.push_back(std::move(warning));

@@ -17,6 +17,7 @@ std::string quality_table(const QualitySummary& summary) {
   line("triangles", std::to_string(summary.triangles));
   line("q", fmt::format("min {:.3f}   mean {:.3f}", summary.q_min, summary.q_mean));
   line("scaled Jacobian", fmt::format("min {:.3f}   mean {:.3f}", summary.sj_min, summary.sj_mean));
+  line("Jacobian / mean", fmt::format("min {:.3f}", summary.jacobian_min));
   line("inverted", std::to_string(summary.inverted));
   line("irregular nodes", fmt::format("{:.2f} %", summary.irregular_percent));
   line("aspect", fmt::format("mean {:.3f}   max {:.3f}", summary.aspect_mean, summary.aspect_max));

@@ -10,7 +10,7 @@ namespace quadrille::command {
 
 void add_quality_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "quality", "measure a mesh: counts, q, scaled Jacobian, valence, and what fails industry's criteria");
+      "quality", "measure a mesh: counts, q, Jacobians, valence, and what fails industry's criteria");
   auto input = std::make_shared<std::filesystem::path>();
   auto limits_file = std::make_shared<std::string>();
   command->add_option("MESH", *input, "mesh file: .msh or .inp")->required();

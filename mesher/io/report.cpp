@@ -23,6 +23,7 @@ json quality_to_json(const QualitySummary& summary) {
           {"q_mean", summary.q_mean},
           {"sj_min", summary.sj_min},
           {"sj_mean", summary.sj_mean},
+          {"jacobian_min", summary.jacobian_min},
           {"inverted", summary.inverted},
           {"irregular_percent", summary.irregular_percent},
           {"histogram", summary.q_histogram},
@@ -84,8 +85,17 @@ json faces_to_json(const ShellMesh& mesh) {
                      {"quads", face.quads},
                      {"q_min", face.q_min},
                      {"seconds", face.seconds},
+                     {"off_geometry", {{"nodes", face.off_geometry}, {"largest", face.off_geometry_max}}},
                      {"note", face.note}});
   return faces;
+}
+
+/// Nodes as the files number them.
+json off_geometry_to_json(const ShellMesh& mesh) {
+  json nodes = json::array();
+  for (const ShellMesh::OffGeometry& off : mesh.off_geometry)
+    nodes.push_back({{"node", off.node + 1}, {"distance", off.distance}});
+  return nodes;
 }
 
 double seconds_of(const timeval& time) {
@@ -107,6 +117,7 @@ json make_report(const ShellMesh& mesh, const QualitySummary& summary, const Exe
           {"cpu_seconds", seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime)},
           {"peak_bytes", static_cast<std::int64_t>(usage.ru_maxrss) * 1024},
           {"faces", faces_to_json(mesh)},
+          {"off_geometry", off_geometry_to_json(mesh)},
           {"warnings", warnings},
           {"versions",
            {{"quadrille", QUADRILLE_VERSION},

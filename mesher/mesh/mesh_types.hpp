@@ -50,6 +50,13 @@ struct ShellMesh {
     int quads = 0;
     double q_min = 0;
     double seconds = 0;
+    int off_geometry = 0;         ///< midside nodes on it that are in ShellMesh::off_geometry
+    double off_geometry_max = 0;  ///< the largest distance of theirs
+  };
+  /// A midside node that would fold an element if it lay on the geometry.
+  struct OffGeometry {
+    int node = -1;
+    double distance = 0;  ///< to its place on the CAD edge, or to the face's surface
   };
 
   int order = 1;                          ///< 1: four-node quads; 2: eight-node (serendipity) quads
@@ -62,6 +69,7 @@ struct ShellMesh {
   std::vector<int> triangle_faces;            ///< as many as triangles
   std::vector<Segment> segments;              ///< the sides on CAD edges, each once
   std::vector<Corner> corners;                ///< the nodes on CAD vertices
+  std::vector<OffGeometry> off_geometry;      ///< ascending by node; empty but in coarse second-order meshes
   std::vector<FaceStatus> faces;              ///< one entry a CAD face; empty in meshes read from files
 };
 

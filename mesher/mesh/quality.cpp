@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/mesh/second_order.hpp"
 
 namespace quadrille {
 namespace {
@@ -24,7 +25,8 @@ constexpr double pi = std::numbers::pi;
 struct Corners {
   double q = 0;
   double scaled_jacobian = 0;
-  double warping = 0;  ///< largest angle between a corner's normal and the mean normal
+  double jacobian = 0;  ///< the least one, over their mean
+  double warping = 0;   ///< largest angle between a corner's normal and the mean normal
   double longest = 0, shortest = 0;
 };
 
@@ -32,7 +34,8 @@ struct Corners {
 struct Frame {
   std::array<Vector3, 4> sides, crosses;
   std::array<double, 4> lengths;
-  Vector3 normal;  ///< unit, or zero for a degenerate quad: one without area, or with a side of no length
+  double area = 0;  ///< four times the quad's
+  Vector3 normal;   ///< unit, or zero for a degenerate quad: one without area, or with a side of no length
 
   explicit Frame(const std::array<const Vector3*, 4>& p) {
     for (int j = 0; j < 4; ++j) {
@@ -44,8 +47,8 @@ struct Frame {
       crosses[j] = sides[(j + 3) & 3].cross(sides[j]);
       normal += crosses[j];
     }
-    const double norm = normal.norm();
-    if (norm > 0) normal /= norm;
+    area = normal.norm();
+    if (area > 0) normal /= area;
     const auto [shortest, longest] = std::minmax_element(lengths.begin(), lengths.end());
     if (*shortest < no_length * *longest) normal.setZero();
   }
@@ -67,14 +70,17 @@ Corners measure(const std::array<const Vector3*, 4>& p) {
   const Frame frame(p);
   Corners corners;
   corners.scaled_jacobian = 1;
-  double off = 0;
+  double off = 0, least = frame.area;
   for (int j = 0; j < 4; ++j) {
     const auto [sine, cosine] = frame.sine_cosine(j);
     corners.scaled_jacobian = std::min(corners.scaled_jacobian, sine);
+    least = std::min(least, frame.crosses[j].dot(frame.normal));
     off = std::max(off, std::abs(pi / 2 - corner_angle(sine, cosine)));
     corners.warping = std::max(corners.warping, angle_between(frame.crosses[j], frame.normal));
   }
   corners.q = std::max(1 - 2 / pi * off, 0.0);
+  // The cross products are as the Jacobians at the corners, and `area` is their sum.
+  corners.jacobian = frame.area > 0 ? 4 * least / frame.area : 0;
   corners.longest = *std::max_element(frame.lengths.begin(), frame.lengths.end());
   corners.shortest = *std::min_element(frame.lengths.begin(), frame.lengths.end());
   return corners;
@@ -118,11 +124,28 @@ void mark_shared_nodes(const ShellMesh& mesh, std::vector<char>& border) {
     }
 }
 
+/// What the Jacobian over the whole element says: at its corners alone where sides are straight.
+void measure_jacobian(const ShellMesh& mesh, std::size_t quad, const Corners& corners,
+                      QualitySummary& summary) {
+  const bool is_curved = mesh.order == 2 && quad < mesh.midsides.size();
+  bool is_inverted = corners.scaled_jacobian <= 0;
+  double least = corners.jacobian;
+  if (is_curved) {
+    // The bound costs far more than its estimate from below, which is all that good elements need.
+    const CurvedQuad element = curved_quad(mesh, quad);
+    least = quick_jacobian_bound(element);
+    is_inverted = is_inverted || (!(least > 0) && folds(element));
+    if (least < summary.jacobian_min) least = jacobian_bound(element);
+  }
+  summary.inverted += is_inverted;
+  summary.jacobian_min = std::min(summary.jacobian_min, least);
+}
+
 /// Measures of some of the elements; sums where the summary has means.
 QualitySummary measure_range(const ShellMesh& mesh, std::size_t begin, std::size_t end) {
   const auto& x = mesh.points;
   QualitySummary summary;
-  summary.q_min = summary.sj_min = 1;
+  summary.q_min = summary.sj_min = summary.jacobian_min = 1;
   for (std::size_t i = begin; i < end; ++i) {
     const auto& quad = mesh.quads[i];
     const Corners corners = measure({&x[quad[0]], &x[quad[1]], &x[quad[2]], &x[quad[3]]});
@@ -130,7 +153,7 @@ QualitySummary measure_range(const ShellMesh& mesh, std::size_t begin, std::size
     summary.q_mean += corners.q;
     summary.sj_min = std::min(summary.sj_min, corners.scaled_jacobian);
     summary.sj_mean += corners.scaled_jacobian;
-    summary.inverted += corners.scaled_jacobian <= 0;
+    measure_jacobian(mesh, i, corners, summary);
     ++summary.q_histogram[std::min(static_cast<int>(corners.q * 20), 19)];
     const double aspect = corners.longest / std::max(corners.shortest, std::numeric_limits<double>::min());
     summary.aspect_max = std::max(summary.aspect_max, aspect);
@@ -148,13 +171,14 @@ void measure_elements(const ShellMesh& mesh, QualitySummary& summary) {
   oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
     parts[i] = measure_range(mesh, i * at_once, std::min((i + 1) * at_once, size));
   });
-  summary.q_min = summary.sj_min = 1;
+  summary.q_min = summary.sj_min = summary.jacobian_min = 1;
   for (const QualitySummary& part : parts) {
     summary.q_min = std::min(summary.q_min, part.q_min);
     summary.q_mean += part.q_mean;
     summary.sj_min = std::min(summary.sj_min, part.sj_min);
     summary.sj_mean += part.sj_mean;
     summary.inverted += part.inverted;
+    summary.jacobian_min = std::min(summary.jacobian_min, part.jacobian_min);
     for (std::size_t k = 0; k < part.q_histogram.size(); ++k) summary.q_histogram[k] += part.q_histogram[k];
     summary.aspect_max = std::max(summary.aspect_max, part.aspect_max);
     summary.aspect_mean += part.aspect_mean;

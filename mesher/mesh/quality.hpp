@@ -26,7 +26,10 @@ struct QualitySummary {
   int triangles = 0;
   double q_min = 0, q_mean = 0;
   double sj_min = 0, sj_mean = 0;
-  int inverted = 0;  ///< quads with scaled Jacobian <= 0
+  /// The least Jacobian of an element over its mean: jacobian_bound() at second order, the least of the four
+  /// corners at first order; 1 = all parallelograms with straight sides.
+  double jacobian_min = 0;
+  int inverted = 0;  ///< quads with scaled Jacobian <= 0, or that fold at second order
   double irregular_percent =
       0;  ///< interior nodes (all sides with two elements, one face) of valence other than 4
   std::array<int, 20> q_histogram{};       ///< counts in 20 equal bins over [0, 1]

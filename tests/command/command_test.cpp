@@ -267,6 +267,33 @@ TEST(Command, OpensNoModuleOfTheCurrentFolder) {
   }
 }
 
+TEST(Command, TellsWhatLeavesTheGeometry) {
+  const TemporaryFolder folder;
+  const std::string torus = QUADRILLE_SOURCE_DIR "/examples/models/torus.brep";
+  const auto result = test::run(fmt::format(
+      "cd {} && {} mesh {} -o a.msh --elements-per-diagonal 3 --curvature 2 --order 2 --report r.json 2>&1",
+      folder.path().string(), program, torus));
+  ASSERT_EQ(result.exit_code, 0) << result.out;
+  EXPECT_PRED2(contains, result.out,
+               "midside nodes lie off the geometry so that no element folds, most on Face1");
+  EXPECT_PRED2(contains, result.out, "inverted           0");
+  const auto report = nlohmann::json::parse(test::file_text(folder / "r.json"));
+  EXPECT_GT(report["quality"]["jacobian_min"], 0);
+  EXPECT_EQ(report["quality"]["inverted"], 0);
+  const auto& off = report["off_geometry"];
+  ASSERT_GT(off.size(), 0u);
+  EXPECT_EQ(report["faces"][0]["off_geometry"]["nodes"], off.size());
+  double largest = 0;
+  const ShellMesh mesh = read_mesh(folder / "a.msh");
+  for (const auto& entry : off) {
+    largest = std::max(largest, entry["distance"].get<double>());
+    EXPECT_TRUE(std::any_of(mesh.midsides.begin(), mesh.midsides.end(), [&](const auto& midsides) {
+      return std::find(midsides.begin(), midsides.end(), entry["node"].get<int>() - 1) != midsides.end();
+    }));
+  }
+  EXPECT_EQ(report["faces"][0]["off_geometry"]["largest"], largest);
+}
+
 TEST(Command, QuietSaysNothing) {
   const TemporaryFolder folder;
   const auto result = test::run(fmt::format("cd {} && {} mesh {} -o a.msh --size 2 --quiet 2>&1",

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "tests/support/shell_grid.hpp"
+
 namespace quadrille {
 namespace {
 
@@ -107,6 +109,34 @@ TEST(Quality, CountsIrregularNodesOfACube) {
   EXPECT_DOUBLE_EQ(summary.irregular_percent, 100);
   ASSERT_EQ(summary.valence_counts.size(), 4u);
   EXPECT_EQ(summary.valence_counts[3], 8);
+}
+
+TEST(Quality, CountsElementsThatFoldAtSecondOrder) {
+  ShellMesh mesh = test::ShellGrid(3, 2, 0).mesh();
+  EXPECT_EQ(quality(mesh).inverted, 0);
+  EXPECT_NEAR(quality(mesh).jacobian_min, 1, 1e-9);
+  // The lower side of an inner element, bulged up over the upper one: two elements share it, and one of them
+  // folds.
+  const int node = mesh.midsides[8][0];
+  ASSERT_EQ(node, mesh.midsides[2][2]);
+  mesh.points[node].y() += 0.45;
+  const QualitySummary summary = quality(mesh);
+  EXPECT_EQ(summary.inverted, 1);
+  EXPECT_LT(summary.jacobian_min, 0);
+  EXPECT_NEAR(summary.sj_min, 1, 1e-9);
+}
+
+TEST(Quality, LeastJacobianOfFlatQuadsIsThatOfTheirCorners) {
+  ShellMesh mesh;
+  mesh.points = {flat(0, 0), flat(2, 0), flat(1.5, 1), flat(0, 1)};
+  mesh.quads = {{0, 1, 2, 3}};
+  mesh.quad_faces = {1};
+  // Corner parallelograms 2, 2, 1.5, 1.5; the mean is the area, 1.75.
+  EXPECT_NEAR(quality(mesh).jacobian_min, 1.5 / 1.75, 1e-12);
+  mesh.order = 2;
+  mesh.midsides = {{4, 5, 6, 7}};
+  mesh.points.insert(mesh.points.end(), {flat(1, 0), flat(1.75, 0.5), flat(0.75, 1), flat(0, 0.5)});
+  EXPECT_NEAR(quality(mesh).jacobian_min, 1.5 / 1.75, 1e-12);
 }
 
 TEST(Quality, MeasuresAspectWarpingAndInversion) {

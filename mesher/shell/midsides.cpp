@@ -1,0 +1,185 @@
+#include "mesher/shell/midsides.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "geometry/surfaces/edge_curve.hpp"
+#include "mesher/mesh/side_key.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// Where a piece of a curve is as far from both ends: half the arc for the short pieces here.
+template <class Point>
+double middle_parameter(double low, double high, const Point& point) {
+  const Vector3 from = point(low), to = point(high);
+  constexpr int bisections = 30;
+  for (int i = 0; i < bisections; ++i) {
+    const double t = 0.5 * (low + high);
+    const Vector3 p = point(t);
+    const double difference = (p - from).norm() - (p - to).norm();
+    if (std::abs(difference) < 1e-9 * (to - from).norm()) return t;
+    (difference < 0 ? low : high) = t;
+  }
+  return 0.5 * (low + high);
+}
+
+Vector3 curve_middle(const EdgeCurve& curve, double a, double b) {
+  const auto point = [&](double t) { return curve.point(t); };
+  return point(middle_parameter(a, b, point));
+}
+
+Vector3 surface_middle(const FaceSurface& surface, const FaceMesh& face, int a, int b, Vector2& uv) {
+  const Vector3 target = 0.5 * (face.points[a] + face.points[b]);
+  const Vector2 from = face.pole[a] ? face.uv[b] : face.uv[a], to = face.pole[b] ? face.uv[a] : face.uv[b];
+  uv = 0.5 * (from + to);
+  Vector3 middle = surface.project(uv, target).point;
+  // Where parameters run unevenly, half of them is far from half the way, and the projection may not get
+  // there.
+  constexpr double far = 0.25;
+  const double length = (face.points[b] - face.points[a]).norm();
+  if ((middle - target).norm() > far * length) {
+    const auto at = [&](double t) -> Vector2 { return from + t * (to - from); };
+    Vector2 other = at(middle_parameter(0, 1, [&](double t) { return surface.point(at(t)); }));
+    const Vector3 nearer = surface.project(other, target).point;
+    if ((nearer - target).norm() < (middle - target).norm()) {
+      middle = nearer;
+      uv = other;
+    }
+  }
+  return middle;
+}
+
+class MidsidePlacement {
+ public:
+  MidsidePlacement(const MeshedFaces& meshed, const ShellNumbering& numbering, ShellMesh& mesh,
+                   const ExecutionContext& context)
+      : meshed_(meshed), numbering_(numbering), mesh_(mesh), context_(context), check_(context) {}
+
+  Midsides run() {
+    mesh_.order = 2;
+    place_on_edges();
+    Midsides result;
+    result.first_inner = mesh_.points.size();
+    std::vector<FaceMidsides> of_faces(meshed_.faces.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, of_faces.size(), [&](std::size_t face) {
+      if (meshed_.faces[face]) of_faces[face] = place_inside(face);
+    });
+    for (FaceMidsides& face : of_faces) {
+      number(face, result.parameters);
+      face = {};
+    }
+    return result;
+  }
+
+ private:
+  /// The midside nodes of one face that are not on CAD edges.
+  struct FaceMidsides {
+    std::vector<std::array<int, 4>> of_quads;  ///< index of each side's, or -1 - node on a CAD edge
+    std::vector<Vector3> points;
+    std::vector<Vector2> parameters;
+    /// Sides between two nodes on the boundary: index and key, ascending. Another face may have them, too.
+    std::vector<std::pair<int, std::uint64_t>> chords;
+  };
+
+  void place_on_edges() {
+    for (std::size_t s = 0; s < mesh_.segments.size(); ++s) {
+      check_();
+      auto& segment = mesh_.segments[s];
+      const auto [edge, k] = numbering_.segments[s];
+      const EdgeCurve curve(meshed_.shape.edges[edge]);
+      const auto& t = meshed_.nodes.edges[edge].parameters;
+      segment.middle = static_cast<int>(mesh_.points.size());
+      mesh_.points.push_back(curve_middle(curve, t[k], t[k + 1]));
+      middles_.emplace(side_key(segment.nodes[0], segment.nodes[1]), segment.middle);
+    }
+  }
+
+  FaceMidsides place_inside(std::size_t index) const {
+    const FaceMesh& face = *meshed_.faces[index];
+    const auto surface = meshed_.surface(index);
+    SparseCheck check(context_, 256);
+    // Sides in rows by their lower end; a row ends at the first place that is free.
+    struct Side {
+      int high = -1, midside = -1;
+    };
+    std::vector<int> rows(face.points.size() + 1, 0);
+    for (const auto& quad : face.quads) {
+      for (int k = 0; k < 4; ++k) ++rows[std::min(quad[k], quad[(k + 1) % 4]) + 1];
+    }
+    for (std::size_t i = 1; i < rows.size(); ++i) rows[i] += rows[i - 1];
+    std::vector<Side> sides(rows.back());
+    FaceMidsides result;
+    result.of_quads.reserve(face.quads.size());
+    result.points.reserve(2 * face.quads.size());
+    result.parameters.reserve(2 * face.quads.size());
+    const int fixed = static_cast<int>(face.nodes.size());
+    const auto place = [&](int a, int b) {
+      result.points.push_back(surface_middle(*surface, face, a, b, result.parameters.emplace_back()));
+      return static_cast<int>(result.points.size()) - 1;
+    };
+    for (const auto& quad : face.quads) {
+      check();
+      std::array<int, 4>& of_quad = result.of_quads.emplace_back();
+      for (int k = 0; k < 4; ++k) {
+        const int a = quad[k], b = quad[(k + 1) % 4], high = std::max(a, b);
+        if (high < fixed) {
+          const std::uint64_t key =
+              side_key(numbering_.nodes[face.nodes[a]], numbering_.nodes[face.nodes[b]]);
+          const auto on_edge = middles_.find(key);
+          of_quad[k] = on_edge != middles_.end() ? -1 - on_edge->second : place(a, b);
+          if (of_quad[k] >= 0) result.chords.emplace_back(of_quad[k], key);
+          continue;
+        }
+        auto side = sides.begin() + rows[std::min(a, b)];
+        while (side->high >= 0 && side->high != high) ++side;
+        if (side->high < 0) *side = {high, place(a, b)};
+        of_quad[k] = side->midside;
+      }
+    }
+    return result;
+  }
+
+  void number(const FaceMidsides& face, std::vector<Vector2>& parameters) {
+    std::vector<int> numbers;
+    numbers.reserve(face.points.size());
+    auto chord = face.chords.begin();
+    for (std::size_t i = 0; i < face.points.size(); ++i) {
+      check_();
+      const int next = static_cast<int>(mesh_.points.size());
+      numbers.push_back(next);
+      if (chord != face.chords.end() && chord->first == static_cast<int>(i)) {
+        numbers.back() = middles_.emplace(chord++->second, next).first->second;
+        if (numbers.back() != next) continue;
+      }
+      mesh_.points.push_back(face.points[i]);
+      parameters.push_back(face.parameters[i]);
+    }
+    for (const auto& of_quad : face.of_quads) {
+      check_();
+      auto& midsides = mesh_.midsides.emplace_back();
+      for (int k = 0; k < 4; ++k) midsides[k] = of_quad[k] < 0 ? -1 - of_quad[k] : numbers[of_quad[k]];
+    }
+  }
+
+  const MeshedFaces& meshed_;
+  const ShellNumbering& numbering_;
+  ShellMesh& mesh_;
+  const ExecutionContext& context_;
+  SparseCheck check_;
+  std::unordered_map<std::uint64_t, int> middles_;  ///< of sides between nodes on the boundary
+};
+
+}  // namespace
+
+Midsides add_midsides(const MeshedFaces& meshed, const ShellNumbering& numbering, ShellMesh& mesh,
+                      const ExecutionContext& context) {
+  return MidsidePlacement(meshed, numbering, mesh, context).run();
+}
+
+}  // namespace quadrille

@@ -1,0 +1,314 @@
+/// Based on: Johnen, Remacle, Geuzaine, Geometrical validity of curvilinear finite elements (2013), for what
+/// is valid.
+
+#include "mesher/shell/unfolding.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <unordered_map>
+#include <utility>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "mesher/mesh/second_order.hpp"
+
+namespace quadrille {
+
+namespace {
+
+double jacobian_bound_of(const ShellMesh& mesh, std::size_t quad) {
+  return jacobian_bound(curved_quad(mesh, quad));
+}
+
+bool folds_in(const ShellMesh& mesh, std::size_t quad) {
+  return folds(curved_quad(mesh, quad));
+}
+
+/// Moves the midside nodes inside one face along its surface.
+class Sliding {
+ public:
+  /// \param first_quad,end_quad the face's elements
+  Sliding(ShellMesh& mesh, const FaceSurface& surface, std::size_t first_quad, std::size_t end_quad,
+          Midsides& midsides, const ExecutionContext& context)
+      : mesh_(mesh), surface_(surface), midsides_(midsides), check_(context, 256) {
+    for (std::size_t quad = first_quad; quad < end_quad; ++quad) {
+      check_();
+      for (const int node : mesh_.midsides[quad]) users_[node].push_back(quad);
+    }
+  }
+
+  void run(const std::vector<std::size_t>& folded) {
+    constexpr int sweeps = 4;
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      for (const std::size_t quad : folded) mend(quad);
+    }
+  }
+
+ private:
+  void mend(std::size_t quad) {
+    for (int k = 0; k < 4 && folds_in(mesh_, quad); ++k) {
+      if (mesh_.midsides[quad][k] >= static_cast<int>(midsides_.first_inner)) search(quad, k);
+    }
+  }
+
+  double worst(int node) const {
+    double result = 1;
+    for (const std::size_t quad : users_.at(node)) result = std::min(result, jacobian_bound_of(mesh_, quad));
+    return result;
+  }
+
+  /// Looks for the place of side k's node that is best for its elements at their worst: where it bulges as
+  /// the opposite side of one of them does, then by compass search in the tangent plane.
+  void search(std::size_t quad, int k) {
+    check_();
+    const int node = mesh_.midsides[quad][k];
+    const auto [a, b] = ends(quad, k);
+    double best = worst(node);
+    const auto attempt = [&](const Vector3& target) {
+      Vector2& uv = midsides_.parameters[node - midsides_.first_inner];
+      const Vector3 old = mesh_.points[node];
+      Vector2 moved = uv;
+      mesh_.points[node] = surface_.project(moved, target).point;
+      const double now = worst(node);
+      if (now > best) {
+        best = now;
+        uv = moved;
+      } else {
+        mesh_.points[node] = old;
+      }
+    };
+    for (const std::size_t user : users_.at(node)) attempt(0.5 * (a + b) + opposite_bulge(user, node));
+    const Vector3 along = b - a;
+    const Vector3 across = surface_.normal(midsides_.parameters[node - midsides_.first_inner]).cross(along);
+    constexpr int halvings = 5;
+    double step = 0.25;
+    for (int i = 0; i < halvings; ++i, step *= 0.5) {
+      for (const Vector3& direction : {across, Vector3(-across), along, Vector3(-along)})
+        attempt(mesh_.points[node] + step * direction);
+    }
+  }
+
+  std::pair<Vector3, Vector3> ends(std::size_t quad, int k) const {
+    return {mesh_.points[mesh_.quads[quad][k]], mesh_.points[mesh_.quads[quad][(k + 1) % 4]]};
+  }
+
+  /// From the middle of the straight side to the midside node, on the side of the element opposite a node.
+  Vector3 opposite_bulge(std::size_t quad, int node) const {
+    const auto& midsides = mesh_.midsides[quad];
+    const int k = static_cast<int>(std::find(midsides.begin(), midsides.end(), node) - midsides.begin());
+    const int opposite = (k + 2) % 4;
+    const auto [a, b] = ends(quad, opposite);
+    return mesh_.points[midsides[opposite]] - 0.5 * (a + b);
+  }
+
+  ShellMesh& mesh_;
+  const FaceSurface& surface_;
+  Midsides& midsides_;
+  SparseCheck check_;
+  std::unordered_map<int, std::vector<std::size_t>> users_;
+};
+
+/// Moves midside nodes off the geometry, towards the middles of their straight sides, over all faces.
+class Straightening {
+ public:
+  Straightening(ShellMesh& mesh, std::size_t first_inner, const ExecutionContext& context)
+      : mesh_(mesh), first_inner_(static_cast<int>(first_inner)), check_(context, 256) {
+    // The elements of each node, in rows.
+    first_user_.assign(mesh.points.size() + 1, 0);
+    for (const auto& midsides : mesh.midsides) {
+      for (const int node : midsides) ++first_user_[node + 1];
+    }
+    for (std::size_t i = 1; i < first_user_.size(); ++i) first_user_[i] += first_user_[i - 1];
+    users_.resize(first_user_.back());
+    std::vector<std::size_t> place(first_user_.begin(), first_user_.end() - 1);
+    for (std::size_t quad = 0; quad < mesh.midsides.size(); ++quad) {
+      for (const int node : mesh.midsides[quad]) users_[place[node]++] = quad;
+    }
+  }
+
+  /// Each round raises shares or ends, and there are only so many: bounded by the number of sides.
+  void run(std::vector<std::size_t> folded) {
+    while (!folded.empty()) {
+      std::vector<std::size_t> touched;
+      for (const std::size_t quad : folded) {
+        check_();
+        if (folds_in(mesh_, quad)) straighten(quad, touched);
+      }
+      std::sort(touched.begin(), touched.end());
+      touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+      folded = std::move(touched);
+    }
+    relax();
+  }
+
+  struct Side {
+    std::size_t quad = 0;   ///< one of its elements
+    Vector3 place, middle;  ///< the node's on the geometry, and the straight side's
+    double length = 0;      ///< of the straight side
+    int share = 0;          ///< of the way to the middle, in eighths
+  };
+
+  /// The sides that were looked at, by midside node.
+  const std::map<int, Side>& sides() const { return sides_; }
+
+ private:
+  static constexpr int whole = 8;
+
+  Side& side_of(std::size_t quad, int k) {
+    const int node = mesh_.midsides[quad][k];
+    const auto& corners = mesh_.quads[quad];
+    const auto [entry, fresh] = sides_.try_emplace(node);
+    if (fresh) {
+      entry->second.quad = quad;
+      entry->second.place = mesh_.points[node];
+      const Vector3 &a = mesh_.points[corners[k]], &b = mesh_.points[corners[(k + 1) % 4]];
+      entry->second.middle = 0.5 * (a + b);
+      entry->second.length = (b - a).norm();
+    }
+    return entry->second;
+  }
+
+  void set(int node, Side& side, int share) {
+    side.share = share;
+    const double part = static_cast<double>(share) / whole;
+    mesh_.points[node] =
+        share == whole ? side.middle : Vector3(side.place + part * (side.middle - side.place));
+  }
+
+  /// The bound that an element mended should have: well above rounding, unless no straight side gives it.
+  double wanted(std::size_t quad) const {
+    constexpr double enough = 0.02;
+    return std::min(enough, 0.5 * quick_jacobian_bound(straight_quad(mesh_, quad)));
+  }
+
+  /// Raises the shares of an element's sides until it does not fold: those inside faces, or else all.
+  void straighten(std::size_t quad, std::vector<std::size_t>& touched) {
+    const double bound = wanted(quad);
+    const std::array<int, 4> nodes = mesh_.midsides[quad];
+    std::array<int, 4> before{};
+    for (int k = 0; k < 4; ++k) before[k] = side_of(quad, k).share;
+    for (const bool edges_too : {false, true}) {
+      for (int share = 1; share <= whole; ++share) {
+        for (int k = 0; k < 4; ++k) {
+          if (edges_too || nodes[k] >= first_inner_)
+            set(nodes[k], sides_.at(nodes[k]), std::max(before[k], share));
+        }
+        if (jacobian_bound_of(mesh_, quad) < bound) continue;
+        for (int k = 0; k < 4; ++k) {
+          if (sides_.at(nodes[k]).share == before[k]) continue;
+          for (std::size_t i = first_user_[nodes[k]]; i < first_user_[nodes[k] + 1]; ++i) {
+            if (users_[i] != quad) touched.push_back(users_[i]);
+          }
+        }
+        return;
+      }
+    }
+  }
+
+  /// Takes nodes back towards the geometry as far as their elements allow, those on CAD edges first.
+  void relax() {
+    for (auto& [node, side] : sides_) {
+      check_();
+      const int share = side.share;
+      std::vector<double> least;
+      for (std::size_t i = first_user_[node]; i < first_user_[node + 1]; ++i)
+        least.push_back(std::min(wanted(users_[i]), jacobian_bound_of(mesh_, users_[i])));
+      const auto holds = [&] {
+        for (std::size_t i = 0; i < least.size(); ++i) {
+          if (jacobian_bound_of(mesh_, users_[first_user_[node] + i]) < least[i]) return false;
+        }
+        return true;
+      };
+      for (int less = 0; less <= share; ++less) {
+        set(node, side, less);
+        if (less == share || holds()) break;
+      }
+    }
+  }
+
+  ShellMesh& mesh_;
+  int first_inner_;
+  SparseCheck check_;
+  std::vector<std::size_t> first_user_, users_;
+  std::map<int, Side> sides_;
+};
+
+class Unfolding {
+ public:
+  Unfolding(const MeshedFaces& meshed, const ShellNumbering& numbering, Midsides& midsides, ShellMesh& mesh,
+            const ExecutionContext& context)
+      : meshed_(meshed), numbering_(numbering), midsides_(midsides), mesh_(mesh), context_(context) {}
+
+  std::vector<std::size_t> run() {
+    const std::vector<std::vector<std::size_t>> at_first = folded();
+    for (std::size_t face = 0; face < at_first.size(); ++face) {
+      if (at_first[face].empty()) continue;
+      const auto surface = meshed_.surface(face);
+      Sliding(mesh_, *surface, numbering_.first_quad[face], numbering_.first_quad[face + 1], midsides_,
+              context_)
+          .run(at_first[face]);
+    }
+    std::vector<std::size_t> left = joined(folded());
+    if (left.empty()) return left;
+    Straightening straightening(mesh_, midsides_.first_inner, context_);
+    straightening.run(left);
+    list(straightening);
+    return joined(folded());
+  }
+
+ private:
+  /// (faces) the elements that fold.
+  std::vector<std::vector<std::size_t>> folded() const {
+    std::vector<std::vector<std::size_t>> result(meshed_.faces.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t face) {
+      SparseCheck check(context_, 256);
+      for (std::size_t quad = numbering_.first_quad[face]; quad < numbering_.first_quad[face + 1]; ++quad) {
+        check();
+        if (folds_in(mesh_, quad)) result[face].push_back(quad);
+      }
+    });
+    return result;
+  }
+
+  static std::vector<std::size_t> joined(const std::vector<std::vector<std::size_t>>& of_faces) {
+    std::vector<std::size_t> result;
+    for (const auto& quads : of_faces) result.insert(result.end(), quads.begin(), quads.end());
+    return result;
+  }
+
+  void list(const Straightening& straightening) {
+    constexpr double on_geometry = 1e-7;  // of a side: on a plane face nodes do not leave it
+    std::shared_ptr<const FaceSurface> surface;
+    int face = 0;  // that `surface` is of
+    for (const auto& [node, side] : straightening.sides()) {
+      if (side.share == 0) continue;
+      Vector3 nearest = side.place;
+      if (node >= static_cast<int>(midsides_.first_inner)) {
+        if (face != mesh_.quad_faces[side.quad]) {
+          face = mesh_.quad_faces[side.quad];
+          surface = meshed_.surface(face - 1);
+        }
+        Vector2 uv = midsides_.parameters[node - midsides_.first_inner];
+        nearest = surface->project(uv, mesh_.points[node]).point;
+      }
+      const double distance = (mesh_.points[node] - nearest).norm();
+      if (distance > on_geometry * side.length) mesh_.off_geometry.push_back({node, distance});
+    }
+  }
+
+  const MeshedFaces& meshed_;
+  const ShellNumbering& numbering_;
+  Midsides& midsides_;
+  ShellMesh& mesh_;
+  const ExecutionContext& context_;
+};
+
+}  // namespace
+
+std::vector<std::size_t> unfold(const MeshedFaces& meshed, const ShellNumbering& numbering,
+                                Midsides& midsides, ShellMesh& mesh, const ExecutionContext& context) {
+  return Unfolding(meshed, numbering, midsides, mesh, context).run();
+}
+
+}  // namespace quadrille
