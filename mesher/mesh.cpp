@@ -314,6 +314,12 @@ ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionConte
   });
 }
 
+ShellMesh mesh(const MidSurface& middle, const MeshOptions& options, ExecutionContext& context) {
+  ShellMesh result = mesh(middle.model, options, context);
+  for (const MiddleFace& face : middle.faces) result.thicknesses.push_back(face.thickness);
+  return result;
+}
+
 double suggested_size(const CadModel& model, int quads) {
   return std::sqrt(model.area() / std::max(quads, 1));
 }

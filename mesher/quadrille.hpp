@@ -33,6 +33,9 @@ namespace quadrille {
 /// the options alone, not on the thread count.
 ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context);
 
+/// Meshes the middle surface of thin solids, as above; the mesh knows the thickness of each face.
+ShellMesh mesh(const MidSurface& middle, const MeshOptions& options, ExecutionContext& context);
+
 /// A size that gives about `quads` elements on the model, curvature left aside.
 double suggested_size(const CadModel& model, int quads);
 

@@ -296,6 +296,54 @@ void bind_mesh(py::module_& module) {
       });
 }
 
+/// A face of a middle surface as the command's report names it.
+py::dict face_dict(const MiddleFace& face) {
+  py::dict result;
+  result["area"] = face.area;
+  result["thickness"] = face.thickness;
+  result["thickness_min"] = face.thinnest;
+  result["thickness_max"] = face.thickest;
+  result["solid"] = face.solid;
+  result["solid_faces"] = face.solid_faces;
+  result["step"] = face.step;
+  return result;
+}
+
+MidSurface midsurface_of(const CadModel& model, bool partial) {
+  MidSurfaceOptions options;
+  options.partial = partial;
+  ExecutionContext context;
+  return midsurface(model, options, context);
+}
+
+void bind_midsurface(py::module_& module) {
+  py::class_<MidSurface>(module, "MidSurface", "The middle surface of thin solids, with its thickness.")
+      .def_property_readonly(
+          "model", [](const MidSurface& self) { return self.model; }, "A Model, to be meshed like any other.")
+      .def_property_readonly(
+          "faces",
+          [](const MidSurface& self) {
+            py::list result;
+            for (const MiddleFace& face : self.faces) result.append(face_dict(face));
+            return result;
+          },
+          "By face number minus 1: dicts of area, thickness (mean, _min and _max), solid, solid_faces and "
+          "step.")
+      .def_readonly("volume", &MidSurface::volume, "Of the solids, in mm^3.")
+      .def_readonly("shell_volume", &MidSurface::shell_volume, "Sum of area times thickness, in mm^3.")
+      .def_readonly("parts", &MidSurface::parts, "Connected parts.")
+      .def_readonly("free_edges", &MidSurface::free_edges)
+      .def_readonly("unpaired", &MidSurface::unpaired, "Solid faces that are neither side nor rim of a wall.")
+      .def_readonly("problems", &MidSurface::problems, "With partial: what would have been an error.")
+      .def("write", &write_midsurface, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+           "Writes the faces as .brep or .step, or what is known of them as .json.");
+  module.def(
+      "midsurface", &midsurface_of, py::arg("model"), py::kw_only(), py::arg("partial") = false,
+      py::call_guard<py::gil_scoped_release>(),
+      "The middle surface of each solid of a model. partial: give what could be paired where a solid is "
+      "thin in\nplaces only, instead of raising quadrille.Error.");
+}
+
 void bind_functions(py::module_& module) {
   module.def(
       "read",
@@ -349,5 +397,6 @@ PYBIND11_MODULE(_quadrille, module) {
   py::register_exception_translator(&quadrille::translate);
   quadrille::bind_model(module);
   quadrille::bind_mesh(module);
+  quadrille::bind_midsurface(module);
   quadrille::bind_functions(module);
 }

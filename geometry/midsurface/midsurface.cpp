@@ -14,6 +14,7 @@
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
@@ -125,10 +126,12 @@ SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const Mid
   result.walls = find_walls(skin, surfaces, context);
   if (result.walls.empty()) throw not_thin(name, options);
   const std::vector<WallEnd> ends = find_wall_ends(skin, result.walls, surfaces);
+  std::vector<WallEnd> fences = find_rim_ends(skin, result.walls, surfaces);
+  fences.insert(fences.end(), ends.begin(), ends.end());
   std::vector<std::vector<TopoDS_Face>> pieces(result.walls.size());
   for (std::size_t wall = 0; wall < pieces.size(); ++wall) {
     context.check();
-    pieces[wall] = wall_pieces(skin, result.walls, static_cast<int>(wall), ends);
+    pieces[wall] = wall_pieces(skin, result.walls, static_cast<int>(wall), fences);
   }
   context.check();
   result.faces = join_walls(skin, result.walls, ends, pieces);
@@ -177,6 +180,14 @@ std::vector<int> skin_at(const Skin& skin, const gp_Pnt& point, double tolerance
   return result;
 }
 
+/// Whether the point lies inside a wall other than its own: a rib's rim goes on to the middle of the plate.
+bool in_other_wall(const Skin& skin, const SolidMiddle& middle, int own, const gp_Pnt& point) {
+  for (int wall = 0; wall < static_cast<int>(middle.walls.size()); ++wall) {
+    if (wall != own && position_in(middle.walls[wall], skin, point)) return true;
+  }
+  return false;
+}
+
 /// Checks the free edges against the skin, and names the faces that no wall accounts for.
 void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_IndexedMapOfShape& edge_numbers,
                 MidSurface& result) {
@@ -188,8 +199,10 @@ void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_Inde
     accounted.insert(face.coverage.faces.begin(), face.coverage.faces.end());
   }
   TopTools_IndexedDataMapOfShapeListOfShape around;
+  TopTools_DataMapOfShapeInteger walls;
   for (const JoinedFace& face : middle.faces) {
     TopExp::MapShapesAndAncestors(face.face, TopAbs_EDGE, TopAbs_FACE, around);
+    walls.Bind(face.face, face.wall);
   }
   for (int i = 1; i <= around.Extent(); ++i) {
     const TopoDS_Edge& edge = TopoDS::Edge(around.FindKey(i));
@@ -200,9 +213,10 @@ void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_Inde
     const double length = curve.LastParameter() - curve.FirstParameter();
     bool stray = false;
     for (const double share : {0.5, 0.2, 0.8}) {
-      const auto on = skin_at(skin, curve.Value(curve.FirstParameter() + share * length), tolerance);
+      const gp_Pnt point = curve.Value(curve.FirstParameter() + share * length);
+      const auto on = skin_at(skin, point, tolerance);
       accounted.insert(on.begin(), on.end());
-      stray = stray || on.empty();
+      stray = stray || (on.empty() && !in_other_wall(skin, middle, walls.Find(around(i).First()), point));
     }
     if (stray) result.stray_edges.push_back(edge_numbers.FindIndex(edge));
   }

@@ -1,5 +1,6 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepClass3d_SolidClassifier.hxx>
 #include <BRep_Tool.hxx>
 #include <GeomAPI_Interpolate.hxx>
 #include <GeomFill.hxx>
@@ -14,8 +15,11 @@
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
+#include <algorithm>
 #include <cmath>
+#include <gp_Ax3.hxx>
 #include <gp_Circ.hxx>
+#include <gp_Pln.hxx>
 
 #include "geometry/midsurface/wall_pieces.hpp"
 
@@ -136,41 +140,155 @@ WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, int
   return {wall, next, BRepBuilderAPI_MakeFace(across, Precision::Confusion()).Face(), step};
 }
 
-/// A bend has an edge on either side of the wall: one fence does for both.
-bool stands_already(const FaceEdge& edge, const Wall& wall, std::vector<gp_Pnt>& centers) {
-  const gp_Pnt center = edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * wall.thickness);
-  for (const gp_Pnt& other : centers) {
-    if (other.Distance(center) < 1e-2 * wall.thickness) return true;
+/// Whether a point lies near one of the others; if not, it becomes one of them.
+bool is_near(const gp_Pnt& point, double distance, std::vector<gp_Pnt>& others) {
+  for (const gp_Pnt& other : others) {
+    if (other.Distance(point) < distance) return true;
   }
-  centers.push_back(center);
+  others.push_back(point);
   return false;
+}
+
+/// Which edges of the skin part two surfaces.
+class Borders {
+ public:
+  Borders(const Skin& skin, const std::vector<int>& surfaces) : skin_(skin), surfaces_(surfaces) {
+    TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, neighbors_);
+  }
+
+  /// The edges of a face that lead to another surface.
+  std::vector<TopoDS_Edge> of_face(const SkinFace& face) const {
+    std::vector<TopoDS_Edge> result;
+    for (TopExp_Explorer it(face.face(), TopAbs_EDGE); it.More(); it.Next()) {
+      const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
+      const TopTools_ListOfShape& around = neighbors_.FindFromKey(edge);
+      if (!BRep_Tool::Degenerated(edge) && number(around.First()) != number(around.Last()))
+        result.push_back(edge);
+    }
+    return result;
+  }
+
+ private:
+  int number(const TopoDS_Shape& face) const { return surfaces_[skin_.index_of(TopoDS::Face(face))]; }
+
+  const Skin& skin_;
+  const std::vector<int>& surfaces_;
+  TopTools_IndexedDataMapOfShapeListOfShape neighbors_;
+};
+
+class Material {
+ public:
+  explicit Material(const Skin& skin) : classifier_(skin.solid()), near_(1e-6 * skin.size()) {}
+  bool holds(const gp_Pnt& point) {
+    classifier_.Perform(point, near_);
+    return classifier_.State() == TopAbs_IN;
+  }
+
+ private:
+  BRepClass3d_SolidClassifier classifier_;
+  double near_;
+};
+
+/// An edge of a wall's side at one of its vertices.
+struct EdgeEnd {
+  const FaceEdge* edge = nullptr;
+  double at = 0;         ///< parameter of the vertex
+  gp_Vec outward_along;  ///< unit tangent that leaves the edge at the vertex
+};
+
+std::vector<EdgeEnd> ends_at(const gp_Pnt& vertex, const std::vector<FaceEdge>& edges) {
+  std::vector<EdgeEnd> result;
+  for (const FaceEdge& edge : edges) {
+    for (const double at : {edge.first(), edge.last()}) {
+      gp_Pnt point;
+      gp_Vec along;
+      edge.curve().D1(at, point, along);
+      if (edge.closed() || point.Distance(vertex) > 1e-4 || along.Magnitude() < Precision::Confusion())
+        continue;
+      if (at == edge.first()) along.Reverse();
+      result.push_back({&edge, at, along.Normalized()});
+    }
+  }
+  return result;
+}
+
+/// Whether the wall's middle runs on past the edge, into material.
+bool runs_on(const FaceEdge& edge, double thickness, Material& material) {
+  const double at = 0.5 * (edge.first() + edge.last());
+  return material.holds(edge.inside(at, 0.5 * thickness).Translated(0.05 * thickness * edge.away(at)));
+}
+
+/// A rectangle across the wall, from the vertex along the way that the wall runs on.
+TopoDS_Face rim_fence(const Skin& skin, const EdgeEnd& end, double thickness) {
+  const double t = thickness;
+  const gp_Vec away = end.edge->away(end.at);
+  const gp_Pnt start = end.edge->inside(end.at, 0.5 * t).Translated(0.05 * t * away);
+  const auto hit = skin.first_hit(start, gp_Dir(away));
+  const double length = hit ? hit->distance + 0.1 * t : 2 * t;
+  const gp_Pnt high = end.edge->inside(end.at, 0.2 * t), low = end.edge->inside(end.at, 0.8 * t);
+  const gp_Dir across(gp_Vec(high, low));
+  const gp_Ax3 frame(high, across.Crossed(gp_Dir(away)), across);
+  return BRepBuilderAPI_MakeFace(gp_Pln(frame), 0, high.Distance(low), 0, length).Face();
+}
+
+/// The fences at the vertices of one face where an edge that the wall runs on past meets its rim.
+void add_rim_ends(const Skin& skin, int wall, double t, const std::vector<FaceEdge>& edges,
+                  Material& material, std::vector<gp_Pnt>& centers, std::vector<WallEnd>& ends) {
+  for (const FaceEdge& edge : edges) {
+    if (edge.closed() || !runs_on(edge, t, material)) continue;
+    for (const double at : {edge.first(), edge.last()}) {
+      const std::vector<EdgeEnd> around = ends_at(edge.curve().Value(at), edges);
+      const auto own = std::find_if(around.begin(), around.end(),
+                                    [&](const EdgeEnd& end) { return end.edge == &edge && end.at == at; });
+      const bool at_rim = own != around.end() && around.size() == 2 &&
+                          std::any_of(around.begin(), around.end(), [&](const EdgeEnd& end) {
+                            return end.edge != &edge && !runs_on(*end.edge, t, material);
+                          });
+      if (!at_rim) continue;
+      const gp_Pnt center = edge.inside(at, 0.5 * t);
+      const gp_Vec aside = 0.05 * t * (edge.away(at) + own->outward_along);
+      if (!material.holds(center.Translated(aside)) || is_near(center, 0.01 * t, centers)) continue;
+      ends.push_back({wall, wall, rim_fence(skin, *own, t), false});
+    }
+  }
 }
 
 }  // namespace
 
 std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,
                                     const std::vector<int>& surfaces) {
-  TopTools_IndexedDataMapOfShapeListOfShape neighbors;
-  TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, neighbors);
-  const auto inside_surface = [&](const TopoDS_Edge& edge) {
-    const TopTools_ListOfShape& around = neighbors.FindFromKey(edge);
-    const int first = skin.index_of(TopoDS::Face(around.First()));
-    const int last = skin.index_of(TopoDS::Face(around.Last()));
-    return surfaces[first] == surfaces[last];
-  };
+  const Borders borders(skin, surfaces);
+  std::vector<WallEnd> ends;
+  for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
+    const double t = walls[wall].thickness;
+    std::vector<gp_Pnt> centers;
+    for (const int index : both_sides(walls[wall])) {
+      const SkinFace& face = skin.faces()[index];
+      for (const TopoDS_Edge& edge : borders.of_face(face)) {
+        const FaceEdge face_edge(face, edge);
+        const int next = next_wall(skin, walls, wall, face_edge);
+        const gp_Pnt center = face_edge.inside(0.5 * (face_edge.first() + face_edge.last()), 0.5 * t);
+        // A bend has an edge on either side of the wall: one fence does for both.
+        if (next < 0 || is_near(center, 0.01 * t, centers)) continue;
+        ends.push_back(make_end(skin, walls, wall, next, face_edge));
+      }
+    }
+  }
+  return ends;
+}
+
+std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& walls,
+                                   const std::vector<int>& surfaces) {
+  const Borders borders(skin, surfaces);
+  Material material(skin);
   std::vector<WallEnd> ends;
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
     std::vector<gp_Pnt> centers;
     for (const int index : both_sides(walls[wall])) {
       const SkinFace& face = skin.faces()[index];
-      for (TopExp_Explorer it(face.face(), TopAbs_EDGE); it.More(); it.Next()) {
-        const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
-        if (BRep_Tool::Degenerated(edge) || inside_surface(edge)) continue;
-        const FaceEdge face_edge(face, edge);
-        const int next = next_wall(skin, walls, wall, face_edge);
-        if (next < 0 || stands_already(face_edge, walls[wall], centers)) continue;
-        ends.push_back(make_end(skin, walls, wall, next, face_edge));
-      }
+      std::vector<FaceEdge> edges;
+      for (const TopoDS_Edge& edge : borders.of_face(face)) edges.emplace_back(face, edge);
+      add_rim_ends(skin, wall, walls[wall].thickness, edges, material, centers, ends);
     }
   }
   return ends;

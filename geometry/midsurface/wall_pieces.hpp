@@ -32,6 +32,11 @@ Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin
 std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,
                                     const std::vector<int>& surfaces);
 
+/// Where a wall runs into others and its rim stops short of them, as a rib's end does on a plate: fences that
+/// carry the rim on, so that the middle surface does not spread inside the other wall. `next` is the wall.
+std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& walls,
+                                   const std::vector<int>& surfaces);
+
 /// What lies of a wall's middle surface in the material, cut at the skin and at the wall's ends. It runs on
 /// where the wall runs into others, as far as the material goes. Pieces that do not lie between the sides
 /// anywhere are left out. Empty where OpenCASCADE cannot cut the surface: the checks of the result tell.

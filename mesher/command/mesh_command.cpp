@@ -30,7 +30,7 @@ struct MeshArguments {
   std::optional<double> time_limit, sew, merge_tiny;
   int threads = 0;
   double msh_version = 2.2;
-  bool partial = false, force = false, quiet = false, end_with_input = false;
+  bool thin = false, partial = false, force = false, quiet = false, end_with_input = false;
 };
 
 void require(bool holds, std::string_view option, std::string_view rule, double value) {
@@ -172,6 +172,15 @@ CadModel read_model(const MeshArguments& arguments, ExecutionContext& context) {
   return arguments.sew ? model.sewn(*arguments.sew) : model;
 }
 
+/// With --thin the middle surface of the model's solids.
+std::optional<MidSurface> middle_of(const CadModel& model, const MeshArguments& arguments,
+                                    ExecutionContext& context) {
+  if (!arguments.thin) return std::nullopt;
+  MidSurfaceOptions options;
+  options.partial = arguments.partial;
+  return midsurface(model, options, context);
+}
+
 void write_outputs(const ShellMesh& mesh, const MeshArguments& arguments, ExecutionContext& context) {
   const StageTimer timer(context, "write");
   WriteOptions options;
@@ -218,11 +227,13 @@ void run(const MeshArguments& arguments) {
   report_crashes(arguments.input, "reading");
   const CancelOnSignal cancel(context, arguments.time_limit.value_or(0));
   if (arguments.end_with_input) end_with_input();
-  const CadModel model = read_model(arguments, context);
+  const CadModel source = read_model(arguments, context);
   report_crashes(arguments.input, "meshing");
+  const std::optional<MidSurface> middle = middle_of(source, arguments, context);
+  const CadModel& model = middle ? middle->model : source;
   context.check();
   check_against_model(options, model);
-  const ShellMesh result = mesh(model, options, context);
+  const ShellMesh result = middle ? mesh(*middle, options, context) : mesh(model, options, context);
   context.check();
   write_outputs(result, arguments, context);
   list_left_out(result);
@@ -230,6 +241,7 @@ void run(const MeshArguments& arguments) {
   QualitySummary summary;
   std::vector<std::string> warnings = model.problems();
   warn_off_geometry(result, warnings);
+  if (middle) warnings.insert(warnings.end(), middle->problems.begin(), middle->problems.end());
   on_threads(arguments.threads, [&] {
     summary = quality(result);
     for (std::string& warning : area_differences(model, result)) warnings.push_back(std::move(warning));
@@ -274,6 +286,8 @@ void add_run_options(CLI::App& command, MeshArguments& arguments) {
                      "join edges of neighbouring faces that lie within this length of each other first");
   command.add_option("--merge-tiny", arguments.merge_tiny,
                      "leave out edges shorter and faces narrower than this length");
+  command.add_flag("--thin", arguments.thin,
+                   "mesh the middle surface of thin solids, with a group for each thickness");
   command.add_flag("--partial", arguments.partial,
                    "write what could be meshed when a face fails, and list the rest on stderr");
   command.add_flag("--force", arguments.force, "go on where the mesh would pass 50 million elements");

@@ -47,6 +47,9 @@ void run(const Arguments& arguments) {
           "-o", fmt::format("{}: a middle surface is written as .brep, .step or .json", output.string()));
     require_writable(output);
   }
+  std::vector<NamedFile> files{{"IN", arguments.input}};
+  for (const std::filesystem::path& output : arguments.outputs) files.push_back({"-o", output});
+  require_different_files(files);
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(
       1, [&](std::string_view stage, double fraction) { return display.show(stage, fraction); });

@@ -57,6 +57,15 @@ void write_node_set(const char* kind, int cad, const std::vector<int>& numbers, 
   write_list(numbers, out);
 }
 
+/// A set and a section for each thickness. Whoever includes the file defines the material before.
+void write_sections(const OutputMesh& mesh, TextWriter& out) {
+  for (const ThicknessGroup& group : mesh.thicknesses()) {
+    out << "*ELSET, ELSET=" << group.name << '\n';
+    for (const int face : group.faces) out << "Face" << face << '\n';
+    out << "*SHELL SECTION, ELSET=" << group.name << ", MATERIAL=Material\n" << group.thickness << '\n';
+  }
+}
+
 }  // namespace
 
 void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out) {
@@ -91,6 +100,7 @@ void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& 
     if (group.number > 0)
       out << "*SURFACE, NAME=Surface_Face" << group.number << ", TYPE=ELEMENT\nFace" << group.number
           << ", SPOS\n";
+  write_sections(mesh, out);
 }
 
 }  // namespace quadrille

@@ -94,18 +94,31 @@ class MedWriter {
           "the mesh");
   }
 
-  void make_family(const std::string& group, med_int number) const {
+  /// \param second a further group that the family belongs to; empty = none.
+  void make_family(const std::string& group, med_int number, const std::string& second = {}) const {
     const std::string family = "FAM_" + std::to_string(number) + "_" + group;
-    std::string name = group;
-    name.resize(MED_LNAME_SIZE, '\0');
-    check(MEDfamilyCr(file_, name_.c_str(), family.c_str(), number, 1, name.c_str()), "a family");
+    std::string names = group;
+    names.resize(MED_LNAME_SIZE, '\0');
+    names += second;
+    names.resize(2 * MED_LNAME_SIZE, '\0');
+    check(MEDfamilyCr(file_, name_.c_str(), family.c_str(), number, second.empty() ? 1 : 2, names.c_str()),
+          "a family");
   }
 
+  /// The name of the group of faces as thick as this one; empty where that is not known.
+  std::string thickness_name(int face) const {
+    for (const ThicknessGroup& group : mesh_.thicknesses()) {
+      if (std::find(group.faces.begin(), group.faces.end(), face) != group.faces.end()) return group.name;
+    }
+    return {};
+  }
+
+  template <class SecondName>
   void add_element_families(const std::vector<CadGroup>& groups, const char* kind, med_int& next,
-                            std::vector<med_int>& numbers) const {
+                            std::vector<med_int>& numbers, SecondName second_name) const {
     for (const CadGroup& group : groups) {
       if (group.number == 0) continue;
-      make_family(kind + std::to_string(group.number), next);
+      make_family(kind + std::to_string(group.number), next, second_name(group.number));
       for (const int member : group.members) numbers[member] = next;
       --next;
     }
@@ -124,8 +137,10 @@ class MedWriter {
         families.nodes[mesh_.number(mesh_.mesh().corners[corner].node) - 1] = next_node;
       ++next_node;
     }
-    add_element_families(mesh_.faces(), "Face", next_element, families.shells);
-    add_element_families(mesh_.edges(), "Edge", next_element, families.segments);
+    add_element_families(mesh_.faces(), "Face", next_element, families.shells,
+                         [this](int face) { return thickness_name(face); });
+    add_element_families(mesh_.edges(), "Edge", next_element, families.segments,
+                         [](int) { return std::string(); });
     return families;
   }
 

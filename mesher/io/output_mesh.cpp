@@ -44,6 +44,20 @@ OutputMesh::OutputMesh(const ShellMesh& mesh) : mesh_(mesh) {
   faces_ = grouped(shell_count(), [this](int i) { return face(i); });
   edges_ = grouped(static_cast<int>(mesh.segments.size()), [&](int i) { return mesh.segments[i].edge; });
   vertices_ = grouped(static_cast<int>(mesh.corners.size()), [&](int i) { return mesh.corners[i].vertex; });
+  group_by_thickness();
+}
+
+void OutputMesh::group_by_thickness() {
+  for (const CadGroup& face : faces_) {
+    if (face.number < 1 || face.number > static_cast<int>(mesh_.thicknesses.size())) continue;
+    const std::string thickness = fmt::format("{:.6g}", mesh_.thicknesses[face.number - 1]);
+    auto group = std::find_if(thicknesses_.begin(), thicknesses_.end(),
+                              [&](const ThicknessGroup& other) { return other.thickness == thickness; });
+    if (group == thicknesses_.end())
+      group = thicknesses_.insert(thicknesses_.end(), {"Thickness" + thickness, thickness, {}, {}});
+    group->faces.push_back(face.number);
+    group->members.insert(group->members.end(), face.members.begin(), face.members.end());
+  }
 }
 
 void OutputMesh::use(int node, const char* what, std::size_t index) {

@@ -23,6 +23,14 @@ struct CadGroup {
   std::vector<int> members;  ///< ascending indices of shell elements, segments or corners
 };
 
+/// The faces that are shells of one thickness, to the six digits that the name tells.
+struct ThicknessGroup {
+  std::string name;          ///< "Thickness2.5"
+  std::string thickness;     ///< "2.5"
+  std::vector<int> faces;    ///< CAD faces with elements, ascending
+  std::vector<int> members;  ///< indices of their shell elements
+};
+
 /// A mesh as it goes to a file. Shell elements are counted through: first the quads, then the triangles.
 /// Keeps a reference to the mesh.
 class OutputMesh {
@@ -49,6 +57,8 @@ class OutputMesh {
   const std::vector<CadGroup>& faces() const { return faces_; }        ///< shell elements by CAD face
   const std::vector<CadGroup>& edges() const { return edges_; }        ///< segments by CAD edge
   const std::vector<CadGroup>& vertices() const { return vertices_; }  ///< corners by CAD vertex
+  /// By thickness, in the order of their first faces; empty where no thickness is known.
+  const std::vector<ThicknessGroup>& thicknesses() const { return thicknesses_; }
 
   /// File numbers of the nodes of a group of shell elements / segments, ascending, each once.
   std::vector<int> shell_node_numbers(const CadGroup& group) const;
@@ -56,12 +66,14 @@ class OutputMesh {
 
  private:
   void number_nodes();
+  void group_by_thickness();
   void use(int node, const char* what, std::size_t index);
 
   const ShellMesh& mesh_;
   std::vector<int> numbers_;
   std::vector<int> nodes_;
   std::vector<CadGroup> faces_, edges_, vertices_;
+  std::vector<ThicknessGroup> thicknesses_;
 };
 
 }  // namespace quadrille

@@ -97,14 +97,18 @@ class GroupWriter {
   /// \param label_of maps a member of the group to its node or element number.
   template <class LabelOf>
   void write(const CadGroup& group, const char* kind, int entity_type, LabelOf label_of) {
-    if (group.number == 0) return;
+    if (group.number != 0) write(kind + std::to_string(group.number), group.members, entity_type, label_of);
+  }
+
+  template <class LabelOf>
+  void write(const std::string& name, const std::vector<int>& members, int entity_type, LabelOf label_of) {
     Fields fields(out_);
     fields.add(++number_);
     for (int i = 0; i < 6; ++i) fields.add(0);
-    fields.add(static_cast<int>(group.members.size()));
+    fields.add(static_cast<int>(members.size()));
     fields.end();
-    out_ << kind << group.number << '\n';
-    for (const int member : group.members)
+    out_ << name << '\n';
+    for (const int member : members)
       for (const int value : {entity_type, label_of(member), 0, 0}) fields.add(value);
     fields.end();
   }
@@ -125,6 +129,8 @@ void write_groups(const OutputMesh& mesh, TextWriter& out) {
   for (const CadGroup& group : mesh.vertices())
     groups.write(group, "Vertex", entity_node,
                  [&](int corner) { return mesh.number(mesh.mesh().corners[corner].node); });
+  for (const ThicknessGroup& group : mesh.thicknesses())
+    groups.write(group.name, group.members, entity_element, [](int shell) { return shell + 1; });
   end_dataset(out);
 }
 

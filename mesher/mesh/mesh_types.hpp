@@ -71,6 +71,8 @@ struct ShellMesh {
   std::vector<Corner> corners;                ///< the nodes on CAD vertices
   std::vector<OffGeometry> off_geometry;      ///< ascending by node; empty but in coarse second-order meshes
   std::vector<FaceStatus> faces;              ///< one entry a CAD face; empty in meshes read from files
+  /// Of the shell on each CAD face, by face number minus 1, in millimetres; empty where not known.
+  std::vector<double> thicknesses;
 };
 
 }  // namespace quadrille

@@ -157,6 +157,11 @@ TopoDS_Shape sharp_l() {
   return profile({{{0, 0}, {40, 0}, {40, 3}, {2, 3}, {2, 60}, {0, 60}}}, 100);
 }
 
+/// A rib that ends on the plate, away from its rims.
+TopoDS_Shape short_rib() {
+  return fuse({box(0, 0, 0, 100, 60, 3), box(20, 29, 0, 50, 2, 20)});
+}
+
 /// A pocket from one side leaves 2 of 3 mm.
 TopoDS_Shape stepped_sheet() {
   return cut(box(0, 0, 0, 100, 50, 3), {box(50, -1, 2, 51, 52, 2)});
@@ -249,6 +254,7 @@ const std::vector<ThinModel>& thin_models() {
       {"sharp_l", sharp_l, 100 * (39 + 58.5), {2, 3}, 0.01, 1},
       {"folded_sheet", folded_sheet, 80 * (50 + 50), {2}, 0.01, 1},
       {"ribbed_plate", [] { return ribbed_plate(2); }, 200 * 200 + 4 * 200 * 23.5, {2, 3}, 0.02, 1},
+      {"short_rib", short_rib, 100 * 60 + 50 * 18.5, {2, 3}, 0.02, 2},
       {"stepped_sheet", stepped_sheet, 100 * 50 + 0.5 * 50, {2, 3}, 0.01, 1},
       {"pocket_sheet", pocket_sheet, 100 * 60 + 120, {2, 4}, 0.01, 1},
       {"tapering_web", tapering_web, 60 * 100 / std::cos(0.5 * std::atan(0.02)), {3}, 0.01, 1},

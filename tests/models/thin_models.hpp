@@ -20,6 +20,14 @@ struct ThinModel {
 /// Each can be turned into its middle surface.
 const std::vector<ThinModel>& thin_models();
 
+/// A section for a cantilever of `length` along z, symmetric about a plane x = const.
+struct CantileverModel {
+  std::string name;
+  std::vector<std::vector<struct Corner2d>> outlines;
+  double length = 0;
+};
+std::vector<CantileverModel> cantilevers();
+
 /// A block, which is not thin.
 TopoDS_Shape thick_block();
 
@@ -33,6 +41,9 @@ TopoDS_Shape ribbed_plate(int ribs_each_way);
 struct Corner2d {
   double x = 0, y = 0, radius = 0;
 };
+
+/// The face between outlines in the plane z = 0, the first one outside, the others holes in it.
+TopoDS_Shape section(const std::vector<std::vector<Corner2d>>& outlines);
 
 /// The solid between outlines in the plane z = 0, the first one outside, the others holes in it, and the same
 /// at z = length.

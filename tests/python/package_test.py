@@ -42,6 +42,15 @@ class PackageTest(unittest.TestCase):
         np.testing.assert_allclose(low, (0, 0, 0), atol=1e-6)
         np.testing.assert_allclose(high, (30, 20, 10), atol=1e-6)
 
+    def test_midsurface(self):
+        with self.assertRaisesRegex(quadrille.Error, "not a thin solid"):
+            quadrille.midsurface(quadrille.read(MODELS / "box.brep"))
+        middle = quadrille.midsurface(quadrille.read(MODELS / "bracket.step"), partial=True)
+        self.assertTrue(middle.problems or abs(middle.shell_volume / middle.volume - 1) < 0.05)
+        self.assertTrue(all(face["thickness"] > 0 and len(face["solid_faces"]) >= 2 for face in middle.faces))
+        mesh = quadrille.mesh(middle.model, size=4)
+        self.assertEqual(set(mesh.face_ids), set(range(1, len(middle.faces) + 1)))
+
     def test_arrays(self):
         mesh = self.mesh
         self.assertEqual((mesh.points.dtype, mesh.points.shape[1]), (np.float64, 3))

@@ -1,0 +1,105 @@
+/// Thin solids through the command: what it writes, what it refuses.
+
+#include <gtest/gtest.h>
+
+#include <BRepTools.hxx>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include <fmt/format.h>
+
+#include "geometry/cad/cad_model.hpp"
+#include "mesher/io/io.hpp"
+#include "tests/models/thin_models.hpp"
+#include "tests/support/process.hpp"
+
+namespace quadrille {
+namespace {
+
+using test::TemporaryFolder;
+
+/// A folder with thin.brep (a sheet of 3 and 2 mm), block.brep and both.brep (a plate on a block).
+class MidsurfaceCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const ThinModel& model : thin_models()) {
+      if (model.name == "stepped_sheet") write(model.make(), "thin.brep");
+    }
+    write(thick_block(), "block.brep");
+    write(plate_on_block(), "both.brep");
+  }
+
+  /// Runs `quadrille` with these arguments; gives the exit code and what it says on stderr.
+  test::ProcessResult quadrille_says(const std::string& arguments) const {
+    return test::run(fmt::format("cd {} && timeout 60 {}/quadrille {} 2>&1 >/dev/null",
+                                 folder_.path().string(), QUADRILLE_BINARY_DIR, arguments));
+  }
+  std::string text(const std::string& name) const { return test::file_text(folder_ / name); }
+  bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+  std::filesystem::path path(const std::string& name) const { return folder_ / name; }
+
+ private:
+  void write(const TopoDS_Shape& shape, const std::string& name) const {
+    ASSERT_TRUE(BRepTools::Write(shape, path(name).c_str()));
+  }
+  TemporaryFolder folder_;
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(MidsurfaceCommand, WritesFacesThatReadBackAlike) {
+  const auto result = quadrille_says("midsurface thin.brep -o m.brep -o m.step -o m.json --quiet");
+  ASSERT_EQ(result.exit_code, 0) << result.out;
+  EXPECT_EQ(result.out, "");
+  const CadModel brep = CadModel::read(path("m.brep")), step = CadModel::read(path("m.step"));
+  EXPECT_EQ(brep.face_count(), 3);
+  EXPECT_EQ(step.face_count(), 3);
+  EXPECT_EQ(step.edge_count(), brep.edge_count());  // shared where they meet
+  EXPECT_NEAR(brep.area(), 5025, 1e-6);
+  EXPECT_NEAR(step.area(), 5025, 1e-6);
+  const auto told = nlohmann::json::parse(text("m.json"));
+  ASSERT_EQ(told["faces"].size(), 3U);
+  EXPECT_NEAR(told["faces"][0]["thickness"].get<double>(), 3, 1e-9);
+  EXPECT_NEAR(told["area_times_thickness"].get<double>() / told["volume"].get<double>(), 1, 1e-9);
+}
+
+TEST_F(MidsurfaceCommand, RefusesWhatIsNotThin) {
+  const auto block = quadrille_says("midsurface block.brep -o m.brep");
+  EXPECT_EQ(block.exit_code, 1);
+  EXPECT_PRED2(contains, block.out, "not a thin solid");
+  const auto both = quadrille_says("midsurface both.brep -o m.brep");
+  EXPECT_EQ(both.exit_code, 1);
+  EXPECT_PRED2(contains, both.out, "without a partner: Face");
+  EXPECT_FALSE(exists("m.brep"));
+  EXPECT_EQ(quadrille_says("midsurface both.brep -o m.brep --partial").exit_code, 0);
+  EXPECT_TRUE(exists("m.brep"));
+}
+
+TEST_F(MidsurfaceCommand, RefusesUnknownFormats) {
+  const auto result = quadrille_says("midsurface thin.brep -o m.msh");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_PRED2(contains, result.out, ".brep, .step or .json");
+  EXPECT_FALSE(exists("m.msh"));
+}
+
+TEST_F(MidsurfaceCommand, MeshesThinSolidsWithASectionForEachThickness) {
+  const auto result = quadrille_says("mesh thin.brep --thin --size 10 -o m.inp -o m.unv -o m.med --quiet");
+  ASSERT_EQ(result.exit_code, 0) << result.out;
+  const std::string deck = text("m.inp");
+  // The face that joins the steps has the smaller thickness.
+  EXPECT_PRED2(contains, deck,
+               "*ELSET, ELSET=Thickness3\nFace1\n*SHELL SECTION, ELSET=Thickness3, MATERIAL=Material\n3\n");
+  EXPECT_PRED2(
+      contains, deck,
+      "*ELSET, ELSET=Thickness2\nFace2\nFace3\n*SHELL SECTION, ELSET=Thickness2, MATERIAL=Material\n2\n");
+  EXPECT_GT(read_mesh(path("m.inp")).quads.size(), 50U);
+  EXPECT_PRED2(contains, text("m.unv"), "\nThickness3\n");
+  EXPECT_PRED2(contains, text("m.med"), "Thickness2");
+  EXPECT_EQ(quadrille_says("mesh block.brep --thin -o b.inp").exit_code, 1);
+  EXPECT_FALSE(exists("b.inp"));
+}
+
+}  // namespace
+}  // namespace quadrille
