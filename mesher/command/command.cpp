@@ -175,6 +175,10 @@ extern "C" void handle_crash(int) {
   end_process(crash_line, 1);
 }
 
+extern "C" void handle_cpu_limit(int) {
+  end_process("quadrille: the CPU time that this process may use (ulimit -t) is over\n", 1);
+}
+
 /// Cuts what does not fit.
 template <std::size_t n>
 void copy_line(char (&buffer)[n], const std::string& line) {
@@ -216,6 +220,12 @@ void end_with_input() {
     } while (count > 0 || (count < 0 && errno == EINTR));
     ::kill(::getpid(), SIGTERM);
   }).detach();
+}
+
+void tell_limits() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGXCPU, handle_cpu_limit);
 }
 
 void report_crashes(const std::filesystem::path& file, std::string_view work) {

@@ -51,6 +51,10 @@ void report_crashes(const std::filesystem::path& file, std::string_view work);
 /// Throws Error (usage) unless threads is 0 (all cores) or a sensible count.
 void require_threads(int threads);
 
+/// From now on a reader that goes away and a limit on the size of files show as a failed write, and the end
+/// of the CPU time that the process may use ends it with one line on stderr and exit code 1.
+void tell_limits();
+
 /// The progress of long work on stderr: a bar on a terminal; elsewhere lines "progress: STAGE PERCENT %", at
 /// most two a second and none in the first half second.
 class ProgressDisplay {

@@ -390,6 +390,17 @@ INSTANTIATE_TEST_SUITE_P(Command, FileSizeLimit,
                          testing::Values("-o a.msh", "-o a.med", "-o a.vtu",
                                          "-o a.msh --write-size-field s.vdb"));
 
+TEST(Command, ReportsTheLimitOfCpuTime) {
+  const TemporaryFolder folder;
+  const auto result = test::run(
+      fmt::format("cd {} && ulimit -S -t 1 && timeout 60 {} mesh {} -o a.msh --elements-per-diagonal 2000 "
+                  "--force --quiet 2>&1",
+                  folder.path().string(), program, bracket));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "quadrille: the CPU time that this process may use (ulimit -t) is over\n");
+  EXPECT_EQ(folder.file_count(), 0);
+}
+
 /// Where /proc is hidden, a file without a name cannot get one: named files stand in.
 TEST(Command, WritesWithoutProc) {
   const TemporaryFolder folder;
@@ -435,7 +446,7 @@ INSTANTIATE_TEST_SUITE_P(Command, OneFileTwice,
                                          "mesh in.brep -o a.msh --report p.png --picture p.png",
                                          "mesh in.brep -o a.msh --report s.vdb --write-size-field s.vdb",
                                          "mesh in.brep -o a.msh --size-field in.brep",
-                                         "recombine tri.msh -o tri.msh",
+                                         "midsurface in.brep -o ./in.brep", "recombine tri.msh -o tri.msh",
                                          "recombine tri.msh -o a.msh --report a.msh"));
 
 TEST(Command, WritesManyToOneDevice) {
