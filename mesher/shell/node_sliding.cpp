@@ -24,6 +24,9 @@ constexpr double poor = 0.1;
 constexpr double floor_sine = 0.6428;
 /// A move must lower the objective by this share.
 constexpr double least_gain = 0.001;
+/// Quads inside the limits that are this near to parallelograms (share of the mean side) stay: a skew grid of
+/// them is as exact in bending as a square one, and is so no more when its nodes move.
+constexpr double parallel_share = 0.1, inside_limits = 0.766;  // the sine of 50 degrees: skew 40
 /// Neighbors are looked at again after a move by more than this share of the mean side.
 constexpr double still_share = 0.01;
 /// An edge's node stays this share of the interval between its neighbors away from them.
@@ -93,6 +96,9 @@ class NodeSliding {
     std::vector<Use> uses;
     double objective = 0, worst_objective = 0, least_sine = 1;
     double shortest = 0, mean = 0;  // of the sides at the node
+    double off_parallel = 0;        // of opposite sides, over the mean side
+
+    bool is_fine() const { return least_sine > inside_limits && off_parallel < parallel_share; }
   };
 
   /// A place for a node, and what the quads are with it.
@@ -192,6 +198,13 @@ class NodeSliding {
       }
     }
     round.mean = sum / (2.0 * static_cast<double>(round.uses.size()));
+    round.off_parallel = 0;
+    for (const Use& use : round.uses) {
+      const FaceState& state = states_[use.face];
+      const Vector3 off = state.corner(use.quad, 0) - state.corner(use.quad, 1) + state.corner(use.quad, 2) -
+                          state.corner(use.quad, 3);
+      round.off_parallel = std::max(round.off_parallel, off.norm() / round.mean);
+    }
   }
 
   bool draw(const Round& round, CriteriaPatch& patch) const {
@@ -275,6 +288,7 @@ class NodeSliding {
       gather(instances_[i].face, instances_[i].point, round);
     if (round.uses.empty() || round.worst_objective <= poor) return false;
     measure_sides(round);
+    if (round.is_fine()) return false;
     const double t = edge.parameters[k], gap = edge.parameters[k + 1] - edge.parameters[k - 1];
     const Vector3 derivative = curve.derivative(t);
     const double speed = derivative.norm();
@@ -329,6 +343,7 @@ class NodeSliding {
     gather(index, node, round);
     if (round.uses.empty() || round.worst_objective <= poor) return false;
     measure_sides(round);
+    if (round.is_fine()) return false;
     const Vector3& here = face.mesh->points[node];
     Vector3 normal = Vector3::Zero();
     for (const Use& use : round.uses)

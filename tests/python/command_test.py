@@ -100,8 +100,10 @@ class CommandTest(unittest.TestCase):
                 "print(job._process.pid, job._folder.name, flush=True)\n"
                 "job.wait()\n")
         package = str(Path(quadrille.command.__file__).parent.parent)
+        place = self.folder / "temporary"  # of its own: others that run meanwhile sweep the usual one
+        place.mkdir()
         parent = subprocess.Popen([sys.executable, "-c", code, package, str(MODELS / "box.brep"),
-                                   str(self.folder / "box.msh")], stdout=subprocess.PIPE, text=True)
+                                   str(self.folder / "box.msh")], stdout=subprocess.PIPE, text=True, env={**os.environ, "TMPDIR": str(place)})
         child, folder = parent.stdout.readline().split()
         time.sleep(0.3)
         parent.kill()
@@ -111,9 +113,10 @@ class CommandTest(unittest.TestCase):
         while os.path.exists(f"/proc/{child}") and time.monotonic() < end:
             time.sleep(0.05)
         self.assertFalse(os.path.exists(f"/proc/{child}"))
-        self.assertEqual(list(self.folder.iterdir()), [])
+        self.assertEqual(list(self.folder.iterdir()), [place])
         self.assertTrue(os.path.isdir(folder))
-        scratch_folder().cleanup()  # the next one sweeps
+        with mock.patch("tempfile.gettempdir", return_value=str(place)):
+            scratch_folder().cleanup()  # the next one sweeps
         self.assertFalse(os.path.isdir(folder))
 
     def test_no_place_for_temporary_files(self):
