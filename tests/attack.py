@@ -58,14 +58,18 @@ class Run:
 
     def start(self, quadrille):
         before = set(os.listdir(self.folder))
-        with tempfile.TemporaryFile() as errors:
-            process = subprocess.Popen(
-                [*self.prefix, quadrille, *map(str, self.arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL, stderr=errors, env={**os.environ, **self.environment}, start_new_session=True,
-                preexec_fn=self._prepare)
-            self._wait(process)
-            errors.seek(0)
-            self.message = errors.read(100000).decode(errors="replace")
+        # A pipe: limits on the size of files do not hold for it.
+        process = subprocess.Popen(
+            [*self.prefix, quadrille, *map(str, self.arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, env={**os.environ, **self.environment},
+            start_new_session=True, preexec_fn=self._prepare)
+        said = []
+        reader = threading.Thread(target=lambda: said.append(process.stderr.read()), daemon=True)
+        reader.start()
+        self._wait(process)
+        reader.join(10)
+        self.message = b"".join(said).decode(errors="replace")
+        process.stderr.close()
         self.left = sorted(set(os.listdir(self.folder)) - before)
         return self
 
