@@ -37,10 +37,9 @@
 #include "mesher/io/io.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/renumbering.hpp"
-#include "mesher/pairing/edge_coloring.hpp"
+#include "mesher/pairing/costed_coloring.hpp"
 #include "mesher/pairing/paper_steps.hpp"
 #include "mesher/pairing/recombine.hpp"
-#include "mesher/pairing/triangle_graph.hpp"
 #include "mesher/quads/triangulated_surface.hpp"
 
 namespace quadrille::bench {
@@ -175,7 +174,7 @@ double bytes_per_triangle(const TriangleMesh& mesh, const RecombineOptions& opti
 
 json run_memory(const TriangleMesh& mesh) {
   RecombineOptions coloring, shape;
-  coloring.paper_mode = true;
+  coloring.method = Method::paper;
   shape.objective = Objective::shape;
   const json entry = {{"coloring", bytes_per_triangle(mesh, coloring)},
                       {"default", bytes_per_triangle(mesh, {})},
@@ -199,8 +198,8 @@ json run_quadrille(const TriangleMesh& mesh, const RecombineOptions& options) {
 /// The paper's own end: the triangles that the colour leaves are collapsed, nodes of poor quads are averaged.
 json run_paper_end(const TriangleMesh& mesh) {
   RecombineOptions options;
-  options.paper_mode = true;
-  options.pair_rest = false;
+  options.method = Method::paper;
+  options.leftovers = Leftovers::leave;
   ExecutionContext context(1);
   QuadMesh quads = recombine(mesh, options, context);
   json entry = {{"triangles", quads.triangles.size()}};
@@ -239,7 +238,8 @@ json time_coloring(const TriangleMesh& given) {
     left = remove_blanks(coloring, random);
     blanks = std::min(blanks, c.seconds());
     const Stopwatch d;
-    boundary_left = clear_boundary(coloring, least_boundary_color(coloring), random);
+    const std::vector<Side> sides = coloring.boundary();
+    boundary_left = clear_boundary(coloring, sides, least_boundary_color(coloring, sides), random);
     boundary = std::min(boundary, d.seconds());
   });
   return {{"order_seconds", order},
@@ -343,13 +343,13 @@ json run_blossom(const TriangleMesh& mesh, const std::string& gmsh, const std::f
 /// The greatest mean q that any pairing without triangles left has, and the greatest sum of q that any
 /// pairing has, for each two triangles: the mean, were the triangles that it leaves quads of q 0.
 json run_best(const TriangleMesh& mesh) {
-  const TriangleGraph graph(mesh);
+  const CostedColoring graph(mesh);
   QuadMesh possible;
   possible.points = mesh.points;
   std::vector<PossiblePair> pairs;
   for (int t = 0; t < graph.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
-      const Side side = make_side(t, i), twin = graph.twin_of(side);
+      const Side side = make_side(t, i), twin = graph.twin(side);
       if (twin < side) continue;
       const auto& quad = possible.quads.emplace_back(std::array<int, 4>{
           graph.corner_at(side), graph.apex_of(twin), graph.end_of(side), graph.apex_of(side)});
@@ -395,7 +395,7 @@ json run_field_aligned(const Domain& domain, int blossom_limit, const std::strin
   fmt::print(" on field-aligned points: {} triangles\n", mesh.triangles.size());
   json entry = {{"triangles", mesh.triangles.size()}};
   RecombineOptions options;
-  options.paper_mode = true;
+  options.method = Method::paper;
   entry["coloring"] = run_quadrille(mesh, options);
   print_row("colouring", entry["coloring"]);
   entry["default"] = run_quadrille(mesh, {});
@@ -433,7 +433,7 @@ json run_domain(const Domain& domain, int blossom_limit, [[maybe_unused]] int be
       100 * stages["greedy_blanks"].get<double>() / count, stages["blanks_left"].get<int>(),
       stages["boundary_left"].get<int>(), per_triangle("connect_seconds"), per_triangle("order_seconds"));
   RecombineOptions options;
-  options.paper_mode = true;
+  options.method = Method::paper;
   entry["coloring"] = run_quadrille(mesh, options);
   print_row("colouring", entry["coloring"]);
   entry["paper_end"] = run_paper_end(mesh);
@@ -488,7 +488,7 @@ json run_colorings(int count) {
   double low = 1, high = 0, sum = 0;
   for (int seed = 1; seed <= count; ++seed) {
     RecombineOptions options;
-    options.paper_mode = true;
+    options.method = Method::paper;
     options.seed = static_cast<std::uint64_t>(seed);
     ExecutionContext context(1);
     const QuadMesh quads = recombine(mesh, options, context);

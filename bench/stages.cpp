@@ -19,7 +19,7 @@
 namespace quadrille {
 namespace {
 
-const std::vector<std::string> stages{"read",      "size",    "sample",   "triangulate",
+const std::vector<std::string> stages{"read",      "size",    "sample",   "triangulate", "color",
                                       "recombine", "improve", "assemble", "write"};
 
 struct Run {

@@ -129,13 +129,12 @@ void run(const RecombineArguments& arguments) {
   }
   const TriangleMesh triangles = triangles_of(input, arguments.input.string());
   RecombineOptions options;
-  options.paper_mode = arguments.no_improve;
+  options.method = arguments.no_improve ? Method::paper : Method::quality;
   options.seed = arguments.seed;
   options.objective = arguments.prefer == "shape" ? Objective::shape : Objective::regular;
   QuadMesh quads;
   {
-    const StageTimer timer(context, "recombine");
-    context.report("recombine", 0);
+    context.report("color", 0);
     try {
       quads = recombine(triangles, options, context);
     } catch (const Error& error) {

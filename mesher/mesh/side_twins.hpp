@@ -32,6 +32,14 @@ inline int previous_index(int i) {
   return i == 0 ? 2 : i - 1;
 }
 
+/// The side of the same triangle that starts where a side ends, or ends where it starts.
+inline Side next_side(Side side) {
+  return make_side(triangle_of(side), next_index(index_of(side)));
+}
+inline Side previous_side(Side side) {
+  return make_side(triangle_of(side), previous_index(index_of(side)));
+}
+
 /// Throws Error (failure) naming the triangle where indices are out of range or repeated.
 void check_indices(const TriangleMesh& mesh);
 

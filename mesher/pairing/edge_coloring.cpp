@@ -1,11 +1,14 @@
 /// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018), section 2; the
-/// chains of two colours are Kempe's (1879), as in Vizing's proof (1964).
+/// chains of two colors are Kempe's (1879), as in Vizing's proof (1964).
 
 #include "mesher/pairing/edge_coloring.hpp"
 
 #include <algorithm>
 #include <bit>
+#include <boost/dynamic_bitset.hpp>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace quadrille {
 
@@ -23,13 +26,13 @@ int pick(int mask, Random& random) {
   return lowest(mask);
 }
 
-/// The colours that no triangle of an edge has.
+/// The colors that no triangle of an edge has.
 int available(const EdgeColoring& coloring, Side side) {
   const Side twin = coloring.twin(side);
   return 7 & ~(coloring.colors_used(triangle_of(side)) | coloring.colors_used(triangle_of(twin)));
 }
 
-/// Colours one blank, if its triangles allow it or can be made to.
+/// Colors one blank, if its triangles allow it or can be made to.
 class BlankRemover {
  public:
   BlankRemover(EdgeColoring& coloring, Random& random) : coloring_(coloring), random_(random) {}
@@ -37,7 +40,7 @@ class BlankRemover {
   bool remove(Side side) {
     if (fill(side)) return true;
     for (int tries = 0; tries < max_tries; ++tries) {
-      // Two triangles that leave no colour have one colour in common and one apiece.
+      // Two triangles that leave no color have one color in common and one apiece.
       const int one = triangle_of(side), two = triangle_of(coloring_.twin(side));
       const int of_one = coloring_.colors_used(one), of_two = coloring_.colors_used(two);
       if (lone(of_one) || lone(of_two)) {
@@ -46,8 +49,8 @@ class BlankRemover {
       }
       const int own = lowest(of_one & ~of_two), other = lowest(of_two & ~of_one),
                 common = lowest(of_one & of_two);
-      // The chains of the two colours that are not common: unless one leads to the other triangle, its
-      // exchange makes both triangles leave the same colour.
+      // The chains of the two colors that are not common: unless one leads to the other triangle, its
+      // exchange makes both triangles leave the same color.
       const Side start_one = coloring_.side_of(one, own), start_two = coloring_.side_of(two, other);
       const int winner = race({start_one, other, own}, {start_two, own, other});
       if (winner != met) {
@@ -73,7 +76,7 @@ class BlankRemover {
   static constexpr int max_tries = 200;
   enum Winner { first, second, met };
 
-  /// A place on a chain: a side, the colour that follows, and the one after that (the side's own).
+  /// A place on a chain: a side, the color that follows, and the one after that (the side's own).
   struct Chain {
     Side side;
     int next_color, color;
@@ -127,7 +130,7 @@ class BlankRemover {
     return blank;
   }
 
-  /// One of the triangles has two blanks and the only colour that the other one leaves.
+  /// One of the triangles has two blanks and the only color that the other one leaves.
   bool swap_lone(Side side) {
     int t = triangle_of(side);
     if (!lone(coloring_.colors_used(t))) t = triangle_of(coloring_.twin(side));
@@ -144,25 +147,31 @@ class BlankRemover {
 
 }  // namespace
 
-EdgeColoring::EdgeColoring(const TriangleMesh& mesh) {
+EdgeColoring::EdgeColoring(const TriangleMesh& mesh, const ExecutionContext& context) {
   check_indices(mesh);
+  context.check();
   cells_.resize(mesh.triangles.size() + 1);
-  join_twins(mesh, [this](Side a, Side b) {
+  SparseCheck check(context);
+  join_twins(mesh, [&](Side a, Side b) {
+    check();
     cell(triangle_of(a)).twin[index_of(a)] = b;
     cell(triangle_of(b)).twin[index_of(b)] = a;
   });
-  std::vector<bool> done(4 * mesh.triangles.size(), false);
+}
+
+std::vector<Side> EdgeColoring::boundary() const {
+  std::vector<Side> sides;
+  boost::dynamic_bitset<> done(4 * cells_.size());
   for (int t = 0; t < size(); ++t) {
     const auto& twins = cell(t).twin;
     if (twins[0] >= 0 && twins[1] >= 0 && twins[2] >= 0) continue;
     for (int i = 0; i < 3; ++i) {
       if (twins[i] >= 0) continue;
-      for (Side side = make_side(t, i); !done[side]; side = next_on_boundary(side)) {
-        done[side] = true;
-        boundary_.push_back(side);
-      }
+      for (Side side = make_side(t, i); !done.test_set(side); side = next_on_boundary(side))
+        sides.push_back(side);
     }
   }
+  return sides;
 }
 
 Side EdgeColoring::next_on_boundary(Side side) const {
@@ -198,14 +207,19 @@ Side EdgeColoring::swap_boundary_chain(Side boundary, int with) {
   return swap_chain(next, from, with);
 }
 
-bool is_proper(const EdgeColoring& coloring) {
+std::string validate(const EdgeColoring& coloring) {
   for (int t = 0; t < coloring.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
       const Side side = make_side(t, i), twin = coloring.twin(side);
-      if (twin >= 0 && coloring.color(twin) != coloring.color(side)) return false;
+      if (twin < 0) continue;
+      if (triangle_of(twin) >= coloring.size() || coloring.twin(twin) != side)
+        return fmt::format("triangle {} is no neighbor of its neighbor {}", t, triangle_of(twin));
+      if (coloring.color(twin) != coloring.color(side))
+        return fmt::format("triangles {} and {} give the edge between them the colors {} and {}", t,
+                           triangle_of(twin), coloring.color(side), coloring.color(twin));
     }
   }
-  return true;
+  return {};
 }
 
 namespace {
@@ -231,7 +245,7 @@ int count_blanks(const EdgeColoring& coloring) {
 
 namespace {
 
-/// The ways to give the three sides of a triangle colours, no two alike, out of those that each may have
+/// The ways to give the three sides of a triangle colors, no two alike, out of those that each may have
 /// (three bits a side): those ways that leave the fewest sides without. Two bits a side, the first in the
 /// lowest.
 struct Choices {
@@ -281,7 +295,7 @@ int color_greedily(EdgeColoring& coloring, Random& random) {
     }
     const Choices& choices = table[masks];
     coloring.color_blanks(t, choices.ways[random.below(choices.count)]);
-    // Those of lower triangles were counted there, and still find no colour.
+    // Those of lower triangles were counted there, and still find no color.
     blanks += std::popcount(static_cast<unsigned>(later & ~coloring.colored_sides(t)));
   }
   return blanks;
@@ -302,36 +316,53 @@ int remove_blanks(EdgeColoring& coloring, Random& random) {
   return left;
 }
 
-std::array<int, 3> count_boundary_colors(const EdgeColoring& coloring) {
-  std::array<int, 3> counts{};
-  for (Side side : coloring.boundary()) {
-    const int color = coloring.color(side);
-    if (color != EdgeColoring::blank) ++counts[color];
+void complete(EdgeColoring& coloring) {
+  const auto color_along = [&](Side side, int color) {
+    while (side >= 0 && coloring.color(side) == EdgeColoring::blank) {
+      const int colors = available(coloring, side) & ~(1 << EdgeColoring::removed);
+      if (colors == 0) return;
+      if ((colors >> color & 1) == 0) color = lowest(colors);
+      coloring.color_blank(side, color);
+      const Side across = coloring.twin(side);
+      side = across < 0 ? -1 : coloring.blank_side_of(triangle_of(across));
+      color = 3 - color;
+    }
+  };
+  for (int t = 0; t < coloring.size(); ++t) {
+    for (int i = 0; i < 3 && coloring.colored_sides(t) != 7; ++i) {
+      color_along(make_side(t, i), 1);
+      color_along(coloring.blank_side_of(t), 2);  // the path's other way from here
+    }
   }
-  return counts;
 }
 
-int least_boundary_color(const EdgeColoring& coloring) {
-  const std::array<int, 3> counts = count_boundary_colors(coloring);
+std::array<int, 3> count_boundary_colors(const EdgeColoring& coloring, const std::vector<Side>& boundary) {
+  std::array<int, 4> counts{};
+  for (Side side : boundary) ++counts[coloring.color(side)];
+  return {counts[0], counts[1], counts[2]};
+}
+
+int least_boundary_color(const EdgeColoring& coloring, const std::vector<Side>& boundary) {
+  const std::array<int, 3> counts = count_boundary_colors(coloring, boundary);
   return static_cast<int>(std::min_element(counts.begin(), counts.end()) - counts.begin());
 }
 
-int clear_boundary(EdgeColoring& coloring, int color, Random& random) {
+int clear_boundary(EdgeColoring& coloring, const std::vector<Side>& boundary, int color, Random& random) {
   std::vector<Side> sides;
-  for (Side side : coloring.boundary()) {
+  for (Side side : boundary) {
     if (coloring.color(side) == color) sides.push_back(side);
   }
   constexpr int max_tries = 6;
   for (Side at : sides) {
     const int first = random.below(2);
     for (int tries = 0; at >= 0 && coloring.color(at) == color && tries < max_tries; ++tries) {
-      // The path that ends at a boundary edge of the other colour gives that edge ours: the search goes on
+      // The path that ends at a boundary edge of the other color gives that edge ours: the search goes on
       // there.
       const Side end = coloring.swap_boundary_chain(at, (color + 1 + (first + tries) % 2) % 3);
       at = end >= 0 && coloring.twin(end) < 0 ? end : -1;
     }
   }
-  return count_boundary_colors(coloring)[color];
+  return count_boundary_colors(coloring, boundary)[color];
 }
 
 }  // namespace quadrille

@@ -1,13 +1,15 @@
 #pragma once
-/// Colours for the edges of a triangulation, no two alike in a triangle: without the edges of one colour, the
-/// triangles are quads. The pieces of the paper's method, each on its own.
-/// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018).
+/// Colors for the edges of a triangulation, no two alike in a triangle: without the edges of one color, the
+/// triangles are quads. The state that all of the pairing works on, and the pieces of the paper's method,
+/// each on its own. Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018).
 
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "geometry/base/execution_context.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 #include "mesher/mesh/side_twins.hpp"
 
@@ -30,19 +32,23 @@ class Random {
   std::uint64_t state_;
 };
 
-/// The colour of each edge of a triangulation: 0, 1, 2, or blank. 16 bytes a triangle.
+/// The color of each edge of a triangulation: 0, 1, 2, or blank. Color 0 is the one to be removed: the two
+/// triangles at an edge of it are a pair and become a quad; a triangle without such an edge is free. 16 bytes
+/// a triangle.
 class EdgeColoring {
  public:
   static constexpr std::uint8_t blank = 3;
+  static constexpr int removed = 0;
 
-  /// All edges blank. Throws Error (failure) naming the triangle when the mesh is not manifold or not
-  /// oriented alike.
-  explicit EdgeColoring(const TriangleMesh& mesh);
+  /// All edges blank. Sides between triangles of different tags are boundary. Throws Error (failure) naming
+  /// the triangle where indices are out of range or repeated, where more than two triangles of a tag share a
+  /// side, or where two of them run along it the same way. Time and memory: linear.
+  explicit EdgeColoring(const TriangleMesh& mesh, const ExecutionContext& context = {});
 
   int size() const { return static_cast<int>(cells_.size()) - 1; }  ///< triangles
   Side twin(Side side) const { return cell(triangle_of(side)).twin[index_of(side)]; }
   /// The sides on the boundary, one loop of it after the other, each along the loop.
-  const std::vector<Side>& boundary() const { return boundary_; }
+  std::vector<Side> boundary() const;
 
   int color(Side side) const {
     const Cell& c = cell(triangle_of(side));
@@ -50,16 +56,15 @@ class EdgeColoring {
     return c.at(0) == i ? 0 : c.at(1) == i ? 1 : c.at(2) == i ? 2 : blank;
   }
 
-  /// A triangle has room for one side of each colour: another side that had it becomes blank there, which
-  /// is_proper() notices.
+  /// Other sides of the two triangles that had the color become blank: the coloring stays proper.
   void set_color(Side side, int color) {
     paint(side, color);
     const Side other = twin(side);
     if (other >= 0) paint(other, color);
   }
 
-  /// Gives the sides of a triangle colours that neither of their triangles has, two bits a side, the first in
-  /// the lowest; sides that have a colour or are to have none get `blank`. Without a branch: which sides are
+  /// Gives the sides of a triangle colors that neither of their triangles has, two bits a side, the first in
+  /// the lowest; sides that have a color or are to have none get `blank`. Without a branch: which sides are
   /// which is different in each triangle.
   void color_blanks(int triangle, int colors) {
     Cell& own = cell(triangle);
@@ -71,52 +76,69 @@ class EdgeColoring {
     }
   }
 
-  /// Gives a side without a colour one that neither of its triangles has.
+  /// Gives a side without a color one that neither of its triangles has.
   void color_blank(Side side, int color) {
     const Side other = twin(side);
     cell(triangle_of(side)).places ^= place_of(color, index_of(side));
     cell(triangle_of(other)).places ^= place_of(color, index_of(other));
   }
 
-  /// The side of a triangle that has a colour; -1 if none has.
+  /// The side of a triangle that has a color; -1 if none has.
   Side side_of(int triangle, int color) const {
     const int i = cell(triangle).at(color);
     return i == none ? -1 : make_side(triangle, i);
   }
 
-  /// The side of a triangle that has no colour, the first of several; -1 if all have.
+  /// The side of a triangle that has no color, the first of several; -1 if all have.
   Side blank_side_of(int triangle) const {
     const int blanks = 7 & ~colored_sides(triangle);
     return blanks == 0 ? -1 : make_side(triangle, std::countr_zero(static_cast<unsigned>(blanks)));
   }
 
-  /// Bit c set: a side of the triangle has the colour c. 0 for the triangle -1, which is beyond the boundary.
+  /// Bit c set: a side of the triangle has the color c. 0 for the triangle -1, which is beyond the boundary.
   int colors_used(int triangle) const { return used_at[cell(triangle).places]; }
-  /// Bit i set: the side i of the triangle has a colour.
+  /// Bit i set: the side i of the triangle has a color.
   int colored_sides(int triangle) const { return colored_at[cell(triangle).places]; }
 
-  /// Exchanges two colours in one triangle: a part of an exchange along a chain.
-  void swap_colors(int triangle, int a, int b) { cell(triangle).swap(a, b); }
+  /// The side of a triangle that has the removed color; -1 if none has.
+  Side diagonal_of(int triangle) const { return side_of(triangle, removed); }
+  bool free(int triangle) const { return cell(triangle).at(removed) == none; }
+  /// The other triangle of the pair; -1 = free.
+  int mate_of(int triangle) const {
+    const Cell& c = cell(triangle);
+    return c.at(removed) == none ? -1 : triangle_of(c.twin[c.at(removed)]);
+  }
+  /// Pairs the two triangles at an inner side; those that they were paired with become free.
+  void pair(Side side) { set_color(side, removed); }
 
-  /// Exchanges the colours a and b along the chain of edges of these two that starts with a side, and goes on
+  /// Exchanges two colors in one triangle: a part of an exchange along a chain.
+  void swap_colors(int triangle, int a, int b) { cell(triangle).swap(a, b); }
+  /// Exchanges two colors everywhere.
+  void swap_colors(int a, int b) {
+    if (a == b) return;
+    for (Cell& c : cells_) c.swap(a, b);
+  }
+
+  /// Exchanges the colors a and b along the chain of edges of these two that starts with a side, and goes on
   /// beyond it; the side's own triangle must lack the other of the two. The chain ends at the boundary, or
-  /// before a triangle without the next colour. \return the last side of the chain, seen from the triangle
+  /// before a triangle without the next color. \return the last side of the chain, seen from the triangle
   /// before it.
   Side swap_chain(Side start, int a, int b);
 
-  /// The same for the chain that starts at a boundary edge and goes inwards: its colour is exchanged with
+  /// The same for the chain that starts at a boundary edge and goes inwards: its color is exchanged with
   /// another one. \return the last side after the first, -1 if there is none.
   Side swap_boundary_chain(Side boundary, int with);
 
  private:
   static constexpr std::uint8_t none = 3;
 
-  /// Where each colour is rather than what colour each side has: a step along a chain is then two loads, and
+  /// Where each color is rather than what color each side has: a step along a chain is then two loads, and
   /// an exchange in a triangle one swap.
   struct Cell {
     Side twin[3]{-1, -1, -1};
-    std::uint32_t places = 0b111111;  // two bits a colour: index of the side with it, or none
+    std::uint32_t places = 0b111111;  // two bits a color: index of the side with it, or none
 
+    void clear(int color) { places |= static_cast<std::uint32_t>(none) << 2 * color; }
     int at(int color) const { return static_cast<int>(places >> 2 * color & 3); }
     void swap(int a, int b) {
       const std::uint32_t change = (places >> 2 * a ^ places >> 2 * b) & 3;
@@ -141,7 +163,19 @@ class EdgeColoring {
     return table;
   }();
 
-  /// What changes in a cell's places when a colour that is at no side comes to the side i; nothing for
+  /// By a side and a cell's places: the places when the side has no color.
+  static constexpr std::array<Table, 3> without_at = [] {
+    std::array<Table, 3> table{};
+    for (int p = 0; p < 64; ++p) {
+      for (int i = 0; i < 3; ++i) {
+        table[i][p] = static_cast<std::uint8_t>(p);
+        for (int c = 0; c < 3; ++c) table[i][p] |= (p >> 2 * c & 3) == i ? none << 2 * c : 0;
+      }
+    }
+    return table;
+  }();
+
+  /// What changes in a cell's places when a color that is at no side comes to the side i; nothing for
   /// `blank` and for the side -1.
   static std::uint32_t place_of(int color, int i) {
     return static_cast<std::uint32_t>(none ^ i) << 2 * color & 0b111111;
@@ -150,46 +184,54 @@ class EdgeColoring {
   /// The boundary side that starts where another ends.
   Side next_on_boundary(Side side) const;
 
+  /// One triangle's part of set_color().
   void paint(Side side, int color) {
     Cell& c = cell(triangle_of(side));
-    const int i = index_of(side);
-    for (int other = 0; other < 3; ++other) {
-      if (other == color || c.at(other) == i) c.places |= static_cast<std::uint32_t>(none) << 2 * other;
+    const int i = index_of(side), before = color == blank ? none : c.at(color);
+    if (before != none && before != i) {
+      if (c.twin[before] >= 0) cell(triangle_of(c.twin[before])).clear(color);
+      c.clear(color);
     }
-    c.places ^= place_of(color, i);
+    c.places = without_at[i][c.places] ^ place_of(color, i);
   }
 
+ protected:
   Cell& cell(int triangle) { return cells_[triangle + 1]; }
   const Cell& cell(int triangle) const { return cells_[triangle + 1]; }
 
-  std::vector<Cell> cells_;  // the first stands for what is beyond the boundary, and never has a colour
-  std::vector<Side> boundary_;
+  std::vector<Cell> cells_;  // the first stands for what is beyond the boundary, and never has a color
 };
 
-/// Both triangles of each edge give it the same colour: so none comes twice in a triangle (blanks may).
-bool is_proper(const EdgeColoring& coloring);
+/// What is wrong with a coloring, naming the triangle: neighbors that do not know each other, an edge to
+/// which its two triangles give different colors. So no color comes twice in a triangle (blanks may). Empty
+/// if nothing is.
+std::string validate(const EdgeColoring& coloring);
 
-/// The edges without a colour.
+/// The edges without a color.
 int count_blanks(const EdgeColoring& coloring);
 
-/// Gives each blank edge, in the order of the triangles, a random one of the colours that its triangles
+/// Gives each blank edge, in the order of the triangles, a random one of the colors that its triangles
 /// leave, or leaves it blank. \return the number of blanks. Time: linear.
 int color_greedily(EdgeColoring& coloring, Random& random);
 
-/// Removes blanks by swapping colours with neighbouring edges along chains of two colours, which moves the
-/// blank until it meets the boundary or another blank, or until its two triangles leave a colour. Each step
-/// keeps the colouring proper. \return the number of blanks that were left after many tries: 0 in practice.
+/// Removes blanks by swapping colors with neighbouring edges along chains of two colors, which moves the
+/// blank until it meets the boundary or another blank, or until its two triangles leave a color. Each step
+/// keeps the coloring proper. \return the number of blanks that were left after many tries: 0 in practice.
 int remove_blanks(EdgeColoring& coloring, Random& random);
 
-/// How often each colour comes on the boundary.
-std::array<int, 3> count_boundary_colors(const EdgeColoring& coloring);
+/// Completes a coloring that has the removed color only: the other two come in turns along the paths and
+/// cycles that are left. An odd cycle keeps one blank. Time: linear.
+void complete(EdgeColoring& coloring);
 
-/// The colour that is least on the boundary, the first of equals.
-int least_boundary_color(const EdgeColoring& coloring);
+/// How often each color comes on the boundary, given as by EdgeColoring::boundary().
+std::array<int, 3> count_boundary_colors(const EdgeColoring& coloring, const std::vector<Side>& boundary);
 
-/// Takes a colour off the boundary, two edges at a time, by exchange along the alternating paths between
+/// The color that is least on the boundary, the first of equals.
+int least_boundary_color(const EdgeColoring& coloring, const std::vector<Side>& boundary);
+
+/// Takes a color off the boundary, two edges at a time, by exchange along the alternating paths between
 /// them. \return the number of boundary edges that still have it; each has a triangle that will find no
 /// partner.
-int clear_boundary(EdgeColoring& coloring, int color, Random& random);
+int clear_boundary(EdgeColoring& coloring, const std::vector<Side>& boundary, int color, Random& random);
 
 }  // namespace quadrille

@@ -1,148 +1,123 @@
-/// Triangles into quads: a matching of the triangles, improved by exchange.
-/// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018): the colouring,
-/// and exchange along alternating paths; the cost of an exchange is ours.
+/// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018): coloring,
+/// exchange along chains of two colors, removal of a color; the cost of an exchange is ours.
 
 #include "mesher/pairing/recombine.hpp"
 
-#include <algorithm>
+#include <utility>
 
 #include "mesher/mesh/renumbering.hpp"
 #include "mesher/mesh/side_twins.hpp"
 #include "mesher/pairing/augmenting_paths.hpp"
-#include "mesher/pairing/edge_coloring.hpp"
-#include "mesher/pairing/matching.hpp"
-#include "mesher/pairing/triangle_graph.hpp"
+#include "mesher/pairing/costed_coloring.hpp"
+#include "mesher/pairing/kempe_chains.hpp"
+#include "mesher/pairing/walk.hpp"
 
 namespace quadrille {
 
 namespace {
 
-/// The quad of the two triangles at a side, counter-clockwise from the first corner of the side.
-std::array<int, 4> quad_across(const TriangleGraph& graph, Side s) {
-  return {graph.corner_at(s), graph.apex_of(graph.twin_of(s)), graph.end_of(s), graph.apex_of(s)};
-}
-
-QuadMesh collect(const TriangleGraph& graph, const TriangleMesh& mesh) {
-  QuadMesh result;
-  result.points = mesh.points;
-  const bool tagged = !mesh.tags.empty();
-  result.quads.reserve(graph.triangles.size() / 2);
-  if (tagged) result.quad_tags.reserve(graph.triangles.size() / 2);
-  for (int t = 0; t < graph.size(); ++t) {
-    const GraphTriangle& triangle = graph.triangles[t];
-    if (triangle.mate < 0) {
-      result.triangles.push_back({triangle.corner[0], triangle.corner[1], triangle.corner[2]});
-      if (tagged) result.triangle_tags.push_back(mesh.tags[t]);
-    } else if (graph.mate_of(t) > t) {
-      result.quads.push_back(quad_across(graph, make_side(t, triangle.mate)));
-      if (tagged) result.quad_tags.push_back(mesh.tags[t]);
-    }
-  }
-  return result;
-}
-
-/// Pairs by quality: greedily, by augmentation, by walks, by exchange along paths and cycles.
-void pair_by_cost(TriangleGraph& graph, const TriangleMesh& mesh, const RecombineOptions& options,
-                  ExecutionContext& context) {
-  graph.objective = options.objective;
-  graph.compute_costs(mesh.points, context);
-  pair_greedily(graph, context);
-  if (augment(graph, reach_of_paths, context) > 0 && walk(graph, mesh.points, context) > 0)
-    move_free(graph, context);
-  context.check();
-  if (options.exchange) exchange(graph, mesh.points, context);
-}
-
-/// The pairs that a colour makes, as a graph for augment_pairs(): which side each triangle is paired across.
-class ColorPairs {
- public:
-  ColorPairs(const EdgeColoring& coloring, int color) : coloring_(coloring), mate_(coloring.size()) {
-    for (int t = 0; t < size(); ++t) {
-      const Side side = coloring.side_of(t, color);
-      mate_[t] = static_cast<std::uint8_t>(side >= 0 && coloring.twin(side) >= 0 ? index_of(side) : none);
-    }
-  }
-
-  int size() const { return coloring_.size(); }
-  Side twin_of(Side side) const { return coloring_.twin(side); }
-  bool free(int t) const { return mate_[t] == none; }
-  int mate_of(int t) const { return free(t) ? -1 : triangle_of(twin_of(diagonal_of(t))); }
-  /// The side of a triangle that is not free across which it is paired.
-  Side diagonal_of(int t) const { return make_side(t, mate_[t]); }
-  void pair(Side side) {
-    const Side twin = twin_of(side);
-    mate_[triangle_of(side)] = static_cast<std::uint8_t>(index_of(side));
-    mate_[triangle_of(twin)] = static_cast<std::uint8_t>(index_of(twin));
-  }
-
- private:
-  static constexpr std::uint8_t none = 3;
-  const EdgeColoring& coloring_;
-  std::vector<std::uint8_t> mate_;
-};
-
-QuadMesh collect(const ColorPairs& pairs, const TriangleMesh& mesh) {
+/// Removes the color: a quad for each pair, the free triangles as they are.
+/// \param corners the corners of a triangle, by number.
+template <class Corners>
+QuadMesh remove_color(const EdgeColoring& coloring, const TriangleMesh& mesh, Corners&& corners) {
   QuadMesh result;
   result.points = mesh.points;
   const bool tagged = !mesh.tags.empty();
   result.quads.reserve(mesh.triangles.size() / 2);
   if (tagged) result.quad_tags.reserve(mesh.triangles.size() / 2);
-  for (int t = 0; t < pairs.size(); ++t) {
-    const auto& corner = mesh.triangles[t];
-    if (pairs.free(t)) {
-      result.triangles.push_back(corner);
+  for (int t = 0; t < coloring.size(); ++t) {
+    const std::array<int, 3>& own = corners(t);
+    if (coloring.free(t)) {
+      result.triangles.push_back(own);
       if (tagged) result.triangle_tags.push_back(mesh.tags[t]);
       continue;
     }
-    const Side side = pairs.diagonal_of(t), twin = pairs.twin_of(side);
+    const Side side = coloring.diagonal_of(t), twin = coloring.twin(side);
     if (twin < side) continue;
     const int i = index_of(side);
-    result.quads.push_back({corner[i], mesh.triangles[triangle_of(twin)][previous_index(index_of(twin))],
-                            corner[next_index(i)], corner[previous_index(i)]});
+    result.quads.push_back({own[i], corners(triangle_of(twin))[previous_index(index_of(twin))],
+                            own[next_index(i)], own[previous_index(i)]});
     if (tagged) result.quad_tags.push_back(mesh.tags[t]);
   }
   return result;
 }
 
-/// Pairs as the paper does: at the edges of one colour. The triangles that this leaves at the boundary are
-/// not collapsed but paired too, if asked for.
-QuadMesh pair_by_color(const TriangleMesh& mesh, const RecombineOptions& options, ExecutionContext& context) {
-  EdgeColoring coloring(mesh);
-  Random random(options.seed);
+QuadMesh remove_color(const CostedColoring& coloring, const TriangleMesh& mesh) {
+  return remove_color(coloring, mesh,
+                      [&](int t) -> const std::array<int, 3>& { return coloring.corners(t); });
+}
+
+/// The removed color by cost, then exchanged along paths and chains.
+CostedColoring color_by_quality(const TriangleMesh& mesh, const RecombineOptions& options,
+                                ExecutionContext& context) {
+  CostedColoring coloring(mesh, context);
+  coloring.compute_costs(mesh.points, options.objective, context);
+  color_by_cost(coloring, context);
+  if (augment(coloring, free_triangles(coloring), {}, context) > 0 &&
+      walk(coloring, mesh.points, context) > 0)
+    move_free(coloring, context);
+  context.check();
+  if (options.exchange == Exchange::where_it_gains) exchange_chains(coloring, mesh.points, context);
+  context.check();
+  return coloring;
+}
+
+/// Three colors as in the paper, the one that is least on the boundary to be removed; not on the boundary,
+/// where that leaves triangles free. \param free takes the free triangles, one after the other along the
+/// boundary.
+EdgeColoring color_as_in_paper(const TriangleMesh& mesh, std::uint64_t seed, std::vector<int>& free,
+                               const ExecutionContext& context) {
+  EdgeColoring coloring(mesh, context);
+  Random random(seed);
   color_greedily(coloring, random);
   context.check();
   const int blanks = remove_blanks(coloring, random);
   context.check();
-  const int color = least_boundary_color(coloring);
-  clear_boundary(coloring, color, random);
-  ColorPairs pairs(coloring, color);
-  if (!options.pair_rest) return collect(pairs, mesh);
-  // The colour has left triangles at the boundary alone: the partner of one is one of the next along it.
+  const std::vector<Side> boundary = coloring.boundary();
+  const int least = least_boundary_color(coloring, boundary);
+  clear_boundary(coloring, boundary, least, random);
+  coloring.swap_colors(least, EdgeColoring::removed);
+  for (Side side : boundary) {
+    if (coloring.color(side) != EdgeColoring::removed) continue;
+    coloring.set_color(side, EdgeColoring::blank);
+    free.push_back(triangle_of(side));
+  }
+  if (blanks > 0) free = free_triangles(coloring);
+  return coloring;
+}
+
+QuadMesh recombine_by_quality(const TriangleMesh& mesh, const RecombineOptions& options,
+                              ExecutionContext& context) {
+  const CostedColoring coloring = [&] {
+    const StageTimer timer(context, "color");
+    return color_by_quality(mesh, options, context);
+  }();
+  const StageTimer timer(context, "recombine");
+  return remove_color(coloring, mesh);
+}
+
+/// The triangles that the color leaves are not collapsed but paired too, if asked for.
+QuadMesh recombine_as_in_paper(const TriangleMesh& mesh, const RecombineOptions& options,
+                               ExecutionContext& context) {
   std::vector<int> free;
-  for (Side side : coloring.boundary()) {
-    if (coloring.color(side) == color) free.push_back(triangle_of(side));
+  EdgeColoring coloring = [&] {
+    const StageTimer timer(context, "color");
+    return color_as_in_paper(mesh, options.seed, free, context);
+  }();
+  const StageTimer timer(context, "recombine");
+  if (options.leftovers == Leftovers::pair && augment(coloring, free, {.heading = &mesh}, context) > 0) {
+    // Those that no path joins walk, for which edges are flipped.
+    CostedColoring flipped(mesh, std::move(coloring));
+    walk(flipped, mesh.points, context);
+    return remove_color(flipped, mesh);
   }
-  for (int t = 0; blanks > 0 && t < coloring.size(); ++t) {
-    if (coloring.side_of(t, color) < 0) free.push_back(t);
-  }
-  if (augment_pairs(pairs, free, StraightToNext(mesh, free), reach_of_paths, context) == 0)
-    return collect(pairs, mesh);
-  // Those that no path joins walk, for which diagonals are turned.
-  TriangleGraph graph(mesh, coloring);
-  for (int t = 0; t < pairs.size(); ++t) {
-    if (!pairs.free(t)) graph.triangles[t].mate = index_of(pairs.diagonal_of(t));
-  }
-  walk(graph, mesh.points, context);
-  return collect(graph, mesh);
+  return remove_color(coloring, mesh, [&](int t) -> const std::array<int, 3>& { return mesh.triangles[t]; });
 }
 
 QuadMesh recombine_in_order(const TriangleMesh& mesh, const RecombineOptions& options,
                             ExecutionContext& context) {
-  if (options.paper_mode) return pair_by_color(mesh, options, context);
-  TriangleGraph graph(mesh, context);
-  pair_by_cost(graph, mesh, options, context);
-  context.check();
-  return collect(graph, mesh);
+  return options.method == Method::paper ? recombine_as_in_paper(mesh, options, context)
+                                         : recombine_by_quality(mesh, options, context);
 }
 
 }  // namespace
@@ -151,7 +126,10 @@ QuadMesh recombine(const TriangleMesh& mesh, const RecombineOptions& options, Ex
   if (!is_scattered(mesh)) return recombine_in_order(mesh, options, context);
   check_indices(mesh);
   try {
-    RenumberedMesh ordered = order_by_place(mesh, context);
+    RenumberedMesh ordered = [&] {
+      const StageTimer timer(context, "color");
+      return order_by_place(mesh, context);
+    }();
     QuadMesh result = recombine_in_order(ordered.mesh, options, context);
     ordered.mesh = {};
     for (auto& quad : result.quads) {
@@ -164,7 +142,7 @@ QuadMesh recombine(const TriangleMesh& mesh, const RecombineOptions& options, Ex
     return result;
   } catch (const Error& error) {
     // What is wrong with a triangulation is told in its own numbers.
-    if (error.kind() == Error::Kind::failure) TriangleGraph{mesh};
+    if (error.kind() == Error::Kind::failure) EdgeColoring{mesh};
     throw;
   }
 }

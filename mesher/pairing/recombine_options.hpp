@@ -5,21 +5,34 @@
 
 namespace quadrille {
 
-/// What the exchange of pairs is after.
+/// How edges get their colors.
+enum class Method {
+  quality,  ///< the removed color first, to the edges whose quads are best
+  paper     ///< as in the 2018 paper: three colors in the order of the mesh, some steps random
+};
+
+/// What the exchange along chains is after.
 enum class Objective {
   regular,  ///< points with four quads first: what clean-up and smoothing make the most of
   shape  ///< the greatest mean q as the points stand, irregular points only next: three to eight times slower
 };
 
+/// Whether colors are exchanged along chains where angles or valence gain (quality only).
+enum class Exchange { where_it_gains, never };
+
+/// What becomes of triangles without an edge of the removed color (paper only: with `quality` they are
+/// paired).
+enum class Leftovers {
+  pair,
+  leave  ///< at the boundary, as the paper does before it collapses them (collapse_boundary_triangles())
+};
+
 struct RecombineOptions {
-  bool paper_mode =
-      false;  ///< the algorithm of the 2018 paper as it stands: colour, swap, remove; no improvement
-  std::uint64_t seed = 1;  ///< of the random choices (paper mode)
-  bool pair_rest =
-      true;              ///< paper mode: pair what the colour leaves; false: leave it at the boundary, as the
-                         ///< paper does before it collapses those triangles (collapse_boundary_triangles())
-  bool exchange = true;  ///< exchange along alternating cycles and paths where angles or valence gain
-  Objective objective = Objective::regular;  ///< of the exchange
+  Method method = Method::quality;
+  std::uint64_t seed = 1;  ///< of the random choices of the paper's method; `quality` makes none
+  Objective objective = Objective::regular;
+  Exchange exchange = Exchange::where_it_gains;
+  Leftovers leftovers = Leftovers::pair;
 };
 
 }  // namespace quadrille

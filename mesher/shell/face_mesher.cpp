@@ -141,7 +141,6 @@ class FaceMesher {
   }
 
   FaceQuads recombine_face(const FaceTriangulation& triangulation) {
-    const StageTimer timer(context_, "recombine");
     FaceQuads quads;
     quads.surface_mesh.mesh = recombine(triangulation.mesh, options_.recombine, context_);
     quads.surface_mesh.parameters = triangulation.uv;

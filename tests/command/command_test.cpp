@@ -226,7 +226,7 @@ TEST(Command, MeshesTheBox) {
   EXPECT_EQ(report["criteria"]["quads"], mesh.quads.size());
   for (const char* stage :
        {"read", "size", "sample", "triangulate", "color", "recombine", "improve", "write"})
-    EXPECT_TRUE(report["seconds"].contains(stage)) << stage;
+    EXPECT_GT(report["seconds"][stage], 0) << stage;
   EXPECT_TRUE(std::filesystem::exists(folder / "s.vdb"));
   const auto measured = stdout_of(folder, "quality a.inp");
   EXPECT_EQ(measured.exit_code, 0);

@@ -55,9 +55,9 @@ TEST(Renumbering, KeepsEveryTriangleAndBringsNeighboursTogether) {
 
 TEST(Renumbering, QuadsOfAScatteredMeshAreFaultless) {
   const TriangleMesh mesh = shuffled(grid(500, 400, 1), 3);
-  for (const bool paper_mode : {false, true}) {
+  for (const Method method : {Method::quality, Method::paper}) {
     RecombineOptions options;
-    options.paper_mode = paper_mode;
+    options.method = method;
     ExecutionContext context;
     EXPECT_EQ(faults(mesh, recombine(mesh, options, context)), "");
   }

@@ -8,7 +8,6 @@
 #include <boost/graph/max_cardinality_matching.hpp>
 #include <numeric>
 
-#include "mesher/pairing/matching.hpp"
 #include "tests/support/triangulations.hpp"
 
 namespace quadrille {
@@ -17,17 +16,18 @@ namespace {
 using namespace testing;
 
 /// Triangles that stay alone in the best pairing there is.
-int fewest_free(const TriangleGraph& graph) {
+int fewest_free(const EdgeColoring& coloring) {
   using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
-  Graph dual(graph.size());
-  for (int t = 0; t < graph.size(); ++t) {
-    for (Side s : graph.triangles[t].twin) {
+  Graph dual(coloring.size());
+  for (int t = 0; t < coloring.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const Side s = coloring.twin(make_side(t, i));
       if (s >= 0 && triangle_of(s) > t) boost::add_edge(t, triangle_of(s), dual);
     }
   }
-  std::vector<boost::graph_traits<Graph>::vertex_descriptor> mates(graph.size());
+  std::vector<boost::graph_traits<Graph>::vertex_descriptor> mates(coloring.size());
   boost::edmonds_maximum_cardinality_matching(dual, mates.data());
-  return graph.size() - 2 * static_cast<int>(boost::matching_size(dual, mates.data()));
+  return coloring.size() - 2 * static_cast<int>(boost::matching_size(dual, mates.data()));
 }
 
 std::vector<TriangleMesh> samples() {
@@ -42,22 +42,13 @@ std::vector<TriangleMesh> samples() {
   return meshes;
 }
 
-/// No triangle has two partners, and who is paired is so with a neighbour.
-void expect_pairs(const TriangleGraph& graph) {
-  for (int t = 0; t < graph.size(); ++t) {
-    if (!graph.free(t)) {
-      EXPECT_EQ(graph.mate_of(graph.mate_of(t)), t);
-    }
-  }
-}
-
 TEST(AugmentingPaths, LeaveAsFewAsCanBe) {
   int contracted = 0;
   for (const TriangleMesh& mesh : samples()) {
-    TriangleGraph graph(mesh);
-    const int left = augment(graph);
-    expect_pairs(graph);
-    EXPECT_EQ(left, fewest_free(graph));
+    EdgeColoring coloring(mesh);
+    const int left = augment(coloring, free_triangles(coloring));
+    EXPECT_EQ(validate(coloring), "");
+    EXPECT_EQ(left, fewest_free(coloring));
     contracted += left > 0;
   }
   EXPECT_GT(contracted, 0) << "all samples can be paired: nothing shows when to stop";
@@ -65,23 +56,19 @@ TEST(AugmentingPaths, LeaveAsFewAsCanBe) {
 
 TEST(AugmentingPaths, FindTheSameFromABadStartAndStraightToAnAim) {
   for (const TriangleMesh& mesh : samples()) {
-    TriangleGraph graph(mesh);
+    EdgeColoring coloring(mesh);
     // Pairs at random: long paths are needed from here.
     std::mt19937 generator(7);
-    std::vector<int> order(graph.size());
+    std::vector<int> order(coloring.size());
     std::iota(order.begin(), order.end(), 0);
     std::shuffle(order.begin(), order.end(), generator);
     for (int t : order) {
-      const Side side = make_side(t, static_cast<int>(generator() % 3)), twin = graph.twin_of(side);
-      if (twin >= 0 && graph.free(t) && graph.free(triangle_of(twin))) graph.pair(side);
+      const Side side = make_side(t, static_cast<int>(generator() % 3)), twin = coloring.twin(side);
+      if (twin >= 0 && coloring.free(t) && coloring.free(triangle_of(twin))) coloring.pair(side);
     }
-    std::vector<int> free;
-    for (int t = 0; t < graph.size(); ++t) {
-      if (graph.free(t)) free.push_back(t);
-    }
-    const int left = augment_pairs(graph, free, StraightToNext(mesh, free), reach_of_paths);
-    expect_pairs(graph);
-    EXPECT_EQ(left, fewest_free(graph));
+    const int left = augment(coloring, free_triangles(coloring), {.heading = &mesh});
+    EXPECT_EQ(validate(coloring), "");
+    EXPECT_EQ(left, fewest_free(coloring));
   }
 }
 
@@ -89,16 +76,16 @@ TEST(AugmentingPaths, StopAtTheirReach) {
   // One triangle less at each end of a long strip: its pairs change all the way.
   const int n = 1000;
   const TriangleMesh mesh = strip(n);
-  TriangleGraph graph(mesh);
+  EdgeColoring coloring(mesh);
   for (int t = 1; t + 2 < n; t += 2) {
     for (int i = 0; i < 3; ++i) {
-      const Side twin = graph.twin_of(make_side(t, i));
-      if (twin >= 0 && triangle_of(twin) == t + 1) graph.pair(twin);
+      const Side twin = coloring.twin(make_side(t, i));
+      if (twin >= 0 && triangle_of(twin) == t + 1) coloring.pair(twin);
     }
   }
-  EXPECT_EQ(augment(graph, 100), 2);
-  EXPECT_EQ(augment(graph, 2 * n), 0);
-  expect_pairs(graph);
+  EXPECT_EQ(augment(coloring, free_triangles(coloring), {.reach = 100}), 2);
+  EXPECT_EQ(augment(coloring, free_triangles(coloring), {.reach = 2 * n}), 0);
+  EXPECT_EQ(validate(coloring), "");
 }
 
 }  // namespace

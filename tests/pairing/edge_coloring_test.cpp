@@ -1,4 +1,4 @@
-/// Each piece of the paper's colouring on its own.
+/// Each piece of the paper's coloring on its own.
 
 #include "mesher/pairing/edge_coloring.hpp"
 
@@ -36,12 +36,45 @@ TEST(EdgeColoring, KnowsBothSidesOfAnEdge) {
   EXPECT_EQ(count_blanks(coloring), 4);
 }
 
-TEST(EdgeColoring, NoticesAColorThatComesTwice) {
+TEST(EdgeColoring, AColorComesOnceInATriangle) {
+  EdgeColoring coloring(strip(3));
+  const Side shared = make_side(0, 1), next = make_side(1, 1);
+  coloring.set_color(shared, 1);
+  coloring.set_color(next, 1);
+  EXPECT_EQ(validate(coloring), "");
+  EXPECT_EQ(coloring.color(shared), EdgeColoring::blank);
+  EXPECT_EQ(coloring.color(coloring.twin(shared)), EdgeColoring::blank);
+  coloring.set_color(next, 2);
+  EXPECT_EQ(coloring.color(coloring.twin(next)), 2);
+  EXPECT_EQ(count_blanks(coloring), 6);
+}
+
+TEST(EdgeColoring, ValidateNoticesTrianglesThatDisagree) {
   EdgeColoring coloring(strip(2));
   coloring.set_color(make_side(0, 1), 1);
-  EXPECT_TRUE(is_proper(coloring));
-  coloring.set_color(make_side(0, 0), 1);
-  EXPECT_FALSE(is_proper(coloring));
+  EXPECT_EQ(validate(coloring), "");
+  coloring.swap_colors(0, 1, 2);
+  EXPECT_EQ(validate(coloring), "triangles 0 and 1 give the edge between them the colors 2 and 1");
+}
+
+TEST(EdgeColoring, PairsAreTheTrianglesAtTheRemovedColor) {
+  EdgeColoring coloring(strip(4));
+  const auto side_to = [&](int t, int other) {
+    for (int i = 0; i < 3; ++i) {
+      if (const Side twin = coloring.twin(make_side(t, i)); twin >= 0 && triangle_of(twin) == other)
+        return make_side(t, i);
+    }
+    return -1;
+  };
+  coloring.pair(side_to(0, 1));
+  coloring.pair(side_to(2, 3));
+  EXPECT_EQ(coloring.mate_of(1), 0);
+  EXPECT_EQ(coloring.mate_of(2), 3);
+  coloring.pair(side_to(1, 2));
+  EXPECT_EQ(validate(coloring), "");
+  EXPECT_EQ(coloring.mate_of(1), 2);
+  EXPECT_TRUE(coloring.free(0));
+  EXPECT_EQ(coloring.mate_of(3), -1);
 }
 
 TEST(EdgeColoring, GreedyPassIsProperAndCountsItsBlanks) {
@@ -50,7 +83,7 @@ TEST(EdgeColoring, GreedyPassIsProperAndCountsItsBlanks) {
     EdgeColoring coloring(mesh);
     Random random(3);
     const int left = color_greedily(coloring, random);
-    EXPECT_TRUE(is_proper(coloring));
+    EXPECT_EQ(validate(coloring), "");
     EXPECT_EQ(count_blanks(coloring), left);
     blanks += left;
   }
@@ -64,7 +97,7 @@ TEST(EdgeColoring, BlanksAreRemoved) {
       Random random(seed);
       color_greedily(coloring, random);
       EXPECT_EQ(remove_blanks(coloring, random), 0);
-      EXPECT_TRUE(is_proper(coloring));
+      EXPECT_EQ(validate(coloring), "");
       EXPECT_EQ(count_blanks(coloring), 0);
     }
   }
@@ -75,7 +108,7 @@ TEST(EdgeColoring, ChainsExchangeTwoColorsAndStayProper) {
   Random random(1);
   color_greedily(coloring, random);
   remove_blanks(coloring, random);
-  const auto of_boundary = count_boundary_colors(coloring);
+  const auto of_boundary = count_boundary_colors(coloring, coloring.boundary());
   int tried = 0;
   for (int t = 0; t < coloring.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
@@ -84,7 +117,7 @@ TEST(EdgeColoring, ChainsExchangeTwoColorsAndStayProper) {
       const int before = coloring.color(side), with = (before + 1) % 3;
       const Side end = coloring.swap_boundary_chain(side, with);
       EXPECT_EQ(coloring.color(side), with);
-      EXPECT_TRUE(is_proper(coloring));
+      EXPECT_EQ(validate(coloring), "");
       ASSERT_GE(end, 0);
       EXPECT_LT(coloring.twin(end), 0) << "without blanks, chains end at the boundary";
       coloring.swap_boundary_chain(side, before);
@@ -92,7 +125,7 @@ TEST(EdgeColoring, ChainsExchangeTwoColorsAndStayProper) {
     }
   }
   EXPECT_GT(tried, 0);
-  EXPECT_EQ(count_boundary_colors(coloring), of_boundary);
+  EXPECT_EQ(count_boundary_colors(coloring, coloring.boundary()), of_boundary);
 }
 
 TEST(EdgeColoring, BoundaryCountsHaveTheParityOfTheTriangles) {
@@ -101,9 +134,11 @@ TEST(EdgeColoring, BoundaryCountsHaveTheParityOfTheTriangles) {
     Random random(11);
     color_greedily(coloring, random);
     ASSERT_EQ(remove_blanks(coloring, random), 0);
-    for (int count : count_boundary_colors(coloring)) EXPECT_EQ((count - coloring.size()) % 2, 0);
-    const auto counts = count_boundary_colors(coloring);
-    EXPECT_EQ(counts[least_boundary_color(coloring)], *std::min_element(counts.begin(), counts.end()));
+    for (int count : count_boundary_colors(coloring, coloring.boundary()))
+      EXPECT_EQ((count - coloring.size()) % 2, 0);
+    const auto counts = count_boundary_colors(coloring, coloring.boundary());
+    EXPECT_EQ(counts[least_boundary_color(coloring, coloring.boundary())],
+              *std::min_element(counts.begin(), counts.end()));
   }
 }
 
@@ -114,12 +149,12 @@ TEST(EdgeColoring, TheBoundaryIsClearedOfMostOfAColor) {
     Random random(5);
     color_greedily(coloring, random);
     remove_blanks(coloring, random);
-    const int color = least_boundary_color(coloring);
-    const int count = count_boundary_colors(coloring)[color];
-    const int left = clear_boundary(coloring, color, random);
-    EXPECT_TRUE(is_proper(coloring));
+    const int color = least_boundary_color(coloring, coloring.boundary());
+    const int count = count_boundary_colors(coloring, coloring.boundary())[color];
+    const int left = clear_boundary(coloring, coloring.boundary(), color, random);
+    EXPECT_EQ(validate(coloring), "");
     EXPECT_EQ(count_blanks(coloring), 0);
-    EXPECT_EQ(count_boundary_colors(coloring)[color], left);
+    EXPECT_EQ(count_boundary_colors(coloring, coloring.boundary())[color], left);
     EXPECT_LE(left, count);
     before += count;
     after += left;

@@ -16,8 +16,8 @@ using namespace testing;
 
 QuadMesh colored(const TriangleMesh& mesh, std::uint64_t seed) {
   RecombineOptions options;
-  options.paper_mode = true;
-  options.pair_rest = false;
+  options.method = Method::paper;
+  options.leftovers = Leftovers::leave;
   options.seed = seed;
   ExecutionContext context;
   return recombine(mesh, options, context);
@@ -86,7 +86,7 @@ TEST(CollapseBoundaryTriangles, TakesMostOfWhatColoursLeave) {
 TEST(SmoothPoor, RaisesTheMeanAndHoldsTheBoundary) {
   const TriangleMesh triangles = grid(20, 15, 4);
   RecombineOptions options;
-  options.paper_mode = true;
+  options.method = Method::paper;
   ExecutionContext context;
   QuadMesh mesh = recombine(triangles, options, context);
   const QuadMesh before = mesh;

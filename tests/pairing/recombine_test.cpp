@@ -5,12 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <random>
 
 #include "geometry/base/error.hpp"
 #include "mesher/mesh/quality.hpp"
-#include "mesher/pairing/matching.hpp"
 #include "tests/support/triangulations.hpp"
 
 namespace quadrille {
@@ -18,9 +16,9 @@ namespace {
 
 using namespace testing;
 
-QuadMesh recombined(const TriangleMesh& mesh, bool paper_mode = false, std::uint64_t seed = 1) {
+QuadMesh recombined(const TriangleMesh& mesh, Method method = Method::quality, std::uint64_t seed = 1) {
   RecombineOptions options;
-  options.paper_mode = paper_mode;
+  options.method = method;
   options.seed = seed;
   ExecutionContext context;
   return recombine(mesh, options, context);
@@ -28,12 +26,12 @@ QuadMesh recombined(const TriangleMesh& mesh, bool paper_mode = false, std::uint
 
 /// Both modes must give a faultless mesh; a case that does not is made small before it is shown.
 void expect_faultless(const TriangleMesh& mesh, const std::string& name) {
-  for (const bool paper_mode : {false, true}) {
-    const auto fault = [paper_mode](const TriangleMesh& m) { return faults(m, recombined(m, paper_mode)); };
+  for (const Method method : {Method::quality, Method::paper}) {
+    const auto fault = [method](const TriangleMesh& m) { return faults(m, recombined(m, method)); };
     const std::string what = fault(mesh);
     if (what.empty()) continue;
     const TriangleMesh small = shrink(mesh, [&](const TriangleMesh& m) { return !fault(m).empty(); });
-    ADD_FAILURE() << name << (paper_mode ? " (paper mode): " : ": ") << what << "; shrunk to "
+    ADD_FAILURE() << name << (method == Method::paper ? " (paper mode): " : ": ") << what << "; shrunk to "
                   << small.triangles.size() << " triangles: " << fault(small) << ": " << describe(small);
   }
 }
@@ -138,7 +136,7 @@ TEST(Recombine, AMillionTriangles) {
   const QuadMesh quads = recombined(mesh);
   EXPECT_EQ(faults(mesh, quads), "");
   mesh.triangles.pop_back();
-  EXPECT_EQ(faults(mesh, recombined(mesh, true)), "");
+  EXPECT_EQ(faults(mesh, recombined(mesh, Method::paper)), "");
 }
 
 TEST(Recombine, IsDeterministicForAnyThreadCount) {
@@ -154,14 +152,14 @@ TEST(Recombine, IsDeterministicForAnyThreadCount) {
 
 TEST(Recombine, PaperModeFollowsItsSeed) {
   const TriangleMesh mesh = random_square(500, 4);
-  EXPECT_EQ(recombined(mesh, true, 5).quads, recombined(mesh, true, 5).quads);
-  EXPECT_NE(recombined(mesh, true, 5).quads, recombined(mesh, true, 6).quads);
+  EXPECT_EQ(recombined(mesh, Method::paper, 5).quads, recombined(mesh, Method::paper, 5).quads);
+  EXPECT_NE(recombined(mesh, Method::paper, 5).quads, recombined(mesh, Method::paper, 6).quads);
 }
 
 TEST(Recombine, ExchangeLowersTheNumberOfIrregularPoints) {
   const TriangleMesh mesh = random_square(2000, 6);
   RecombineOptions plain;
-  plain.exchange = false;
+  plain.exchange = Exchange::never;
   ExecutionContext context;
   const auto irregular = [](const QuadMesh& quads) {
     std::vector<int> valence(quads.points.size(), 0);
@@ -188,66 +186,6 @@ TEST(Recombine, TheObjectiveShapeGivesTheGreaterMean) {
     const QuadMesh quads = recombine(mesh, shape, context);
     EXPECT_EQ(faults(mesh, quads), "");
     EXPECT_GT(mean_q(quads), mean_q(recombine(mesh, {}, context)));
-  }
-}
-
-TEST(Recombine, FreeTrianglesFarApartMeet) {
-  // One triangle less in each of two far corners: what the cheapest way is searched for does not reach.
-  const TriangleMesh mesh = grid(300, 150);
-  const TriangleMesh cut = keep_triangles(mesh, [&](int t, const Vector3&) {
-    return t != 0 && t + 1 != static_cast<int>(mesh.triangles.size());
-  });
-  TriangleGraph graph(cut);
-  for (Side s = 0; s < 4 * graph.size(); ++s) {
-    if (index_of(s) == 3) continue;
-    // The squares of the grid: paired across their diagonals.
-    const Vector3 along = cut.points[graph.end_of(s)] - cut.points[graph.corner_at(s)];
-    if (along.x() * along.y() != 0 && graph.twin_of(s) > s) graph.pair(s);
-  }
-  EXPECT_EQ(std::count_if(graph.triangles.begin(), graph.triangles.end(),
-                          [](const GraphTriangle& t) { return t.mate < 0; }),
-            2);
-  graph.compute_costs(cut.points);
-  EXPECT_EQ(walk(graph, cut.points), 0);
-  for (int t = 0; t < graph.size(); ++t) EXPECT_EQ(graph.mate_of(graph.mate_of(t)), t);
-}
-
-TEST(Recombine, LeavesTheTriangleFreeThatCostsLeast) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> place(0, 0.8);
-  for (const int n : {3, 7, 31, 101}) {
-    TriangleMesh mesh = strip(n);
-    for (Vector3& p : mesh.points) p.x() += place(random);
-    TriangleGraph graph(mesh);
-    graph.compute_costs(mesh.points);
-    const auto side_to = [&](int t, int other) {
-      for (int i = 0; i < 3; ++i) {
-        if (const Side twin = graph.twin_of(make_side(t, i)); twin >= 0 && triangle_of(twin) == other)
-          return make_side(t, i);
-      }
-      return -1;
-    };
-    // A strip of an odd number of triangles can do without any of those with even numbers.
-    double least = std::numeric_limits<double>::infinity();
-    for (int free = 0; free < n; free += 2) {
-      double cost = 0;
-      for (int t = 0; t < n; t += 2) {
-        if (t == free) ++t;
-        if (t < n) cost += graph.cost_of(side_to(t, t + 1));
-      }
-      least = std::min(least, cost);
-    }
-    for (int t = 0; t + 1 < n; t += 2) graph.pair(side_to(t, t + 1));
-    move_free(graph);
-    double cost = 0;
-    int free = 0;
-    for (int t = 0; t < n; ++t) {
-      const GraphTriangle& triangle = graph.triangles[t];
-      free += triangle.mate < 0;
-      if (triangle.mate >= 0) cost += 0.5 * triangle.cost[triangle.mate];
-    }
-    EXPECT_EQ(free, 1);
-    EXPECT_NEAR(cost, least, 2e-3) << n;
   }
 }
 

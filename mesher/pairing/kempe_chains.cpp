@@ -1,0 +1,486 @@
+/// Based on: Kempe, On the geographical problem of the four colours (1879), for the chains; Lin & Kernighan,
+/// An effective heuristic algorithm for the traveling-salesman problem (1973), for chains whose partial gains
+/// stay positive.
+
+#include "mesher/pairing/kempe_chains.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+
+#include <boost/dynamic_bitset.hpp>
+
+#include "geometry/base/threads.hpp"
+#include "mesher/pairing/augmenting_paths.hpp"
+
+namespace quadrille {
+
+namespace {
+
+constexpr float least_gain = 1e-3F;
+
+/// Lets one free triangle be free, or another one.
+class FreeMover {
+ public:
+  explicit FreeMover(CostedColoring& coloring) : coloring_(coloring), reached_in_(coloring.size(), -1) {}
+
+  void move(int start) {
+    constexpr std::size_t reach = 1000;
+    steps_.assign(1, {start, 0, -1, -1});
+    reached_in_[start] = start;
+    best_ = 0;
+    for (std::size_t k = 0; k < steps_.size() && steps_.size() < reach; ++k) {
+      for (int i = 0; i < 3; ++i) take(k, make_side(steps_[k].triangle, i));
+    }
+    // From the start on: each pairing sets the next triangle of the way free.
+    std::vector<Side> way;
+    for (int k = static_cast<int>(best_); steps_[k].before >= 0; k = steps_[k].before)
+      way.push_back(steps_[k].across);
+    std::for_each(way.rbegin(), way.rend(), [this](Side side) { coloring_.pair(side); });
+  }
+
+ private:
+  /// A triangle that is set free: the mate it had is paired across `across` with the triangle before.
+  struct Step {
+    int triangle;
+    float gain;
+    int before;
+    Side across;
+  };
+
+  void take(std::size_t k, Side side) {
+    const Side twin = coloring_.twin(side);
+    if (twin < 0) return;
+    const int start = steps_[0].triangle, taken = triangle_of(twin), freed = coloring_.mate_of(taken);
+    if (freed < 0 || reached_in_[taken] == start || reached_in_[freed] == start) return;
+    reached_in_[taken] = reached_in_[freed] = start;
+    const float gain =
+        steps_[k].gain + coloring_.cost_of(coloring_.diagonal_of(taken)) - coloring_.cost_of(side);
+    if (gain > steps_[best_].gain + least_gain) best_ = steps_.size();
+    steps_.push_back({freed, gain, static_cast<int>(k), side});
+  }
+
+  CostedColoring& coloring_;
+  std::vector<Step> steps_;
+  std::vector<int> reached_in_;  // by triangle: the start of the search
+  std::size_t best_ = 0;
+};
+
+}  // namespace
+
+void move_free(CostedColoring& coloring, const ExecutionContext& context) {
+  SparseCheck check(context, 1);
+  FreeMover mover(coloring);
+  for (int t : free_triangles(coloring)) {
+    check();
+    mover.move(t);
+  }
+}
+
+namespace {
+
+/// How far the number of quads at each point is from the ideal, and what that costs.
+class Valences {
+ public:
+  Valences(const CostedColoring& coloring, const std::vector<Vector3>& points)
+      : weight_(coloring.objective() == Objective::shape ? shape_weight : regular_weight),
+        deviation_(points.size(), 0) {
+    std::vector<char> boundary(points.size(), 0);
+    for (int t = 0; t < coloring.size(); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        const Side side = make_side(t, i);
+        const int v = coloring.corner_at(side);
+        ++deviation_[v];
+        if (coloring.twin(side) < 0) boundary[v] = boundary[coloring.end_of(side)] = 1;
+        // A diagonal makes one quad of two triangles at its ends; each side of it counts for its own start.
+        if (coloring.diagonal_of(t) == side) --deviation_[v];
+      }
+    }
+    std::vector<float> angle(points.size(), 0);
+    for (int t = 0; t < coloring.size(); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        if (const int v = coloring.corners(t)[i]; boundary[v])
+          angle[v] += angle_at(coloring.corners(t), i, points);
+      }
+    }
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      deviation_[v] -= boundary[v] ? std::max(1, static_cast<int>(std::lround(angle[v] / 1.57079633F))) : 4;
+    }
+  }
+
+  /// Change of cost when a quad more (less) meets at each end of a side that stops being (becomes) a
+  /// diagonal.
+  float more(int a, int b) { return change(a, 1) + change(b, 1); }
+  float fewer(int a, int b) { return change(a, -1) + change(b, -1); }
+
+  /// Some sides stop being diagonals, others become so. \return what the cost goes down by.
+  float exchange(const CostedColoring& coloring, const std::vector<Side>& before,
+                 const std::vector<Side>& after) {
+    float gain = 0;
+    for (Side s : before) gain += coloring.cost_of(s) - more(coloring.corner_at(s), coloring.end_of(s));
+    for (Side s : after) gain -= coloring.cost_of(s) + fewer(coloring.corner_at(s), coloring.end_of(s));
+    return gain;
+  }
+
+  /// About the same, without making the change: for a step of a longer exchange.
+  float if_more(int a, int b) const {
+    return 2 * weight_ * (caution + static_cast<float>(deviation_[a] + deviation_[b]));
+  }
+  float if_fewer(int a, int b) const {
+    return 2 * weight_ * (caution - static_cast<float>(deviation_[a] + deviation_[b]));
+  }
+
+ private:
+  static constexpr float regular_weight = 0.4F, shape_weight = 0.02F;
+  /// Against the second order of a change alone, which most further steps of a cycle undo: between 0 and 1.
+  static constexpr float caution = 0.25F;
+
+  static float angle_at(const std::array<int, 3>& corner, int i, const std::vector<Vector3>& points) {
+    const Vector3& p = points[corner[i]];
+    const Vector3 a = points[corner[next_index(i)]] - p, b = points[corner[previous_index(i)]] - p;
+    return static_cast<float>(angle_between(a, b));
+  }
+
+  float change(int v, int by) {
+    const int before = deviation_[v], after = before + by;
+    deviation_[v] = static_cast<std::int16_t>(after);
+    return weight_ * static_cast<float>(after * after - before * before);
+  }
+
+  float weight_;
+  std::vector<std::int16_t> deviation_;
+};
+
+/// Searches closed chains of the removed color and of a second one from one triangle at a time. The second
+/// color is not stored: a chain lays it on any side that is not removed as it comes there.
+class Exchanger {
+ public:
+  /// \param open triangles that may be used, one flag each; null = all. Points of the others are not touched.
+  /// \param first,end all of those that may be used are from `first` to before `end`.
+  Exchanger(CostedColoring& coloring, Valences& valences, const char* open, int first, int end)
+      : coloring_(coloring), valences_(valences), open_(open), first_(first), count_(end - first) {}
+
+  bool may_use(int t) const { return !open_ || open_[t]; }
+
+  /// Makes the best exchange along a cycle through the pair of `t`, if there is one that gains.
+  /// \return the triangles of the cycle, in pairs; empty if none.
+  const std::vector<int>& improve(int t) {
+    best_gain_ = least_gain;
+    best_.clear();
+    path_.clear();
+    touched_.clear();
+    if (!usable(t)) return touched_;
+    root_ = coloring_.mate_of(t);
+    if (coloring_.objective() == Objective::shape) {
+      search(t);
+    } else {
+      release(t, 0);
+    }
+    if (!best_.empty()) apply();
+    return touched_;
+  }
+
+ private:
+  /// A way of `search` to an opened pair.
+  struct Label {
+    int triangle;  // of the pair, in want of a mate
+    float gain;
+    int before;   // label
+    Side across;  // the side by which the way came
+  };
+
+  static constexpr int max_labels = 400;
+  static constexpr int max_pairs = 20;
+  static constexpr int broad_pairs = 5;
+  static constexpr float slack = -0.15F;  // the valences make gains depend on the order
+
+  /// Whether the triangle has a mate, and both may be used. The flag comes first: what lies beyond may be
+  /// changing.
+  bool usable(int t) const {
+    if (!may_use(t)) return false;
+    const int mate = coloring_.mate_of(t);
+    return mate >= 0 && may_use(mate);
+  }
+
+  /// Opens the pair of `t`, which looks for a new mate across its two other sides. All ways are followed over
+  /// the first pairs, then the better one alone.
+  void release(int t, float gain) {
+    const Side diagonal = coloring_.diagonal_of(t);
+    const int a = coloring_.corner_at(diagonal), b = coloring_.end_of(diagonal);
+    gain += coloring_.cost_of(diagonal) - valences_.more(a, b);
+    const Side one = next_side(diagonal), two = previous_side(diagonal);
+    const float rest_one = rest_after(one, gain), rest_two = rest_after(two, gain);
+    const bool narrow = static_cast<int>(path_.size()) >= broad_pairs;
+    if (rest_two > rest_one) {
+      join(two, rest_two);
+      if (!narrow) join(one, rest_one);
+    } else {
+      join(one, rest_one);
+      if (!narrow) join(two, rest_two);
+    }
+    valences_.fewer(a, b);
+  }
+
+  /// What remains of the gain when a pair is made across a side; nothing where that cannot be.
+  float rest_after(Side side, float gain) {
+    constexpr float nothing = -1e8F;
+    const Side across = coloring_.twin(side);
+    if (across < 0 || !usable(triangle_of(across))) return nothing;
+    const int a = coloring_.corner_at(side), b = coloring_.end_of(side);
+    const float rest = gain - coloring_.cost_of(side) - valences_.fewer(a, b);
+    valences_.more(a, b);
+    return rest;
+  }
+
+  /// Makes a pair across a side and goes on from the mate that this leaves alone.
+  void join(Side side, float rest) {
+    if (rest <= slack) return;
+    const Side across = coloring_.twin(side);
+    const int next = triangle_of(across);
+    if (next == root_) {
+      if (rest <= best_gain_) return;
+      best_gain_ = rest;
+      best_ = path_;
+      best_.push_back(across);
+      return;
+    }
+    if (static_cast<int>(path_.size()) + 1 >= max_pairs || on_path(next)) return;
+    const int a = coloring_.corner_at(side), b = coloring_.end_of(side);
+    path_.push_back(across);
+    valences_.fewer(a, b);
+    release(coloring_.mate_of(next), rest);
+    valences_.more(a, b);
+    path_.pop_back();
+  }
+
+  /// Whether the pair of t has been opened already.
+  bool on_path(int t) const {
+    const int mate = coloring_.mate_of(t);
+    if (mate == root_) return true;
+    for (Side s : path_) {
+      if (triangle_of(s) == t || triangle_of(s) == mate) return true;
+    }
+    return false;
+  }
+
+  /// Searches on all ways at once, the best one to each opened pair alone being followed on: long cycles for
+  /// little. What the valences charge is estimated on the way and counted where a cycle closes.
+  void search(int start) {
+    labels_.clear();
+    ++search_number_;
+    if (reached_in_.empty()) {
+      reached_in_.assign(count_, 0);
+      label_of_.resize(count_);
+    }
+    expose(start, 0, -1, -1);
+    for (int k = 0; k < static_cast<int>(labels_.size()) && k < max_labels; ++k) {
+      const Label label = labels_[k];
+      if (label_of_[label.triangle - first_] != k) continue;  // a better way has been found since
+      const Side diagonal = coloring_.diagonal_of(label.triangle);
+      for (Side side : {next_side(diagonal), previous_side(diagonal)}) {
+        const Side across = coloring_.twin(side);
+        if (across < 0 || !usable(triangle_of(across))) continue;
+        const float rest = label.gain - coloring_.cost_of(side) -
+                           valences_.if_fewer(coloring_.corner_at(side), coloring_.end_of(side));
+        if (rest <= 0) continue;
+        if (triangle_of(across) == root_) {
+          close(k, across);
+        } else if (!is_opened(k, triangle_of(across))) {
+          expose(coloring_.mate_of(triangle_of(across)), rest, k, across);
+        }
+      }
+    }
+  }
+
+  /// Opens the pair of `t`, unless another way here has gained as much.
+  void expose(int t, float gain, int before, Side across) {
+    const Side diagonal = coloring_.diagonal_of(t);
+    gain += coloring_.cost_of(diagonal) -
+            valences_.if_more(coloring_.corner_at(diagonal), coloring_.end_of(diagonal));
+    // Of each cycle that gains, some start keeps all partial gains positive (Lin & Kernighan).
+    if (gain <= 0) return;
+    int& reached_in = reached_in_[t - first_];
+    int& label = label_of_[t - first_];
+    if (reached_in == search_number_ && labels_[label].gain >= gain - 1e-4F) return;
+    reached_in = search_number_;
+    label = static_cast<int>(labels_.size());
+    labels_.push_back({t, gain, before, across});
+  }
+
+  /// Whether the pair of t has been opened on the way to a label.
+  bool is_opened(int k, int t) const {
+    const int mate = coloring_.mate_of(t);
+    if (mate == root_) return true;
+    for (; k >= 0; k = labels_[k].before) {
+      if (labels_[k].triangle == t || labels_[k].triangle == mate) return true;
+    }
+    return false;
+  }
+
+  /// Keeps the cycle that a label and a side to the root close if none found gains more.
+  void close(int k, Side last) {
+    path_.assign(1, last);
+    for (; labels_[k].before >= 0; k = labels_[k].before) path_.push_back(labels_[k].across);
+    std::reverse(path_.begin(), path_.end());
+    const float gain = valences_.exchange(coloring_, diagonals_of(path_), path_);
+    valences_.exchange(coloring_, path_, diagonals_);
+    if (gain <= best_gain_) return;
+    best_gain_ = gain;
+    best_ = path_;
+  }
+
+  /// The sides that a chain takes the removed color from, for those that it gives it to.
+  const std::vector<Side>& diagonals_of(const std::vector<Side>& chain) {
+    diagonals_.clear();
+    for (Side s : chain) diagonals_.push_back(coloring_.diagonal_of(triangle_of(s)));
+    return diagonals_;
+  }
+
+  void apply() {
+    valences_.exchange(coloring_, diagonals_of(best_), best_);
+    for (Side s : best_) {
+      coloring_.pair(s);
+      touched_.insert(touched_.end(), {triangle_of(s), triangle_of(coloring_.twin(s))});
+    }
+  }
+
+  CostedColoring& coloring_;
+  Valences& valences_;
+  const char* open_;
+  int first_, count_;
+  int root_ = -1;
+  float best_gain_ = 0;
+  std::vector<Side> path_, best_, diagonals_;
+  std::vector<int> touched_;
+  std::vector<Label> labels_;
+  std::vector<int> reached_in_, label_of_;  // by triangle after the first: number of the search, label
+  int search_number_ = 0;
+};
+
+/// Exchanges around the given triangles until nothing gains; those around an exchange are tried again.
+/// \param queued scratch, one zero a triangle; zero again afterwards.
+void exchange_around(const CostedColoring& coloring, Exchanger& exchanger, std::vector<int> current,
+                     std::vector<char>& queued, const ExecutionContext& context) {
+  constexpr int max_rounds = 20;
+  std::vector<int> next;
+  const auto enqueue = [&](int t) {
+    if (queued[t]) return;
+    queued[t] = 1;
+    next.push_back(t);
+  };
+  for (int round = 0; round < max_rounds && !current.empty(); ++round) {
+    next.clear();
+    for (std::size_t k = 0; k < current.size(); ++k) {
+      if (k % 512 == 0) context.check();
+      queued[current[k]] = 0;
+      for (int changed : exchanger.improve(current[k])) {
+        enqueue(changed);
+        for (int i = 0; i < 3; ++i) {
+          const Side s = coloring.twin(make_side(changed, i));
+          if (s >= 0 && exchanger.may_use(triangle_of(s))) enqueue(triangle_of(s));
+        }
+      }
+    }
+    std::swap(current, next);
+  }
+  for (int t : current) queued[t] = 0;
+}
+
+/// Triangles of one block, by number. Large enough that few lie at a block's edge where the mesh is stored by
+/// place.
+constexpr int block_size = 1 << 15;
+
+/// Marks the triangles all of whose points belong to one block only.
+std::vector<char> mark_inner(const CostedColoring& coloring, std::size_t point_count) {
+  constexpr int none = -1, several = -2;
+  std::vector<int> block_of(point_count, none);
+  for (int t = 0; t < coloring.size(); ++t) {
+    for (int v : coloring.corners(t)) {
+      int& block = block_of[v];
+      block = block == none || block == t / block_size ? t / block_size : several;
+    }
+  }
+  std::vector<char> inner(coloring.size());
+  for (int t = 0; t < coloring.size(); ++t) {
+    const auto& c = coloring.corners(t);
+    inner[t] = block_of[c[0]] != several && block_of[c[1]] != several && block_of[c[2]] != several;
+  }
+  return inner;
+}
+
+/// The chains that are searched.
+void exchange_laid_chains(CostedColoring& coloring, Valences& valences, std::size_t points,
+                          ExecutionContext& context) {
+  std::vector<char> queued(coloring.size(), 0);
+  std::vector<int> remaining;
+  if (coloring.size() < 2 * block_size) {
+    remaining.resize(coloring.size());
+    std::iota(remaining.begin(), remaining.end(), 0);
+  } else {
+    // Blocks share no triangle and no point that they use: they can be worked on in any order, at once.
+    const std::vector<char> inner = mark_inner(coloring, points);
+    context.check();
+    const int blocks = (coloring.size() + block_size - 1) / block_size;
+    const auto work = [&](int block) {
+      std::vector<int> members(std::min(block_size, coloring.size() - block * block_size));
+      std::iota(members.begin(), members.end(), block * block_size);
+      const int first = members.front();
+      Exchanger exchanger(coloring, valences, inner.data(), first, first + static_cast<int>(members.size()));
+      exchange_around(coloring, exchanger, std::move(members), queued, context);
+    };
+    on_threads(context.threads(), [&] { tbb::parallel_for(0, blocks, work); });
+    for (int t = 0; t < coloring.size(); ++t) {
+      if (!inner[t]) remaining.push_back(t);
+    }
+  }
+  Exchanger exchanger(coloring, valences, nullptr, 0, coloring.size());
+  exchange_around(coloring, exchanger, std::move(remaining), queued, context);
+}
+
+/// The chains that a complete coloring has: each closed one of the removed color and another, as long as it
+/// is.
+void exchange_whole_chains(CostedColoring& coloring, Valences& valences, int color,
+                           const ExecutionContext& context) {
+  SparseCheck check(context);
+  boost::dynamic_bitset<> seen(coloring.size());
+  std::vector<Side> removed, kept;
+  for (int start = 0; start < coloring.size(); ++start) {
+    check();
+    removed.clear();
+    kept.clear();
+    bool closed = false;
+    for (int t = start; t >= 0 && !seen.test_set(t) && !coloring.free(t);) {
+      removed.push_back(coloring.diagonal_of(t));
+      seen.set(coloring.mate_of(t));
+      kept.push_back(coloring.side_of(coloring.mate_of(t), color));
+      t = kept.back() < 0 ? -1 : triangle_of(coloring.twin(kept.back()));
+      closed = t == start;
+    }
+    if (!closed) continue;
+    if (valences.exchange(coloring, removed, kept) > least_gain) {
+      for (Side s : removed) {
+        coloring.swap_colors(triangle_of(s), EdgeColoring::removed, color);
+        coloring.swap_colors(triangle_of(coloring.twin(s)), EdgeColoring::removed, color);
+      }
+    } else {
+      valences.exchange(coloring, kept, removed);
+    }
+  }
+}
+
+}  // namespace
+
+void exchange_chains(CostedColoring& coloring, const std::vector<Vector3>& points,
+                     ExecutionContext& context) {
+  Valences valences(coloring, points);
+  context.check();
+  exchange_laid_chains(coloring, valences, points.size(), context);
+  complete(coloring);
+  for (int color : {1, 2}) exchange_whole_chains(coloring, valences, color, context);
+}
+
+}  // namespace quadrille
