@@ -20,8 +20,9 @@ namespace {
 
 /// Nodes of quads above this objective are moved.
 constexpr double poor = 0.1;
-/// What no quad falls below unless one round the same node was: sin 40 degrees, the limit of corner angles.
-constexpr double floor_sine = 0.6428;
+/// What no corner's sine falls below unless one of a quad round the same node was. At the limit of corner
+/// angles (sin 40 degrees) it would hold up nodes that many quads need to pass.
+constexpr double floor_sine = 0.4;
 /// A move must lower the objective by this share.
 constexpr double least_gain = 0.001;
 /// Quads inside the limits that are this near to parallelograms (share of the mean side) stay: a skew grid of
@@ -99,6 +100,12 @@ class NodeSliding {
     double off_parallel = 0;        // of opposite sides, over the mean side
 
     bool is_fine() const { return least_sine > inside_limits && off_parallel < parallel_share; }
+
+    void clear() {
+      uses.clear();
+      objective = worst_objective = 0;
+      least_sine = 1;
+    }
   };
 
   /// A place for a node, and what the quads are with it.
@@ -106,6 +113,12 @@ class NodeSliding {
     Vector3 point;
     std::vector<QuadObjective> quads;
     double objective = 0;
+  };
+
+  /// Of one thread, used again for each node.
+  struct Buffers {
+    Round round;
+    Trial trial;
   };
 
   template <class Work>
@@ -256,6 +269,7 @@ class NodeSliding {
 
   int slide_edges() {
     int moves = 0;
+    Buffers buffers;
     SparseCheck check(context_, 64);
     for (std::size_t i = 0; i < nodes_.edges.size(); ++i) {
       BoundaryNodes::Edge& edge = nodes_.edges[i];
@@ -265,7 +279,7 @@ class NodeSliding {
         if (!slidable_[node] || !take_active(node)) continue;
         check();
         if (!curve) curve.emplace(shape_.edges[i]);
-        moves += slide(*curve, edge, k);
+        moves += slide(*curve, edge, k, buffers);
       }
     }
     return moves;
@@ -281,9 +295,10 @@ class NodeSliding {
     return any;
   }
 
-  bool slide(const EdgeCurve& curve, BoundaryNodes::Edge& edge, std::size_t k) {
+  bool slide(const EdgeCurve& curve, BoundaryNodes::Edge& edge, std::size_t k, Buffers& buffers) {
     const int node = edge.nodes[k];
-    Round round;
+    auto& [round, trial] = buffers;
+    round.clear();
     for (int i = first_instance_[node]; i < first_instance_[node + 1]; ++i)
       gather(instances_[i].face, instances_[i].point, round);
     if (round.uses.empty() || round.worst_objective <= poor) return false;
@@ -300,7 +315,6 @@ class NodeSliding {
                  high = edge.parameters[k + 1] - margin_share * gap;
     const auto lanes = patch.evaluate(steps, {});
     const auto best = std::min_element(lanes.begin(), lanes.end()) - lanes.begin();
-    Trial trial;
     for (const double share : {1.0, 0.5}) {
       const double to = std::clamp(t + share * steps[best] / speed, low, high);
       trial.point = curve.point(to);
@@ -324,6 +338,7 @@ class NodeSliding {
   void relax_face(FaceState& face) {
     face.moves = 0;
     const int index = static_cast<int>(&face - states_.data());
+    Buffers buffers;
     SparseCheck check(context_, 64);
     for (int node = static_cast<int>(face.mesh->nodes.size()); node < static_cast<int>(face.active.size());
          ++node) {
@@ -331,15 +346,16 @@ class NodeSliding {
       check();
       face.active[node] = 0;
       try {
-        face.moves += relax(face, index, node);
+        face.moves += relax(face, index, node, buffers);
       } catch (const Standard_Failure&) {
         continue;  // the surface cannot be evaluated there: the node stays
       }
     }
   }
 
-  bool relax(FaceState& face, int index, int node) {
-    Round round;
+  bool relax(FaceState& face, int index, int node, Buffers& buffers) {
+    auto& [round, trial] = buffers;
+    round.clear();
     gather(index, node, round);
     if (round.uses.empty() || round.worst_objective <= poor) return false;
     measure_sides(round);
@@ -353,7 +369,6 @@ class NodeSliding {
     CriteriaPatch patch(u, v);
     if (!draw(round, patch)) return false;
     const auto [x, y] = lowest(patch, round);
-    Trial trial;
     for (const double share : {1.0, 0.5}) {
       Vector2 uv = face.mesh->uv[node];
       trial.point = face.get_surface().move(uv, here + share * (x * u + y * v)).point;

@@ -118,7 +118,7 @@ TEST(NodeSliding, KeepsNodesOnTheirSurfaces) {
 }
 
 TEST(NodeSliding, LowersTheObjectiveAndBreaksNoFloor) {
-  constexpr double floor = 0.64;
+  constexpr double floor = 0.4;
   for_each_case([&](MeshedFaces& faces) {
     const auto before = faces.measure();
     faces.slide();
