@@ -30,8 +30,8 @@ constexpr double least_gain = 0.001;
 constexpr double parallel_share = 0.1, inside_limits = 0.766;  // the sine of 50 degrees: skew 40
 /// Neighbors are looked at again after a move by more than this share of the mean side.
 constexpr double still_share = 0.01;
-/// An edge's node stays this share of the interval between its neighbors away from them.
-constexpr double margin_share = 0.05;
+/// Intervals of edges keep between these shares of what the sizing field gave them: circles stay round.
+constexpr double shortest_interval = 0.5, longest_interval = 1.5;
 
 /// The quad round a node: `corner` is the node's place in it.
 struct Use {
@@ -73,6 +73,7 @@ class NodeSliding {
       states_[i].cad_face = &shape.faces[i];
     }
     for_each_face([&](FaceState& face) { prepare(face); });
+    for (const auto& edge : nodes.edges) sampled_.push_back(edge.parameters);
     link_boundary();
     find_slidable();
   }
@@ -272,14 +273,14 @@ class NodeSliding {
     Buffers buffers;
     SparseCheck check(context_, 64);
     for (std::size_t i = 0; i < nodes_.edges.size(); ++i) {
-      BoundaryNodes::Edge& edge = nodes_.edges[i];
+      const BoundaryNodes::Edge& edge = nodes_.edges[i];
       std::optional<EdgeCurve> curve;
       for (std::size_t k = 1; k + 1 < edge.nodes.size(); ++k) {
         const int node = edge.nodes[k];
         if (!slidable_[node] || !take_active(node)) continue;
         check();
         if (!curve) curve.emplace(shape_.edges[i]);
-        moves += slide(*curve, edge, k, buffers);
+        moves += slide(*curve, i, k, buffers);
       }
     }
     return moves;
@@ -295,7 +296,16 @@ class NodeSliding {
     return any;
   }
 
-  bool slide(const EdgeCurve& curve, BoundaryNodes::Edge& edge, std::size_t k, Buffers& buffers) {
+  /// Between which parameters node k of an edge may lie.
+  std::array<double, 2> range_of(std::size_t edge, std::size_t k) const {
+    const auto &now = nodes_.edges[edge].parameters, &sampled = sampled_[edge];
+    const double before = sampled[k] - sampled[k - 1], after = sampled[k + 1] - sampled[k];
+    return {std::max(now[k - 1] + shortest_interval * before, now[k + 1] - longest_interval * after),
+            std::min(now[k + 1] - shortest_interval * after, now[k - 1] + longest_interval * before)};
+  }
+
+  bool slide(const EdgeCurve& curve, std::size_t index, std::size_t k, Buffers& buffers) {
+    BoundaryNodes::Edge& edge = nodes_.edges[index];
     const int node = edge.nodes[k];
     auto& [round, trial] = buffers;
     round.clear();
@@ -304,15 +314,14 @@ class NodeSliding {
     if (round.uses.empty() || round.worst_objective <= poor) return false;
     measure_sides(round);
     if (round.is_fine()) return false;
-    const double t = edge.parameters[k], gap = edge.parameters[k + 1] - edge.parameters[k - 1];
+    const double t = edge.parameters[k];
+    const auto [low, high] = range_of(index, k);
     const Vector3 derivative = curve.derivative(t);
     const double speed = derivative.norm();
     CriteriaPatch patch(derivative / speed, Vector3::Zero());
-    if (!(speed * gap > 0) || !draw(round, patch)) return false;
+    if (!(speed > 0) || !(low < high) || !draw(round, patch)) return false;
     CriteriaPatch::Lanes steps{-0.4, -0.2, -0.08, -0.02, 0.02, 0.08, 0.2, 0.4};
     for (double& step : steps) step *= round.mean;
-    const double low = edge.parameters[k - 1] + margin_share * gap,
-                 high = edge.parameters[k + 1] - margin_share * gap;
     const auto lanes = patch.evaluate(steps, {});
     const auto best = std::min_element(lanes.begin(), lanes.end()) - lanes.begin();
     for (const double share : {1.0, 0.5}) {
@@ -440,6 +449,7 @@ class NodeSliding {
   BoundaryNodes& nodes_;
   ExecutionContext& context_;
   std::vector<FaceState> states_;
+  std::vector<std::vector<double>> sampled_;  // (edges) parameters before
   std::vector<int> first_instance_;
   std::vector<Instance> instances_;
   std::vector<char> slidable_;  // (boundary nodes)
