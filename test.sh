@@ -5,5 +5,10 @@ cd "$(dirname "$(readlink -f "$0")")"
 
 scripts/install_dependencies.sh
 scripts/build.sh ci
+run() { ctest --test-dir build --output-on-failure --parallel "$(nproc)" --no-tests=ignore "$@"; }
+status=0
+run --label-exclude window "$@" || status=$?
 # The tests in FreeCAD's window have one more try: they share a machine and a toolkit with much else.
-exec ctest --test-dir build --output-on-failure --parallel "$(nproc)" --repeat until-pass:2 "$@"
+run --label-regex window --repeat until-pass:2 "$@" || status=$?
+((status == 0)) && echo "All tests passed, but for those listed above as skipped." || echo "TESTS FAILED: see above."
+exit "$status"

@@ -6,6 +6,12 @@
 
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
+#include <BRep_Tool.hxx>
+#include <GeomAPI_ProjectPointOnSurf.hxx>
+#include <Geom_Surface.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -101,7 +107,6 @@ TEST(Mesh, NodesLieOnTheGeometry) {
     for (const auto& segment : mesh.segments) {
       const auto& edge = model.shape().edges[segment.edge - 1].edge;
       EXPECT_LT(distance_to(edge, mesh.points[segment.middle]), tolerance);
-      break;
     }
     for (const auto& corner : mesh.corners) {
       EXPECT_LT((mesh.points[corner.node] - model.shape().vertices[corner.vertex - 1]).norm(), tolerance);
@@ -124,6 +129,91 @@ TEST(Mesh, NormalsFollowTheFaces) {
     }
     EXPECT_GT(volume, 0);
   }
+}
+
+/// The normal of a face, as the model uses it, at the point of its surface next to `p`.
+Vector3 face_normal(const TopoDS_Face& face, const Vector3& p) {
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  GeomAPI_ProjectPointOnSurf projection(gp_Pnt(p.x(), p.y(), p.z()), surface);
+  double u = 0, v = 0;
+  projection.LowerDistanceParameters(u, v);
+  gp_Pnt point;
+  gp_Vec du, dv;
+  surface->D1(u, v, point, du, dv);
+  const gp_Vec normal = du.Crossed(dv) * (face.Orientation() == TopAbs_REVERSED ? -1 : 1);
+  return {normal.X(), normal.Y(), normal.Z()};
+}
+
+TEST(Mesh, EveryQuadLooksAsItsFaceDoes) {
+  for (const SampleModel& sample : sample_models()) {
+    SCOPED_TRACE(sample.name);
+    const CadModel model = CadModel::read(sample.path());
+    TopTools_IndexedMapOfShape faces;
+    TopExp::MapShapes(model.shape().shape, TopAbs_FACE, faces);
+    const ShellMesh mesh = mesh_of(model, options_for(model, 20));
+    const auto& p = mesh.points;
+    for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
+      const auto& q = mesh.quads[i];
+      const Vector3 normal = (p[q[2]] - p[q[0]]).cross(p[q[3]] - p[q[1]]),
+                    center = 0.25 * (p[q[0]] + p[q[1]] + p[q[2]] + p[q[3]]);
+      EXPECT_GT(normal.dot(face_normal(TopoDS::Face(faces(mesh.quad_faces[i])), center)), 0)
+          << "quad " << i << " of Face" << mesh.quad_faces[i];
+    }
+  }
+}
+
+/// The one midside node of every segment of every CAD edge: on the edge, as far from both ends, and the same
+/// in all elements there.
+TEST(Mesh, MidsideNodesLieHalfwayOnEveryEdge) {
+  for (const SampleModel& sample : sample_models()) {
+    SCOPED_TRACE(sample.name);
+    const CadModel model = CadModel::read(sample.path());
+    MeshOptions options = options_for(model, 12);
+    options.order = 2;
+    const ShellMesh mesh = mesh_of(model, options);
+    std::map<std::pair<int, int>, std::set<int>> middles;
+    for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
+      for (int k = 0; k < 4; ++k)
+        middles[std::minmax({mesh.quads[i][k], mesh.quads[i][(k + 1) % 4]})].insert(mesh.midsides[i][k]);
+    }
+    std::set<int> edges;
+    for (const auto& segment : mesh.segments) {
+      SCOPED_TRACE(fmt::format("Edge{}, node {}", segment.edge, segment.middle));
+      edges.insert(segment.edge);
+      const Vector3 &a = mesh.points[segment.nodes[0]], &b = mesh.points[segment.nodes[1]],
+                    &middle = mesh.points[segment.middle];
+      EXPECT_EQ(middles.at(std::minmax({segment.nodes[0], segment.nodes[1]})), std::set<int>{segment.middle});
+      EXPECT_LT(distance_to(model.shape().edges[segment.edge - 1].edge, middle), 2e-7 * model.diagonal());
+      EXPECT_NEAR((middle - a).norm(), (middle - b).norm(), 1e-6 * (b - a).norm());
+      // On this piece of the edge: another one as far from both ends is further away.
+      EXPECT_LT((middle - a).norm(), 0.8 * (b - a).norm());
+    }
+    EXPECT_GE(static_cast<int>(edges.size()), 1);
+    for (const auto& [side, nodes] : middles) EXPECT_EQ(nodes.size(), 1u);
+  }
+}
+
+/// Floors under what README says of the meshes, on the project's own models.
+TEST(Mesh, IsAsGoodAsItWas) {
+  double q = 0, irregular = 0, quads = 0;
+  std::vector<double> worst;
+  for (const SampleModel& sample : sample_models()) {
+    SCOPED_TRACE(sample.name);
+    const CadModel model = CadModel::read(sample.path());
+    const QualitySummary summary = quality(mesh_of(model, options_for(model, 60)));
+    q += summary.q_mean * summary.quads;
+    irregular += summary.irregular_percent * summary.quads;
+    quads += summary.quads;
+    worst.push_back(summary.q_min);
+    EXPECT_GT(summary.q_min, 0.15);
+  }
+  std::sort(worst.begin(), worst.end());
+  RecordProperty("figures",
+                 fmt::format("q {:.4f}, irregular {:.3f} %, median of the worst {:.3f}, worst {:.3f}",
+                             q / quads, irregular / quads, worst[worst.size() / 2], worst[0]));
+  EXPECT_GT(q / quads, 0.94);
+  EXPECT_LT(irregular / quads, 1.4);
+  EXPECT_GT(worst[worst.size() / 2], 0.55);
 }
 
 TEST(Mesh, IsTheSameForAnyThreadCount) {
@@ -188,6 +278,14 @@ TEST(Mesh, MeshesSomeFacesAlone) {
   EXPECT_EQ(faces, (std::set<int>{2, 5}));
   EXPECT_EQ(mesh.faces[0].status, "skipped");
   EXPECT_EQ(mesh.faces[1].status, "meshed");
+}
+
+/// Cleaning up the cone's mesh at this size meets a node at which two fans of quads touch.
+TEST(Mesh, KeepsNodesThatTwoFansOfQuadsShare) {
+  const CadModel model = CadModel::read(sample_model("cone").path());
+  MeshOptions options;
+  options.sizing.elements_per_diagonal = 40;
+  EXPECT_EQ(joined(validate(mesh_of(model, options), true)), "");
 }
 
 TEST(Mesh, SharedFacesAreMeshedOnce) {

@@ -19,6 +19,12 @@ struct PendingSide {
 
 constexpr int boundary = -1;
 
+bool has_node(std::span<const QuadTopology::Quad> quads, int node) {
+  return std::any_of(quads.begin(), quads.end(), [&](const QuadTopology::Quad& quad) {
+    return std::find(quad.begin(), quad.end(), node) != quad.end();
+  });
+}
+
 }  // namespace
 
 QuadTopology::QuadTopology(std::vector<Quad> quads, const std::vector<int>& tags, int node_count,
@@ -116,6 +122,12 @@ bool QuadTopology::joined_outside(int from, int to, std::span<const int> patch) 
   return false;
 }
 
+bool QuadTopology::only_in(int node, std::span<const int> patch) const {
+  return uses_[node] == std::count_if(patch.begin(), patch.end(), [&](int quad) {
+           return has_node({&quads_[quad], 1}, node);
+         });
+}
+
 bool QuadTopology::replace(std::span<const int> old_quads, std::span<const Quad> new_quads) {
   if (old_quads.size() > max_patch || new_quads.size() > max_patch || new_quads.empty()) return false;
   std::array<PendingSide, 4 * max_patch> pending;
@@ -157,6 +169,10 @@ bool QuadTopology::replace(std::span<const int> old_quads, std::span<const Quad>
     }
     if (pending[i].twin < 0) return false;
     if (i < pending[i].twin && joined_outside(pending[i].from, pending[i].to, old_quads)) return false;
+  }
+  for (const int quad : old_quads) {
+    for (const int node : quads_[quad])
+      if (!has_node(new_quads, node) && !only_in(node, old_quads)) return false;
   }
 
   // Nothing can fail from here on.

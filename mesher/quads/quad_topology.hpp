@@ -67,6 +67,8 @@ class QuadTopology {
  private:
   void link(const ExecutionContext& context);
   bool joined_outside(int from, int to, std::span<const int> patch) const;
+  /// Whether all quads of a node are among these.
+  bool only_in(int node, std::span<const int> patch) const;
 
   std::vector<Quad> quads_;
   std::vector<int> twins_;

@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 
 #include "mesher/io/io.hpp"
+#include "tests/models/trouble_models.hpp"
 #include "tests/support/process.hpp"
 
 namespace quadrille {
@@ -292,6 +293,45 @@ TEST(Command, TellsWhatLeavesTheGeometry) {
     }));
   }
   EXPECT_EQ(report["faces"][0]["off_geometry"]["largest"], largest);
+}
+
+/// A model of trouble as a file.
+std::string trouble_file(const TemporaryFolder& folder, const std::string& name) {
+  for (const TroubleModel& trouble : trouble_models()) {
+    if (trouble.name == name) BRepTools::Write(trouble.make(), (folder / (name + ".brep")).c_str());
+  }
+  return name + ".brep";
+}
+
+TEST(Command, SewsFacesThatTouch) {
+  const TemporaryFolder folder;
+  const std::string faces = trouble_file(folder, "touching_faces");
+  ASSERT_EQ(stdout_of(folder, "mesh " + faces + " -o apart.msh --size 2").exit_code, 0);
+  ASSERT_EQ(stdout_of(folder, "mesh " + faces + " -o sewn.msh --size 2 --sew 0.01").exit_code, 0);
+  // The ten segments of the common side have eleven nodes, once.
+  EXPECT_EQ(read_mesh(folder / "sewn.msh").points.size() + 11, read_mesh(folder / "apart.msh").points.size());
+}
+
+TEST(Command, MergesTinyFaces) {
+  const TemporaryFolder folder;
+  const std::string sliver = trouble_file(folder, "sliver");
+  const auto quads_on_sliver = [&](const std::string& arguments) {
+    EXPECT_EQ(stdout_of(folder, "mesh " + sliver + " -o a.msh --size 5 " + arguments).exit_code, 0);
+    const ShellMesh mesh = read_mesh(folder / "a.msh");
+    return std::count(mesh.quad_faces.begin(), mesh.quad_faces.end(), 2);
+  };
+  EXPECT_GT(quads_on_sliver(""), 0);
+  EXPECT_EQ(quads_on_sliver("--merge-tiny 0.1"), 0);
+}
+
+TEST(Command, EndsAtTheTimeLimit) {
+  const TemporaryFolder folder;
+  const auto start = std::chrono::steady_clock::now();
+  const auto result = stderr_of(folder, "mesh " + bracket + " -o a.msh --size 0.05 --time-limit 0.5 --quiet");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_PRED2(contains, result.out, "time limit");
+  EXPECT_EQ(folder.file_count(), 0);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 20);
 }
 
 TEST(Command, QuietSaysNothing) {

@@ -64,6 +64,44 @@ TEST(SizingField, StaysBetweenItsLimitsAndGrowsNoFasterThanAsked) {
   }
 }
 
+/// One small size on a vertex of a plane plate: the field is the least of it and what grows from it, computed
+/// here point by point.
+TEST(SizingField, GrowsFromASourceAsBruteForceSays) {
+  const CadModel model = CadModel::read(sample_model("box").path());
+  SizingOptions options;
+  options.size = model.diagonal() / 8;
+  options.elements_per_circle = 0;
+  for (const double growth : {0.1, 0.3, 0.6}) {
+    SCOPED_TRACE(growth);
+    options.growth = growth;
+    const double source = options.size / 20;
+    options.vertex_sizes[1] = source;
+    const SizingField field = field_of(model, options);
+    SizingField::Sampler size_at(field);
+    const Vector3 vertex = model.shape().vertices[0];
+    int between = 0;
+    double sum = 0;
+    for (const CadFace& face : model.shape().faces) {
+      const FaceSurface surface(face);
+      for (int i = 0; i <= 20; ++i) {
+        for (int j = 0; j <= 20; ++j) {
+          const Vector3 p = surface.point({face.u_min + (face.u_max - face.u_min) * i / 20,
+                                           face.v_min + (face.v_max - face.v_min) * j / 20});
+          const double expected = std::min(options.size, source + growth * (p - vertex).norm());
+          // Voxels are about as wide as the size: the field is off by what it grows over one of them.
+          EXPECT_LE(size_at(p), expected * (1 + 2 * growth) + 1e-9);
+          EXPECT_GE(size_at(p), 0.7 * expected);
+          if (expected == options.size || expected < 3 * source) continue;
+          ++between;
+          sum += size_at(p) / expected;
+        }
+      }
+    }
+    ASSERT_GT(between, 50);
+    EXPECT_NEAR(sum / between, 1, 0.2);
+  }
+}
+
 TEST(SizingField, TakesNoMoreRoomTheSlowerSizesGrow) {
   const CadModel model = CadModel::read(sample_model("bracket").path());
   SizingOptions options;
