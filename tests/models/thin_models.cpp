@@ -188,12 +188,24 @@ TopoDS_Shape tank() {
 
 }  // namespace
 
-TopoDS_Shape profile(const std::vector<Outline>& outlines, double length) {
+TopoDS_Shape section(const std::vector<Outline>& outlines) {
   BRepBuilderAPI_MakeFace face(rounded(outlines.front()), Standard_True);
   for (std::size_t i = 1; i < outlines.size(); ++i) {
     face.Add(TopoDS::Wire(rounded(outlines[i]).Reversed()));
   }
-  return BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0, 0, length)).Shape();
+  return face.Face();
+}
+
+TopoDS_Shape profile(const std::vector<Outline>& outlines, double length) {
+  return BRepPrimAPI_MakePrism(section(outlines), gp_Vec(0, 0, length)).Shape();
+}
+
+std::vector<CantileverModel> cantilevers() {
+  return {{"i_beam_with_fillets", {i_outline(60, 100, 4, 6, 5)}, 600},
+          {"square_tube", {rectangle(0, 0, 50, 50, 6), rectangle(3, 3, 44, 44, 3)}, 500},
+          {"channel_with_bends",
+           {{{0, 0, 5}, {60, 0, 5}, {60, 40}, {58, 40}, {58, 2, 3}, {2, 2, 3}, {2, 40}, {0, 40}}},
+           500}};
 }
 
 TopoDS_Shape ribbed_plate(int ribs) {

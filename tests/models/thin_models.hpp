@@ -8,6 +8,11 @@
 
 namespace quadrille {
 
+/// An outline, its corners in order, rounded by a radius each.
+struct Corner2d {
+  double x = 0, y = 0, radius = 0;
+};
+
 struct ThinModel {
   std::string name;  ///< fit for a file name
   std::function<TopoDS_Shape()> make;
@@ -23,7 +28,7 @@ const std::vector<ThinModel>& thin_models();
 /// A section for a cantilever of `length` along z, symmetric about a plane x = const.
 struct CantileverModel {
   std::string name;
-  std::vector<std::vector<struct Corner2d>> outlines;
+  std::vector<std::vector<Corner2d>> outlines;
   double length = 0;
 };
 std::vector<CantileverModel> cantilevers();
@@ -36,11 +41,6 @@ TopoDS_Shape plate_on_block();
 
 /// A plate with many ribs: 200 faces and more.
 TopoDS_Shape ribbed_plate(int ribs_each_way);
-
-/// An outline, its corners in order, rounded by a radius each.
-struct Corner2d {
-  double x = 0, y = 0, radius = 0;
-};
 
 /// The face between outlines in the plane z = 0, the first one outside, the others holes in it.
 TopoDS_Shape section(const std::vector<std::vector<Corner2d>>& outlines);

@@ -26,6 +26,10 @@ int main(int argc, char** argv) {
   };
   for (const quadrille::TroubleModel& model : quadrille::trouble_models()) write(model.name, model.make);
   for (const quadrille::ThinModel& model : quadrille::thin_models()) write("thin_" + model.name, model.make);
+  for (const quadrille::CantileverModel& model : quadrille::cantilevers()) {
+    write("section_" + model.name, [&] { return quadrille::section(model.outlines); });
+    write("cantilever_" + model.name, [&] { return quadrille::profile(model.outlines, model.length); });
+  }
   write("thick_block", quadrille::thick_block);
   write("plate_on_block", quadrille::plate_on_block);
   write("ribbed_plate_200", [] { return quadrille::ribbed_plate(6); });
