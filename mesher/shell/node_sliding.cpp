@@ -22,7 +22,7 @@ namespace {
 constexpr double poor = 0.1;
 /// What no corner's sine falls below unless one of a quad round the same node was. At the limit of corner
 /// angles (sin 40 degrees) it would hold up nodes that many quads need to pass.
-constexpr double floor_sine = 0.4;
+constexpr double floor_sine = 0.5;
 /// A move must lower the objective by this share.
 constexpr double least_gain = 0.001;
 /// Quads inside the limits that are this near to parallelograms (share of the mean side) stay: a skew grid of
@@ -30,8 +30,9 @@ constexpr double least_gain = 0.001;
 constexpr double parallel_share = 0.1, inside_limits = 0.766;  // the sine of 50 degrees: skew 40
 /// Neighbors are looked at again after a move by more than this share of the mean side.
 constexpr double still_share = 0.01;
-/// Intervals of edges keep between these shares of what the sizing field gave them: circles stay round.
-constexpr double shortest_interval = 0.5, longest_interval = 1.5;
+/// Intervals of edges keep between these shares of what the sizing field gave them; those of curved edges
+/// grow less, so that circles stay round.
+constexpr double shortest_interval = 0.5, longest_interval = 1.5, longest_curved_interval = 1.15;
 
 /// The quad round a node: `corner` is the node's place in it.
 struct Use {
@@ -296,12 +297,13 @@ class NodeSliding {
     return any;
   }
 
-  /// Between which parameters node k of an edge may lie.
-  std::array<double, 2> range_of(std::size_t edge, std::size_t k) const {
+  /// Between which parameters node k of an edge may lie, with intervals up to `longest` times as long as at
+  /// first.
+  std::array<double, 2> range_of(std::size_t edge, std::size_t k, double longest) const {
     const auto &now = nodes_.edges[edge].parameters, &sampled = sampled_[edge];
     const double before = sampled[k] - sampled[k - 1], after = sampled[k + 1] - sampled[k];
-    return {std::max(now[k - 1] + shortest_interval * before, now[k + 1] - longest_interval * after),
-            std::min(now[k + 1] - shortest_interval * after, now[k - 1] + longest_interval * before)};
+    return {std::max(now[k - 1] + shortest_interval * before, now[k + 1] - longest * after),
+            std::min(now[k + 1] - shortest_interval * after, now[k - 1] + longest * before)};
   }
 
   bool slide(const EdgeCurve& curve, std::size_t index, std::size_t k, Buffers& buffers) {
@@ -315,7 +317,8 @@ class NodeSliding {
     measure_sides(round);
     if (round.is_fine()) return false;
     const double t = edge.parameters[k];
-    const auto [low, high] = range_of(index, k);
+    const auto [low, high] =
+        range_of(index, k, curve.straight() ? longest_interval : longest_curved_interval);
     const Vector3 derivative = curve.derivative(t);
     const double speed = derivative.norm();
     CriteriaPatch patch(derivative / speed, Vector3::Zero());
