@@ -61,7 +61,7 @@ def quadrille_run(document, part, size, order):
     with Boxes():
         trigger("Quadrille_Mesh")
     find("QuadrilleSize").setProperty("rawValue", size)
-    find("QuadrilleOrder").setCurrentText(order)
+    find("QuadrilleElementOrder").setCurrentText(order)
     process(0.3)
     mesh = document.Objects[-1]
     started = time.perf_counter()

@@ -101,7 +101,9 @@ void print_run(const char* name, const Run& run) {
 }
 
 double size_for(const std::filesystem::path& path, double quads, const std::filesystem::path& output) {
-  double size = suggested_size(CadModel::read(path), static_cast<int>(quads));
+  const CadModel model = CadModel::read(path);
+  ExecutionContext context;
+  double size = QuadEstimate(model, context).size_for(quads).size;
   // Curvature asks for some more: the square root of the share puts that right.
   for (int i = 0; i < 2; ++i) size *= std::sqrt(run_apart(path, size, 1, output).quads / quads);
   return size;

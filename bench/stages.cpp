@@ -38,14 +38,14 @@ Run run_once(const std::filesystem::path& path, double divisions, const MeshOpti
   ExecutionContext context(threads);
   std::optional<CadModel> model;
   {
-    const StageTimer timer(context, "read");
+    const StageTimer timer(context, Stage::read);
     model = CadModel::read(path);
   }
   MeshOptions options = base;
   options.sizing.size = model->diagonal() / divisions;
   const ShellMesh mesh = quadrille::mesh(*model, options, context);
   {
-    const StageTimer timer(context, "write");
+    const StageTimer timer(context, Stage::write);
     write_mesh(mesh, output);
   }
   return {mesh.quads.size(), quality(mesh).q_mean, context.seconds()};

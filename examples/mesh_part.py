@@ -41,7 +41,6 @@ def parse():
     parser.add_argument("--faces", default="", help="mesh these faces only: Face1,Face7")
     parser.add_argument("--size-on", type=size_on, action="append", default=[], help="Face3=0.5; may be repeated")
     parser.add_argument("--threads", type=int, default=0, help="0 = all cores")
-    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--partial", action="store_true", help="keep what could be meshed when a face fails")
     return parser.parse_args()
 
@@ -80,7 +79,6 @@ def main():
             faces=[name for name in arguments.faces.split(",") if name],
             sizes=dict(arguments.size_on),
             threads=arguments.threads,
-            seed=arguments.seed,
             partial=arguments.partial,
             analysis=analysis,
             outputs=[f"{out}.inp"],

@@ -18,6 +18,7 @@
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/edges/edge_sampling.hpp"
 #include "mesher/quadrille.hpp"
+#include "mesher/settings.hpp"
 #include "mesher/shell/assembly.hpp"
 #include "mesher/shell/face_mesher.hpp"
 #include "mesher/shell/node_sliding.hpp"
@@ -30,27 +31,8 @@ constexpr int max_rounds = 8;
 
 std::vector<char> faces_used(const CadModel& model, const std::vector<int>& faces) {
   std::vector<char> used(model.face_count(), faces.empty());
-  for (const int face : faces) {
-    if (face < 1 || face > model.face_count()) {
-      const std::string name = fmt::format("Face{}", face);
-      throw usage_error(
-          name, fmt::format("{} does not exist: the model has Face1 to Face{}", name, model.face_count()));
-    }
-    used[face - 1] = 1;
-  }
+  for (const int face : faces) used[face - 1] = 1;
   return used;
-}
-
-void check_options(const MeshOptions& options, double size) {
-  if (!(options.merge_tiny >= 0) || options.merge_tiny > size) {
-    throw usage_error("merge_tiny",
-                      fmt::format("the length below which features are left out must lie between 0 and "
-                                  "the size ({:.6g}), not {:.6g}",
-                                  size, options.merge_tiny));
-  }
-  if (options.order != 1 && options.order != 2) {
-    throw usage_error("order", fmt::format("the order must be 1 or 2, not {}", options.order));
-  }
 }
 
 class Job {
@@ -95,7 +77,7 @@ class Job {
   }
 
   void sample(const SizingField& field) {
-    const StageTimer timer(context_, "sample");
+    const StageTimer timer(context_, Stage::sample);
     BoundaryNodes nodes = sample_edges(shape_, field, stride(options_.strategy), used_, plan_, context_);
     keep_meshes(nodes);
     nodes_ = std::move(nodes);
@@ -152,7 +134,7 @@ class Job {
         errors_[face] =
             failure(name, fmt::format("{} cannot be evaluated ({})", name, problem.GetMessageString()));
       }
-      context_.report("mesh", static_cast<double>(done.fetch_add(1, std::memory_order_relaxed) + 1) / n);
+      context_.report(Stage::mesh, static_cast<double>(done.fetch_add(1, std::memory_order_relaxed) + 1) / n);
     };
     const auto next = [&] { return started.fetch_add(1, std::memory_order_relaxed); };
     // Each thread takes the largest face that is left: at the end none waits long for another.
@@ -246,7 +228,7 @@ class Job {
       if (longest > tiny * size_) continue;
       const std::string name = fmt::format("Face{}", face + 1);
       errors_[face] =
-          failure(name, fmt::format("{}; its longest edge is {:.3g}: --merge-tiny {:.3g} leaves it out",
+          failure(name, fmt::format("{}; its longest edge is {:.3g}: `merge_tiny` {:.3g} leaves it out",
                                     errors_[face]->what(), longest, 1.1 * longest));
     }
   }
@@ -257,14 +239,16 @@ class Job {
     }
   }
 
-  std::vector<ShellMesh::FaceStatus> statuses() const {
-    std::vector<ShellMesh::FaceStatus> result(shape_.faces.size());
+  std::vector<ShellMesh::Face> statuses() const {
+    std::vector<ShellMesh::Face> result(shape_.faces.size());
     for (std::size_t face = 0; face < result.size(); ++face) {
       auto& status = result[face];
       status.face = static_cast<int>(face) + 1;
-      status.status = meshes_[face] ? "meshed" : errors_[face] ? "failed" : "skipped";
+      status.status = meshes_[face]   ? FaceStatus::meshed
+                      : errors_[face] ? FaceStatus::failed
+                                      : FaceStatus::skipped;
       if (plan_.tiny.merged_faces[face]) {
-        status.status = "merged";
+        status.status = FaceStatus::merged;
         status.note = "tiny: its place is taken by an edge or a node of its neighbours";
       }
       if (errors_[face]) status.note = errors_[face]->what();
@@ -295,16 +279,15 @@ class Job {
 }  // namespace
 
 ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
-  const double size =
-      options.sizing.size > 0 ? options.sizing.size : model.diagonal() / options.sizing.elements_per_diagonal;
-  check_options(options, size);
+  check({options}, model);
+  const double size = size_limits(model, options.sizing).largest;
   SizingOptions sizing = options.sizing;
   if (options.force) sizing.budget = Budget::unlimited();
   Job job(model, options, size, context);
   return on_threads(context.threads(), [&] {
     std::optional<SizingField> field;
     {
-      const StageTimer timer(context, "size");
+      const StageTimer timer(context, Stage::size);
       const ElementBudget budget(model, sizing, faces_used(model, options.faces), context);
       field = SizingField::build(model, sizing, context);
       budget.check(*field);
@@ -318,10 +301,6 @@ ShellMesh mesh(const MidSurface& middle, const MeshOptions& options, ExecutionCo
   ShellMesh result = mesh(middle.model, options, context);
   for (const MiddleFace& face : middle.faces) result.thicknesses.push_back(face.thickness);
   return result;
-}
-
-double suggested_size(const CadModel& model, int quads) {
-  return std::sqrt(model.area() / std::max(quads, 1));
 }
 
 std::string version() {

@@ -15,6 +15,7 @@
 #include "geometry/base/execution_context.hpp"
 #include "geometry/cad/cad_model.hpp"
 #include "geometry/midsurface/midsurface.hpp"
+#include "mesher/estimate.hpp"
 #include "mesher/io/io.hpp"
 #include "mesher/io/limits_reader.hpp"
 #include "mesher/io/midsurface_writer.hpp"
@@ -35,9 +36,6 @@ ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionConte
 
 /// Meshes the middle surface of thin solids, as above; the mesh knows the thickness of each face.
 ShellMesh mesh(const MidSurface& middle, const MeshOptions& options, ExecutionContext& context);
-
-/// A size that gives about `quads` elements on the model, curvature left aside.
-double suggested_size(const CadModel& model, int quads);
 
 /// The library's version, "major.minor.patch".
 std::string version();

@@ -276,8 +276,8 @@ TEST(Mesh, MeshesSomeFacesAlone) {
   EXPECT_EQ(joined(validate(mesh)), "");
   const std::set<int> faces(mesh.quad_faces.begin(), mesh.quad_faces.end());
   EXPECT_EQ(faces, (std::set<int>{2, 5}));
-  EXPECT_EQ(mesh.faces[0].status, "skipped");
-  EXPECT_EQ(mesh.faces[1].status, "meshed");
+  EXPECT_EQ(mesh.faces[0].status, FaceStatus::skipped);
+  EXPECT_EQ(mesh.faces[1].status, FaceStatus::meshed);
 }
 
 /// Cleaning up the cone's mesh at this size meets a node at which two fans of quads touch.
@@ -326,10 +326,10 @@ TEST(Mesh, RefusesWhatMakesNoSense) {
   expect_usage(options, "order");
   options = good;
   options.faces = {7};
-  expect_usage(options, "Face7");
+  expect_usage(options, "faces");
   options = good;
   options.sizing.edge_sizes[99] = 1;
-  expect_usage(options, "Edge99");
+  expect_usage(options, "sizes");
   options = good;
   options.sizing.growth = 0;
   expect_usage(options, "growth");
@@ -383,7 +383,8 @@ TEST(Mesh, ChecksAllTheWhile) {
       for (const int order : {1, 2}) {
         SCOPED_TRACE(fmt::format("{}, strategy {}, order {}", name, static_cast<int>(strategy), order));
         MeshOptions options;
-        options.sizing.size = suggested_size(model, 100'000);
+        ExecutionContext measuring;
+        options.sizing.size = QuadEstimate(model, measuring).size_for(1e5).size;
         options.strategy = strategy;
         options.order = order;
         // In computing time, which other work on the machine hardly changes; once is enough.

@@ -131,8 +131,8 @@ TEST(Robustness, MakesAPointOfATinyFaceThatFails) {
   const CadModel model(std::make_shared<CadShape>(tiny_cusp(), "tiny_cusp"));
   const ShellMesh mesh = mesh_of(model, 20);
   EXPECT_EQ(joined(validate(mesh, false)), "");
-  EXPECT_EQ(mesh.faces[0].status, "meshed");
-  EXPECT_EQ(mesh.faces[1].status, "merged");
+  EXPECT_EQ(mesh.faces[0].status, FaceStatus::meshed);
+  EXPECT_EQ(mesh.faces[1].status, FaceStatus::merged);
   EXPECT_NEAR(mesh_area(mesh), 400, 1e-3);
 }
 
@@ -142,13 +142,13 @@ TEST(Robustness, MergesTinyFeaturesWhenAsked) {
   options.sizing.size = 5;
   ExecutionContext context(1);
   const ShellMesh kept = mesh(model, options, context);
-  EXPECT_EQ(kept.faces[1].status, "meshed");
+  EXPECT_EQ(kept.faces[1].status, FaceStatus::meshed);
   options.merge_tiny = 0.1;
   const ShellMesh merged = mesh(model, options, context);
   EXPECT_EQ(joined(validate(merged, false)), "");
-  EXPECT_EQ(merged.faces[1].status, "merged");
-  EXPECT_EQ(merged.faces[0].status, "meshed");
-  EXPECT_EQ(merged.faces[2].status, "meshed");
+  EXPECT_EQ(merged.faces[1].status, FaceStatus::merged);
+  EXPECT_EQ(merged.faces[0].status, FaceStatus::meshed);
+  EXPECT_EQ(merged.faces[2].status, FaceStatus::meshed);
   EXPECT_NEAR(mesh_area(merged) / 10000, 1, 1e-3);
   // The two rectangles hang together: their common side is no border.
   const auto segments_on = [&](int edge) {
@@ -288,7 +288,7 @@ TEST(Robustness, TimeLimitEndsTheWorkInOneSentence) {
     FAIL() << "not ended";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), Error::Kind::failure);
-    EXPECT_EQ(error.subject(), "--time-limit");
+    EXPECT_EQ(error.subject(), "time_limit");
   }
   // 0.2 s on an idle machine; the rest is for busy ones and sanitizers.
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 3);

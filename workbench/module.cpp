@@ -8,13 +8,16 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <exception>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include "mesher/quadrille.hpp"
+#include "mesher/settings.hpp"
 
 namespace py = pybind11;
 
@@ -79,9 +82,9 @@ py::object quality_dict(const PythonMesh& mesh, const std::optional<std::filesys
 
 py::list face_statuses(const PythonMesh& mesh) {
   py::list result;
-  for (const ShellMesh::FaceStatus& face : mesh.mesh.faces) {
+  for (const ShellMesh::Face& face : mesh.mesh.faces) {
     result.append(py::dict(
-        py::arg("face") = face.face, py::arg("status") = face.status, py::arg("note") = face.note,
+        py::arg("face") = face.face, py::arg("status") = name_of(face.status), py::arg("note") = face.note,
         py::arg("quads") = face.quads, py::arg("q_min") = face.q_min, py::arg("seconds") = face.seconds,
         py::arg("off_geometry") = face.off_geometry, py::arg("off_geometry_max") = face.off_geometry_max));
   }
@@ -115,81 +118,102 @@ class ProgressCall {
   std::exception_ptr raised_;
 };
 
-/// "Face3" as 3 and "Edge4" as 4, each into its own map.
-void add_size(const std::string& name, double size, SizingOptions& sizing) {
-  for (auto& [kind, sizes] : {std::pair<std::string_view, std::map<int, double>&>("Face", sizing.face_sizes),
-                              {"Edge", sizing.edge_sizes},
-                              {"Vertex", sizing.vertex_sizes}}) {
-    if (name.compare(0, kind.size(), kind) != 0) continue;
-    int number = 0;
-    const char* end = name.data() + name.size();
-    const auto parsed = std::from_chars(name.data() + kind.size(), end, number);
-    if (parsed.ec == std::errc() && parsed.ptr == end && number > 0) {
-      sizes[number] = size;
-      return;
+Error wrong_type(const Setting& setting, const py::handle& value) {
+  return usage_error(std::string(setting.name),
+                     fmt::format("`{}` takes a value of the kind {}, not {}", setting.name, setting.kind(),
+                                 py::repr(value).cast<std::string>()));
+}
+
+double number(const Setting& setting, const py::handle& value) {
+  const double result = PyBool_Check(value.ptr()) ? -1 : PyFloat_AsDouble(value.ptr());
+  if (!PyErr_Occurred() && !PyBool_Check(value.ptr())) return result;
+  PyErr_Clear();
+  throw wrong_type(setting, value);
+}
+
+/// 3 and "Face3" as "Face3".
+std::string face_name(const Setting& setting, const py::handle& face) {
+  if (PyIndex_Check(face.ptr()))
+    return fmt::format("Face{}", py::int_(py::reinterpret_borrow<py::object>(face)).cast<long>());
+  if (!py::isinstance<py::str>(face)) throw wrong_type(setting, face);
+  return face.cast<std::string>();
+}
+
+/// What a Python value stands for.
+SettingValue setting_value(const Setting& setting, const py::handle& value) {
+  const std::string_view kind = setting.kind();
+  if (kind == "number" || kind == "count") return number(setting, value);
+  try {
+    if (kind == "flag") return value.cast<bool>();
+    if (kind == "choice") return value.cast<std::string>();
+    if (kind == "file") return value.cast<std::filesystem::path>().string();
+    if (kind == "names") {
+      if (py::isinstance<py::str>(value)) throw wrong_type(setting, value);
+      std::vector<std::string> names;
+      for (const py::handle face : value.cast<py::iterable>()) names.push_back(face_name(setting, face));
+      return names;
     }
+    std::map<std::string, double> sizes;
+    for (const auto& [name, size] : value.cast<py::dict>())
+      sizes[name.cast<std::string>()] = number(setting, size);
+    return sizes;
+  } catch (const py::cast_error&) {
+    throw wrong_type(setting, value);
   }
-  throw usage_error("sizes", "sizes: " + name + " is not a name such as Face3, Edge4 or Vertex2");
 }
 
-int face_number(const py::handle& face) {
-  if (py::isinstance<py::int_>(face)) return face.cast<int>();
-  SizingOptions parsed;
-  const auto name = face.cast<std::string>();
-  add_size(name, 1, parsed);
-  if (parsed.face_sizes.empty())
-    throw usage_error("faces", "faces: " + name + " is not a name such as Face3");
-  return parsed.face_sizes.begin()->first;
+/// The settings that keyword arguments give; None leaves one as it is. Throws what Python throws for unknown
+/// names.
+Settings settings_of(const py::kwargs& arguments, Setting::Use use, const char* function) {
+  Settings settings;
+  for (const auto& [key, value] : arguments) {
+    const Setting* setting = find_setting(key.cast<std::string>());
+    if (setting == nullptr || setting->use != use) {
+      throw py::type_error(
+          fmt::format("{}() got an unexpected keyword argument '{}'", function, key.cast<std::string>()));
+    }
+    if (!value.is_none()) assign(settings, *setting, setting_value(*setting, value));
+  }
+  return settings;
 }
 
-Strategy strategy_of(const std::string& name) {
-  if (name == "direct") return Strategy::direct;
-  if (name == "subdivide") return Strategy::subdivide;
-  throw usage_error("strategy", "strategy must be 'direct' or 'subdivide', not '" + name + "'");
+/// One line for each setting of a function.
+std::string settings_help(Setting::Use use) {
+  std::string text;
+  for (const Setting& setting : all_settings()) {
+    if (setting.use != use) continue;
+    text += fmt::format("{}: {}", setting.name, setting.help);
+    if (!setting.unit.empty()) text += fmt::format(", in {}", setting.unit);
+    if (!setting.otherwise.empty()) text += fmt::format(" (default: {})", setting.otherwise);
+    text += "\n";
+  }
+  return text;
 }
 
 /// Calls `read` with the options for it; Ctrl-C ends it.
 template <class Read>
-CadModel read_model(bool isolated, Read read) {
+CadModel read_model(bool isolated, const Settings& settings, Read read) {
   ProgressCall call{py::none()};
   ExecutionContext context(1, std::ref(call));
+  context.expect({Stage::read});
   try {
     const py::gil_scoped_release release;
-    return read(ReadOptions{isolated, &context});
+    const CadModel model = read(ReadOptions{isolated, &context, settings.read_time_limit});
+    return settings.sew > 0 ? model.sewn(settings.sew) : model;
   } catch (const Error&) {
     call.rethrow();
     throw;
   }
 }
 
-PythonMesh mesh_model(const CadModel& model, std::optional<double> size,
-                      std::optional<double> elements_per_diagonal, std::optional<double> size_min,
-                      std::optional<double> elements_per_circle, std::optional<double> growth, int order,
-                      const py::iterable& faces, const std::map<std::string, double>& sizes,
-                      const std::filesystem::path& size_field, const std::optional<std::string>& strategy,
-                      std::uint64_t seed, int threads, bool partial, bool force, const py::object& progress) {
-  MeshOptions options;
-  SizingOptions& sizing = options.sizing;
-  if (size && !(*size > 0)) throw usage_error("size", "size must be a positive number");
-  sizing.size = size.value_or(sizing.size);
-  sizing.elements_per_diagonal = elements_per_diagonal.value_or(sizing.elements_per_diagonal);
-  sizing.size_min = size_min.value_or(sizing.size_min);
-  sizing.elements_per_circle = elements_per_circle.value_or(sizing.elements_per_circle);
-  sizing.growth = growth.value_or(sizing.growth);
-  sizing.size_field = size_field;
-  for (const auto& [name, value] : sizes) add_size(name, value, sizing);
-  for (const py::handle face : faces) options.faces.push_back(face_number(face));
-  if (strategy) options.strategy = strategy_of(*strategy);
-  options.order = order;
-  options.recombine.seed = seed;
-  options.partial = partial;
-  options.force = force;
-
+PythonMesh mesh_model(const CadModel& model, const py::object& progress, const py::kwargs& arguments) {
+  const Settings settings = settings_of(arguments, Setting::Use::mesh, "mesh");
   ProgressCall call(progress);
-  ExecutionContext context(threads, std::ref(call));
+  ExecutionContext context(settings.threads, std::ref(call));
+  if (settings.time_limit > 0) context.limit_time(settings.time_limit);
   try {
     const py::gil_scoped_release release;
-    return PythonMesh(mesh(model, options, context));
+    return PythonMesh(mesh(model, settings.mesh, context));
   } catch (const Error&) {
     call.rethrow();
     throw;
@@ -214,7 +238,13 @@ void translate(std::exception_ptr pointer) {
     if (pointer) std::rethrow_exception(std::move(pointer));
   } catch (const Error& error) {
     const py::object type = py::module_::import("quadrille.errors").attr("Error");
-    const py::object value = type(error.what(), kind_name(error.kind()), error.subject());
+    std::string sentence = error.what();
+    for (const Setting& setting : all_settings()) {  // Python's own names need no quotes
+      const std::string quoted = fmt::format("`{}`", setting.name);
+      for (std::size_t at; (at = sentence.find(quoted)) != std::string::npos;)
+        sentence.replace(at, quoted.size(), setting.name);
+    }
+    const py::object value = type(sentence, kind_name(error.kind()), error.subject());
     PyErr_SetObject(type.ptr(), value.ptr());
   }
 }
@@ -276,11 +306,11 @@ void bind_mesh(py::module_& module) {
           "(m,) float64: q of each quad.")
       .def(
           "write",
-          [](const PythonMesh& self, const std::filesystem::path& path, double msh_version,
+          [](const PythonMesh& self, const std::filesystem::path& path, const std::string& version,
              const std::string& title) {
-            write_mesh(self.mesh, path, {msh_version, title, 0});
+            write_mesh(self.mesh, path, {msh_version(version), title, 0});
           },
-          py::arg("path"), py::kw_only(), py::arg("msh_version") = 2.2, py::arg("title") = "",
+          py::arg("path"), py::kw_only(), py::arg("msh_version") = "2.2", py::arg("title") = "",
           py::call_guard<py::gil_scoped_release>(),
           "Writes the mesh; the format follows from the ending: .msh, .inp, .unv, .bdf, .med, .vtu, .vtk.")
       .def(
@@ -345,46 +375,45 @@ void bind_midsurface(py::module_& module) {
 }
 
 void bind_functions(py::module_& module) {
+  const std::string isolated_help =
+      "isolated: in a child process, so that a file that crashes OpenCASCADE raises quadrille.Error rather "
+      "than "
+      "ending\nthe interpreter, and one that takes too long is given up\n" +
+      settings_help(Setting::Use::read);
   module.def(
       "read",
-      [](const std::filesystem::path& path, bool isolated) {
-        return read_model(isolated,
+      [](const std::filesystem::path& path, bool isolated, const py::kwargs& arguments) {
+        return read_model(isolated, settings_of(arguments, Setting::Use::read, "read"),
                           [&](const ReadOptions& options) { return CadModel::read(path, options); });
       },
       py::arg("path"), py::kw_only(), py::arg("isolated") = true,
-      "Reads a STEP, IGES or BREP file. isolated: in a child process, so that a file that crashes "
-      "OpenCASCADE\n"
-      "raises quadrille.Error rather than ending the interpreter.");
+      ("Reads a STEP, IGES or BREP file.\n\n" + isolated_help).c_str());
   module.def(
       "read_brep",
-      [](const std::string& text, const std::string& name, bool isolated) {
+      [](const std::string& text, const std::string& name, bool isolated, const py::kwargs& arguments) {
         return read_model(
-            isolated, [&](const ReadOptions& options) { return CadModel::from_brep(text, name, options); });
+            isolated, settings_of(arguments, Setting::Use::read, "read_brep"),
+            [&](const ReadOptions& options) { return CadModel::from_brep(text, name, options); });
       },
       py::arg("text"), py::arg("name") = "shape", py::kw_only(), py::arg("isolated") = true,
-      "Parses a shape in OpenCASCADE's BREP text format. isolated: as for read().");
-  module.def("suggested_size", &suggested_size, py::arg("model"), py::arg("quads") = 5000,
-             "A size that gives about this many quads.");
-  module.def("mesh", &mesh_model, py::arg("model"), py::kw_only(), py::arg("size") = py::none(),
-             py::arg("elements_per_diagonal") = py::none(), py::arg("size_min") = py::none(),
-             py::arg("elements_per_circle") = py::none(), py::arg("growth") = py::none(),
-             py::arg("order") = 1, py::arg("faces") = py::tuple(), py::arg("sizes") = py::dict(),
-             py::arg("size_field") = "", py::arg("strategy") = py::none(), py::arg("seed") = 1,
-             py::arg("threads") = 0, py::arg("partial") = false, py::arg("force") = false,
-             py::arg("progress") = py::none(),
-             R"(Meshes a model's faces with quads only.
-
-size: target edge length in mm (default: diagonal / elements_per_diagonal, which is 60)
-size_min: no size goes below this (default: size / 8)
-elements_per_circle: elements per 2 pi of curvature (default 12; 0 = off)
-growth: largest growth of the size per length (default 0.3)
-order: 1 or 2
-faces: faces to mesh, as 3 or "Face3" (default: all)
-sizes: sizes on CAD entities, {"Face3": 0.5, "Edge4": 1, "Vertex2": 0.1}
-size_field: OpenVDB grid (.vdb) that caps the size
-strategy: "direct" or "subdivide"
-progress: called with (stage, fraction); returning False cancels, what it raises is raised here
-Raises quadrille.Error.)");
+      ("Parses a shape in OpenCASCADE's BREP text format.\n\n" + isolated_help).c_str());
+  module.def(
+      "suggested_size",
+      [](const CadModel& model, int quads) {
+        ExecutionContext context;
+        return QuadEstimate(model, context).size_for(quads).size;
+      },
+      py::arg("model"), py::arg("quads") = 5000, py::call_guard<py::gil_scoped_release>(),
+      "A size that gives about this many quads.");
+  module.def(
+      "settings", [] { return py::module_::import("json").attr("loads")(settings_table().dump()); },
+      "The table of settings: a list of dicts, as `quadrille settings --json` gives it.");
+  module.def("mesh", &mesh_model, py::arg("model"), py::kw_only(), py::arg("progress") = py::none(),
+             ("Meshes a model's faces with quads only.\n\n" + settings_help(Setting::Use::mesh) +
+              "progress: called with the stage's name and the fraction of all the work done; returning False "
+              "cancels, "
+              "what it\nraises is raised here\nRaises quadrille.Error.")
+                 .c_str());
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ class Error : public std::runtime_error {
     cancelled  ///< the caller cancelled the work
   };
 
-  /// \param subject the file, face ("Face3"), element or option ("--size") concerned; may be empty.
+  /// \param subject the file, face ("Face3"), element or setting ("size_min") concerned; may be empty.
   Error(Kind kind, std::string subject, const std::string& sentence)
       : std::runtime_error(sentence), kind_(kind), subject_(std::move(subject)) {}
 

@@ -1,6 +1,8 @@
 #pragma once
 /// Progress, cancellation, thread count and stage times of one piece of long work.
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -9,6 +11,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,13 +19,38 @@
 
 namespace quadrille {
 
+/// What a run does, in order. Reports give seconds by these names, and progress is told in them; faces are
+/// triangulated, recombined and improved within `mesh`, several at once.
+enum class Stage {
+  read,
+  midsurface,
+  size,
+  sample,
+  mesh,
+  triangulate,
+  color,
+  recombine,
+  improve,
+  slide,
+  assemble,
+  write
+};
+
+inline constexpr std::array<std::string_view, 12> stage_names{
+    "read",  "midsurface", "size",    "sample", "mesh",     "triangulate",
+    "color", "recombine",  "improve", "slide",  "assemble", "write"};
+
+inline std::string_view name_of(Stage stage) {
+  return stage_names[static_cast<std::size_t>(stage)];
+}
+
 /// Passed by reference through every stage. Thread-safe. Granularity: stages check for cancellation at least
 /// once a face and once in some milliseconds of work.
 class ExecutionContext {
  public:
-  /// Called with a stage name and the fraction of the stage done, in [0, 1]; returning false cancels the
-  /// work. Calls are serialised; they come from whichever thread does the work. Where a stage takes long, the
-  /// same is told again: twenty times a second at most (see ask_every()).
+  /// Called with a stage's name and the fraction of all the work done, in [0, 1], which never falls;
+  /// returning false cancels the work. Calls are serialised; they come from whichever thread does the work.
+  /// Where a stage takes long, the same is told again: twenty times a second at most (see ask_every()).
   using Progress = std::function<bool(std::string_view stage, double fraction)>;
 
   ExecutionContext() = default;
@@ -36,7 +64,14 @@ class ExecutionContext {
   /// every check.
   void ask_every(std::chrono::milliseconds interval) noexcept { interval_ = interval.count(); }
 
-  /// Ends the work with an Error (failure) at the first check later than so many seconds from now.
+  /// The stages that there will be, of which fractions are told; those of mesh() unless told otherwise.
+  void expect(std::vector<Stage> stages) {
+    const std::lock_guard lock(mutex_);
+    expected_ = std::move(stages);
+  }
+
+  /// Ends the work with an Error (failure, subject "time_limit") at the first check later than so many
+  /// seconds from now.
   void limit_time(double seconds) {
     limit_seconds_ = seconds;
     deadline_ =
@@ -54,21 +89,21 @@ class ExecutionContext {
     if (cancelled()) throw Error(Error::Kind::cancelled, "", "the work was cancelled");
   }
 
-  /// Reports progress, then behaves as check().
-  void report(std::string_view stage, double fraction) {
+  /// Reports the fraction of a stage that is done, then behaves as check().
+  void report(Stage stage, double fraction) {
     if (progress_) {
       const std::lock_guard lock(mutex_);
-      stage_ = stage;
-      fraction_ = fraction;
+      stage_ = name_of(stage);
+      fraction_ = std::max(fraction_, overall(stage, fraction));
       ask();
     }
     check();
   }
 
   /// Adds to the wall-clock seconds of a stage.
-  void add_seconds(const std::string& stage, double seconds) {
+  void add_seconds(Stage stage, double seconds) {
     const std::lock_guard lock(mutex_);
-    seconds_[stage] += seconds;
+    seconds_[std::string(name_of(stage))] += seconds;
   }
   /// Wall-clock seconds by stage so far; for stages run on several threads, the sum over the threads.
   std::map<std::string, double> seconds() const {
@@ -79,6 +114,19 @@ class ExecutionContext {
  private:
   static std::int64_t now() {
     return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::milliseconds(1);
+  }
+
+  /// The fraction of all that is expected: stages count by the time that they usually take.
+  double overall(Stage stage, double fraction) const {
+    constexpr std::array<double, stage_names.size()> shares{5, 50, 5, 5, 50, 20, 5, 15, 35, 20, 10, 10};
+    double before = 0, here = 0, all = 0;
+    for (const Stage expected : expected_) {
+      const double share = shares[static_cast<std::size_t>(expected)];
+      if (expected < stage) before += share;
+      if (expected == stage) here = share;
+      all += share;
+    }
+    return all > 0 ? (before + here * std::clamp(fraction, 0.0, 1.0)) / all : 0;
   }
 
   /// Needs the lock.
@@ -94,8 +142,7 @@ class ExecutionContext {
   }
 
   Error time_is_over() const {
-    return failure("--time-limit",
-                   fmt::format("the time limit of {:g} s is over, and nothing was written", limit_seconds_));
+    return failure("time_limit", fmt::format("the time limit of {:g} s is over", limit_seconds_));
   }
 
   int threads_ = 0;
@@ -106,8 +153,9 @@ class ExecutionContext {
   mutable std::atomic<bool> cancelled_{false};
   mutable std::atomic<std::int64_t> asked_{0};  // when, in milliseconds
   mutable std::mutex mutex_;
-  std::string stage_;  // last reported
-  double fraction_ = 0;
+  std::vector<Stage> expected_{Stage::size, Stage::sample, Stage::mesh, Stage::slide, Stage::assemble};
+  std::string_view stage_;  // last reported
+  double fraction_ = 0;     // of all
   std::map<std::string, double> seconds_;
 };
 
@@ -132,8 +180,8 @@ class SparseCheck {
 /// Adds its own lifetime to a stage of the context.
 class StageTimer {
  public:
-  StageTimer(ExecutionContext& context, std::string stage)
-      : context_(context), stage_(std::move(stage)), start_(std::chrono::steady_clock::now()) {}
+  StageTimer(ExecutionContext& context, Stage stage)
+      : context_(context), stage_(stage), start_(std::chrono::steady_clock::now()) {}
   ~StageTimer() {
     context_.add_seconds(stage_,
                          std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
@@ -143,7 +191,7 @@ class StageTimer {
 
  private:
   ExecutionContext& context_;
-  std::string stage_;
+  Stage stage_;
   std::chrono::steady_clock::time_point start_;
 };
 

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
-#include <iostream>
+#include <istream>
 #include <sstream>
 #include <streambuf>
 
@@ -85,24 +85,7 @@ bool begins_as_brep(std::istream& stream) {
   return false;
 }
 
-/// While it lives, what OpenCASCADE prints to the standard output goes nowhere.
-class SilentOutput {
- public:
-  SilentOutput() : before_(std::cout.rdbuf(&nowhere_)) {}
-  ~SilentOutput() { std::cout.rdbuf(before_); }
-  SilentOutput(const SilentOutput&) = delete;
-  SilentOutput& operator=(const SilentOutput&) = delete;
-
- private:
-  class Nowhere : public std::streambuf {
-    int_type overflow(int_type c) override { return traits_type::not_eof(c); }
-  };
-  Nowhere nowhere_;
-  std::streambuf* before_;
-};
-
 TopoDS_Shape read_brep(std::istream& stream, const std::string& name) {
-  const SilentOutput silent;
   if (!begins_as_brep(stream)) throw failure(name, fmt::format("{} is not a readable BREP file", name));
   TopoDS_Shape shape;
   const BRep_Builder builder;
@@ -142,7 +125,7 @@ CadModel guarded(const std::string& name, const ReadOptions& options, Read read)
       build(shape, name);
       return shape;
     };
-    return build(read_isolated(name, read_and_check, options.context), name);
+    return build(read_isolated(name, read_and_check, options.context, options.time_limit), name);
   } catch (const Standard_Failure& problem) {
     throw failure(name, fmt::format("{} could not be read as CAD ({})", name, problem.GetMessageString()));
   }
@@ -184,9 +167,10 @@ CadModel CadModel::from_brep(std::string_view text, const std::string& name, con
 CadModel CadModel::sewn(double tolerance) const {
   const std::string& name = shape_->name;
   if (!(tolerance > 0) || !(tolerance < diagonal())) {
-    throw usage_error("--sew", fmt::format("the tolerance to sew with must be positive and smaller than the "
-                                           "model ({:.6g}), not {:.6g}",
-                                           diagonal(), tolerance));
+    throw usage_error(
+        "sew", fmt::format("`sew` must be positive and smaller than the model, whose diagonal is {:.6g}, "
+                           "not {:.6g}",
+                           diagonal(), tolerance));
   }
   try {
     int joined = 0;

@@ -21,6 +21,7 @@ struct ReadOptions {
   bool isolated = false;
   /// Asked while reading in a child process: cancelling and its time limit end the reading at once.
   ExecutionContext* context = nullptr;
+  double time_limit = 60;  ///< seconds that the child process may take; 0 = any
 };
 
 /// A boundary-representation model. Copies share the shape, which is never modified.

@@ -1,191 +1,40 @@
 #include "geometry/cad/isolated_reading.hpp"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/mman.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <BinTools.hxx>
 #include <Standard_Failure.hxx>
-
-#include <array>
-#include <cerrno>
-#include <csignal>
-#include <cstring>
-#include <ext/stdio_filebuf.h>
-#include <fstream>
-#include <istream>
-#include <iterator>
-#include <new>
-#include <ostream>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
-#include "geometry/base/execution_context.hpp"
+#include "geometry/base/isolated_work.hpp"
 
 namespace quadrille {
 
-namespace {
-
-/// The first byte of what a child hands over, written last: a child that crashes leaves nothing.
-enum Answer : char { nothing = 0, shape_follows = 'S', failure_follows = 'F', usage_follows = 'U' };
-
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  operator int() const { return number_; }
-  void close() {
-    if (number_ >= 0) ::close(number_);
-    number_ = -1;
-  }
-
- private:
-  int number_;
-};
-
-Error no_process(const std::string& name) {
-  return failure(name,
-                 fmt::format("{}: cannot be read in a process of its own: {}", name, std::strerror(errno)));
+std::string reading_too_long(const std::string& name, double time_limit) {
+  return fmt::format(
+      "{}: reading it takes longer than {:g} s: it may be damaged; `read_time_limit` allows more", name,
+      time_limit);
 }
-
-/// A child of this process; ended and waited for when it goes.
-class Child {
- public:
-  explicit Child(pid_t id) : id_(id) {}
-  ~Child() {
-    if (id_ <= 0) return;
-    ::kill(id_, SIGKILL);
-    while (::waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
-    }
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-
-  bool ended() {
-    int status = 0;
-    const pid_t answer = ::waitpid(id_, &status, WNOHANG);
-    // An error: the program around us waits for all its children, and has this one.
-    if (answer == 0 || (answer < 0 && errno == EINTR)) return false;
-    id_ = 0;
-    return true;
-  }
-
- private:
-  pid_t id_;
-};
-
-/// What signal handlers and open streams the program has are none of the child's business.
-void become_reader() {
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGALRM})
-    std::signal(signal, SIG_DFL);
-  std::signal(SIGINT, SIG_IGN);  // Ctrl-C reaches the whole group; the parent decides
-  const rlimit no_core{0, 0};
-  ::setrlimit(RLIMIT_CORE, &no_core);
-  if (const int null = ::open("/dev/null", O_RDWR); null >= 0) {
-    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(null, stream);
-  }
-}
-
-/// Beyond what is mapped now.
-void limit_memory(std::size_t bytes) {
-  std::size_t pages = 0;
-  if (!(std::ifstream("/proc/self/statm") >> pages)) return;
-  const rlim_t most = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + bytes;
-  const rlimit limit{most, most};
-  ::setrlimit(RLIMIT_AS, &limit);
-}
-
-std::string sentence_of(const std::string& name, const Standard_Failure& problem) {
-  return fmt::format("{} could not be read as CAD ({})", name, problem.GetMessageString());
-}
-
-/// What the child writes after the first byte, and that byte.
-Answer answer(const std::string& name, const std::function<TopoDS_Shape()>& read, std::ostream& out) {
-  try {
-    const TopoDS_Shape shape = read();
-    BinTools::Write(shape, out);
-    return shape_follows;
-  } catch (const Error& error) {
-    out << error.what();
-    return error.kind() == Error::Kind::usage ? usage_follows : failure_follows;
-  } catch (const Standard_Failure& problem) {
-    out << sentence_of(name, problem);
-  } catch (const std::bad_alloc&) {
-    out << name << ": is too large for the memory of this machine";
-  } catch (const std::exception& problem) {
-    out << name << " could not be read as CAD (" << problem.what() << ")";
-  }
-  return failure_follows;
-}
-
-[[noreturn]] void work_as_child(const std::string& name, const std::function<TopoDS_Shape()>& read,
-                                int result, std::size_t memory) {
-  become_reader();
-  if (memory > 0) limit_memory(memory);
-  bool written = false;
-  Answer first = nothing;
-  {
-    __gnu_cxx::stdio_filebuf<char> buffer(::dup(result), std::ios::out | std::ios::binary);
-    std::ostream out(&buffer);
-    out.put(nothing);
-    first = answer(name, read, out);
-    out.flush();
-    written = out.good();
-  }
-  if (written && ::pwrite(result, &first, 1, 0) != 1) ::_exit(1);
-  ::_exit(0);
-}
-
-void wait_for(Child& child, int alive, ExecutionContext* context) {
-  constexpr int interval = 20;  // milliseconds
-  while (!child.ended()) {
-    struct pollfd watched {
-      alive, POLLIN, 0
-    };
-    // The child holds the other end, so that this returns as soon as it ends.
-    ::poll(&watched, 1, interval);
-    if (context != nullptr) context->report("read", 0);
-  }
-}
-
-TopoDS_Shape result_of(const std::string& name, int result) {
-  ::lseek(result, 0, SEEK_SET);
-  __gnu_cxx::stdio_filebuf<char> buffer(::dup(result), std::ios::in | std::ios::binary);
-  std::istream in(&buffer);
-  const int first = in.get();
-  if (first == shape_follows) {
-    TopoDS_Shape shape;
-    BinTools::Read(shape, in);
-    return shape;
-  }
-  const std::string sentence{std::istreambuf_iterator<char>(in), {}};
-  if (first == failure_follows) throw failure(name, sentence);
-  if (first == usage_follows) throw usage_error(name, sentence);
-  throw failure(name, fmt::format("{}: reading this file crashed: it may be damaged", name));
-}
-
-}  // namespace
 
 TopoDS_Shape read_isolated(const std::string& name, const std::function<TopoDS_Shape()>& read,
-                           ExecutionContext* context, std::size_t memory) {
-  if (context != nullptr) context->check();
-  const Descriptor result(::memfd_create("quadrille", MFD_CLOEXEC));
-  std::array<int, 2> ends{-1, -1};
-  if (result < 0 || ::pipe2(ends.data(), O_CLOEXEC) != 0) throw no_process(name);
-  const Descriptor alive(ends[0]);
-  Descriptor held(ends[1]);
-  const pid_t id = ::fork();
-  if (id < 0) throw no_process(name);
-  if (id == 0) work_as_child(name, read, result, memory);
-  Child child(id);
-  held.close();
-  wait_for(child, alive, context);
-  return result_of(name, result);
+                           ExecutionContext* context, double time_limit, std::size_t memory) {
+  IsolatedWork options;
+  options.subject = name;
+  options.crashed = fmt::format("{}: reading this file crashed: it may be damaged", name);
+  options.too_long = reading_too_long(name, time_limit);
+  options.time_limit = time_limit;
+  options.memory = memory;
+  options.context = context;
+  const auto work = [&](std::ostream& out) {
+    try {
+      BinTools::Write(read(), out);
+    } catch (const Standard_Failure& problem) {
+      throw failure(name, fmt::format("{} could not be read as CAD ({})", name, problem.GetMessageString()));
+    }
+  };
+  TopoDS_Shape shape;
+  run_isolated(options, work, [&](std::istream& in) { BinTools::Read(shape, in); });
+  return shape;
 }
 
 }  // namespace quadrille

@@ -6,18 +6,18 @@
 #include <functional>
 #include <string>
 
+#include "geometry/base/execution_context.hpp"
+
 namespace quadrille {
 
-class ExecutionContext;
+/// What is said of a file whose reading takes longer than the limit, in seconds.
+std::string reading_too_long(const std::string& name, double time_limit);
 
-/// Runs `read` in a child process (a fork of this one) and gives the shape that it returned; composed
-/// placements may differ in their last digits.
-/// \param name of the file, for messages.
-/// \param context asked every few hundredths of a second whether to go on; may be null.
+/// Runs `read` in a child process and gives the shape that it returned; composed placements may differ in
+/// their last digits. Throws as run_isolated(). \param name of the file, for messages. \param context asked
+/// every few hundredths of a second whether to go on; may be null. \param time_limit seconds; 0 = none.
 /// \param memory bytes that the child may take beyond what this process has; 0 = no limit.
-/// Throws the Error that `read` threw; Error (failure) with one sentence when the child crashed or ran out of
-/// memory; what the context throws, and then the child is ended at once.
 TopoDS_Shape read_isolated(const std::string& name, const std::function<TopoDS_Shape()>& read,
-                           ExecutionContext* context, std::size_t memory = 0);
+                           ExecutionContext* context, double time_limit = 0, std::size_t memory = 0);
 
 }  // namespace quadrille

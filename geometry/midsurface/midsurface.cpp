@@ -315,7 +315,8 @@ MidSurface make(const CadModel& model, const MidSurfaceOptions& options, Executi
   std::vector<SolidMiddle> middles;
   std::vector<JoinedFace> all;
   for (const Skin& skin : skins) {
-    context.report("midsurface", static_cast<double>(middles.size()) / static_cast<double>(skins.size()));
+    context.report(Stage::midsurface,
+                   static_cast<double>(middles.size()) / static_cast<double>(skins.size()));
     middles.push_back(middle_of_solid(skin, name, options, context));
     all.insert(all.end(), middles.back().faces.begin(), middles.back().faces.end());
   }
@@ -327,14 +328,14 @@ MidSurface make(const CadModel& model, const MidSurfaceOptions& options, Executi
   describe_faces(middles, skins, result);
   result.problems = find_problems(result, name);
   if (!options.partial && !result.problems.empty())
-    throw failure(name, result.problems.front() + "; --partial gives what could be paired");
+    throw failure(name, result.problems.front() + "; `partial` gives what could be paired");
   return result;
 }
 
 }  // namespace
 
 MidSurface midsurface(const CadModel& model, const MidSurfaceOptions& options, ExecutionContext& context) {
-  const StageTimer timer(context, "midsurface");
+  const StageTimer timer(context, Stage::midsurface);
   try {
     return make(model, options, context);
   } catch (const Standard_Failure& problem) {

@@ -175,7 +175,7 @@ class Builder {
     constexpr std::size_t room = std::size_t{1} << 30, room_each_byte = 20;
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(options.size_field, unknown);
-    read_isolated(path, open, &context, room + (unknown ? 0 : room_each_byte * bytes));
+    read_isolated(path, open, &context, 0, room + (unknown ? 0 : room_each_byte * bytes));
     open();
   }
 
@@ -189,7 +189,8 @@ class Builder {
       Sources sources_here(*this);
       add_face(face, sources_here);
       sources_here.pass_on();
-      context_.report("size", static_cast<double>(done.fetch_add(1, std::memory_order_relaxed) + 1) / faces);
+      context_.report(Stage::size,
+                      static_cast<double>(done.fetch_add(1, std::memory_order_relaxed) + 1) / faces);
     });
     for (const auto& [vertex, size] : options_.vertex_sizes) sources.add(shape_.vertices[vertex - 1], size);
     sources.pass_on();
@@ -445,44 +446,6 @@ class Builder {
   int last_level_ = -1;
 };
 
-void check_size(double size, const std::string& name) {
-  if (!(size > 0) || !std::isfinite(size)) {
-    throw usage_error(name, fmt::format("the size on {} must be a positive number, not {}", name, size));
-  }
-}
-
-void check_options(const CadModel& model, const SizingOptions& options) {
-  if (options.size != 0) check_size(options.size, "size");
-  if (options.size > model.diagonal()) {
-    throw usage_error("size", fmt::format("the size {} is larger than the model, whose diagonal is {:.6g}",
-                                          options.size, model.diagonal()));
-  }
-  if (options.size_min < 0 || !std::isfinite(options.size_min)) {
-    throw usage_error("size_min",
-                      fmt::format("the smallest size must be positive, not {}", options.size_min));
-  }
-  if (!(options.growth > 0) || !std::isfinite(options.growth)) {
-    throw usage_error("growth", fmt::format("the growth must be positive, not {}", options.growth));
-  }
-  if (!(options.elements_per_circle >= 0) || !std::isfinite(options.elements_per_circle)) {
-    throw usage_error("elements_per_circle", fmt::format("the elements per 2 pi must be 0 or more, not {}",
-                                                         options.elements_per_circle));
-  }
-  const auto check_all = [](const std::map<int, double>& sizes, int count, const std::string& kind) {
-    for (const auto& [number, size] : sizes) {
-      const std::string name = kind + std::to_string(number);
-      if (number < 1 || number > count) {
-        throw usage_error(
-            name, fmt::format("{} does not exist: the model has {}1 to {}{}", name, kind, kind, count));
-      }
-      check_size(size, name);
-    }
-  };
-  check_all(options.face_sizes, model.face_count(), "Face");
-  check_all(options.edge_sizes, model.edge_count(), "Edge");
-  check_all(options.vertex_sizes, model.vertex_count(), "Vertex");
-}
-
 double smallest(const SizingOptions& options) {
   double result = std::numeric_limits<double>::infinity();
   for (const auto* sizes : {&options.face_sizes, &options.edge_sizes, &options.vertex_sizes}) {
@@ -495,7 +458,6 @@ double smallest(const SizingOptions& options) {
 
 SizingField SizingField::build(const CadModel& model, const SizingOptions& options,
                                ExecutionContext& context) {
-  check_options(model, options);
   auto impl = std::make_shared<Impl>();
   const SizeLimits limits = size_limits(model, options);
   impl->growth = std::max(options.growth, least_growth);

@@ -31,8 +31,8 @@ double size_of_curvature(const SizingOptions& options, const SizeLimits& limits,
 /// look-ups go through one Sampler a thread.
 class SizingField {
  public:
-  /// Throws Error (usage) for sizes that make no sense or pass options.budget, (failure) for an unreadable
-  /// external grid.
+  /// \param options as mesh() checks them. Throws Error: usage for sizes that pass options.budget, failure
+  /// for an unreadable external grid.
   static SizingField build(const CadModel& model, const SizingOptions& options, ExecutionContext& context);
 
   /// Writes the grids as .vdb: `size` (coarsest), `size_1`, ... with metadata unit, growth, size_max,

@@ -15,6 +15,8 @@
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/printable.hpp"
+#include "geometry/cad/isolated_reading.hpp"
+#include "mesher/command/setting_options.hpp"
 
 namespace quadrille::command {
 
@@ -91,13 +93,6 @@ void require_different_files(const std::vector<NamedFile>& files) {
   }
 }
 
-void require_threads(int threads) {
-  constexpr int most = 4096;
-  if (threads < 0 || threads > most)
-    throw usage_error("--threads",
-                      fmt::format("--threads must be between 0 (all cores) and {}, not {}", most, threads));
-}
-
 ProgressDisplay::ProgressDisplay(bool quiet)
     : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), last_(std::chrono::steady_clock::now()) {}
 
@@ -136,7 +131,7 @@ namespace {
 // What the handlers below need; they may call nothing that is not safe in a signal handler.
 std::atomic<ExecutionContext*> cancellable{nullptr};
 std::atomic<bool> ending{false};
-char crash_line[512], time_line[128];
+char crash_line[512], time_line[512];
 constexpr char cancel_line[] = "quadrille: the work was cancelled\n";
 constexpr int grace_microseconds = 150000;
 
@@ -190,17 +185,53 @@ void copy_line(char (&buffer)[n], const std::string& line) {
 
 }  // namespace
 
-CancelOnSignal::CancelOnSignal(ExecutionContext& context, double time_limit) {
+namespace {
+
+std::vector<std::string> whole_files;
+
+void prepare_time_line(double time_limit) {
+  copy_line(time_line,
+            fmt::format("quadrille: the time limit of {:g} s is over{}", time_limit, left_behind()));
+}
+
+}  // namespace
+
+std::string left_behind() {
+  if (whole_files.empty()) return ", and nothing was written";
+  return fmt::format(", and {} was written before", fmt::join(whole_files, ", "));
+}
+
+CancelOnSignal::CancelOnSignal(ExecutionContext& context, double time_limit)
+    : time_limit_(time_limit), start_(std::chrono::steady_clock::now()) {
   cancellable.store(&context);
   ending.store(false);
-  copy_line(time_line,
-            fmt::format("quadrille: the time limit of {:g} s is over, and nothing was written", time_limit));
+  whole_files.clear();
+  prepare_time_line(time_limit);
   std::signal(SIGINT, cancel_work);
   std::signal(SIGTERM, cancel_work);
   std::signal(SIGALRM, handle_alarm);
   if (time_limit <= 0) return;
   context.limit_time(time_limit);
   ring_after(time_limit);
+}
+
+void CancelOnSignal::reading(const std::filesystem::path& file, double seconds) {
+  if (seconds <= 0 || (time_limit_ > 0 && time_limit_ <= seconds)) return;
+  copy_line(time_line,
+            "quadrille: " + with_options(reading_too_long(printable(file.string(), ' '), seconds)));
+  ring_after(seconds);
+}
+
+void CancelOnSignal::reading_is_done() {
+  const std::chrono::duration<double> past = std::chrono::steady_clock::now() - start_;
+  ring_after(0);
+  prepare_time_line(time_limit_);
+  if (time_limit_ > 0) ring_after(std::max(time_limit_ - past.count(), 1e-3));
+}
+
+void CancelOnSignal::wrote(const std::filesystem::path& file) {
+  whole_files.push_back(printable(file.string(), ' '));
+  prepare_time_line(time_limit_);
 }
 
 CancelOnSignal::~CancelOnSignal() {

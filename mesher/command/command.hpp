@@ -19,6 +19,7 @@ void add_mesh_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_quality_command(CLI::App& app);
 void add_midsurface_command(CLI::App& app);
+void add_settings_command(CLI::App& app);
 
 /// Writes to stdout at once. Throws Error (failure) when it is closed or full.
 void print(std::string_view text);
@@ -47,9 +48,6 @@ void require_different_files(const std::vector<NamedFile>& files);
 /// stderr that names the file, and exit code 1; unfinished files are removed. \param work "reading" or what
 /// else is going on.
 void report_crashes(const std::filesystem::path& file, std::string_view work);
-
-/// Throws Error (usage) unless threads is 0 (all cores) or a sensible count.
-void require_threads(int threads);
 
 /// From now on a reader that goes away and a limit on the size of files show as a failed write, and the end
 /// of the CPU time that the process may use ends it with one line on stderr and exit code 1.
@@ -89,9 +87,24 @@ class CancelOnSignal {
  public:
   /// \param time_limit seconds; 0 = none.
   explicit CancelOnSignal(ExecutionContext& context, double time_limit = 0);
+
+  /// Until reading_is_done(), which cannot be asked to end, it has this limit too. \param seconds 0 = none.
+  void reading(const std::filesystem::path& file, double seconds);
+  void reading_is_done();
+
+  /// A file is whole: the line that tells of the end names it.
+  void wrote(const std::filesystem::path& file);
+
   ~CancelOnSignal();
   CancelOnSignal(const CancelOnSignal&) = delete;
   CancelOnSignal& operator=(const CancelOnSignal&) = delete;
+
+ private:
+  double time_limit_;
+  std::chrono::steady_clock::time_point start_;
 };
+
+/// What a run that is ended has left: ", and nothing was written", or the files that were.
+std::string left_behind();
 
 }  // namespace quadrille::command

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include "mesher/command/command.hpp"
+#include "mesher/command/setting_options.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille::command {
 
 namespace {
 
-std::string describe(const CadModel& model) {
+std::string describe(const CadModel& model, ExecutionContext& context) {
   std::string text;
   const auto line = [&](std::string_view label, const std::string& value) {
     text += fmt::format("{:<12} {}\n", label, value);
@@ -24,8 +25,14 @@ std::string describe(const CadModel& model) {
                           high.x(), high.y(), high.z()));
   line("diagonal", fmt::format("{:.6g} mm", model.diagonal()));
   line("area", fmt::format("{:.6g} mm2", model.area()));
-  for (const int quads : {1000, 10000, 100000})
-    line("size", fmt::format("--size {:.3g} for about {} quads", suggested_size(model, quads), quads));
+  QuadEstimate estimate(model, context);
+  double before = 0;
+  for (const double quads : {1e3, 1e4, 1e5}) {
+    const QuadEstimate::Suggestion found = estimate.size_for(quads);
+    if (found.size == before) continue;  // the model's own edges take more
+    before = found.size;
+    line("size", fmt::format("--size {:g} for about {:.0f} quads", found.size, found.quads));
+  }
   if (model.problems().empty()) line("problems", "none found");
   for (const std::string& problem : model.problems()) line("problem", problem);
   return text;
@@ -36,11 +43,19 @@ std::string describe(const CadModel& model) {
 void add_info_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "tell what a CAD model holds, and the sizes that suit it");
   auto input = std::make_shared<std::filesystem::path>();
+  auto limits = std::make_shared<GivenSettings>();
   command->add_option("IN", *input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
-  command->callback([input] {
+  add_settings(*command, *limits, {"read_time_limit", "time_limit"});
+  command->callback([input, limits] {
     require_readable(*input);
     report_crashes(*input, "reading");
-    print(describe(CadModel::read(*input)));
+    ExecutionContext context;
+    CancelOnSignal cancel(context, limits->settings.time_limit);
+    cancel.reading(*input, limits->settings.read_time_limit);
+    const CadModel model = CadModel::read(*input);
+    cancel.reading_is_done();
+    report_crashes(*input, "measuring");
+    print(describe(model, context));
   });
 }
 

@@ -54,6 +54,7 @@ void run(const Arguments& arguments) {
   ExecutionContext context(
       1, [&](std::string_view stage, double fraction) { return display.show(stage, fraction); });
   report_crashes(arguments.input, "reading");
+  context.expect({Stage::read, Stage::midsurface});
   const CancelOnSignal cancel(context);
   const CadModel model = CadModel::read(arguments.input);
   report_crashes(arguments.input, "finding the middle surface of");

@@ -8,6 +8,7 @@
 
 #include "mesher/command/command.hpp"
 #include "mesher/command/print_quality.hpp"
+#include "mesher/command/setting_options.hpp"
 #include "mesher/io/report.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/quads/improve.hpp"
@@ -20,13 +21,12 @@ namespace {
 struct RecombineArguments {
   std::filesystem::path input, output, report;
   std::uint64_t seed = 1;
-  int threads = 0;
+  GivenSettings options;
   bool no_improve = false, quiet = false;
   std::string prefer = "regular";
 };
 
 void check(const RecombineArguments& arguments) {
-  require_threads(arguments.threads);
   if (!is_mesh_format(arguments.output)) {
     throw usage_error("-o", fmt::format("{}: unknown mesh format", arguments.output.string()));
   }
@@ -118,13 +118,14 @@ ShellMesh to_shell(const QuadMesh& quads, const ShellMesh& input, const std::vec
 void run(const RecombineArguments& arguments) {
   check(arguments);
   ProgressDisplay display(arguments.quiet);
-  ExecutionContext context(arguments.threads, [&](std::string_view stage, double fraction) {
+  ExecutionContext context(arguments.options.settings.threads, [&](std::string_view stage, double fraction) {
     return display.show(stage, fraction);
   });
+  context.expect({Stage::read, Stage::color, Stage::recombine, Stage::improve, Stage::write});
   const CancelOnSignal cancel(context);
   ShellMesh input;
   {
-    const StageTimer timer(context, "read");
+    const StageTimer timer(context, Stage::read);
     input = read_mesh(arguments.input);
   }
   const TriangleMesh triangles = triangles_of(input, arguments.input.string());
@@ -134,7 +135,7 @@ void run(const RecombineArguments& arguments) {
   options.objective = arguments.prefer == "shape" ? Objective::shape : Objective::regular;
   QuadMesh quads;
   {
-    context.report("color", 0);
+    context.report(Stage::color, 0);
     try {
       quads = recombine(triangles, options, context);
     } catch (const Error& error) {
@@ -147,14 +148,14 @@ void run(const RecombineArguments& arguments) {
   std::vector<int> renumbered(triangles.points.size());
   std::iota(renumbered.begin(), renumbered.end(), 0);
   if (!arguments.no_improve) {
-    const StageTimer timer(context, "improve");
-    context.report("improve", 0);
+    const StageTimer timer(context, Stage::improve);
+    context.report(Stage::improve, 0);
     ImproveReport improved;
     quads = improve_on(triangles, quads, {}, renumbered, improved, context);
   }
   const ShellMesh result = to_shell(quads, input, renumbered);
   {
-    const StageTimer timer(context, "write");
+    const StageTimer timer(context, Stage::write);
     write_mesh(result, arguments.output);
   }
   const QualitySummary summary = quality(result);
@@ -171,7 +172,8 @@ void add_recombine_command(CLI::App& app) {
   command
       ->add_option("-o,--output", arguments->output, "mesh file: .msh, .inp, .unv, .med, .vtu, .vtk or .bdf")
       ->required();
-  command->add_option("--seed", arguments->seed, "seed of the random choices of --no-improve (default 1)");
+  command->add_option("--seed", arguments->seed, "seed of the random choices of --no-improve (default 1)")
+      ->check(CLI::NonNegativeNumber);
   command->add_flag("--no-improve", arguments->no_improve,
                     "the method of the 2018 paper as it stands: colour, swap, remove; no node moves");
   command
@@ -180,7 +182,7 @@ void add_recombine_command(CLI::App& app) {
           "what pairs are exchanged for: regular (points with four quads, default) or shape (mean q)")
       ->check(CLI::IsMember({"regular", "shape"}));
   command->add_option("--report", arguments->report, "write counts, quality and times as JSON");
-  command->add_option("--threads", arguments->threads, "threads to use; 0 = all cores (default)");
+  add_settings(*command, arguments->options, {"threads"});
   command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");
   command->callback([arguments] { run(*arguments); });
 }

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <iostream>
 #include <new>
+#include <sstream>
 #include <utility>
 
 #include "geometry/base/printable.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/recombine_command.hpp"
+#include "mesher/command/setting_options.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille::command {
@@ -14,19 +17,6 @@ namespace quadrille::command {
 namespace {
 
 enum ExitCode : int { success = 0, work_failed = 1, bad_use = 2, work_cancelled = 130 };
-
-/// The core names settings as `size_min`: here they are options.
-std::string with_options(std::string message) {
-  for (std::size_t start = 0; (start = message.find('`', start)) != std::string::npos;) {
-    const std::size_t end = message.find('`', start + 1);
-    if (end == std::string::npos) break;
-    std::string option = "--" + message.substr(start + 1, end - start - 1);
-    std::replace(option.begin(), option.end(), '_', '-');
-    message.replace(start, end + 1 - start, option);
-    start += option.size();
-  }
-  return message;
-}
 
 /// One line on stderr, whatever the message holds.
 int complain(std::string message, ExitCode code) {
@@ -42,6 +32,7 @@ int complain(const Error& error) {
     case Error::Kind::cancelled:
       return complain(error.what(), work_cancelled);
     case Error::Kind::failure:
+      if (error.subject() == "time_limit") return complain(error.what() + left_behind(), work_failed);
       break;
   }
   return complain(with_options(error.what()), work_failed);
@@ -55,15 +46,23 @@ void add_commands(CLI::App& app) {
   add_info_command(app);
   add_quality_command(app);
   add_midsurface_command(app);
+  add_settings_command(app);
 }
 
 /// --help and --version also come as parse "errors".
 int answer(const CLI::App& app, const CLI::ParseError& error) {
-  if (error.get_exit_code() == 0) return app.exit(error);
+  if (error.get_exit_code() == 0) {
+    std::ostringstream text;
+    app.exit(error, text, text);
+    print(text.str());
+    return success;
+  }
   return complain(std::string(error.what()) + " (see quadrille --help)", bad_use);
 }
 
 int parse_and_work(int argc, char** argv) {
+  // OpenCASCADE reports to it, where results of ours are expected; those are written without it.
+  std::cout.setstate(std::ios::badbit);
   CLI::App app("All-quad shell meshes of CAD models", "quadrille");
   try {
     add_commands(app);

@@ -142,7 +142,7 @@ class EdgeSampler {
     wishes_.wanted.assign(n_, 0);
     double segments = 0;
     for (int i = 0; i < n_; ++i) {
-      if (i % 256 == 0) context_.report("sample", 0.5 * i / n_);
+      if (i % 256 == 0) context_.report(Stage::sample, 0.5 * i / n_);
       context_.check();
       const CadEdge& edge = shape_.edges[i];
       if (edge.degenerate || edge.length <= 0 || !used_edges_[i] || plan_.tiny.collapsed_edges[i]) continue;

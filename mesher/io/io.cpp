@@ -33,7 +33,7 @@ void write_text(const OutputMesh& mesh, const std::string& ending, const WriteOp
     write_unv(mesh, out);
   else if (ending == ".bdf")
     write_bdf(mesh, options, out);
-  else if (options.msh_version == 4.1)
+  else if (options.msh_version == MshVersion::v4_1)
     write_msh4(mesh, out);
   else
     write_msh2(mesh, out);
@@ -71,15 +71,25 @@ bool is_mesh_format(const std::filesystem::path& path) {
   return std::find(std::begin(known), std::end(known), lower_ending(path)) != std::end(known);
 }
 
+bool is_solver_format(const std::filesystem::path& path) {
+  constexpr std::string_view read_by_solvers[] = {".inp", ".unv", ".med", ".bdf"};
+  return std::find(std::begin(read_by_solvers), std::end(read_by_solvers), lower_ending(path)) !=
+         std::end(read_by_solvers);
+}
+
+MshVersion msh_version(std::string_view text) {
+  if (text == "2.2") return MshVersion::v2_2;
+  if (text == "4.1") return MshVersion::v4_1;
+  throw usage_error("msh_version",
+                    fmt::format("the version of .msh files must be 2.2 or 4.1, not '{}'", text));
+}
+
 void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path, const WriteOptions& options) {
   if (!is_mesh_format(path))
     throw usage_error(path.string(),
                       fmt::format("{}: unknown mesh format (known are .msh, .inp, .unv, .bdf, .med, "
                                   ".vtu and .vtk)",
                                   path.string()));
-  if (options.msh_version != 2.2 && options.msh_version != 4.1)
-    throw usage_error("msh_version",
-                      fmt::format("there is no .msh version {} here: only 2.2 and 4.1", options.msh_version));
   AtomicFile file(path);
   write_format(mesh, path, options, file);
   file.commit();

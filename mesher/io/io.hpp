@@ -3,14 +3,21 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "mesher/mesh/criteria.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
 
+/// Of Gmsh's .msh, both as text.
+enum class MshVersion { v2_2, v4_1 };
+
+/// "2.2" or "4.1". Throws Error (usage) for others.
+MshVersion msh_version(std::string_view text);
+
 struct WriteOptions {
-  double msh_version = 2.2;  ///< Gmsh .msh: 2.2 or 4.1 (both ASCII)
+  MshVersion msh_version = MshVersion::v2_2;
   std::string title;  ///< put into formats that have a comment or title line, control characters as '?'
   int threads = 0;    ///< that make the text of .msh, .inp, .unv and .bdf; 0 = all cores
 };
@@ -23,6 +30,9 @@ void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path, const 
 
 /// True if write_mesh knows the file's ending.
 bool is_mesh_format(const std::filesystem::path& path);
+
+/// True where solvers read such files: .inp, .unv, .med, .bdf.
+bool is_solver_format(const std::filesystem::path& path);
 
 /// Reads a surface mesh: Gmsh .msh (2.2 and 4.1, ASCII and binary) or Abaqus/CalculiX .inp.
 /// Throws Error (failure) with one sentence that names the line, element or node at fault.

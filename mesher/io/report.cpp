@@ -70,18 +70,19 @@ json criteria_to_json(const CriteriaSummary& summary, const CriteriaLimits& limi
 
 json seconds_to_json(const ExecutionContext& context) {
   json seconds = json::object();
-  for (const char* stage :
-       {"read", "size", "sample", "triangulate", "color", "recombine", "improve", "write"})
-    seconds[stage] = 0.0;
+  for (const std::string_view stage : stage_names) {
+    if (stage != name_of(Stage::mesh) && stage != name_of(Stage::midsurface))
+      seconds[std::string(stage)] = 0.0;
+  }
   for (const auto& [stage, value] : context.seconds()) seconds[stage] = value;
   return seconds;
 }
 
 json faces_to_json(const ShellMesh& mesh) {
   json faces = json::array();
-  for (const ShellMesh::FaceStatus& face : mesh.faces)
+  for (const ShellMesh::Face& face : mesh.faces)
     faces.push_back({{"name", "Face" + std::to_string(face.face)},
-                     {"status", face.status},
+                     {"status", name_of(face.status)},
                      {"quads", face.quads},
                      {"q_min", face.q_min},
                      {"seconds", face.seconds},

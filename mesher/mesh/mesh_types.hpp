@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/base/vector.hpp"
@@ -28,6 +29,20 @@ struct QuadMesh {
   std::vector<int> triangle_tags;             ///< as many as triangles, or empty
 };
 
+/// What became of a CAD face.
+enum class FaceStatus {
+  meshed,
+  skipped,  ///< not asked for
+  failed,
+  merged  ///< left out as tiny
+};
+
+/// As reports have it: "meshed", "skipped", "failed", "merged".
+inline std::string_view name_of(FaceStatus status) {
+  constexpr std::array<std::string_view, 4> names{"meshed", "skipped", "failed", "merged"};
+  return names[static_cast<std::size_t>(status)];
+}
+
 /// The mesh of a CAD model: all quads, conforming, each element and node tied to its CAD entity.
 struct ShellMesh {
   /// A side of the mesh that lies on a CAD edge.
@@ -42,10 +57,9 @@ struct ShellMesh {
     int vertex = 0;  ///< CAD vertex, from 1
   };
   /// What became of one CAD face.
-  struct FaceStatus {
+  struct Face {
     int face = 0;  ///< CAD face, from 1
-    /// "meshed", "skipped" (not asked for), "failed", or "merged" (left out as tiny)
-    std::string status;
+    FaceStatus status = FaceStatus::skipped;
     std::string note;  ///< which fallback was taken, or why it failed; empty if nothing to say
     int quads = 0;
     double q_min = 0;
@@ -70,7 +84,7 @@ struct ShellMesh {
   std::vector<Segment> segments;              ///< the sides on CAD edges, each once
   std::vector<Corner> corners;                ///< the nodes on CAD vertices
   std::vector<OffGeometry> off_geometry;      ///< ascending by node; empty but in coarse second-order meshes
-  std::vector<FaceStatus> faces;              ///< one entry a CAD face; empty in meshes read from files
+  std::vector<Face> faces;                    ///< one entry a CAD face; empty in meshes read from files
   /// Of the shell on each CAD face, by face number minus 1, in millimetres; empty where not known.
   std::vector<double> thicknesses;
 };

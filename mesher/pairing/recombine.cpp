@@ -89,10 +89,10 @@ EdgeColoring color_as_in_paper(const TriangleMesh& mesh, std::uint64_t seed, std
 QuadMesh recombine_by_quality(const TriangleMesh& mesh, const RecombineOptions& options,
                               ExecutionContext& context) {
   const CostedColoring coloring = [&] {
-    const StageTimer timer(context, "color");
+    const StageTimer timer(context, Stage::color);
     return color_by_quality(mesh, options, context);
   }();
-  const StageTimer timer(context, "recombine");
+  const StageTimer timer(context, Stage::recombine);
   return remove_color(coloring, mesh);
 }
 
@@ -101,10 +101,10 @@ QuadMesh recombine_as_in_paper(const TriangleMesh& mesh, const RecombineOptions&
                                ExecutionContext& context) {
   std::vector<int> free;
   EdgeColoring coloring = [&] {
-    const StageTimer timer(context, "color");
+    const StageTimer timer(context, Stage::color);
     return color_as_in_paper(mesh, options.seed, free, context);
   }();
-  const StageTimer timer(context, "recombine");
+  const StageTimer timer(context, Stage::recombine);
   if (options.leftovers == Leftovers::pair && augment(coloring, free, {.heading = &mesh}, context) > 0) {
     // Those that no path joins walk, for which edges are flipped.
     CostedColoring flipped(mesh, std::move(coloring));
@@ -127,7 +127,7 @@ QuadMesh recombine(const TriangleMesh& mesh, const RecombineOptions& options, Ex
   check_indices(mesh);
   try {
     RenumberedMesh ordered = [&] {
-      const StageTimer timer(context, "color");
+      const StageTimer timer(context, Stage::color);
       return order_by_place(mesh, context);
     }();
     QuadMesh result = recombine_in_order(ordered.mesh, options, context);

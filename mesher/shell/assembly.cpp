@@ -162,11 +162,11 @@ void note_off_geometry(ShellMesh& mesh) {
   std::sort(met.begin(), met.end());
   met.erase(std::unique(met.begin(), met.end()), met.end());
   for (const auto& [face, node] : met) {
-    ShellMesh::FaceStatus& status = mesh.faces[face - 1];
+    ShellMesh::Face& status = mesh.faces[face - 1];
     ++status.off_geometry;
     status.off_geometry_max = std::max(status.off_geometry_max, distance[node]);
   }
-  for (ShellMesh::FaceStatus& face : mesh.faces) {
+  for (ShellMesh::Face& face : mesh.faces) {
     if (face.off_geometry == 0) continue;
     if (!face.note.empty()) face.note += ", ";
     face.note += fmt::format("{} midside nodes up to {:.3g} off the geometry, where elements would fold",
@@ -177,10 +177,10 @@ void note_off_geometry(ShellMesh& mesh) {
 }  // namespace
 
 ShellMesh assemble(const CadShape& shape, const BoundaryNodes& nodes,
-                   const std::vector<std::optional<FaceMesh>>& faces,
-                   std::vector<ShellMesh::FaceStatus> statuses, const MeshOptions& options,
-                   ExecutionContext& context) {
-  const StageTimer timer(context, "assemble");
+                   const std::vector<std::optional<FaceMesh>>& faces, std::vector<ShellMesh::Face> statuses,
+                   const MeshOptions& options, ExecutionContext& context) {
+  const StageTimer timer(context, Stage::assemble);
+  context.report(Stage::assemble, 0);
   const MeshedFaces meshed{shape, nodes, faces};
   Assembler assembler(meshed, context);
   ShellMesh mesh = assembler.run();

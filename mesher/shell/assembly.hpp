@@ -14,8 +14,7 @@ namespace quadrille {
 /// Numbers the nodes (CAD vertices, edges, then face by face), and adds midside nodes on the geometry at
 /// second order. Nodes that no quad uses are left out.
 ShellMesh assemble(const CadShape& shape, const BoundaryNodes& nodes,
-                   const std::vector<std::optional<FaceMesh>>& faces,
-                   std::vector<ShellMesh::FaceStatus> statuses, const MeshOptions& options,
-                   ExecutionContext& context);
+                   const std::vector<std::optional<FaceMesh>>& faces, std::vector<ShellMesh::Face> statuses,
+                   const MeshOptions& options, ExecutionContext& context);
 
 }  // namespace quadrille

@@ -119,7 +119,7 @@ class FaceMesher {
   }
 
   std::optional<FaceMesh> mesh_as_grid() {
-    const StageTimer timer(context_, "triangulate");
+    const StageTimer timer(context_, Stage::triangulate);
     auto grid = make_grid(boundary_, nodes_.sides[face_], surface_, size_at_, context_);
     context_.check();
     if (!grid) return std::nullopt;
@@ -147,7 +147,7 @@ class FaceMesher {
   }
 
   FaceTriangulation triangulate(const Attempt& attempt) {
-    const StageTimer timer(context_, "triangulate");
+    const StageTimer timer(context_, Stage::triangulate);
     const PlacedPoints placed =
         place_points(boundary_, surface_, domain_, size_at_, attempt.placement, context_);
     context_.check();
@@ -168,14 +168,14 @@ class FaceMesher {
     if (boundary_.stride == 1 && !quads.surface_mesh.mesh.triangles.empty()) {
       const std::string name = fmt::format("Face{}", face_ + 1);
       throw failure(
-          name,
-          fmt::format("{} has an odd boundary that cannot be made even: use --strategy subdivide", name));
+          name, fmt::format("{} has an odd boundary that cannot be made even: `strategy` subdivide meshes it",
+                            name));
     }
     return quads;
   }
 
   void improve(FaceQuads& quads, bool topology) {
-    const StageTimer timer(context_, "improve");
+    const StageTimer timer(context_, Stage::improve);
     const CadSmoothingSurface surface(surface_);
     ImproveReport report;
     if (topology && options_.improve.clean_up) {

@@ -463,7 +463,8 @@ class NodeSliding {
 void slide_nodes(const CadShape& shape, BoundaryNodes& nodes, std::vector<std::optional<FaceMesh>>& faces,
                  const ImproveOptions& options, ExecutionContext& context) {
   if (options.sliding_sweeps <= 0) return;
-  const StageTimer timer(context, "slide");
+  const StageTimer timer(context, Stage::slide);
+  context.report(Stage::slide, 0);
   NodeSliding(shape, nodes, faces, context).run(options.sliding_sweeps);
 }
 

@@ -15,6 +15,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <thread>
 #include <tuple>
 
@@ -109,7 +110,18 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"mesh IN OUT --curvature -3", 2, "--curvature"},
         Mistake{"mesh IN OUT --order 3", 2, "--order"}, Mistake{"mesh IN OUT --order 0", 2, "--order"},
         Mistake{"mesh IN OUT --threads -1", 2, "--threads"},
-        Mistake{"mesh IN OUT --strategy best", 2, "--strategy"}, Mistake{"mesh IN OUT --seed x", 2, "--seed"},
+        Mistake{"mesh IN OUT --strategy best", 2, "--strategy"}, Mistake{"mesh IN OUT --seed 1", 2, "--seed"},
+        Mistake{"recombine IN OUT --seed -1", 2, "--seed"}, Mistake{"mesh IN OUT --size \'\'", 2, "--size"},
+        Mistake{"mesh IN OUT --size-min 3", 2, "--size-min"},
+        Mistake{"mesh IN OUT --threads 1.5", 2, "--threads"},
+        Mistake{"mesh IN OUT --faces \'\'", 2, "--faces"},
+        Mistake{"mesh IN OUT --size-on \'\'", 2, "--size-on"},
+        Mistake{"mesh IN OUT --size-on Face1=nan", 2, "--size-on"},
+        Mistake{"mesh IN OUT --size-field \'\'", 2, "--size-field"},
+        Mistake{"mesh IN OUT --merge-tiny 30", 2, "--merge-tiny"},
+        Mistake{"mesh IN OUT --sew 100", 2, "--sew"},
+        Mistake{"mesh IN OUT --time-limit 0", 2, "--time-limit"},
+        Mistake{"info IN --read-time-limit -1", 2, "--read-time-limit"},
         Mistake{"mesh IN OUT --msh-version 3", 2, "--msh-version"},
         Mistake{"mesh IN OUT --faces Fase1", 2, "Fase1"}, Mistake{"mesh IN OUT --faces Face7", 2, "no Face7"},
         Mistake{"mesh IN OUT --faces Face1,Face0", 2, "Face0"},
@@ -204,10 +216,10 @@ TEST(Command, TakesTheThreadsThatThereAre) {
 
 TEST(Command, MeshesTheBox) {
   const TemporaryFolder folder;
-  const auto result =
-      stdout_of(folder, "mesh " + box +
-                            " -o a.msh -o a.inp --size 1 --report r.json --size-on Face1=0.5,Edge2=0.5"
-                            " --threads 1 --write-size-field s.vdb");
+  const auto result = stdout_of(
+      folder, "mesh " + box +
+                  " -o a.msh -o a.inp --order 1 --size 1 --report r.json --size-on Face1=0.5,Edge2=0.5"
+                  " --threads 1 --write-size-field s.vdb");
   ASSERT_EQ(result.exit_code, 0);
   EXPECT_PRED2(contains, result.out, "scaled Jacobian");
   const ShellMesh mesh = read_mesh(folder / "a.msh");
@@ -334,6 +346,80 @@ TEST(Command, EndsAtTheTimeLimit) {
   EXPECT_PRED2(contains, result.out, "time limit");
   EXPECT_EQ(folder.file_count(), 0);
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 20);
+}
+
+TEST(Command, GivesSolversSecondOrder) {
+  const TemporaryFolder folder;
+  const auto order_in = [&](const std::string& arguments) {
+    EXPECT_EQ(stderr_of(folder, "mesh " + box + " --size 4 --quiet --report r.json " + arguments).out, "");
+    return nlohmann::json::parse(test::file_text(folder / "r.json"))["order"].get<int>();
+  };
+  for (const char* solver : {"inp", "unv", "bdf", "med"}) {
+    EXPECT_EQ(order_in(fmt::format("-o a.{}", solver)), 2) << solver;
+    EXPECT_EQ(order_in(fmt::format("-o a.msh -o a.{}", solver)), 2) << solver;
+    EXPECT_EQ(order_in(fmt::format("-o a.{} --order 1", solver)), 1) << solver;
+  }
+  for (const char* other : {"msh", "vtu", "vtk"})
+    EXPECT_EQ(order_in(fmt::format("-o a.{}", other)), 1) << other;
+}
+
+/// A named pipe that nobody writes to: reading it never ends.
+TEST(Command, GivesUpReadingAfterItsLimit) {
+  for (const char* subcommand : {"mesh pipe.brep -o a.msh", "info pipe.brep"}) {
+    SCOPED_TRACE(subcommand);
+    const TemporaryFolder folder;
+    const auto read = [&](const std::string& limit) {
+      return test::
+          run(fmt::format(
+                  "cd {} && rm -f pipe.brep && mkfifo pipe.brep && (sleep 20 > pipe.brep & echo $! > pid); "
+                  "timeout 10 {} {} {} 2>&1; kill $(cat pid)",
+                  folder.path().string(), program, subcommand, limit))
+              .out;
+    };
+    EXPECT_EQ(read("--read-time-limit 0.3"),
+              "quadrille: pipe.brep: reading it takes longer than 0.3 s: it may be damaged; "
+              "--read-time-limit allows more\n");
+    EXPECT_EQ(read("--time-limit 0.3"),
+              "quadrille: the time limit of 0.3 s is over, and nothing was written\n");
+  }
+}
+
+TEST(Command, NamesThePictureThatCannotBeDrawn) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  const TemporaryFolder folder;
+  for (const int megabytes : {300, 500, 700}) {
+    const auto result =
+        test::run(fmt::format("cd {} && ulimit -v {}000 && {} mesh {} -o a.msh --picture a.png --quiet "
+                              "--threads 1 2>&1",
+                              folder.path().string(), megabytes, program, box));
+    EXPECT_EQ(result.exit_code, 1) << megabytes;
+    EXPECT_EQ(result.out.rfind("quadrille: a.png: ", 0), 0u) << result.out;
+    EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+    EXPECT_EQ(folder.file_count(), 1) << "the mesh itself is there";
+  }
+#endif
+}
+
+TEST(Command, SuggestsSizesThatGiveWhatTheyPromise) {
+  for (const std::string& model : {box, bracket}) {
+    const TemporaryFolder folder;
+    const std::string info = stdout_of(folder, "info " + model).out;
+    int lines = 0;
+    std::istringstream stream(info);
+    for (std::string line; std::getline(stream, line);) {
+      double size = 0, quads = 0;
+      if (std::sscanf(line.c_str(), "size --size %lf for about %lf quads", &size, &quads) != 2) continue;
+      ++lines;
+      ASSERT_EQ(
+          stderr_of(folder, fmt::format("mesh {} -o a.vtk --size {} --quiet --report r.json", model, size))
+              .exit_code,
+          0);
+      const double made = nlohmann::json::parse(test::file_text(folder / "r.json"))["counts"]["quads"];
+      EXPECT_LT(made / quads, 1.5) << line;
+      EXPECT_GT(made / quads, 1 / 1.5) << line;
+    }
+    EXPECT_EQ(lines, 3) << info;
+  }
 }
 
 TEST(Command, QuietSaysNothing) {

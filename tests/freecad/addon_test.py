@@ -93,7 +93,7 @@ class AddonTest(unittest.TestCase):
     def test_a_constraint_added_after_meshing_gets_its_nodes(self):
         box = self.box()
         analysis, _, _ = self.analysis()
-        mesh = core.mesh_object(box, size=2, analysis=analysis)
+        mesh = core.mesh_object(box, size=2, order=1, analysis=analysis)
         late = ObjectsFem.makeConstraintFixed(self.document, "Late")
         late.References = [(box, "Face3")]
         self.assertFalse(group(mesh, "Late_Nodes"))

@@ -98,7 +98,7 @@ class MeshObjectTest(unittest.TestCase):
                          "Fem::FemMeshObjectPython" if old else "Fem::FemMeshShapeBaseObjectPython")
 
     def test_normals_point_out_of_a_solid(self):
-        mesh = mesh_object(self.part(Part.makeBox(10, 10, 10)), size=5).FemMesh
+        mesh = mesh_object(self.part(Part.makeBox(10, 10, 10)), size=5, order=1).FemMesh
         nodes = mesh.Nodes
         for element in mesh.Faces:
             a, b, c, d = (nodes[i] for i in mesh.getElementNodes(element))
@@ -204,12 +204,12 @@ class MeshObjectTest(unittest.TestCase):
         self.check_error("usage", "no faces", line)
         self.check_error("usage", "no faces", empty)
         self.check_error("usage", "no shape", note)
-        self.check_error("usage", "--size", box, size=-1.0)
-        self.check_error("usage", "--size", box, size=float("nan"))
+        self.check_error("usage", "Size must be", box, size=-1.0)
+        self.check_error("usage", "Size must be", box, size=float("nan"))
         self.check_error("usage", "larger than the model", box, size=1000.0)
-        self.check_error("usage", "--order", box, size=2.0, order=3)
+        self.check_error("usage", "ElementOrder", box, size=2.0, order=3)
         self.check_error("usage", "Face77", box, size=2.0, faces=[77])
-        self.check_error("usage", "strategy", box, size=2.0, strategy="magic")
+        self.check_error("usage", "Strategy", box, size=2.0, strategy="magic")
         self.check_error("usage", "is not a FEM analysis", box, size=2.0, analysis=line)
         self.check_error("usage", "cannot be run", box, size=2.0, command="/nowhere/quadrille")
         analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")

@@ -45,7 +45,8 @@ void write_meshes(const TroubleModel& trouble, const std::filesystem::path& fold
       const std::string name = trouble.name + std::to_string(order) + "." + format;
       write_mesh(result, folder / format / name);
     }
-    write_mesh(result, folder / "msh" / (trouble.name + std::to_string(order) + "v4.msh"), {4.1, "seed"});
+    write_mesh(result, folder / "msh" / (trouble.name + std::to_string(order) + "v4.msh"),
+               {MshVersion::v4_1, "seed"});
   }
 }
 
@@ -53,7 +54,7 @@ constexpr const char* command_lines[] = {
     "mesh\nbox.brep\n-o\nout.msh\n--size\n1\n--size-min\n0.5\n--curvature\n12\n--growth\n0.3",
     "mesh\nbox.brep\n-o\nout.inp\n-o\nout.unv\n--elements-per-diagonal\n20\n--order\n2\n--threads\n2",
     "mesh\nbox.brep\n--output=out.vtu\n--size-on\nFace3=0.5,Edge4=1,Vertex2=0.1\n--faces\nFace1,Face7",
-    "mesh\nbox.brep\n-oout.bdf\n--strategy\ndirect\n--seed\n7\n--time-limit\n3.5\n--partial\n--force\n--"
+    "mesh\nbox.brep\n-oout.bdf\n--strategy\ndirect\n--time-limit\n3.5\n--partial\n--force\n--"
     "quiet",
     "mesh\nbox.brep\n-o\nout.med\n--size-field\nf.vdb\n--write-size-field\ng.vdb\n--report\nr.json\n--"
     "picture\np.png",

@@ -1,5 +1,6 @@
 """quadrille.command: finding the command, running it as a child, cancelling it, its errors."""
 
+import json
 import os
 import stat
 import subprocess
@@ -13,6 +14,8 @@ from unittest import mock
 import quadrille.command
 from quadrille import Error
 from quadrille.command import MeshJob, MeshSettings, find_command, scratch_folder
+
+from quadrille.settings import SETTINGS, from_property, to_property
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
 
@@ -38,9 +41,43 @@ class CommandTest(unittest.TestCase):
         settings = MeshSettings(size=2.0, order=2, faces=(3, "Face7"), sizes={"Edge4": 0.5}, partial=True)
         self.assertEqual(
             settings.arguments(),
-            ["--size", "2.0", "--order", "2", "--threads", "0", "--faces", "Face3,Face7", "--size-on", "Edge4=0.5",
-             "--partial"],
+            ["--size", "2.0", "--order", "2", "--faces", "Face3,Face7", "--size-on", "Edge4=0.5", "--partial"],
         )
+        with self.assertRaises(TypeError):
+            MeshSettings(seed=1)
+
+    def test_table_is_the_commands(self):
+        answer = subprocess.run([find_command(), "settings", "--json"], capture_output=True, text=True, check=True)
+        self.assertEqual(json.loads(answer.stdout), SETTINGS,
+                         "write it anew: build/quadrille settings --json > workbench/quadrille/settings.json")
+
+    def test_every_setting_reaches_the_mesher(self):
+        values = {"number": 7.5, "count": 2, "flag": True, "names": ["Face1"], "sizes": {"Face1": 3.0}}
+        for setting in SETTINGS:
+            value = values.get(setting["kind"], setting["choices"][-1] if setting["choices"] else None)
+            value = {"mm": 0.5, "s": 100.0}.get(setting["unit"], value) if setting["kind"] == "number" else value
+            if value is None:
+                continue  # files
+            with self.subTest(setting=setting["name"]):
+                job = MeshJob(MODELS / "box.brep", [self.folder / "box.msh"], MeshSettings(**{setting["name"]: value}))
+                self.assertGreater(job.start().wait()["counts"]["quads"], 0)
+                if setting["property"]:
+                    there = to_property(setting, value)
+                    self.assertEqual(from_property(setting, there), value)
+                    self.assertEqual(from_property(setting, to_property(setting, None)),
+                                     2 if setting["name"] == "order" else setting["default"] or
+                                     (setting["default"] if setting["kind"] in ("flag", "count") else None))
+
+    def test_progress_is_of_the_whole_and_never_falls(self):
+        seen = []
+        settings = MeshSettings(elements_per_diagonal=600.0, threads=1)
+        MeshJob(MODELS / "bracket.step", [self.folder / "bracket.msh"], settings).start().wait(
+            lambda stage, fraction: seen.append((stage, fraction)))
+        fractions = [fraction for stage, fraction in seen if stage != "start"]
+        self.assertEqual(fractions, sorted(fractions))
+        self.assertTrue({stage for stage, _ in seen} <= {"start", "read", "size", "sample", "mesh", "slide", "assemble", "write"})
+        meshing = {fraction for stage, fraction in seen if stage == "mesh"}
+        self.assertGreater(max(meshing), 0.15, "the faces move it")
 
     def test_found_in_order(self):
         given = self.script("exit 0\n")

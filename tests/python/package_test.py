@@ -166,6 +166,15 @@ class PackageTest(unittest.TestCase):
         quadrille.mesh(self.model, size=8, progress=lambda stage, fraction: calls.append((stage, fraction)))
         self.assertTrue(calls)
         self.assertTrue(all(isinstance(stage, str) and 0 <= fraction <= 1 for stage, fraction in calls))
+        fractions = [fraction for _, fraction in calls]
+        self.assertEqual(fractions, sorted(fractions), "never runs backward")
+
+    def test_settings_are_those_of_the_table(self):
+        for setting in quadrille.settings():
+            function = quadrille.read if setting["use"] == "read" else quadrille.mesh
+            self.assertIn(f"{setting['name']}: ", function.__doc__)
+        with self.assertRaises(TypeError):
+            quadrille.mesh(self.model, seed=1)
 
     def test_reading_survives_files_that_crash_the_reader(self):
         # References that lead to entities of the wrong kind: OpenCASCADE 7.6 crashes on some of them.
@@ -223,6 +232,22 @@ class PackageTest(unittest.TestCase):
             ("usage", lambda: quadrille.mesh(self.model, size=4, faces=[99])),
             ("usage", lambda: quadrille.mesh(self.model, size=4, strategy="magic")),
             ("usage", lambda: quadrille.mesh(self.model, size=4, sizes={"Side1": 2})),
+            ("usage", lambda: quadrille.mesh(self.model, size=4, sizes={"Face1": float("nan")})),
+            ("usage", lambda: quadrille.mesh(self.model, elements_per_diagonal=0)),
+            ("usage", lambda: quadrille.mesh(self.model, elements_per_diagonal=float("nan"))),
+            ("usage", lambda: quadrille.mesh(self.model, elements_per_diagonal=-3)),
+            ("usage", lambda: quadrille.mesh(self.model, size=2, size_min=4)),
+            ("usage", lambda: quadrille.mesh(self.model, size_min=30)),
+            ("usage", lambda: quadrille.mesh(self.model, threads=-1)),
+            ("usage", lambda: quadrille.mesh(self.model, threads=1.5)),
+            ("usage", lambda: quadrille.mesh(self.model, faces=[1.5])),
+            ("usage", lambda: quadrille.mesh(self.model, faces="Face1")),
+            ("usage", lambda: quadrille.mesh(self.model, size="4")),
+            ("usage", lambda: quadrille.mesh(self.model, time_limit=0)),
+            ("usage", lambda: quadrille.mesh(self.model, merge_tiny=50)),
+            ("failure", lambda: quadrille.mesh(self.model, time_limit=1e-6)),
+            ("usage", lambda: quadrille.read(MODELS / "box.brep", sew=1e6)),
+            ("usage", lambda: quadrille.read(MODELS / "box.brep", read_time_limit=-1)),
             ("usage", lambda: self.mesh.write("/tmp/mesh.xyz")),
             ("failure", lambda: self.mesh.write("/nowhere/mesh.msh")),
         ):
@@ -230,6 +255,8 @@ class PackageTest(unittest.TestCase):
                 call()
             self.assertEqual(caught.exception.kind, kind, caught.exception)
             self.assertTrue(str(caught.exception))
+            self.assertNotIn("--", str(caught.exception))
+            self.assertNotIn("`", str(caught.exception))
         with self.assertRaises(TypeError):
             quadrille.mesh(self.model, sise=4)
 

@@ -199,7 +199,7 @@ TEST(Unfolding, NamesTheFaceThatNoStraightSideMends) {
                    SamplingPlan(model.shape()), context);
   std::vector<std::optional<FaceMesh>> faces(model.face_count());
   faces[2] = mesh_face(model.shape(), 2, nodes, field, options, 1, context);
-  std::vector<ShellMesh::FaceStatus> statuses(faces.size());
+  std::vector<ShellMesh::Face> statuses(faces.size());
   EXPECT_NO_THROW(assemble(model.shape(), nodes, faces, statuses, options, context));
   // The last node, far across its neighbours.
   faces[2]->points.back() += 3 * (faces[2]->points.front() - faces[2]->points.back());

@@ -13,11 +13,11 @@ import subprocess
 import tempfile
 import threading
 import time
-from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 from .errors import Error
+from .settings import MeshSettings
 
 #: Called with a stage name and the fraction of the stage done, in [0, 1]; returning False cancels the work.
 Progress = Callable[[str, float], Optional[bool]]
@@ -27,56 +27,6 @@ _PROGRESS_LINE = re.compile(r"progress: (\S+) (\d+) %")
 KILL_AFTER_SECONDS = 2.0
 
 _KINDS = {2: "usage", 130: "cancelled"}
-
-
-@dataclass
-class MeshSettings:
-    """What to mesh, and how. None leaves the choice to the command; lengths are millimetres."""
-
-    size: Optional[float] = None  #: target edge length; None = diagonal / 60
-    size_min: Optional[float] = None  #: no size goes below this; None = size / 8
-    elements_per_circle: Optional[float] = None  #: elements per 2 pi of curvature (12); 0 = off
-    growth: Optional[float] = None  #: largest growth of the size per length (0.3)
-    order: int = 1  #: 1: four-node quads; 2: eight-node quads
-    strategy: Optional[str] = None  #: "direct" or "subdivide"
-    faces: Sequence[Union[int, str]] = ()  #: mesh these faces only: 3 or "Face3"; empty = all
-    sizes: Mapping[str, float] = field(default_factory=dict)  #: {"Face3": 0.5, "Edge4": 1.0, "Vertex2": 0.1}
-    size_field: Optional[str] = None  #: OpenVDB grid (.vdb) that caps the size
-    seed: Optional[int] = None  #: of random choices
-    threads: int = 0  #: 0 = all cores
-    partial: bool = False  #: deliver what could be meshed when a face fails
-    force: bool = False  #: go on past 50 million elements
-
-    def arguments(self) -> List[str]:
-        """The settings as arguments of `quadrille mesh`."""
-        arguments = []
-        for option, value in (
-            ("--size", self.size),
-            ("--size-min", self.size_min),
-            ("--curvature", self.elements_per_circle),
-            ("--growth", self.growth),
-            ("--order", self.order),
-            ("--strategy", self.strategy),
-            ("--size-field", self.size_field),
-            ("--seed", self.seed),
-            ("--threads", self.threads),
-        ):
-            if value is not None:
-                arguments += [option, repr(float(value)) if isinstance(value, float) else str(value)]
-        if self.faces:
-            arguments += ["--faces", ",".join(face_name(face) for face in self.faces)]
-        if self.sizes:
-            arguments += ["--size-on", ",".join(f"{name}={size!r}" for name, size in self.sizes.items())]
-        if self.partial:
-            arguments.append("--partial")
-        if self.force:
-            arguments.append("--force")
-        return arguments
-
-
-def face_name(face: Union[int, str]) -> str:
-    """3 and "Face3" as "Face3"."""
-    return f"Face{face}" if isinstance(face, int) else str(face)
 
 
 #: What is there inside a Flatpak sandbox, and nowhere else.

@@ -11,7 +11,6 @@ mesher is a child process: it can neither freeze nor crash FreeCAD, and fits any
 import json
 import os
 from collections import OrderedDict
-from dataclasses import asdict
 from pathlib import Path
 from typing import Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
@@ -19,8 +18,10 @@ import FreeCAD
 import Fem
 
 from . import groups, shapes, solvers, undo
-from .command import MeshJob, MeshSettings, Progress, check_version, face_name, find_command, scratch_folder
+from .command import MeshJob, Progress, check_version, find_command, scratch_folder
 from .errors import Error
+from .settings import (BY_NAME, SETTINGS, MeshSettings, face_name, from_property, in_words_of_properties, property_help,
+                       property_kind, to_property, words)
 
 __all__ = [
     "Error", "MeshFeature", "ShapeJob", "check_part", "export", "find_mesher", "finish", "flip", "make_mesh",
@@ -28,7 +29,6 @@ __all__ = [
 ]
 
 PREFERENCES = "User parameter:BaseApp/Preferences/Mod/Quadrille"
-_DEFAULT_STRATEGY = "default"
 UP_TO_DATE = "up to date"
 _OTHER_MEANS = "made by other means: mesh again"
 
@@ -36,44 +36,29 @@ _OTHER_MEANS = "made by other means: mesh again"
 def mesh_object(
     doc_object,
     size: Optional[float] = None,
-    order: int = 1,
+    order: int = 2,
     name: str = "QuadMesh",
-    faces: Sequence[Union[int, str]] = (),
-    size_min: Optional[float] = None,
-    elements_per_circle: float = 12,
-    growth: float = 0.3,
-    strategy: Optional[str] = None,
-    sizes: Optional[Mapping[str, float]] = None,
     analysis=None,
-    threads: int = 0,
-    seed: int = 1,
-    partial: bool = False,
     progress: Optional[Progress] = None,
     command: Optional[str] = None,
     outputs: Sequence[Union[str, Path]] = (),
     picture: Optional[Union[str, Path]] = None,
+    **settings,
 ):
     """Meshes the faces of a document object with quads and adds the mesh to its document.
 
     Args:
         doc_object: a document object with a shape.
-        size: target edge length in mm; None = a sixtieth of the shape's diagonal.
-        order: 1 for four-node quads, 2 for eight-node quads (what CalculiX wants for shells).
+        size: target edge length in mm, or with a unit ("2 cm"); None = a sixtieth of the shape's diagonal.
+        order: 2 for eight-node quads, which solvers want for shells, 1 for four-node quads.
         name: name wanted for the mesh object.
-        faces: the faces to mesh, as 3 or "Face3"; empty = all.
-        size_min: no size goes below this, in mm; None = size / 8.
-        elements_per_circle: elements per 2 pi of curvature; 0 = curvature is ignored.
-        growth: largest growth of the size per length.
-        strategy: "direct" or "subdivide"; None = the mesher's own choice.
-        sizes: sizes on faces, edges or vertices: {"Face3": 0.5}.
         analysis: a FEM analysis to add the mesh to.
-        threads: 0 = all cores.
-        seed: of random choices.
-        partial: deliver what could be meshed when a face fails.
-        progress: called with (stage, fraction) now and then; returning False cancels.
+        progress: called with the stage and the fraction of the work done; returning False cancels.
         command: path of the `quadrille` command; None = found by find_command().
         outputs: mesh files to write besides: .inp, .msh, .unv, .med, .vtu, .vtk, .bdf.
         picture: a .png to draw the mesh into.
+        settings: all others of the table, by name: sizes={"Face3": 0.5}, faces=[3], sew=0.01, partial=True; see
+            `quadrille settings`.
 
     Returns:
         a Fem::FemMeshObjectPython (FreeCAD 0.20) or Fem::FemMeshShapeBaseObjectPython (1.0) whose `Shape` links to
@@ -82,26 +67,14 @@ def mesh_object(
     Raises:
         Error: with one sentence, the document unchanged.
     """
-    settings = MeshSettings(
-        size=None if size is None else _millimetres(size),
-        size_min=None if size_min is None else _millimetres(size_min),
-        elements_per_circle=float(elements_per_circle),
-        growth=float(growth),
-        order=order,
-        strategy=strategy,
-        faces=tuple(face_name(face) for face in faces or ()),
-        sizes={str(key): _millimetres(value) for key, value in (sizes or {}).items()},
-        seed=seed,
-        threads=threads,
-        partial=partial,
-    )
+    wanted = _in_millimetres(MeshSettings(size=size, order=order, **settings))
     _check_analysis(analysis)
     shape = _shape_of(doc_object)
-    job = ShapeJob(shape, settings, command, outputs, picture)
+    job = ShapeJob(shape, wanted, command, outputs, picture)
     job.made_of = (shapes.fingerprint(shape), "")
     fem_mesh, report = job.start().wait_for_result(progress)
     mesh = _add_mesh(doc_object, name)
-    _store_settings(mesh, settings)
+    _store_settings(mesh, wanted)
     if analysis is not None:
         analysis.addObject(mesh)
     job.made_of = (job.made_of[0], _settings_key(mesh))
@@ -109,13 +82,14 @@ def mesh_object(
     return mesh
 
 
-def make_mesh(doc_object, size: Optional[float] = None, order: int = 2, name: str = "QuadMesh", analysis=None):
+def make_mesh(doc_object, size: Optional[float] = None, order: int = 2, name: str = "QuadMesh", analysis=None,
+              **settings):
     """Adds a mesh object for a document object, without meshing yet: the task panel or remesh() does that."""
+    wanted = _in_millimetres(MeshSettings(size=size, order=order, **settings))
     _shape_of(doc_object)
     _check_analysis(analysis)
     mesh = _add_mesh(doc_object, name)
-    _store_settings(mesh, MeshSettings(size=None if size is None else _millimetres(size), elements_per_circle=12.0,
-                                       growth=0.3, order=order, seed=1))
+    _store_settings(mesh, wanted)
     mesh.Status = status(mesh)
     if analysis is not None:
         analysis.addObject(mesh)
@@ -321,6 +295,9 @@ class ShapeJob:
         """Waits for the end, passing progress on."""
         try:
             self._report = self._job.wait(progress)
+        except Error as error:
+            self._folder.cleanup()
+            raise _in_own_words(error) from error
         except BaseException:
             self._folder.cleanup()
             raise
@@ -330,6 +307,8 @@ class ShapeJob:
         try:
             report = self._report if self._report is not None else self._job.result()
             fem_mesh = read_mesh(self._output)
+        except Error as error:
+            raise _in_own_words(error) from error
         finally:
             self._folder.cleanup()
         # FreeCAD's reader gives an empty mesh when it does not understand a file.
@@ -388,19 +367,17 @@ class MeshFeature:
 
     def add_properties(self, obj) -> None:
         """Adds what is missing, so that documents of older versions gain new properties."""
+        for setting in SETTINGS:
+            name = setting["property"]
+            if not name or name in obj.PropertiesList:
+                continue
+            kind = property_kind(setting)
+            obj.addProperty(kind, name, "Mesh", property_help(setting))
+            if kind == "App::PropertyEnumeration":
+                setattr(obj, name, words(setting))
+            setattr(obj, name, to_property(setting, None))
         for kind, name, group, text in (
             ("App::PropertyLink", "Shape", "Mesh", "The part that is meshed"),
-            ("App::PropertyLength", "Size", "Mesh", "Target edge length; 0 = a sixtieth of the part's diagonal"),
-            ("App::PropertyLength", "SizeMin", "Mesh", "No size goes below this; 0 = size / 8"),
-            ("App::PropertyFloat", "ElementsPerCircle", "Mesh", "Elements per full circle of curvature; 0 = off"),
-            ("App::PropertyFloat", "Growth", "Mesh", "Largest growth of the size per length"),
-            ("App::PropertyEnumeration", "ElementOrder", "Mesh", "1st: four-node quads; 2nd: eight-node quads"),
-            ("App::PropertyEnumeration", "Strategy", "Mesh", "How triangles become quads"),
-            ("App::PropertyStringList", "Faces", "Mesh", "The faces to mesh, such as Face3; empty = all"),
-            ("App::PropertyMap", "Sizes", "Mesh", "Sizes on faces, edges and vertices in mm: Face3 = 0.5"),
-            ("App::PropertyInteger", "Seed", "Mesh", "Seed of random choices"),
-            ("App::PropertyInteger", "Threads", "Mesh", "Threads to use; 0 = all cores"),
-            ("App::PropertyBool", "Partial", "Mesh", "Keep what could be meshed when a face fails"),
             ("App::PropertyStringList", "FlippedFaces", "Mesh", "Faces whose shell normals are turned over"),
             ("App::PropertyLinkList", "MeshRegionList", "Mesh", "FEM mesh regions: sizes on faces, edges, vertices"),
             ("App::PropertyLinkList", "MeshGroupList", "Mesh", "FEM mesh groups to make"),
@@ -419,19 +396,8 @@ class MeshFeature:
             ("App::PropertyString", "MeshedSettings", "Hidden", "Settings that the mesh was made with"),
             ("App::PropertyString", "MeshToken", "Hidden", "Name of the mesh, for undo"),
         ):
-            if name in obj.PropertiesList:
-                continue
-            obj.addProperty(kind, name, group, text)
-            if name == "ElementOrder":
-                obj.ElementOrder = ["1st", "2nd"]
-            elif name == "Strategy":
-                obj.Strategy = [_DEFAULT_STRATEGY, "direct", "subdivide"]
-            elif name == "ElementsPerCircle":
-                obj.ElementsPerCircle = 12.0
-            elif name == "Growth":
-                obj.Growth = 0.3
-            elif name == "Seed":
-                obj.Seed = 1
+            if name not in obj.PropertiesList:
+                obj.addProperty(kind, name, group, text)
         self._set_editor_modes(obj)
 
     @staticmethod
@@ -479,6 +445,23 @@ def _millimetres(value) -> float:
     if isinstance(value, str):
         value = FreeCAD.Units.Quantity(value)
     return float(getattr(value, "Value", value))
+
+
+def _in_own_words(error: Error) -> Error:
+    """What the command says of its options, said of properties."""
+    return Error(in_words_of_properties(str(error)), error.kind, error.subject)
+
+
+def _in_millimetres(settings: MeshSettings) -> MeshSettings:
+    """Lengths may come with a unit."""
+    for name, value in settings.items():
+        if BY_NAME[name]["unit"] != "mm":
+            continue
+        if isinstance(value, Mapping):
+            settings[name] = {str(key): _millimetres(size) for key, size in value.items()}
+        else:
+            settings[name] = _millimetres(value)
+    return settings
 
 
 def _shape_of(doc_object):
@@ -534,7 +517,9 @@ def complaint(mesh) -> str:
 def _settings_to_use(mesh) -> MeshSettings:
     """The settings in the properties, with the sizes of the mesh regions."""
     settings = _load_settings(mesh)
-    settings.sizes = sizes_wanted(mesh)
+    sizes = sizes_wanted(mesh)
+    if sizes:
+        settings["sizes"] = sizes
     return settings
 
 
@@ -553,8 +538,7 @@ def sizes_wanted(mesh) -> Dict[str, float]:
 
 
 def _settings_key(mesh) -> str:
-    settings = asdict(_settings_to_use(mesh))
-    del settings["threads"]  # the mesh does not depend on it
+    settings = _settings_to_use(mesh).of_the_mesh()
     settings["flipped"] = list(mesh.FlippedFaces)
     return json.dumps(settings, sort_keys=True, default=list)
 
@@ -578,33 +562,14 @@ def _is_result_mesh(member) -> bool:
 
 
 def _store_settings(mesh, settings: MeshSettings) -> None:
-    mesh.Size = settings.size or 0
-    mesh.SizeMin = settings.size_min or 0
-    mesh.ElementsPerCircle = settings.elements_per_circle
-    mesh.Growth = settings.growth
-    mesh.ElementOrder = "2nd" if settings.order == 2 else "1st"
-    mesh.Strategy = settings.strategy or _DEFAULT_STRATEGY
-    mesh.Faces = list(settings.faces)
-    mesh.Sizes = {name: repr(size) for name, size in settings.sizes.items()}
-    mesh.Seed = settings.seed
-    mesh.Threads = settings.threads
-    mesh.Partial = settings.partial
+    for setting in SETTINGS:
+        if setting["property"]:
+            setattr(mesh, setting["property"], to_property(setting, settings.get(setting["name"])))
 
 
 def _load_settings(mesh) -> MeshSettings:
-    return MeshSettings(
-        size=mesh.Size.Value or None,
-        size_min=mesh.SizeMin.Value or None,
-        elements_per_circle=mesh.ElementsPerCircle,
-        growth=mesh.Growth,
-        order=2 if mesh.ElementOrder == "2nd" else 1,
-        strategy=None if mesh.Strategy == _DEFAULT_STRATEGY else mesh.Strategy,
-        faces=tuple(mesh.Faces),
-        sizes={name: float(size) for name, size in mesh.Sizes.items()},
-        seed=mesh.Seed,
-        threads=mesh.Threads,
-        partial=mesh.Partial,
-    )
+    return MeshSettings(**{setting["name"]: from_property(setting, getattr(mesh, setting["property"]))
+                           for setting in SETTINGS if setting["property"]})
 
 
 #: The shapes that meshes were made of, by the mesh objects' tokens: the faces that were flipped, and the BREP.

@@ -25,6 +25,7 @@ import quadrille.freecad
 import quadrille.quality
 from driver import Boxes, close_panel, find, prepare, process, screenshot, trigger, wait_for, window
 from quadrille.gui import commands, overlays
+from quadrille.settings import SETTINGS
 
 ROOT = Path(__file__).resolve().parents[3]
 MODELS = ROOT / "examples" / "models"
@@ -161,7 +162,7 @@ class GuiTest(unittest.TestCase):
     def test_settings_of_the_panel_reach_the_mesh(self):
         mesh = self.open_panel(self.box())
         find("QuadrilleSize").setProperty("rawValue", 2.0)
-        find("QuadrilleOrder").setCurrentText("1st")
+        find("QuadrilleElementOrder").setCurrentText("1st")
         process(0.1)
         self.assertIn("150", find("QuadrilleEstimate").text())
         self.press_mesh()
@@ -171,17 +172,39 @@ class GuiTest(unittest.TestCase):
         self.assertTrue(4000 < 600 / find("QuadrilleSize").property("rawValue") ** 2 < 6500)
         close_panel()
 
+    def test_panel_has_the_settings_of_the_table(self):
+        mesh = self.open_panel(self.box())
+        for setting in SETTINGS:
+            if setting["property"]:
+                self.assertIn(setting["property"], mesh.PropertiesList)
+            if setting["label"]:
+                self.assertIsNotNone(find(f"Quadrille{setting['property']}"), setting["name"])
+        self.assertNotIn("Seed", mesh.PropertiesList)
+        find("QuadrilleSize").setProperty("rawValue", 2.0)
+        find("QuadrilleSew").setProperty("rawValue", 0.01)
+        find("QuadrilleMergeTiny").setProperty("rawValue", 0.02)
+        find("QuadrillePartial").setChecked(True)
+        find("QuadrilleTimeLimit").setValue(100)
+        self.press_mesh()
+        self.assertEqual((mesh.Sew.Value, mesh.MergeTiny.Value, mesh.Partial, mesh.TimeLimit), (0.01, 0.02, True, 100))
+        self.assertEqual(mesh.ElementOrder, "2nd")
+        self.assertEqual(mesh.Status, "up to date")
+        close_panel()
+
     def test_cancelled_while_freecad_stays_usable(self):
         mesh = self.open_panel(self.box())
         find("QuadrilleSize").setProperty("rawValue", 0.008)
         started = time.monotonic()
         find("QuadrilleMesh").click()
-        longest = 0.0
-        while time.monotonic() - started < 1.0:
+        longest, bar = 0.0, [0]
+        while time.monotonic() - started < 1.0 or (bar[-1] < 10 and time.monotonic() - started < 30):
             tick = time.monotonic()
             process(0.0)
             FreeCADGui.activeDocument().activeView().viewTop()
             longest = max(longest, time.monotonic() - tick)
+            bar.append(find("QuadrilleProgress").value())
+        self.assertEqual(bar, sorted(bar), "the bar never runs backward")
+        self.assertGreaterEqual(bar[-1], 10, "the bar shows that meshing has begun")
         self.assertFalse(find("QuadrilleMesh").isEnabled())
         self.assertLess(longest, 0.5)
         find("QuadrilleStop").click()

@@ -17,33 +17,10 @@ from .. import groups, picks, shapes, solvers
 from ..errors import Error
 from . import icon, tell
 from .quality_view import QualityWidget
+from .setting_widgets import setting_widgets
 
-#: The stages in their order, with their share of the time.
-_STAGES = {"read": 5, "size": 5, "sample": 5, "triangulate": 20, "color": 5, "recombine": 10, "improve": 35,
-           "assemble": 10, "write": 5}
 _POLL_MILLISECONDS = 50
 SUGGESTED_QUADS = 5000
-
-
-_MAX_DEAD_WRAPPERS = 16
-
-
-def _length_box(name: str, tip: str):
-    # FreeCAD may make the widget at the address of one that is gone, and PySide then gives that one's dead wrapper:
-    # another widget has another address.
-    loader = FreeCADGui.UiLoader()
-    for attempt in range(_MAX_DEAD_WRAPPERS + 1):
-        box = loader.createWidget("Gui::QuantitySpinBox")
-        try:
-            box.setObjectName(name)
-            break
-        except RuntimeError:
-            if attempt == _MAX_DEAD_WRAPPERS:
-                raise
-    box.setProperty("unit", "mm")
-    box.setProperty("minimum", 0.0)
-    box.setToolTip(tip)
-    return box
 
 
 class MeshPanel:
@@ -75,30 +52,10 @@ class MeshPanel:
         self.form = QtGui.QWidget()
         self.form.setWindowTitle("Quad mesh")
         self.form.setWindowIcon(QtGui.QIcon(icon("quadrille_mesh")))
-        self.size = _length_box("QuadrilleSize", "Target edge length; 0 = a sixtieth of the part's diagonal")
+        self.settings = setting_widgets(self.mesh)
         self.suggest = QtGui.QPushButton("Suggest")
         self.suggest.setObjectName("QuadrilleSuggest")
         self.suggest.setToolTip(f"The size that gives about {SUGGESTED_QUADS} elements")
-        self.size_min = _length_box("QuadrilleSizeMin", "No size goes below this; 0 = size / 8")
-        self.per_circle = QtGui.QDoubleSpinBox()
-        self.per_circle.setRange(0, 1000)
-        self.per_circle.setDecimals(0)
-        self.per_circle.setToolTip("Elements on a full circle of curvature; 0 = curvature is ignored")
-        self.growth = QtGui.QDoubleSpinBox()
-        self.growth.setRange(0.01, 10)
-        self.growth.setSingleStep(0.1)
-        self.growth.setToolTip("Largest growth of the size per length")
-        self.order = QtGui.QComboBox()
-        self.order.setObjectName("QuadrilleOrder")
-        self.order.addItems(self.mesh.getEnumerationsOfProperty("ElementOrder"))
-        self.order.setToolTip("1st: four-node quads (S4); 2nd: eight-node quads (S8), better for shells")
-        self.strategy = QtGui.QComboBox()
-        self.strategy.addItems(self.mesh.getEnumerationsOfProperty("Strategy"))
-        self.strategy.setToolTip("How triangles become quads")
-        self.faces = QtGui.QLineEdit()
-        self.faces.setObjectName("QuadrilleFaces")
-        self.faces.setPlaceholderText("all faces")
-        self.faces.setToolTip("Faces to mesh, such as Face1, Face7; empty = all")
         self.take_selection = QtGui.QPushButton("Take selection")
         self.take_selection.setObjectName("QuadrilleTakeSelection")
         self.take_selection.setToolTip("Mesh only the faces that are selected in the 3-D view")
@@ -123,13 +80,9 @@ class MeshPanel:
 
         settings = QtGui.QFormLayout()
         settings.addRow("Part", QtGui.QLabel(self.mesh.Shape.Label))
-        settings.addRow("Size", _beside(self.size, self.suggest))
-        settings.addRow("Minimum", self.size_min)
-        settings.addRow("Per circle", self.per_circle)
-        settings.addRow("Growth", self.growth)
-        settings.addRow("Order", self.order)
-        settings.addRow("Strategy", self.strategy)
-        settings.addRow("Faces", _beside(self.faces, self.take_selection))
+        beside = {"Size": self.suggest, "Faces": self.take_selection}
+        for name, setting in self.settings.items():
+            settings.addRow(setting.label, _beside(setting.widget, beside[name]) if name in beside else setting.widget)
         if self._solvers():
             settings.addRow("Results", self.surfaces)
         settings.addRow("Expected", self.estimate)
@@ -144,40 +97,21 @@ class MeshPanel:
         self.take_selection.clicked.connect(self._take_selection)
         self.mesh_button.clicked.connect(self._start)
         self.stop_button.clicked.connect(self._stop)
-        self.size.valueChanged.connect(lambda *_: self._update_estimate())
-        self.size_min.valueChanged.connect(lambda *_: self._update_estimate())
-        self.per_circle.valueChanged.connect(lambda *_: self._update_estimate())
-        self.growth.valueChanged.connect(lambda *_: self._update_estimate())
-        self.faces.textChanged.connect(lambda *_: self._update_estimate())
+        for setting in self.settings.values():
+            setting.when_changed(self._update_estimate)
 
     def _load(self) -> None:
-        self.size.setProperty("rawValue", self.mesh.Size.Value)
-        self.size_min.setProperty("rawValue", self.mesh.SizeMin.Value)
-        self.per_circle.setValue(self.mesh.ElementsPerCircle)
-        self.growth.setValue(self.mesh.Growth)
-        self.order.setCurrentText(self.mesh.ElementOrder)
-        self.strategy.setCurrentText(self.mesh.Strategy)
-        self.faces.setText(", ".join(self.mesh.Faces))
+        for name, setting in self.settings.items():
+            setting.show(getattr(self.mesh, name))
         self.surfaces.setChecked(all(getattr(solver, solvers.SURFACE_RESULTS) for solver in self._solvers()))
 
     def _solvers(self) -> list:
         return solvers.solvers_of(groups.analysis_of(self.mesh))
 
-    def _face_names(self) -> list:
-        return [name.strip() for name in self.faces.text().split(",") if name.strip()]
-
     def _store(self) -> None:
         """Writes the settings that were changed into the object, as one step of undo."""
         mesh = self.mesh
-        wanted = {
-            "Size": float(self.size.property("rawValue")),
-            "SizeMin": float(self.size_min.property("rawValue")),
-            "ElementsPerCircle": self.per_circle.value(),
-            "Growth": self.growth.value(),
-            "ElementOrder": self.order.currentText(),
-            "Strategy": self.strategy.currentText(),
-            "Faces": self._face_names(),
-        }
+        wanted = {name: setting.value() for name, setting in self.settings.items()}
         changes = {name: value for name, value in wanted.items()
                    if getattr(getattr(mesh, name), "Value", getattr(mesh, name)) != value}
         surfaces = self.surfaces.isChecked()
@@ -196,19 +130,21 @@ class MeshPanel:
     def _update_estimate(self) -> None:
         if self._estimate is None:
             return
-        size = float(self.size.property("rawValue")) or self.mesh.Shape.Shape.BoundBox.DiagonalLength / 60
+        wanted = {name: setting.value() for name, setting in self.settings.items()}
+        size = wanted["Size"] or self.mesh.Shape.Shape.BoundBox.DiagonalLength / 60
         try:
             sizes = core.sizes_wanted(self.mesh)
         except Error as error:
             self.estimate.setText(str(error))
             return
-        count = self._estimate.quads(size, float(self.size_min.property("rawValue")) or None,
-                                     self.per_circle.value(), sizes, self._face_names(), self.growth.value())
+        count = self._estimate.quads(size, wanted["SizeMin"] or None, wanted["ElementsPerCircle"], sizes, wanted["Faces"],
+                                     wanted["Growth"])
         self.estimate.setText(f"about {_rounded(count)} quads")
 
     def _suggest(self) -> None:
         if self._estimate is not None:
-            self.size.setProperty("rawValue", self._estimate.suggested(SUGGESTED_QUADS, self.per_circle.value()))
+            per_circle = self.settings["ElementsPerCircle"].value()
+            self.settings["Size"].show(self._estimate.suggested(SUGGESTED_QUADS, per_circle))
 
     def _take_selection(self) -> None:
         selection = FreeCADGui.Selection.getSelectionEx(self._document_name, 0)
@@ -217,7 +153,7 @@ class MeshPanel:
         if not names:
             tell(f"Select faces of {self.mesh.Shape.Label} in the 3-D view first.")
             return
-        self.faces.setText(", ".join(names))
+        self.settings["Faces"].show(names)
 
     # Meshing
 
@@ -244,7 +180,7 @@ class MeshPanel:
             self._timer.stop()
             return
         for stage, fraction in self._job.poll():
-            self.bar.setValue(_percent(stage, fraction))
+            self.bar.setValue(round(100 * fraction))
             self.bar.setFormat(f"{stage} %p %")
         if self._job.running:
             return
@@ -350,15 +286,6 @@ def _beside(*widgets):
 
 def _path(obj) -> str:
     return f"App.getDocument({obj.Document.Name!r}).getObject({obj.Name!r})"
-
-
-def _percent(stage: str, fraction: float) -> int:
-    done = 0.0
-    for name, share in _STAGES.items():
-        if name == stage:
-            return round(done + share * fraction)
-        done += share
-    return 0
 
 
 def _rounded(count: int) -> str:

@@ -1,0 +1,68 @@
+#include "mesher/command/setting_options.hpp"
+
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace quadrille::command {
+
+namespace {
+
+/// "no size goes below this, in mm (default: size / 8)".
+std::string help_of(const Setting& setting) {
+  std::string text(setting.help);
+  if (setting.kind() == "flag") return text;
+  if (!setting.unit.empty()) text += fmt::format(", in {}", setting.unit);
+  if (!setting.otherwise.empty())
+    return text + fmt::format(" (default: {})", with_options(std::string(setting.otherwise)));
+  const SettingValue value = setting.value(Settings());
+  if (const auto* number = std::get_if<double>(&value)) text += fmt::format(" (default {:g})", *number);
+  if (const auto* word = std::get_if<std::string>(&value)) text += fmt::format(" (default {})", *word);
+  return text;
+}
+
+void add_setting(CLI::App& command, const Setting& setting, GivenSettings& target) {
+  const std::string option = fmt::format("--{}", setting.option);
+  const auto take = [&target, &setting](const std::vector<std::string>& texts) {
+    assign(target.settings, setting, parse(setting, texts));
+    target.given.insert(setting.name);
+  };
+  const std::string_view kind = setting.kind();
+  if (kind == "flag") {
+    command.add_flag_callback(
+        option, [take] { take({"true"}); }, help_of(setting));
+  } else if (kind == "names" || kind == "sizes") {
+    command.add_option_function<std::vector<std::string>>(option, take, help_of(setting))
+        ->delimiter(',')
+        ->allow_extra_args(false);
+  } else {
+    command.add_option_function<std::string>(
+        option, [take](const std::string& text) { take({text}); }, help_of(setting));
+  }
+}
+
+}  // namespace
+
+void add_settings(CLI::App& command, GivenSettings& target, const std::set<std::string_view>& names) {
+  for (const Setting& setting : all_settings()) {
+    if (names.empty() || names.count(setting.name) > 0) add_setting(command, setting, target);
+  }
+}
+
+std::string with_options(std::string sentence) {
+  for (std::size_t start = 0; (start = sentence.find('`', start)) != std::string::npos;) {
+    const std::size_t end = sentence.find('`', start + 1);
+    if (end == std::string::npos) break;
+    const Setting* setting = find_setting(sentence.substr(start + 1, end - start - 1));
+    if (setting == nullptr) {  // a file name may have backquotes too
+      start = end;
+      continue;
+    }
+    const std::string option = fmt::format("--{}", setting->option);
+    sentence.replace(start, end + 1 - start, option);
+    start += option.size();
+  }
+  return sentence;
+}
+
+}  // namespace quadrille::command

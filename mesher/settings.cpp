@@ -1,0 +1,341 @@
+#include "mesher/settings.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/cad/cad_model.hpp"
+
+namespace quadrille {
+
+namespace {
+
+using Use = Setting::Use;
+using Names = std::vector<std::string>;
+using Sizes = std::map<std::string, double>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::pair<Strategy, std::string_view> strategies[] = {{Strategy::subdivide, "subdivide"},
+                                                                {Strategy::direct, "direct"}};
+
+template <class... Visitors>
+struct Overloaded : Visitors... {
+  using Visitors::operator()...;
+};
+template <class... Visitors>
+Overloaded(Visitors...) -> Overloaded<Visitors...>;
+
+Error refused(const Setting& setting, const std::string& rule) {
+  return usage_error(std::string(setting.name), fmt::format("`{}` {}", setting.name, rule));
+}
+
+/// "Face3" as 3; 0 when the name is not of that kind.
+int number_of(std::string_view name, std::string_view kind) {
+  if (name.substr(0, kind.size()) != kind) return 0;
+  name.remove_prefix(kind.size());
+  int number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  return error == std::errc() && end == name.data() + name.size() && number > 0 ? number : 0;
+}
+
+/// "a positive number", "a whole number between 0 and 4096".
+std::string rule_of(const Setting& setting) {
+  const std::string what = setting.kind() == "count" ? "a whole number" : "a number";
+  if (setting.low == 0 && setting.above_low && setting.high == infinity) return "a positive number";
+  if (setting.high == infinity) return fmt::format("{} of at least {:g}", what, setting.low);
+  return fmt::format("{} {} {:g} and at most {:g}", what, setting.above_low ? "above" : "of at least",
+                     setting.low, setting.high);
+}
+
+double checked(const Setting& setting, double value) {
+  const bool in_limits =
+      (setting.above_low ? value > setting.low : value >= setting.low) && value <= setting.high;
+  if (!in_limits || !std::isfinite(value) || (setting.kind() == "count" && value != std::floor(value)))
+    throw refused(setting, fmt::format("must be {}, not {:g}", rule_of(setting), value));
+  return value;
+}
+
+/// A value of the type that the setting takes.
+template <class Wanted>
+const Wanted& as(const Setting& setting, const SettingValue& value) {
+  if (const Wanted* found = std::get_if<Wanted>(&value)) return *found;
+  throw refused(setting, fmt::format("takes a value of the kind {}", setting.kind()));
+}
+
+std::vector<int> face_numbers(const Setting& setting, const SettingValue& value) {
+  std::vector<int> faces;
+  for (const std::string& name : as<Names>(setting, value)) {
+    faces.push_back(number_of(name, "Face"));
+    if (faces.back() == 0) throw refused(setting, fmt::format("takes names such as Face3, not '{}'", name));
+  }
+  return faces;
+}
+
+void set_sizes(const Setting& setting, const SettingValue& value, SizingOptions& sizing) {
+  for (const auto& [name, size] : as<Sizes>(setting, value)) {
+    if (!(size > 0) || !std::isfinite(size))
+      throw refused(setting, fmt::format("takes positive sizes, not {:g} on {}", size, name));
+    if (const int face = number_of(name, "Face"))
+      sizing.face_sizes[face] = size;
+    else if (const int edge = number_of(name, "Edge"))
+      sizing.edge_sizes[edge] = size;
+    else if (const int vertex = number_of(name, "Vertex"))
+      sizing.vertex_sizes[vertex] = size;
+    else
+      throw refused(setting, fmt::format("takes names such as Face3, Edge4 or Vertex2, not '{}'", name));
+  }
+}
+
+Sizes sizes_of(const SizingOptions& sizing) {
+  Sizes sizes;
+  for (const auto& [number, size] : sizing.face_sizes) sizes[fmt::format("Face{}", number)] = size;
+  for (const auto& [number, size] : sizing.edge_sizes) sizes[fmt::format("Edge{}", number)] = size;
+  for (const auto& [number, size] : sizing.vertex_sizes) sizes[fmt::format("Vertex{}", number)] = size;
+  return sizes;
+}
+
+double parse_number(const Setting& setting, std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size()) return value;
+  throw refused(setting, fmt::format("must be {}, not '{}'", rule_of(setting), text));
+}
+
+Sizes parse_sizes(const Setting& setting, const std::vector<std::string>& texts) {
+  Sizes sizes;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    const auto bad =
+        refused(setting, fmt::format("takes Face3=0.5, Edge4=0.5 or Vertex2=0.5, not '{}'", text));
+    if (equals == std::string::npos) throw bad;
+    const char *begin = text.data() + equals + 1, *end = text.data() + text.size();
+    const auto parsed = std::from_chars(begin, end, sizes[text.substr(0, equals)]);
+    if (parsed.ec != std::errc() || parsed.ptr != end) throw bad;
+  }
+  return sizes;
+}
+
+std::vector<Setting> make_table() {
+  const auto mm = "mm", s = "s", none = "";
+  const auto read = Use::read, mesh = Use::mesh;
+  // name, option, property, label, use, unit, low, high, above_low, otherwise, help, place
+  return {
+      {"size", "size", "Size", "Size", mesh, mm, 0, infinity, true, "a sixtieth of the model's diagonal",
+       "target edge length", [](Settings& v) -> double& { return v.mesh.sizing.size; }},
+      {"elements_per_diagonal", "elements-per-diagonal", none, none, mesh, none, 1, infinity, false, none,
+       "target edge length as the model's diagonal over this",
+       [](Settings& v) -> double& { return v.mesh.sizing.elements_per_diagonal; }},
+      {"size_min", "size-min", "SizeMin", "Minimum", mesh, mm, 0, infinity, true, "size / 8",
+       "no size goes below this", [](Settings& v) -> double& { return v.mesh.sizing.size_min; }},
+      {"elements_per_circle", "curvature", "ElementsPerCircle", "Per circle", mesh, none, 0, infinity, false,
+       none, "elements on a full circle of curvature; 0 = curvature is ignored",
+       [](Settings& v) -> double& { return v.mesh.sizing.elements_per_circle; }},
+      {"growth", "growth", "Growth", "Growth", mesh, none, 0, infinity, true, none,
+       "how fast the size may change: millimetres of size per millimetre of way",
+       [](Settings& v) -> double& { return v.mesh.sizing.growth; }},
+      {"order", "order", "ElementOrder", "Order", mesh, none, 1, 2, false,
+       "2 where a solver reads the mesh: in FreeCAD and in .inp, .unv, .med and .bdf files; else 1",
+       "1: four-node quads; 2: eight-node quads, better for shells",
+       [](Settings& v) -> int& { return v.mesh.order; }},
+      {"strategy", "strategy", "Strategy", "Strategy", mesh, none, 0, 0, false, none,
+       "subdivide: triangles at twice the size, paired, each quad cut in four; direct: triangles at the "
+       "size, paired",
+       [](Settings& v) -> Strategy& { return v.mesh.strategy; }},
+      {"faces", "faces", "Faces", "Faces", mesh, none, 0, 0, false, "all faces",
+       "faces to mesh, such as Face1,Face7", [](Settings& v) -> std::vector<int>& { return v.mesh.faces; }},
+      {"sizes", "size-on", "Sizes", none, mesh, mm, 0, 0, false, "none",
+       "sizes on faces, edges and vertices, such as Face3=0.5,Edge4=1",
+       [](Settings& v) -> SizingOptions& { return v.mesh.sizing; }},
+      {"size_field", "size-field", "SizeField", none, mesh, none, 0, 0, false, "none",
+       "OpenVDB grid (.vdb) that caps the size",
+       [](Settings& v) -> std::filesystem::path& { return v.mesh.sizing.size_field; }},
+      {"sew", "sew", "Sew", "Sew", read, mm, 0, infinity, true, "not sewn",
+       "first join edges of neighboring faces that lie within this length of each other",
+       [](Settings& v) -> double& { return v.sew; }},
+      {"merge_tiny", "merge-tiny", "MergeTiny", "Merge tiny", mesh, mm, 0, infinity, true, "all are meshed",
+       "leave out edges shorter and faces narrower than this length",
+       [](Settings& v) -> double& { return v.mesh.merge_tiny; }},
+      {"partial", "partial", "Partial", "Partial", mesh, none, 0, 0, false, none,
+       "keep what could be meshed when a face fails", [](Settings& v) -> bool& { return v.mesh.partial; }},
+      {"force", "force", "Force", none, mesh, none, 0, 0, false, none,
+       "mesh past 50 million elements and 5 million segments on edges",
+       [](Settings& v) -> bool& { return v.mesh.force; }},
+      {"read_time_limit", "read-time-limit", "ReadTimeLimit", none, read, s, 0, 1e8, false, none,
+       "give up reading the model after this time; 0 = never",
+       [](Settings& v) -> double& { return v.read_time_limit; }},
+      {"time_limit", "time-limit", "TimeLimit", "Time limit", mesh, s, 0, 1e8, true, "none",
+       "give up after this time", [](Settings& v) -> double& { return v.time_limit; }},
+      {"threads", "threads", "Threads", none, mesh, none, 0, 4096, false, none,
+       "threads to use, no more than there are cores; 0 = all cores",
+       [](Settings& v) -> int& { return v.threads; }},
+  };
+}
+
+const Setting& entry(std::string_view name) {
+  return *find_setting(name);
+}
+
+/// Throws if a value that is not the default is none that the setting takes.
+void check_limits(const Settings& settings) {
+  static const Settings defaults;
+  for (const Setting& setting : all_settings()) {
+    const SettingValue value = setting.value(settings);
+    if (value == setting.value(defaults)) continue;
+    Settings scratch;
+    assign(scratch, setting, value);
+  }
+}
+
+void check_names(const Setting& setting, const std::vector<int>& numbers, std::string_view kind, int count) {
+  for (const int number : numbers) {
+    if (number >= 1 && number <= count) continue;
+    throw refused(setting, fmt::format("names {0}{1}, and there is no {0}{1}: the model has {2} of them",
+                                       kind, number, count));
+  }
+}
+
+std::vector<int> keys(const std::map<int, double>& sizes) {
+  std::vector<int> numbers;
+  for (const auto& [number, size] : sizes) numbers.push_back(number);
+  return numbers;
+}
+
+}  // namespace
+
+std::string_view Setting::kind() const {
+  constexpr std::string_view kinds[] = {"number", "count", "flag", "choice", "file", "names", "sizes"};
+  return kinds[place.index()];
+}
+
+std::vector<std::string_view> Setting::choices() const {
+  std::vector<std::string_view> words;
+  if (kind() != "choice") return words;
+  for (const auto& [strategy, word] : strategies) words.push_back(word);
+  return words;
+}
+
+SettingValue Setting::value(const Settings& settings) const {
+  auto& from = const_cast<Settings&>(settings);  // looked at only
+  return std::visit(
+      Overloaded{
+          [&](double& (*at)(Settings&)) -> SettingValue { return at(from); },
+          [&](int& (*at)(Settings&)) -> SettingValue { return static_cast<double>(at(from)); },
+          [&](bool& (*at)(Settings&)) -> SettingValue { return at(from); },
+          [&](Strategy& (*at)(Settings&)) -> SettingValue {
+            const auto* found = std::find_if(std::begin(strategies), std::end(strategies),
+                                             [&](const auto& pair) { return pair.first == at(from); });
+            return std::string(found->second);
+          },
+          [&](std::filesystem::path& (*at)(Settings&)) -> SettingValue { return at(from).string(); },
+          [&](std::vector<int>& (*at)(Settings&)) -> SettingValue {
+            Names names;
+            for (const int face : at(from)) names.push_back(fmt::format("Face{}", face));
+            return names;
+          },
+          [&](SizingOptions& (*at)(Settings&)) -> SettingValue { return sizes_of(at(from)); },
+      },
+      place);
+}
+
+const std::vector<Setting>& all_settings() {
+  static const std::vector<Setting> table = make_table();
+  return table;
+}
+
+const Setting* find_setting(std::string_view name) {
+  const auto& table = all_settings();
+  const auto it = std::find_if(table.begin(), table.end(), [&](const Setting& s) { return s.name == name; });
+  return it == table.end() ? nullptr : &*it;
+}
+
+SettingValue parse(const Setting& setting, const std::vector<std::string>& texts) {
+  const std::string_view kind = setting.kind();
+  if (kind == "names") return texts;
+  if (kind == "sizes") return parse_sizes(setting, texts);
+  if (texts.size() != 1) throw refused(setting, fmt::format("takes one value, not {}", texts.size()));
+  if (kind == "choice" || kind == "file") return texts.front();
+  if (kind == "flag") return texts.front() == "true";
+  return parse_number(setting, texts.front());
+}
+
+void assign(Settings& settings, const Setting& setting, const SettingValue& value) {
+  std::visit(
+      Overloaded{
+          [&](double& (*at)(Settings&)) { at(settings) = checked(setting, as<double>(setting, value)); },
+          [&](int& (*at)(Settings&)) {
+            at(settings) = static_cast<int>(checked(setting, as<double>(setting, value)));
+          },
+          [&](bool& (*at)(Settings&)) { at(settings) = as<bool>(setting, value); },
+          [&](Strategy& (*at)(Settings&)) {
+            const auto& word = as<std::string>(setting, value);
+            const auto* found = std::find_if(std::begin(strategies), std::end(strategies),
+                                             [&](const auto& pair) { return pair.second == word; });
+            if (found == std::end(strategies))
+              throw refused(setting,
+                            fmt::format("must be {}, not '{}'", fmt::join(setting.choices(), " or "), word));
+            at(settings) = found->first;
+          },
+          [&](std::filesystem::path& (*at)(Settings&)) {
+            const auto& name = as<std::string>(setting, value);
+            if (name.empty()) throw refused(setting, "must be the name of a file, not ''");
+            at(settings) = name;
+          },
+          [&](std::vector<int>& (*at)(Settings&)) { at(settings) = face_numbers(setting, value); },
+          [&](SizingOptions& (*at)(Settings&)) { set_sizes(setting, value, at(settings)); },
+      },
+      setting.place);
+}
+
+void check(const Settings& settings, const CadModel& model) {
+  check_limits(settings);
+  const SizingOptions& sizing = settings.mesh.sizing;
+  const double diagonal = model.diagonal();
+  if (sizing.size > diagonal)
+    throw refused(entry("size"), fmt::format("is {:g}, larger than the model, whose diagonal is {:.6g}",
+                                             sizing.size, diagonal));
+  const double size = sizing.size > 0 ? sizing.size : diagonal / sizing.elements_per_diagonal;
+  if (sizing.size_min > size)
+    throw refused(entry("size_min"),
+                  fmt::format("must be at most the size, {:.6g}, not {:g}", size, sizing.size_min));
+  if (settings.mesh.merge_tiny > size)
+    throw refused(entry("merge_tiny"),
+                  fmt::format("must be at most the size, {:.6g}, not {:g}", size, settings.mesh.merge_tiny));
+  check_names(entry("faces"), settings.mesh.faces, "Face", model.face_count());
+  check_names(entry("sizes"), keys(sizing.face_sizes), "Face", model.face_count());
+  check_names(entry("sizes"), keys(sizing.edge_sizes), "Edge", model.edge_count());
+  check_names(entry("sizes"), keys(sizing.vertex_sizes), "Vertex", model.vertex_count());
+}
+
+nlohmann::ordered_json settings_table() {
+  using json = nlohmann::ordered_json;
+  const Settings defaults;
+  json table = json::array();
+  for (const Setting& setting : all_settings()) {
+    json standard;
+    if (setting.otherwise.empty())
+      std::visit([&](const auto& value) { standard = value; }, setting.value(defaults));
+    const bool numeric = setting.kind() == "number" || setting.kind() == "count";
+    table.push_back({{"name", setting.name},
+                     {"option", "--" + std::string(setting.option)},
+                     {"property", setting.property},
+                     {"label", setting.label},
+                     {"kind", setting.kind()},
+                     {"use", setting.use == Use::read ? "read" : "mesh"},
+                     {"unit", setting.unit},
+                     {"default", standard},
+                     {"low", numeric ? json(setting.low) : json()},
+                     {"high", numeric && setting.high < infinity ? json(setting.high) : json()},
+                     {"above_low", setting.above_low},
+                     {"choices", setting.choices()},
+                     {"otherwise", setting.otherwise},
+                     {"help", setting.help}});
+  }
+  return table;
+}
+
+}  // namespace quadrille

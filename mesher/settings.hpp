@@ -1,0 +1,79 @@
+#pragma once
+/// The settings of a run: one table, from which the command's options, the Python module's arguments, and
+/// FreeCAD's properties and panel are made.
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "mesher/options.hpp"
+
+namespace quadrille {
+
+class CadModel;
+
+/// The values of all settings of the table.
+struct Settings {
+  MeshOptions mesh;
+  double sew = 0;               ///< millimetres, see CadModel::sewn(); 0 = not
+  double read_time_limit = 60;  ///< seconds for reading the CAD file; 0 = any
+  double time_limit = 0;        ///< seconds for all of the run; 0 = any
+  int threads = 0;              ///< 0 = all cores
+};
+
+/// What users give: a number, yes or no, a word or file name, names of faces, sizes by name.
+using SettingValue =
+    std::variant<double, bool, std::string, std::vector<std::string>, std::map<std::string, double>>;
+
+/// One entry of the table.
+struct Setting {
+  /// When it takes effect: while the model is read, or while it is meshed.
+  enum class Use { read, mesh };
+  /// Where its value is kept, which tells what it takes: a number, a whole number, yes or no, a word of
+  /// `choices`, a file, faces, sizes on faces, edges and vertices.
+  using Place = std::variant<double& (*)(Settings&), int& (*)(Settings&), bool& (*)(Settings&),
+                             Strategy& (*)(Settings&), std::filesystem::path& (*)(Settings&),
+                             std::vector<int>& (*)(Settings&), SizingOptions& (*)(Settings&)>;
+
+  std::string_view name;      ///< as Python has it; messages of the library give it in backquotes
+  std::string_view option;    ///< as the command has it, without the two hyphens
+  std::string_view property;  ///< as FreeCAD has it; empty = not there
+  std::string_view label;     ///< in FreeCAD's panel; empty = not there
+  Use use = Use::mesh;
+  std::string_view unit;  ///< "mm", "s" or empty
+  double low = 0, high = 0;
+  bool above_low = false;      ///< `low` itself is not taken
+  std::string_view otherwise;  ///< what holds where it is not given, if that is no value
+  std::string_view help;
+  Place place;
+
+  std::string_view kind() const;                  ///< number, count, flag, choice, file, names, sizes
+  std::vector<std::string_view> choices() const;  ///< the words taken; empty unless the kind is choice
+  SettingValue value(const Settings& settings) const;
+};
+
+/// The table, in the order in which users read it.
+const std::vector<Setting>& all_settings();
+
+/// The entry of that name; null if there is none.
+const Setting* find_setting(std::string_view name);
+
+/// What a text stands for. Throws Error (usage, subject: the setting's name).
+SettingValue parse(const Setting& setting, const std::vector<std::string>& texts);
+
+/// Sets it. Throws Error (usage, subject: the setting's name) for a value that it does not take.
+void assign(Settings& settings, const Setting& setting, const SettingValue& value);
+
+/// Throws Error (usage, subject: the setting's name) where a value, or two together, make no sense on the
+/// model: numbers out of their limits, names that it does not have, lengths larger than it is.
+void check(const Settings& settings, const CadModel& model);
+
+/// The table as an array of objects: name, option, property, label, kind, use, unit, default (null: see
+/// otherwise), low, high (null: none), above_low, choices, otherwise, help.
+nlohmann::ordered_json settings_table();
+
+}  // namespace quadrille

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The table of settings, as the mesher has it: options of the command, properties and panel of a mesh object are made from
+it. settings.json is what `quadrille settings --json` prints; a test compares the two.
+
+Knows nothing of FreeCAD and needs only the standard library.
+"""
+
+import json
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Union
+
+from .errors import Error
+
+#: One dict a setting: name, option, property, label, kind, use, unit, default, low, high, above_low, choices,
+#: otherwise, help.
+SETTINGS: List[Dict[str, Any]] = json.loads(Path(__file__).with_name("settings.json").read_text(encoding="utf-8"))
+BY_NAME = {setting["name"]: setting for setting in SETTINGS}
+
+#: The mesh is the same whatever these are.
+_WITHOUT_EFFECT_ON_THE_MESH = ("threads", "time_limit", "read_time_limit")
+#: FreeCAD's own words for the order of elements.
+_ORDERS = ("1st", "2nd")
+
+
+class MeshSettings(Dict[str, Any]):
+    """What to mesh, and how: values by the names of the table. What is not given, or None, is left to the command."""
+
+    def __init__(self, **values: Any) -> None:
+        unknown = sorted(set(values) - set(BY_NAME))
+        if unknown:
+            raise TypeError(f"there is no setting '{unknown[0]}' (see quadrille.settings.SETTINGS)")
+        super().__init__({name: value for name, value in values.items() if value is not None})
+
+    def arguments(self) -> List[str]:
+        """The settings as arguments of `quadrille mesh`."""
+        arguments: List[str] = []
+        for setting in SETTINGS:
+            value = self.get(setting["name"])
+            if value is None or (setting["kind"] in ("flag", "names", "sizes", "file") and not value):
+                continue
+            arguments.append(setting["option"])
+            if setting["kind"] != "flag":
+                arguments.append(_text(setting["kind"], value))
+        return arguments
+
+    def of_the_mesh(self) -> Dict[str, Any]:
+        """Those that a mesh depends on."""
+        return {name: value for name, value in self.items() if name not in _WITHOUT_EFFECT_ON_THE_MESH}
+
+
+def face_name(face: Union[int, str]) -> str:
+    """3 and "Face3" as "Face3"."""
+    return f"Face{face}" if isinstance(face, int) else str(face)
+
+
+def _text(kind: str, value: Any) -> str:
+    if kind == "names":
+        return ",".join(face_name(face) for face in value)
+    if kind == "sizes":
+        return ",".join(f"{name}={size!r}" for name, size in value.items())
+    return repr(float(value)) if isinstance(value, float) else str(value)
+
+
+def in_words_of_properties(sentence: str) -> str:
+    """A sentence of the command with FreeCAD's names: "--size-min" becomes "SizeMin"."""
+    for setting in sorted(SETTINGS, key=lambda entry: -len(entry["option"])):
+        if setting["property"]:
+            sentence = sentence.replace(setting["option"], setting["property"])
+    return sentence
+
+
+# Properties of mesh objects
+
+
+def property_kind(setting: Dict[str, Any]) -> str:
+    """FreeCAD's type of property for a setting."""
+    if setting["kind"] == "number":
+        return "App::PropertyLength" if setting["unit"] == "mm" else "App::PropertyFloat"
+    if setting["name"] == "order":
+        return "App::PropertyEnumeration"
+    return {"count": "App::PropertyInteger", "flag": "App::PropertyBool", "choice": "App::PropertyEnumeration",
+            "file": "App::PropertyFile", "names": "App::PropertyStringList", "sizes": "App::PropertyMap"}[setting["kind"]]
+
+
+def property_help(setting: Dict[str, Any]) -> str:
+    """What a property is for."""
+    text = setting["help"][0].upper() + setting["help"][1:]
+    if setting["kind"] == "number" and setting["otherwise"]:
+        return f"{text}; 0 = {setting['otherwise']}"
+    if setting["kind"] in ("names", "sizes") and setting["otherwise"]:
+        return f"{text}; empty = {setting['otherwise']}"
+    return text
+
+
+def words(setting: Dict[str, Any]) -> List[str]:
+    """What an enumeration offers; the first is where a new object starts."""
+    return list(reversed(_ORDERS)) if setting["name"] == "order" else list(setting["choices"])
+
+
+def to_property(setting: Dict[str, Any], value: Any) -> Any:
+    """A value as the property holds it; None = what a new object has."""
+    kind, default = setting["kind"], setting["default"]
+    if kind == "sizes":
+        return {name: repr(float(size)) for name, size in (value or {}).items()}
+    if kind == "names":
+        return [face_name(face) for face in value or ()]
+    if value is None:
+        value = default
+    if setting["name"] == "order":
+        return _ORDERS[int(value or 2) - 1]
+    if value is None:
+        return "" if kind == "file" else 0
+    return int(value) if kind == "count" else value
+
+
+def from_property(setting: Dict[str, Any], value: Any) -> Optional[Any]:
+    """What a property's value gives the command; None = nothing."""
+    value = getattr(value, "Value", value)
+    kind = setting["kind"]
+    if setting["name"] == "order":
+        return _ORDERS.index(value) + 1
+    if kind == "sizes":
+        try:
+            return {name: float(size) for name, size in value.items()} or None
+        except ValueError as error:
+            raise Error(f"{setting['property']}: {error}", "usage", setting["name"]) from error
+    if kind == "names":
+        return list(value) or None
+    if kind == "choice":
+        return value if value in setting["choices"] else None
+    if kind == "file":
+        return value or None
+    if kind == "number" and value == 0 and setting["default"] is None:
+        return None
+    return value
