@@ -76,6 +76,8 @@ class FaceMesher {
     std::optional<Error> error;
     for (std::size_t i = 0; i < attempts.size(); ++i) {
       context_.check();
+      // Where the boundary crosses itself, no points inside help.
+      if (fineness_ > 1 || error) triangulate_face(face_ + 1, boundary_, {}, surface_, context_);
       try {
         FaceMesh mesh = mesh_once(attempts[i]);
         if (!best || better(mesh, *best)) best = std::move(mesh);
