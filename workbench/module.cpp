@@ -83,7 +83,8 @@ py::list face_statuses(const PythonMesh& mesh) {
     result.append(py::dict(
         py::arg("face") = face.face, py::arg("status") = face.status, py::arg("note") = face.note,
         py::arg("quads") = face.quads, py::arg("q_min") = face.q_min, py::arg("seconds") = face.seconds,
-        py::arg("off_geometry") = face.off_geometry, py::arg("off_geometry_max") = face.off_geometry_max));
+        py::arg("off_geometry") = face.off_geometry, py::arg("off_geometry_max") = face.off_geometry_max,
+        py::arg("attempts") = face.attempts));
   }
   return result;
 }

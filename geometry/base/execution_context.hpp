@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <string>
@@ -30,7 +31,31 @@ class ExecutionContext {
   explicit ExecutionContext(int threads, Progress progress = {})
       : threads_(threads), progress_(std::move(progress)) {}
 
+  /// A share of the work of another context, which must outlive it: progress, cancellation and stage times
+  /// are the other's. Checks are counted; the time limit here is the share's own, beside the other's.
+  explicit ExecutionContext(ExecutionContext& whole) : threads_(whole.threads_), whole_(&whole) {}
+
+  /// The subject of the Error that ends work whose time is over.
+  static constexpr const char* time_subject = "--time-limit";
+  /// The subject of the Error that ends a share with more checks than it may have.
+  static constexpr const char* work_subject = "work";
+
   int threads() const noexcept { return threads_; }
+
+  /// Ends the work with an Error (failure, work_subject) at the first check after so many.
+  void limit_work(std::int64_t checks) noexcept { most_checks_ = checks; }
+  /// How often a share was checked: a measure of its work that is the same in each run.
+  std::int64_t work() const noexcept { return checks_; }
+
+  bool has_time_limit() const noexcept { return limit_seconds_ > 0; }
+  double time_limit() const noexcept { return limit_seconds_; }  ///< seconds; 0 = none
+  /// Until the time limit; infinite without one.
+  double seconds_left() const {
+    if (limit_seconds_ <= 0) return std::numeric_limits<double>::infinity();
+    return std::chrono::duration<double>(deadline_ - std::chrono::steady_clock::now()).count();
+  }
+  /// For what is done with the results of work that its time limit has ended.
+  void lift_time_limit() noexcept { limit_seconds_ = 0; }
 
   /// Asks the progress function again at the first check later than this since it was asked last; 0 asks at
   /// every check.
@@ -49,6 +74,9 @@ class ExecutionContext {
 
   /// Throws Error (cancelled) once the work has been cancelled, Error (failure) once its time is over.
   void check() const {
+    ++checks_;
+    if (whole_ != nullptr) whole_->check();
+    if (checks_ > most_checks_) throw failure(work_subject, "the share of work is used up");
     if (progress_) ask_again();
     if (limit_seconds_ > 0 && std::chrono::steady_clock::now() > deadline_) throw time_is_over();
     if (cancelled()) throw Error(Error::Kind::cancelled, "", "the work was cancelled");
@@ -56,6 +84,7 @@ class ExecutionContext {
 
   /// Reports progress, then behaves as check().
   void report(std::string_view stage, double fraction) {
+    if (whole_ != nullptr) return whole_->report(stage, fraction);
     if (progress_) {
       const std::lock_guard lock(mutex_);
       stage_ = stage;
@@ -67,6 +96,7 @@ class ExecutionContext {
 
   /// Adds to the wall-clock seconds of a stage.
   void add_seconds(const std::string& stage, double seconds) {
+    if (whole_ != nullptr) return whole_->add_seconds(stage, seconds);
     const std::lock_guard lock(mutex_);
     seconds_[stage] += seconds;
   }
@@ -94,11 +124,14 @@ class ExecutionContext {
   }
 
   Error time_is_over() const {
-    return failure("--time-limit",
+    return failure(time_subject,
                    fmt::format("the time limit of {:g} s is over, and nothing was written", limit_seconds_));
   }
 
   int threads_ = 0;
+  ExecutionContext* whole_ = nullptr;
+  std::int64_t most_checks_ = std::numeric_limits<std::int64_t>::max();
+  mutable std::atomic<std::int64_t> checks_{0};
   Progress progress_;
   std::int64_t interval_ = 50;  // milliseconds
   double limit_seconds_ = 0;    // 0 = none

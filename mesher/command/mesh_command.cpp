@@ -225,7 +225,9 @@ void run(const MeshArguments& arguments) {
     return display.show(stage, fraction);
   });
   report_crashes(arguments.input, "reading");
-  const CancelOnSignal cancel(context, arguments.time_limit.value_or(0));
+  // With --partial what is done when the time is over is still put together and written.
+  const CancelOnSignal cancel(context, arguments.partial ? 0 : arguments.time_limit.value_or(0));
+  if (arguments.partial && arguments.time_limit) context.limit_time(*arguments.time_limit);
   if (arguments.end_with_input) end_with_input();
   const CadModel source = read_model(arguments, context);
   report_crashes(arguments.input, "meshing");
