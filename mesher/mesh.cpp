@@ -301,6 +301,7 @@ class Job {
       status.share = record.share();
       status.status = meshes_[face] ? "meshed" : problems_[face] ? "failed" : "skipped";
       status.note = fmt::format("{}", fmt::join(record.history, "; "));
+      if (meshes_[face] && meshes_[face]->grid) status.note += status.note.empty() ? "grid" : "; grid";
       if (edges_.plan.tiny.merged_faces[face]) {
         status.status = "merged";
         status.note = "tiny: its place is taken by an edge or a node of its neighbours";

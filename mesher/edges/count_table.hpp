@@ -23,6 +23,9 @@ struct CountTable {
   double parameter_at_length(double length) const { return interpolate(lengths, length, parameters); }
   double count_at_length(double length) const { return interpolate(lengths, length, counts); }
 
+  /// Raises the count between two parameters to `least`, evenly; the rest of the edge keeps its own.
+  void make_finer(double from, double to, double least);
+
  private:
   static double interpolate(const std::vector<double>& from, double at, const std::vector<double>& to) {
     const auto it = std::lower_bound(from.begin(), from.end(), at);
@@ -31,9 +34,6 @@ struct CountTable {
     const double t = span > 0 ? std::clamp((at - from[i - 1]) / span, 0.0, 1.0) : 0.5;
     return to[i - 1] + t * (to[i] - to[i - 1]);
   }
-
-  /// Raises the count between two parameters to `least`, evenly; the rest of the edge keeps its own.
-  void make_finer(double from, double to, double least);
 };
 
 /// Throws Error (usage) if so many segments are more than the budget has.
