@@ -121,7 +121,8 @@ std::string note_of(const ShellMesh& mesh, int face) {
 
 TEST(Robustness, ReportsTheRungThatAFaceTook) {
   EXPECT_EQ(note_of(mesh_of(model_of(trouble_named("disc")), 20), 1), "");
-  EXPECT_EQ(note_of(mesh_of(model_of(trouble_named("looped_edge")), 20), 1), "edges sampled by length alone");
+  EXPECT_EQ(note_of(mesh_of(model_of(trouble_named("looped_edge")), 20), 1),
+            "edges sampled by length alone, grid");
   EXPECT_EQ(note_of(mesh_of(model_of(trouble_named("wrong_curves")), 20), 1),
             "edges sampled four times as fine, parametric curves made anew");
 }

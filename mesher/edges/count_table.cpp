@@ -42,8 +42,10 @@ class EdgeTabulator {
     const Vector3 direction = curve_.derivative(t);
     if (table.parameters.empty()) {
       table.counts.push_back(0);
+      table.lengths.push_back(0);
     } else {
       table.counts.push_back(table.counts.back() + 0.5 * length * (1 / size + 1 / size_));
+      table.lengths.push_back(table.lengths.back() + length);
       hold_segments(table.total(), size_at_.budget(), edge_);
       table.turning += angle_between(direction, direction_);
     }

@@ -12,16 +12,24 @@ namespace quadrille {
 /// The wanted number of segments as a function of the parameter.
 struct CountTable {
   std::vector<double> parameters;
-  std::vector<double> counts;  // integral of ds / size from the start
-  double turning = 0;          // total change of direction, radians
+  std::vector<double> counts;   // integral of ds / size from the start
+  std::vector<double> lengths;  // of the arc from the start
+  double turning = 0;           // total change of direction, radians
   double total() const { return counts.empty() ? 0 : counts.back(); }
 
-  double parameter_at(double count) const {
-    const auto it = std::lower_bound(counts.begin(), counts.end(), count);
-    const std::size_t i = std::clamp<std::size_t>(it - counts.begin(), 1, counts.size() - 1);
-    const double span = counts[i] - counts[i - 1];
-    const double t = span > 0 ? std::clamp((count - counts[i - 1]) / span, 0.0, 1.0) : 0.5;
-    return parameters[i - 1] + t * (parameters[i] - parameters[i - 1]);
+  double length() const { return lengths.empty() ? 0 : lengths.back(); }
+
+  double parameter_at(double count) const { return interpolate(counts, count, parameters); }
+  double parameter_at_length(double length) const { return interpolate(lengths, length, parameters); }
+  double count_at_length(double length) const { return interpolate(lengths, length, counts); }
+
+ private:
+  static double interpolate(const std::vector<double>& from, double at, const std::vector<double>& to) {
+    const auto it = std::lower_bound(from.begin(), from.end(), at);
+    const std::size_t i = std::clamp<std::size_t>(it - from.begin(), 1, from.size() - 1);
+    const double span = from[i] - from[i - 1];
+    const double t = span > 0 ? std::clamp((at - from[i - 1]) / span, 0.0, 1.0) : 0.5;
+    return to[i - 1] + t * (to[i] - to[i - 1]);
   }
 };
 

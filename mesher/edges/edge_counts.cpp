@@ -4,167 +4,244 @@
 #include <cmath>
 #include <limits>
 
+#include "mesher/edges/count_balance.hpp"
 #include "mesher/edges/parity.hpp"
 
 namespace quadrille {
 
 namespace {
 
-/// The faces used that have the edge an odd number of times.
-std::vector<int> odd_uses(const CadEdge& edge, const std::vector<char>& used) {
-  std::vector<int> faces;
-  for (const int face : edge.faces) {
-    if (!used[face - 1]) continue;
-    if (!faces.empty() && faces.back() == face - 1) {
-      faces.pop_back();
-    } else {
-      faces.push_back(face - 1);
-    }
-  }
-  return faces;
-}
+constexpr double largest_ratio = 2;  // of what the sides of a pair, or the edges of a chord, want
 
-/// Edges that get the same count, because they face each other across a face. A union-find structure.
-class TiedEdges {
+class CountChooser {
  public:
-  explicit TiedEdges(const std::vector<double>& wanted)
-      : parent_(wanted.size()), low_(wanted), high_(wanted) {
-    for (std::size_t i = 0; i < parent_.size(); ++i) parent_[i] = static_cast<int>(i);
+  CountChooser(const CountWishes& wishes, const TinyFeatures& tiny, std::vector<FaceSides>& sides)
+      : wishes_(wishes), tiny_(tiny), sides_(sides), chords_({}) {
+    for (std::size_t i = 0; i < wishes.wanted.size(); ++i)
+      effective_.push_back(std::max(wishes.wanted[i], 1.0 * wishes.least[i]));
   }
-  int find(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// Ties two edges unless that would take some edge of either class too far from its wanted count.
-  void tie(int a, int b, double largest_ratio = 1.5) {
-    a = find(a);
-    b = find(b);
-    const double low = std::min(low_[a], low_[b]), high = std::max(high_[a], high_[b]);
-    if (a == b || high > largest_ratio * low) return;
-    parent_[b] = a;
-    low_[a] = low;
-    high_[a] = high;
+
+  EdgeCounts run() {
+    tie_chords();
+    std::vector<int> odd = balance_faces();
+    if (!odd.empty()) {
+      // Edges of three faces and more, as a rule: without sums, then without chords.
+      for (std::size_t face = 0; face < sides_.size(); ++face) {
+        if (has_sums(sides_[face])) drop(static_cast<int>(face));
+      }
+      odd = make_faces_even();
+    }
+    if (!odd.empty()) {
+      for (std::size_t face = 0; face < sides_.size(); ++face) drop(static_cast<int>(face));
+      tie_chords();
+      odd = make_faces_even();
+    }
+    EdgeCounts result{std::vector<int>(effective_.size(), 0), chords_, odd};
+    std::vector<int> least(effective_.size(), 1);
+    for (std::size_t i = 0; i < effective_.size(); ++i) {
+      int& of_chord = least[chords_.of(static_cast<int>(i))];
+      of_chord = std::max(of_chord, wishes_.least_of_grids[i]);
+    }
+    for (std::size_t i = 0; i < effective_.size(); ++i) {
+      const int chord = chords_.of(static_cast<int>(i));
+      const auto& variable = problem_.variables[chord];
+      if (wishes_.least[i] == 0) continue;
+      // No rule holds a chord between grids.
+      result.counts[i] = variable.terms.empty() && is_between_grids_[chord]
+                             ? std::max(least[chord], rounded(wishes_.stride * variable.wanted))
+                             : wishes_.stride * variable.value;
+    }
+    return result;
   }
 
  private:
-  std::vector<int> parent_;
-  std::vector<double> low_, high_;
-};
+  static int rounded(double value) { return static_cast<int>(std::lround(value)); }
 
-/// Sides that face each other: of faces with four always, of wedges and crescents where they are narrow.
-/// \returns a flag for each face, whether it is a narrow wedge.
-std::vector<char> tie_facing_sides(const CadShape& shape, const std::vector<char>& used,
-                                   const std::vector<double>& wanted, TiedEdges& tied) {
-  std::vector<char> is_wedge(shape.faces.size(), 0);
-  for (std::size_t i = 0; i < shape.faces.size(); ++i) {
-    if (!used[i]) continue;
-    const auto pairs = facing_sides(shape, shape.faces[i]);
-    if (pairs.empty() || has_unusual_edges(shape, shape.faces[i])) continue;
-    for (const FacingSides& sides : pairs) {
-      const int a = sides.first->edge - 1, b = sides.second->edge - 1;
-      const std::size_t count = shape.faces[i].wires[0].coedges.size();
-      const bool is_narrow = sides.width < narrow * segment_length(shape, wanted, a);
-      if (count == 4 || is_narrow) tied.tie(a, b);
-      if (count == 3 && is_narrow) is_wedge[i] = 1;
+  static bool has_sums(const FaceSides& sides) {
+    return std::any_of(sides.facing.begin(), sides.facing.end(),
+                       [](const FacingPair& pair) { return pair.first.size() + pair.second.size() > 2; });
+  }
+
+  /// Leaves a face nothing but its parity.
+  void drop(int face) {
+    FaceSides& sides = sides_[face];
+    for (const FacingPair& pair : sides.facing) {
+      for (const Side* side : {&pair.first, &pair.second}) {
+        for (const SideEdge& edge : *side) sides.rest.push_back(edge.edge);
+      }
+    }
+    sides.facing.clear();
+    if (sides.outline != FaceSides::Outline::odd) sides.outline = FaceSides::Outline::other;
+  }
+
+  double sum_of(const Side& side) const {
+    double sum = 0;
+    for (const SideEdge& edge : side) sum += effective_[edge.edge];
+    return sum;
+  }
+
+  bool is_far_off(const FacingPair& pair) const {
+    const auto [low, high] = std::minmax({sum_of(pair.first), sum_of(pair.second)});
+    return high > largest_ratio * low;
+  }
+
+  void tie_chords() {
+    chords_ = Chords(effective_);
+    for (std::size_t i = 0; i < effective_.size(); ++i) {
+      const int edge = static_cast<int>(i), same = tiny_.edges[i];
+      if (same != edge)
+        chords_.tie({same, true}, {edge, !tiny_.reversed_edges[i]}, std::numeric_limits<double>::infinity());
+    }
+    for (std::size_t face = 0; face < sides_.size(); ++face) {
+      const auto& facing = sides_[face].facing;
+      bool fits = std::none_of(facing.begin(), facing.end(),
+                               [&](const FacingPair& pair) { return is_far_off(pair); });
+      for (const FacingPair& pair : facing) {
+        if (fits && pair.first.size() == 1 && pair.second.size() == 1)
+          fits = chords_.tie(pair.first[0], pair.second[0], largest_ratio);
+      }
+      if (!fits) drop(static_cast<int>(face));
+    }
+    start_values();
+  }
+
+  /// Each chord near the mean of what its members want.
+  void start_values() {
+    const std::size_t n = effective_.size();
+    auto& variables = problem_.variables;
+    variables.assign(n, {});
+    std::vector<int> members(n, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (wishes_.least[i] == 0) continue;
+      const int chord = chords_.of(static_cast<int>(i));
+      variables[chord].wanted += wishes_.wanted[i];
+      variables[chord].least = std::max(variables[chord].least, wishes_.least[i]);
+      ++members[chord];
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (members[i] == 0) continue;
+      variables[i].wanted /= members[i];
+      variables[i].weight = members[i];
+      variables[i].value = std::max(variables[i].least, rounded(variables[i].wanted));
     }
   }
-  return is_wedge;
-}
 
-/// Whether one more or one fewer segment fits the wanted count better.
-int change_of(int count, double wanted, int least) {
-  return wanted >= count || count <= least ? 1 : -1;
-}
+  /// The rules of all faces as nodes of the problem.
+  void set_up_rules() {
+    for (auto& variable : problem_.variables) variable.terms.clear();
+    problem_.rules.clear();
+    faces_of_nodes_.clear();
+    is_between_grids_.assign(problem_.variables.size(), 1);
+    for (std::size_t face = 0; face < sides_.size(); ++face) {
+      const FaceSides& sides = sides_[face];
+      const bool is_grid = sides.rest.empty() && sides.outline != FaceSides::Outline::other;
+      for (const FacingPair& pair : sides.facing) {
+        for (const Side* side : {&pair.first, &pair.second}) {
+          for (const SideEdge& edge : *side) is_between_grids_[chords_.of(edge.edge)] &= is_grid;
+        }
+        const int node = add_node(static_cast<int>(face), BalanceProblem::Rule::zero);
+        for (const SideEdge& edge : pair.first) add_term(edge.edge, node, 1);
+        for (const SideEdge& edge : pair.second) add_term(edge.edge, node, -1);
+      }
+      for (const int edge : sides.rest) is_between_grids_[chords_.of(edge)] = 0;
+      // One node more at the base of a wedge or the end of a strip would make elements far shorter than they
+      // are wide.
+      if (sides.rest.empty() || (!sides.facing.empty() && wishes_.stride == 2)) continue;
+      const int node = add_node(static_cast<int>(face), BalanceProblem::Rule::even);
+      for (const int edge : sides.rest) add_term(edge, node, 1);
+    }
+    for (auto& variable : problem_.variables) {
+      std::erase_if(variable.terms, [&](const auto& term) {
+        return problem_.rules[term.first] == BalanceProblem::Rule::zero ? term.second == 0
+                                                                        : term.second % 2 == 0;
+      });
+    }
+  }
 
-double cost_of_change(int count, double wanted, int least) {
-  const double ratio = (count + change_of(count, wanted, least)) / std::max(wanted, 0.5);
-  return std::abs(std::log(ratio)) + 1e-6;
-}
+  int add_node(int face, BalanceProblem::Rule rule) {
+    problem_.rules.push_back(rule);
+    faces_of_nodes_.push_back(face);
+    return static_cast<int>(problem_.rules.size()) - 1;
+  }
+
+  void add_term(int edge, int node, int coefficient) {
+    if (wishes_.least[edge] == 0) return;
+    auto& terms = problem_.variables[chords_.of(edge)].terms;
+    const auto it =
+        std::find_if(terms.begin(), terms.end(), [&](const auto& term) { return term.first == node; });
+    if (it == terms.end()) {
+      terms.push_back({node, coefficient});
+    } else {
+      it->second += problem_.rules[node] == BalanceProblem::Rule::even ? 1 - 2 * it->second : coefficient;
+    }
+  }
+
+  /// Faces whose facing sides cannot be given as many segments are dropped, until the others can.
+  /// \return faces (from 1) that stay odd.
+  std::vector<int> balance_faces() {
+    std::vector<int> odd;
+    for (bool dropped = true; dropped;) {
+      set_up_rules();
+      dropped = false;
+      odd.clear();
+      for (const int node : balance(problem_)) {
+        const int face = faces_of_nodes_[node];
+        if (problem_.rules[node] == BalanceProblem::Rule::even) odd.push_back(face + 1);
+        if (sides_[face].facing.empty()) continue;
+        drop(face);
+        dropped = true;
+      }
+    }
+    return odd;
+  }
+
+  /// By parity alone.
+  std::vector<int> make_faces_even() {
+    start_values();
+    set_up_rules();
+    std::vector<ParityEdge> edges(problem_.variables.size());
+    std::vector<char> odd(sides_.size(), 0);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const auto& variable = problem_.variables[i];
+      edges[i].cost = variable.weight * cost_of_change(variable);
+      for (const auto& [node, coefficient] : variable.terms) {
+        const int face = faces_of_nodes_[node];
+        edges[i].faces.push_back(face);
+        if (variable.value % 2 != 0) odd[face] ^= 1;
+      }
+    }
+    std::vector<int> left;
+    const std::vector<char> change = make_even(edges, odd, left);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (change[i]) problem_.variables[i].value += change_of(problem_.variables[i]);
+    }
+    return left;
+  }
+
+  /// Whether one more or one fewer segment fits the wanted count better.
+  static int change_of(const BalanceProblem::Variable& variable) {
+    return variable.wanted >= variable.value || variable.value <= variable.least ? 1 : -1;
+  }
+
+  static double cost_of_change(const BalanceProblem::Variable& variable) {
+    const double ratio = (variable.value + change_of(variable)) / std::max(variable.wanted, 0.5);
+    return std::abs(std::log(ratio)) + 1e-6;
+  }
+
+  const CountWishes& wishes_;
+  const TinyFeatures& tiny_;
+  std::vector<FaceSides>& sides_;
+  std::vector<double> effective_;  // (edges) what is wanted, not below the least
+  Chords chords_;
+  BalanceProblem problem_;  // a variable for each edge, of which those of chords' representatives count
+  std::vector<int> faces_of_nodes_;
+  std::vector<char> is_between_grids_;  // (chords)
+};
 
 }  // namespace
 
-std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& used,
-                               const CountWishes& wishes, const TinyFeatures& tiny, bool tie,
-                               const std::vector<SplitStrip>& strips, int stride,
-                               std::vector<int>& odd_faces) {
-  const std::vector<double>& wanted = wishes.wanted;
-  const std::vector<int>& least = wishes.least;
-  const int n = static_cast<int>(wanted.size());
-  TiedEdges tied(wanted);
-  for (int i = 0; i < n; ++i) {
-    if (tiny.edges[i] != i) tied.tie(tiny.edges[i], i, std::numeric_limits<double>::infinity());
-  }
-  // One node more at the base of a wedge or the end of a strip would make elements far shorter than they are
-  // wide; the triangle that is left is cut up by the subdivision.
-  std::vector<char> may_be_odd(shape.faces.size(), 0);
-  if (tie) {
-    const std::vector<char> is_wedge = tie_facing_sides(shape, used, wanted, tied);
-    if (stride == 2) may_be_odd = is_wedge;
-  }
-  for (const SplitStrip& strip : strips) may_be_odd[strip.face] = stride == 2;
-  struct Class {
-    double wanted = 0;
-    int members = 0, least = 0, count = 0;
-  };
-  std::vector<Class> classes(n);
-  for (int i = 0; i < n; ++i) {
-    if (least[i] == 0) continue;
-    Class& c = classes[tied.find(i)];
-    c.wanted += wanted[i];
-    ++c.members;
-    c.least = std::max(c.least, least[i]);
-  }
-  std::vector<ParityEdge> parity(n);
-  std::vector<char> odd(shape.faces.size(), 0);
-  for (int i = 0; i < n; ++i) {
-    Class& c = classes[i];
-    parity[i].cost = std::numeric_limits<double>::infinity();
-    if (c.members == 0) continue;
-    c.wanted /= c.members;
-    c.count = std::max(c.least, static_cast<int>(std::lround(c.wanted)));
-    parity[i].cost = c.members * cost_of_change(c.count, c.wanted, c.least);
-  }
-  for (int i = 0; i < n; ++i) {
-    if (least[i] == 0) continue;
-    const int c = tied.find(i);
-    for (const int face : odd_uses(shape.edges[i], used)) {
-      if (may_be_odd[face]) continue;
-      auto& faces = parity[c].faces;
-      const auto it = std::find(faces.begin(), faces.end(), face);
-      if (it == faces.end()) {
-        faces.push_back(face);
-      } else {
-        faces.erase(it);
-      }
-      if (classes[c].count % 2 != 0) odd[face] ^= 1;
-    }
-  }
-  odd_faces.clear();
-  const std::vector<char> change = make_even(parity, odd, odd_faces);
-  std::vector<int> counts(n, 0);
-  for (int i = 0; i < n; ++i) {
-    if (least[i] == 0) continue;
-    const int c = tied.find(i);
-    counts[i] = classes[c].count;
-    if (change[c]) counts[i] += change_of(classes[c].count, classes[c].wanted, classes[c].least);
-  }
-  const auto raise = [&](int edge, int by) {
-    for (int i = 0; i < n; ++i) {
-      if (counts[i] > 0 && tied.find(i) == tied.find(edge)) counts[i] += by;
-    }
-  };
-  // A face that becomes odd by that keeps a triangle, which subdivision cuts up.
-  for (const SplitStrip& strip : strips) {
-    int more = -counts[strip.whole->edge - 1];
-    int longest = strip.parts[0]->edge - 1;
-    for (const Coedge* part : strip.parts) {
-      more += counts[part->edge - 1];
-      if (shape.edges[part->edge - 1].length > shape.edges[longest].length) longest = part->edge - 1;
-    }
-    if (more % 2 != 0 && stride == 1) continue;
-    raise(more > 0 ? strip.whole->edge - 1 : longest, std::abs(more));
-  }
-  return counts;
+EdgeCounts choose_counts(const CountWishes& wishes, const TinyFeatures& tiny, std::vector<FaceSides>& sides) {
+  return CountChooser(wishes, tiny, sides).run();
 }
 
 }  // namespace quadrille

@@ -4,24 +4,31 @@
 #include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
-#include "mesher/edges/facing_sides.hpp"
+#include "mesher/edges/chords.hpp"
+#include "mesher/edges/face_sides.hpp"
 #include "mesher/edges/tiny_features.hpp"
 
 namespace quadrille {
 
 /// What is asked of the edges of the faces used.
 struct CountWishes {
-  std::vector<double> wanted;  ///< (edges) segments by the sizing field
-  std::vector<int> least;      ///< (edges) fewest segments; 0 = edge not used
+  int stride = 1;                   ///< BoundaryNodes::stride, which see
+  std::vector<double> wanted;       ///< (edges) segments by the sizing field, of the mesh that is recombined
+  std::vector<int> least;           ///< (edges) fewest of those; 0 = edge not used
+  std::vector<int> least_of_grids;  ///< (edges) fewest segments of the final mesh between grids
 };
 
-/// The counts of all edges: tied ones alike, rounded, and changed so that every face becomes even.
-/// \param tie whether sides that face each other get as many segments.
-/// \param strips both sides of these get as many nodes; none where edges are not to be tied.
-/// \param odd_faces faces (from 1) that could not be made even
-std::vector<int> choose_counts(const CadShape& shape, const std::vector<char>& used,
-                               const CountWishes& wishes, const TinyFeatures& tiny, bool tie,
-                               const std::vector<SplitStrip>& strips, int stride,
-                               std::vector<int>& odd_faces);
+struct EdgeCounts {
+  std::vector<int> counts;  ///< (edges) segments of the final mesh; 0 = edge not used
+  Chords chords;
+  std::vector<int> odd_faces;  ///< faces (from 1) that could not be made even
+};
+
+/// The counts of all edges, near those wanted: one for each chord, as many on sides that face each other, and
+/// an even sum round every face. Faces whose sides would have to go too far from what is wanted lose their
+/// outline. \param sides (faces) in: as found; out: those whose facing sides have as many segments.
+/// Chords that only grids have are counted by themselves, others by the stride; with stride 2, wedges and
+/// strips may keep an odd boundary, since the triangle that is left is cut up.
+EdgeCounts choose_counts(const CountWishes& wishes, const TinyFeatures& tiny, std::vector<FaceSides>& sides);
 
 }  // namespace quadrille

@@ -8,6 +8,7 @@
 #include "geometry/surfaces/edge_curve.hpp"
 #include "mesher/edges/count_table.hpp"
 #include "mesher/edges/edge_counts.hpp"
+#include "mesher/edges/face_sides.hpp"
 #include "mesher/edges/facing_sides.hpp"
 #include "mesher/edges/narrow_faces.hpp"
 
@@ -113,15 +114,18 @@ class EdgeSampler {
 
   BoundaryNodes run() {
     tabulate_edges();
-    const std::vector<SplitStrip> strips = find_split_strips(shape_, used_, wishes_.wanted);
-    count_segments(strips);
+    result_.sides = find_face_sides(shape_, used_, plan_.tiny, wishes_.wanted);
+    const EdgeCounts chosen = choose_counts(wishes_, plan_.tiny, result_.sides);
+    counts_ = chosen.counts;
+    result_.odd_faces = chosen.odd_faces;
+    shares_ = space_chords(shape_, result_.sides, chosen.chords, tables_, counts_);
     place_vertices();
     context_.check();
     SparseCheck check(context_, 64);
     for (int i = 0; i < n_; ++i) {
       if (counts_[i] > 0) place_nodes(i, check);
     }
-    align_narrow_faces(shape_, used_, strips, result_);
+    align_narrow_faces(shape_, used_, find_split_strips(shape_, used_, wishes_.wanted), result_);
     borrow_nodes();
     return std::move(result_);
   }
@@ -132,7 +136,9 @@ class EdgeSampler {
     const std::vector<char> shared_ends = find_shared_ends(shape_, plan_.tiny);
     const std::vector<char> inner = find_inner_edges(shape_);
     tables_.resize(n_);
+    wishes_.stride = result_.stride;
     wishes_.least.assign(n_, 0);
+    wishes_.least_of_grids.assign(n_, 0);
     wishes_.wanted.assign(n_, 0);
     double segments = 0;
     for (int i = 0; i < n_; ++i) {
@@ -148,19 +154,15 @@ class EdgeSampler {
       if (along_chord(i)) wanted *= chord_of(edge) / edge.length;
       segments += result_.stride * wanted;
       hold_segments(segments, sampler.budget(), edge);
-      wishes_.least[i] = least_segments(plan_.tiny.closed(edge), plan_.bare[i] ? 0 : tables_[i].turning,
-                                        shared_ends[i], inner[i], result_.stride);
+      const double turning = plan_.bare[i] ? 0 : tables_[i].turning;
+      wishes_.least[i] =
+          least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], result_.stride);
+      // Straight edges between grids may do with one; curves keep their shape as well there as anywhere.
+      wishes_.least_of_grids[i] = turning > 1e-3 ? result_.stride * wishes_.least[i] : 1;
     }
   }
 
   bool along_chord(int edge) const { return plan_.bare[edge] && !plan_.tiny.closed(shape_.edges[edge]); }
-
-  void count_segments(const std::vector<SplitStrip>& strips) {
-    auto& odd = result_.odd_faces;
-    counts_ = choose_counts(shape_, used_, wishes_, plan_.tiny, true, strips, result_.stride, odd);
-    if (!odd.empty())
-      counts_ = choose_counts(shape_, used_, wishes_, plan_.tiny, false, {}, result_.stride, odd);
-  }
 
   int add_point(const Vector3& point) {
     result_.points.push_back(point);
@@ -195,11 +197,12 @@ class EdgeSampler {
     const CadEdge& edge = shape_.edges[i];
     const EdgeCurve curve(edge);
     BoundaryNodes::Edge& nodes = result_.edges[i];
-    const int segments = counts_[i] * result_.stride;
+    const int segments = counts_[i];
     for (int k = 0; k <= segments; ++k) {
       check();
-      double t = along_chord(i) ? parameter_near_chord(edge, curve, k, segments, nodes.parameters)
-                                : tables_[i].parameter_at(tables_[i].total() * k / segments);
+      double t = along_chord(i)       ? parameter_near_chord(edge, curve, k, segments, nodes.parameters)
+                 : shares_[i].empty() ? tables_[i].parameter_at(tables_[i].total() * k / segments)
+                                      : tables_[i].parameter_at_length(tables_[i].length() * shares_[i][k]);
       if (k == 0) t = edge.first;
       if (k == segments) t = edge.last;
       nodes.parameters.push_back(t);
@@ -234,7 +237,9 @@ class EdgeSampler {
   std::vector<char> used_edges_;
   std::vector<CountTable> tables_;
   CountWishes wishes_;
-  std::vector<int> counts_;
+  std::vector<int> counts_;  // segments of the final mesh
+  std::vector<std::vector<double>>
+      shares_;  // of an edge's length that nodes stand at; empty = by its own sizes
   BoundaryNodes result_;
 };
 

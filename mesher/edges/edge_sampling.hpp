@@ -6,6 +6,7 @@
 #include "geometry/base/execution_context.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/sizing_field.hpp"
+#include "mesher/edges/face_sides.hpp"
 #include "mesher/edges/tiny_features.hpp"
 
 namespace quadrille {
@@ -24,6 +25,7 @@ struct BoundaryNodes {
   /// Segments of the final mesh to one segment of the mesh that is recombined: 2 with Strategy::subdivide,
   /// else 1.
   int stride = 1;
+  std::vector<FaceSides> sides;  ///< (faces) outlines whose facing sides have as many segments
   std::vector<int> odd_faces;  ///< faces whose count could not be made even; empty in all but odd topologies
 };
 

@@ -26,6 +26,12 @@ class BoundaryWalker {
 
   FaceBoundary walk() {
     std::vector<int> starts;
+    boundary_.stride = nodes_.stride;
+    for (const CadWire& wire : face_.wires) {
+      for (const Coedge& coedge : wire.coedges) {
+        if (nodes_.edges[coedge.edge - 1].segments() % 2 == 1) boundary_.stride = 1;
+      }
+    }
     for (const CadWire& wire : face_.wires) {
       starts.push_back(boundary_.size());
       walk_wire(wire);
@@ -60,9 +66,11 @@ class BoundaryWalker {
   /// Each coedge gets its own end points first; consecutive coedges are joined afterwards.
   void walk_wire(const CadWire& wire) {
     std::vector<Run> runs;
+    auto& firsts = boundary_.first_segments.emplace_back();
     for (const Coedge& coedge : wire.coedges) {
       const CadEdge& edge = shape_.edges[coedge.edge - 1];
       const Run run = edge.degenerate ? walk_pole(coedge, edge) : walk_edge(coedge);
+      firsts.push_back(run.first >= 0 ? run.first_segment : -1);
       if (run.first >= 0) runs.push_back(run);
     }
     const std::size_t n = runs.size();
@@ -102,12 +110,12 @@ class BoundaryWalker {
 
   Run walk_edge(const Coedge& coedge) {
     const BoundaryNodes::Edge& edge = nodes_.edges[coedge.edge - 1];
-    const int count = edge.segments() / nodes_.stride;
+    const int count = edge.segments() / boundary_.stride;
     if (count <= 0) return {};
     Run run;
     run.first_segment = static_cast<int>(boundary_.segments.size());
     for (int k = 0; k <= count; ++k) {
-      const int i = nodes_.stride * (coedge.forward ? k : count - k);
+      const int i = boundary_.stride * (coedge.forward ? k : count - k);
       const int point = add_point(place_of(coedge, edge, i), edge.nodes[i]);
       if (k == 0) {
         run.first = point;
@@ -118,10 +126,11 @@ class BoundaryWalker {
       segment.b = point;
       segment.edge = coedge.edge;
       segment.internal = coedge.internal;
-      if (nodes_.stride == 2) {
+      if (boundary_.stride == 2) {
         const int middle = i + (coedge.forward ? -1 : 1);
         segment.middle_node = edge.nodes[middle];
         segment.middle_uv = place_of(coedge, edge, middle);
+        segment.middle_point = nodes_.points[segment.middle_node];
       }
       boundary_.segments.push_back(segment);
       run.last = point;

@@ -17,6 +17,7 @@ struct FaceBoundary {
     int edge = 0;          ///< CAD edge, from 1; 0 on a degenerate one
     int middle_node = -1;  ///< node of the final mesh between a and b (Strategy::subdivide), else -1
     Vector2 middle_uv{0, 0};
+    Vector3 middle_point{0, 0, 0};
     bool internal = false;    ///< the face lies on both sides (a crack)
     bool degenerate = false;  ///< a single point in space
   };
@@ -26,6 +27,10 @@ struct FaceBoundary {
   /// Angle (radians) to the left of the wire between the tangents of its curves; 0 = not known (poles).
   std::vector<double> angles;
   std::vector<Segment> segments;
+  /// (wires, coedges) the first of the segments of each coedge; -1 = it has none.
+  std::vector<std::vector<int>> first_segments;
+  /// Segments of the final mesh to one here: BoundaryNodes::stride, but 1 where an edge has an odd number.
+  int stride = 1;
 
   int size() const { return static_cast<int>(uv.size()); }
 };

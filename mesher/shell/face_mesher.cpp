@@ -11,8 +11,8 @@
 #include "geometry/cad/shape_completion.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/faces/face_boundary.hpp"
+#include "mesher/faces/face_grid.hpp"
 #include "mesher/faces/face_triangulation.hpp"
-#include "mesher/faces/mapped_placement.hpp"
 #include "mesher/faces/point_placement.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/pairing/recombine.hpp"
@@ -39,7 +39,6 @@ class CadSmoothingSurface : public SmoothingSurface {
 /// One way of meshing a face; the ladder of fallbacks tries several.
 struct Attempt {
   PlacementOptions placement;
-  bool mapped;  ///< try a regular grid first
   bool clean_up;
   const char* note;
 };
@@ -62,15 +61,16 @@ class FaceMesher {
         size_at_(field) {}
 
   FaceMesh run() {
-    const double scale = nodes_.stride;
+    if (auto grid = mesh_as_grid()) return std::move(*grid);
+    const double scale = boundary_.stride;
     std::vector<Attempt> attempts{
-        {{scale, 0.72, true}, true, true, ""},
-        {{scale, 0.72, true}, false, false, "without clean-up"},
-        {{scale, 0.60, true}, false, true, "denser points"},
-        {{scale, 0.85, true}, false, true, "sparser points"},
-        {{scale, 0.75, false}, false, true, "hexagonal points"},
+        {{scale, 0.72, true}, true, ""},
+        {{scale, 0.72, true}, false, "without clean-up"},
+        {{scale, 0.60, true}, true, "denser points"},
+        {{scale, 0.85, true}, true, "sparser points"},
+        {{scale, 0.75, false}, true, "hexagonal points"},
     };
-    if (fineness_ > 1) attempts.push_back({{scale / fineness_, 0.72, true}, false, true, "points as fine"});
+    if (fineness_ > 1) attempts.push_back({{scale / fineness_, 0.72, true}, true, "points as fine"});
     const double acceptable = acceptable_q();
     std::optional<FaceMesh> best;
     std::optional<Error> error;
@@ -118,26 +118,40 @@ class FaceMesher {
     return std::min(usual, 0.3 * sharpest * 2 / M_PI - 0.01);
   }
 
+  std::optional<FaceMesh> mesh_as_grid() {
+    const StageTimer timer(context_, "triangulate");
+    auto grid = make_grid(boundary_, nodes_.sides[face_], surface_, size_at_, context_);
+    context_.check();
+    if (!grid) return std::nullopt;
+    FaceQuads quads;
+    quads.nodes = std::move(grid->nodes);
+    auto& mesh = quads.surface_mesh;
+    mesh.mesh.quads = std::move(grid->quads);
+    mesh.mesh.points = std::move(grid->points);
+    mesh.parameters = std::move(grid->uv);
+    quads.pole.assign(mesh.parameters.size(), 0);
+    context_.check();
+    return finish(std::move(quads), "grid");
+  }
+
   FaceMesh mesh_once(const Attempt& attempt) {
     FaceTriangulation triangulation = triangulate(attempt);
     FaceQuads quads = recombine_face(triangulation);
     improve(quads, attempt.clean_up);
-    if (nodes_.stride == 2) {
+    if (boundary_.stride == 2) {
       cut_flat_quads(quads.surface_mesh.mesh, quads.surface_mesh.normals, context_);
       quads = subdivide(quads, triangulation.segments, nodes_.points, surface_, context_);
       improve(quads, false);
     }
-    return finish(std::move(quads), attempt);
+    return finish(std::move(quads), attempt.note);
   }
 
   FaceTriangulation triangulate(const Attempt& attempt) {
     const StageTimer timer(context_, "triangulate");
-    std::optional<PlacedPoints> placed;
-    if (attempt.mapped)
-      placed = place_mapped(boundary_, surface_, domain_, size_at_, attempt.placement.scale, context_);
-    if (!placed) placed = place_points(boundary_, surface_, domain_, size_at_, attempt.placement, context_);
+    const PlacedPoints placed =
+        place_points(boundary_, surface_, domain_, size_at_, attempt.placement, context_);
     context_.check();
-    return triangulate_face(face_ + 1, boundary_, *placed, surface_, context_);
+    return triangulate_face(face_ + 1, boundary_, placed, surface_, context_);
   }
 
   FaceQuads recombine_face(const FaceTriangulation& triangulation) {
@@ -151,7 +165,7 @@ class FaceMesher {
     quads.surface_mesh.boundary_angles.resize(triangulation.uv.size(), 0);
     quads.nodes = triangulation.nodes;
     quads.pole = triangulation.pole;
-    if (nodes_.stride == 1 && !quads.surface_mesh.mesh.triangles.empty()) {
+    if (boundary_.stride == 1 && !quads.surface_mesh.mesh.triangles.empty()) {
       const std::string name = fmt::format("Face{}", face_ + 1);
       throw failure(
           name,
@@ -173,14 +187,14 @@ class FaceMesher {
     smooth(quads.surface_mesh, surface, options_.improve, report, context_);
   }
 
-  FaceMesh finish(FaceQuads quads, const Attempt& attempt) const {
+  FaceMesh finish(FaceQuads quads, const char* note) const {
     FaceMesh result;
     result.quads = std::move(quads.surface_mesh.mesh.quads);
     result.points = std::move(quads.surface_mesh.mesh.points);
     result.uv = std::move(quads.surface_mesh.parameters);
     result.pole = std::move(quads.pole);
     result.nodes = std::move(quads.nodes);
-    result.note = attempt.note;
+    result.note = note;
     result.surface = shared_surface_;
     result.q_min = 1;
     SparseCheck check(context_);

@@ -24,7 +24,7 @@ struct FaceMesh {
   std::vector<int> nodes;                 ///< indices into BoundaryNodes::points
   int inverted = 0;                       ///< quads with scaled Jacobian <= 0
   double q_min = 0;
-  std::string note;                            ///< which fallback was taken
+  std::string note;                            ///< "grid" (see face_grid.hpp), or which fallback was taken
   std::shared_ptr<const FaceSurface> surface;  ///< what uv are parameters of; null = the face's own surface
   double seconds = 0;
 };

@@ -61,6 +61,7 @@ class CommandTest(unittest.TestCase):
         self.assertTrue(output.stat().st_size)
         self.assertGreater(report["counts"]["quads"], 20)
         self.assertEqual(report["counts"]["triangles"], 0)
+        self.assertEqual([face["note"] for face in report["faces"]], 6 * ["grid"])
 
     def test_error_has_the_commands_sentence(self):
         with self.assertRaises(Error) as caught:

@@ -8,7 +8,6 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "mesher/faces/face_boundary.hpp"
 #include "mesher/faces/face_triangulation.hpp"
-#include "mesher/faces/mapped_placement.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/quads/subdivision.hpp"
 #include "tests/support/sample_models.hpp"
@@ -135,33 +134,6 @@ TEST(Recombination, LeavesNoTriangleAndKeepsTheArea) {
     EXPECT_TRUE(quads.triangles.empty());
     EXPECT_EQ(2 * quads.quads.size(), triangulation.mesh.triangles.size());
   });
-}
-
-TEST(MappedPlacement, GridsTheFourSidedFacesOfABox) {
-  Prepared prepared(sample_model("box"), 20, Strategy::direct);
-  SizingField::Sampler size_at(prepared.field);
-  for (int face = 0; face < 6; ++face) {
-    const FaceSurface surface(prepared.model.shape().faces[face]);
-    const FaceBoundary boundary = face_boundary(prepared.model.shape(), face,
-                                                prepared.model.shape().faces[face], surface, prepared.nodes);
-    const auto placed = place_mapped(boundary, surface, enclosed_domain(boundary), size_at, 1);
-    ASSERT_TRUE(placed);
-    int corners = 0;
-    for (const double angle : boundary.angles) corners += std::abs(angle - M_PI / 2) < 1e-6;
-    EXPECT_EQ(corners, 4);
-    EXPECT_GT(placed->uv.size(), 10U);
-  }
-}
-
-TEST(MappedPlacement, LeavesOtherFacesAlone) {
-  for (const char* name : {"disc", "plate_with_holes", "sphere"}) {
-    SCOPED_TRACE(name);
-    Prepared prepared(sample_model(name), 20, Strategy::direct);
-    SizingField::Sampler size_at(prepared.field);
-    const FaceSurface surface(prepared.model.shape().faces[0]);
-    const FaceBoundary boundary = face_boundary(prepared.model.shape(), 0, surface, prepared.nodes);
-    EXPECT_FALSE(place_mapped(boundary, surface, enclosed_domain(boundary), size_at, 1));
-  }
 }
 
 TEST(FaceSurface, IsTheSameSeenFromAbove) {

@@ -1,0 +1,167 @@
+#include "mesher/edges/chords.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace quadrille {
+
+Chords::Chords(const std::vector<double>& wanted)
+    : parent_(wanted.size()), against_(wanted.size(), 0), low_(wanted), high_(wanted) {
+  std::iota(parent_.begin(), parent_.end(), 0);
+}
+
+int Chords::of(int edge) const {
+  while (parent_[edge] != edge) edge = parent_[edge];
+  return edge;
+}
+
+bool Chords::against(int edge) const {
+  bool result = false;
+  for (; parent_[edge] != edge; edge = parent_[edge]) result ^= against_[edge] != 0;
+  return result;
+}
+
+bool Chords::tie(const SideEdge& a, const SideEdge& b, double largest_ratio) {
+  int root = of(a.edge), other = of(b.edge);
+  if (root == other) return true;
+  const bool opposed = (against(a.edge) != against(b.edge)) != (a.forward != b.forward);
+  const double low = std::min(low_[root], low_[other]), high = std::max(high_[root], high_[other]);
+  if (high > largest_ratio * low) return false;
+  if (other < root) std::swap(root, other);
+  parent_[other] = root;
+  against_[other] = opposed;
+  low_[root] = low;
+  high_[root] = high;
+  return true;
+}
+
+namespace {
+
+class ChordSpacing {
+ public:
+  ChordSpacing(const CadShape& shape, const Chords& chords, const std::vector<CountTable>& tables,
+               const std::vector<int>& counts)
+      : shape_(shape), chords_(chords), tables_(tables), counts_(counts) {
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (counts[i] > 0) members_[chords.of(static_cast<int>(i))].push_back(static_cast<int>(i));
+    }
+  }
+
+  std::vector<std::vector<double>> run(const std::vector<FaceSides>& sides) {
+    for (const auto& [chord, members] : members_) shares_[chord] = equidistribute(members);
+    for (const FaceSides& face : sides) {
+      for (const FacingPair& pair : face.facing) {
+        follow(pair.first, pair.second);
+        follow(pair.second, pair.first);
+      }
+    }
+    std::vector<std::vector<double>> result(counts_.size());
+    for (const auto& [chord, members] : members_) {
+      if (members.size() == 1 && !followed_.contains(chord)) continue;
+      for (const int edge : members) {
+        if (suits(edge)) result[edge] = shares_of(edge);
+      }
+    }
+    return result;
+  }
+
+ private:
+  /// Counts up to equal shares of the members' lengths, the tightest at each.
+  std::vector<double> equidistribute(const std::vector<int>& members) const {
+    const int n = counts_[members.front()];
+    const int cells = std::clamp(8 * n, 64, 4096);
+    std::vector<double> density(cells, 0);
+    for (const int edge : members) {
+      const CountTable& table = tables_[edge];
+      double before = 0;
+      for (int i = 0; i < cells; ++i) {
+        const double here = table.count_at_length(table.length() * (i + 1) / cells);
+        double& at = density[chords_.against(edge) ? cells - 1 - i : i];
+        at = std::max(at, here - before);
+        before = here;
+      }
+    }
+    const double total = std::accumulate(density.begin(), density.end(), 0.0);
+    std::vector<double> shares{0};
+    double sum = 0;
+    int cell = 0;
+    for (int k = 1; k < n; ++k) {
+      const double target = total * k / n;
+      while (cell + 1 < cells && sum + density[cell] < target) sum += density[cell++];
+      const double part = density[cell] > 0 ? std::clamp((target - sum) / density[cell], 0.0, 1.0) : 0.5;
+      shares.push_back((cell + part) / cells);
+    }
+    shares.push_back(1);
+    return shares;
+  }
+
+  std::vector<double> shares_of(int edge) const {
+    std::vector<double> shares = shares_.at(chords_.of(edge));
+    if (!chords_.against(edge)) return shares;
+    std::reverse(shares.begin(), shares.end());
+    for (double& share : shares) share = 1 - share;
+    return shares;
+  }
+
+  /// A single edge takes over the nodes of several.
+  void follow(const Side& one, const Side& several) {
+    if (one.size() != 1 || several.size() < 2) return;
+    const int edge = one[0].edge;
+    if (followed_.contains(chords_.of(edge))) return;
+    std::vector<double> shares;
+    double length = 0;
+    for (const SideEdge& part : several) {
+      if (counts_[part.edge] == 0) return;
+      std::vector<double> own = shares_of(part.edge);
+      if (!part.forward) {
+        std::reverse(own.begin(), own.end());
+        for (double& share : own) share = 1 - share;
+      }
+      const double part_length = shape_.edges[part.edge].length;
+      for (std::size_t i = shares.empty() ? 0 : 1; i < own.size(); ++i)
+        shares.push_back(length + own[i] * part_length);
+      length += part_length;
+    }
+    if (static_cast<int>(shares.size()) != counts_[edge] + 1 || !(length > 0)) return;
+    for (double& share : shares) share /= length;
+    if (one[0].forward == chords_.against(edge)) {
+      std::reverse(shares.begin(), shares.end());
+      for (double& share : shares) share = 1 - share;
+    }
+    shares_[chords_.of(edge)] = shares;
+    followed_[chords_.of(edge)] = true;
+  }
+
+  /// Whether no segment would be far longer or shorter than what the edge's own sizes ask for.
+  bool suits(int edge) const {
+    constexpr double most = 2;
+    const CountTable& table = tables_[edge];
+    const std::vector<double> shares = shares_of(edge);
+    const double one = table.total() / counts_[edge];
+    for (std::size_t k = 0; k + 1 < shares.size(); ++k) {
+      const double wanted = table.count_at_length(shares[k + 1] * table.length()) -
+                            table.count_at_length(shares[k] * table.length());
+      if (wanted > most * one) return false;
+    }
+    return true;
+  }
+
+  const CadShape& shape_;
+  const Chords& chords_;
+  const std::vector<CountTable>& tables_;
+  const std::vector<int>& counts_;
+  std::map<int, std::vector<int>> members_;    // chord -> edges
+  std::map<int, std::vector<double>> shares_;  // chord -> of its representative
+  std::map<int, bool> followed_;
+};
+
+}  // namespace
+
+std::vector<std::vector<double>> space_chords(const CadShape& shape, const std::vector<FaceSides>& sides,
+                                              const Chords& chords, const std::vector<CountTable>& tables,
+                                              const std::vector<int>& counts) {
+  return ChordSpacing(shape, chords, tables, counts).run(sides);
+}
+
+}  // namespace quadrille

@@ -1,0 +1,264 @@
+#include "mesher/edges/face_sides.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "geometry/surfaces/edge_curve.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+#include "mesher/edges/facing_sides.hpp"
+
+namespace quadrille {
+
+namespace {
+
+constexpr double corner_turning = 0.7;  // radians; a right-angled corner turns by pi / 2
+constexpr double smooth_turning = 0.6;  // what other vertices may turn
+
+/// A wire without what is left out of the mesh.
+struct Walk {
+  std::vector<int> coedges;  // indices into the wire
+  std::vector<SideEdge> edges;
+  std::vector<double> turnings;  // at the start of each, radians, to the left
+};
+
+class SideFinder {
+ public:
+  SideFinder(const CadShape& shape, const TinyFeatures& tiny, const std::vector<double>& wanted)
+      : shape_(shape), tiny_(tiny), wanted_(wanted) {}
+
+  FaceSides find(const CadFace& face) const {
+    FaceSides sides;
+    std::vector<Walk> walks;
+    if (face.wires.size() <= 2 && face.inner_vertices.empty()) walks = usable_walks(face);
+    if (walks.size() == 1) take_corners(walks[0], sides);
+    if (walks.size() == 2) take_ring(walks[0], walks[1], sides);
+    if (sides.facing.empty()) take_rest(face, sides);
+    return sides;
+  }
+
+  /// A narrow face, one long side of which is several edges.
+  void take_strip(const SplitStrip& strip, FaceSides& sides) const {
+    if (!sides.facing.empty()) return;
+    FacingPair& pair = sides.facing.emplace_back();
+    pair.first.push_back({strip.whole->edge - 1, strip.whole->forward});
+    for (const Coedge* part : strip.parts) pair.second.push_back({part->edge - 1, part->forward});
+    pair.second = turned(pair.second);
+    for (const Side* side : {&pair.first, &pair.second}) {
+      for (const SideEdge& edge : *side) std::erase(sides.rest, edge.edge);
+    }
+  }
+
+ private:
+  /// The wires; none where one is not an orderly loop.
+  std::vector<Walk> usable_walks(const CadFace& face) const {
+    std::vector<Walk> walks;
+    const FaceSurface surface(face);
+    for (const CadWire& wire : face.wires) {
+      Walk walk;
+      if (!wire.ordered) return {};
+      for (std::size_t k = 0; k < wire.coedges.size(); ++k) {
+        const Coedge& coedge = wire.coedges[k];
+        const int edge = coedge.edge - 1;
+        if (coedge.internal || shape_.edges[edge].degenerate) return {};
+        if (tiny_.collapsed_edges[edge]) continue;
+        walk.coedges.push_back(static_cast<int>(k));
+        walk.edges.push_back({edge, coedge.forward});
+      }
+      const std::size_t n = walk.edges.size();
+      if (n == 0) return {};
+      for (std::size_t k = 0; k < n; ++k) {
+        walk.turnings.push_back(
+            turning(surface, wire.coedges[walk.coedges[(k + n - 1) % n]], wire.coedges[walk.coedges[k]]));
+      }
+      walks.push_back(std::move(walk));
+    }
+    return walks;
+  }
+
+  double turning(const FaceSurface& surface, const Coedge& from, const Coedge& to) const {
+    const CadEdge &before = shape_.edges[from.edge - 1], &after = shape_.edges[to.edge - 1];
+    const double t = to.forward ? after.first : after.last;
+    const Vector3 in = (from.forward ? 1 : -1) *
+                       EdgeCurve(before).derivative(from.forward ? before.last : before.first),
+                  out = (to.forward ? 1 : -1) * EdgeCurve(after).derivative(t);
+    const Vector3 normal = surface.normal(parametric_point(to, t));
+    return std::atan2(in.cross(out).dot(normal), in.dot(out));
+  }
+
+  /// Three to five corners, and no other vertex turns much.
+  void take_corners(const Walk& walk, FaceSides& sides) const {
+    const int n = static_cast<int>(walk.edges.size());
+    if (n < 3) return;
+    std::vector<int> corners;
+    for (int k = 0; k < n; ++k) {
+      if (walk.turnings[k] > corner_turning) {
+        corners.push_back(k);
+      } else if (std::abs(walk.turnings[k]) > smooth_turning) {
+        return;
+      }
+    }
+    if (corners.size() < 3 || corners.size() > 5) return;
+    for (const int corner : corners) sides.starts.push_back(walk.coedges[corner]);
+    sides.outline = corners.size() == 4 ? FaceSides::Outline::four : FaceSides::Outline::odd;
+    if (corners.size() != 4) return;
+    std::array<Side, 4> four;
+    for (int c = 0; c < 4; ++c) {
+      const int from = corners[c], to = corners[(c + 1) % 4];
+      for (int k = from; k != to; k = (k + 1) % n) four[c].push_back(walk.edges[k]);
+    }
+    for (int c = 0; c < 2; ++c) add_pairs(four[c], turned(four[c + 2]), sides);
+  }
+
+  /// Two loops without corners, from their vertices that are nearest to each other.
+  void take_ring(const Walk& first, const Walk& second, FaceSides& sides) const {
+    const auto is_smooth = [](double turning) { return std::abs(turning) <= smooth_turning; };
+    for (const Walk* walk : {&first, &second}) {
+      if (!std::all_of(walk->turnings.begin(), walk->turnings.end(), is_smooth)) return;
+    }
+    std::size_t a = 0, b = 0;
+    double nearest = std::numeric_limits<double>::infinity();
+    const Side back = turned(second.edges);
+    for (std::size_t i = 0; i < first.edges.size(); ++i) {
+      for (std::size_t k = 0; k < back.size(); ++k) {
+        const double distance = (start_of(first.edges[i]) - start_of(back[k])).norm();
+        if (distance < nearest) {
+          nearest = distance;
+          a = i;
+          b = k;
+        }
+      }
+    }
+    Side one = first.edges, other = back;
+    std::rotate(one.begin(), one.begin() + static_cast<long>(a), one.end());
+    std::rotate(other.begin(), other.begin() + static_cast<long>(b), other.end());
+    if (!is_even_ring(one, other)) return;
+    sides.outline = FaceSides::Outline::ring;
+    add_pairs(one, other, sides);
+  }
+
+  /// Whether two loops stay apart, neither touching nor far off center.
+  bool is_even_ring(const Side& one, const Side& other) const {
+    constexpr double narrowest = 0.3;  // of the widest place
+    const std::vector<Vector3> a = points_along(one), b = points_along(other);
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (const Vector3& p : a) {
+      double width = std::numeric_limits<double>::infinity();
+      for (const Vector3& q : b) width = std::min(width, (p - q).norm());
+      least = std::min(least, width);
+      most = std::max(most, width);
+    }
+    return least > narrowest * most;
+  }
+
+  std::vector<Vector3> points_along(const Side& side) const {
+    constexpr int samples = 64;
+    const int each = std::max(4, samples / static_cast<int>(side.size()));
+    std::vector<Vector3> points;
+    for (const SideEdge& part : side) {
+      const CadEdge& edge = shape_.edges[part.edge];
+      const EdgeCurve curve(edge);
+      for (int i = 0; i < each; ++i)
+        points.push_back(curve.point(edge.first + (edge.last - edge.first) * i / each));
+    }
+    return points;
+  }
+
+  /// Narrow wedges and crescents, and faces of four edges that are not quite four-sided, have facing sides
+  /// too.
+  void take_rest(const CadFace& face, FaceSides& sides) const {
+    std::vector<const Coedge*> faced;
+    for (const FacingSides& facing : facing_sides(shape_, face)) {
+      const int first = facing.first->edge - 1, second = facing.second->edge - 1;
+      if (has_unusual_edges(shape_, face)) continue;
+      const std::size_t count = face.wires[0].coedges.size();
+      const bool is_narrow = facing.width < narrow * segment_length(shape_, wanted_, first);
+      constexpr double slender = 0.5;  // the base of a triangle, which grids allow no other sides then
+      const bool is_slender = count == 3 && facing.width < slender * shape_.edges[first].length;
+      if (count != 4 && !is_narrow && !is_slender) continue;
+      sides.facing.push_back({{{first, facing.first->forward}}, {{second, !facing.second->forward}}});
+      faced.push_back(facing.first);
+      faced.push_back(facing.second);
+    }
+    for (const CadWire& wire : face.wires) {
+      for (const Coedge& coedge : wire.coedges) {
+        if (std::find(faced.begin(), faced.end(), &coedge) == faced.end())
+          sides.rest.push_back(coedge.edge - 1);
+      }
+    }
+  }
+
+  static Side turned(Side side) {
+    std::reverse(side.begin(), side.end());
+    for (SideEdge& edge : side) edge.forward = !edge.forward;
+    return side;
+  }
+
+  Vector3 start_of(const SideEdge& side) const {
+    const CadEdge& edge = shape_.edges[side.edge];
+    return EdgeCurve(edge).point(side.forward ? edge.first : edge.last);
+  }
+
+  /// Where the edges of a side end, as shares of its length.
+  std::vector<double> ends_of(const Side& side) const {
+    std::vector<double> ends;
+    for (const SideEdge& edge : side)
+      ends.push_back((ends.empty() ? 0 : ends.back()) + shape_.edges[edge.edge].length);
+    for (double& end : ends) end /= std::max(ends.back(), std::numeric_limits<double>::min());
+    return ends;
+  }
+
+  double wanted_of(const Side& side) const {
+    return std::accumulate(side.begin(), side.end(), 0.0,
+                           [&](double sum, const SideEdge& edge) { return sum + wanted_[edge.edge]; });
+  }
+
+  /// Cuts two sides where vertices stand opposite each other.
+  void add_pairs(const Side& first, const Side& second, FaceSides& sides) const {
+    const std::vector<double> a = ends_of(first), b = ends_of(second);
+    constexpr double of_segment = 0.4, of_side = 0.05;
+    const double near =
+        std::min(of_side, of_segment / std::max(1.0, std::max(wanted_of(first), wanted_of(second))));
+    FacingPair pair;
+    std::size_t i = 0, k = 0;
+    while (i < a.size() || k < b.size()) {
+      const bool both = i < a.size() && k < b.size() && std::abs(a[i] - b[k]) <= near;
+      const bool take_first = k == b.size() || (i < a.size() && (both || a[i] < b[k]));
+      const bool take_second = i == a.size() || (k < b.size() && (both || !(a[i] < b[k])));
+      if (take_first) pair.first.push_back(first[i++]);
+      if (take_second) pair.second.push_back(second[k++]);
+      if (both) {
+        sides.facing.push_back(pair);
+        pair = {};
+      }
+    }
+    if (pair.first.empty() && pair.second.empty()) return;
+    // A last edge so short that the one before it stood opposite the other side's end.
+    if (sides.facing.empty()) sides.facing.emplace_back();
+    auto& last = sides.facing.back();
+    last.first.insert(last.first.end(), pair.first.begin(), pair.first.end());
+    last.second.insert(last.second.end(), pair.second.begin(), pair.second.end());
+  }
+
+  const CadShape& shape_;
+  const TinyFeatures& tiny_;
+  const std::vector<double>& wanted_;
+};
+
+}  // namespace
+
+std::vector<FaceSides> find_face_sides(const CadShape& shape, const std::vector<char>& used,
+                                       const TinyFeatures& tiny, const std::vector<double>& wanted) {
+  const SideFinder finder(shape, tiny, wanted);
+  std::vector<FaceSides> result(shape.faces.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (used[i]) result[i] = finder.find(shape.faces[i]);
+  }
+  for (const SplitStrip& strip : find_split_strips(shape, used, wanted))
+    finder.take_strip(strip, result[strip.face]);
+  return result;
+}
+
+}  // namespace quadrille
