@@ -22,11 +22,18 @@ class CostedColoring : public EdgeColoring {
   CostedColoring(const TriangleMesh& mesh, EdgeColoring colors);
 
   const std::array<int, 3>& corners(int t) const { return triangles_[t].corner; }
-  int corner_at(Side s) const { return corners(triangle_of(s))[index_of(s)]; }
+  int corner_at(Side s) const { return corners(triangle_of(s))[place_of(s)]; }
   int end_of(Side s) const { return corners(triangle_of(s))[next_index(index_of(s))]; }
   int apex_of(Side s) const { return corners(triangle_of(s))[previous_index(index_of(s))]; }
   /// Of the quad made across a side: see pair_cost(). 0 on the boundary.
-  float cost_of(Side s) const { return triangles_[triangle_of(s)].cost[index_of(s)]; }
+  float cost_of(Side s) const { return triangles_[triangle_of(s)].cost[place_of(s)]; }
+
+  /// index_of(), for a side that there is: compilers fear the 3 of "none".
+  static int place_of(Side s) {
+    const int i = index_of(s);
+    if (i == 3) __builtin_unreachable();
+    return i;
+  }
 
   Objective objective() const { return objective_; }
 
