@@ -23,7 +23,7 @@ QuadEstimate::QuadEstimate(const CadModel& model, ExecutionContext& context)
 }
 
 double QuadEstimate::quads(const MeshOptions& options) {
-  check({options}, model_);
+  check({options, {}}, model_);
   const CadShape& shape = model_.shape();
   try {
     return on_threads(context_.threads(), [&] {

@@ -279,7 +279,7 @@ class Job {
 }  // namespace
 
 ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
-  check({options}, model);
+  check({options, {}}, model);
   const double size = size_limits(model, options.sizing).largest;
   SizingOptions sizing = options.sizing;
   if (options.force) sizing.budget = Budget::unlimited();

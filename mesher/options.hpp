@@ -2,6 +2,7 @@
 /// The options of a whole run: those of each stage, and what concerns them all.
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "geometry/sizing/sizing_options.hpp"
@@ -19,6 +20,24 @@ enum class Strategy {
 inline int stride(Strategy strategy) {
   return strategy == Strategy::subdivide ? 2 : 1;
 }
+
+/// Of Gmsh's .msh, both as text.
+enum class MshVersion { v2_2, v4_1 };
+
+/// The kinds of CAD entities whose elements make groups in mesh files.
+struct GroupKinds {
+  bool faces = true;     ///< shell elements: Face3
+  bool edges = true;     ///< lines on CAD edges: Edge7; without them the files have no lines
+  bool vertices = true;  ///< nodes, and points where the format has them: Vertex2; without them no points
+};
+
+struct WriteOptions {
+  MshVersion msh_version = MshVersion::v2_2;
+  GroupKinds groups;
+  int quad_nodes = 8;  ///< of second-order quads: 8, or 9 with one in the middle
+  std::string title;   ///< put into formats that have a comment or title line, control characters as '?'
+  int threads = 0;     ///< that make the text of .msh, .inp, .unv, .bdf and .vtk; 0 = all cores
+};
 
 struct MeshOptions {
   SizingOptions sizing;

@@ -22,6 +22,11 @@ using Sizes = std::map<std::string, double>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::pair<Strategy, std::string_view> strategies[] = {{Strategy::subdivide, "subdivide"},
                                                                 {Strategy::direct, "direct"}};
+constexpr std::pair<MshVersion, std::string_view> msh_versions[] = {{MshVersion::v2_2, "2.2"},
+                                                                    {MshVersion::v4_1, "4.1"}};
+constexpr std::pair<bool GroupKinds::*, std::string_view> group_kinds[] = {
+    {&GroupKinds::faces, "faces"}, {&GroupKinds::edges, "edges"}, {&GroupKinds::vertices, "vertices"}};
+constexpr std::string_view no_groups = "none";
 
 template <class... Visitors>
 struct Overloaded : Visitors... {
@@ -65,6 +70,50 @@ template <class Wanted>
 const Wanted& as(const Setting& setting, const SettingValue& value) {
   if (const Wanted* found = std::get_if<Wanted>(&value)) return *found;
   throw refused(setting, fmt::format("takes a value of the kind {}", setting.kind()));
+}
+
+/// The value that a word stands for.
+template <class Value, std::size_t n>
+Value chosen(const Setting& setting, const std::pair<Value, std::string_view> (&table)[n],
+             const SettingValue& value) {
+  const auto& word = as<std::string>(setting, value);
+  for (const auto& [choice, name] : table) {
+    if (name == word) return choice;
+  }
+  throw refused(setting, fmt::format("must be {}, not '{}'", fmt::join(setting.choices(), " or "), word));
+}
+
+template <class Value, std::size_t n>
+SettingValue word_for(const std::pair<Value, std::string_view> (&table)[n], Value value) {
+  const auto* found =
+      std::find_if(std::begin(table), std::end(table), [&](const auto& pair) { return pair.first == value; });
+  return std::string(found->second);
+}
+
+GroupKinds kinds_of(const Setting& setting, const SettingValue& value) {
+  GroupKinds kinds{false, false, false};
+  const Names& words = as<Names>(setting, value);
+  if (words.empty()) throw refused(setting, fmt::format("takes {}", fmt::join(setting.choices(), ", ")));
+  for (const std::string& word : words) {
+    const auto* found = std::find_if(std::begin(group_kinds), std::end(group_kinds),
+                                     [&](const auto& pair) { return pair.second == word; });
+    if (found != std::end(group_kinds))
+      kinds.*found->first = true;
+    else if (word != no_groups)
+      throw refused(setting, fmt::format("takes {}, not '{}'", fmt::join(setting.choices(), ", "), word));
+    else if (words.size() > 1)
+      throw refused(setting, "takes 'none' alone");
+  }
+  return kinds;
+}
+
+Names words_of(const GroupKinds& kinds) {
+  Names words;
+  for (const auto& [member, word] : group_kinds) {
+    if (kinds.*member) words.emplace_back(word);
+  }
+  if (words.empty()) words.emplace_back(no_groups);
+  return words;
 }
 
 std::vector<int> face_numbers(const Setting& setting, const SettingValue& value) {
@@ -122,7 +171,7 @@ Sizes parse_sizes(const Setting& setting, const std::vector<std::string>& texts)
 
 std::vector<Setting> make_table() {
   const auto mm = "mm", s = "s", none = "";
-  const auto read = Use::read, mesh = Use::mesh;
+  const auto read = Use::read, mesh = Use::mesh, write = Use::write;
   // name, option, property, label, use, unit, low, high, above_low, otherwise, help, place
   return {
       {"size", "size", "Size", "Size", mesh, mm, 0, infinity, true, "a sixtieth of the model's diagonal",
@@ -173,6 +222,14 @@ std::vector<Setting> make_table() {
       {"threads", "threads", "Threads", none, mesh, none, 0, 4096, false, none,
        "threads to use, no more than there are cores; 0 = all cores",
        [](Settings& v) -> int& { return v.threads; }},
+      {"msh_version", "msh-version", none, none, write, none, 0, 0, false, none, "version of .msh files",
+       [](Settings& v) -> MshVersion& { return v.write.msh_version; }},
+      {"nodes", "nodes", none, none, write, none, 8, 9, false, none,
+       "of second-order quads in files: 8, or 9 with one in the middle, which .msh, .med, .vtu and .vtk have",
+       [](Settings& v) -> int& { return v.write.quad_nodes; }},
+      {"groups", "groups", none, none, write, none, 0, 0, false, none,
+       "which groups files have, such as faces,edges; lines and points are written only with theirs",
+       [](Settings& v) -> GroupKinds& { return v.write.groups; }},
   };
 }
 
@@ -208,14 +265,22 @@ std::vector<int> keys(const std::map<int, double>& sizes) {
 }  // namespace
 
 std::string_view Setting::kind() const {
-  constexpr std::string_view kinds[] = {"number", "count", "flag", "choice", "file", "names", "sizes"};
+  constexpr std::string_view kinds[] = {"number", "count", "flag",   "choice", "file",
+                                        "names",  "sizes", "choice", "words"};
   return kinds[place.index()];
 }
 
 std::vector<std::string_view> Setting::choices() const {
   std::vector<std::string_view> words;
-  if (kind() != "choice") return words;
-  for (const auto& [strategy, word] : strategies) words.push_back(word);
+  const auto take_from = [&](const auto& table) {
+    for (const auto& [value, word] : table) words.push_back(word);
+  };
+  if (std::holds_alternative<Strategy& (*)(Settings&)>(place)) take_from(strategies);
+  if (std::holds_alternative<MshVersion& (*)(Settings&)>(place)) take_from(msh_versions);
+  if (std::holds_alternative<GroupKinds& (*)(Settings&)>(place)) {
+    take_from(group_kinds);
+    words.push_back(no_groups);
+  }
   return words;
 }
 
@@ -226,11 +291,9 @@ SettingValue Setting::value(const Settings& settings) const {
           [&](double& (*at)(Settings&)) -> SettingValue { return at(from); },
           [&](int& (*at)(Settings&)) -> SettingValue { return static_cast<double>(at(from)); },
           [&](bool& (*at)(Settings&)) -> SettingValue { return at(from); },
-          [&](Strategy& (*at)(Settings&)) -> SettingValue {
-            const auto* found = std::find_if(std::begin(strategies), std::end(strategies),
-                                             [&](const auto& pair) { return pair.first == at(from); });
-            return std::string(found->second);
-          },
+          [&](Strategy& (*at)(Settings&)) { return word_for(strategies, at(from)); },
+          [&](MshVersion& (*at)(Settings&)) { return word_for(msh_versions, at(from)); },
+          [&](GroupKinds& (*at)(Settings&)) -> SettingValue { return words_of(at(from)); },
           [&](std::filesystem::path& (*at)(Settings&)) -> SettingValue { return at(from).string(); },
           [&](std::vector<int>& (*at)(Settings&)) -> SettingValue {
             Names names;
@@ -255,7 +318,7 @@ const Setting* find_setting(std::string_view name) {
 
 SettingValue parse(const Setting& setting, const std::vector<std::string>& texts) {
   const std::string_view kind = setting.kind();
-  if (kind == "names") return texts;
+  if (kind == "names" || kind == "words") return texts;
   if (kind == "sizes") return parse_sizes(setting, texts);
   if (texts.size() != 1) throw refused(setting, fmt::format("takes one value, not {}", texts.size()));
   if (kind == "choice" || kind == "file") return texts.front();
@@ -271,15 +334,9 @@ void assign(Settings& settings, const Setting& setting, const SettingValue& valu
             at(settings) = static_cast<int>(checked(setting, as<double>(setting, value)));
           },
           [&](bool& (*at)(Settings&)) { at(settings) = as<bool>(setting, value); },
-          [&](Strategy& (*at)(Settings&)) {
-            const auto& word = as<std::string>(setting, value);
-            const auto* found = std::find_if(std::begin(strategies), std::end(strategies),
-                                             [&](const auto& pair) { return pair.second == word; });
-            if (found == std::end(strategies))
-              throw refused(setting,
-                            fmt::format("must be {}, not '{}'", fmt::join(setting.choices(), " or "), word));
-            at(settings) = found->first;
-          },
+          [&](Strategy& (*at)(Settings&)) { at(settings) = chosen(setting, strategies, value); },
+          [&](MshVersion& (*at)(Settings&)) { at(settings) = chosen(setting, msh_versions, value); },
+          [&](GroupKinds& (*at)(Settings&)) { at(settings) = kinds_of(setting, value); },
           [&](std::filesystem::path& (*at)(Settings&)) {
             const auto& name = as<std::string>(setting, value);
             if (name.empty()) throw refused(setting, "must be the name of a file, not ''");
@@ -325,7 +382,9 @@ nlohmann::ordered_json settings_table() {
                      {"property", setting.property},
                      {"label", setting.label},
                      {"kind", setting.kind()},
-                     {"use", setting.use == Use::read ? "read" : "mesh"},
+                     {"use", setting.use == Use::read   ? "read"
+                             : setting.use == Use::mesh ? "mesh"
+                                                        : "write"},
                      {"unit", setting.unit},
                      {"default", standard},
                      {"low", numeric ? json(setting.low) : json()},

@@ -19,25 +19,28 @@ class CadModel;
 /// The values of all settings of the table.
 struct Settings {
   MeshOptions mesh;
+  WriteOptions write;           ///< without title and threads, which are not in the table
   double sew = 0;               ///< millimetres, see CadModel::sewn(); 0 = not
   double read_time_limit = 60;  ///< seconds for reading the CAD file; 0 = any
   double time_limit = 0;        ///< seconds for all of the run; 0 = any
   int threads = 0;              ///< 0 = all cores
 };
 
-/// What users give: a number, yes or no, a word or file name, names of faces, sizes by name.
+/// What users give: a number, yes or no, a word or file name, names of faces or words, sizes by name.
 using SettingValue =
     std::variant<double, bool, std::string, std::vector<std::string>, std::map<std::string, double>>;
 
 /// One entry of the table.
 struct Setting {
-  /// When it takes effect: while the model is read, or while it is meshed.
-  enum class Use { read, mesh };
+  /// When it takes effect: while the model is read, while it is meshed, or while files are written.
+  enum class Use { read, mesh, write };
   /// Where its value is kept, which tells what it takes: a number, a whole number, yes or no, a word of
-  /// `choices`, a file, faces, sizes on faces, edges and vertices.
+  /// `choices` (Strategy, MshVersion), a file, faces, sizes on faces, edges and vertices, several words of
+  /// `choices`.
   using Place = std::variant<double& (*)(Settings&), int& (*)(Settings&), bool& (*)(Settings&),
                              Strategy& (*)(Settings&), std::filesystem::path& (*)(Settings&),
-                             std::vector<int>& (*)(Settings&), SizingOptions& (*)(Settings&)>;
+                             std::vector<int>& (*)(Settings&), SizingOptions& (*)(Settings&),
+                             MshVersion& (*)(Settings&), GroupKinds& (*)(Settings&)>;
 
   std::string_view name;      ///< as Python has it; messages of the library give it in backquotes
   std::string_view option;    ///< as the command has it, without the two hyphens
@@ -51,8 +54,9 @@ struct Setting {
   std::string_view help;
   Place place;
 
-  std::string_view kind() const;                  ///< number, count, flag, choice, file, names, sizes
-  std::vector<std::string_view> choices() const;  ///< the words taken; empty unless the kind is choice
+  std::string_view kind() const;  ///< number, count, flag, choice, file, names, sizes, words
+  std::vector<std::string_view> choices()
+      const;  ///< the words taken; empty unless the kind is choice or words
   SettingValue value(const Settings& settings) const;
 };
 

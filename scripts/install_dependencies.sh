@@ -23,10 +23,12 @@ packages=(
   libgtest-dev
   # what meshes are made for, and compared with
   freecad gmsh python3-matplotlib
+  # read back what is written, in the tests; scripts/install_consumers.sh has those that are heavy to install
+  python3-meshio python3-h5py python3-vtk9 libmed-tools
 )
 # What needs these is left out where a release of Debian does not have them (Debian 13 has no CalculiX). LEMON tells
 # bench/paper the best pairing that there is.
-optional=(calculix-ccx liblemon-dev)
+optional=(calculix-ccx calculix-cgx liblemon-dev)
 
 if [[ "${1:-}" == --list ]]; then
   printf '%s\n' "${packages[@]}" "${optional[@]}"

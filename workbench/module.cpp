@@ -147,8 +147,9 @@ SettingValue setting_value(const Setting& setting, const py::handle& value) {
     if (kind == "flag") return value.cast<bool>();
     if (kind == "choice") return value.cast<std::string>();
     if (kind == "file") return value.cast<std::filesystem::path>().string();
-    if (kind == "names") {
+    if (kind == "names" || kind == "words") {
       if (py::isinstance<py::str>(value)) throw wrong_type(setting, value);
+      if (kind == "words") return value.cast<std::vector<std::string>>();
       std::vector<std::string> names;
       for (const py::handle face : value.cast<py::iterable>()) names.push_back(face_name(setting, face));
       return names;
@@ -306,13 +307,18 @@ void bind_mesh(py::module_& module) {
           "(m,) float64: q of each quad.")
       .def(
           "write",
-          [](const PythonMesh& self, const std::filesystem::path& path, const std::string& version,
-             const std::string& title) {
-            write_mesh(self.mesh, path, {msh_version(version), title, 0});
+          [](const PythonMesh& self, const std::filesystem::path& path, const std::string& title,
+             const py::kwargs& arguments) {
+            WriteOptions options = settings_of(arguments, Setting::Use::write, "write").write;
+            options.title = title;
+            const py::gil_scoped_release release;
+            write_mesh(self.mesh, path, options);
           },
-          py::arg("path"), py::kw_only(), py::arg("msh_version") = "2.2", py::arg("title") = "",
-          py::call_guard<py::gil_scoped_release>(),
-          "Writes the mesh; the format follows from the ending: .msh, .inp, .unv, .bdf, .med, .vtu, .vtk.")
+          py::arg("path"), py::kw_only(), py::arg("title") = "",
+          ("Writes the mesh; the format follows from the ending: .msh, .inp, .unv, .bdf, .med, .vtu, "
+           ".vtk.\n\n" +
+           settings_help(Setting::Use::write))
+              .c_str())
       .def(
           "picture",
           [](const PythonMesh& self, const std::filesystem::path& path, int width, int height) {

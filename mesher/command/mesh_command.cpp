@@ -22,17 +22,22 @@ struct MeshArguments : GivenSettings {
   std::filesystem::path input;
   std::vector<std::filesystem::path> outputs;
   std::filesystem::path write_size_field, report, picture;
-  std::string msh_version = "2.2";
   bool thin = false, quiet = false, end_with_input = false;
 };
 
+/// The mesh's order: what is asked for, or second where a solver reads one of the files.
+int order_of(const MeshArguments& arguments) {
+  if (arguments.given.count("order") > 0) return arguments.settings.mesh.order;
+  if (arguments.settings.write.quad_nodes == 9) return 2;
+  return std::any_of(arguments.outputs.begin(), arguments.outputs.end(), is_solver_format) ? 2 : 1;
+}
+
 void check_files(const MeshArguments& arguments) {
+  const int quad_nodes = arguments.settings.write.quad_nodes;
+  if (quad_nodes == 9 && order_of(arguments) == 1)
+    throw usage_error("nodes", "`nodes` 9 is for quads of second order: leave out `order` 1");
   for (const std::filesystem::path& output : arguments.outputs) {
-    if (!is_mesh_format(output))
-      throw usage_error(
-          "-o", fmt::format("{}: unknown mesh format (known are .msh, .inp, .unv, .med, .vtu, .vtk and "
-                            ".bdf)",
-                            output.string()));
+    check_format(output, quad_nodes);
     require_writable(output);
   }
   if (!arguments.report.empty()) require_writable(arguments.report);
@@ -65,12 +70,6 @@ std::optional<MidSurface> middle_of(const CadModel& model, const MeshArguments& 
   return midsurface(model, options, context);
 }
 
-/// The mesh's order: what is asked for, or second where a solver reads one of the files.
-int order_of(const MeshArguments& arguments) {
-  if (arguments.given.count("order") > 0) return arguments.settings.mesh.order;
-  return std::any_of(arguments.outputs.begin(), arguments.outputs.end(), is_solver_format) ? 2 : 1;
-}
-
 /// Draws in a child process: the renderer ends the program where memory or threads run out.
 void draw(const ShellMesh& mesh, const std::filesystem::path& path, ExecutionContext& context) {
   IsolatedWork options;
@@ -97,8 +96,7 @@ void draw(const ShellMesh& mesh, const std::filesystem::path& path, ExecutionCon
 void write_outputs(const ShellMesh& mesh, const MeshArguments& arguments, ExecutionContext& context,
                    CancelOnSignal& cancel) {
   const StageTimer timer(context, Stage::write);
-  WriteOptions options;
-  options.msh_version = msh_version(arguments.msh_version);
+  WriteOptions options = arguments.settings.write;
   options.threads = arguments.settings.threads;
   options.title = fmt::format("Quadrille {}: {}", version(), arguments.input.filename().string());
   const double count = static_cast<double>(arguments.outputs.size());
@@ -187,8 +185,6 @@ void add_mesh_command(CLI::App& app) {
       ->allow_extra_args(false);
   add_settings(*command, *arguments);
   command->get_option("--elements-per-diagonal")->excludes("--size");
-  command->add_option("--msh-version", arguments->msh_version, "version of .msh files: 2.2 (default) or 4.1")
-      ->check(CLI::IsMember({"2.2", "4.1"}));
   command->add_option("--write-size-field", arguments->write_size_field,
                       "write the size that is meshed with as OpenVDB grids (.vdb)");
   command->add_option("--report", arguments->report, "write counts, quality and times as JSON");

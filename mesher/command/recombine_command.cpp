@@ -27,9 +27,7 @@ struct RecombineArguments {
 };
 
 void check(const RecombineArguments& arguments) {
-  if (!is_mesh_format(arguments.output)) {
-    throw usage_error("-o", fmt::format("{}: unknown mesh format", arguments.output.string()));
-  }
+  check_format(arguments.output, 4);
   require_writable(arguments.output);
   if (!arguments.report.empty()) require_writable(arguments.report);
   require_readable(arguments.input);
@@ -156,7 +154,7 @@ void run(const RecombineArguments& arguments) {
   const ShellMesh result = to_shell(quads, input, renumbered);
   {
     const StageTimer timer(context, Stage::write);
-    write_mesh(result, arguments.output);
+    write_mesh(result, arguments.output, arguments.options.settings.write);
   }
   const QualitySummary summary = quality(result);
   if (!arguments.report.empty()) write_report(result, summary, context, arguments.input, arguments.report);
@@ -182,7 +180,7 @@ void add_recombine_command(CLI::App& app) {
           "what pairs are exchanged for: regular (points with four quads, default) or shape (mean q)")
       ->check(CLI::IsMember({"regular", "shape"}));
   command->add_option("--report", arguments->report, "write counts, quality and times as JSON");
-  add_settings(*command, arguments->options, {"threads"});
+  add_settings(*command, arguments->options, {"threads", "msh_version", "groups"});
   command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");
   command->callback([arguments] { run(*arguments); });
 }

@@ -18,6 +18,8 @@ std::string help_of(const Setting& setting) {
   const SettingValue value = setting.value(Settings());
   if (const auto* number = std::get_if<double>(&value)) text += fmt::format(" (default {:g})", *number);
   if (const auto* word = std::get_if<std::string>(&value)) text += fmt::format(" (default {})", *word);
+  if (const auto* words = std::get_if<std::vector<std::string>>(&value))
+    text += fmt::format(" (of {}; default {})", fmt::join(setting.choices(), ", "), fmt::join(*words, ","));
   return text;
 }
 
@@ -31,7 +33,7 @@ void add_setting(CLI::App& command, const Setting& setting, GivenSettings& targe
   if (kind == "flag") {
     command.add_flag_callback(
         option, [take] { take({"true"}); }, help_of(setting));
-  } else if (kind == "names" || kind == "sizes") {
+  } else if (kind == "names" || kind == "sizes" || kind == "words") {
     command.add_option_function<std::vector<std::string>>(option, take, help_of(setting))
         ->delimiter(',')
         ->allow_extra_args(false);

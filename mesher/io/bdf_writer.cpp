@@ -1,10 +1,13 @@
-/// Nastran bulk data in free format: GRID*, CQUAD4, CQUAD8, CTRIA3, with a SET for each CAD entity in the
-/// case control. The property number of an element is its CAD face.
+/// Nastran bulk data in fixed fields, of 16 columns for GRID and of 8 for all else, which more programs read
+/// than free ones: GRID*, CQUAD4, CQUAD8, CTRIA3, a PSHELL for each CAD face, and a SET for each CAD entity
+/// in the case control. The property number of an element is its CAD face. Based on: the MSC Nastran quick
+/// reference guide, "Format of bulk data entries".
 
 #include <algorithm>
 #include <charconv>
 #include <string>
 
+#include "geometry/base/error.hpp"
 #include "mesher/io/writers.hpp"
 
 namespace quadrille {
@@ -28,9 +31,16 @@ std::string_view field16(double value, char (&text)[40]) {
   return {text, static_cast<std::size_t>(end - text)};
 }
 
+constexpr std::size_t narrow = 8, wide = 16;
+
+/// Text in a field, to its right.
+void write_field(std::string_view text, std::size_t columns, TextWriter& out) {
+  for (std::size_t i = text.size(); i < columns; ++i) out << ' ';
+  out << text;
+}
 void write_real(double value, TextWriter& out) {
   char text[40];
-  out << field16(value, text);
+  write_field(field16(value, text), wide, out);
 }
 
 /// "SET 3 = 1 THRU 7, 9": consecutive numbers are joined, lines stay under 72 columns.
@@ -66,11 +76,9 @@ void write_sets(const OutputMesh& mesh, TextWriter& out) {
   for (const CadGroup& group : mesh.edges())
     if (group.number > 0)
       write_set(++set, "Edge", group.number, "grids", mesh.segment_node_numbers(group), out);
-  for (const CadGroup& group : mesh.vertices()) {
-    std::vector<int> numbers;
-    for (const int corner : group.members) numbers.push_back(mesh.number(mesh.mesh().corners[corner].node));
-    if (group.number > 0) write_set(++set, "Vertex", group.number, "grids", numbers, out);
-  }
+  for (const CadGroup& group : mesh.vertices())
+    if (group.number > 0)
+      write_set(++set, "Vertex", group.number, "grids", mesh.corner_node_numbers(group), out);
 }
 
 const char* card(const ElementNodes& element) {
@@ -78,31 +86,68 @@ const char* card(const ElementNodes& element) {
   return element.count == 8 ? "CQUAD8" : "CQUAD4";
 }
 
+/// A property number is positive; elements of no face share the number after the largest.
+int property(const OutputMesh& mesh, int face) {
+  return face > 0 ? face : mesh.cad_face_count() + 1;
+}
+
+/// A property for each face, of material 1 and of the shell's thickness where that is known: whoever includes
+/// the file defines the material, and the other thicknesses.
+void write_properties(const OutputMesh& mesh, TextWriter& out) {
+  for (const CadGroup& group : mesh.faces()) {
+    out << "PSHELL  ";
+    out.padded(property(mesh, group.number), narrow);
+    const ThicknessGroup* thickness = nullptr;
+    for (const ThicknessGroup& candidate : mesh.thicknesses()) {
+      if (std::binary_search(candidate.faces.begin(), candidate.faces.end(), group.number))
+        thickness = &candidate;
+    }
+    if (thickness != nullptr) {
+      out.padded(1, narrow);
+      const std::string& text = thickness->thickness;
+      const std::size_t exponent = std::min(text.find('e'), text.size());
+      const bool lacks_point = text.find('.') == std::string::npos;
+      write_field(text.substr(0, exponent) + (lacks_point ? "." : "") + text.substr(exponent), narrow, out);
+    }
+    out << '\n';
+  }
+}
+
+void write_element(const OutputMesh& mesh, int shell, TextWriter& out) {
+  const ElementNodes element = mesh.shell_nodes(shell);
+  out << card(element) << "  ";
+  out.padded(shell + 1, narrow);
+  out.padded(property(mesh, mesh.face(shell)), narrow);
+  for (int k = 0; k < element.count; ++k) {
+    if (k == 6) out << "\n+       ";
+    out.padded(mesh.number(element.nodes[k]), narrow);
+  }
+  out << '\n';
+}
+
 }  // namespace
 
 void write_bdf(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out) {
+  constexpr std::size_t most = 99'999'999;  // what a field of 8 columns holds
+  if (mesh.nodes().size() > most || static_cast<std::size_t>(mesh.shell_count()) > most)
+    throw failure(".bdf", "the mesh has more nodes or elements than the numbers of .bdf files count");
   out << "$ " << options.title << "\nCEND\n";
   write_sets(mesh, out);
   out << "BEGIN BULK\n";
+  write_properties(mesh, out);
   write_in_order(mesh.nodes().size(), out, [&](std::size_t i, TextWriter& to) {
     const Vector3& point = mesh.point(static_cast<int>(i));
-    to << "GRID*," << i + 1 << ",,";
+    to << "GRID*   ";
+    to.padded(static_cast<int>(i) + 1, wide);
+    write_field({}, wide, to);
     write_real(point.x(), to);
-    to << ',';
     write_real(point.y(), to);
-    to << "\n*,";
+    to << "\n*       ";
     write_real(point.z(), to);
     to << '\n';
   });
-  write_in_order(mesh.shell_count(), out, [&](std::size_t i, TextWriter& to) {
-    const int shell = static_cast<int>(i);
-    const ElementNodes element = mesh.shell_nodes(shell);
-    // A property number is positive; elements of no face share the number after the largest.
-    const int property = mesh.face(shell) > 0 ? mesh.face(shell) : mesh.faces().back().number + 1;
-    to << card(element) << ',' << shell + 1 << ',' << std::max(property, 1);
-    for (int k = 0; k < element.count; ++k) to << (k == 6 ? "\n," : ",") << mesh.number(element.nodes[k]);
-    to << '\n';
-  });
+  write_in_order(mesh.shell_count(), out,
+                 [&](std::size_t i, TextWriter& to) { write_element(mesh, static_cast<int>(i), to); });
   out << "ENDDATA\n";
 }
 

@@ -1,7 +1,9 @@
 /// Abaqus / CalculiX .inp: nodes, shells, and a set for each CAD entity. Based on: the CalculiX 2.20 manual.
 
 #include <algorithm>
+#include <array>
 
+#include "mesher/io/segment_sides.hpp"
 #include "mesher/io/writers.hpp"
 
 namespace quadrille {
@@ -20,7 +22,7 @@ void write_list(const std::vector<int>& numbers, TextWriter& out) {
 
 const char* element_type(const OutputMesh& mesh, bool quad) {
   if (!quad) return "S3";
-  return mesh.mesh().order == 2 ? "S8R" : "S4";
+  return mesh.order() == 2 ? "S8R" : "S4";
 }
 
 /// The quads, or the triangles, of one face.
@@ -41,13 +43,28 @@ void write_elements(const OutputMesh& mesh, const CadGroup& group, bool quads, T
   });
 }
 
-void write_all_elements_set(const OutputMesh& mesh, TextWriter& out) {
-  out << "*ELSET, ELSET=Eall\n";
-  for (const CadGroup& group : mesh.faces()) {
-    if (group.number > 0)
-      out << "Face" << group.number << '\n';
-    else
-      out << "Eother\n";
+/// Sets of the elements that have their first side on an edge, their second, and so on: Edge7_Side1 takes the
+/// load EDNOR1. Where elements on both sides of an edge share it, those of the first face have it: a load on
+/// all four sets is one load.
+void write_side_sets(const OutputMesh& mesh, TextWriter& out) {
+  std::vector<std::array<std::vector<int>, 4>> of_segments(mesh.edges().size());
+  std::vector<std::size_t> place(mesh.segment_count());
+  for (std::size_t i = 0; i < mesh.edges().size(); ++i) {
+    for (const int segment : mesh.edges()[i].members) place[segment] = i;
+  }
+  int last = -1;
+  for (const SegmentSide& side : segment_sides(mesh)) {
+    if (side.segment != last) of_segments[place[side.segment]][side.side].push_back(side.shell + 1);
+    last = side.segment;
+  }
+  for (std::size_t i = 0; i < of_segments.size(); ++i) {
+    for (int side = 0; side < 4 && mesh.edges()[i].number > 0; ++side) {
+      std::vector<int>& elements = of_segments[i][side];
+      if (elements.empty()) continue;
+      std::sort(elements.begin(), elements.end());
+      out << "*ELSET, ELSET=Edge" << mesh.edges()[i].number << "_Side" << side + 1 << '\n';
+      write_list(elements, out);
+    }
   }
 }
 
@@ -85,16 +102,14 @@ void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& 
     write_elements(mesh, group, true, out);
     write_elements(mesh, group, false, out);
   }
-  write_all_elements_set(mesh, out);
+  out << "*ELSET, ELSET=Eall, GENERATE\n1, " << mesh.shell_count() << ", 1\n";
   for (const CadGroup& group : mesh.faces())
     write_node_set("Face", group.number, mesh.shell_node_numbers(group), out);
   for (const CadGroup& group : mesh.edges())
     write_node_set("Edge", group.number, mesh.segment_node_numbers(group), out);
-  for (const CadGroup& group : mesh.vertices()) {
-    std::vector<int> numbers;
-    for (const int corner : group.members) numbers.push_back(mesh.number(mesh.mesh().corners[corner].node));
-    write_node_set("Vertex", group.number, numbers, out);
-  }
+  for (const CadGroup& group : mesh.vertices())
+    write_node_set("Vertex", group.number, mesh.corner_node_numbers(group), out);
+  write_side_sets(mesh, out);
   // The side that the element normals point to.
   for (const CadGroup& group : mesh.faces())
     if (group.number > 0)

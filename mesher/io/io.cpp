@@ -13,6 +13,7 @@
 #include "mesher/io/modules.hpp"
 #include "mesher/io/readers.hpp"
 #include "mesher/io/writers.hpp"
+#include "mesher/mesh/quality.hpp"
 
 namespace quadrille {
 
@@ -26,13 +27,15 @@ std::string lower_ending(const std::filesystem::path& path) {
 }
 
 void write_text(const OutputMesh& mesh, const std::string& ending, const WriteOptions& options,
-                TextWriter& out) {
+                const std::vector<double>& qualities, TextWriter& out) {
   if (ending == ".inp")
     write_inp(mesh, options, out);
   else if (ending == ".unv")
     write_unv(mesh, out);
   else if (ending == ".bdf")
     write_bdf(mesh, options, out);
+  else if (ending == ".vtk")
+    write_vtk(mesh, options, qualities, out);
   else if (options.msh_version == MshVersion::v4_1)
     write_msh4(mesh, out);
   else
@@ -44,14 +47,16 @@ void write_format(const ShellMesh& mesh, const std::filesystem::path& path, Writ
   const std::string ending = lower_ending(path);
   // A line break in a title would be followed by what solvers take for a card.
   options.title = options.title.empty() ? "Quadrille mesh" : printable(options.title);
-  const OutputMesh output(mesh);
+  const OutputMesh output(mesh, options.groups, options.quad_nodes);
+  const bool tells_quality = ending == ".vtu" || ending == ".vtk";
+  const std::vector<double> qualities = tells_quality ? quad_qualities(mesh) : std::vector<double>();
   if (ending == ".med") {
     file.write(med_file(output, printable(path.stem().string()), options.title));
-  } else if (ending == ".vtu" || ending == ".vtk") {
-    file.write(vtk_file(mesh, ending == ".vtk"));
+  } else if (ending == ".vtu") {
+    file.write(vtu_file(output, qualities));
   } else {
     TextWriter out(file);
-    on_threads(options.threads, [&] { write_text(output, ending, options, out); });
+    on_threads(options.threads, [&] { write_text(output, ending, options, qualities, out); });
     out.flush();
   }
 }
@@ -77,19 +82,31 @@ bool is_solver_format(const std::filesystem::path& path) {
          std::end(read_by_solvers);
 }
 
-MshVersion msh_version(std::string_view text) {
-  if (text == "2.2") return MshVersion::v2_2;
-  if (text == "4.1") return MshVersion::v4_1;
-  throw usage_error("msh_version",
-                    fmt::format("the version of .msh files must be 2.2 or 4.1, not '{}'", text));
-}
-
-void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path, const WriteOptions& options) {
+void check_format(const std::filesystem::path& path, int quad_nodes) {
   if (!is_mesh_format(path))
     throw usage_error(path.string(),
                       fmt::format("{}: unknown mesh format (known are .msh, .inp, .unv, .bdf, .med, "
                                   ".vtu and .vtk)",
                                   path.string()));
+  const std::string ending = lower_ending(path);
+  if (quad_nodes == 9 && (ending == ".inp" || ending == ".unv" || ending == ".bdf"))
+    throw usage_error("nodes", fmt::format("{}: such files have no quads of nine nodes: `nodes` 9 is for "
+                                           ".msh, .med, .vtu and .vtk",
+                                           path.string()));
+  constexpr std::size_t longest_name = 64;  // bytes that MED has for the name of a mesh
+  const std::size_t name = path.stem().string().size();
+  if (ending == ".med" && name > longest_name)
+    throw usage_error(
+        path.string(),
+        fmt::format("{}: without its ending the name has {} bytes, and the mesh in a .med file, "
+                    "which FreeCAD finds by it, has {} for its name: give the file a shorter one",
+                    path.string(), name, longest_name));
+}
+
+void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path, const WriteOptions& options) {
+  if (mesh.order == 1 && options.quad_nodes == 9)
+    throw usage_error("nodes", "`nodes` 9 is for meshes of second order, and this one is of first");
+  check_format(path, mesh.order == 1 ? 4 : options.quad_nodes);
   AtomicFile file(path);
   write_format(mesh, path, options, file);
   file.commit();

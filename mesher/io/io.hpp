@@ -7,26 +7,21 @@
 
 #include "mesher/mesh/criteria.hpp"
 #include "mesher/mesh/mesh_types.hpp"
+#include "mesher/options.hpp"
 
 namespace quadrille {
 
-/// Of Gmsh's .msh, both as text.
-enum class MshVersion { v2_2, v4_1 };
-
-/// "2.2" or "4.1". Throws Error (usage) for others.
-MshVersion msh_version(std::string_view text);
-
-struct WriteOptions {
-  MshVersion msh_version = MshVersion::v2_2;
-  std::string title;  ///< put into formats that have a comment or title line, control characters as '?'
-  int threads = 0;    ///< that make the text of .msh, .inp, .unv and .bdf; 0 = all cores
-};
-
 /// Writes .msh (Gmsh), .inp (Abaqus/CalculiX), .unv (I-deas), .bdf (Nastran), .med (Salome), .vtu, .vtk
 /// (legacy): the quads with their CAD faces, the segments on CAD edges and the corners on CAD vertices as
-/// groups named as in FreeCAD (Face3, Edge7, Vertex2). Numbering is dense from 1. The file appears whole or
-/// not at all. Throws Error: usage for an unknown ending, failure when the file cannot be written.
+/// groups named as in FreeCAD (Face3, Edge7, Vertex2), as far as options.groups wants them. Numbering is
+/// dense from 1. The file appears whole or not at all. What the formats hold: docs/formats.md. Throws Error:
+/// usage as check_format() does, failure when the file cannot be written.
 void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path, const WriteOptions& options = {});
+
+/// Throws Error (usage) where no such file can hold the mesh: for unknown endings, for quads of nine nodes in
+/// .inp, .unv and .bdf files, for .med files with names of more than 64 bytes without the ending.
+/// \param quad_nodes 4, 8 or 9.
+void check_format(const std::filesystem::path& path, int quad_nodes);
 
 /// True if write_mesh knows the file's ending.
 bool is_mesh_format(const std::filesystem::path& path);

@@ -128,13 +128,13 @@ class MedWriter {
     check(MEDfamilyCr(file_, name_.c_str(), "FAMILLE_ZERO", 0, 0, ""), "a family");
     Families families{std::vector<med_int>(mesh_.nodes().size(), 0),
                       std::vector<med_int>(mesh_.shell_count(), 0),
-                      std::vector<med_int>(mesh_.mesh().segments.size(), 0)};
+                      std::vector<med_int>(mesh_.segment_count(), 0)};
     med_int next_node = 1, next_element = -1;
     for (const CadGroup& group : mesh_.vertices()) {
       if (group.number == 0) continue;
       make_family("Vertex" + std::to_string(group.number), next_node);
       for (const int corner : group.members)
-        families.nodes[mesh_.number(mesh_.mesh().corners[corner].node) - 1] = next_node;
+        families.nodes[mesh_.number(mesh_.corner_node(corner)) - 1] = next_node;
       ++next_node;
     }
     add_element_families(mesh_.faces(), "Face", next_element, families.shells,
@@ -148,7 +148,7 @@ class MedWriter {
     std::vector<double> coordinates;
     coordinates.reserve(3 * mesh_.nodes().size());
     for (const int node : mesh_.nodes())
-      for (const double coordinate : mesh_.mesh().points[node]) coordinates.push_back(coordinate);
+      for (const double coordinate : mesh_.position(node)) coordinates.push_back(coordinate);
     check(MEDmeshNodeCoordinateWr(file_, name_.c_str(), MED_NO_DT, MED_NO_IT, 0.0, MED_FULL_INTERLACE,
                                   static_cast<med_int>(mesh_.nodes().size()), coordinates.data()),
           "the nodes");
@@ -173,8 +173,8 @@ class MedWriter {
 
   void write_segments(const std::vector<med_int>& families) const {
     ElementTable straight{MED_SEG2, {}, {}}, curved{MED_SEG3, {}, {}};
-    for (std::size_t i = 0; i < mesh_.mesh().segments.size(); ++i) {
-      const ElementNodes element = mesh_.segment_nodes(static_cast<int>(i));
+    for (int i = 0; i < mesh_.segment_count(); ++i) {
+      const ElementNodes element = mesh_.segment_nodes(i);
       (element.count == 3 ? curved : straight).add(mesh_, element, families[i]);
     }
     write_table(straight);
@@ -182,12 +182,17 @@ class MedWriter {
   }
 
   void write_shells(const std::vector<med_int>& families) const {
-    ElementTable triangles{MED_TRIA3, {}, {}};
-    ElementTable quads{mesh_.mesh().order == 2 ? MED_QUAD8 : MED_QUAD4, {}, {}};
-    for (int i = 0; i < mesh_.shell_count(); ++i)
-      (mesh_.is_quad(i) ? quads : triangles).add(mesh_, mesh_.shell_nodes(i), families[i]);
-    write_table(triangles);
-    write_table(quads);
+    ElementTable triangles{MED_TRIA3, {}, {}}, straight{MED_QUAD4, {}, {}}, eight{MED_QUAD8, {}, {}},
+        nine{MED_QUAD9, {}, {}};
+    for (int i = 0; i < mesh_.shell_count(); ++i) {
+      const ElementNodes element = mesh_.shell_nodes(i);
+      ElementTable& table = element.count == 3   ? triangles
+                            : element.count == 4 ? straight
+                            : element.count == 8 ? eight
+                                                 : nine;
+      table.add(mesh_, element, families[i]);
+    }
+    for (const ElementTable* table : {&triangles, &straight, &eight, &nine}) write_table(*table);
   }
 
   med_idt file_;

@@ -24,9 +24,9 @@ void check(const std::string& problem) {
 
 }  // namespace
 
-std::string vtk_file(const ShellMesh& mesh, bool legacy) {
+std::string vtu_file(const OutputMesh& mesh, const std::vector<double>& qualities) {
   std::string bytes;
-  check(vtk_module().function<VtkFileFunction>("_file")(mesh, quad_qualities(mesh), legacy, bytes));
+  check(vtk_module().function<VtkFileFunction>("_file")(mesh, qualities, bytes));
   return bytes;
 }
 

@@ -12,15 +12,16 @@ namespace quadrille {
 
 /// What the modules export, as C symbols of these types. Each function returns an empty string, or the
 /// sentence that says what went wrong; nothing is thrown across the border.
-using VtkFileFunction = std::string(const ShellMesh& mesh, const std::vector<double>& qualities, bool legacy,
+using VtkFileFunction = std::string(const OutputMesh& mesh, const std::vector<double>& qualities,
                                     std::string& bytes);
 using VtkPictureFunction = std::string(const ShellMesh& mesh, const std::vector<double>& qualities, int width,
                                        int height, std::string& bytes);
 using MedFileFunction = std::string(const OutputMesh& mesh, const std::string& name,
                                     const std::string& description, std::string& bytes);
 
-/// The bytes of a .vtu file, or of a legacy .vtk file. Throws Error (failure).
-std::string vtk_file(const ShellMesh& mesh, bool legacy);
+/// The bytes of a .vtu file: shell elements, lines on CAD edges, points on CAD vertices, with their CAD
+/// numbers. \param qualities q of each quad. Throws Error (failure).
+std::string vtu_file(const OutputMesh& mesh, const std::vector<double>& qualities);
 
 /// The bytes of a PNG of the mesh. Throws Error (failure).
 std::string vtk_picture(const ShellMesh& mesh, int width, int height);

@@ -39,12 +39,33 @@ void sort_unique(std::vector<int>& numbers) {
 
 }  // namespace
 
-OutputMesh::OutputMesh(const ShellMesh& mesh) : mesh_(mesh) {
+OutputMesh::OutputMesh(const ShellMesh& mesh, const GroupKinds& groups, int quad_nodes)
+    : mesh_(mesh), groups_(groups) {
   number_nodes();
+  if (quad_nodes == 9 && mesh.order == 2) add_middles();
   faces_ = grouped(shell_count(), [this](int i) { return face(i); });
-  edges_ = grouped(static_cast<int>(mesh.segments.size()), [&](int i) { return mesh.segments[i].edge; });
-  vertices_ = grouped(static_cast<int>(mesh.corners.size()), [&](int i) { return mesh.corners[i].vertex; });
+  edges_ = grouped(segment_count(), [this](int i) { return edge(i); });
+  vertices_ = grouped(corner_count(), [this](int i) { return vertex(i); });
   group_by_thickness();
+}
+
+void OutputMesh::add_middles() {
+  middles_.reserve(mesh_.quads.size());
+  for (std::size_t i = 0; i < mesh_.quads.size(); ++i) {
+    // The shape functions of the eight-node element at its middle.
+    Vector3 middle = Vector3::Zero();
+    for (int k = 0; k < 4; ++k)
+      middle += 0.5 * mesh_.points[mesh_.midsides[i][k]] - 0.25 * mesh_.points[mesh_.quads[i][k]];
+    nodes_.push_back(static_cast<int>(mesh_.points.size() + i));
+    numbers_.push_back(static_cast<int>(nodes_.size()));
+    middles_.push_back(middle);
+  }
+}
+
+int OutputMesh::cad_face_count() const {
+  int count = static_cast<int>(mesh_.faces.size());
+  for (const CadGroup& group : faces_) count = std::max(count, group.number);
+  return count;
 }
 
 void OutputMesh::group_by_thickness() {
@@ -94,6 +115,7 @@ void OutputMesh::number_nodes() {
 }
 
 int OutputMesh::face(int shell) const {
+  if (!groups_.faces) return 0;
   const std::vector<int>& faces = is_quad(shell) ? mesh_.quad_faces : mesh_.triangle_faces;
   const std::size_t index = is_quad(shell) ? shell : shell - quad_count();
   return index < faces.size() ? faces[index] : 0;
@@ -111,6 +133,7 @@ ElementNodes OutputMesh::shell_nodes(int shell) const {
   if (mesh_.order == 2) {
     std::copy_n(mesh_.midsides[shell].begin(), 4, result.nodes.begin() + 4);
     result.count = 8;
+    if (!middles_.empty()) result.nodes[result.count++] = static_cast<int>(mesh_.points.size()) + shell;
   }
   return result;
 }
@@ -134,6 +157,13 @@ std::vector<int> OutputMesh::segment_node_numbers(const CadGroup& group) const {
   std::vector<int> numbers;
   for (const int segment : group.members)
     for (const int node : segment_nodes(segment)) numbers.push_back(number(node));
+  sort_unique(numbers);
+  return numbers;
+}
+
+std::vector<int> OutputMesh::corner_node_numbers(const CadGroup& group) const {
+  std::vector<int> numbers;
+  for (const int corner : group.members) numbers.push_back(number(corner_node(corner)));
   sort_unique(numbers);
   return numbers;
 }

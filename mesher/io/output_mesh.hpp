@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "mesher/mesh/mesh_types.hpp"
+#include "mesher/options.hpp"
 
 namespace quadrille {
 
-/// The nodes of one element as indices into ShellMesh::points: corners, then midside nodes.
+/// The nodes of one element, as OutputMesh::position() takes them: corners, midside nodes, the middle.
 struct ElementNodes {
-  std::array<int, 8> nodes{};
+  std::array<int, 9> nodes{};
   int count = 0;
   const int* begin() const { return nodes.data(); }
   const int* end() const { return nodes.data() + count; }
@@ -35,21 +36,37 @@ struct ThicknessGroup {
 /// Keeps a reference to the mesh.
 class OutputMesh {
  public:
+  /// \param groups the kinds of which there are groups: of others there are none, nor segments and corners.
+  /// \param quad_nodes of second-order quads: 8 or 9. The ninth lies where the eight-node element has its
+  /// middle, so that the element's shape stays what it was, its validity too.
   /// Throws Error (failure) when an element has a node out of range or a node has no finite position.
-  explicit OutputMesh(const ShellMesh& mesh);
+  explicit OutputMesh(const ShellMesh& mesh, const GroupKinds& groups = {}, int quad_nodes = 8);
 
-  const ShellMesh& mesh() const { return mesh_; }
-  /// Indices of the nodes that are used, in file order: node i of the file is points[nodes()[i - 1]].
+  /// Nodes that are used, in file order: node i of the file is nodes()[i - 1].
   const std::vector<int>& nodes() const { return nodes_; }
   /// Number of a node in the file, from 1.
   int number(int node) const { return numbers_[node]; }
-  const Vector3& point(int file_index) const { return mesh_.points[nodes_[file_index]]; }
+  /// Nodes below the mesh's own count are its points, those from there on the middles of quads.
+  const Vector3& position(int node) const {
+    const int own = static_cast<int>(mesh_.points.size());
+    return node < own ? mesh_.points[node] : middles_[node - own];
+  }
+  const Vector3& point(int file_index) const { return position(nodes_[file_index]); }
 
+  int order() const { return mesh_.order; }
   int quad_count() const { return static_cast<int>(mesh_.quads.size()); }
   int shell_count() const { return quad_count() + static_cast<int>(mesh_.triangles.size()); }
+  int segment_count() const { return groups_.edges ? static_cast<int>(mesh_.segments.size()) : 0; }
+  int corner_count() const { return groups_.vertices ? static_cast<int>(mesh_.corners.size()) : 0; }
   bool is_quad(int shell) const { return shell < quad_count(); }
-  /// CAD face of a shell element, 0 = none.
+  /// CAD face of a shell element, edge of a segment, vertex of a corner; 0 = none.
   int face(int shell) const;
+  int edge(int segment) const { return mesh_.segments[segment].edge; }
+  int vertex(int corner) const { return mesh_.corners[corner].vertex; }
+  /// How many faces the CAD model has, or, where that is not known, the largest number of a face with
+  /// elements.
+  int cad_face_count() const;
+  int corner_node(int corner) const { return mesh_.corners[corner].node; }
   ElementNodes shell_nodes(int shell) const;
   /// End nodes, then the midside node at second order.
   ElementNodes segment_nodes(int segment) const;
@@ -60,16 +77,20 @@ class OutputMesh {
   /// By thickness, in the order of their first faces; empty where no thickness is known.
   const std::vector<ThicknessGroup>& thicknesses() const { return thicknesses_; }
 
-  /// File numbers of the nodes of a group of shell elements / segments, ascending, each once.
+  /// File numbers of the nodes of a group of shell elements / segments / corners, ascending, each once.
   std::vector<int> shell_node_numbers(const CadGroup& group) const;
   std::vector<int> segment_node_numbers(const CadGroup& group) const;
+  std::vector<int> corner_node_numbers(const CadGroup& group) const;
 
  private:
   void number_nodes();
+  void add_middles();
   void group_by_thickness();
   void use(int node, const char* what, std::size_t index);
 
   const ShellMesh& mesh_;
+  const GroupKinds groups_;
+  std::vector<Vector3> middles_;  ///< of the quads, where they have nine nodes
   std::vector<int> numbers_;
   std::vector<int> nodes_;
   std::vector<CadGroup> faces_, edges_, vertices_;

@@ -1,6 +1,9 @@
 /// I-deas universal file: datasets 2411 (nodes), 2412 (elements) and 2467 (groups), as FreeCAD and Salome
-/// read them. Based on: the dataset descriptions of the University of Cincinnati's SDRL.
+/// read them. Eight-node quads are of descriptor 45 (plane stress), which FreeCAD, Salome, Gmsh and ElmerGrid
+/// read; 95 (thin shell) is not known to ElmerGrid. Based on: the dataset descriptions of the University of
+/// Cincinnati's SDRL.
 
+#include <algorithm>
 #include <string>
 
 #include "mesher/io/writers.hpp"
@@ -9,7 +12,7 @@ namespace quadrille {
 
 namespace {
 
-constexpr int beam = 21, beam_parabolic = 24, shell_triangle = 91, shell_quad = 94, shell_quad_parabolic = 95;
+constexpr int beam = 21, beam_parabolic = 24, shell_triangle = 91, shell_quad = 94, quad_parabolic = 45;
 constexpr int entity_node = 7, entity_element = 8;
 
 void begin_dataset(int number, TextWriter& out) {
@@ -54,7 +57,7 @@ void write_nodes(const OutputMesh& mesh, TextWriter& out) {
 int descriptor(const ElementNodes& element, bool line) {
   if (line) return element.count == 3 ? beam_parabolic : beam;
   if (element.count == 3) return shell_triangle;
-  return element.count == 8 ? shell_quad_parabolic : shell_quad;
+  return element.count == 8 ? quad_parabolic : shell_quad;
 }
 
 /// Second-order elements list their nodes around the element: corner, midside, corner, ...
@@ -83,10 +86,8 @@ void write_elements(const OutputMesh& mesh, TextWriter& out) {
     const int shell = static_cast<int>(i);
     write_element(mesh, shell + 1, mesh.shell_nodes(shell), mesh.face(shell), false, to);
   });
-  const auto& segments = mesh.mesh().segments;
-  for (std::size_t i = 0; i < segments.size(); ++i)
-    write_element(mesh, mesh.shell_count() + static_cast<int>(i) + 1, mesh.segment_nodes(static_cast<int>(i)),
-                  segments[i].edge, true, out);
+  for (int i = 0; i < mesh.segment_count(); ++i)
+    write_element(mesh, mesh.shell_count() + i + 1, mesh.segment_nodes(i), mesh.edge(i), true, out);
   end_dataset(out);
 }
 
@@ -119,6 +120,11 @@ class GroupWriter {
 };
 
 void write_groups(const OutputMesh& mesh, TextWriter& out) {
+  const auto is_named = [](const CadGroup& group) { return group.number != 0; };
+  const auto has_named = [&](const auto& groups) {
+    return std::any_of(groups.begin(), groups.end(), is_named);
+  };
+  if (!has_named(mesh.faces()) && !has_named(mesh.edges()) && !has_named(mesh.vertices())) return;
   begin_dataset(2467, out);
   GroupWriter groups(out);
   for (const CadGroup& group : mesh.faces())
@@ -128,7 +134,7 @@ void write_groups(const OutputMesh& mesh, TextWriter& out) {
                  [&](int segment) { return mesh.shell_count() + segment + 1; });
   for (const CadGroup& group : mesh.vertices())
     groups.write(group, "Vertex", entity_node,
-                 [&](int corner) { return mesh.number(mesh.mesh().corners[corner].node); });
+                 [&](int corner) { return mesh.number(mesh.corner_node(corner)); });
   for (const ThicknessGroup& group : mesh.thicknesses())
     groups.write(group.name, group.members, entity_element, [](int shell) { return shell + 1; });
   end_dataset(out);

@@ -1,4 +1,4 @@
-/// The module libquadrille_vtk.so: .vtu and .vtk files and pictures, by VTK. See modules.hpp.
+/// The module libquadrille_vtk.so: .vtu files and pictures, by VTK. See modules.hpp.
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -20,7 +20,6 @@
 #include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkUnstructuredGridWriter.h>
 #include <vtkWindowToImageFilter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -47,7 +46,7 @@ vtkNew<vtkPoints> make_points(const ShellMesh& mesh) {
   return points;
 }
 
-/// Face and q of each cell, quads before triangles. A triangle has no q.
+/// Face and q of each polygon, quads before triangles. A triangle has no q.
 void add_cell_data(const ShellMesh& mesh, const std::vector<double>& qualities, vtkCellData* data) {
   vtkNew<vtkIntArray> faces;
   faces->SetName("face");
@@ -72,32 +71,77 @@ void add_cell(vtkCellArray* cells, const std::array<int, N>& nodes) {
   cells->InsertNextCell(static_cast<vtkIdType>(N), ids.data());
 }
 
-std::array<int, 8> joined(const std::array<int, 4>& corners, const std::array<int, 4>& midsides) {
-  std::array<int, 8> nodes;
-  std::copy(midsides.begin(), midsides.end(), std::copy(corners.begin(), corners.end(), nodes.begin()));
-  return nodes;
+/// What VTK calls the shell elements, by the count of their nodes.
+int cell_type(int nodes) {
+  switch (nodes) {
+    case 3:
+      return VTK_TRIANGLE;
+    case 4:
+      return VTK_QUAD;
+    case 8:
+      return VTK_QUADRATIC_QUAD;
+    default:
+      return VTK_BIQUADRATIC_QUAD;
+  }
 }
 
-vtkNew<vtkUnstructuredGrid> make_grid(const ShellMesh& mesh, const std::vector<double>& qualities) {
-  vtkNew<vtkUnstructuredGrid> grid;
-  vtkNew<vtkCellArray> cells;
-  vtkNew<vtkUnsignedCharArray> types;
-  for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
-    if (mesh.order == 2)
-      add_cell(cells, joined(mesh.quads[i], mesh.midsides[i]));
-    else
-      add_cell(cells, mesh.quads[i]);
-    types->InsertNextValue(mesh.order == 2 ? VTK_QUADRATIC_QUAD : VTK_QUAD);
+/// A mesh as VTK has it: shell elements, then lines, then points, each with its CAD numbers.
+class GridMaker {
+ public:
+  explicit GridMaker(const OutputMesh& mesh) : mesh_(mesh) {
+    constexpr const char* names[] = {"vertex", "edge", "face"};
+    for (int dimension = 0; dimension < 3; ++dimension) cad_[dimension]->SetName(names[dimension]);
+    q_->SetName("q");
   }
-  for (const auto& triangle : mesh.triangles) {
-    add_cell(cells, triangle);
-    types->InsertNextValue(VTK_TRIANGLE);
+
+  vtkNew<vtkUnstructuredGrid> make(const std::vector<double>& qualities) {
+    for (int i = 0; i < mesh_.shell_count(); ++i) {
+      const ElementNodes nodes = mesh_.shell_nodes(i);
+      add(nodes, cell_type(nodes.count), 2, mesh_.face(i));
+      q_->InsertNextValue(mesh_.is_quad(i) ? qualities[i] : 0);
+    }
+    // Lines and points have no q: drawn by it, they have the color of "not a number".
+    for (int i = 0; i < mesh_.segment_count(); ++i) {
+      const ElementNodes nodes = mesh_.segment_nodes(i);
+      add(nodes, nodes.count == 3 ? VTK_QUADRATIC_EDGE : VTK_LINE, 1, mesh_.edge(i));
+      q_->InsertNextValue(std::numeric_limits<double>::quiet_NaN());
+    }
+    for (int i = 0; i < mesh_.corner_count(); ++i) {
+      add({{mesh_.corner_node(i)}, 1}, VTK_VERTEX, 0, mesh_.vertex(i));
+      q_->InsertNextValue(std::numeric_limits<double>::quiet_NaN());
+    }
+    vtkNew<vtkUnstructuredGrid> grid;
+    grid->SetPoints(points());
+    grid->SetCells(types_, cells_);
+    for (const int dimension : {2, 1, 0}) grid->GetCellData()->AddArray(cad_[dimension]);
+    grid->GetCellData()->AddArray(q_);
+    return grid;
   }
-  grid->SetPoints(make_points(mesh));
-  grid->SetCells(types, cells);
-  add_cell_data(mesh, qualities, grid->GetCellData());
-  return grid;
-}
+
+ private:
+  void add(const ElementNodes& nodes, int type, int dimension, int number) {
+    std::array<vtkIdType, 9> ids;
+    std::transform(nodes.begin(), nodes.end(), ids.begin(), [&](int node) { return mesh_.number(node) - 1; });
+    cells_->InsertNextCell(nodes.count, ids.data());
+    types_->InsertNextValue(static_cast<unsigned char>(type));
+    for (int i = 0; i < 3; ++i) cad_[i]->InsertNextValue(i == dimension ? number : 0);
+  }
+
+  vtkNew<vtkPoints> points() const {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    points->SetNumberOfPoints(static_cast<vtkIdType>(mesh_.nodes().size()));
+    for (std::size_t i = 0; i < mesh_.nodes().size(); ++i)
+      points->SetPoint(static_cast<vtkIdType>(i), mesh_.point(static_cast<int>(i)).data());
+    return points;
+  }
+
+  const OutputMesh& mesh_;
+  vtkNew<vtkCellArray> cells_;
+  vtkNew<vtkUnsignedCharArray> types_;
+  vtkNew<vtkIntArray> cad_[3];  ///< by dimension: the number of the CAD entity, 0 for other cells
+  vtkNew<vtkDoubleArray> q_;
+};
 
 std::string vtu_bytes(vtkUnstructuredGrid* grid) {
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
@@ -105,17 +149,6 @@ std::string vtu_bytes(vtkUnstructuredGrid* grid) {
   writer->WriteToOutputStringOn();
   writer->SetDataModeToBinary();  // base64 inside valid XML
   return writer->Write() == 1 ? writer->GetOutputString() : std::string();
-}
-
-std::string vtk_bytes(vtkUnstructuredGrid* grid) {
-  vtkNew<vtkUnstructuredGridWriter> writer;
-  writer->SetInputData(grid);
-  writer->SetHeader("Quadrille mesh");
-  writer->SetFileVersion(42);  // what all readers know; 5.1 is new with VTK 9
-  writer->SetFileTypeToBinary();
-  writer->WriteToOutputStringOn();
-  return writer->Write() == 1 ? std::string(writer->GetOutputString(), writer->GetOutputStringLength())
-                              : std::string();
 }
 
 // ---- the picture ----
@@ -359,11 +392,10 @@ QUADRILLE_EXPORT const char* quadrille_vtk_version() {
   return QUADRILLE_VERSION;
 }
 
-QUADRILLE_EXPORT std::string quadrille_vtk_file(const quadrille::ShellMesh& mesh,
-                                                const std::vector<double>& qualities, bool legacy,
+QUADRILLE_EXPORT std::string quadrille_vtk_file(const quadrille::OutputMesh& mesh,
+                                                const std::vector<double>& qualities,
                                                 std::string& bytes) try {
-  const auto grid = quadrille::make_grid(mesh, qualities);
-  bytes = legacy ? quadrille::vtk_bytes(grid) : quadrille::vtu_bytes(grid);
+  bytes = quadrille::vtu_bytes(quadrille::GridMaker(mesh).make(qualities));
   return bytes.empty() ? "VTK could not write the mesh" : "";
 } catch (const std::exception& error) {
   return error.what();

@@ -55,6 +55,7 @@ class CommandTest(unittest.TestCase):
         values = {"number": 7.5, "count": 2, "flag": True, "names": ["Face1"], "sizes": {"Face1": 3.0}}
         for setting in SETTINGS:
             value = values.get(setting["kind"], setting["choices"][-1] if setting["choices"] else None)
+            value = {"nodes": 9, "groups": ["faces"]}.get(setting["name"], value)
             value = {"mm": 0.5, "s": 100.0}.get(setting["unit"], value) if setting["kind"] == "number" else value
             if value is None:
                 continue  # files

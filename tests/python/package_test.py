@@ -171,10 +171,27 @@ class PackageTest(unittest.TestCase):
 
     def test_settings_are_those_of_the_table(self):
         for setting in quadrille.settings():
-            function = quadrille.read if setting["use"] == "read" else quadrille.mesh
+            function = {"read": quadrille.read, "mesh": quadrille.mesh, "write": quadrille.Mesh.write}[setting["use"]]
             self.assertIn(f"{setting['name']}: ", function.__doc__)
         with self.assertRaises(TypeError):
             quadrille.mesh(self.model, seed=1)
+
+    def test_files_hold_what_is_asked_for(self):
+        mesh = quadrille.mesh(self.model, size=8, order=2)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "a.msh"
+            mesh.write(path, msh_version="4.1", nodes=9, groups=["faces"], title="a")
+            text = path.read_text()
+            self.assertIn("4.1 0 8", text)
+            self.assertIn('"Face1"', text)
+            self.assertNotIn('"Edge1"', text)
+            self.assertIn(f"\n{len(mesh.points) + len(mesh.quads)}\n", text)
+            for wrong in ({"groups": ["sides"]}, {"groups": "faces"}, {"nodes": 7}, {"msh_version": "3"}):
+                with self.assertRaises(quadrille.Error) as caught:
+                    mesh.write(path, **wrong)
+                self.assertEqual(caught.exception.kind, "usage")
+            with self.assertRaises(TypeError):
+                mesh.write(path, size=2)
 
     def test_reading_survives_files_that_crash_the_reader(self):
         # References that lead to entities of the wrong kind: OpenCASCADE 7.6 crashes on some of them.

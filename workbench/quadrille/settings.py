@@ -17,7 +17,8 @@ SETTINGS: List[Dict[str, Any]] = json.loads(Path(__file__).with_name("settings.j
 BY_NAME = {setting["name"]: setting for setting in SETTINGS}
 
 #: The mesh is the same whatever these are.
-_WITHOUT_EFFECT_ON_THE_MESH = ("threads", "time_limit", "read_time_limit")
+_WITHOUT_EFFECT_ON_THE_MESH = frozenset(("threads", "time_limit", "read_time_limit", *(
+    setting["name"] for setting in SETTINGS if setting["use"] == "write")))
 #: FreeCAD's own words for the order of elements.
 _ORDERS = ("1st", "2nd")
 
@@ -56,6 +57,8 @@ def face_name(face: Union[int, str]) -> str:
 def _text(kind: str, value: Any) -> str:
     if kind == "names":
         return ",".join(face_name(face) for face in value)
+    if kind == "words":
+        return ",".join(value)
     if kind == "sizes":
         return ",".join(f"{name}={size!r}" for name, size in value.items())
     return repr(float(value)) if isinstance(value, float) else str(value)

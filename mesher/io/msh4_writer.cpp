@@ -1,0 +1,159 @@
+/// Gmsh .msh, version 4.1 in ASCII: nodes and elements come in blocks, one a CAD entity. Based on: the Gmsh
+/// reference manual, "MSH file format".
+
+#include <algorithm>
+#include <limits>
+
+#include "mesher/io/msh_parts.hpp"
+#include "mesher/io/segment_sides.hpp"
+#include "mesher/io/writers.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// The blocks of one dimension: CAD entities, the one without a number under a free number at the end.
+struct Entities {
+  int dimension = 0;
+  std::vector<CadGroup> elements;
+  std::vector<std::vector<int>> nodes;  // file numbers of the nodes inside each entity
+  std::vector<int> tags;
+  std::vector<std::vector<int>> boundaries;  // entities that bound each, signed
+};
+
+Entities make_entities(int dimension, const std::vector<CadGroup>& groups,
+                       const std::vector<std::vector<int>>& boundaries) {
+  Entities entities{dimension, groups, std::vector<std::vector<int>>(groups.size()), {}, boundaries};
+  int largest = 0;
+  for (const CadGroup& group : groups) largest = std::max(largest, group.number);
+  for (const CadGroup& group : groups) entities.tags.push_back(group.number > 0 ? group.number : largest + 1);
+  return entities;
+}
+
+ElementNodes element_nodes(const OutputMesh& mesh, int dimension, int member) {
+  if (dimension == 0) return {{mesh.corner_node(member)}, 1};
+  return dimension == 1 ? mesh.segment_nodes(member) : mesh.shell_nodes(member);
+}
+
+/// Gives each node to the entity of lowest dimension that has it.
+void claim_nodes(const OutputMesh& mesh, Entities& entities, std::vector<char>& claimed) {
+  for (std::size_t i = 0; i < entities.elements.size(); ++i)
+    for (const int member : entities.elements[i].members)
+      for (const int node : element_nodes(mesh, entities.dimension, member)) {
+        if (claimed[node]) continue;
+        claimed[node] = 1;
+        entities.nodes[i].push_back(mesh.number(node));
+      }
+}
+
+void write_entity(const OutputMesh& mesh, const Entities& entities, std::size_t index, int physical,
+                  TextWriter& out) {
+  const CadGroup& group = entities.elements[index];
+  Vector3 low = Vector3::Constant(std::numeric_limits<double>::max()), high = -low;
+  for (const int member : group.members)
+    for (const int node : element_nodes(mesh, entities.dimension, member)) {
+      low = low.cwiseMin(mesh.position(node));
+      high = high.cwiseMax(mesh.position(node));
+    }
+  out << entities.tags[index] << ' ';
+  write_msh_point(low, out);
+  if (entities.dimension > 0) {
+    out << ' ';
+    write_msh_point(high, out);
+  }
+  if (physical > 0)
+    out << " 1 " << physical;
+  else
+    out << " 0";
+  if (entities.dimension > 0) {
+    out << ' ' << entities.boundaries[index].size();
+    for (const int boundary : entities.boundaries[index]) out << ' ' << boundary;
+  }
+  out << '\n';
+}
+
+void write_node_blocks(const OutputMesh& mesh, const std::vector<Entities>& all, TextWriter& out) {
+  std::size_t blocks = 0;
+  for (const Entities& entities : all)
+    for (const auto& nodes : entities.nodes) blocks += !nodes.empty();
+  const std::size_t count = mesh.nodes().size();
+  out << "$Nodes\n" << blocks << ' ' << count << " 1 " << count << '\n';
+  for (const Entities& entities : all)
+    for (std::size_t i = 0; i < entities.nodes.size(); ++i) {
+      const std::vector<int>& nodes = entities.nodes[i];
+      if (nodes.empty()) continue;
+      out << entities.dimension << ' ' << entities.tags[i] << " 0 " << nodes.size() << '\n';
+      for (const int number : nodes) out << number << '\n';
+      write_in_order(nodes.size(), out, [&](std::size_t k, TextWriter& to) {
+        write_msh_point(mesh.point(nodes[k] - 1), to);
+        to << '\n';
+      });
+    }
+  out << "$EndNodes\n";
+}
+
+/// A face's quads and triangles are blocks of their own: a block has one type.
+struct ElementBlock {
+  int dimension, tag, type;
+  std::vector<int> members;
+};
+
+std::vector<ElementBlock> element_blocks(const OutputMesh& mesh, const std::vector<Entities>& all) {
+  std::vector<ElementBlock> blocks;
+  for (const Entities& entities : all)
+    for (std::size_t i = 0; i < entities.elements.size(); ++i) {
+      int last_type = 0;
+      for (const int member : entities.elements[i].members) {
+        const ElementNodes element = element_nodes(mesh, entities.dimension, member);
+        const int type = msh_element_type(element, entities.dimension);
+        if (type != last_type) blocks.push_back({entities.dimension, entities.tags[i], type, {}});
+        last_type = type;
+        blocks.back().members.push_back(member);
+      }
+    }
+  return blocks;
+}
+
+void write_element_blocks(const OutputMesh& mesh, const std::vector<Entities>& all, TextWriter& out) {
+  const std::vector<ElementBlock> blocks = element_blocks(mesh, all);
+  std::size_t count = 0;
+  for (const ElementBlock& block : blocks) count += block.members.size();
+  out << "$Elements\n" << blocks.size() << ' ' << count << " 1 " << count << '\n';
+  std::size_t number = 0;
+  for (const ElementBlock& block : blocks) {
+    out << block.dimension << ' ' << block.tag << ' ' << block.type << ' ' << block.members.size() << '\n';
+    write_in_order(block.members.size(), out, [&](std::size_t i, TextWriter& to) {
+      to << number + i + 1;
+      write_msh_nodes(mesh, element_nodes(mesh, block.dimension, block.members[i]), to);
+    });
+    number += block.members.size();
+  }
+  out << "$EndElements\n";
+}
+
+}  // namespace
+
+void write_msh4(const OutputMesh& mesh, TextWriter& out) {
+  const PhysicalNumbers physical(mesh);
+  const EntityBoundaries boundaries = entity_boundaries(mesh);
+  std::vector<Entities> all{make_entities(0, mesh.vertices(), {}),
+                            make_entities(1, mesh.edges(), boundaries.edges),
+                            make_entities(2, mesh.faces(), boundaries.faces)};
+  std::vector<char> claimed(mesh.nodes().empty() ? 0 : static_cast<std::size_t>(mesh.nodes().back()) + 1, 0);
+  for (Entities& entities : all) claim_nodes(mesh, entities, claimed);
+  out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+  write_physical_names(mesh, physical, out);
+  out << "$Entities\n";
+  for (const Entities& entities : all) out << entities.tags.size() << ' ';
+  out << "0\n";
+  for (const Entities& entities : all)
+    for (std::size_t i = 0; i < entities.tags.size(); ++i) {
+      const int number = physical.of(entities.dimension, entities.elements[i].number);
+      write_entity(mesh, entities, i, number, out);
+    }
+  out << "$EndEntities\n";
+  write_node_blocks(mesh, all, out);
+  write_element_blocks(mesh, all, out);
+}
+
+}  // namespace quadrille

@@ -1,0 +1,109 @@
+#include "mesher/io/segment_sides.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include "mesher/mesh/side_key.hpp"
+
+namespace quadrille {
+
+namespace {
+
+using KeyedSegment = std::pair<std::uint64_t, int>;
+
+std::vector<KeyedSegment> keyed_segments(const OutputMesh& mesh) {
+  std::vector<KeyedSegment> keyed;
+  for (int segment = 0; segment < mesh.segment_count(); ++segment) {
+    const ElementNodes nodes = mesh.segment_nodes(segment);
+    keyed.emplace_back(side_key(nodes.nodes[0], nodes.nodes[1]), segment);
+  }
+  std::sort(keyed.begin(), keyed.end());
+  return keyed;
+}
+
+/// Most sides end at a node that no segment has: that is looked at first.
+std::vector<char> nodes_of_segments(const OutputMesh& mesh) {
+  std::vector<char> has(mesh.nodes().empty() ? 0 : static_cast<std::size_t>(mesh.nodes().back()) + 1, 0);
+  for (int segment = 0; segment < mesh.segment_count(); ++segment) {
+    for (const int node : mesh.segment_nodes(segment)) has[node] = 1;
+  }
+  return has;
+}
+
+/// The vertices at the ends of the edges' chains of segments.
+std::vector<std::vector<int>> ends_of_edges(const OutputMesh& mesh) {
+  std::unordered_map<int, int> vertex_at;
+  for (int corner = 0; corner < mesh.corner_count(); ++corner)
+    vertex_at.emplace(mesh.corner_node(corner), mesh.vertex(corner));
+  std::vector<std::vector<int>> ends;
+  for (const CadGroup& edge : mesh.edges()) {
+    ends.emplace_back();
+    std::vector<int> from, to;
+    for (const int segment : edge.members) {
+      const ElementNodes nodes = mesh.segment_nodes(segment);
+      from.push_back(nodes.nodes[0]);
+      to.push_back(nodes.nodes[1]);
+    }
+    const auto add = [&](int node, int sign) {
+      const auto found = vertex_at.find(node);
+      if (found != vertex_at.end() && found->second > 0 && edge.number > 0)
+        ends.back().push_back(sign * found->second);
+    };
+    std::vector<int> sorted_from = from, sorted_to = to;
+    std::sort(sorted_from.begin(), sorted_from.end());
+    std::sort(sorted_to.begin(), sorted_to.end());
+    const auto has = [](const std::vector<int>& sorted, int node) {
+      return std::binary_search(sorted.begin(), sorted.end(), node);
+    };
+    // A ring begins and ends at its vertex, wherever on the ring that is.
+    for (const int node : from) {
+      if (!has(sorted_to, node) || vertex_at.count(node) > 0) add(node, 1);
+    }
+    for (const int node : to) {
+      if (!has(sorted_from, node) || vertex_at.count(node) > 0) add(node, -1);
+    }
+  }
+  return ends;
+}
+
+}  // namespace
+
+std::vector<SegmentSide> segment_sides(const OutputMesh& mesh) {
+  const std::vector<KeyedSegment> keyed = keyed_segments(mesh);
+  const std::vector<char> on_segment = nodes_of_segments(mesh);
+  std::vector<SegmentSide> sides;
+  for (int shell = 0; shell < mesh.shell_count(); ++shell) {
+    const ElementNodes nodes = mesh.shell_nodes(shell);
+    const int corners = mesh.is_quad(shell) ? 4 : 3;
+    for (int side = 0; side < corners; ++side) {
+      const int a = nodes.nodes[side], b = nodes.nodes[(side + 1) % corners];
+      if (!on_segment[a] || !on_segment[b]) continue;
+      const std::uint64_t key = side_key(a, b);
+      for (auto at = std::lower_bound(keyed.begin(), keyed.end(), KeyedSegment(key, 0));
+           at != keyed.end() && at->first == key; ++at)
+        sides.push_back({at->second, shell, side, mesh.segment_nodes(at->second).nodes[0] == a});
+    }
+  }
+  std::stable_sort(sides.begin(), sides.end(),
+                   [](const SegmentSide& a, const SegmentSide& b) { return a.segment < b.segment; });
+  return sides;
+}
+
+EntityBoundaries entity_boundaries(const OutputMesh& mesh) {
+  EntityBoundaries boundaries{std::vector<std::vector<int>>(mesh.faces().size()), ends_of_edges(mesh)};
+  std::unordered_map<int, std::size_t> place;
+  for (std::size_t i = 0; i < mesh.faces().size(); ++i) place[mesh.faces()[i].number] = i;
+  for (const SegmentSide& side : segment_sides(mesh)) {
+    const int edge = mesh.edge(side.segment), face = mesh.face(side.shell);
+    if (edge > 0 && face > 0) boundaries.faces[place[face]].push_back(side.forward ? edge : -edge);
+  }
+  for (std::vector<int>& edges : boundaries.faces) {
+    std::sort(edges.begin(), edges.end(),
+              [](int a, int b) { return std::pair(std::abs(a), a < 0) < std::pair(std::abs(b), b < 0); });
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  }
+  return boundaries;
+}
+
+}  // namespace quadrille
