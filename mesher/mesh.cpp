@@ -5,29 +5,31 @@
 #include <Standard_Failure.hxx>
 
 #include <algorithm>
-#include <array>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "geometry/base/threads.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/element_count.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/edges/edge_sampling.hpp"
+#include "mesher/faces/boundary_crossings.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/settings.hpp"
 #include "mesher/shell/assembly.hpp"
 #include "mesher/shell/face_mesher.hpp"
 #include "mesher/shell/node_sliding.hpp"
+#include "mesher/shell/remedies.hpp"
 
 namespace quadrille {
 
 namespace {
-
-constexpr int max_rounds = 8;
 
 std::vector<char> faces_used(const CadModel& model, const std::vector<int>& faces) {
   std::vector<char> used(model.face_count(), faces.empty());
@@ -43,42 +45,62 @@ class Job {
         options_(options),
         size_(size),
         context_(context),
-        plan_(shape_),
+        edges_{SamplingPlan(shape_), std::vector<Collapse>(shape_.edges.size(), Collapse::no)},
         used_(faces_used(model, options.faces)),
-        collapse_(shape_.edges.size(), Collapse::no),
         meshes_(shape_.faces.size()),
-        errors_(shape_.faces.size()),
-        rungs_(shape_.faces.size(), as_asked) {
+        problems_(shape_.faces.size()),
+        problems_before_(shape_.faces.size()),
+        records_(shape_.faces.size()) {
     asked_ = used_;
   }
 
   ShellMesh run(const SizingField& field) {
-    leave_out_tiny();
-    sample(field);
-    mesh_faces(field);
-    for (int round = 1; round < max_rounds && climb(failed_faces()); ++round) {
-      sample(field);
-      mesh_faces(field);
-    }
+    mesh_in_rounds(field);
+    // What is done by then is delivered, however long that takes.
+    if (options_.partial) context_.lift_time_limit();
     advise_on_tiny_faces();
-    if (!options_.partial) throw_first_error();
+    if (!options_.partial) throw_first_problem();
     slide_nodes(shape_, nodes_, meshes_, options_.improve, context_);
     return assemble(shape_, nodes_, meshes_, statuses(), options_, context_);
   }
 
  private:
-  /// Other samplings of the edges of a face that fails, tried one after the other.
-  enum Rung { as_asked, twice, four_times, eight_times, by_length, as_point, count };
+  static constexpr int most_chart_rounds = 12;
+
+  /// Each round finds the charts first: faces are meshed once no boundary crosses itself that can be mended.
+  void mesh_in_rounds(const SizingField& field) {
+    leave_out_tiny();
+    int charted = 0, meshed = 0;
+    for (bool changed = true; changed && meshed < FaceRecord::most_attempts;) {
+      if (meshed > 0 && !may_go_on()) return;
+      sample(field);
+      find_charts();
+      if (charted++ < most_chart_rounds && treat()) continue;
+      mesh_faces(field);
+      ++meshed;
+      changed = treat();
+    }
+  }
+
+  /// Whether there is time for another round: with options.partial no more than a tenth of it is left for the
+  /// rounds' sampling to end in.
+  bool may_go_on() const {
+    return !options_.partial || context_.seconds_left() > 0.1 * context_.time_limit();
+  }
 
   void leave_out_tiny() {
-    plan_.tiny = find_tiny_features(shape_, asked_, collapse_, options_.merge_tiny);
-    for (std::size_t face = 0; face < used_.size(); ++face)
-      used_[face] = asked_[face] && !plan_.tiny.merged_faces[face];
+    TinyFeatures& tiny = edges_.plan.tiny;
+    tiny = find_tiny_features(shape_, asked_, edges_.collapse, options_.merge_tiny);
+    for (std::size_t face = 0; face < used_.size(); ++face) {
+      used_[face] = asked_[face] && !tiny.merged_faces[face];
+      if (!used_[face]) problems_[face].reset();
+    }
   }
 
   void sample(const SizingField& field) {
     const StageTimer timer(context_, Stage::sample);
-    BoundaryNodes nodes = sample_edges(shape_, field, stride(options_.strategy), used_, plan_, context_);
+    BoundaryNodes nodes =
+        sample_edges(shape_, field, stride(options_.strategy), used_, edges_.plan, context_);
     keep_meshes(nodes);
     nodes_ = std::move(nodes);
   }
@@ -111,35 +133,96 @@ class Job {
     }
   }
 
+  void find_charts() {
+    const StageTimer timer(context_, Stage::sample);
+    charts_.clear();
+    charts_.resize(shape_.faces.size());
+    for_each_face_left(Stage::sample, 0.5, [&](int face) {
+      FaceChart chart = make_chart(shape_, face, nodes_, records_[face].recipe.chart);
+      if (auto problem = crossing_problem(face + 1, shape_, chart.boundary, *chart.surface))
+        throw FaceProblem(std::move(*problem));
+      charts_[face] = std::move(chart);
+    });
+  }
+
   void mesh_faces(const SizingField& field) {
+    for_each_face_left(Stage::mesh, 0, [&](int face) {
+      if (!charts_[face]) throw FaceProblem(*problems_[face]);  // no remedy in time
+      FaceRecord& record = records_[face];
+      const FaceChart chart = std::move(*charts_[face]);
+      ExecutionContext share(context_);
+      if (record.attempts > 0) share.limit_work(std::max<std::int64_t>(1, record.share() - record.work));
+      // The others are to have their turn.
+      if (options_.partial && context_.has_time_limit()) share.limit_time(0.5 * context_.seconds_left());
+      const auto start = std::chrono::steady_clock::now();
+      const auto count = [&] {
+        record.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        record.work += share.work();
+        if (record.attempts++ == 0) record.first_work = share.work();
+      };
+      try {
+        meshes_[face] = mesh_face(shape_, face, chart, nodes_, field, options_, record.recipe, share);
+      } catch (...) {
+        count();
+        throw;
+      }
+      count();
+    });
+  }
+
+  /// \return what the end of a share of work or time means for its face; the same thrown on if it ends all.
+  FaceProblem share_problem(int face, const Error& error) const {
+    const std::string found = problems_before_[face] ? problems_before_[face]->what() : "";
+    if (error.subject() == ExecutionContext::work_subject) {
+      return {Cause::out_of_work, face + 1,
+              fmt::format("{}, and {} times the work of its first meshing mends nothing", found,
+                          FaceRecord::most_work)};
+    }
+    if (!options_.partial) throw Error(error);
+    return {Cause::out_of_time, face + 1,
+            fmt::format("Face{} was not done in its share of the time limit of {:g} s", face + 1,
+                        context_.time_limit())};
+  }
+
+  /// Does something with each face that has no mesh yet, on all threads; what goes wrong is the face's
+  /// problem. \param done_before the fraction of the stage that was done before.
+  template <class Work>
+  void for_each_face_left(Stage stage, double done_before, Work&& work) {
     const int n = static_cast<int>(shape_.faces.size());
-    errors_.assign(n, std::nullopt);
     const std::vector<int> order = longest_first();
     std::atomic<int> started{0}, done{0};
-    const auto mesh_one = [&](int face) {
-      if (!used_[face] || meshes_[face]) return;
+    const auto work_on = [&](int face) {
+      if (!used_[face] || meshes_[face] || records_[face].given_up) return;
       try {
-        const int fineness = 1 << std::min<int>(rungs_[face], eight_times);
-        meshes_[face] = mesh_face(shape_, face, nodes_, field, options_, fineness, context_);
+        work(face);
+        problems_[face].reset();
+      } catch (const FaceProblem& problem) {
+        problems_[face] = problem;
       } catch (const Error& error) {
-        if (error.kind() == Error::Kind::cancelled) throw;
-        errors_[face] = error;
+        if (error.kind() != Error::Kind::failure) throw;
+        if (error.subject() == ExecutionContext::time_subject ||
+            error.subject() == ExecutionContext::work_subject)
+          problems_[face] = share_problem(face, error);
+        else
+          problems_[face].emplace(Cause::no_mesh, face + 1, error.what());
       } catch (const std::bad_alloc&) {
         throw;  // not the face's fault
       } catch (const std::exception& problem) {
-        const std::string name = fmt::format("Face{}", face + 1);
-        errors_[face] = failure(name, fmt::format("{} cannot be meshed ({})", name, problem.what()));
+        problems_[face].emplace(Cause::no_mesh, face + 1,
+                                fmt::format("Face{} cannot be meshed ({})", face + 1, problem.what()));
       } catch (const Standard_Failure& problem) {
-        const std::string name = fmt::format("Face{}", face + 1);
-        errors_[face] =
-            failure(name, fmt::format("{} cannot be evaluated ({})", name, problem.GetMessageString()));
+        problems_[face].emplace(
+            Cause::no_mesh, face + 1,
+            fmt::format("Face{} cannot be evaluated ({})", face + 1, problem.GetMessageString()));
       }
-      context_.report(Stage::mesh, static_cast<double>(done.fetch_add(1, std::memory_order_relaxed) + 1) / n);
+      if (options_.partial && context_.seconds_left() < 0) return;
+      const double share = static_cast<double>(done.fetch_add(1, std::memory_order_relaxed) + 1) / n;
+      context_.report(stage, done_before + (1 - done_before) * share);
     };
     const auto next = [&] { return started.fetch_add(1, std::memory_order_relaxed); };
     // Each thread takes the largest face that is left: at the end none waits long for another.
     oneapi::tbb::parallel_for(0, oneapi::tbb::this_task_arena::max_concurrency(), [&](int) {
-      for (int i = next(); i < n; i = next()) mesh_one(order[i]);
+      for (int i = next(); i < n; i = next()) work_on(order[i]);
     });
   }
 
@@ -156,86 +239,37 @@ class Job {
     return order;
   }
 
-  std::vector<int> failed_faces() const {
-    std::vector<int> failed;
-    for (std::size_t face = 0; face < errors_.size(); ++face) {
-      if (errors_[face]) failed.push_back(static_cast<int>(face));
-    }
-    return failed;
-  }
-
-  /// Takes each of the faces one rung higher; false if none can climb.
-  bool climb(const std::vector<int>& failed) {
+  /// Applies a remedy to each face with a problem; false if there is none for any.
+  bool treat() {
     bool any = false;
-    for (const int face : failed) {
-      if (rungs_[face] + 1 == as_point && !far_below_size(face)) continue;
-      if (rungs_[face] + 1 == count) continue;
-      ++rungs_[face];
-      any = true;
-      change_edges(face, static_cast<Rung>(rungs_[face]));
+    for (std::size_t face = 0; face < problems_.size(); ++face) {
+      FaceRecord& record = records_[face];
+      if (!problems_[face] || record.given_up) continue;
+      problems_before_[face] = problems_[face];
+      record.given_up = !apply_remedy(shape_, *problems_[face], size_, record, edges_);
+      any |= !record.given_up;
     }
     if (any) leave_out_tiny();
     return any;
   }
 
-  void change_edges(int face, Rung rung) {
-    // Edges that a neighbour has refined already draw the others along: all round the face alike.
-    int refine = 1 << rung;
-    for (const CadWire& wire : shape_.faces[face].wires) {
-      for (const Coedge& coedge : wire.coedges) refine = std::max(refine, plan_.refine[coedge.edge - 1]);
-    }
-    for (const CadWire& wire : shape_.faces[face].wires) {
-      for (const Coedge& coedge : wire.coedges) {
-        const int edge = coedge.edge - 1;
-        collapse_[edge] =
-            std::max(collapse_[edge], rung == as_point ? Collapse::always : Collapse::below_tolerance);
-        plan_.bare[edge] = rung >= by_length;
-        plan_.refine[edge] = plan_.bare[edge] ? 1 : refine;
-      }
-    }
-  }
-
-  std::string rung_note(int face) const {
-    constexpr std::array<const char*, count> notes{"",
-                                                   "edges sampled twice as fine",
-                                                   "edges sampled four times as fine",
-                                                   "edges sampled eight times as fine",
-                                                   "edges sampled by length alone",
-                                                   ""};
-    return notes[rungs_[face]];
-  }
-
-  double longest_edge(int face) const {
-    double longest = 0;
-    for (const CadWire& wire : shape_.faces[face].wires) {
-      for (const Coedge& coedge : wire.coedges)
-        longest = std::max(longest, shape_.edges[coedge.edge - 1].length);
-    }
-    return longest;
-  }
-
-  /// Whether a face is so small beside the elements that one node can stand for it.
-  bool far_below_size(int face) const {
-    constexpr double share = 0.2;  // of the least size that the options allow by default
-    return longest_edge(face) < share * size_ / 8;
-  }
-
   /// Faces that fail and are far smaller than the elements can be left out.
   void advise_on_tiny_faces() {
     constexpr double tiny = 0.5;
-    for (const int face : failed_faces()) {
-      const double longest = longest_edge(face);
+    for (int face = 0; face < static_cast<int>(problems_.size()); ++face) {
+      if (!problems_[face]) continue;
+      const double longest = longest_edge(shape_, face);
       if (longest > tiny * size_) continue;
-      const std::string name = fmt::format("Face{}", face + 1);
-      errors_[face] =
-          failure(name, fmt::format("{}; its longest edge is {:.3g}: `merge_tiny` {:.3g} leaves it out",
-                                    errors_[face]->what(), longest, 1.1 * longest));
+      const FaceProblem& problem = *problems_[face];
+      problems_[face].emplace(problem.cause(), face + 1,
+                              fmt::format("{}; its longest edge is {:.3g}: `merge_tiny` {:.3g} leaves it out",
+                                          problem.what(), longest, 1.1 * longest));
     }
   }
 
-  void throw_first_error() const {
-    for (const auto& error : errors_) {
-      if (error) throw *error;
+  void throw_first_problem() const {
+    for (const auto& problem : problems_) {
+      if (problem) throw *problem;
     }
   }
 
@@ -243,22 +277,25 @@ class Job {
     std::vector<ShellMesh::Face> result(shape_.faces.size());
     for (std::size_t face = 0; face < result.size(); ++face) {
       auto& status = result[face];
+      const FaceRecord& record = records_[face];
       status.face = static_cast<int>(face) + 1;
-      status.status = meshes_[face]   ? FaceStatus::meshed
-                      : errors_[face] ? FaceStatus::failed
-                                      : FaceStatus::skipped;
-      if (plan_.tiny.merged_faces[face]) {
+      status.attempts = record.attempts;
+      status.seconds = record.seconds;
+      status.work = record.work;
+      status.share = record.share();
+      status.status = meshes_[face]     ? FaceStatus::meshed
+                      : problems_[face] ? FaceStatus::failed
+                                        : FaceStatus::skipped;
+      status.note = fmt::format("{}", fmt::join(record.history, "; "));
+      if (meshes_[face] && meshes_[face]->grid) status.note += status.note.empty() ? "grid" : "; grid";
+      if (edges_.plan.tiny.merged_faces[face]) {
         status.status = FaceStatus::merged;
         status.note = "tiny: its place is taken by an edge or a node of its neighbours";
       }
-      if (errors_[face]) status.note = errors_[face]->what();
+      if (problems_[face]) status.note = problems_[face]->what();
       if (!meshes_[face]) continue;
-      status.note = rung_note(static_cast<int>(face));
-      if (!status.note.empty() && !meshes_[face]->note.empty()) status.note += ", ";
-      status.note += meshes_[face]->note;
       status.quads = static_cast<int>(meshes_[face]->quads.size());
       status.q_min = meshes_[face]->q_min;
-      status.seconds = meshes_[face]->seconds;
     }
     return result;
   }
@@ -267,13 +304,13 @@ class Job {
   const MeshOptions& options_;
   double size_;
   ExecutionContext& context_;
-  SamplingPlan plan_;
+  EdgeTreatment edges_;
   std::vector<char> asked_, used_;
-  std::vector<Collapse> collapse_;  ///< (edges) of faces that failed
   BoundaryNodes nodes_;
+  std::vector<std::optional<FaceChart>> charts_;  ///< of the faces to be meshed next
   std::vector<std::optional<FaceMesh>> meshes_;
-  std::vector<std::optional<Error>> errors_;
-  std::vector<int> rungs_;  ///< (faces) Rung that the face is on
+  std::vector<std::optional<FaceProblem>> problems_, problems_before_;
+  std::vector<FaceRecord> records_;
 };
 
 }  // namespace

@@ -84,6 +84,7 @@ TEST_P(EveryTrouble, GivesAValidMesh) {
     SCOPED_TRACE(divisions);
     const ShellMesh mesh = mesh_of(model, divisions);
     EXPECT_EQ(joined(validate(mesh, trouble.closed)), "");
+    for (const auto& face : mesh.faces) EXPECT_LE(face.attempts, 12) << face.face;
     const std::set<int> faces(mesh.quad_faces.begin(), mesh.quad_faces.end());
     EXPECT_EQ(static_cast<int>(faces.size()), model.face_count());
     EXPECT_EQ(static_cast<int>(mesh.corners.size()),
@@ -119,12 +120,44 @@ std::string note_of(const ShellMesh& mesh, int face) {
   return mesh.faces.at(face - 1).note;
 }
 
-TEST(Robustness, ReportsTheRungThatAFaceTook) {
-  EXPECT_EQ(note_of(mesh_of(model_of(trouble_named("disc")), 20), 1), "");
-  EXPECT_EQ(note_of(mesh_of(model_of(trouble_named("looped_edge")), 20), 1),
-            "edges sampled by length alone, grid");
-  EXPECT_EQ(note_of(mesh_of(model_of(trouble_named("wrong_curves")), 20), 1),
-            "edges sampled four times as fine, parametric curves made anew");
+TEST(Robustness, NamesTheCauseAndItsRemedy) {
+  const auto meshed = [](const char* name) { return mesh_of(model_of(trouble_named(name)), 20); };
+  const auto has = [](const std::string& note, const std::string& words) {
+    return note.find(words) != std::string::npos;
+  };
+  EXPECT_EQ(note_of(meshed("disc"), 1), "");
+  EXPECT_PRED2(has, note_of(meshed("looped_edge"), 1), "meets Edge2 (parameters ");
+  EXPECT_PRED2(has, note_of(meshed("wrong_curves"), 1), "parametric curves made anew");
+  // What the boundary alone tells costs no meshing.
+  for (const char* name : {"disc", "looped_edge", "wrong_curves", "other_parameters"})
+    EXPECT_EQ(meshed(name).faces[0].attempts, 1) << name;
+}
+
+/// Least and greatest length of the segments on a CAD edge.
+std::pair<double, double> segment_lengths(const ShellMesh& mesh, int edge) {
+  std::pair<double, double> range{INFINITY, 0};
+  for (const auto& segment : mesh.segments) {
+    if (segment.edge != edge) continue;
+    const double length = (mesh.points[segment.nodes[1]] - mesh.points[segment.nodes[0]]).norm();
+    range = {std::min(range.first, length), std::max(range.second, length)};
+  }
+  return range;
+}
+
+TEST(Robustness, RefinesOnlyWhereSegmentsCross) {
+  const CadModel model = model_of(trouble_named("eccentric_hole"));
+  MeshOptions options;
+  options.sizing.size = 3;
+  options.sizing.elements_per_circle = 0;
+  ExecutionContext context(1);
+  const ShellMesh coarse = mesh(model, options, context);
+  EXPECT_EQ(joined(validate(coarse, false)), "");
+  EXPECT_NE(note_of(coarse, 1).find(": finer segments there"), std::string::npos);
+  for (const int edge : {1, 2}) {
+    const auto [least, greatest] = segment_lengths(coarse, edge);
+    EXPECT_LT(least, 1.5) << edge;     // where the hole is 0.05 from the rim
+    EXPECT_GT(greatest, 2.2) << edge;  // elsewhere as asked
+  }
 }
 
 TEST(Robustness, MakesAPointOfATinyFaceThatFails) {

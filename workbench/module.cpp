@@ -83,10 +83,11 @@ py::object quality_dict(const PythonMesh& mesh, const std::optional<std::filesys
 py::list face_statuses(const PythonMesh& mesh) {
   py::list result;
   for (const ShellMesh::Face& face : mesh.mesh.faces) {
-    result.append(py::dict(
-        py::arg("face") = face.face, py::arg("status") = name_of(face.status), py::arg("note") = face.note,
-        py::arg("quads") = face.quads, py::arg("q_min") = face.q_min, py::arg("seconds") = face.seconds,
-        py::arg("off_geometry") = face.off_geometry, py::arg("off_geometry_max") = face.off_geometry_max));
+    result.append(
+        py::dict(py::arg("face") = face.face, py::arg("status") = name_of(face.status),
+                 py::arg("note") = face.note, py::arg("quads") = face.quads, py::arg("q_min") = face.q_min,
+                 py::arg("seconds") = face.seconds, py::arg("off_geometry") = face.off_geometry,
+                 py::arg("off_geometry_max") = face.off_geometry_max, py::arg("attempts") = face.attempts));
   }
   return result;
 }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <string>
@@ -58,7 +59,31 @@ class ExecutionContext {
   explicit ExecutionContext(int threads, Progress progress = {})
       : threads_(threads), progress_(std::move(progress)) {}
 
+  /// A share of the work of another context, which must outlive it: progress, cancellation and stage times
+  /// are the other's. Checks are counted; the time limit here is the share's own, beside the other's.
+  explicit ExecutionContext(ExecutionContext& whole) : threads_(whole.threads_), whole_(&whole) {}
+
+  /// The subject of the Error that ends work whose time is over.
+  static constexpr const char* time_subject = "time_limit";
+  /// The subject of the Error that ends a share with more checks than it may have.
+  static constexpr const char* work_subject = "work";
+
   int threads() const noexcept { return threads_; }
+
+  /// Ends the work with an Error (failure, work_subject) at the first check after so many.
+  void limit_work(std::int64_t checks) noexcept { most_checks_ = checks; }
+  /// How often a share was checked: a measure of its work that is the same in each run.
+  std::int64_t work() const noexcept { return checks_; }
+
+  bool has_time_limit() const noexcept { return limit_seconds_ > 0; }
+  double time_limit() const noexcept { return limit_seconds_; }  ///< seconds; 0 = none
+  /// Until the time limit; infinite without one.
+  double seconds_left() const {
+    if (limit_seconds_ <= 0) return std::numeric_limits<double>::infinity();
+    return std::chrono::duration<double>(deadline_ - std::chrono::steady_clock::now()).count();
+  }
+  /// For what is done with the results of work that its time limit has ended.
+  void lift_time_limit() noexcept { limit_seconds_ = 0; }
 
   /// Asks the progress function again at the first check later than this since it was asked last; 0 asks at
   /// every check.
@@ -70,7 +95,7 @@ class ExecutionContext {
     expected_ = std::move(stages);
   }
 
-  /// Ends the work with an Error (failure, subject "time_limit") at the first check later than so many
+  /// Ends the work with an Error (failure, time_subject) at the first check later than so many
   /// seconds from now.
   void limit_time(double seconds) {
     limit_seconds_ = seconds;
@@ -84,6 +109,9 @@ class ExecutionContext {
 
   /// Throws Error (cancelled) once the work has been cancelled, Error (failure) once its time is over.
   void check() const {
+    ++checks_;
+    if (whole_ != nullptr) whole_->check();
+    if (checks_ > most_checks_) throw failure(work_subject, "the share of work is used up");
     if (progress_) ask_again();
     if (limit_seconds_ > 0 && std::chrono::steady_clock::now() > deadline_) throw time_is_over();
     if (cancelled()) throw Error(Error::Kind::cancelled, "", "the work was cancelled");
@@ -91,6 +119,7 @@ class ExecutionContext {
 
   /// Reports the fraction of a stage that is done, then behaves as check().
   void report(Stage stage, double fraction) {
+    if (whole_ != nullptr) return whole_->report(stage, fraction);
     if (progress_) {
       const std::lock_guard lock(mutex_);
       stage_ = name_of(stage);
@@ -102,6 +131,7 @@ class ExecutionContext {
 
   /// Adds to the wall-clock seconds of a stage.
   void add_seconds(Stage stage, double seconds) {
+    if (whole_ != nullptr) return whole_->add_seconds(stage, seconds);
     const std::lock_guard lock(mutex_);
     seconds_[std::string(name_of(stage))] += seconds;
   }
@@ -142,10 +172,13 @@ class ExecutionContext {
   }
 
   Error time_is_over() const {
-    return failure("time_limit", fmt::format("the time limit of {:g} s is over", limit_seconds_));
+    return failure(time_subject, fmt::format("the time limit of {:g} s is over", limit_seconds_));
   }
 
   int threads_ = 0;
+  ExecutionContext* whole_ = nullptr;
+  std::int64_t most_checks_ = std::numeric_limits<std::int64_t>::max();
+  mutable std::atomic<std::int64_t> checks_{0};
   Progress progress_;
   std::int64_t interval_ = 50;  // milliseconds
   double limit_seconds_ = 0;    // 0 = none

@@ -139,7 +139,10 @@ void run(const MeshArguments& arguments) {
   context.expect(
       {Stage::read, Stage::size, Stage::sample, Stage::mesh, Stage::slide, Stage::assemble, Stage::write});
   report_crashes(arguments.input, "reading");
-  CancelOnSignal cancel(context, settings.time_limit);
+  // With `partial` what is done when the time is over is still put together and written.
+  const bool partial = settings.mesh.partial && settings.time_limit > 0;
+  CancelOnSignal cancel(context, partial ? 0 : settings.time_limit);
+  if (partial) context.limit_time(settings.time_limit);
   if (arguments.end_with_input) end_with_input();
   cancel.reading(arguments.input, settings.read_time_limit);
   const CadModel source = read_model(arguments, context);

@@ -32,7 +32,8 @@ int complain(const Error& error) {
     case Error::Kind::cancelled:
       return complain(error.what(), work_cancelled);
     case Error::Kind::failure:
-      if (error.subject() == "time_limit") return complain(error.what() + left_behind(), work_failed);
+      if (error.subject() == ExecutionContext::time_subject)
+        return complain(error.what() + left_behind(), work_failed);
       break;
   }
   return complain(with_options(error.what()), work_failed);

@@ -81,6 +81,35 @@ void hold_segments(double segments, const Budget& budget, const CadEdge& edge) {
                                 budget.segments / 1e6, edge.number));
 }
 
+namespace {
+
+/// The index of a parameter in a table, which gets it if it is not there.
+std::size_t split_at(CountTable& table, double t) {
+  auto &parameters = table.parameters, &counts = table.counts, &lengths = table.lengths;
+  const auto it = std::lower_bound(parameters.begin(), parameters.end(), t);
+  const std::size_t i = it - parameters.begin();
+  if (it == parameters.end()) return i - 1;
+  if (i == 0 || *it == t) return i;
+  const double share = (t - parameters[i - 1]) / (parameters[i] - parameters[i - 1]);
+  counts.insert(counts.begin() + static_cast<long>(i), counts[i - 1] + share * (counts[i] - counts[i - 1]));
+  lengths.insert(lengths.begin() + static_cast<long>(i),
+                 lengths[i - 1] + share * (lengths[i] - lengths[i - 1]));
+  parameters.insert(it, t);
+  return i;
+}
+
+}  // namespace
+
+void CountTable::make_finer(double from, double to, double least) {
+  const std::size_t first = split_at(*this, from), last = split_at(*this, to);
+  const double before = counts[first], there = counts[last] - before;
+  if (last <= first || there >= least) return;
+  for (std::size_t i = first + 1; i < counts.size(); ++i) {
+    const double done = std::min(counts[i], before + there) - before;
+    counts[i] += done * (least / std::max(there, 1e-300) - 1);
+  }
+}
+
 CountTable tabulate(const CadEdge& edge, SizingField::Sampler& size_at) {
   return EdgeTabulator(edge, size_at).table;
 }

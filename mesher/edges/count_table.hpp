@@ -23,6 +23,9 @@ struct CountTable {
   double parameter_at_length(double length) const { return interpolate(lengths, length, parameters); }
   double count_at_length(double length) const { return interpolate(lengths, length, counts); }
 
+  /// Raises the count between two parameters to `least`, evenly; the rest of the edge keeps its own.
+  void make_finer(double from, double to, double least);
+
  private:
   static double interpolate(const std::vector<double>& from, double at, const std::vector<double>& to) {
     const auto it = std::lower_bound(from.begin(), from.end(), at);

@@ -147,10 +147,13 @@ class EdgeSampler {
       const CadEdge& edge = shape_.edges[i];
       if (edge.degenerate || edge.length <= 0 || !used_edges_[i] || plan_.tiny.collapsed_edges[i]) continue;
       tables_[i] = tabulate(edge, sampler);
+      for (const EdgeStretch& part : plan_.finer) {
+        if (part.edge == i + 1) tables_[i].make_finer(part.from, part.to, part.segments * result_.stride);
+      }
       double& wanted = wishes_.wanted[i];
       wanted = tables_[i].total() / result_.stride;
       // A segment more where there would be one in any case.
-      if (plan_.refine[i] > 1) wanted = std::max(wanted, 1.0) * plan_.refine[i];
+      if (plan_.factor[i] > 1) wanted = std::max(wanted, 1.0) * plan_.factor[i];
       if (along_chord(i)) wanted *= chord_of(edge) / edge.length;
       segments += result_.stride * wanted;
       hold_segments(segments, sampler.budget(), edge);
@@ -246,7 +249,7 @@ class EdgeSampler {
 }  // namespace
 
 SamplingPlan::SamplingPlan(const CadShape& shape)
-    : refine(shape.edges.size(), 1),
+    : factor(shape.edges.size(), 1),
       bare(shape.edges.size(), 0),
       tiny(find_tiny_features(shape, std::vector<char>(shape.faces.size(), 1),
                               std::vector<Collapse>(shape.edges.size(), Collapse::no), 0)) {}

@@ -29,10 +29,18 @@ struct BoundaryNodes {
   std::vector<int> odd_faces;  ///< faces whose count could not be made even; empty in all but odd topologies
 };
 
+/// A part of a CAD edge on which at least so many segments (of the mesh that is recombined) are wanted.
+struct EdgeStretch {
+  int edge = 0;             ///< CAD edge, from 1
+  double from = 0, to = 0;  ///< of its parameter, from < to
+  int segments = 0;
+};
+
 /// How edges are sampled where faces failed with what the sizing field asks for.
 struct SamplingPlan {
   explicit SamplingPlan(const CadShape& shape);  ///< as the field asks
-  std::vector<int> refine;                       ///< (edges) factor on the number of segments
+  std::vector<int> factor;                       ///< (edges) on the number of segments
+  std::vector<EdgeStretch> finer;
   std::vector<char> bare;  ///< (edges) 1 = by length alone, though the curve turns: it may have loops in it
   TinyFeatures tiny;
 };

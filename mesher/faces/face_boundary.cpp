@@ -125,6 +125,9 @@ class BoundaryWalker {
       segment.a = point - 1;
       segment.b = point;
       segment.edge = coedge.edge;
+      segment.coedge = &coedge;
+      segment.from = edge.parameters[i + (coedge.forward ? -nodes_.stride : nodes_.stride)];
+      segment.to = edge.parameters[i];
       segment.internal = coedge.internal;
       if (boundary_.stride == 2) {
         const int middle = i + (coedge.forward ? -1 : 1);

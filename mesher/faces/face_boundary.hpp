@@ -13,8 +13,10 @@ namespace quadrille {
 /// Points are instances: a node on a seam has one for each side of it. All indices are into the arrays here.
 struct FaceBoundary {
   struct Segment {
-    int a = -1, b = -1;    ///< in the direction of the wire
-    int edge = 0;          ///< CAD edge, from 1; 0 on a degenerate one
+    int a = -1, b = -1;              ///< in the direction of the wire
+    int edge = 0;                    ///< CAD edge, from 1; 0 on a degenerate one
+    double from = 0, to = 0;         ///< parameters of a and b on that edge
+    const Coedge* coedge = nullptr;  ///< of the face that was walked; null on a degenerate one
     int middle_node = -1;  ///< node of the final mesh between a and b (Strategy::subdivide), else -1
     Vector2 middle_uv{0, 0};
     Vector3 middle_point{0, 0, 0};

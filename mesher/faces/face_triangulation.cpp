@@ -18,7 +18,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/error.hpp"
+#include "mesher/faces/face_problem.hpp"
 
 namespace quadrille {
 
@@ -42,11 +42,10 @@ using Structure = CGAL::Triangulation_data_structure_2<VertexBase, MarkedFace<>>
 using Cdt =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
 
-Error crossing(int face, const Vector3& near) {
-  const std::string name = fmt::format("Face{}", face);
-  return failure(
-      name, fmt::format("the sampled boundary of {} crosses or touches itself near ({:.6g}, {:.6g}, {:.6g})",
-                        name, near.x(), near.y(), near.z()));
+FaceProblem no_triangles(int face, const Vector3& near) {
+  return {Cause::no_mesh, face,
+          fmt::format("the boundary of Face{} encloses no triangles near ({:.6g}, {:.6g}, {:.6g})", face,
+                      near.x(), near.y(), near.z())};
 }
 
 /// Points by their index, for CGAL's sorting, which is one call: looking at them checks the context now and
@@ -75,10 +74,12 @@ class Triangulator {
         context_(context),
         check_(context) {}
 
-  /// Triangles over the boundary's points followed by the placed ones.
+  /// Triangles over the boundary's points followed by the placed ones; none where placed points lie on
+  /// segments.
   std::vector<std::array<int, 3>> run() {
     insert_points();
     insert_segments();
+    if (!on_segments_.empty()) return {};
     mark_domain();
     std::vector<std::array<int, 3>> triangles;
     for (auto f = cdt_.finite_faces_begin(); f != cdt_.finite_faces_end(); ++f) {
@@ -89,6 +90,9 @@ class Triangulator {
     return triangles;
   }
 
+  /// The placed points that lie on segments, where run() found some.
+  const std::vector<int>& on_segments() const { return on_segments_; }
+
  private:
   Kernel::Point_2 scaled(const Vector2& uv) const { return {uv.x() * scale_.x(), uv.y() * scale_.y()}; }
 
@@ -98,7 +102,7 @@ class Triangulator {
     for (const Vector2& uv : boundary_.uv) points.push_back(scaled(uv));
     for (const Vector2& uv : placed_.uv) points.push_back(scaled(uv));
     insert_along_curve(points);
-    if (cdt_.dimension() < 2) throw crossing(face_, boundary_.points.front());
+    if (cdt_.dimension() < 2) throw no_triangles(face_, boundary_.points.front());
     handles_.assign(points.size(), nullptr);
     for (auto v = cdt_.finite_vertices_begin(); v != cdt_.finite_vertices_end(); ++v) handles_[v->info()] = v;
     // A point that coincides with another one was not inserted: find the one that was.
@@ -129,7 +133,7 @@ class Triangulator {
     for (const auto& segment : boundary_.segments) {
       check_();
       const auto a = handles_[segment.a], b = handles_[segment.b];
-      if (a == b) throw crossing(face_, boundary_.points[segment.a]);
+      if (a == b) throw no_triangles(face_, boundary_.points[segment.a]);
       // Used twice (a slit) or internal: the face lies on both sides.
       const auto key = std::minmax(a->info(), b->info());
       const bool is_new = seen_.insert(key).second;
@@ -138,12 +142,22 @@ class Triangulator {
       try {
         cdt_.insert_constraint(a, b);
       } catch (const Cdt::Intersection_of_constraints_exception&) {
-        throw crossing(face_, boundary_.points[segment.a]);
+        throw no_triangles(face_, boundary_.points[segment.a]);
       }
-      // A point on the segment would have split it.
-      Cdt::Face_handle f;
-      int i = 0;
-      if (!cdt_.is_edge(a, b, f, i)) throw crossing(face_, boundary_.points[segment.a]);
+      find_points_between(a, b);
+    }
+  }
+
+  /// A point that lies on a segment splits it.
+  void find_points_between(Cdt::Vertex_handle a, Cdt::Vertex_handle b) {
+    Cdt::Face_handle f;
+    int i = 0;
+    for (Cdt::Vertex_handle next; a != b; a = next) {
+      if (!cdt_.includes_edge(a, b, next, f, i)) throw no_triangles(face_, boundary_.points.front());
+      if (next == b) return;
+      const int placed = next->info() - boundary_.size();
+      if (placed < 0) throw no_triangles(face_, boundary_.points[next->info()]);
+      on_segments_.push_back(placed);
     }
   }
 
@@ -179,7 +193,26 @@ class Triangulator {
   Cdt cdt_;
   std::vector<Cdt::Vertex_handle> handles_;
   std::set<std::pair<int, int>> seen_, transparent_;
+  std::vector<int> on_segments_;
 };
+
+/// Triangles, without the placed points that lie on segments, which are taken from `placed`.
+std::vector<std::array<int, 3>> triangles_of(int face, const FaceBoundary& boundary, PlacedPoints& placed,
+                                             const FaceSurface& surface, const ExecutionContext& context) {
+  while (true) {
+    Triangulator triangulator(face, boundary, placed, surface, context);
+    auto triangles = triangulator.run();
+    if (triangulator.on_segments().empty()) return triangles;
+    // At least one less each time.
+    std::vector<int> dropped = triangulator.on_segments();
+    std::sort(dropped.begin(), dropped.end(), std::greater<>());
+    dropped.erase(std::unique(dropped.begin(), dropped.end()), dropped.end());
+    for (const int i : dropped) {
+      placed.uv.erase(placed.uv.begin() + i);
+      placed.points.erase(placed.points.begin() + i);
+    }
+  }
+}
 
 /// Triangle neighbours over sides: neighbour[3 t + k] is across the side from corner k to corner k + 1.
 /// Unlike join_twins() it takes the double sides that a collapsed pole may leave, for the flips to undo.
@@ -490,9 +523,9 @@ void choose_sides(FaceTriangulation& face) {
 
 }  // namespace
 
-FaceTriangulation triangulate_face(int face, FaceBoundary boundary, const PlacedPoints& placed,
+FaceTriangulation triangulate_face(int face, FaceBoundary boundary, PlacedPoints placed,
                                    const FaceSurface& surface, const ExecutionContext& context) {
-  std::vector<std::array<int, 3>> triangles = Triangulator(face, boundary, placed, surface, context).run();
+  std::vector<std::array<int, 3>> triangles = triangles_of(face, boundary, placed, surface, context);
   CrackOpener(boundary, triangles, context).run();
 
   const int count = boundary.size() + static_cast<int>(placed.uv.size());
@@ -507,7 +540,7 @@ FaceTriangulation triangulate_face(int face, FaceBoundary boundary, const Placed
     for (int& corner : t) corner = target[corner];
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
   });
-  if (triangles.empty()) throw crossing(face, boundary.points.front());
+  if (triangles.empty()) throw no_triangles(face, boundary.points.front());
   context.check();
 
   // Keep what is used, boundary first.
@@ -540,7 +573,7 @@ FaceTriangulation triangulate_face(int face, FaceBoundary boundary, const Placed
     FaceBoundary::Segment kept = segment;
     kept.a = renumbered[target[segment.a]];
     kept.b = renumbered[target[segment.b]];
-    if (kept.a < 0 || kept.b < 0) throw crossing(face, boundary.points[segment.a]);
+    if (kept.a < 0 || kept.b < 0) throw no_triangles(face, boundary.points[segment.a]);
     result.segments.push_back(kept);
   }
   if (!surface.planar()) SpaceFlipper(result, context).run();

@@ -26,10 +26,10 @@ struct FaceTriangulation {
 };
 
 /// Triangulates in the parameter plane scaled by the mean metric (constrained Delaunay, in bulk), then flips
-/// sides in space to the Delaunay criterion. Along cracks each side of the face has points of its own. Throws
-/// Error (failure) naming the face when boundary segments cross or meet where they should not; the caller may
-/// then sample the edges finer.
-FaceTriangulation triangulate_face(int face, FaceBoundary boundary, const PlacedPoints& placed,
+/// sides in space to the Delaunay criterion. Along cracks each side of the face has points of its own. Placed
+/// points on boundary segments are left out. Throws FaceProblem when boundary segments cross or meet where
+/// they should not, which crossing_problem() tells before.
+FaceTriangulation triangulate_face(int face, FaceBoundary boundary, PlacedPoints placed,
                                    const FaceSurface& surface, const ExecutionContext& context = {});
 
 }  // namespace quadrille

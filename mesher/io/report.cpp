@@ -87,6 +87,9 @@ json faces_to_json(const ShellMesh& mesh) {
                      {"q_min", face.q_min},
                      {"seconds", face.seconds},
                      {"off_geometry", {{"nodes", face.off_geometry}, {"largest", face.off_geometry_max}}},
+                     {"attempts", face.attempts},
+                     {"work", face.work},
+                     {"share", face.share},
                      {"note", face.note}});
   return faces;
 }

@@ -60,7 +60,12 @@ struct ShellMesh {
   struct Face {
     int face = 0;  ///< CAD face, from 1
     FaceStatus status = FaceStatus::skipped;
-    std::string note;  ///< which fallback was taken, or why it failed; empty if nothing to say
+    /// Why it failed, or the causes found on the way and the remedy applied to each; empty if nothing to say.
+    std::string note;
+    /// What its meshings took, and the most that they may take together; in checks for cancellation, which
+    /// are the same in each run.
+    std::int64_t work = 0, share = 0;
+    int attempts = 0;  ///< how often it was meshed, for its own sake or a neighbor's
     int quads = 0;
     double q_min = 0;
     double seconds = 0;

@@ -1,16 +1,16 @@
 #include "mesher/shell/face_mesher.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
-#include "geometry/cad/shape_completion.hpp"
 #include "geometry/surfaces/face_surface.hpp"
-#include "mesher/faces/face_boundary.hpp"
+#include "mesher/faces/boundary_crossings.hpp"
 #include "mesher/faces/face_grid.hpp"
 #include "mesher/faces/face_triangulation.hpp"
 #include "mesher/faces/point_placement.hpp"
@@ -36,93 +36,41 @@ class CadSmoothingSurface : public SmoothingSurface {
   const FaceSurface& surface_;
 };
 
-/// One way of meshing a face; the ladder of fallbacks tries several.
-struct Attempt {
-  PlacementOptions placement;
-  bool clean_up;
-  const char* note;
-};
-
 class FaceMesher {
  public:
-  FaceMesher(const CadShape& shape, int face, const CadFace& cad_face,
-             std::shared_ptr<const FaceSurface> surface, const BoundaryNodes& nodes, const SizingField& field,
-             const MeshOptions& options, int fineness, ExecutionContext& context)
-      : face_(face),
-        fineness_(fineness),
-        reversed_(shape.faces[face].reversed),
+  FaceMesher(const CadShape& shape, int face, const FaceChart& chart, const BoundaryNodes& nodes,
+             const SizingField& field, const MeshOptions& options, const FaceRecipe& recipe,
+             ExecutionContext& context)
+      : shape_(shape),
+        face_(face),
         nodes_(nodes),
         options_(options),
+        recipe_(recipe),
         context_(context),
-        shared_surface_(std::move(surface)),
-        surface_(*shared_surface_),
-        boundary_(face_boundary(shape, face, cad_face, surface_, nodes)),
-        domain_(enclosed_domain(boundary_)),
+        chart_(chart),
+        surface_(*chart.surface),
+        domain_(enclosed_domain(chart.boundary)),
         size_at_(field) {}
 
   FaceMesh run() {
-    if (auto grid = mesh_as_grid()) return std::move(*grid);
-    const double scale = boundary_.stride;
-    std::vector<Attempt> attempts{
-        {{scale, 0.72, true}, true, ""},
-        {{scale, 0.72, true}, false, "without clean-up"},
-        {{scale, 0.60, true}, true, "denser points"},
-        {{scale, 0.85, true}, true, "sparser points"},
-        {{scale, 0.75, false}, true, "hexagonal points"},
-    };
-    if (fineness_ > 1) attempts.push_back({{scale / fineness_, 0.72, true}, true, "points as fine"});
-    const double acceptable = acceptable_q();
-    std::optional<FaceMesh> best;
-    std::optional<Error> error;
-    for (std::size_t i = 0; i < attempts.size(); ++i) {
-      context_.check();
-      // Where the boundary crosses itself, no points inside help.
-      if (fineness_ > 1 || error) triangulate_face(face_ + 1, boundary_, {}, surface_, context_);
-      try {
-        FaceMesh mesh = mesh_once(attempts[i]);
-        if (!best || better(mesh, *best)) best = std::move(mesh);
-        // Slender quads are worth a second look, inverted ones all the ladder.
-        if (best->inverted == 0 && (best->q_min > acceptable || i > 0)) break;
-      } catch (const Error& problem) {
-        if (problem.kind() == Error::Kind::cancelled) throw;
-        error = problem;
-      }
+    if (recipe_.mapped) {
+      if (auto grid = mesh_as_grid()) return std::move(*grid);
     }
-    if (!best) throw *error;
-    if (best->inverted > 0) {
-      const std::string name = fmt::format("Face{}", face_ + 1);
-      throw failure(name, fmt::format("{} keeps {} inverted quads at this size: try a smaller size on it",
-                                      name, best->inverted));
+    FaceTriangulation triangulation = triangulate();
+    FaceQuads quads = recombine_face(triangulation);
+    improve(quads, recipe_.clean_up);
+    if (chart_.boundary.stride == 2) {
+      cut_flat_quads(quads.surface_mesh.mesh, quads.surface_mesh.normals, context_);
+      quads = subdivide(quads, triangulation.segments, nodes_.points, surface_, context_);
+      improve(quads, false);
     }
-    return std::move(*best);
+    return finish(std::move(quads));
   }
 
  private:
-  static bool better(const FaceMesh& a, const FaceMesh& b) {
-    return a.inverted != b.inverted ? a.inverted < b.inverted : a.q_min > b.q_min;
-  }
-
-  /// The worst q that is not worth another attempt: where CAD curves meet at a small angle, the quad there is
-  /// as slender whatever one does.
-  double acceptable_q() const {
-    constexpr double usual = 0.05;
-    std::vector<char> pole(boundary_.uv.size(), 0);
-    for (const auto& segment : boundary_.segments) {
-      if (segment.degenerate) pole[segment.a] = pole[segment.b] = 1;
-    }
-    double sharpest = M_PI;
-    for (std::size_t i = 0; i < pole.size(); ++i) {
-      // A wire that runs the wrong way round gives the rest to 2 pi.
-      if (!pole[i])
-        sharpest = std::min({sharpest, boundary_.angles[i], std::abs(2 * M_PI - boundary_.angles[i])});
-    }
-    // q of a quad with one corner this sharp, and some more, since its other corners suffer too.
-    return std::min(usual, 0.3 * sharpest * 2 / M_PI - 0.01);
-  }
-
   std::optional<FaceMesh> mesh_as_grid() {
     const StageTimer timer(context_, Stage::triangulate);
-    auto grid = make_grid(boundary_, nodes_.sides[face_], surface_, size_at_, context_);
+    auto grid = make_grid(chart_.boundary, nodes_.sides[face_], surface_, size_at_, context_);
     context_.check();
     if (!grid) return std::nullopt;
     FaceQuads quads;
@@ -133,27 +81,19 @@ class FaceMesher {
     mesh.parameters = std::move(grid->uv);
     quads.pole.assign(mesh.parameters.size(), 0);
     context_.check();
-    return finish(std::move(quads), "grid");
+    FaceMesh result = finish(std::move(quads));
+    result.grid = true;
+    return result;
   }
 
-  FaceMesh mesh_once(const Attempt& attempt) {
-    FaceTriangulation triangulation = triangulate(attempt);
-    FaceQuads quads = recombine_face(triangulation);
-    improve(quads, attempt.clean_up);
-    if (boundary_.stride == 2) {
-      cut_flat_quads(quads.surface_mesh.mesh, quads.surface_mesh.normals, context_);
-      quads = subdivide(quads, triangulation.segments, nodes_.points, surface_, context_);
-      improve(quads, false);
-    }
-    return finish(std::move(quads), attempt.note);
-  }
-
-  FaceTriangulation triangulate(const Attempt& attempt) {
+  FaceTriangulation triangulate() {
     const StageTimer timer(context_, Stage::triangulate);
-    const PlacedPoints placed =
-        place_points(boundary_, surface_, domain_, size_at_, attempt.placement, context_);
+    PlacementOptions placement;
+    placement.scale = static_cast<double>(chart_.boundary.stride) / recipe_.fineness;
+    placement.refusal = recipe_.refusal;
+    PlacedPoints placed = place_points(chart_.boundary, surface_, domain_, size_at_, placement, context_);
     context_.check();
-    return triangulate_face(face_ + 1, boundary_, placed, surface_, context_);
+    return triangulate_face(face_ + 1, chart_.boundary, std::move(placed), surface_, context_);
   }
 
   FaceQuads recombine_face(const FaceTriangulation& triangulation) {
@@ -167,11 +107,11 @@ class FaceMesher {
     quads.surface_mesh.boundary_angles.resize(triangulation.uv.size(), 0);
     quads.nodes = triangulation.nodes;
     quads.pole = triangulation.pole;
-    if (boundary_.stride == 1 && !quads.surface_mesh.mesh.triangles.empty()) {
-      const std::string name = fmt::format("Face{}", face_ + 1);
-      throw failure(
-          name, fmt::format("{} has an odd boundary that cannot be made even: `strategy` subdivide meshes it",
-                            name));
+    if (chart_.boundary.stride == 1 && !quads.surface_mesh.mesh.triangles.empty()) {
+      throw FaceProblem(
+          Cause::odd_boundary, face_ + 1,
+          fmt::format("Face{} has an odd boundary that cannot be made even: `strategy` subdivide meshes it",
+                      face_ + 1));
     }
     return quads;
   }
@@ -189,103 +129,134 @@ class FaceMesher {
     smooth(quads.surface_mesh, surface, options_.improve, report, context_);
   }
 
-  FaceMesh finish(FaceQuads quads, const char* note) const {
+  FaceMesh finish(FaceQuads quads) const {
     FaceMesh result;
     result.quads = std::move(quads.surface_mesh.mesh.quads);
     result.points = std::move(quads.surface_mesh.mesh.points);
     result.uv = std::move(quads.surface_mesh.parameters);
     result.pole = std::move(quads.pole);
     result.nodes = std::move(quads.nodes);
-    result.note = note;
-    result.surface = shared_surface_;
+    if (recipe_.chart != ChartKind::own) result.surface = chart_.surface;  // else made again where wanted
     result.q_min = 1;
+    std::vector<int> inverted;
     SparseCheck check(context_);
     for (auto& quad : result.quads) {
       check();
-      if (reversed_) std::swap(quad[1], quad[3]);
+      if (shape_.faces[face_].reversed) std::swap(quad[1], quad[3]);
       const auto& p = result.points;
-      result.inverted += quad_scaled_jacobian(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]) <= 0;
+      if (quad_scaled_jacobian(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]) <= 0)
+        inverted.push_back(static_cast<int>(&quad - result.quads.data()));
       result.q_min = std::min(result.q_min, quad_q(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]));
+    }
+    if (!inverted.empty()) throw inverted_problem(result, inverted);
+    return result;
+  }
+
+  /// With the stretches of the edges that the inverted quads and those round them touch.
+  FaceProblem inverted_problem(const FaceMesh& mesh, const std::vector<int>& inverted) const {
+    std::set<int> corners, touched;
+    for (const int quad : inverted) corners.insert(mesh.quads[quad].begin(), mesh.quads[quad].end());
+    for (const auto& quad : mesh.quads) {
+      if (std::none_of(quad.begin(), quad.end(), [&](int corner) { return corners.contains(corner); }))
+        continue;
+      for (const int corner : quad) {
+        if (corner < static_cast<int>(mesh.nodes.size())) touched.insert(mesh.nodes[corner]);
+      }
+    }
+    const int corner = worst_corner(mesh, mesh.quads[inverted.front()]);
+    const Vector3& near = mesh.points[corner];
+    const bool inside = std::any_of(inverted.begin(), inverted.end(), [&](int quad) {
+      return worst_corner(mesh, mesh.quads[quad]) >= static_cast<int>(mesh.nodes.size());
+    });
+    const Cause cause = largest_stray(chart_.boundary, surface_) > 1 ? Cause::stray_curves
+                        : inside                                     ? Cause::inverted_inside
+                                                                     : Cause::inverted_at_boundary;
+    FaceProblem problem(
+        cause, face_ + 1,
+        fmt::format("Face{} keeps {} inverted quad{} at this size, the first at ({:.6g}, {:.6g}, {:.6g}), {}",
+                    face_ + 1, inverted.size(), inverted.size() == 1 ? "" : "s", near.x(), near.y(), near.z(),
+                    place_of(mesh, corner)));
+    problem.stretches = stretches_at(touched);
+    for (const EdgeStretch& part : problem.stretches) problem.edges.push_back(part.edge);
+    return problem;
+  }
+
+  /// The node at the corner of a quad that is turned over most.
+  int worst_corner(const FaceMesh& mesh, const std::array<int, 4>& quad) const {
+    const auto& p = mesh.points;
+    const Vector3 outward = (shape_.faces[face_].reversed ? -1 : 1) * surface_.normal(mesh.uv[quad[0]]);
+    int worst = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 4; ++k) {
+      const Vector3 &at = p[quad[k]], &next = p[quad[(k + 1) % 4]], &before = p[quad[(k + 3) % 4]];
+      const double area = (next - at).cross(before - at).dot(outward);
+      if (area < least) {
+        least = area;
+        worst = k;
+      }
+    }
+    return quad[worst];
+  }
+
+  /// What a node of the face lies on.
+  std::string place_of(const FaceMesh& mesh, int corner) const {
+    if (corner >= static_cast<int>(mesh.nodes.size())) return "inside the face";
+    const int node = mesh.nodes[corner];
+    const auto vertex = std::find(nodes_.vertex_nodes.begin(), nodes_.vertex_nodes.end(), node);
+    if (vertex != nodes_.vertex_nodes.end())
+      return fmt::format("Vertex{}", vertex - nodes_.vertex_nodes.begin() + 1);
+    for (const auto& segment : chart_.boundary.segments) {
+      if (segment.edge == 0) continue;
+      const auto& on_edge = nodes_.edges[segment.edge - 1].nodes;
+      if (std::find(on_edge.begin(), on_edge.end(), node) != on_edge.end())
+        return fmt::format("a node of Edge{}", shape_.edges[segment.edge - 1].number);
+    }
+    return "inside the face";
+  }
+
+  /// The segments that end at nodes, joined where they follow each other, and twice as many wanted.
+  std::vector<EdgeStretch> stretches_at(const std::set<int>& touched) const {
+    std::vector<EdgeStretch> result;
+    std::set<int> edges;
+    for (const auto& segment : chart_.boundary.segments) {
+      if (segment.edge > 0) edges.insert(segment.edge);
+    }
+    for (const int number : edges) {
+      const BoundaryNodes::Edge& edge = nodes_.edges[number - 1];
+      int last = -1;  // segment that is in a stretch
+      for (int i = 0; i + nodes_.stride < static_cast<int>(edge.nodes.size()); i += nodes_.stride) {
+        if (!touched.contains(edge.nodes[i]) && !touched.contains(edge.nodes[i + nodes_.stride])) continue;
+        const double from = edge.parameters[i], to = edge.parameters[i + nodes_.stride];
+        if (last >= 0 && last + nodes_.stride == i) {
+          result.back().to = to;
+          result.back().segments += 4;
+        } else {
+          result.push_back({number, from, to, 4});
+        }
+        last = i;
+      }
     }
     return result;
   }
 
+  const CadShape& shape_;
   int face_;
-  int fineness_;
-  bool reversed_;
   const BoundaryNodes& nodes_;
   const MeshOptions& options_;
+  const FaceRecipe& recipe_;
   ExecutionContext& context_;
-  std::shared_ptr<const FaceSurface> shared_surface_;
+  const FaceChart& chart_;
   const FaceSurface& surface_;
-  FaceBoundary boundary_;
   TrimmedDomain domain_;
   SizingField::Sampler size_at_;
 };
 
-/// The nodes of the wire that encloses most, in order.
-std::vector<Vector3> widest_loop(const CadFace& face, const BoundaryNodes& nodes) {
-  std::vector<Vector3> widest;
-  double largest = 0;
-  for (const CadWire& wire : face.wires) {
-    std::vector<Vector3> loop;
-    for (const Coedge& coedge : wire.coedges) {
-      const auto& edge = nodes.edges[coedge.edge - 1].nodes;
-      // Without the last one, which is the first of the next edge.
-      for (std::size_t i = 0; i + 1 < edge.size(); ++i)
-        loop.push_back(nodes.points[edge[coedge.forward ? i : edge.size() - 1 - i]]);
-    }
-    const double area = vector_area(loop).norm();
-    if (area > largest) {
-      largest = area;
-      widest = loop;
-    }
-  }
-  return widest;
-}
-
-/// Faces that stand for one whose own parametric curves or parametrisation are of no use.
-enum class StandIn { none, new_curves, view };
-
-FaceMesh mesh_as(StandIn stand_in, const CadShape& shape, int face, const BoundaryNodes& nodes,
-                 const SizingField& field, const MeshOptions& options, int fineness,
-                 ExecutionContext& context) {
-  std::optional<CadFace> other;
-  if (stand_in == StandIn::new_curves) other = with_new_curves(shape.faces[face]);
-  const CadFace& cad_face = other ? *other : shape.faces[face];
-  const auto surface = std::make_shared<const FaceSurface>(
-      stand_in == StandIn::view ? FaceSurface::seen_from_above(cad_face, widest_loop(cad_face, nodes))
-                                : FaceSurface(cad_face));
-  FaceMesh mesh = FaceMesher(shape, face, cad_face, surface, nodes, field, options, fineness, context).run();
-  if (stand_in == StandIn::none) {
-    mesh.surface.reset();  // made again where it is wanted
-    return mesh;
-  }
-  if (!mesh.note.empty()) mesh.note += ", ";
-  mesh.note += stand_in == StandIn::view ? "seen from above" : "parametric curves made anew";
-  return mesh;
-}
-
 }  // namespace
 
-FaceMesh mesh_face(const CadShape& shape, int face, const BoundaryNodes& nodes, const SizingField& field,
-                   const MeshOptions& options, int fineness, ExecutionContext& context) {
-  const auto start = std::chrono::steady_clock::now();
-  std::optional<FaceMesh> mesh;
-  std::optional<Error> own_problem;  // of its own parametrisation, which users know
-  for (const StandIn stand_in : {StandIn::none, StandIn::new_curves, StandIn::view}) {
-    try {
-      mesh = mesh_as(stand_in, shape, face, nodes, field, options, fineness, context);
-      break;
-    } catch (const Error& problem) {
-      if (problem.kind() == Error::Kind::cancelled) throw;
-      if (!own_problem) own_problem = problem;
-      if (fineness <= 2) break;
-    }
-  }
-  if (!mesh) throw *own_problem;
-  mesh->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return std::move(*mesh);
+FaceMesh mesh_face(const CadShape& shape, int face, const FaceChart& chart, const BoundaryNodes& nodes,
+                   const SizingField& field, const MeshOptions& options, const FaceRecipe& recipe,
+                   ExecutionContext& context) {
+  return FaceMesher(shape, face, chart, nodes, field, options, recipe, context).run();
 }
 
 }  // namespace quadrille

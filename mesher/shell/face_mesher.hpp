@@ -3,7 +3,6 @@
 
 #include <array>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
@@ -11,6 +10,8 @@
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/edge_sampling.hpp"
+#include "mesher/faces/face_chart.hpp"
+#include "mesher/faces/point_placement.hpp"
 #include "mesher/options.hpp"
 
 namespace quadrille {
@@ -22,18 +23,23 @@ struct FaceMesh {
   std::vector<char> pole;                 ///< (n) 1 = uv is one of many
   std::vector<std::array<int, 4>> quads;  ///< counter-clockwise seen against the face's normal in the model
   std::vector<int> nodes;                 ///< indices into BoundaryNodes::points
-  int inverted = 0;                       ///< quads with scaled Jacobian <= 0
   double q_min = 0;
-  std::string note;                            ///< "grid" (see face_grid.hpp), or which fallback was taken
+  bool grid = false;                           ///< see face_grid.hpp
   std::shared_ptr<const FaceSurface> surface;  ///< what uv are parameters of; null = the face's own surface
-  double seconds = 0;
 };
 
-/// Triangulates, recombines and improves one face.
-/// \param fineness how many times as many segments as asked for the boundary has. Where the face fails, its
-/// points are tried as fine; from 4 on, it is tried with parametric curves made anew, and as it is seen from
-/// above. Throws Error (failure) naming the face.
-FaceMesh mesh_face(const CadShape& shape, int face, const BoundaryNodes& nodes, const SizingField& field,
-                   const MeshOptions& options, int fineness, ExecutionContext& context);
+/// How a face is meshed.
+struct FaceRecipe {
+  ChartKind chart = ChartKind::own;
+  bool mapped = true;                           ///< a regular grid where the face is one
+  bool clean_up = true;                         ///< of the topology
+  double refusal = PlacementOptions().refusal;  ///< between points, see PlacementOptions
+  int fineness = 1;                             ///< its points are so many times as fine as asked for
+};
+
+/// Triangulates, recombines and improves one face, once. \param face from 0. Throws FaceProblem.
+FaceMesh mesh_face(const CadShape& shape, int face, const FaceChart& chart, const BoundaryNodes& nodes,
+                   const SizingField& field, const MeshOptions& options, const FaceRecipe& recipe,
+                   ExecutionContext& context);
 
 }  // namespace quadrille

@@ -437,13 +437,11 @@ class NodeSliding {
     FaceMesh& mesh = *face.mesh;
     for (std::size_t i = 0; i < face.slid.size(); ++i)
       if (face.slid[i]) face.get_surface().project(mesh.uv[i], mesh.points[i]);
-    mesh.inverted = 0;
     mesh.q_min = 1;
     SparseCheck check(context_);
     for (const auto& [a, b, c, d] : mesh.quads) {
       check();
       const auto& p = mesh.points;
-      mesh.inverted += quad_scaled_jacobian(p[a], p[b], p[c], p[d]) <= 0;
       mesh.q_min = std::min(mesh.q_min, quad_q(p[a], p[b], p[c], p[d]));
     }
   }

@@ -17,7 +17,7 @@ namespace quadrille {
 /// quads of all faces there; others on their surfaces. Nodes of CAD vertices stay, and so do those of edges
 /// that share theirs (TinyFeatures). No quad becomes concave, and none gets a scaled Jacobian below both 0.4
 /// and the worst of the quads round the same node. Intervals along edges keep between 0.5 and 1.5 of what
-/// they were. Parameters and points of `nodes`, and points, uv, q_min and inverted of the faces follow. Faces
+/// they were. Parameters and points of `nodes`, and points, uv and q_min of the faces follow. Faces
 /// run in parallel between passes over the edges: the result does not depend on the number of threads.
 /// Complexity: linear in the quads, and some 2 us a node and sweep where they are poor.
 void slide_nodes(const CadShape& shape, BoundaryNodes& nodes, std::vector<std::optional<FaceMesh>>& faces,

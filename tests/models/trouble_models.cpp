@@ -194,6 +194,13 @@ TopoDS_Face annulus(double outer, double inner) {
   return maker.Face();
 }
 
+/// A disc with a hole that comes within 0.05 of its rim, far from the vertices of both.
+TopoDS_Face eccentric_hole() {
+  BRepBuilderAPI_MakeFace maker(gp_Pln(gp::XOY()), circle(0, 0, 10));
+  maker.Add(TopoDS::Wire(circle(1.95 * std::cos(2.0), 1.95 * std::sin(2.0), 8).Reversed()));
+  return maker.Face();
+}
+
 /// The part of a disc between two arcs that share their ends.
 TopoDS_Shape crescent() {
   const gp_Pnt a(-10, 0, 0), b(10, 0, 0);
@@ -775,6 +782,7 @@ std::vector<TroubleModel> all_models() {
       {"loose_tolerance", "vertices off their edges, tolerance 0.1", loose_box, true, 2 * (600 + 800 + 1200)},
       {"thin_annulus", "wires that cross when sampled coarsely", [] { return annulus(10, 9.9); }, false,
        pi * (100 - 9.9 * 9.9)},
+      {"eccentric_hole", "a hole that comes within size / 10 of the rim", eccentric_hole, false, 36 * pi},
       {"crescent", "two arcs that share their ends", crescent, false, 0},
       {"wedge", "a rim that tapers to a tip of half a degree", wedge, false,
        101.0125 * std::acos(-0.1 / std::sqrt(101.0125)) + 0.1 * 10.05},

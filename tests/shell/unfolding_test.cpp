@@ -198,7 +198,8 @@ TEST(Unfolding, NamesTheFaceThatNoStraightSideMends) {
       sample_edges(model.shape(), field, stride(options.strategy), std::vector<char>(model.face_count(), 1),
                    SamplingPlan(model.shape()), context);
   std::vector<std::optional<FaceMesh>> faces(model.face_count());
-  faces[2] = mesh_face(model.shape(), 2, nodes, field, options, 1, context);
+  faces[2] = mesh_face(model.shape(), 2, make_chart(model.shape(), 2, nodes, ChartKind::own), nodes, field,
+                       options, {}, context);
   std::vector<ShellMesh::Face> statuses(faces.size());
   EXPECT_NO_THROW(assemble(model.shape(), nodes, faces, statuses, options, context));
   // The last node, far across its neighbours.

@@ -1,0 +1,157 @@
+/// Candidates by intersecting boxes (Zomorodian & Edelsbrunner, Fast software for box intersections, 2002, as
+/// CGAL has it), then exact predicates.
+
+// CGAL first: OpenCASCADE defines a macro named Handle.
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/box_intersection_d.h>
+#include <CGAL/intersections.h>
+
+#include "mesher/faces/boundary_crossings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace quadrille {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_2;
+using Segment = Kernel::Segment_2;
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 2, int>;
+
+Point to_point(const Vector2& p) {
+  return {p.x(), p.y()};
+}
+
+/// Whether two segments meet anywhere but at a common end.
+bool cross(const Segment& s, const Segment& t) {
+  if (s == t || s == t.opposite()) return false;
+  if (s.is_degenerate() || t.is_degenerate() || !CGAL::do_intersect(s, t)) return false;
+  for (const int i : {0, 1}) {
+    for (const int k : {0, 1}) {
+      if (s.vertex(i) != t.vertex(k)) continue;
+      // They leave a common end: one lies on the other, or that end is all.
+      const Point &at = s.vertex(i), &a = s.vertex(1 - i), &b = t.vertex(1 - k);
+      return CGAL::orientation(at, a, b) == CGAL::COLLINEAR &&
+             !CGAL::collinear_are_strictly_ordered_along_line(a, at, b);
+    }
+  }
+  return true;
+}
+
+/// Places along a segment of the boundary in the parameter plane, by the parametric curve.
+std::vector<Point> refined(const FaceBoundary& boundary, const FaceBoundary::Segment& segment, int pieces) {
+  const Vector2 &a = boundary.uv[segment.a], &b = boundary.uv[segment.b];
+  std::vector<Point> line{to_point(a)};
+  const auto on_curve = [&](double t) { return parametric_point(*segment.coedge, t); };
+  for (int k = 1; k < pieces; ++k) {
+    const double share = static_cast<double>(k) / pieces;
+    // Ends may have been moved by periods, or to where the next edge begins.
+    const Vector2 moved = (1 - share) * (a - on_curve(segment.from)) + share * (b - on_curve(segment.to));
+    line.push_back(to_point(on_curve(segment.from + share * (segment.to - segment.from)) + moved));
+  }
+  line.push_back(to_point(b));
+  return line;
+}
+
+bool cross(const std::vector<Point>& a, const std::vector<Point>& b) {
+  for (std::size_t i = 0; i + 1 < a.size(); ++i) {
+    for (std::size_t k = 0; k + 1 < b.size(); ++k) {
+      if (cross(Segment(a[i], a[i + 1]), Segment(b[k], b[k + 1]))) return true;
+    }
+  }
+  return false;
+}
+
+/// In how many pieces each of two crossing segments crosses the other no more; 0 = however many. Not for the
+/// view from above, whose plane the parametric curves know nothing of.
+int pieces_apart(const FaceBoundary& boundary, const FaceSurface& surface, const std::pair<int, int>& pair) {
+  constexpr int most = 32;
+  const auto &s = boundary.segments[pair.first], &t = boundary.segments[pair.second];
+  if (s.degenerate || t.degenerate || surface.is_view()) return 0;
+  for (int pieces = 2; pieces <= most; pieces *= 2) {
+    if (!cross(refined(boundary, s, pieces), refined(boundary, t, pieces))) return pieces;
+  }
+  return 0;
+}
+
+EdgeStretch stretch_of(const FaceBoundary::Segment& segment, int pieces) {
+  return {segment.edge, std::min(segment.from, segment.to), std::max(segment.from, segment.to), pieces};
+}
+
+/// What a segment is a part of, and which part.
+std::string name_of(const CadShape& shape, const FaceBoundary::Segment& segment) {
+  if (segment.edge == 0) return "a pole";
+  return fmt::format("Edge{} (parameters {:.4g} to {:.4g})", shape.edges[segment.edge - 1].number,
+                     std::min(segment.from, segment.to), std::max(segment.from, segment.to));
+}
+
+}  // namespace
+
+std::vector<std::pair<int, int>> crossing_segments(const FaceBoundary& boundary) {
+  std::vector<Box> boxes;
+  boxes.reserve(boundary.segments.size());
+  const auto ends = [&](int i) {
+    const auto& segment = boundary.segments[i];
+    return Segment(to_point(boundary.uv[segment.a]), to_point(boundary.uv[segment.b]));
+  };
+  for (int i = 0; i < static_cast<int>(boundary.segments.size()); ++i) boxes.emplace_back(ends(i).bbox(), i);
+  std::vector<std::pair<int, int>> pairs;
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    if (cross(ends(a.info()), ends(b.info()))) pairs.push_back(std::minmax(a.info(), b.info()));
+  });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+double largest_stray(const FaceBoundary& boundary, const FaceSurface& surface) {
+  double largest = 0;
+  for (const auto& segment : boundary.segments) {
+    if (segment.degenerate) continue;
+    const double length = (boundary.points[segment.b] - boundary.points[segment.a]).norm();
+    for (const int i : {segment.a, segment.b}) {
+      const double off = (surface.point(boundary.uv[i]) - boundary.points[i]).norm();
+      largest = std::max(largest, off / std::max(length, 1e-300));
+    }
+  }
+  return largest;
+}
+
+std::optional<FaceProblem> crossing_problem(int face, const CadShape& shape, const FaceBoundary& boundary,
+                                            const FaceSurface& surface) {
+  constexpr double stray = 0.5;  // of a segment
+  const auto pairs = crossing_segments(boundary);
+  if (pairs.empty()) return std::nullopt;
+  std::vector<EdgeStretch> stretches;
+  std::pair<int, int> worst = pairs.front();
+  Cause cause = Cause::coarse_segments;
+  for (const auto& pair : pairs) {
+    const auto &s = boundary.segments[pair.first], &t = boundary.segments[pair.second];
+    if (const int pieces = pieces_apart(boundary, surface, pair)) {
+      for (const auto* segment : {&s, &t}) stretches.push_back(stretch_of(*segment, pieces));
+    } else if (cause == Cause::coarse_segments) {
+      cause = s.edge == t.edge && s.edge > 0 ? Cause::looped_edge : Cause::crossing_curves;
+      worst = pair;
+    }
+  }
+  if (cause == Cause::crossing_curves && largest_stray(boundary, surface) > stray)
+    cause = Cause::stray_curves;
+  const auto &s = boundary.segments[worst.first], &t = boundary.segments[worst.second];
+  const Vector3& near = boundary.points[s.a];
+  FaceProblem problem(
+      cause, face,
+      fmt::format("the boundary of Face{} crosses or touches itself near ({:.6g}, {:.6g}, {:.6g}), "
+                  "where {} meets {}",
+                  face, near.x(), near.y(), near.z(), name_of(shape, s), name_of(shape, t)));
+  for (const int edge : std::set{s.edge, t.edge}) {
+    if (edge > 0) problem.edges.push_back(edge);
+  }
+  problem.stretches = std::move(stretches);
+  return problem;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,60 @@
+#include "mesher/faces/face_chart.hpp"
+
+#include <Standard_Failure.hxx>
+
+#include <fmt/format.h>
+
+#include "geometry/cad/shape_completion.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// The nodes of the wire that encloses most, in order.
+std::vector<Vector3> widest_loop(const CadFace& face, const BoundaryNodes& nodes) {
+  std::vector<Vector3> widest;
+  double largest = 0;
+  for (const CadWire& wire : face.wires) {
+    std::vector<Vector3> loop;
+    for (const Coedge& coedge : wire.coedges) {
+      const auto& edge = nodes.edges[coedge.edge - 1].nodes;
+      // Without the last one, which is the first of the next edge.
+      for (std::size_t i = 0; i + 1 < edge.size(); ++i)
+        loop.push_back(nodes.points[edge[coedge.forward ? i : edge.size() - 1 - i]]);
+    }
+    const double area = vector_area(loop).norm();
+    if (area > largest) {
+      largest = area;
+      widest = loop;
+    }
+  }
+  return widest;
+}
+
+FaceChart chart_of(const CadShape& shape, int face, const BoundaryNodes& nodes, ChartKind kind) {
+  FaceChart chart;
+  if (kind == ChartKind::new_curves)
+    chart.other = std::make_shared<const CadFace>(with_new_curves(shape.faces[face]));
+  const CadFace& cad_face = chart.other ? *chart.other : shape.faces[face];
+  chart.surface = std::make_shared<const FaceSurface>(
+      kind == ChartKind::view ? FaceSurface::seen_from_above(cad_face, widest_loop(cad_face, nodes))
+                              : FaceSurface(cad_face));
+  chart.boundary = face_boundary(shape, face, cad_face, *chart.surface, nodes);
+  return chart;
+}
+
+}  // namespace
+
+FaceChart make_chart(const CadShape& shape, int face, const BoundaryNodes& nodes, ChartKind kind) {
+  try {
+    return chart_of(shape, face, nodes, kind);
+  } catch (const Error& problem) {
+    if (problem.kind() != Error::Kind::failure) throw;
+    throw FaceProblem(Cause::unusable_boundary, face + 1, problem.what());
+  } catch (const Standard_Failure& problem) {
+    throw FaceProblem(Cause::unusable_boundary, face + 1,
+                      fmt::format("Face{} cannot be evaluated ({})", face + 1, problem.GetMessageString()));
+  }
+}
+
+}  // namespace quadrille

@@ -1,0 +1,180 @@
+#include "mesher/shell/remedies.hpp"
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace quadrille {
+
+namespace {
+
+struct Case {
+  const CadShape& shape;
+  int face;
+  const FaceProblem& problem;
+  double size;
+  FaceRecipe& recipe;
+  EdgeTreatment& edges;
+};
+
+/// \return false if it would change nothing.
+using Remedy = bool (*)(Case& patient);
+
+bool finer_there(Case& patient) {
+  const auto& parts = patient.problem.stretches;
+  auto& finer = patient.edges.plan.finer;
+  finer.insert(finer.end(), parts.begin(), parts.end());
+  patient.recipe = {patient.recipe.chart};
+  return !parts.empty();
+}
+
+/// Segments and points, where more than a place is too coarse: near poles and in narrow faces.
+bool twice_as_fine(Case& patient) {
+  SamplingPlan& plan = patient.edges.plan;
+  std::set<int> edges;
+  for (const CadWire& wire : patient.shape.faces[patient.face].wires) {
+    for (const Coedge& coedge : wire.coedges) edges.insert(coedge.edge);
+  }
+  std::erase_if(plan.finer, [&](const EdgeStretch& part) { return edges.contains(part.edge); });
+  patient.recipe = {.chart = patient.recipe.chart, .fineness = 2 * patient.recipe.fineness};
+  for (const int edge : edges)
+    plan.factor[edge - 1] = std::max(plan.factor[edge - 1], patient.recipe.fineness);
+  return true;
+}
+
+bool along_chord(Case& patient) {
+  bool any = false;
+  for (const int edge : patient.problem.edges) {
+    char& bare = patient.edges.plan.bare[edge - 1];
+    any |= bare == 0;
+    bare = 1;
+  }
+  patient.recipe.chart = ChartKind::own;
+  return any;
+}
+
+bool collapse(Case& patient, Collapse how) {
+  bool any = false;
+  for (const CadWire& wire : patient.shape.faces[patient.face].wires) {
+    for (const Coedge& coedge : wire.coedges) {
+      Collapse& now = patient.edges.collapse[coedge.edge - 1];
+      any |= now < how;
+      now = std::max(now, how);
+    }
+  }
+  return any;
+}
+
+/// Only where some edge is.
+bool points_below_tolerance(Case& patient) {
+  const CadShape& shape = patient.shape;
+  const auto is_short = [&](const Coedge& coedge) {
+    const CadEdge& edge = shape.edges[coedge.edge - 1];
+    if (edge.degenerate || edge.first_vertex == 0 || edge.last_vertex == 0) return false;
+    return edge.length < std::max({edge.tolerance, shape.vertex_tolerances[edge.first_vertex - 1],
+                                   shape.vertex_tolerances[edge.last_vertex - 1]});
+  };
+  const auto& wires = shape.faces[patient.face].wires;
+  return std::any_of(wires.begin(), wires.end(),
+                     [&](const CadWire& wire) {
+                       return std::any_of(wire.coedges.begin(), wire.coedges.end(), is_short);
+                     }) &&
+         collapse(patient, Collapse::below_tolerance);
+}
+
+/// For faces so small beside the elements that one node can stand for them.
+bool as_point(Case& patient) {
+  constexpr double share = 0.2;  // of the least size that the options allow by default
+  if (!(longest_edge(patient.shape, patient.face) < share * patient.size / 8)) return false;
+  return collapse(patient, Collapse::always);
+}
+
+bool with_curves_made_anew(Case& patient) {
+  patient.recipe = {ChartKind::new_curves};
+  return true;
+}
+
+bool seen_from_above(Case& patient) {
+  patient.recipe = {ChartKind::view};
+  return true;
+}
+
+bool denser_points(Case& patient) {
+  patient.recipe = {.chart = patient.recipe.chart, .refusal = 0.6, .fineness = patient.recipe.fineness};
+  return true;
+}
+
+bool without_clean_up(Case& patient) {
+  if (!patient.recipe.clean_up) return false;
+  patient.recipe.mapped = patient.recipe.clean_up = false;
+  return true;
+}
+
+constexpr unsigned any_of(std::initializer_list<Cause> causes) {
+  unsigned bits = 0;
+  for (const Cause cause : causes) bits |= 1U << static_cast<unsigned>(cause);
+  return bits;
+}
+
+struct Row {
+  unsigned causes;
+  const char* name;
+  int times;
+  Remedy apply;
+};
+
+/// For each cause its remedies, the one that asks for least first.
+constexpr std::array table{
+    Row{any_of({Cause::coarse_segments}), "finer segments there", 4, finer_there},
+    Row{any_of({Cause::looped_edge}), "nodes along the chord of that edge", 1, along_chord},
+    Row{any_of({Cause::crossing_curves}), "edges below their tolerance taken as points", 1,
+        points_below_tolerance},
+    Row{any_of({Cause::inverted_inside, Cause::inverted_at_boundary}), "without clean-up", 1,
+        without_clean_up},
+    Row{any_of({Cause::inverted_inside, Cause::no_mesh}), "denser points", 1, denser_points},
+    Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::unusable_boundary, Cause::no_mesh}),
+        "parametric curves made anew", 1, with_curves_made_anew},
+    Row{any_of({Cause::inverted_inside, Cause::inverted_at_boundary}), "finer segments there", 2,
+        finer_there},
+    Row{any_of({Cause::inverted_inside, Cause::inverted_at_boundary}), "the whole face twice as fine", 3,
+        twice_as_fine},
+    Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::looped_edge, Cause::unusable_boundary,
+                Cause::no_mesh, Cause::inverted_inside, Cause::inverted_at_boundary}),
+        "seen from above", 1, seen_from_above},
+    Row{any_of({Cause::crossing_curves}), "nodes along the chords of those edges", 1, along_chord},
+    Row{any_of({Cause::coarse_segments, Cause::stray_curves, Cause::crossing_curves, Cause::looped_edge,
+                Cause::unusable_boundary, Cause::no_mesh, Cause::inverted_inside,
+                Cause::inverted_at_boundary}),
+        "taken as a point", 1, as_point},
+};
+
+}  // namespace
+
+double longest_edge(const CadShape& shape, int face) {
+  double longest = 0;
+  for (const CadWire& wire : shape.faces[face].wires) {
+    for (const Coedge& coedge : wire.coedges)
+      longest = std::max(longest, shape.edges[coedge.edge - 1].length);
+  }
+  return longest;
+}
+
+bool apply_remedy(const CadShape& shape, const FaceProblem& problem, double size, FaceRecord& record,
+                  EdgeTreatment& edges) {
+  if (record.attempts >= FaceRecord::most_attempts) return false;
+  record.tried.resize(table.size(), 0);
+  Case patient{shape, problem.face() - 1, problem, size, record.recipe, edges};
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    const bool fits = (table[row].causes >> static_cast<unsigned>(problem.cause()) & 1U) != 0;
+    if (!fits || record.tried[row] == table[row].times || !table[row].apply(patient)) continue;
+    ++record.tried[row];
+    record.history.push_back(fmt::format("{}: {}", problem.what(), table[row].name));
+    return true;
+  }
+  return false;
+}
+
+}  // namespace quadrille
