@@ -67,7 +67,7 @@ for target in "${targets[@]}"; do
     ln -s "$here/workbench" "$addon"
   else
     mkdir "$addon"
-    cp -r "$here/workbench/"{package.xml,Init.py,InitGui.py,icons,quadrille} "$addon/"
+    cp -r "$here/workbench/"{package.xml,Init.py,InitGui.py,quadrille_commands.py,icons,translations,quadrille} "$addon/"
     find "$addon" -name __pycache__ -type d -prune -exec rm -r {} +
     cp "$here/LICENSE" "$addon/"
     if [[ -x "$here/build/quadrille" ]]; then

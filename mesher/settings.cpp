@@ -197,7 +197,7 @@ std::vector<Setting> make_table() {
        [](Settings& v) -> Strategy& { return v.mesh.strategy; }},
       {"faces", "faces", "Faces", "Faces", mesh, none, 0, 0, false, "all faces",
        "faces to mesh, such as Face1,Face7", [](Settings& v) -> std::vector<int>& { return v.mesh.faces; }},
-      {"sizes", "size-on", "Sizes", none, mesh, mm, 0, 0, false, "none",
+      {"sizes", "size-on", none, none, mesh, mm, 0, 0, false, "none",
        "sizes on faces, edges and vertices, such as Face3=0.5,Edge4=1",
        [](Settings& v) -> SizingOptions& { return v.mesh.sizing; }},
       {"size_field", "size-field", "SizeField", none, mesh, none, 0, 0, false, "none",

@@ -77,7 +77,6 @@ def sag(analysis, solver):
         if problem:
             raise RuntimeError(f"FreeCAD refuses the analysis: {problem}")
         fea.write_inp_file()
-        quadrille.freecad.use_reduced_shells(fea.inp_file_name)
         fea.ccx_run()
         fea.load_results()
     result = next(member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject"))

@@ -9,6 +9,7 @@ import tempfile
 import time
 import types
 import unittest
+import unittest.mock
 from pathlib import Path
 
 sys.path.insert(0, os.environ["QUADRILLE_PYTHON"])
@@ -140,6 +141,32 @@ class AddonTest(unittest.TestCase):
                 answers.append(sorted(rows[0]["FEMElements"]))
             self.assertEqual(answers[0], answers[1])
             self.assertEqual(set(answers[0]), group(mesh, "Face1") | group(mesh, "Face5"))
+            self.document.removeObject(mesh.Name)
+
+    def test_forces_on_faces_are_those_that_freecad_finds(self):
+        from femmesh import meshtools
+
+        part = self.document.addObject("Part::Feature", "Part")
+        part.Shape = Part.makeCylinder(5, 20).fuse(Part.makeBox(20, 4, 4))
+        analysis, _, _ = self.analysis()
+        force = analysis.addObject(ObjectsFem.makeConstraintForce(self.document, "Force"))[0]
+        force.References, force.Force = [(part, ("Face1", "Face4"))], "100 N" if FreeCAD.Version()[0] != "0" else 100.0
+        for order in (1, 2):
+            mesh = core.mesh_object(part, size=2, order=order, analysis=analysis)
+            table, nodes = meshtools.get_femelement_faces_table(mesh.FemMesh), mesh.FemMesh.Nodes
+            ours = meshtools.get_force_obj_face_nodeload_table(mesh.FemMesh, table, nodes, force)
+            with unittest.mock.patch.object(meshtools, "get_ref_facenodes_areas",
+                                            meshtools.get_ref_facenodes_areas.__wrapped__), \
+                    unittest.mock.patch.object(meshtools, "get_ref_facenodes_table",
+                                               meshtools.get_ref_facenodes_table.__wrapped__):
+                searched = meshtools.get_force_obj_face_nodeload_table(mesh.FemMesh, table, nodes, force)
+            self.assertEqual([name for name, _ in ours], [name for name, _ in searched])
+            for (_, one), (_, other) in zip(ours, searched):
+                self.assertEqual(set(one), set(other))
+                for node, load in other.items():
+                    self.assertAlmostEqual(float(one[node]), float(load), 9)
+            with unittest.mock.patch.object(meshtools, "get_femelements_by_femnodes_std", side_effect=AssertionError):
+                meshtools.get_force_obj_face_nodeload_table(mesh.FemMesh, table, nodes, force)  # nothing is searched
             self.document.removeObject(mesh.Name)
 
     def test_thickness_and_material_per_face(self):

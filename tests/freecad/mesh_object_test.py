@@ -4,6 +4,7 @@ import os
 import sys
 import tempfile
 import unittest
+from unittest import mock
 from pathlib import Path
 
 sys.path.insert(0, os.environ["QUADRILLE_PYTHON"])
@@ -139,7 +140,9 @@ class MeshObjectTest(unittest.TestCase):
         self.assertIsInstance(mesh.Proxy, quadrille.freecad.MeshFeature)
         self.assertEqual(mesh.Shape.Name, "Part")
         self.assertEqual((mesh.FemMesh.FaceCount, mesh.FemMesh.GroupCount), (quads, groups))
-        self.assertEqual((mesh.Size.Value, mesh.ElementOrder, dict(mesh.Sizes)), (6.0, "2nd", {"Face3": "3.0"}))
+        self.assertEqual((mesh.Size.Value, mesh.ElementOrder), (6.0, "2nd"))
+        self.assertEqual([(region.References, region.CharacteristicLength) for region in mesh.MeshRegionList],
+                         [([(self.document.Part, ("Face3",))], 3.0)])
         remesh(mesh)
         self.assertEqual(mesh.FemMesh.FaceCount, quads)
 
@@ -179,12 +182,17 @@ class MeshObjectTest(unittest.TestCase):
             fea.setup_working_dir(folder, create=True)
             problems = fea.check_prerequisites()
             self.assertFalse(problems)
-            fea.write_inp_file()
-            text = Path(fea.inp_file_name).read_text()
-            self.assertIn("TYPE=S8, ELSET=Efaces", text)
-            blocks = quadrille.freecad.use_reduced_shells(fea.inp_file_name)
-            self.assertEqual(blocks, 1)
-            self.assertIn("TYPE=S8R, ELSET=Efaces", Path(fea.inp_file_name).read_text())
+            for reduced, offset, element, section in ((True, 0, "S8R", "*SHELL SECTION, ELSET"),
+                                                      (False, 0.5, "S8", "*SHELL SECTION, OFFSET=0.5, ELSET")):
+                mesh.ReducedShells, mesh.ShellOffset = reduced, offset
+                with mock.patch("FreeCAD.Console.PrintMessage") as told:
+                    fea.write_inp_file()
+                text = Path(fea.inp_file_name).read_text()
+                self.assertIn(f"TYPE={element}, ELSET=Efaces", text)
+                self.assertIn(section, text)
+                said = " ".join(call.args[0] for call in told.call_args_list)
+                self.assertEqual("S8R" in said, reduced)
+                self.assertEqual("offset 0.5" in said, bool(offset))
 
     def check_error(self, kind, words, *arguments, **options):
         """mesh_object fails with one sentence, and the document stays as it was."""

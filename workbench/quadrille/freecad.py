@@ -8,29 +8,24 @@ The shape goes to the `quadrille` command as a BREP file, the mesh comes back as
 mesher is a child process: it can neither freeze nor crash FreeCAD, and fits any build of it.
 """
 
-import json
 import os
 from collections import OrderedDict
 from pathlib import Path
 from typing import Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import FreeCAD
-import Fem
 
-from . import groups, shapes, solvers, undo
-from .command import MeshJob, Progress, check_version, find_command, scratch_folder
+from . import groups, links, old_documents, shapes, solvers, state, undo
+from .command import Progress, scratch_folder
 from .errors import Error
-from .settings import (BY_NAME, SETTINGS, MeshSettings, face_name, from_property, in_words_of_properties, property_help,
-                       property_kind, to_property, words)
+from .jobs import PREFERENCES, ShapeJob, find_mesher, mesh_shape, read_mesh
+from .settings import BY_NAME, SETTINGS, MeshSettings, face_name, property_help, property_kind, to_property, words
+from .state import UP_TO_DATE, Wanted, complaint, shape_of
 
 __all__ = [
-    "Error", "MeshFeature", "ShapeJob", "check_part", "export", "find_mesher", "finish", "flip", "make_mesh",
-    "mesh_object", "mesh_shape", "refine", "remesh", "start", "suggested_size", "use_reduced_shells",
+    "Error", "MeshFeature", "PREFERENCES", "ShapeJob", "UP_TO_DATE", "check_part", "complaint", "export", "find_mesher",
+    "finish", "flip", "make_mesh", "mesh_object", "mesh_shape", "read_mesh", "refine", "remesh", "start", "suggested_size",
 ]
-
-PREFERENCES = "User parameter:BaseApp/Preferences/Mod/Quadrille"
-UP_TO_DATE = "up to date"
-_OTHER_MEANS = "made by other means: mesh again"
 
 
 def mesh_object(
@@ -69,15 +64,12 @@ def mesh_object(
     """
     wanted = _in_millimetres(MeshSettings(size=size, order=order, **settings))
     _check_analysis(analysis)
-    shape = _shape_of(doc_object)
+    shape = shape_of(doc_object)
     job = ShapeJob(shape, wanted, command, outputs, picture)
-    job.made_of = (shapes.fingerprint(shape), "")
+    measured = shapes.fingerprint(shape)
     fem_mesh, report = job.start().wait_for_result(progress)
-    mesh = _add_mesh(doc_object, name)
-    _store_settings(mesh, wanted)
-    if analysis is not None:
-        analysis.addObject(mesh)
-    job.made_of = (job.made_of[0], _settings_key(mesh))
+    mesh = _add_mesh(doc_object, name, wanted, analysis)
+    job.made_of = (measured, state.settings_key(mesh, state.wanted_of(mesh), {}))
     _store_result(mesh, fem_mesh, report, job)
     return mesh
 
@@ -86,33 +78,53 @@ def make_mesh(doc_object, size: Optional[float] = None, order: int = 2, name: st
               **settings):
     """Adds a mesh object for a document object, without meshing yet: the task panel or remesh() does that."""
     wanted = _in_millimetres(MeshSettings(size=size, order=order, **settings))
-    _shape_of(doc_object)
+    shape = shape_of(doc_object)
     _check_analysis(analysis)
-    mesh = _add_mesh(doc_object, name)
-    _store_settings(mesh, wanted)
-    mesh.Status = status(mesh)
-    if analysis is not None:
-        analysis.addObject(mesh)
-    return mesh
+    names = [*map(face_name, wanted.get("faces", ())), *wanted.get("sizes", ())]
+    shapes.references_to_names(shape, doc_object, links.link(doc_object, names))  # an error now, with nothing made
+    return _add_mesh(doc_object, name, wanted, analysis)
 
 
 def check_part(doc_object, analysis=None) -> None:
     """Raises Error when a document object cannot be meshed, or the analysis cannot take its mesh."""
-    _shape_of(doc_object)
+    shape_of(doc_object)
     _check_analysis(analysis)
 
 
 def check_references(mesh, references) -> None:
     """Raises Error when references are not in the part of a mesh object."""
-    shapes.references_to_names(_shape_of(mesh.Shape), mesh.Shape, references)
+    shapes.references_to_names(shape_of(mesh.Shape), mesh.Shape, references)
 
 
 def suggested_size(doc_object, quads: int = 5000, elements_per_circle: float = 12) -> float:
     """The size that gives a document object about so many quads, to two digits."""
-    return shapes.SizeEstimate(_shape_of(doc_object)).suggested(quads, elements_per_circle)
+    return shapes.SizeEstimate(shape_of(doc_object)).suggested(quads, elements_per_circle)
 
 
-def _add_mesh(doc_object, name: str):
+def defaults() -> Dict[str, object]:
+    """What the settings of a new mesh object are, by property."""
+    return {setting["property"]: to_property(setting, None) for setting in SETTINGS if setting["property"]}
+
+
+def fragments(parts: Sequence):
+    """One part of several: FreeCAD's boolean fragments of them, so that they share faces, edges and vertices where they
+    touch."""
+    from BOPTools import SplitFeatures
+
+    for part in parts:
+        shape_of(part)
+    joined = SplitFeatures.makeBooleanFragments(name="Parts")
+    joined.Objects = list(parts)
+    joined.Document.recompute([joined])
+    shape_of(joined)
+    for part in parts:
+        if part.ViewObject is not None:
+            part.ViewObject.hide()
+    return joined
+
+
+def _add_mesh(doc_object, name: str, settings: MeshSettings, analysis):
+    """A mesh object with these settings, without a mesh."""
     mesh = doc_object.Document.addObject(_mesh_type(), name)
     MeshFeature(mesh)
     mesh.Shape = doc_object
@@ -120,38 +132,82 @@ def _add_mesh(doc_object, name: str):
         from .gui.view_provider import MeshViewProvider
 
         MeshViewProvider(mesh.ViewObject)
+    for setting in SETTINGS:
+        if setting["property"]:
+            value = to_property(setting, settings.get(setting["name"]))
+            setattr(mesh, setting["property"], links.link(doc_object, value) if setting["kind"] == "names" else value)
+    by_size: Dict[float, List[str]] = {}
+    for element, size in settings.get("sizes", {}).items():
+        by_size.setdefault(size, []).append(element)
+    for size, elements in by_size.items():
+        refine(mesh, links.link(doc_object, elements), size)
+    if analysis is not None:
+        analysis.addObject(mesh)
     return mesh
 
 
 def remesh(mesh, progress: Optional[Progress] = None, command: Optional[str] = None) -> None:
-    """Meshes a mesh object's shape anew with the settings in its properties; on an Error it keeps its old mesh."""
-    job = start(mesh, command)
-    job.wait(progress)
+    """Meshes a mesh object's shape anew with the settings in its properties; on an Error it keeps its old mesh.
+
+    What hand_over() left for it is taken in place of meshing: so the panel's work is a command that macros can record."""
+    job = _handed_over.pop(_key(mesh), None)
+    if job is None:
+        job = start(mesh, command)
+        job.wait(progress)
     finish(mesh, job)
 
 
-def start(mesh, command: Optional[str] = None, outputs: Sequence[Union[str, Path]] = ()) -> "ShapeJob":
-    """Starts to mesh a mesh object's shape in a child process; finish() takes the mesh when it has ended."""
-    key = (mesh.Document.Name, mesh.Name)
-    running = _running.get(key)
+def hand_over(mesh, job: ShapeJob) -> None:
+    """Leaves a job that has ended well to the remesh() that follows at once."""
+    _handed_over[_key(mesh)] = job
+
+
+def start(mesh, command: Optional[str] = None, outputs: Sequence[Union[str, Path]] = (),
+          wanted: Optional[Wanted] = None) -> ShapeJob:
+    """Starts to mesh a mesh object's shape in a child process; finish() takes the mesh when it has ended.
+
+    Args:
+        wanted: settings that count in place of the object's own; the caller stores them before finish().
+    """
+    running = _running.get(_key(mesh))
     if running is not None and running.running:
         raise Error(f"{mesh.Label}: is being meshed already; wait for it, or cancel it first", "usage", mesh.Name)
-    job = ShapeJob(_shape_to_mesh(mesh), _settings_to_use(mesh), command, outputs, brep=_brep_as_meshed(mesh))
+    if mesh.Shape is None:
+        raise Error(f"{mesh.Label}: the part that it meshes is gone", "usage", mesh.Name)
+    old_documents.mesh_regions(mesh)
+    wanted = wanted or state.wanted_of(mesh)
+    found = links.follow(mesh, wanted.anew)
+    flipped = state.flipped(mesh, found)
+    shape = shapes.with_reversed_faces(shape_of(mesh.Shape), flipped)
+    job = ShapeJob(shape, state.settings_to_use(mesh, wanted, found), command, outputs, brep=_brep_as_meshed(mesh, flipped))
     # What is changed while the child works makes the mesh stale when it comes.
-    job.made_of = (shapes.fingerprint(mesh.Shape.Shape), _settings_key(mesh))
-    _running[key] = job.start()
+    job.made_of = (shapes.fingerprint(mesh.Shape.Shape), state.settings_key(mesh, wanted, found))
+    job.found = found
+    _running[_key(mesh)] = job.start()
     return job
 
 
-def finish(mesh, job: "ShapeJob") -> None:
+def finish(mesh, job: ShapeJob) -> None:
     """Puts the mesh of a job that has ended into its mesh object; on an Error the object keeps its old mesh."""
-    _running.pop((mesh.Document.Name, mesh.Name), None)
-    _store_result(mesh, *job.result(), job)
+    _running.pop(_key(mesh), None)
+    fem_mesh, report = job.result()
+    for sentence in links.rename(mesh, job.found):
+        FreeCAD.Console.PrintMessage(f"{sentence}\n")
+    _store_result(mesh, fem_mesh, report, job)
 
 
 def forget(document_name: str, name: str) -> None:
     """Drops the job of a mesh object that is gone."""
     _running.pop((document_name, name), None)
+
+
+#: The jobs under way, by the names of document and mesh object.
+_running: Dict[Tuple[str, str], ShapeJob] = {}
+_handed_over: Dict[Tuple[str, str], ShapeJob] = {}
+
+
+def _key(mesh) -> Tuple[str, str]:
+    return (mesh.Document.Name, mesh.Name)
 
 
 def refine(mesh, references, size, name: str = "Refinement"):
@@ -180,13 +236,14 @@ def flip(mesh, faces: Sequence[Union[int, str]] = ()) -> None:
 
     The faces go to the mesher reversed, so that files, solvers and views all see the same normals.
     """
-    shape = _shape_of(mesh.Shape)
+    shape = shape_of(mesh.Shape)
     names = [face_name(face) for face in faces] or [f"Face{i}" for i in range(1, len(shape.Faces) + 1)]
     unknown = sorted(set(names) - {f"Face{i}" for i in range(1, len(shape.Faces) + 1)})
     if unknown:
         raise Error(f"{mesh.Label}: has no face {unknown[0]} to flip", "usage", unknown[0])
     before = list(mesh.FlippedFaces)
-    mesh.FlippedFaces = sorted(set(before) ^ set(names), key=lambda text: int(text[4:]))
+    flipped = set(state.flipped(mesh, links.follow(mesh))) ^ set(names)
+    mesh.FlippedFaces = links.link(mesh.Shape, sorted(flipped, key=lambda text: int(text[4:])))
     try:
         remesh(mesh)
     except Error:
@@ -199,9 +256,9 @@ def export(mesh, path: Union[str, Path]) -> None:
 
     The mesher writes the file, with all sets and groups: the same shape and settings give the same mesh.
     """
-    reason = status(mesh)
-    if reason != UP_TO_DATE:
-        raise Error(f"{mesh.Label}: {reason}; nothing was exported", "usage", mesh.Name)
+    now, sentence = state.judge(mesh)
+    if now != UP_TO_DATE:
+        raise Error(f"{mesh.Label}: {sentence}; nothing was exported", "usage", mesh.Name)
     with scratch_folder() as folder:
         written = os.path.join(folder, "export" + Path(path).suffix.lower())
         job = start(mesh, outputs=[written])
@@ -215,148 +272,10 @@ def export(mesh, path: Union[str, Path]) -> None:
             raise Error(f"{path}: cannot be written: {error.strerror}", "failure", str(path)) from error
 
 
-def mesh_shape(
-    shape,
-    settings: MeshSettings,
-    progress: Optional[Progress] = None,
-    command: Optional[str] = None,
-    outputs: Sequence[Union[str, Path]] = (),
-    picture: Optional[Union[str, Path]] = None,
-) -> Tuple["Fem.FemMesh", Dict]:
-    """Meshes a Part shape; returns the mesh with its groups, and the mesher's report (see `quadrille --report`)."""
-    return ShapeJob(shape, settings, command, outputs, picture).start().wait_for_result(progress)
-
-
-def find_mesher(command: Optional[str] = None) -> str:
-    """The path of the `quadrille` command, after a check that it is of the version of this addon."""
-    preference = FreeCAD.ParamGet(PREFERENCES).GetString("Command", "")
-    path = find_command(command, preference or None)
-    check_version(path)
-    return path
-
-
-class ShapeJob:
-    """The meshing of a shape in a child process. Start it, then wait(), or poll() it from a timer until it has ended;
-    result() gives the mesh."""
-
-    def __init__(
-        self,
-        shape,
-        settings: MeshSettings,
-        command: Optional[str] = None,
-        outputs: Sequence[Union[str, Path]] = (),
-        picture: Optional[Union[str, Path]] = None,
-        brep: Optional[bytes] = None,
-    ) -> None:
-        if shape.isNull() or not shape.Faces:
-            raise Error("the shape has no faces to mesh", "usage")
-        self._command = find_mesher(command)
-        self._folder = scratch_folder()
-        model = os.path.join(self._folder.name, "shape.brep")
-        self._output = os.path.join(self._folder.name, "mesh.med")
-        if brep is None:
-            shape.exportBrep(model)
-            brep = Path(model).read_bytes()
-        else:
-            Path(model).write_bytes(brep)
-        self.brep = brep  #: the shape as the mesher sees it
-        self.made_of: Tuple[List[float], str] = ([], "")  #: fingerprint of the part, and settings, when it was started
-        self._job = MeshJob(model, [self._output, *outputs], settings, self._command, picture)
-        self._report: Optional[Dict] = None
-
-    def start(self) -> "ShapeJob":
-        """Starts the child process."""
-        try:
-            self._job.start()
-        except Error:
-            self._folder.cleanup()
-            raise
-        return self
-
-    @property
-    def running(self) -> bool:
-        """True while the child process lives."""
-        return self._job.running
-
-    @property
-    def messages(self) -> Sequence[str]:
-        """What the mesher has said besides its progress."""
-        return self._job.messages
-
-    def poll(self) -> Sequence[Tuple[str, float]]:
-        """The progress since the last call, as (stage, fraction) pairs; never waits."""
-        return self._job.poll()
-
-    def cancel(self) -> None:
-        """Ends the child process; result() then raises the Error of kind "cancelled"."""
-        self._job.cancel()
-
-    def wait(self, progress: Optional[Progress] = None) -> None:
-        """Waits for the end, passing progress on."""
-        try:
-            self._report = self._job.wait(progress)
-        except Error as error:
-            self._folder.cleanup()
-            raise _in_own_words(error) from error
-        except BaseException:
-            self._folder.cleanup()
-            raise
-
-    def result(self) -> Tuple["Fem.FemMesh", Dict]:
-        """The mesh and the mesher's report, once the child has ended; raises Error when it failed."""
-        try:
-            report = self._report if self._report is not None else self._job.result()
-            fem_mesh = read_mesh(self._output)
-        except Error as error:
-            raise _in_own_words(error) from error
-        finally:
-            self._folder.cleanup()
-        # FreeCAD's reader gives an empty mesh when it does not understand a file.
-        wanted = report.get("counts", {}).get("quads", 0)
-        if fem_mesh.FaceCount != wanted or not wanted:
-            raise Error(f"FreeCAD read {fem_mesh.FaceCount} of the {wanted} quads that {self._command} wrote",
-                        "failure", self._command)
-        return fem_mesh, report
-
-    def wait_for_result(self, progress: Optional[Progress] = None) -> Tuple["Fem.FemMesh", Dict]:
-        """wait(), then result()."""
-        self.wait(progress)
-        return self.result()
-
-
-def read_mesh(path: Union[str, Path]) -> "Fem.FemMesh":
-    """A mesh file as a FEM mesh, as Fem.read() gives it, in less time.
-
-    A mesh made by Fem.read() keeps a log of each command that built it, which nobody reads: a quarter of the time to read,
-    half of that to copy it once more than one was made. A copy, even of an empty mesh, keeps none.
-    """
-    fem_mesh = Fem.FemMesh(Fem.FemMesh())
-    fem_mesh.read(str(path))
-    return fem_mesh
-
-
-#: The jobs under way, by the names of document and mesh object.
-_running: Dict[Tuple[str, str], ShapeJob] = {}
-
-
-def use_reduced_shells(input_file: Union[str, Path]) -> int:
-    """Turns the S8 shells of a CalculiX input file into S8R, and returns how many element blocks were changed.
-
-    FreeCAD 0.20 writes eight-node quads as S8. S8R, with reduced integration, is far better on thin curved shells:
-    call this between FreeCAD's write_inp_file() and ccx_run().
-    """
-    path = Path(input_file)
-    text = path.read_text(encoding="utf-8")
-    count = text.count("TYPE=S8,")
-    if count:
-        path.write_text(text.replace("TYPE=S8,", "TYPE=S8R,"), encoding="utf-8")
-    return count
-
-
 class MeshFeature:
     """The Python side of a mesh object: its properties. Documents name this class: do not move it."""
 
-    Type = "Fem::FemMeshQuadrille"
+    Type = state.TYPE
     BaseType = "Fem::BaseFemPythonObject"
 
     def __init__(self, obj) -> None:
@@ -372,16 +291,19 @@ class MeshFeature:
             if not name or name in obj.PropertiesList:
                 continue
             kind = property_kind(setting)
-            obj.addProperty(kind, name, "Mesh", property_help(setting))
+            obj.addProperty(links.PROPERTY if setting["kind"] == "names" else kind, name, "Mesh", property_help(setting))
             if kind == "App::PropertyEnumeration":
                 setattr(obj, name, words(setting))
             setattr(obj, name, to_property(setting, None))
         for kind, name, group, text in (
             ("App::PropertyLink", "Shape", "Mesh", "The part that is meshed"),
-            ("App::PropertyStringList", "FlippedFaces", "Mesh", "Faces whose shell normals are turned over"),
+            (links.PROPERTY, "FlippedFaces", "Mesh", "Faces whose shell normals are turned over"),
             ("App::PropertyLinkList", "MeshRegionList", "Mesh", "FEM mesh regions: sizes on faces, edges, vertices"),
             ("App::PropertyLinkList", "MeshGroupList", "Mesh", "FEM mesh groups to make"),
-            ("App::PropertyString", "Status", "Result", "Whether the mesh is that of the part and the settings"),
+            ("App::PropertyEnumeration", "Status", "Result", "Whether the mesh is that of the part and the settings"),
+            ("App::PropertyBool", "ReducedShells", "Solve", "Second-order quads are written for CalculiX as S8R, not S8"),
+            ("App::PropertyFloat", "ShellOffset", "Solve", "Where the middle of the shell lies, in thicknesses from the mesh along "
+             "its normals: 0.5 = the mesh is the bottom surface, -0.5 = the top (CalculiX)"),
             ("App::PropertyInteger", "QuadCount", "Result", "Number of quads"),
             ("App::PropertyInteger", "NodeCount", "Result", "Number of nodes"),
             ("App::PropertyFloat", "WorstQuality", "Result", "Least q (1 = all corners right-angled, 0 = useless)"),
@@ -395,9 +317,14 @@ class MeshFeature:
             ("App::PropertyFloatList", "MeshedShape", "Hidden", "Measures of the part when it was meshed"),
             ("App::PropertyString", "MeshedSettings", "Hidden", "Settings that the mesh was made with"),
             ("App::PropertyString", "MeshToken", "Hidden", "Name of the mesh, for undo"),
+            ("App::PropertyString", "ChosenElements", "Hidden", "What the named faces, edges and vertices were"),
         ):
             if name not in obj.PropertiesList:
                 obj.addProperty(kind, name, group, text)
+                if name == "Status":
+                    obj.Status = list(state.STATUSES)
+                elif name == "ReducedShells":
+                    obj.ReducedShells = True
         self._set_editor_modes(obj)
 
     @staticmethod
@@ -409,15 +336,19 @@ class MeshFeature:
 
     def execute(self, obj) -> None:
         """FreeCAD calls this when the part or a setting has changed: says so, and leaves the mesh as it is."""
-        before, now = obj.Status, status(obj)
-        if before == now:
-            return
-        obj.Status = now
-        if before == UP_TO_DATE:
-            FreeCAD.Console.PrintWarning(f"{obj.Label}: {now}\n")
+        sentence = state.update(obj)
+        if sentence:
+            FreeCAD.Console.PrintWarning(f"{obj.Label}: {sentence}\n")
+
+    def onChanged(self, obj, name: str) -> None:
+        """FreeCAD calls this after a property was set: named faces are remembered as they are."""
+        if name in links.OWN and "ChosenElements" in obj.PropertiesList and "Restore" not in obj.State:
+            if not obj.Document.Transacting:
+                links.note(obj, {name})
 
     def onDocumentRestored(self, obj) -> None:
         """FreeCAD calls this after a document was read."""
+        old_documents.migrate(obj)
         self.add_properties(obj)
         groups.watch()
         solvers.wrap_solvers(complaint)
@@ -447,11 +378,6 @@ def _millimetres(value) -> float:
     return float(getattr(value, "Value", value))
 
 
-def _in_own_words(error: Error) -> Error:
-    """What the command says of its options, said of properties."""
-    return Error(in_words_of_properties(str(error)), error.kind, error.subject)
-
-
 def _in_millimetres(settings: MeshSettings) -> MeshSettings:
     """Lengths may come with a unit."""
     for name, value in settings.items():
@@ -462,85 +388,6 @@ def _in_millimetres(settings: MeshSettings) -> MeshSettings:
         else:
             settings[name] = _millimetres(value)
     return settings
-
-
-def _shape_of(doc_object):
-    shape = getattr(doc_object, "Shape", None)
-    if shape is None or not hasattr(shape, "Faces"):
-        label = getattr(doc_object, "Label", doc_object)
-        raise Error(f"{label}: has no shape to mesh", "usage", getattr(doc_object, "Name", ""))
-    if shape.isNull() or not shape.Faces:
-        raise Error(f"{doc_object.Label}: its shape has no faces to mesh", "usage", doc_object.Name)
-    return shape
-
-
-def _shape_to_mesh(mesh):
-    """The shape of a mesh object's part, with the faces reversed that are to be flipped."""
-    if mesh.Shape is None:
-        raise Error(f"{mesh.Label}: the part that it meshes is gone", "usage", mesh.Name)
-    return shapes.with_reversed_faces(_shape_of(mesh.Shape), mesh.FlippedFaces)
-
-
-def status(mesh) -> str:
-    """Whether a mesh object's mesh is that of its part and its settings, as a sentence."""
-    if mesh.Shape is None:
-        return "the part is gone"
-    if mesh.FemMesh.FaceCount == 0:
-        return "not meshed yet"
-    if not mesh.MeshedShape:
-        return _OTHER_MEANS
-    shape = getattr(mesh.Shape, "Shape", None)
-    if shape is None or shape.isNull() or not shapes.same_fingerprint(list(mesh.MeshedShape),
-                                                                     shapes.fingerprint(shape)):
-        return "the part has changed: mesh again"
-    try:
-        if _settings_key(mesh) != mesh.MeshedSettings:
-            return "the settings have changed: mesh again"
-    except Error as error:
-        return f"{error}: mesh again"
-    return UP_TO_DATE
-
-
-def complaint(mesh) -> str:
-    """Why nothing should be solved with the mesh of a mesh object, as a sentence; empty when nothing is known to be wrong,
-    and for mesh objects that are not ours."""
-    if getattr(getattr(mesh, "Proxy", None), "Type", "") != MeshFeature.Type:
-        return ""
-    reason = status(mesh)
-    if reason == _OTHER_MEANS:
-        return ""
-    if reason == UP_TO_DATE:
-        return "; ".join(groups.left_out(mesh))
-    return f"{mesh.Label}: {reason}; what is solved with the mesh as it is would not be right"
-
-
-def _settings_to_use(mesh) -> MeshSettings:
-    """The settings in the properties, with the sizes of the mesh regions."""
-    settings = _load_settings(mesh)
-    sizes = sizes_wanted(mesh)
-    if sizes:
-        settings["sizes"] = sizes
-    return settings
-
-
-def sizes_wanted(mesh) -> Dict[str, float]:
-    """The sizes on faces, edges and vertices, of the property Sizes and of the mesh regions."""
-    sizes = {name: float(size) for name, size in mesh.Sizes.items()}
-    shape = _shape_of(mesh.Shape)
-    for region in mesh.MeshRegionList:
-        length = region.CharacteristicLength
-        length = float(getattr(length, "Value", length))
-        if not length > 0:
-            raise Error(f"{region.Label}: a mesh region needs a length larger than 0", "usage", region.Name)
-        for name in shapes.references_to_names(shape, mesh.Shape, region.References):
-            sizes[name] = min(length, sizes.get(name, length))
-    return sizes
-
-
-def _settings_key(mesh) -> str:
-    settings = _settings_to_use(mesh).of_the_mesh()
-    settings["flipped"] = list(mesh.FlippedFaces)
-    return json.dumps(settings, sort_keys=True, default=list)
 
 
 def _check_analysis(analysis) -> None:
@@ -561,27 +408,16 @@ def _is_result_mesh(member) -> bool:
     return getattr(getattr(member, "Proxy", None), "Type", "") == "Fem::MeshResult"
 
 
-def _store_settings(mesh, settings: MeshSettings) -> None:
-    for setting in SETTINGS:
-        if setting["property"]:
-            setattr(mesh, setting["property"], to_property(setting, settings.get(setting["name"])))
-
-
-def _load_settings(mesh) -> MeshSettings:
-    return MeshSettings(**{setting["name"]: from_property(setting, getattr(mesh, setting["property"]))
-                           for setting in SETTINGS if setting["property"]})
-
-
 #: The shapes that meshes were made of, by the mesh objects' tokens: the faces that were flipped, and the BREP.
 _breps: "OrderedDict[str, Tuple[List[str], bytes]]" = OrderedDict()
 _KEPT_BREPS = 20
 
 
-def _brep_as_meshed(mesh) -> Optional[bytes]:
+def _brep_as_meshed(mesh, flipped: List[str]) -> Optional[bytes]:
     """The BREP that a mesh object's mesh was made of, where the part is still equal to it but for rounding: a part that is
     computed anew comes out a little different, and the mesh need not. None where it is not known."""
-    flipped, brep = _breps.get(mesh.MeshToken, (None, None))
-    if brep is None or flipped != list(mesh.FlippedFaces):
+    flipped_then, brep = _breps.get(mesh.MeshToken, (None, None))
+    if brep is None or flipped_then != flipped:
         return None
     same = shapes.same_fingerprint(list(mesh.MeshedShape), shapes.fingerprint(mesh.Shape.Shape))
     return brep if same else None
@@ -590,11 +426,11 @@ def _brep_as_meshed(mesh) -> Optional[bytes]:
 def _store_result(mesh, fem_mesh, report: Dict, job: ShapeJob) -> None:
     groups.add_groups(mesh, fem_mesh)
     undo.put(mesh, fem_mesh)
-    _breps[mesh.MeshToken] = (list(mesh.FlippedFaces), job.brep)
+    _breps[mesh.MeshToken] = (state.flipped(mesh, {}), job.brep)
     while len(_breps) > _KEPT_BREPS:
         _breps.popitem(last=False)
     mesh.MeshedShape, mesh.MeshedSettings = job.made_of
-    mesh.Status = status(mesh)
+    mesh.Status = state.judge(mesh)[0]
     quality = report.get("quality", {})
     mesh.QuadCount = fem_mesh.FaceCount
     mesh.NodeCount = fem_mesh.NodeCount

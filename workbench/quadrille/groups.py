@@ -10,7 +10,7 @@ from typing import Dict, Iterable, List, Optional, Set, Tuple
 
 import FreeCAD
 
-from . import shapes, solvers, undo
+from . import links, shapes, solvers, undo
 from .errors import Error
 
 _KINDS = {"Face": "Face", "Edge": "Edge", "Vertex": "Node"}
@@ -98,6 +98,14 @@ def left_out(mesh) -> List[str]:
     return sentences
 
 
+def elements_in(fem_mesh, name: str) -> Iterable[int]:
+    """The ids in a group of face elements; empty when there is none."""
+    for number in fem_mesh.Groups:
+        if fem_mesh.getGroupName(number) == name and fem_mesh.getGroupElementType(number) == "Face":
+            return fem_mesh.getGroupElements(number)
+    return ()
+
+
 class _PartGroups:
     """The groups Face1..., Edge1..., Vertex1... of a mesh."""
 
@@ -152,7 +160,7 @@ class _Watcher:
 
     def slotChangedObject(self, obj, name: str) -> None:
         """FreeCAD calls this after a property has changed."""
-        if name not in ("References", "Group", "MeshGroupList", "UseLabel"):
+        if name not in ("References", "Group", "MeshGroupList", "MeshRegionList", "UseLabel"):
             return
         document = obj.Document
         if document is None or getattr(document, "Restoring", False) or getattr(document, "Transacting", False):
@@ -160,6 +168,8 @@ class _Watcher:
         if name == "Group" and obj.isDerivedFrom("Fem::FemAnalysis"):
             self._hint(obj)
         for mesh in self._meshes(obj, name):
+            if obj in mesh.MeshRegionList or obj == mesh:
+                links.note(mesh, {obj.Name} if name == "References" else ())
             if mesh.FemMesh.FaceCount and mesh.Shape is not None:
                 refresh(mesh)
 
@@ -190,7 +200,7 @@ class _Watcher:
 
     @staticmethod
     def _meshes(obj, name: str) -> List:
-        if name == "MeshGroupList":
+        if name in ("MeshGroupList", "MeshRegionList"):
             candidates = [obj]
         else:
             analysis = obj if obj.isDerivedFrom("Fem::FemAnalysis") else analysis_of(obj)

@@ -7,6 +7,13 @@ from typing import Dict, NamedTuple
 import numpy as np
 
 
+#: Industry's criteria: of the perfect square, and the usual limit. They are those of the mesher (mesher/mesh/criteria.hpp).
+CRITERIA = {
+    "aspect": (1.0, 5.0), "warp": (0.0, 15.0), "skew": (0.0, 40.0), "angle_min": (90.0, 40.0), "angle_max": (90.0, 140.0),
+    "jacobian_ratio": (1.0, 0.6), "taper": (0.0, 0.6),
+}
+
+
 class ElementQuality(NamedTuple):
     """Measures of the quads of a mesh; the arrays run in step."""
 
@@ -18,10 +25,44 @@ class ElementQuality(NamedTuple):
     centres: np.ndarray  #: (n, 3)
     normals: np.ndarray  #: (n, 3), of length 1
     lengths: np.ndarray  #: mean edge length
+    criteria: Dict[str, np.ndarray]  #: values of industry's criteria, by name
+    nodes: np.ndarray  #: (n, 4) ids of the corners' nodes
 
-    def worst(self, count: int = 20) -> np.ndarray:
-        """Indices of the elements with the least q, the worst first."""
-        return np.argsort(self.q, kind="stable")[:count]
+    def free_sides(self) -> np.ndarray:
+        """(m, 2, 3): the ends of the sides that one element alone has."""
+        sides = np.stack([self.nodes, np.roll(self.nodes, -1, axis=1)], axis=2).reshape(-1, 2)
+        ends = np.stack([self.corners, np.roll(self.corners, -1, axis=1)], axis=2).reshape(-1, 2, 3)
+        _, first, counts = np.unique(np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
+        return ends[first[counts == 1]]
+
+    def double_nodes(self) -> np.ndarray:
+        """(m, 3): where two nodes or more lie on one place."""
+        if not self.nodes.size:
+            return np.zeros((0, 3))
+        points, first = self.corners.reshape(-1, 3), np.unique(self.nodes, return_index=True)[1]
+        grid = max(float(np.ptp(points, axis=0).max()) * 1e-6, 1e-300)
+        places, counts = np.unique(np.round(points[first] / grid), axis=0, return_counts=True)
+        return places[counts > 1] * grid
+
+    def goodness(self, measure: str = "q") -> np.ndarray:
+        """A measure as colors need it: 1 at the best there is; for a criterion 0.5 at its limit, 0 at twice as bad."""
+        if measure == "q":
+            return self.q
+        ideal, limit = CRITERIA[measure]
+        return np.clip(1 - 0.5 * (self.criteria[measure] - ideal) / (limit - ideal), 0.0, 1.0)
+
+    def fails(self, criterion: str) -> np.ndarray:
+        """Which elements are beyond the limit of a criterion."""
+        ideal, limit = CRITERIA[criterion]
+        values = self.criteria[criterion]
+        return values > limit if limit > ideal else values < limit
+
+    def worst(self, count: int = 20, measure: str = "q") -> np.ndarray:
+        """Indices of the elements that are worst by a measure, the worst first."""
+        values = self.q if measure == "q" else self.criteria[measure]
+        if measure != "q" and CRITERIA[measure][1] > CRITERIA[measure][0]:
+            values = -values
+        return np.argsort(values, kind="stable")[:count]
 
     def summary(self) -> Dict[str, float]:
         """What the result table shows."""
@@ -47,11 +88,12 @@ def measure(fem_mesh) -> ElementQuality:
     flat = np.fromiter(chain.from_iterable(elements), int, int(sizes.sum()))
     quads = np.isin(sizes, (4, 8))
     starts = (np.cumsum(sizes) - sizes)[quads]
-    return _measure(ids[quads], points[flat[starts[:, None] + np.arange(4)]])
+    corners = flat[starts[:, None] + np.arange(4)]
+    return _measure(ids[quads], corners, points[corners])
 
 
-def _measure(ids: np.ndarray, corners: np.ndarray) -> ElementQuality:
-    """corners: (n, 4, 3)."""
+def _measure(ids: np.ndarray, nodes: np.ndarray, corners: np.ndarray) -> ElementQuality:
+    """nodes: (n, 4); corners: (n, 4, 3)."""
     out = np.roll(corners, -1, axis=1) - corners  # edge from each corner to the next
     back = np.roll(corners, 1, axis=1) - corners
     lengths = np.linalg.norm(out, axis=2)
@@ -68,10 +110,47 @@ def _measure(ids: np.ndarray, corners: np.ndarray) -> ElementQuality:
     centres = corners.mean(axis=1)
     aspect = lengths.max(axis=1) / np.maximum(lengths.min(axis=1), 1e-300)
     return ElementQuality(ids, q, sines.min(axis=1), aspect, corners, centres, normals,
-                          lengths.mean(axis=1))
+                          lengths.mean(axis=1), _criteria(corners, out, aspect), nodes)
 
 
-def colours(values: np.ndarray) -> np.ndarray:
+def _criteria(corners: np.ndarray, sides: np.ndarray, aspect: np.ndarray) -> Dict[str, np.ndarray]:
+    """As the mesher has them; corners and sides: (n, 4, 3), sides from each corner to the next."""
+    before = np.roll(sides, 1, axis=1)
+    crosses = np.cross(before, sides)  # at each corner twice the area vector of its triangle
+    normal = _unit(crosses.sum(axis=1))
+    angles = np.degrees(np.arctan2(np.einsum("nij,nj->ni", crosses, normal), -np.einsum("nij,nij->ni", before, sides)))
+    angles = np.where(angles < 0, angles + 360, angles)
+    areas = np.linalg.norm(crosses, axis=2)
+    a, b, c, d = np.moveaxis(corners, 1, 0)
+    skew = _angle(c + d - a - b, d + a - b - c)
+    facing = _unit(crosses[:, 1] + crosses[:, 3])
+    gauss = 1 / np.sqrt(3.0)
+    jacobians = np.stack([
+        np.einsum("ni,ni->n", np.cross((1 - y) * sides[:, 0] - (1 + y) * sides[:, 2],
+                                       (1 + x) * sides[:, 1] - (1 - x) * sides[:, 3]), facing)
+        for x in (-gauss, gauss) for y in (-gauss, gauss)], axis=1)
+    return {
+        "aspect": aspect,
+        "warp": np.maximum(_angle(crosses[:, 1], crosses[:, 3]), _angle(crosses[:, 0], crosses[:, 2])),
+        "skew": 90 - np.minimum(skew, 180 - skew),
+        "angle_min": angles.min(axis=1),
+        "angle_max": angles.max(axis=1),
+        "jacobian_ratio": jacobians.min(axis=1) / np.maximum(jacobians.max(axis=1), 1e-300),
+        "taper": 1 - areas.min(axis=1) / np.maximum(areas.mean(axis=1), 1e-300),
+    }
+
+
+def _unit(vectors: np.ndarray) -> np.ndarray:
+    return vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-300)
+
+
+def _angle(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Degrees."""
+    across = np.linalg.norm(np.cross(one, other), axis=1)
+    return np.degrees(np.arctan2(across, np.einsum("ni,ni->n", one, other)))
+
+
+def colors(values: np.ndarray) -> np.ndarray:
     """Quality in [0, 1] as (n, 3) red, green and blue: red through yellow to blue."""
     stops = np.array([0.0, 0.25, 0.5, 0.75, 1.0])
     table = np.array([(0.84, 0.10, 0.11), (0.99, 0.68, 0.38), (1.0, 1.0, 0.75), (0.67, 0.85, 0.91), (0.17, 0.48, 0.71)])

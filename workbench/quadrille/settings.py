@@ -82,7 +82,7 @@ def property_kind(setting: Dict[str, Any]) -> str:
     if setting["name"] == "order":
         return "App::PropertyEnumeration"
     return {"count": "App::PropertyInteger", "flag": "App::PropertyBool", "choice": "App::PropertyEnumeration",
-            "file": "App::PropertyFile", "names": "App::PropertyStringList", "sizes": "App::PropertyMap"}[setting["kind"]]
+            "file": "App::PropertyFile", "names": "App::PropertyStringList"}[setting["kind"]]
 
 
 def property_help(setting: Dict[str, Any]) -> str:
@@ -103,8 +103,6 @@ def words(setting: Dict[str, Any]) -> List[str]:
 def to_property(setting: Dict[str, Any], value: Any) -> Any:
     """A value as the property holds it; None = what a new object has."""
     kind, default = setting["kind"], setting["default"]
-    if kind == "sizes":
-        return {name: repr(float(size)) for name, size in (value or {}).items()}
     if kind == "names":
         return [face_name(face) for face in value or ()]
     if value is None:
@@ -122,11 +120,6 @@ def from_property(setting: Dict[str, Any], value: Any) -> Optional[Any]:
     kind = setting["kind"]
     if setting["name"] == "order":
         return _ORDERS.index(value) + 1
-    if kind == "sizes":
-        try:
-            return {name: float(size) for name, size in value.items()} or None
-        except ValueError as error:
-            raise Error(f"{setting['property']}: {error}", "usage", setting["name"]) from error
     if kind == "names":
         return list(value) or None
     if kind == "choice":

@@ -2,10 +2,12 @@
 """What the workbench asks of Part shapes: how many quads a size gives, whether a shape has changed, faces reversed,
 and the names of referenced faces, edges and vertices. Runs inside FreeCAD."""
 
+import hashlib
 import math
-from typing import List, Mapping, Optional, Sequence, Tuple
+from typing import Dict, List, Mapping, Optional, Sequence, Tuple
 
 import Part
+import numpy as np
 
 from .errors import Error
 
@@ -23,23 +25,46 @@ class SizeEstimate:
     def __init__(self, shape) -> None:
         samples = _SAMPLES if len(shape.Faces) <= _MANY_FACES else _FEW_SAMPLES
         self._diagonal = shape.BoundBox.DiagonalLength
-        edges = {}
-        for index, edge in enumerate(shape.Edges, 1):
+        faces, edges = shape.Faces, shape.Edges
+        numbers: Dict[int, List[Tuple[object, int]]] = {}
+        for index, edge in enumerate(edges):
             if not edge.Degenerated:
-                edges.setdefault(edge.hashCode(), []).append((edge, _Edge(f"Edge{index}", edge)))
-        self._faces = []
-        for index, face in enumerate(shape.Faces, 1):
-            measured = _Face(f"Face{index}", face, samples)
+                numbers.setdefault(edge.hashCode(), []).append((edge, index))
+        self._areas = np.array([face.Area for face in faces])
+        pieces = [(index, *piece) for index, face in enumerate(faces)
+                  for piece in _curvatures(face, self._areas[index], samples)]
+        self._pieces = _columns(pieces, 3)  # face, area, curvature
+        lengths = np.array([0.0 if edge.Degenerated else edge.Length for edge in edges])
+        sides = []  # face, edge, what the margin along it widens by, per length and distance
+        for index, face in enumerate(faces):
             outer = face.OuterWire
             for wire in face.Wires:
                 widening = 0.0 if wire.isSame(outer) else 2 * math.pi / max(wire.Length, 1e-300)
-                for edge in wire.Edges:
-                    for same, of_edge in edges.get(edge.hashCode(), ()):
-                        if same.isSame(edge):
-                            measured.edges.append((of_edge, widening))
-                            # The neighbour is as fine as its curvature wants, up to the edge.
-                            of_edge.curvature = max(of_edge.curvature, measured.typical_curvature())
-            self._faces.append(measured)
+                sides += [(index, number, widening) for edge in wire.Edges
+                          for same, number in numbers.get(edge.hashCode(), ()) if same.isSame(edge)]
+        self._sides = _columns(sides, 3)
+        self._edge_curvatures = np.array([_curvature_of_edge(edge) for edge in edges])
+        # The neighbour is as fine as its curvature wants, up to the edge.
+        typical = self._typical_curvatures()[self._column(self._sides, 0)]
+        np.maximum.at(self._edge_curvatures, self._column(self._sides, 1), typical)
+        self._lengths = lengths
+        self._reaches = self._reach()
+
+    @staticmethod
+    def _column(table, index: int):
+        return table[:, index].astype(int)
+
+    def _typical_curvatures(self):
+        """Of each face the root mean square over the area: what its elements have on average."""
+        total = np.bincount(self._column(self._pieces, 0), self._pieces[:, 1] * self._pieces[:, 2] ** 2, self._areas.size)
+        return np.sqrt(total / np.maximum(self._areas, 1e-300))
+
+    def _reach(self):
+        """How far margins of equal width along all edges of a face reach until they fill it."""
+        face, length = self._column(self._sides, 0), self._lengths[self._column(self._sides, 1)]
+        border = np.bincount(face, length, self._areas.size)
+        widening = np.bincount(face, length * self._sides[:, 2], self._areas.size) / 2
+        return 2 * self._areas / np.maximum(border + np.sqrt(border**2 + 4 * widening * self._areas), 1e-300)
 
     def quads(
         self,
@@ -54,27 +79,30 @@ class SizeEstimate:
         smallest = size_min or size / 8
         sizes = sizes or {}
 
-        def size_of(name: str, curvature: float, cap: float) -> float:
-            cap = min(cap, sizes.get(name, cap))
-            if elements_per_circle and curvature > 0:
-                return min(cap, max(smallest, 2 * math.pi / (curvature * elements_per_circle)))
-            return cap
+        def caps(kind: str, count: int):
+            return np.array([min(size, sizes.get(f"{kind}{index}", size)) for index in range(1, count + 1)]) if sizes else \
+                np.full(count, size)
 
-        count = 0.0
-        for face in self._faces:
-            if faces and face.name not in faces:
-                continue
-            inside = sum(area / size_of(face.name, curvature, size) ** 2 for area, curvature in face.pieces)
-            coarse = math.sqrt(face.area / inside) if inside else size
-            margins = border = 0.0
-            reach = face.reach()
-            for edge, widening in face.edges:
-                fine = min(size_of(edge.name, edge.curvature, size), max(edge.length, smallest))
-                border += edge.length / min(fine, coarse)
-                if fine < coarse:
-                    margins += edge.length * _margin(fine, coarse, reach, growth, widening)
-            count += max(4.0, border, inside + margins)  # two rows of quads on the narrowest strip
-        return round(count)
+        def size_of(cap, curvature):
+            if not elements_per_circle:
+                return cap
+            by_curvature = 2 * math.pi / (np.maximum(curvature, 1e-300) * elements_per_circle)
+            return np.where(curvature > 0, np.minimum(cap, np.maximum(smallest, by_curvature)), cap)
+
+        count, face = self._areas.size, self._column(self._pieces, 0)
+        inside = np.bincount(face, self._pieces[:, 1] / size_of(caps("Face", count)[face], self._pieces[:, 2]) ** 2, count)
+        coarse = np.where(inside > 0, np.sqrt(self._areas / np.where(inside > 0, inside, 1)), size)
+        face, edge, widening = self._column(self._sides, 0), self._column(self._sides, 1), self._sides[:, 2]
+        length = self._lengths[edge]
+        fine = size_of(caps("Edge", self._lengths.size), self._edge_curvatures)[edge]
+        fine = np.minimum(fine, np.maximum(length, smallest))
+        margins = length * _margins(fine, coarse[face], self._reaches[face], growth, widening)
+        border = np.bincount(face, length / np.minimum(fine, coarse[face]), count)
+        inside += np.bincount(face, margins, count)
+        counts = np.maximum(4.0, np.maximum(border, inside))  # two rows of quads on the narrowest strip
+        if faces:
+            counts = counts[[index for index in range(count) if f"Face{index + 1}" in faces]]
+        return round(float(counts.sum()))
 
     def suggested(self, quads: int = 5000, elements_per_circle: float = 12) -> float:
         """The size that gives about so many quads, to two digits."""
@@ -89,60 +117,52 @@ class SizeEstimate:
         return round(high, digits)
 
 
-class _Edge:
-    """What counts of an edge."""
-
-    def __init__(self, name: str, edge) -> None:
-        self.name, self.length, self.curvature = name, edge.Length, 0.0
-        if isinstance(edge.Curve, Part.Line):
-            return
-        first, last = edge.ParameterRange
-        for share in (0.1, 0.5, 0.9):
-            try:
-                self.curvature = max(self.curvature, edge.curvatureAt(first + share * (last - first)))
-            except (Part.OCCError, RuntimeError):  # a kink has no curvature
-                continue
+_last_estimate: List[Tuple[object, SizeEstimate]] = []
 
 
-class _Face:
-    """What counts of a face: its area in pieces, each with the larger curvature there, and its edges."""
-
-    def __init__(self, name: str, face, samples: int) -> None:
-        self.name, self.area = name, face.Area
-        self.pieces = _curvatures(face, self.area, samples)
-        self.edges: List[Tuple[_Edge, float]] = []  # with what the margin of each widens by, per length and distance
-
-    def typical_curvature(self) -> float:
-        """The root mean square over the area: what its elements have on average."""
-        total = sum(area * curvature**2 for area, curvature in self.pieces)
-        return math.sqrt(total / self.area) if self.area > 0 else 0.0
+def estimate_of(shape) -> SizeEstimate:
+    """The estimate of a shape; that of the shape asked for last is kept."""
+    if not _last_estimate or not _last_estimate[0][0].isSame(shape):
+        _last_estimate[:] = [(shape, SizeEstimate(shape))]
+    return _last_estimate[0][1]
 
 
-    def reach(self) -> float:
-        """How far margins of equal width along all edges reach until they fill the face."""
-        length = sum(edge.length for edge, _ in self.edges)
-        widening = sum(edge.length * widening for edge, widening in self.edges) / 2
-        if length <= 0:
-            return 0.0
-        return 2 * self.area / (length + math.sqrt(length**2 + 4 * widening * self.area))
+def _columns(rows: Sequence[Tuple], width: int):
+    return np.array(rows, dtype=float).reshape(-1, width)
 
 
-def _margin(fine: float, coarse: float, width: float, growth: float, widening: float) -> float:
-    """Quads to add per length of an edge, where the size grows from `fine` at the edge to `coarse` inside. Around a hole
-    the margin widens with the distance."""
-    width = min(width, (coarse - fine) / growth)
-    if width <= 0:
+def _curvature_of_edge(edge) -> float:
+    if edge.Degenerated or isinstance(edge.Curve, Part.Line):
         return 0.0
-    far = fine + growth * width
-    wider = (math.log(far / fine) + fine / far - 1) / growth**2
-    return ((1 / fine - 1 / far) / growth + widening * wider
-            - (width + widening * width**2 / 2) / coarse**2)
+    if isinstance(edge.Curve, Part.Circle):
+        return 1 / edge.Curve.Radius
+    first, last = edge.ParameterRange
+    curvature = 0.0
+    for share in (0.1, 0.5, 0.9):
+        try:
+            curvature = max(curvature, edge.curvatureAt(first + share * (last - first)))
+        except (Part.OCCError, RuntimeError):  # a kink has no curvature
+            continue
+    return curvature
+
+
+def _margins(fine, coarse, width, growth: float, widening):
+    """Quads to add per length of an edge, where the size grows from `fine` at the edge to `coarse` inside. Around a hole
+    the margin widens with the distance. Arrays, one entry an edge of a face."""
+    width = np.minimum(width, (coarse - fine) / growth)
+    far = fine + growth * np.maximum(width, 0)
+    wider = (np.log(far / fine) + fine / far - 1) / growth**2
+    return np.where(width > 0, (1 / fine - 1 / far) / growth + widening * wider
+                    - (width + widening * width**2 / 2) / coarse**2, 0.0)
 
 
 def _curvatures(face, area: float, samples: int) -> List[Tuple[float, float]]:
     """A face in pieces: the area of each and the larger curvature there."""
-    if isinstance(face.Surface, Part.Plane):
+    surface = face.Surface
+    if isinstance(surface, Part.Plane):
         return [(area, 0.0)]
+    if isinstance(surface, (Part.Cylinder, Part.Sphere)):
+        return [(area, 1 / surface.Radius)]
     u_min, u_max, v_min, v_max = face.ParameterRange
     found = []
     for i in range(samples):
@@ -250,21 +270,66 @@ def find_element(shape, element) -> Optional[str]:
     for index, candidate in enumerate(candidates, 1):
         if candidate.isSame(element):
             return f"{kind}{index}"
+    found = find_by_measures(shape, kind, measures(element))
+    return found[0] if found else None
+
+
+def find_by_measures(shape, kind: str, wanted: Sequence[float]) -> List[str]:
+    """The names of the elements of a kind ("Face") that have these measures but for rounding."""
     tolerance = _ROUNDING * max(shape.BoundBox.DiagonalLength, 1e-300)
-    wanted = _measures(element)
-    for index, candidate in enumerate(candidates, 1):
-        if all(abs(a - b) <= tolerance for a, b in zip(_measures(candidate), wanted)):
-            return f"{kind}{index}"
-    return None
+    return [f"{kind}{index}" for index, candidate in enumerate(getattr(shape, _KINDS[kind]), 1)
+            if _alike(measures(candidate), wanted, tolerance)]
 
 
-def _measures(element) -> List[float]:
+def _alike(one: Sequence[float], other: Sequence[float], tolerance: float) -> bool:
+    return len(one) == len(other) > 0 and all(abs(a - b) <= tolerance for a, b in zip(one, other))
+
+
+def element_of(shape, name: str):
+    """The element of a shape with a name such as "Face3", or None."""
+    if not _exists(shape, name):
+        return None
+    kind = name.rstrip("0123456789")
+    return getattr(shape, _KINDS[kind])[int(name[len(kind):]) - 1]
+
+
+def topology(shape) -> str:
+    """A digest of how a shape is put together: the edges of each face and the vertices of each edge, by number, and the
+    kinds of surfaces and curves. Equal for two shapes that differ in measures alone."""
+    known: Dict[int, List[Tuple[object, int]]] = {}
+    count = 0
+
+    def number(part) -> int:
+        nonlocal count
+        alike = known.setdefault(part.hashCode(), [])
+        for other, index in alike:
+            if other.isSame(part):
+                return index
+        count += 1
+        alike.append((part, count))
+        return count
+
+    digest = hashlib.sha1()
+    for edge in shape.Edges:
+        kind = "none" if edge.Degenerated else edge.Curve.TypeId
+        digest.update(f"{kind} {[number(vertex) for vertex in edge.Vertexes]} {number(edge)};".encode())
+    for face in shape.Faces:
+        digest.update(f"{face.Surface.TypeId} {face.Orientation} {[number(edge) for edge in face.Edges]};".encode())
+    return digest.hexdigest()
+
+
+def measures(element) -> List[float]:
     """Lengths that tell an element from the others of its shape."""
     if element.ShapeType == "Vertex":
         return list(element.Point)
-    box = element.BoundBox
-    measures = [*element.CenterOfMass, box.XMin, box.XMax, box.YMin, box.YMax, box.ZMin, box.ZMax]
-    return [*measures, element.Length if element.ShapeType == "Edge" else math.sqrt(abs(element.Area))]
+    if element.ShapeType == "Edge" and element.Degenerated:
+        return []
+    size = element.Length if element.ShapeType == "Edge" else math.sqrt(abs(element.Area))
+    # No bounding box: that of a curved face depends on whether it was drawn already.
+    scale = max(abs(element.Mass) * size, 1e-300)
+    inertia = element.MatrixOfInertia
+    spread = [value / scale for value in (inertia.A11, inertia.A22, inertia.A33, inertia.A12, inertia.A13, inertia.A23)]
+    return [*element.CenterOfMass, size, *spread]
 
 
 def _exists(shape, name: str) -> bool:

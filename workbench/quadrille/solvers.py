@@ -14,9 +14,13 @@ Meshes without such groups, and mesh objects that are not ours, give the same as
 
 import functools
 import importlib
-from typing import Callable, List, Optional, Sequence
+import os
+from pathlib import Path
+from typing import Callable, List, Optional, Tuple
 
 import FreeCAD
+
+from . import forces, groups
 
 #: Tells why a mesh object's mesh must not be solved with; empty for a current one, and for objects not ours.
 Complaint = Callable[[object], str]
@@ -31,15 +35,7 @@ def wrap_solvers(complaint: Complaint) -> None:
     if _complaint is not None:
         return
     _complaint = complaint
-    for module, name, wrapper in (
-        ("femsolver.run", "Check.check_mesh_exists", _checked_in_framework),
-        ("femtools.checksanalysis", "check_member_for_solver_calculix", _checked_by_ccxtools),
-        ("femtools.membertools", "get_mesh_to_solve", _announced),
-        ("femmesh.meshtools", "get_femelement_faces_table", _of_shells),
-        ("femmesh.meshtools", "get_femelement_sets", _noting_objects),
-        ("femmesh.meshtools", "get_femelements_by_references", _from_groups),
-        ("femmesh.meshtools", "get_femelements_by_femnodes_std", _with_set),
-    ):
+    for module, name, wrapper in WRAPPED:
         _wrap(module, name, wrapper)
 
 
@@ -66,6 +62,10 @@ _LOST = {
     "_noting_objects": "several materials or thicknesses take long to write for solvers",
     "_from_groups": "several materials or thicknesses take long to write for solvers",
     "_with_set": "several materials or thicknesses take long to write for solvers",
+    "noting_faces": "forces on faces take long to write for CalculiX",
+    "from_group": "forces on faces take long to write for CalculiX",
+    "by_numpy": "forces on faces take long to write for CalculiX",
+    "_followed": "the input for CalculiX has S8 and no offset of shells, whatever the mesh object says",
 }
 
 
@@ -135,19 +135,12 @@ def _from_groups(function):
     def get_femelements_by_references(femmesh, femelement_table, references, *arguments, **options):
         for obj in _asked_for:
             if obj.References == references:
-                found = _group(femmesh, f"{obj.Name}_Faces")
+                found = groups.elements_in(femmesh, f"{obj.Name}_Faces")
                 if found:
                     return sorted(found)
         return function(femmesh, femelement_table, references, *arguments, **options)
 
     return get_femelements_by_references
-
-
-def _group(femmesh, name: str) -> Sequence[int]:
-    for number in femmesh.Groups:
-        if femmesh.getGroupName(number) == name and femmesh.getGroupElementType(number) == "Face":
-            return femmesh.getGroupElements(number)
-    return ()
 
 
 def _of_shells(function):
@@ -168,6 +161,45 @@ def _with_set(function):
         return function(femelement_table, set(node_list))
 
     return get_femelements_by_femnodes_std
+
+
+# Elements and sections of shells
+
+
+def _followed(function):
+    """The input of CalculiX with the elements and the offset that the mesh object asks for."""
+
+    @functools.wraps(function)
+    def write_solver_input(self, *arguments, **options):
+        name = function(self, *arguments, **options)
+        mesh = getattr(self, "mesh_object", None)
+        if name and mesh is not None and "ReducedShells" in mesh.PropertiesList:
+            files = {path for path in (getattr(self, "femmesh_file", ""), self.file_name) if path and os.path.isfile(path)}
+            changed = [reduce_and_offset(path, mesh.ReducedShells, mesh.ShellOffset) for path in sorted(files)]
+            blocks, sections = (sum(counts) for counts in zip(*changed))
+            if blocks:
+                FreeCAD.Console.PrintMessage(f"{mesh.Label}: shells are written as S8R, which is better than S8 where they are "
+                                             "thin (its property ReducedShells)\n")
+            if sections:
+                FreeCAD.Console.PrintMessage(f"{mesh.Label}: shells are written with the offset {mesh.ShellOffset:g} (its "
+                                             "property ShellOffset)\n")
+        return name
+
+    return write_solver_input
+
+
+def reduce_and_offset(path, reduced: bool, offset: float) -> Tuple[int, int]:
+    """In an input file of CalculiX: S8 shells become S8R, shell sections get an offset in thicknesses. Returns how many
+    blocks of elements and sections were changed."""
+    text = Path(path).read_text(encoding="utf-8")
+    blocks, sections = text.count("TYPE=S8,") if reduced else 0, text.count("*SHELL SECTION,") if offset else 0
+    if blocks:
+        text = text.replace("TYPE=S8,", "TYPE=S8R,")
+    if sections:
+        text = text.replace("*SHELL SECTION,", f"*SHELL SECTION, OFFSET={offset:g},")
+    if blocks or sections:
+        Path(path).write_text(text, encoding="utf-8")
+    return blocks, sections
 
 
 # Results of shells
@@ -191,3 +223,19 @@ def hint_at_surfaces(result, analysis) -> None:
                 f"{result.Label}: shows stresses at the middle of the shell; those of bending are at its surfaces: set "
                 f"{SURFACE_RESULTS} of {solver.Label} to true, and solve again\n")
             return
+
+
+#: FreeCAD's functions that are wrapped: module, name, and what wraps it.
+WRAPPED = (
+    ("femsolver.run", "Check.check_mesh_exists", _checked_in_framework),
+    ("femtools.checksanalysis", "check_member_for_solver_calculix", _checked_by_ccxtools),
+    ("femtools.membertools", "get_mesh_to_solve", _announced),
+    ("femmesh.meshtools", "get_femelement_faces_table", _of_shells),
+    ("femmesh.meshtools", "get_femelement_sets", _noting_objects),
+    ("femmesh.meshtools", "get_femelements_by_references", _from_groups),
+    ("femmesh.meshtools", "get_femelements_by_femnodes_std", _with_set),
+    ("femmesh.meshtools", "get_force_obj_face_nodeload_table", forces.noting_faces),
+    ("femmesh.meshtools", "get_ref_facenodes_table", forces.from_group),
+    ("femmesh.meshtools", "get_ref_facenodes_areas", forces.by_numpy),
+    ("femsolver.calculix.writer", "FemInputWriterCcx.write_solver_input", _followed),
+)

@@ -17,6 +17,20 @@ _meshes: Dict[tuple, "OrderedDict[str, object]"] = {}
 _current: Dict[tuple, str] = {}
 
 
+#: Tokens of meshes that are kept whatever else is, by object: a panel is open that may take its work back.
+_held: Dict[tuple, str] = {}
+
+
+def hold(mesh) -> None:
+    """Keeps the mesh that an object has until release()."""
+    _held[_key(mesh)] = mesh.MeshToken
+
+
+def release(document, mesh_name: str) -> None:
+    """Keeps it no longer than others."""
+    _held.pop((document.Uid, mesh_name), None)
+
+
 def _key(mesh) -> tuple:
     return (mesh.Document.Uid, mesh.Name)
 
@@ -40,8 +54,9 @@ def _keep(mesh, fem_mesh) -> None:
     kept = _meshes.setdefault(key, OrderedDict())
     kept[mesh.MeshToken] = fem_mesh
     kept.move_to_end(mesh.MeshToken)
-    while len(kept) > KEPT:
-        kept.popitem(last=False)
+    spare = [token for token in kept if token != _held.get(key)]
+    for token in spare[:max(0, len(spare) - KEPT)]:
+        del kept[token]
 
 
 def bring_back(mesh) -> None:
@@ -55,6 +70,6 @@ def bring_back(mesh) -> None:
 
 def forget(document) -> None:
     """Drops what is kept for a document that closes."""
-    for table in (_meshes, _current):
+    for table in (_meshes, _current, _held):
         for key in [key for key in table if key[0] == document.Uid]:
             del table[key]

@@ -60,15 +60,17 @@ def find(name):
     return found[0]
 
 
-def close_panel():
-    """Presses Close in the task panel."""
+def close_panel(button=None):
+    """Presses OK in the task panel (Close where there is no OK), or another button."""
+    wanted = [button] if button is not None else [QtGui.QDialogButtonBox.Ok, QtGui.QDialogButtonBox.Close]
     for box in window().findChildren(QtGui.QDialogButtonBox):
-        button = box.button(QtGui.QDialogButtonBox.Close)
-        if button is not None and button.isVisible():
-            button.click()
-            process(0.2)
-            return
-    raise AssertionError("no Close button")
+        for kind in wanted:
+            found = box.button(kind)
+            if found is not None and found.isVisible():
+                found.click()
+                process(0.2)
+                return
+    raise AssertionError("no such button")
 
 
 class Boxes:

@@ -8,10 +8,14 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtGui
 
+import quadrille_commands
+
 from .. import freecad as core
 from .. import picks
 from ..errors import Error
-from . import icon, overlays, tell
+from ..state import is_quad_mesh
+from . import QT_TRANSLATE_NOOP, do, icon, links_text, overlays, path_of, tell, transaction, translate
+from .length_field import LengthField
 
 TOOLBAR = ["Quadrille_Mesh", "Quadrille_Refine", "Quadrille_Quality", "Quadrille_Normals", "Quadrille_Flip",
            "Quadrille_Export"]
@@ -22,49 +26,33 @@ FORMATS = {
 }
 
 
-def _do(text: str) -> None:
-    FreeCADGui.doCommand(text)
-
-
-def _path(obj) -> str:
-    return f"App.getDocument({obj.Document.Name!r}).getObject({obj.Name!r})"
-
-
-def _references(references) -> str:
-    """FEM references in Python's spelling."""
-    return "[" + ", ".join(f"({_path(target)}, {names!r})" for target, names in references) + "]"
-
-
 def picked(document) -> list:
     """What is selected in a document, see picks.py."""
     return picks.picks_of(FreeCADGui.Selection.getSelectionEx(document.Name, 0))
-
-
-def is_quad_mesh(obj) -> bool:
-    """True for the mesh objects of this addon."""
-    return getattr(getattr(obj, "Proxy", None), "Type", "") == core.MeshFeature.Type
 
 
 def mesh_in_question():
     """The selected mesh object, or the one whose part is selected, or the only one in the document."""
     document = FreeCAD.ActiveDocument
     if document is None:
-        raise Error("open a document first", "usage")
+        raise Error(translate("Quadrille", "open a document first"), "usage")
     meshes = [obj for obj in document.Objects if is_quad_mesh(obj)]
     if not meshes:
-        raise Error("the document has no quad mesh: select a part and use Quad mesh from shape first", "usage")
+        raise Error(translate("Quadrille", "the document has no quad mesh: select a part and use Quad mesh from shape first"),
+                    "usage")
     selected = picks.parts_of(picked(document))
     for candidates in ([mesh for mesh in meshes if mesh in selected],
                        [mesh for mesh in meshes if mesh.Shape in selected], meshes):
         if len(candidates) == 1:
             return candidates[0]
-    raise Error("the document has several quad meshes: select one of them", "usage")
+    raise Error(translate("Quadrille", "the document has several quad meshes: select one of them"), "usage")
 
 
 def _meshed_in_question():
     mesh = mesh_in_question()
     if not mesh.FemMesh.FaceCount:
-        raise Error(f"{mesh.Label}: is not meshed yet: double-click it and press Mesh", "usage", mesh.Name)
+        raise Error(translate("Quadrille", "{}: is not meshed yet: double-click it and press Mesh").format(mesh.Label), "usage",
+                    mesh.Name)
     return mesh
 
 
@@ -79,14 +67,15 @@ def active_analysis(document):
 
 
 class _Command:
-    """A command: run() does the work; an Error becomes one message and the transaction is taken back."""
+    """A command: run() does the work; an Error becomes one message; whatever goes wrong, the transaction is taken back."""
 
-    text = tip = pixmap = accelerator = ""
-    transaction: Optional[str] = None
+    name = text = tip = pixmap = accelerator = ""
+    step = ""  #: of undo
 
     def GetResources(self) -> dict:
-        """FreeCAD asks for text and icon."""
-        return {"MenuText": self.text, "ToolTip": self.tip, "Pixmap": icon(self.pixmap), "Accel": self.accelerator}
+        """FreeCAD asks for text and icon, and translates the texts by the command's name."""
+        return {"MenuText": self.text, "ToolTip": self.tip, "StatusTip": self.tip, "Pixmap": icon(self.pixmap),
+                "Accel": self.accelerator}
 
     def IsActive(self) -> bool:
         """A document is open, and no other panel."""
@@ -96,19 +85,18 @@ class _Command:
         """A click."""
         document = FreeCAD.ActiveDocument
         if document is None:
-            tell("Open a document first.")
+            tell(translate("Quadrille", "Open a document first."))
             return
-        if self.transaction:
-            document.openTransaction(self.transaction)
         try:
-            self.run()
+            if self.step:
+                with transaction(document, self.step):
+                    self.run()
+            else:
+                self.run()
         except Error as error:
-            if self.transaction:
-                document.abortTransaction()
-            tell(str(error))
+            if error.kind != "cancelled":
+                tell(str(error))
             return
-        if self.transaction:
-            document.commitTransaction()
         self.afterwards()
 
     def run(self) -> None:
@@ -121,73 +109,92 @@ class _Command:
 class MeshCommand(_Command):
     """Quad mesh from shape."""
 
-    text = "Quad mesh from shape"
-    tip = "Mesh the selected part with quads"
+    name = "Quadrille_Mesh"
+    text = QT_TRANSLATE_NOOP("Quadrille_Mesh", "Quad mesh from shape")
+    tip = QT_TRANSLATE_NOOP("Quadrille_Mesh", "Mesh the selected part with quads; several parts are joined where they touch")
     pixmap = "quadrille_mesh"
-    transaction = "Create quad mesh"
+    accelerator = "Q, M"
+    step = "Create quad mesh"
 
     def run(self) -> None:
         document = FreeCAD.ActiveDocument
         selected = picks.parts_of(picked(document))
-        if len(selected) != 1:
-            raise Error("select one part to mesh" if not selected else
-                        f"{len(selected)} objects are selected: select one part to mesh (to mesh several as one, "
-                        "make a compound or a boolean fragment of them)", "usage")
-        self._edit = None
-        part = selected[0]
-        if is_quad_mesh(part):
-            self._edit = part
+        if not selected:
+            raise Error(translate("Quadrille", "select one part to mesh, or several"), "usage")
+        self._edit, self._made = None, False
+        if len(selected) == 1 and is_quad_mesh(selected[0]):
+            self._edit = selected[0]
             return
         analysis = active_analysis(document)
-        core.check_part(part, analysis)
+        for part in selected:
+            core.check_part(part, analysis)
         core.find_mesher()
-        size = core.suggested_size(part)
-        _do("import quadrille.freecad")
-        into = f", analysis={_path(analysis)}" if analysis is not None else ""
-        _do(f"quadrille.freecad.make_mesh({_path(part)}, size={size!r}{into})")
-        self._edit = [obj for obj in document.Objects if is_quad_mesh(obj)][-1]
+        do("import quadrille.freecad")
+        part = selected[0]
+        if len(selected) > 1:
+            do(f"quadrille.freecad.fragments([{', '.join(map(path_of, selected))}])")
+            part = document.Objects[-1]
+        into = f", analysis={path_of(analysis)}" if analysis is not None else ""
+        do(f"quadrille.freecad.make_mesh({path_of(part)}, size={core.suggested_size(part)!r}{into})")
+        self._edit, self._made = [obj for obj in document.Objects if is_quad_mesh(obj)][-1], True
 
     def afterwards(self) -> None:
-        if self._edit is not None:
-            _do(f"Gui.getDocument({self._edit.Document.Name!r}).setEdit({self._edit.Name!r})")
+        if self._edit is None:
+            return
+        if self._made:
+            self._edit.ViewObject.Proxy.made_by = self.step
+        FreeCADGui.getDocument(self._edit.Document.Name).setEdit(self._edit.Name)
 
 
 class RefineCommand(_Command):
     """Refine faces, edges or vertices: a FEM mesh region on our mesh."""
 
-    text = "Refine faces, edges, vertices"
-    tip = "Give the selected faces, edges or vertices a size of their own (a FEM mesh region)"
+    name = "Quadrille_Refine"
+    text = QT_TRANSLATE_NOOP("Quadrille_Refine", "Refine faces, edges, vertices")
+    tip = QT_TRANSLATE_NOOP("Quadrille_Refine", "Give the selected faces, edges or vertices a size of their own (a FEM mesh region)")
+    accelerator = "Q, R"
     pixmap = "quadrille_refine"
-    transaction = "Refine quad mesh"
+    step = "Refine quad mesh"
 
     def run(self) -> None:
         mesh = mesh_in_question()
         references = [entry for entry in picks.references_on(mesh.Shape, picked(mesh.Document))
                       if not is_quad_mesh(entry[0])]
         if not references:
-            raise Error("select faces, edges or vertices of the part first", "usage")
+            raise Error(translate("Quadrille", "select faces, edges or vertices of the part first"), "usage")
         size = self.ask(mesh)
         if size is None:
             return
-        _do("import quadrille.freecad")
+        do("import quadrille.freecad")
         core.check_references(mesh, references)
-        _do(f"quadrille.freecad.refine({_path(mesh)}, {_references(references)}, {size!r})")
+        do(f"quadrille.freecad.refine({path_of(mesh)}, {links_text(references)}, {size!r})")
         mesh.Document.recompute()
 
     @staticmethod
     def ask(mesh) -> Optional[float]:
-        """The size, from a box."""
+        """The size, from a box; None when it is cancelled."""
         usual = mesh.Size.Value or mesh.Shape.Shape.BoundBox.DiagonalLength / 60
-        size, accepted = QtGui.QInputDialog.getDouble(FreeCADGui.getMainWindow(), "Refine", "Element size in mm",
-                                                      usual / 2, usual * 1e-6, usual * 1e3, 4)
-        return size if accepted else None
+        dialog = QtGui.QDialog(FreeCADGui.getMainWindow())
+        dialog.setWindowTitle(translate("Quadrille", "Refine"))
+        label = translate("Quadrille", "Element size")
+        box = LengthField("QuadrilleRefineSize")
+        box.show_length(usual / 2)
+        buttons = QtGui.QDialogButtonBox(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Cancel)
+        buttons.accepted.connect(dialog.accept)
+        buttons.rejected.connect(dialog.reject)
+        layout = QtGui.QFormLayout(dialog)
+        layout.addRow(label, box)
+        layout.addRow(buttons)
+        return box.length(label) if dialog.exec_() else None
 
 
 class QualityCommand(_Command):
     """Mesh quality."""
 
-    text = "Mesh quality"
-    tip = "Show the quality of a quad mesh: numbers, histogram, colours, worst elements"
+    name = "Quadrille_Quality"
+    text = QT_TRANSLATE_NOOP("Quadrille_Quality", "Mesh quality")
+    tip = QT_TRANSLATE_NOOP("Quadrille_Quality", "Show the quality of a quad mesh: numbers, histogram, colors, worst elements")
+    accelerator = "Q, Q"
     pixmap = "quadrille_quality"
 
     def run(self) -> None:
@@ -201,34 +208,38 @@ class QualityCommand(_Command):
 class NormalsCommand(_Command):
     """Shows or hides the shell normals."""
 
-    text = "Show shell normals"
-    tip = "Show the normals of the shell elements as arrows, or hide them again"
+    name = "Quadrille_Normals"
+    text = QT_TRANSLATE_NOOP("Quadrille_Normals", "Show shell normals")
+    tip = QT_TRANSLATE_NOOP("Quadrille_Normals", "Show the normals of the shell elements as arrows, or hide them again")
+    accelerator = "Q, N"
     pixmap = "quadrille_normals"
 
     def run(self) -> None:
         mesh = _meshed_in_question()
-        _do("import quadrille.gui.overlays")
+        do("import quadrille.gui.overlays")
         word = "hide" if overlays.is_shown(mesh, overlays.NORMALS) else "show"
-        _do(f"quadrille.gui.overlays.{word}_normals({_path(mesh)})")
+        do(f"quadrille.gui.overlays.{word}_normals({path_of(mesh)})")
 
 
 class FlipCommand(_Command):
     """Flips the shell normals of the selected faces, or of all."""
 
-    text = "Flip shell normals"
-    tip = "Turn the shell normals of the selected faces over (of all faces when none is selected); meshes again"
+    name = "Quadrille_Flip"
+    text = QT_TRANSLATE_NOOP("Quadrille_Flip", "Flip shell normals")
+    tip = QT_TRANSLATE_NOOP("Quadrille_Flip", "Turn the shell normals of the selected faces over (of all faces when none is selected); meshes again")
+    accelerator = "Q, F"
     pixmap = "quadrille_flip"
-    transaction = "Flip shell normals"
+    step = "Flip shell normals"
 
     def run(self) -> None:
         mesh = _meshed_in_question()
         chosen = [pick for pick in picked(mesh.Document) if pick[1].split(".")[-1]]
         faces = [name for name in picks.elements_of(mesh.Shape, chosen) if name.startswith("Face")]
         if chosen and not faces:
-            raise Error(f"none of what is selected is a face of {mesh.Shape.Label}: select its faces, or nothing to flip "
-                        "all of them", "usage")
-        _do("import quadrille.freecad")
-        _do(f"quadrille.freecad.flip({_path(mesh)}, {faces!r})")
+            raise Error(translate("Quadrille", "none of what is selected is a face of {}: select its faces, or nothing to flip "
+                                  "all of them").format(mesh.Shape.Label), "usage")
+        do("import quadrille.freecad")
+        do(f"quadrille.freecad.flip({path_of(mesh)}, {faces!r})")
         if overlays.is_shown(mesh, overlays.NORMALS):
             overlays.show_normals(mesh)
 
@@ -236,8 +247,10 @@ class FlipCommand(_Command):
 class ExportCommand(_Command):
     """Exports the mesh."""
 
-    text = "Export quad mesh"
-    tip = "Write the mesh to a file for CalculiX, Gmsh, Salome, ParaView or Nastran, with its sets and groups"
+    name = "Quadrille_Export"
+    text = QT_TRANSLATE_NOOP("Quadrille_Export", "Export quad mesh")
+    tip = QT_TRANSLATE_NOOP("Quadrille_Export", "Write the mesh to a file for CalculiX, Gmsh, Salome, ParaView or Nastran, with its sets and groups")
+    accelerator = "Q, E"
     pixmap = "quadrille_export"
 
     def run(self) -> None:
@@ -245,8 +258,8 @@ class ExportCommand(_Command):
         path = self.ask(mesh)
         if not path:
             return
-        _do("import quadrille.freecad")
-        _do(f"quadrille.freecad.export({_path(mesh)}, {path!r})")
+        do("import quadrille.freecad")
+        do(f"quadrille.freecad.export({path_of(mesh)}, {path!r})")
 
     @staticmethod
     def ask(mesh) -> Optional[str]:
@@ -260,10 +273,8 @@ class ExportCommand(_Command):
 
 
 #: The commands by the names that FreeCAD knows them by.
-COMMANDS = {
-    "Quadrille_Mesh": MeshCommand, "Quadrille_Refine": RefineCommand, "Quadrille_Quality": QualityCommand,
-    "Quadrille_Normals": NormalsCommand, "Quadrille_Flip": FlipCommand, "Quadrille_Export": ExportCommand,
-}
+COMMANDS = {command.name: command for command in (MeshCommand, RefineCommand, QualityCommand, NormalsCommand, FlipCommand,
+                                                  ExportCommand)}
 
 
 def register() -> None:
@@ -271,4 +282,4 @@ def register() -> None:
     known = FreeCADGui.listCommands()
     for name, command in COMMANDS.items():
         if name not in known:
-            FreeCADGui.addCommand(name, command())
+            quadrille_commands.add(name, command())

@@ -9,7 +9,7 @@ from typing import Dict, Optional
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from . import icon
+from . import icon, translate
 from .commands import COMMANDS, TOOLBAR
 
 _FEM = "FemWorkbench"
@@ -42,6 +42,8 @@ class _FemEntries:
         if not fem:
             self._timer.stop()
             return
+        for name, action in self._actions.items():
+            _name(action, name)
         if not self._has_menu:
             self._fill_menu()
         self._enable()
@@ -75,12 +77,18 @@ class _Manipulator:
 
 def _action(name: str, parent) -> QtGui.QAction:
     """An action that runs a command."""
-    command = COMMANDS[name]
-    action = QtGui.QAction(QtGui.QIcon(icon(command.pixmap)), command.text, parent)
-    action.setToolTip(command.tip)
-    action.setStatusTip(command.tip)
+    action = QtGui.QAction(QtGui.QIcon(icon(COMMANDS[name].pixmap)), "", parent)
+    _name(action, name)
     action.triggered.connect(lambda *_: FreeCADGui.runCommand(name))
     return action
+
+
+def _name(action, name: str) -> None:
+    """Texts in the language of FreeCAD."""
+    command = COMMANDS[name]
+    action.setText(translate(name, command.text))
+    action.setToolTip(translate(name, command.tip))
+    action.setStatusTip(translate(name, command.tip))
 
 
 def fill_context_menu(mesh, menu) -> None:

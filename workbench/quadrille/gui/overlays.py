@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Things drawn over a mesh in the 3-D view: its faces coloured by quality, arrows for its shell normals.
+"""Things drawn over a mesh in the 3-D view: its faces colored by quality, arrows for its shell normals.
 
-FreeCAD's own element colours are not used: FreeCAD 0.20 mixes them up between the elements of a second-order mesh.
+FreeCAD's own element colors are not used: FreeCAD 0.20 mixes them up between the elements of a second-order mesh.
 """
 
 from typing import Dict
@@ -9,13 +9,15 @@ from typing import Dict
 import numpy as np
 
 from .. import quality
+from . import translate
 
 #: More arrows than this only blacken the view: larger meshes show some of them.
 MOST_ARROWS = 3000
 QUALITY, NORMALS, ELEMENT, STALE = "QuadrilleQuality", "QuadrilleNormals", "QuadrilleElement", "QuadrilleStale"
+FREE = "QuadrilleFree"
 #: What is shown, by the names of document and mesh object, and by kind.
 _shown: Dict[tuple, object] = {}
-#: The display modes that meshes had before they were coloured.
+#: The display modes that meshes had before they were colored.
 _modes: Dict[tuple, str] = {}
 
 
@@ -66,14 +68,14 @@ def _coordinates(points: np.ndarray):
     return node
 
 
-def show_quality(mesh, measured: quality.ElementQuality) -> None:
-    """Draws the quads in colours, from red (q = 0) through yellow to blue (q = 1)."""
+def show_quality(mesh, measured: quality.ElementQuality, measure: str = "q") -> None:
+    """Draws the quads in colors, from red (0) through yellow to blue (1), by q or a criterion (yellow: at its limit)."""
     from pivy import coin
 
     hide(mesh, QUALITY)
-    colours = quality.colours(measured.q)
+    colors = quality.colors(measured.goodness(measure))
     material = coin.SoMaterial()
-    material.diffuseColor.setValues(0, len(colours), colours.tolist())
+    material.diffuseColor.setValues(0, len(colors), colors.tolist())
     binding = coin.SoMaterialBinding()
     binding.value = coin.SoMaterialBinding.PER_FACE
     hints = coin.SoShapeHints()
@@ -82,22 +84,22 @@ def show_quality(mesh, measured: quality.ElementQuality) -> None:
     hints.faceType = coin.SoShapeHints.UNKNOWN_FACE_TYPE
     offset = coin.SoPolygonOffset()  # the lines of the mesh stay in front
     faces = coin.SoFaceSet()
-    faces.numVertices.setValues(0, len(colours), [4] * len(colours))
+    faces.numVertices.setValues(0, len(colors), [4] * len(colors))
     _show(mesh, QUALITY, _group(material, binding, hints, offset, _coordinates(measured.corners.reshape(-1, 3)), faces))
     if mesh.ViewObject.DisplayMode != "Wireframe":
         _modes[(mesh.Document.Name, mesh.Name, QUALITY)] = mesh.ViewObject.DisplayMode
         mesh.ViewObject.DisplayMode = "Wireframe"
 
 
-def _plain_colour(rgb: tuple[float, float, float]):
-    """Nodes that give what follows one colour, whatever the light."""
+def _plain_color(rgb: tuple[float, float, float]):
+    """Nodes that give what follows one color, whatever the light."""
     from pivy import coin
 
     light = coin.SoLightModel()
     light.model = coin.SoLightModel.BASE_COLOR
-    colour = coin.SoBaseColor()
-    colour.rgb = rgb
-    return light, colour
+    color = coin.SoBaseColor()
+    color.rgb = rgb
+    return light, color
 
 
 def frame_element(mesh, measured: quality.ElementQuality, index: int) -> None:
@@ -107,12 +109,12 @@ def frame_element(mesh, measured: quality.ElementQuality, index: int) -> None:
     hide(mesh, ELEMENT)
     lift = 0.02 * measured.lengths[index] * measured.normals[index]
     points = measured.corners[index][[0, 1, 2, 3, 0]]
-    light, colour = _plain_colour((0.9, 0.0, 0.6))
+    light, color = _plain_color((0.9, 0.0, 0.6))
     style = coin.SoDrawStyle()
     style.lineWidth = 5
     lines = coin.SoLineSet()
     lines.numVertices.setValues(0, 2, [5, 5])  # seen from both sides
-    _show(mesh, ELEMENT, _group(light, colour, style, _coordinates(np.vstack([points + lift, points - lift])), lines))
+    _show(mesh, ELEMENT, _group(light, color, style, _coordinates(np.vstack([points + lift, points - lift])), lines))
 
 
 def show_normals(mesh) -> int:
@@ -130,12 +132,12 @@ def show_normals(mesh) -> int:
     across *= 0.15 * length / np.linalg.norm(across, axis=1, keepdims=True)
     barbs = tips - 0.3 * length * normals
     points = np.stack([feet, tips, barbs + across, tips, barbs - across], axis=1).reshape(-1, 3)
-    light, colour = _plain_colour((0.85, 0.1, 0.1))
+    light, color = _plain_color((0.85, 0.1, 0.1))
     style = coin.SoDrawStyle()
     style.lineWidth = 2
     lines = coin.SoLineSet()
     lines.numVertices.setValues(0, len(feet), [5] * len(feet))
-    _show(mesh, NORMALS, _group(light, colour, style, _coordinates(points), lines))
+    _show(mesh, NORMALS, _group(light, color, style, _coordinates(points), lines))
     return len(feet)
 
 
@@ -147,16 +149,36 @@ def show_stale(mesh) -> None:
     box = mesh.FemMesh.BoundBox
     place = coin.SoTranslation()
     place.translation.setValue(box.Center.x, box.Center.y, box.ZMax + 0.1 * box.DiagonalLength)
-    light, colour = _plain_colour((1.0, 1.0, 1.0))
+    light, color = _plain_color((1.0, 1.0, 1.0))
     font = coin.SoFont()
     font.size = 20
     text = coin.SoText2()
-    text.string.setValue(f"{mesh.Label}: {mesh.Status}")
+    text.string.setValue(f"{mesh.Label}: {translate('QuadrilleStatus', mesh.Status)}")
     text.justification = coin.SoText2.CENTER
     in_front = coin.SoAnnotation()
-    for node in (light, colour, place, font, text):
+    for node in (light, color, place, font, text):
         in_front.addChild(node)
     _add(mesh, STALE, _group(in_front))
+
+
+def show_free(mesh, measured: quality.ElementQuality) -> None:
+    """Draws the sides that one element alone has, and the places where nodes lie on each other."""
+    from pivy import coin
+
+    hide(mesh, FREE)
+    sides, doubles = measured.free_sides(), measured.double_nodes()
+    light, color = _plain_color((0.9, 0.0, 0.0))
+    style = coin.SoDrawStyle()
+    style.lineWidth = 4
+    style.pointSize = 9
+    lines = coin.SoLineSet()
+    lines.numVertices.setValues(0, len(sides), [2] * len(sides))
+    nodes = [light, color, style]
+    if len(sides):
+        nodes += [_coordinates(sides.reshape(-1, 3)), lines]
+    if len(doubles):
+        nodes += [_coordinates(doubles), coin.SoPointSet()]
+    _show(mesh, FREE, _group(*nodes))
 
 
 def hide_normals(mesh) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Quality of a mesh for the eye: table, histogram, colours in the 3-D view, the worst elements to jump to."""
+"""Quality of a mesh for the eye: table, histogram, criteria, colors in the 3-D view, the worst elements to jump to."""
 
 from typing import Optional
 
@@ -8,7 +8,7 @@ import numpy as np
 from PySide import QtCore, QtGui
 
 from .. import quality
-from . import icon, overlays
+from . import QT_TRANSLATE_NOOP, icon, overlays, translate
 
 WORST = 20
 BINS = 20
@@ -16,8 +16,21 @@ BINS = 20
 MEASURE_AFTER_MILLISECONDS = 100
 
 
+#: Names of what elements are measured by, for users.
+MEASURES = {
+    "q": QT_TRANSLATE_NOOP("Quadrille", "q"),
+    "aspect": QT_TRANSLATE_NOOP("Quadrille", "Aspect"),
+    "warp": QT_TRANSLATE_NOOP("Quadrille", "Warp"),
+    "skew": QT_TRANSLATE_NOOP("Quadrille", "Skew"),
+    "angle_min": QT_TRANSLATE_NOOP("Quadrille", "Least angle"),
+    "angle_max": QT_TRANSLATE_NOOP("Quadrille", "Largest angle"),
+    "jacobian_ratio": QT_TRANSLATE_NOOP("Quadrille", "Jacobian ratio"),
+    "taper": QT_TRANSLATE_NOOP("Quadrille", "Taper"),
+}
+
+
 class QualityWidget(QtGui.QWidget):
-    """The quality of one mesh object: numbers are the mesher's, elements are measured here."""
+    """The quality of one mesh object: the first table has the mesher's numbers, elements are measured here."""
 
     def __init__(self, mesh, parent=None) -> None:
         super().__init__(parent)
@@ -27,26 +40,50 @@ class QualityWidget(QtGui.QWidget):
         self._timer.setSingleShot(True)
         self._timer.setInterval(MEASURE_AFTER_MILLISECONDS)
         self._timer.timeout.connect(self.fill_elements)
-        self.table = QtGui.QTableWidget(0, 2)
-        self.table.setObjectName("QuadrilleQualityTable")
+        self.status = QtGui.QLabel()
+        self.status.setObjectName("QuadrilleStatus")
+        self.status.setWordWrap(True)
+        self.table = _table("QuadrilleQualityTable", 2)
         self.table.horizontalHeader().setVisible(False)
-        self.table.verticalHeader().setVisible(False)
-        self.table.horizontalHeader().setStretchLastSection(True)
-        self.table.setEditTriggers(QtGui.QAbstractItemView.NoEditTriggers)
+        self.criteria = _table("QuadrilleCriteria", 4)
+        self.criteria.setHorizontalHeaderLabels([
+            translate("Quadrille", "Criterion"), translate("Quadrille", "Limit"), translate("Quadrille", "Fail"),
+            translate("Quadrille", "Worst")])
         self.histogram = QtGui.QLabel()
         self.histogram.setObjectName("QuadrilleHistogram")
-        self.colour = QtGui.QCheckBox("Colour the mesh by quality")
-        self.colour.setObjectName("QuadrilleColour")
-        self.colour.toggled.connect(self._colour)
+        self.histogram.setScaledContents(True)
+        self.histogram.setMinimumSize(100, 130)
+        self.histogram.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
+        self.measure = QtGui.QComboBox()
+        self.measure.setObjectName("QuadrilleMeasure")
+        self.measure.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
+        for name, text in MEASURES.items():
+            self.measure.addItem(translate("Quadrille", text), name)
+        self.measure.currentIndexChanged.connect(self._another_measure)
+        self.color = QtGui.QCheckBox(translate("Quadrille", "Color the mesh"))
+        self.color.setObjectName("QuadrilleColor")
+        self.color.setToolTip(translate("Quadrille", "Blue is good, red is bad; for a criterion, yellow is at its limit"))
+        self.color.toggled.connect(self._color)
+        self.free = QtGui.QCheckBox(translate("Quadrille", "Show free sides"))
+        self.free.setObjectName("QuadrilleFree")
+        self.free.setToolTip(translate("Quadrille", "Sides that one element alone has, and nodes on one place"))
+        self.free.toggled.connect(self._show_free)
         self.worst = QtGui.QListWidget()
         self.worst.setObjectName("QuadrilleWorst")
+        self.worst.setMaximumHeight(120)
         self.worst.currentRowChanged.connect(self._show_element)
         layout = QtGui.QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
+        by = QtGui.QHBoxLayout()
+        by.addWidget(self.color)
+        by.addWidget(self.measure, 1)
+        layout.addWidget(self.status)
         layout.addWidget(self.table)
         layout.addWidget(self.histogram)
-        layout.addWidget(self.colour)
-        layout.addWidget(QtGui.QLabel(f"Worst {WORST} elements (click to see one)"))
+        layout.addWidget(self.criteria)
+        layout.addLayout(by)
+        layout.addWidget(self.free)
+        layout.addWidget(QtGui.QLabel(translate("Quadrille", "Worst elements (click on one)")))
         layout.addWidget(self.worst)
         self.refresh()
 
@@ -55,14 +92,17 @@ class QualityWidget(QtGui.QWidget):
         self._measured = None
         self._timer.stop()
         self.worst.clear()
+        self.criteria.setRowCount(0)
         self.setVisible(self.mesh.FemMesh.FaceCount > 0)
         if not self.mesh.FemMesh.FaceCount:
             return
         overlays.hide(self.mesh, overlays.ELEMENT)
         self._fill_table()
         self._timer.start()
-        if self.colour.isChecked():
-            self._colour(True)
+        if self.color.isChecked():
+            self._color(True)
+        if self.free.isChecked():
+            self._show_free(True)
 
     def measured(self) -> quality.ElementQuality:
         """The quality of each element, measured when first asked for."""
@@ -72,62 +112,102 @@ class QualityWidget(QtGui.QWidget):
 
     def _fill_table(self) -> None:
         mesh = self.mesh
-        rows = (
-            ("Quads", f"{mesh.QuadCount}"),
-            ("Nodes", f"{mesh.NodeCount}"),
-            ("q, least and mean", f"{mesh.WorstQuality:.3f}, {mesh.MeanQuality:.3f}"),
-            ("Jacobian, least and mean", f"{mesh.WorstJacobian:.3f}, {mesh.MeanJacobian:.3f}"),
-            ("Aspect, largest", f"{mesh.LargestAspect:.2f}"),
-            ("Irregular nodes", f"{mesh.IrregularPercent:.2f} %"),
-            ("Outside the limits", f"{mesh.OutsidePercent:.2f} %"),
-            ("Mesher's time", f"{mesh.Seconds:.2f} s"),
-            ("Status", mesh.Status),
-        )
-        self.table.setRowCount(len(rows))
-        for row, (name, text) in enumerate(rows):
-            self.table.setItem(row, 0, QtGui.QTableWidgetItem(name))
-            self.table.setItem(row, 1, QtGui.QTableWidgetItem(text))
-            self.table.setRowHeight(row, 20)
-        self.table.resizeColumnToContents(0)
-        self.table.setFixedHeight(20 * len(rows) + 4)
+        _fill(self.table, (
+            (translate("Quadrille", "Quads"), f"{mesh.QuadCount}"),
+            (translate("Quadrille", "Nodes"), f"{mesh.NodeCount}"),
+            (translate("Quadrille", "q: least, mean"), f"{mesh.WorstQuality:.3f}, {mesh.MeanQuality:.3f}"),
+            (translate("Quadrille", "Jacobian"), f"{mesh.WorstJacobian:.3f}, {mesh.MeanJacobian:.3f}"),
+            (translate("Quadrille", "Irregular nodes"), f"{mesh.IrregularPercent:.2f} %"),
+            (translate("Quadrille", "Outside limits"), f"{mesh.OutsidePercent:.2f} %"),
+            (translate("Quadrille", "Mesher's time"), f"{mesh.Seconds:.2f} s"),
+        ))
+        self.status.setText(translate("QuadrilleStatus", mesh.Status))
 
     def fill_elements(self) -> None:
-        """Measures each element, for the histogram and the worst ones."""
+        """Measures each element, for the histogram, the criteria and the worst ones."""
         try:
             measured = self.measured()
         except ReferenceError:  # the object or its document is gone
             return
         self.histogram.setPixmap(histogram_pixmap(np.histogram(measured.q, bins=BINS, range=(0.0, 1.0))[0]))
+        rows = []
+        for name, (ideal, limit) in quality.CRITERIA.items():
+            values = measured.criteria[name]
+            worst = values.max() if limit > ideal else values.min()
+            rows.append((translate("Quadrille", MEASURES[name]), f"{limit:g}", f"{int(measured.fails(name).sum())}",
+                         f"{worst:.3g}"))
+        _fill(self.criteria, rows)
+        self._list_worst()
+
+    def _list_worst(self) -> None:
+        measured, measure = self.measured(), self.measure.itemData(self.measure.currentIndex())
+        values = measured.q if measure == "q" else measured.criteria[measure]
         self.worst.blockSignals(True)
         self.worst.clear()
-        for index in measured.worst(WORST):
-            self.worst.addItem(f"element {measured.ids[index]}: q {measured.q[index]:.3f}, "
-                               f"scaled Jacobian {measured.scaled_jacobian[index]:.3f}")
+        for index in measured.worst(WORST, measure):
+            self.worst.addItem(f"{measured.ids[index]}: {translate('Quadrille', MEASURES[measure])} {values[index]:.3g}")
         self.worst.blockSignals(False)
-        self.worst.setMaximumHeight(120)
 
-    def _colour(self, on: bool) -> None:
+    def _another_measure(self, _index: int) -> None:
+        if not self.mesh.FemMesh.FaceCount:
+            return
+        self._list_worst()
+        if self.color.isChecked():
+            self._color(True)
+
+    def _color(self, on: bool) -> None:
         if self.mesh.ViewObject is None:
             return
         if on and self.mesh.FemMesh.FaceCount:
-            overlays.show_quality(self.mesh, self.measured())
+            overlays.show_quality(self.mesh, self.measured(), self.measure.itemData(self.measure.currentIndex()))
         else:
             overlays.hide(self.mesh, overlays.QUALITY)
+
+    def _show_free(self, on: bool) -> None:
+        if on and self.mesh.FemMesh.FaceCount:
+            overlays.show_free(self.mesh, self.measured())
+        else:
+            overlays.hide(self.mesh, overlays.FREE)
 
     def _show_element(self, row: int) -> None:
         if row < 0 or not self.mesh.FemMesh.FaceCount:
             return
-        show_element(self.mesh, self.measured(), int(self.measured().worst(WORST)[row]))
+        worst = self.measured().worst(WORST, self.measure.itemData(self.measure.currentIndex()))
+        show_element(self.mesh, self.measured(), int(worst[row]))
 
     def release(self) -> None:
-        """Takes colours and highlights out of the view; nothing is measured any more."""
+        """Takes colors and highlights out of the view; nothing is measured any more."""
         self._timer.stop()
         try:
             if self.mesh.ViewObject is not None:
-                overlays.hide(self.mesh, overlays.QUALITY)
-                overlays.hide(self.mesh, overlays.ELEMENT)
+                for kind in (overlays.QUALITY, overlays.ELEMENT, overlays.FREE):
+                    overlays.hide(self.mesh, kind)
         except ReferenceError:  # the object or its document is gone
             pass
+
+
+def _table(name: str, columns: int):
+    table = QtGui.QTableWidget(0, columns)
+    table.setObjectName(name)
+    table.verticalHeader().setVisible(False)
+    table.horizontalHeader().setSectionResizeMode(QtGui.QHeaderView.ResizeToContents)
+    table.horizontalHeader().setMinimumSectionSize(16)
+    table.horizontalHeader().setSectionResizeMode(columns - 1 if columns == 2 else 0, QtGui.QHeaderView.Stretch)
+    table.setEditTriggers(QtGui.QAbstractItemView.NoEditTriggers)
+    table.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
+    table.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarAlwaysOff)
+    table.setVerticalScrollBarPolicy(QtCore.Qt.ScrollBarAlwaysOff)
+    return table
+
+
+def _fill(table, rows) -> None:
+    table.setRowCount(len(rows))
+    for row, texts in enumerate(rows):
+        for column, text in enumerate(texts):
+            table.setItem(row, column, QtGui.QTableWidgetItem(text))
+        table.setRowHeight(row, 20)
+    head = table.horizontalHeader().sizeHint().height() if table.horizontalHeader().isVisibleTo(table) else 0
+    table.setFixedHeight(20 * len(rows) + head + 4)
 
 
 def show_element(mesh, measured: quality.ElementQuality, index: int) -> None:
@@ -164,7 +244,7 @@ def histogram_pixmap(counts: np.ndarray, width: int = 340, height: int = 150):
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0.14, 0.26, 0.83, 0.68))
     middles = (np.arange(len(counts)) + 0.5) / len(counts)
-    axes.bar(middles, counts, width=1.0 / len(counts), color=quality.colours(middles), edgecolor="0.4", linewidth=0.5)
+    axes.bar(middles, counts, width=1.0 / len(counts), color=quality.colors(middles), edgecolor="0.4", linewidth=0.5)
     axes.set_xlim(0, 1)
     axes.set_xlabel("q", fontsize=8)
     axes.set_ylabel("quads", fontsize=8)
@@ -184,9 +264,9 @@ class QualityPanel:
     def __init__(self, mesh) -> None:
         self.quality = QualityWidget(mesh)
         self.form = self.quality
-        self.form.setWindowTitle(f"Quality of {mesh.Label}")
+        self.form.setWindowTitle(translate("Quadrille", "Quality of {}").format(mesh.Label))
         self.form.setWindowIcon(QtGui.QIcon(icon("quadrille_quality")))
-        self.quality.colour.setChecked(True)
+        self.quality.color.setChecked(True)
 
     def getStandardButtons(self) -> int:
         """Close alone."""

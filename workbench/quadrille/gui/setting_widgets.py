@@ -1,40 +1,42 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One widget a setting of the panel, made from the table of settings. It shows and gives the value of a mesh object's
-property of that name."""
+property of that name. What the user has not touched comes back exactly as it was, however it was rounded for the screen."""
 
-from typing import Any, Callable, Dict
+from typing import Any, Callable, Dict, Tuple
 
-import FreeCADGui
 from PySide import QtGui
 
+from ..errors import Error
 from ..settings import SETTINGS, property_help, property_kind
-
-_MAX_DEAD_WRAPPERS = 16
+from . import translate
+from .length_field import LengthField
 
 
 class SettingWidget:
     """A widget for one setting of a mesh object."""
 
     def __init__(self, setting: Dict[str, Any], mesh) -> None:
-        self.property, self.label = setting["property"], setting["label"]
+        self.property = setting["property"]
+        self.label = translate("QuadrilleSettings", setting["label"])
         self._kind = property_kind(setting)
         self.widget = self._make(setting, mesh)
-        if self._kind != "App::PropertyLength":  # which has it already
-            self.widget.setObjectName(f"Quadrille{self.property}")
-        self.widget.setToolTip(property_help(setting))
+        self.widget.setObjectName(f"Quadrille{self.property}")
+        self.widget.setToolTip(translate("QuadrilleSettings", property_help(setting)))
+        self._shown: Tuple[Any, Any] = (None, None)  # a value, and what the widget made of it
 
     def _make(self, setting: Dict[str, Any], mesh):
         if self._kind == "App::PropertyLength":
-            return _length_box(f"Quadrille{self.property}")
+            return LengthField(otherwise=translate("QuadrilleSettings", setting["otherwise"]))
         if self._kind == "App::PropertyEnumeration":
             box = QtGui.QComboBox()
-            box.addItems(mesh.getEnumerationsOfProperty(self.property))
+            for word in mesh.getEnumerationsOfProperty(self.property):
+                box.addItem(translate("QuadrilleSettings", word), word)
             return box
         if self._kind == "App::PropertyBool":
             return QtGui.QCheckBox()
         if self._kind == "App::PropertyStringList":
             line = QtGui.QLineEdit()
-            line.setPlaceholderText(setting["otherwise"])
+            line.setPlaceholderText(translate("QuadrilleSettings", setting["otherwise"]))
             return line
         box = QtGui.QDoubleSpinBox()
         whole = setting["default"] is None or float(setting["default"]).is_integer()
@@ -45,11 +47,15 @@ class SettingWidget:
         return box
 
     def value(self) -> Any:
-        """The value, as the property has it."""
+        """The value, as the property has it (links: the names). Raises Error when it cannot be read."""
+        raw = self._raw()
+        return self._shown[0] if raw == self._shown[1] else raw
+
+    def _raw(self) -> Any:
         if self._kind == "App::PropertyLength":
-            return float(self.widget.property("rawValue"))
+            return self.widget.length(self.label)
         if self._kind == "App::PropertyEnumeration":
-            return self.widget.currentText()
+            return self.widget.itemData(self.widget.currentIndex())
         if self._kind == "App::PropertyBool":
             return self.widget.isChecked()
         if self._kind == "App::PropertyStringList":
@@ -60,15 +66,16 @@ class SettingWidget:
         """Shows a property's value."""
         value = getattr(value, "Value", value)
         if self._kind == "App::PropertyLength":
-            self.widget.setProperty("rawValue", value)
+            self.widget.show_length(value)
         elif self._kind == "App::PropertyEnumeration":
-            self.widget.setCurrentText(value)
+            self.widget.setCurrentIndex(self.widget.findData(value))
         elif self._kind == "App::PropertyBool":
             self.widget.setChecked(value)
         elif self._kind == "App::PropertyStringList":
             self.widget.setText(", ".join(value))
         else:
             self.widget.setValue(value)
+        self._shown = (value, self._raw())
 
     def when_changed(self, call: Callable[[], None]) -> None:
         """Calls that whenever the user changes the value."""
@@ -79,22 +86,5 @@ class SettingWidget:
 
 
 def setting_widgets(mesh) -> Dict[str, SettingWidget]:
-    """The widgets of the panel by the names of their properties, in the order of the table."""
+    """The widgets of all settings that have a label, by property, in the order of the table."""
     return {setting["property"]: SettingWidget(setting, mesh) for setting in SETTINGS if setting["label"]}
-
-
-def _length_box(name: str):
-    # FreeCAD may make the widget at the address of one that is gone, and PySide then gives that one's dead wrapper:
-    # another widget has another address.
-    loader = FreeCADGui.UiLoader()
-    for attempt in range(_MAX_DEAD_WRAPPERS + 1):
-        box = loader.createWidget("Gui::QuantitySpinBox")
-        try:
-            box.setObjectName(name)
-            break
-        except RuntimeError:
-            if attempt == _MAX_DEAD_WRAPPERS:
-                raise
-    box.setProperty("unit", "mm")
-    box.setProperty("minimum", 0.0)
-    return box

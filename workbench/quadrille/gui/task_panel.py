@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The task panel of a mesh object: settings, estimate, Mesh and Stop, progress, result.
+"""The task panel of a mesh object: settings, refinements, estimate, Mesh and Stop, progress, result.
 
-The mesher is a child process that a timer looks after: FreeCAD stays usable meanwhile. The process class is that of
-scripts (command.MeshJob), so that windows and scripts cannot differ in what they run.
+The mesher is a child process that a timer looks after: FreeCAD stays usable meanwhile. What the panel shows reaches the
+document with the mesh, or by OK, each in one step of undo; Cancel takes all of it back.
 """
 
 import time
@@ -13,25 +13,34 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from .. import freecad as core
-from .. import groups, picks, shapes, solvers
+from .. import groups, links, old_documents, picks, shapes, solvers, state
 from ..errors import Error
-from . import icon, tell
+from . import do, icon, links_text, path_of, tell, translate
 from .quality_view import QualityWidget
+from .refinement_list import RefinementList
+from .session import Session
 from .setting_widgets import setting_widgets
 
 _POLL_MILLISECONDS = 50
 SUGGESTED_QUADS = 5000
+#: Properties that are always in sight; the others are under "More settings".
+_IN_SIGHT = ("Size", "ElementOrder", "Faces")
 
 
 class MeshPanel:
     """Edits and meshes one mesh object."""
 
-    def __init__(self, mesh) -> None:
+    def __init__(self, mesh, made_by: str = "") -> None:
+        """made_by: the step of undo that has just made the mesh object, see Session."""
         self.mesh = mesh
         self._document_name, self._name = mesh.Document.Name, mesh.Name
+        old_documents.mesh_regions(mesh)
+        self._session = Session(mesh, made_by)
         self._job: Optional[core.ShapeJob] = None
+        self._job_wanted: Optional[state.Wanted] = None
+        self._anew: set = set()
         self._started = 0.0
-        self._estimate: Optional[shapes.SizeEstimate] = None
+        self._part_was_visible = mesh.Shape.ViewObject.Visibility
         self._build()
         self._load()
         self._timer = QtCore.QTimer()  # not the form's: it must outlive a form that FreeCAD deletes
@@ -40,35 +49,31 @@ class MeshPanel:
         self.form.destroyed.connect(self._form_gone)
         FreeCAD.addDocumentObserver(self)
         self._observing = True
-        try:
-            self._estimate = shapes.SizeEstimate(mesh.Shape.Shape)
-        except (AttributeError, RuntimeError) as error:  # a part without a shape, or one that cannot be measured
-            self.estimate.setText(f"no estimate: {error}")
         self._update_estimate()
 
     # What the panel is made of
 
     def _build(self) -> None:
         self.form = QtGui.QWidget()
-        self.form.setWindowTitle("Quad mesh")
+        self.form.setWindowTitle(translate("Quadrille", "Quad mesh"))
         self.form.setWindowIcon(QtGui.QIcon(icon("quadrille_mesh")))
         self.settings = setting_widgets(self.mesh)
-        self.suggest = QtGui.QPushButton("Suggest")
-        self.suggest.setObjectName("QuadrilleSuggest")
-        self.suggest.setToolTip(f"The size that gives about {SUGGESTED_QUADS} elements")
-        self.take_selection = QtGui.QPushButton("Take selection")
-        self.take_selection.setObjectName("QuadrilleTakeSelection")
-        self.take_selection.setToolTip("Mesh only the faces that are selected in the 3-D view")
-        self.surfaces = QtGui.QCheckBox("Stresses at the shell's surfaces")
+        self.suggest = _button("QuadrilleSuggest", translate("Quadrille", "Suggest"),
+                               translate("Quadrille", "The size that gives about {} elements").format(SUGGESTED_QUADS))
+        self.take_selection = _button("QuadrilleTakeSelection", translate("Quadrille", "Take"),
+                                      translate("Quadrille", "Mesh only the faces that are selected in the 3-D view"))
+        self.surfaces = QtGui.QCheckBox(translate("Quadrille", "Stresses at the surfaces"))
         self.surfaces.setObjectName("QuadrilleSurfaces")
-        self.surfaces.setToolTip("CalculiX then gives results at the top and bottom of the shell, where bending stresses are, "
-                                 "and not at its middle alone (the solver's property Beam Shell Result Output 3D)")
+        self.surfaces.setToolTip(translate(
+            "Quadrille", "CalculiX then gives results at the top and bottom of the shell, where bending stresses are, and not at "
+            "its middle alone (the solver's property Beam Shell Result Output 3D)"))
         self.estimate = QtGui.QLabel()
         self.estimate.setObjectName("QuadrilleEstimate")
-        self.mesh_button = QtGui.QPushButton(QtGui.QIcon(icon("quadrille_mesh")), "Mesh")
-        self.mesh_button.setObjectName("QuadrilleMesh")
-        self.stop_button = QtGui.QPushButton("Cancel")
-        self.stop_button.setObjectName("QuadrilleStop")
+        self.estimate.setWordWrap(True)
+        self.refinements = RefinementList(self._refine_selection, self._update_estimate)
+        self.mesh_button = _button("QuadrilleMesh", translate("Quadrille", "Mesh"), "")
+        self.mesh_button.setIcon(QtGui.QIcon(icon("quadrille_mesh")))
+        self.stop_button = _button("QuadrilleStop", translate("Quadrille", "Stop"), translate("Quadrille", "Ends the mesher"))
         self.stop_button.setEnabled(False)
         self.bar = QtGui.QProgressBar()
         self.bar.setObjectName("QuadrilleProgress")
@@ -76,23 +81,9 @@ class MeshPanel:
         self.log.setObjectName("QuadrilleLog")
         self.log.setReadOnly(True)
         self.log.setMaximumHeight(80)
+        self.log.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
         self.quality = QualityWidget(self.mesh)
-
-        settings = QtGui.QFormLayout()
-        settings.addRow("Part", QtGui.QLabel(self.mesh.Shape.Label))
-        beside = {"Size": self.suggest, "Faces": self.take_selection}
-        for name, setting in self.settings.items():
-            settings.addRow(setting.label, _beside(setting.widget, beside[name]) if name in beside else setting.widget)
-        if self._solvers():
-            settings.addRow("Results", self.surfaces)
-        settings.addRow("Expected", self.estimate)
-        layout = QtGui.QVBoxLayout(self.form)
-        layout.addLayout(settings)
-        layout.addWidget(_beside(self.mesh_button, self.stop_button))
-        layout.addWidget(self.bar)
-        layout.addWidget(self.log)
-        layout.addWidget(self.quality)
-        layout.addStretch()
+        self._lay_out()
         self.suggest.clicked.connect(self._suggest)
         self.take_selection.clicked.connect(self._take_selection)
         self.mesh_button.clicked.connect(self._start)
@@ -100,60 +91,146 @@ class MeshPanel:
         for setting in self.settings.values():
             setting.when_changed(self._update_estimate)
 
-    def _load(self) -> None:
+    def _lay_out(self) -> None:
+        basic, more = _form(), _form()
+        part = QtGui.QLabel(self.mesh.Shape.Label)
+        part.setWordWrap(True)
+        basic.addRow(translate("Quadrille", "Part"), part)
+        beside = {"Size": self.suggest, "Faces": self.take_selection}
         for name, setting in self.settings.items():
-            setting.show(getattr(self.mesh, name))
+            widget = _beside(setting.widget, beside[name]) if name in beside else setting.widget
+            (basic if name in _IN_SIGHT else more).addRow(setting.label, widget)
+        if self._solvers():
+            basic.addRow(self.surfaces)
+        basic.addRow(translate("Quadrille", "Expected"), self.estimate)
+        layout = QtGui.QVBoxLayout(self.form)
+        layout.addLayout(basic)
+        layout.addWidget(_beside(self.mesh_button, self.stop_button))
+        layout.addWidget(self.bar)
+        layout.addWidget(self.log)
+        refinements = _section("QuadrilleRefinements", translate("Quadrille", "Refinements"), self.refinements,
+                               bool(self.mesh.MeshRegionList))
+        holder = QtGui.QWidget()
+        holder.setLayout(more)
+        changed = any(name not in _IN_SIGHT and getattr(self.mesh, name) != default
+                      for name, default in core.defaults().items() if name in self.settings)
+        layout.addWidget(refinements)
+        layout.addWidget(_section("QuadrilleMore", translate("Quadrille", "More settings"), holder, changed))
+        layout.addWidget(self.quality)
+        layout.addStretch()
+
+    def _load(self) -> None:
+        wanted = state.wanted_of(self.mesh)
+        for name, setting in self.settings.items():
+            value = wanted.values[name]
+            setting.show(links.names_in(value) if name in links.OWN else value)
+        self.refinements.show_all(wanted.refinements)
         self.surfaces.setChecked(all(getattr(solver, solvers.SURFACE_RESULTS) for solver in self._solvers()))
 
     def _solvers(self) -> list:
         return solvers.solvers_of(groups.analysis_of(self.mesh))
 
-    def _store(self) -> None:
-        """Writes the settings that were changed into the object, as one step of undo."""
-        mesh = self.mesh
-        wanted = {name: setting.value() for name, setting in self.settings.items()}
-        changes = {name: value for name, value in wanted.items()
-                   if getattr(getattr(mesh, name), "Value", getattr(mesh, name)) != value}
+    # What the panel asks for
+
+    def _wanted(self) -> state.Wanted:
+        """What the panel shows; raises Error where a field cannot be read."""
+        values = dict(state.wanted_of(self.mesh).values)
+        anew = set(self._anew)
+        for name, setting in self.settings.items():
+            shown = setting.value()
+            if name not in links.OWN:
+                values[name] = shown
+            elif shown != links.names_in(values[name]):
+                values[name] = links.link(self.mesh.Shape, shown)
+                anew.add(name)
+        return state.Wanted(values, self.refinements.refinements(), frozenset(anew))
+
+    def _commands(self, wanted: state.Wanted) -> list:
+        """The lines of Python that store what is wanted."""
+        mesh, present = self.mesh, state.wanted_of(self.mesh)
+        lines = []
+        for name, value in wanted.values.items():
+            stored = getattr(present.values[name], "Value", present.values[name])
+            if name in links.OWN:
+                if name in wanted.anew:
+                    lines.append(f"{path_of(mesh)}.{name} = {links_text(value)}")
+            elif getattr(value, "Value", value) != stored:
+                lines.append(f"{path_of(mesh)}.{name} = {getattr(value, 'Value', value)!r}")
+        sizes = {entry.region.Name: entry.size for entry in present.refinements}
+        kept = {entry.region.Name for entry in wanted.refinements if entry.region is not None}
+        lines += [f"App.getDocument({mesh.Document.Name!r}).removeObject({name!r})" for name in sizes if name not in kept]
+        for region, references, size in wanted.refinements:
+            if region is None:
+                lines.append(f"quadrille.freecad.refine({path_of(mesh)}, {links_text(references)}, {size!r})")
+            elif size != sizes.get(region.Name):
+                lines.append(f"{path_of(region)}.CharacteristicLength = {size!r}")
         surfaces = self.surfaces.isChecked()
-        others = [solver for solver in self._solvers() if getattr(solver, solvers.SURFACE_RESULTS) != surfaces]
-        if not changes and not others:
-            return
-        mesh.Document.openTransaction("Quad mesh settings")
-        for name, value in changes.items():
-            FreeCADGui.doCommand(f"{_path(mesh)}.{name} = {value!r}")
-        for solver in others:
-            FreeCADGui.doCommand(f"{_path(solver)}.{solvers.SURFACE_RESULTS} = {surfaces!r}")
-        mesh.Document.commitTransaction()
+        lines += [f"{path_of(solver)}.{solvers.SURFACE_RESULTS} = {surfaces!r}" for solver in self._solvers()
+                  if getattr(solver, solvers.SURFACE_RESULTS) != surfaces]
+        return lines
+
+    def _store(self, lines: list) -> None:
+        do("import quadrille.freecad")
+        for line in lines:
+            do(line)
+        self._anew.clear()
+        self._load()
 
     # Estimate
 
     def _update_estimate(self) -> None:
-        if self._estimate is None:
-            return
-        wanted = {name: setting.value() for name, setting in self.settings.items()}
-        size = wanted["Size"] or self.mesh.Shape.Shape.BoundBox.DiagonalLength / 60
         try:
-            sizes = core.sizes_wanted(self.mesh)
-        except Error as error:
+            wanted = self._wanted()
+            found = links.follow(self.mesh, wanted.anew)
+            settings = state.settings_to_use(self.mesh, wanted, found)
+            estimate = shapes.estimate_of(self.mesh.Shape.Shape)
+            size = settings.get("size") or self.mesh.Shape.Shape.BoundBox.DiagonalLength / 60
+            count = estimate.quads(size, settings.get("size_min"), settings["elements_per_circle"], settings.get("sizes"),
+                                   settings.get("faces", ()), settings["growth"])
+        except (Error, AttributeError, RuntimeError) as error:  # also a part without a shape, or one that cannot be measured
             self.estimate.setText(str(error))
             return
-        count = self._estimate.quads(size, wanted["SizeMin"] or None, wanted["ElementsPerCircle"], sizes, wanted["Faces"],
-                                     wanted["Growth"])
-        self.estimate.setText(f"about {_rounded(count)} quads")
+        self.estimate.setText(translate("Quadrille", "about {} quads").format(_rounded(count)))
 
     def _suggest(self) -> None:
-        if self._estimate is not None:
+        try:
             per_circle = self.settings["ElementsPerCircle"].value()
-            self.settings["Size"].show(self._estimate.suggested(SUGGESTED_QUADS, per_circle))
+            size = shapes.estimate_of(self.mesh.Shape.Shape).suggested(SUGGESTED_QUADS, per_circle)
+        except (Error, AttributeError, RuntimeError) as error:
+            tell(str(error))
+            return
+        self.settings["Size"].show(size)
+
+    def _picked(self, *kinds: str) -> list:
+        """The names of what is selected on the part."""
+        selection = FreeCADGui.Selection.getSelectionEx(self._document_name, 0)
+        try:
+            names = picks.elements_of(self.mesh.Shape, picks.picks_of(selection))
+        except Error as error:
+            tell(str(error))
+            return []
+        found = [name for name in names if name.startswith(kinds)]
+        if not found:
+            tell(translate("Quadrille", "Select them on {} in the 3-D view first.").format(self.mesh.Shape.Label))
+        return found
 
     def _take_selection(self) -> None:
-        selection = FreeCADGui.Selection.getSelectionEx(self._document_name, 0)
-        names = [name for name in picks.elements_of(self.mesh.Shape, picks.picks_of(selection))
-                 if name.startswith("Face")]
+        names = self._picked("Face")
+        if names:
+            self._anew.add("Faces")
+            self.settings["Faces"].show(names)
+            self._update_estimate()
+
+    def _refine_selection(self) -> None:
+        names = self._picked("Face", "Edge", "Vertex")
         if not names:
-            tell(f"Select faces of {self.mesh.Shape.Label} in the 3-D view first.")
             return
-        self.settings["Faces"].show(names)
+        try:
+            usual = self.settings["Size"].value() or self.mesh.Shape.Shape.BoundBox.DiagonalLength / 60
+        except Error as error:
+            tell(str(error))
+            return
+        self.refinements.add(links.link(self.mesh.Shape, names), usual / 2)
 
     # Meshing
 
@@ -162,17 +239,17 @@ class MeshPanel:
             return
         self.log.clear()
         try:
-            self._store()
-            self._job = core.start(self.mesh)
+            self._job_wanted = self._wanted()
+            self._job = core.start(self.mesh, wanted=self._job_wanted)
         except Error as error:
-            self._say(f"error: {error}")
+            self._say(str(error))
             tell(str(error))
             return
         self._started = time.monotonic()
         self.bar.setValue(0)
         self.mesh_button.setEnabled(False)
         self.stop_button.setEnabled(True)
-        self._say("meshing")
+        self._say(translate("Quadrille", "meshing"))
         self._timer.start()
 
     def _poll(self) -> None:
@@ -192,25 +269,26 @@ class MeshPanel:
         self._timer.stop()
         self.mesh_button.setEnabled(True)
         self.stop_button.setEnabled(False)
-        document = self.mesh.Document
         ended = time.monotonic()
-        document.openTransaction("Quad mesh")
         try:
-            core.finish(self.mesh, job)
+            job.result()
+            with self._session.step("Quad mesh"):
+                self._store(self._commands(self._job_wanted))
+                core.hand_over(self.mesh, job)
+                do(f"quadrille.freecad.remesh({path_of(self.mesh)})")
         except Error as error:
-            document.abortTransaction()
+            core.forget(self._document_name, self._name)
             self.bar.setValue(0)
-            self._say(f"error: {error}" if error.kind != "cancelled" else str(error))
+            self._say(str(error))
             if error.kind != "cancelled":
                 tell(str(error))
             return
-        document.commitTransaction()
         for line in job.messages:
             self._say(line)
         self.bar.setFormat("%p %")
         self.bar.setValue(100)
-        self._say(f"{self.mesh.QuadCount} quads: mesher {ended - self._started:.2f} s, "
-                  f"into FreeCAD {time.monotonic() - ended:.2f} s")
+        self._say(translate("Quadrille", "{} quads: mesher {:.2f} s, into FreeCAD {:.2f} s").format(
+            self.mesh.QuadCount, ended - self._started, time.monotonic() - ended))
         self.mesh.ViewObject.show()
         self.mesh.Shape.ViewObject.hide()
         self.quality.refresh()
@@ -225,20 +303,44 @@ class MeshPanel:
     # The panel's own life
 
     def getStandardButtons(self) -> int:
-        """Close alone: Mesh and Cancel are in the panel."""
-        return int(QtGui.QDialogButtonBox.Close)
+        """OK and Cancel; Mesh and Stop are in the panel."""
+        return int(QtGui.QDialogButtonBox.Ok) | int(QtGui.QDialogButtonBox.Cancel)
 
-    def reject(self) -> bool:
-        """Close: keeps the settings, ends the mesher."""
+    def accept(self) -> bool:
+        """OK: keeps mesh and settings, ends the mesher."""
+        try:
+            lines = self._commands(self._wanted())
+        except Error as error:
+            tell(str(error))
+            return False
         if self._job is not None:
             self._stop()
             self._end()
-        self._store()
+        if lines:
+            with self._session.step("Quad mesh settings"):
+                self._store(lines)
+        self._session.keep()
+        self._close()
+        self.mesh.Document.recompute()
+        return True
+
+    def reject(self) -> bool:
+        """Cancel: ends the mesher, and leaves the document as it was."""
+        if self._job is not None:
+            self._stop()
+            self._end()
+        part, document = self.mesh.Shape, self.mesh.Document
+        self._close()
+        self._session.take_back()
+        if part in document.Objects and self._part_was_visible:  # parts joined for this mesh are gone
+            part.ViewObject.show()
+        document.recompute()
+        return True
+
+    def _close(self) -> None:
         self.quality.release()
         self._leave()
         FreeCADGui.getDocument(self._document_name).resetEdit()
-        self.mesh.Document.recompute()
-        return True
 
     def _leave(self) -> None:
         self._timer.stop()
@@ -275,17 +377,51 @@ class MeshPanel:
             self._abandon()
 
 
+def _button(name: str, text: str, tip: str):
+    button = QtGui.QPushButton(text)
+    button.setObjectName(name)
+    button.setToolTip(tip)
+    return button
+
+
+def _form():
+    form = QtGui.QFormLayout()
+    form.setRowWrapPolicy(QtGui.QFormLayout.WrapLongRows)
+    form.setFieldGrowthPolicy(QtGui.QFormLayout.AllNonFixedFieldsGrow)
+    return form
+
+
+def _section(name: str, title: str, content, is_open: bool):
+    """Content below a title that opens and closes it."""
+    section = QtGui.QWidget()
+    head = QtGui.QToolButton()
+    head.setObjectName(name)
+    head.setText(title)
+    head.setToolButtonStyle(QtCore.Qt.ToolButtonTextBesideIcon)
+    head.setAutoRaise(True)
+    head.setCheckable(True)
+
+    def show(on: bool) -> None:
+        head.setArrowType(QtCore.Qt.DownArrow if on else QtCore.Qt.RightArrow)
+        content.setVisible(on)
+
+    head.toggled.connect(show)
+    show(is_open)
+    head.setChecked(is_open)
+    layout = QtGui.QVBoxLayout(section)
+    layout.setContentsMargins(0, 0, 0, 0)
+    layout.addWidget(head)
+    layout.addWidget(content)
+    return section
+
+
 def _beside(*widgets):
     row = QtGui.QWidget()
     layout = QtGui.QHBoxLayout(row)
     layout.setContentsMargins(0, 0, 0, 0)
     for widget in widgets:
-        layout.addWidget(widget)
+        layout.addWidget(widget, 0 if isinstance(widget, QtGui.QPushButton) and widget is not widgets[0] else 1)
     return row
-
-
-def _path(obj) -> str:
-    return f"App.getDocument({obj.Document.Name!r}).getObject({obj.Name!r})"
 
 
 def _rounded(count: int) -> str:

@@ -4,11 +4,14 @@
 import FreeCADGui
 
 from ..freecad import UP_TO_DATE
-from . import icon, overlays, tell
+from . import icon, overlays, tell, translate
 
 
 class MeshViewProvider:
     """The view provider of our mesh objects."""
+
+    #: The step of undo that has just made the object, for the panel that opens next.
+    made_by = ""
 
     def __init__(self, vobj) -> None:
         vobj.Proxy = self
@@ -52,13 +55,14 @@ class MeshViewProvider:
         """Opens the task panel."""
         from .task_panel import MeshPanel
 
+        made_by, self.made_by = self.made_by, ""
         if FreeCADGui.Control.activeDialog():
-            tell("Another task panel is open: close it first.")
+            tell(translate("Quadrille", "Another task panel is open: close it first."))
             return False
         if vobj.Object.Shape is None:
-            tell(f"{vobj.Object.Label}: the part that it meshes is gone.")
+            tell(translate("Quadrille", "{}: the part that it meshes is gone.").format(vobj.Object.Label))
             return False
-        FreeCADGui.Control.showDialog(MeshPanel(vobj.Object))
+        FreeCADGui.Control.showDialog(MeshPanel(vobj.Object, made_by))
         return True
 
     def unsetEdit(self, _vobj, _mode=0) -> bool:

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a task panel does to a document, so that Cancel takes all of it back."""
+
+from contextlib import contextmanager
+from typing import Any, Dict, List
+
+from .. import state, undo
+from . import transaction
+
+
+class Session:
+    """From the opening of a mesh object's panel to its end."""
+
+    def __init__(self, mesh, made_by: str = "") -> None:
+        """made_by: the name of the step of undo that has just made the mesh object; empty for one that was there."""
+        self._mesh, self._name, self._document = mesh, mesh.Name, mesh.Document
+        self._made_by = made_by
+        self._own: List[str] = [made_by] if made_by else []  # names of the steps taken, the last one first
+        self._whole = bool(self._document.UndoMode)  # FreeCAD keeps all of them
+        self._before: Dict[str, Any] = {name: getattr(mesh, name) for name in mesh.PropertiesList if _is_ours(mesh, name)}
+        self._regions = [(entry.region.Name, entry.references, entry.size) for entry in state.wanted_of(mesh).refinements]
+        undo.hold(mesh)
+
+    @contextmanager
+    def step(self, name: str):
+        """One step of undo."""
+        count = self._document.UndoCount
+        with transaction(self._document, name):
+            yield
+        self._own.insert(0, name)
+        self._whole = self._whole and self._document.UndoCount == count + 1
+
+    def keep(self) -> None:
+        """OK: all stays."""
+        undo.release(self._document, self._name)
+
+    def take_back(self) -> None:
+        """Cancel: the mesh object is as before, or gone when it was just made."""
+        undo.release(self._document, self._name)
+        if not self._own:
+            return
+        if self._whole and list(self._document.UndoNames[:len(self._own)]) == self._own:
+            for _ in self._own:
+                self._document.undo()
+            return
+        # Other work came between, which is to stay.
+        with transaction(self._document, "Cancel quad mesh"):
+            self._restore()
+
+    def _restore(self) -> None:
+        mesh, document = self._mesh, self._document
+        if self._made_by:
+            for region in mesh.MeshRegionList:
+                document.removeObject(region.Name)
+            document.removeObject(mesh.Name)
+            return
+        from ..freecad import refine
+
+        kept = {name for name, _, _ in self._regions}
+        for region in list(mesh.MeshRegionList):
+            if region.Name not in kept:
+                document.removeObject(region.Name)
+        for region_name, references, size in self._regions:
+            region = document.getObject(region_name)
+            if region is None:
+                refine(mesh, references, size)
+            else:
+                region.CharacteristicLength = size
+        for name, value in self._before.items():
+            if name != "MeshRegionList":
+                setattr(mesh, name, value)
+        undo.bring_back(mesh)
+
+
+def _is_ours(mesh, name: str) -> bool:
+    return mesh.getGroupOfProperty(name) in ("Mesh", "Result", "Hidden", "Solve")

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The meshing of a Part shape in a child process: the shape goes to the `quadrille` command as a BREP file, the mesh comes
+back as a MED file with its groups. Runs inside FreeCAD."""
+
+import os
+from pathlib import Path
+from typing import Dict, List, Optional, Sequence, Tuple, Union
+
+import FreeCAD
+import Fem
+
+from .command import MeshJob, Progress, check_version, find_command, scratch_folder
+from .errors import Error
+from .settings import MeshSettings, in_words_of_properties
+
+PREFERENCES = "User parameter:BaseApp/Preferences/Mod/Quadrille"
+
+
+def find_mesher(command: Optional[str] = None) -> str:
+    """The path of the `quadrille` command, after a check that it is of the version of this addon."""
+    preference = FreeCAD.ParamGet(PREFERENCES).GetString("Command", "")
+    path = find_command(command, preference or None)
+    check_version(path)
+    return path
+
+
+class ShapeJob:
+    """The meshing of a shape in a child process. Start it, then wait(), or poll() it from a timer until it has ended;
+    result() gives the mesh."""
+
+    def __init__(
+        self,
+        shape,
+        settings: MeshSettings,
+        command: Optional[str] = None,
+        outputs: Sequence[Union[str, Path]] = (),
+        picture: Optional[Union[str, Path]] = None,
+        brep: Optional[bytes] = None,
+    ) -> None:
+        if shape.isNull() or not shape.Faces:
+            raise Error("the shape has no faces to mesh", "usage")
+        self._command = find_mesher(command)
+        self._folder = scratch_folder()
+        model = os.path.join(self._folder.name, "shape.brep")
+        self._output = os.path.join(self._folder.name, "mesh.med")
+        if brep is None:
+            shape.exportBrep(model)
+            brep = Path(model).read_bytes()
+        else:
+            Path(model).write_bytes(brep)
+        self.brep = brep  #: the shape as the mesher sees it
+        self.made_of: Tuple[List[float], str] = ([], "")  #: fingerprint of the part, and settings, when it was started
+        self.found: Dict[Tuple[str, str, str], str] = {}  #: present names of faces, edges, vertices, see links.py
+        self._job = MeshJob(model, [self._output, *outputs], settings, self._command, picture)
+        self._report: Optional[Dict] = None
+        self._result: Optional[Tuple["Fem.FemMesh", Dict]] = None
+
+    def start(self) -> "ShapeJob":
+        """Starts the child process."""
+        try:
+            self._job.start()
+        except Error:
+            self._folder.cleanup()
+            raise
+        return self
+
+    @property
+    def running(self) -> bool:
+        """True while the child process lives."""
+        return self._job.running
+
+    @property
+    def messages(self) -> Sequence[str]:
+        """What the mesher has said besides its progress."""
+        return self._job.messages
+
+    def poll(self) -> Sequence[Tuple[str, float]]:
+        """The progress since the last call, as (stage, fraction) pairs; never waits."""
+        return self._job.poll()
+
+    def cancel(self) -> None:
+        """Ends the child process; result() then raises the Error of kind "cancelled"."""
+        self._job.cancel()
+
+    def wait(self, progress: Optional[Progress] = None) -> None:
+        """Waits for the end, passing progress on."""
+        try:
+            self._report = self._job.wait(progress)
+        except Error as error:
+            self._folder.cleanup()
+            raise _in_own_words(error) from error
+        except BaseException:
+            self._folder.cleanup()
+            raise
+
+    def result(self) -> Tuple["Fem.FemMesh", Dict]:
+        """The mesh and the mesher's report, once the child has ended; raises Error when it failed."""
+        if self._result is None:
+            self._result = self._read_result()
+        return self._result
+
+    def _read_result(self) -> Tuple["Fem.FemMesh", Dict]:
+        try:
+            report = self._report if self._report is not None else self._job.result()
+            fem_mesh = read_mesh(self._output)
+        except Error as error:
+            raise _in_own_words(error) from error
+        finally:
+            self._folder.cleanup()
+        # FreeCAD's reader gives an empty mesh when it does not understand a file.
+        wanted = report.get("counts", {}).get("quads", 0)
+        if fem_mesh.FaceCount != wanted or not wanted:
+            raise Error(f"FreeCAD read {fem_mesh.FaceCount} of the {wanted} quads that {self._command} wrote",
+                        "failure", self._command)
+        return fem_mesh, report
+
+    def wait_for_result(self, progress: Optional[Progress] = None) -> Tuple["Fem.FemMesh", Dict]:
+        """wait(), then result()."""
+        self.wait(progress)
+        return self.result()
+
+
+def read_mesh(path: Union[str, Path]) -> "Fem.FemMesh":
+    """A mesh file as a FEM mesh, as Fem.read() gives it, in less time.
+
+    A mesh made by Fem.read() keeps a log of each command that built it, which nobody reads: a quarter of the time to read,
+    half of that to copy it once more than one was made. A copy, even of an empty mesh, keeps none.
+    """
+    fem_mesh = Fem.FemMesh(Fem.FemMesh())
+    fem_mesh.read(str(path))
+    return fem_mesh
+
+
+def mesh_shape(
+    shape,
+    settings: MeshSettings,
+    progress: Optional[Progress] = None,
+    command: Optional[str] = None,
+    outputs: Sequence[Union[str, Path]] = (),
+    picture: Optional[Union[str, Path]] = None,
+) -> Tuple["Fem.FemMesh", Dict]:
+    """Meshes a Part shape; returns the mesh with its groups, and the mesher's report (see `quadrille --report`)."""
+    return ShapeJob(shape, settings, command, outputs, picture).start().wait_for_result(progress)
+
+
+def _in_own_words(error: Error) -> Error:
+    """What the command says of its options, said of properties."""
+    return Error(in_words_of_properties(str(error)), error.kind, error.subject)

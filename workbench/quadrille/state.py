@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a mesh object asks for, and whether its mesh is that. Runs inside FreeCAD."""
+
+import json
+from typing import Any, Dict, FrozenSet, List, NamedTuple, Optional, Tuple
+
+from . import groups, links, old_documents, shapes
+from .errors import Error
+from .settings import SETTINGS, MeshSettings, from_property
+
+#: The type of the Python side of our mesh objects.
+TYPE = "Fem::FemMeshQuadrille"
+
+# The words of the property Status.
+UP_TO_DATE = "up to date"
+NOT_MESHED = "not meshed yet"
+PART_CHANGED = "the part has changed: mesh again"
+SETTINGS_CHANGED = "the settings have changed: mesh again"
+PART_GONE = "the part is gone"
+LOST = "the part has changed: choose faces, edges, vertices again"
+SENSELESS = "the settings make no sense"
+OTHER_MEANS = "made by other means: mesh again"
+STATUSES = (NOT_MESHED, UP_TO_DATE, PART_CHANGED, SETTINGS_CHANGED, PART_GONE, LOST, SENSELESS, OTHER_MEANS)
+
+
+class Refinement(NamedTuple):
+    """A size of its own for faces, edges, vertices."""
+
+    region: Any  #: FreeCAD's mesh region; None while there is none yet
+    references: links.Links
+    size: float  #: mm
+
+
+class Wanted(NamedTuple):
+    """What to mesh, and how: what a mesh object has, or what its panel shows."""
+
+    values: Dict[str, Any]  #: by property
+    refinements: Tuple[Refinement, ...]
+    anew: FrozenSet[str] = frozenset()  #: properties whose links the user has just chosen, in the part as it is now
+
+
+def is_quad_mesh(obj) -> bool:
+    """True for the mesh objects of this addon."""
+    return getattr(getattr(obj, "Proxy", None), "Type", "") == TYPE
+
+
+def wanted_of(mesh) -> Wanted:
+    """What a mesh object asks for."""
+    values = {setting["property"]: getattr(mesh, setting["property"]) for setting in SETTINGS if setting["property"]}
+    refinements = [Refinement(region, region.References, _length(region)) for region in mesh.MeshRegionList]
+    refinements += [Refinement(None, links.link(mesh.Shape, names), size)
+                    for size, names in old_documents.sizes_of(mesh).items()]
+    return Wanted(values, tuple(refinements))
+
+
+def _length(region) -> float:
+    length = region.CharacteristicLength
+    return float(getattr(length, "Value", length))
+
+
+def shape_of(doc_object):
+    """The shape of a document object; raises Error when there is none that can be meshed."""
+    shape = getattr(doc_object, "Shape", None)
+    if shape is None or not hasattr(shape, "Faces"):
+        label = getattr(doc_object, "Label", doc_object)
+        raise Error(f"{label}: has no shape to mesh", "usage", getattr(doc_object, "Name", ""))
+    if shape.isNull() or not shape.Faces:
+        raise Error(f"{doc_object.Label}: its shape has no faces to mesh", "usage", doc_object.Name)
+    return shape
+
+
+def settings_to_use(mesh, wanted: Wanted, found: Dict[links.Key, str]) -> MeshSettings:
+    """What is wanted, for the command, with the present names of faces, edges and vertices."""
+    values = dict(wanted.values, Faces=links.names_in(links.renamed("Faces", wanted.values["Faces"], found)))
+    settings = MeshSettings(**{setting["name"]: from_property(setting, values[setting["property"]])
+                               for setting in SETTINGS if setting["property"]})
+    sizes = sizes_wanted(mesh, wanted, found)
+    if sizes:
+        settings["sizes"] = sizes
+    return settings
+
+
+def sizes_wanted(mesh, wanted: Wanted, found: Dict[links.Key, str]) -> Dict[str, float]:
+    """The sizes on faces, edges and vertices of the part."""
+    sizes: Dict[str, float] = {}
+    shape = shape_of(mesh.Shape)
+    for region, references, size in wanted.refinements:
+        source = region.Name if region is not None else ""
+        if not size > 0:
+            label = region.Label if region is not None else "Refinement"
+            raise Error(f"{label}: a mesh region needs a length larger than 0", "usage", source)
+        for name in shapes.references_to_names(shape, mesh.Shape, links.renamed(source, references, found)):
+            sizes[name] = min(size, sizes.get(name, size))
+    return sizes
+
+
+def flipped(mesh, found: Dict[links.Key, str]) -> List[str]:
+    """The faces whose normals are turned over."""
+    return links.names_in(links.renamed("FlippedFaces", mesh.FlippedFaces, found))
+
+
+def settings_key(mesh, wanted: Wanted, found: Dict[links.Key, str]) -> str:
+    """All that a mesh depends on besides its part, as text to compare."""
+    settings = settings_to_use(mesh, wanted, found).of_the_mesh()
+    settings["flipped"] = flipped(mesh, found)
+    return json.dumps(settings, sort_keys=True, default=list)
+
+
+def judge(mesh) -> Tuple[str, str]:
+    """The status of a mesh object, and the sentence that says why."""
+    if mesh.Shape is None:
+        return PART_GONE, PART_GONE
+    if mesh.FemMesh.FaceCount == 0:
+        return NOT_MESHED, NOT_MESHED
+    if not mesh.MeshedShape:
+        return OTHER_MEANS, OTHER_MEANS
+    try:
+        found = links.follow(mesh)
+    except Error as error:
+        return LOST, str(error)
+    try:
+        if not shapes.same_fingerprint(list(mesh.MeshedShape), shapes.fingerprint(shape_of(mesh.Shape))):
+            return PART_CHANGED, PART_CHANGED
+        changed = settings_key(mesh, wanted_of(mesh), found) != mesh.MeshedSettings
+    except Error as error:
+        return SENSELESS, str(error)
+    return (SETTINGS_CHANGED, SETTINGS_CHANGED) if changed else (UP_TO_DATE, UP_TO_DATE)
+
+
+def update(mesh) -> Optional[str]:
+    """Brings the property Status up to date; gives the sentence to tell when the mesh was good and is not any more."""
+    before = mesh.Status
+    now, sentence = judge(mesh)
+    if before == now:
+        return None
+    mesh.Status = now
+    return sentence if before == UP_TO_DATE else None
+
+
+def complaint(mesh) -> str:
+    """Why nothing should be solved with the mesh of a mesh object, as a sentence; empty when nothing is known to be wrong,
+    and for mesh objects that are not ours."""
+    if not is_quad_mesh(mesh):
+        return ""
+    now, sentence = judge(mesh)
+    if now == OTHER_MEANS:
+        return ""
+    if now == UP_TO_DATE:
+        return "; ".join(groups.left_out(mesh))
+    return f"{mesh.Label}: {sentence}; what is solved with the mesh as it is would not be right"
