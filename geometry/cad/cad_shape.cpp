@@ -20,6 +20,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/cad/curve_ends.hpp"
 #include "geometry/cad/seams.hpp"
 #include "geometry/cad/shape_completion.hpp"
 
@@ -28,6 +29,7 @@ namespace quadrille {
 CadShape::CadShape(const TopoDS_Shape& source, std::string shape_name)
     : name(std::move(shape_name)), shape(with_parametric_curves(source, problems)) {
   read_topology();
+  trust_curve_ends(*this);
   measure();
 }
 
@@ -182,6 +184,13 @@ void CadShape::read_face(int index, const TopoDS_Face& source, const TopTools_In
 void CadShape::measure() {
   Bnd_Box box;
   BRepBndLib::Add(shape, box, Standard_False);  // AddOptimal takes longer than reading the file
+  // The boxes of some trimmed surfaces (tori that meet their axis) miss what bounds them.
+  for (const CadEdge& edge : edges) {
+    if (edge.degenerate || !(edge.length > 0)) continue;
+    const BRepAdaptor_Curve curve(edge.edge);
+    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
+      box.Add(curve.Value(edge.first + share * (edge.last - edge.first)));
+  }
   if (box.IsVoid()) {
     box_min = box_max = Vector3::Zero();
   } else {

@@ -67,9 +67,10 @@ class BoundaryWalker {
   void walk_wire(const CadWire& wire) {
     std::vector<Run> runs;
     auto& firsts = boundary_.first_segments.emplace_back();
-    for (const Coedge& coedge : wire.coedges) {
+    for (std::size_t i = 0; i < wire.coedges.size(); ++i) {
+      const Coedge& coedge = wire.coedges[i];
       const CadEdge& edge = shape_.edges[coedge.edge - 1];
-      const Run run = edge.degenerate ? walk_pole(coedge, edge) : walk_edge(coedge);
+      const Run run = edge.degenerate ? walk_pole(wire, i, edge) : walk_edge(coedge);
       firsts.push_back(run.first >= 0 ? run.first_segment : -1);
       if (run.first >= 0) runs.push_back(run);
     }
@@ -151,22 +152,46 @@ class BoundaryWalker {
     return run;
   }
 
-  Run walk_pole(const Coedge& coedge, const CadEdge& edge) {
+  Run walk_pole(const CadWire& wire, std::size_t at, const CadEdge& edge) {
+    const Coedge& coedge = wire.coedges[at];
     const int node = edge.first_vertex > 0 ? nodes_.vertex_nodes[edge.first_vertex - 1] : -1;
     if (node < 0 || surface_.is_view()) return {};
     Vector2 from = parametric_point(coedge, edge.first), to = parametric_point(coedge, edge.last);
     // Translators close wires by such edges where nothing is degenerate.
     if (!is_one_point(from, to)) return {};
     if (!coedge.forward) std::swap(from, to);
-    return add_pole(from, to, node);
+    return add_pole(from, to, node, is_tip(wire, at) ? 1 : pole_segments);
   }
 
-  Run add_pole(const Vector2& from, const Vector2& to, int node) {
+  /// Whether the face is so narrow beside a pole, from the coedge before it to the next, that no elements fit
+  /// there side by side.
+  bool is_tip(const CadWire& wire, std::size_t at) const {
+    constexpr double narrow = 0.35;  // radians
+    const std::size_t n = wire.coedges.size();
+    const Coedge &before = wire.coedges[(at + n - 1) % n], &after = wire.coedges[(at + 1) % n];
+    const BoundaryNodes::Edge &arriving = nodes_.edges[before.edge - 1],
+                              &leaving = nodes_.edges[after.edge - 1];
+    if (arriving.segments() < boundary_.stride || leaving.segments() < boundary_.stride) return false;
+    const int from = before.forward ? arriving.segments() - boundary_.stride : boundary_.stride;
+    const int to = after.forward ? boundary_.stride : leaving.segments() - boundary_.stride;
+    const Vector2 a = place_of(before, arriving, from), b = place_of(after, leaving, to);
+    const Vector3 &pole = nodes_.points[leaving.nodes[after.forward ? 0 : leaving.segments()]],
+                  &p = nodes_.points[arriving.nodes[from]], &q = nodes_.points[leaving.nodes[to]];
+    double width = 0;
+    constexpr int pieces = 8;
+    for (int i = 0; i < pieces; ++i) {
+      const double s = static_cast<double>(i) / pieces, t = static_cast<double>(i + 1) / pieces;
+      width += (surface_.point((1 - t) * a + t * b) - surface_.point((1 - s) * a + s * b)).norm();
+    }
+    return width < narrow * std::min((p - pole).norm(), (q - pole).norm());
+  }
+
+  Run add_pole(const Vector2& from, const Vector2& to, int node, int count) {
     Run run;
     run.first_segment = static_cast<int>(boundary_.segments.size());
     run.first = add_point(from, node);
-    for (int k = 1; k <= pole_segments; ++k) {
-      const double t = static_cast<double>(k) / pole_segments;
+    for (int k = 1; k <= count; ++k) {
+      const double t = static_cast<double>(k) / count;
       run.last = add_point((1 - t) * from + t * to, node);
       FaceBoundary::Segment segment;
       segment.a = run.last - 1;

@@ -62,6 +62,8 @@
 #include <gp_Pln.hxx>
 #include <gp_Trsf.hxx>
 
+#include "tests/models/swallowed_edges.hpp"
+
 namespace quadrille {
 
 namespace {
@@ -775,11 +777,21 @@ std::vector<TroubleModel> all_models() {
              .Face();
        },
        false, 2 * pi * 10 * (10 * 5 + 10 * 2 * std::sin(2.5))},
+      {"horn_slice", "a face that ends in a tip, where a torus touches its axis",
+       [] {
+         return BRepBuilderAPI_MakeFace(new Geom_ToroidalSurface(gp::XOY(), 10, 10), 0, 0.2, -pi, 2.5, 1e-7)
+             .Face();
+       },
+       false, 20 * (pi + 2.5 + std::sin(2.5))},
       {"disc", "one closed edge", [] { return BRepBuilderAPI_MakeFace(circle(0, 0, 10)).Face(); }, false,
        100 * pi},
       {"sliver", "a face of width size / 100", strip, false, 10000},
       {"short_edge", "an edge shorter than its tolerance", short_edge, false, 400},
       {"loose_tolerance", "vertices off their edges, tolerance 0.1", loose_box, true, 2 * (600 + 800 + 1200)},
+      {"far_vertex", "a closed curve whose vertex is not on it", square_with_far_vertex, false, 144},
+      {"collapsed_edge", "a dangling edge that its vertex holds", square_with_collapsed_edge, false, 144, 4},
+      {"collapsed_piece", "an edge that its vertex holds, and a wire without it",
+       tetrahedron_with_collapsed_piece, true, 216 + 72 * std::sqrt(3.0)},
       {"thin_annulus", "wires that cross when sampled coarsely", [] { return annulus(10, 9.9); }, false,
        pi * (100 - 9.9 * 9.9)},
       {"eccentric_hole", "a hole that comes within size / 10 of the rim", eccentric_hole, false, 36 * pi},

@@ -1,0 +1,217 @@
+#include "geometry/cad/curve_ends.hpp"
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRep_Tool.hxx>
+#include <GeomProjLib.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace quadrille {
+
+namespace {
+
+/// One end of an edge's curve.
+struct CurveEnd {
+  int edge = 0;  ///< from 1
+  bool last = false;
+  Vector3 point;
+};
+
+Vector3 point_on(const CadEdge& edge, double share) {
+  return to_vector(BRepAdaptor_Curve(edge.edge).Value(edge.first + share * (edge.last - edge.first)));
+}
+
+class CurveEndMender {
+ public:
+  explicit CurveEndMender(CadShape& shape) : shape_(shape) {}
+
+  void run() {
+    for (const CadEdge& edge : shape_.edges) {
+      if (is_swallowed(edge)) swallowing_.insert(edge.first_vertex);
+    }
+    if (swallowing_.empty()) return;
+    for (const int vertex : swallowing_) split(vertex);
+    drop_dangling();
+    for (CadFace& face : shape_.faces) close_wires(face);
+  }
+
+ private:
+  /// Whether its one vertex holds all of it but not its ends.
+  bool is_swallowed(const CadEdge& edge) const {
+    if (edge.degenerate || !edge.closed() || edge.first_vertex == 0 || !(edge.length > 0)) return false;
+    const Vector3& vertex = shape_.vertices[edge.first_vertex - 1];
+    const double reach = shape_.vertex_tolerances[edge.first_vertex - 1];
+    const auto distance = [&](double share) { return (point_on(edge, share) - vertex).norm(); };
+    constexpr double near = 1e-3;  // of its length
+    if (std::max(distance(0), distance(1)) <= std::max(near * edge.length, edge.tolerance)) return false;
+    constexpr int samples = 8;
+    for (int i = 0; i <= samples; ++i) {
+      if (distance(static_cast<double>(i) / samples) > reach) return false;
+    }
+    return true;
+  }
+
+  std::vector<CurveEnd> ends_at(int vertex) const {
+    std::vector<CurveEnd> ends;
+    for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
+      const CadEdge& edge = shape_.edges[i];
+      if (edge.degenerate || !(edge.length > 0)) continue;
+      for (const bool last : {false, true}) {
+        if ((last ? edge.last_vertex : edge.first_vertex) == vertex)
+          ends.push_back({static_cast<int>(i) + 1, last, point_on(edge, last ? 1 : 0)});
+      }
+    }
+    return ends;
+  }
+
+  /// Makes a vertex of each place where curves end; the one where most do keeps the number.
+  void split(int vertex) {
+    constexpr double near = 0.01;  // of the shortest edge there
+    std::vector<CurveEnd> left = ends_at(vertex);
+    double shortest = shape_.edges[left.front().edge - 1].length, tolerance = 0;
+    for (const CurveEnd& end : left) {
+      shortest = std::min(shortest, shape_.edges[end.edge - 1].length);
+      tolerance = std::max(tolerance, shape_.edges[end.edge - 1].tolerance);
+    }
+    const double reach = std::max(near * shortest, tolerance);
+    std::vector<std::vector<CurveEnd>> places;
+    while (!left.empty()) {
+      auto& place = places.emplace_back(1, left.back());
+      left.pop_back();
+      for (std::size_t i = 0; i < place.size(); ++i) {
+        const auto apart = std::stable_partition(left.begin(), left.end(), [&](const CurveEnd& end) {
+          return (end.point - place[i].point).norm() > reach;
+        });
+        place.insert(place.end(), apart, left.end());
+        left.erase(apart, left.end());
+      }
+    }
+    std::stable_sort(places.begin(), places.end(),
+                     [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    shape_.problems.push_back(fmt::format(
+        "Vertex{} has a tolerance of {:.3g}, more than an edge of its own is long: {} taken in its stead",
+        vertex, shape_.vertex_tolerances[vertex - 1],
+        places.size() == 1 ? "the end of its curve is"
+                           : fmt::format("the {} places where its curves end are", places.size())));
+    for (std::size_t i = 0; i < places.size(); ++i) place_vertex(i == 0 ? vertex : 0, places[i], tolerance);
+  }
+
+  /// \param vertex from 1; 0 = a new one.
+  void place_vertex(int vertex, const std::vector<CurveEnd>& ends, double tolerance) {
+    if (vertex == 0) {
+      shape_.vertices.emplace_back();
+      shape_.vertex_tolerances.push_back(0);
+      vertex = static_cast<int>(shape_.vertices.size());
+    }
+    Vector3 sum = Vector3::Zero();
+    for (const CurveEnd& end : ends) sum += end.point;
+    const Vector3 middle = sum / static_cast<double>(ends.size());
+    for (const CurveEnd& end : ends) {
+      CadEdge& edge = shape_.edges[end.edge - 1];
+      (end.last ? edge.last_vertex : edge.first_vertex) = vertex;
+      tolerance = std::max(tolerance, (end.point - middle).norm());
+      touched_.insert(end.edge);
+    }
+    shape_.vertices[vertex - 1] = middle;
+    shape_.vertex_tolerances[vertex - 1] = tolerance;
+  }
+
+  /// Edges one end of which no other edge shares leave all wires, one after the other.
+  void drop_dangling() {
+    for (bool changed = true; changed;) {
+      changed = false;
+      std::vector<int> uses(shape_.vertices.size() + 1, 0);
+      for (const CadEdge& edge : shape_.edges) {
+        if (edge.faces.empty() || edge.degenerate) continue;
+        ++uses[edge.first_vertex];
+        ++uses[edge.last_vertex];
+      }
+      for (const int number : touched_) {
+        CadEdge& edge = shape_.edges[number - 1];
+        if (edge.faces.empty() || edge.closed()) continue;
+        if (uses[edge.first_vertex] > 1 && uses[edge.last_vertex] > 1) continue;
+        shape_.problems.push_back(fmt::format("Edge{} leads nowhere and is left out", edge.number));
+        for (const int face : edge.faces) drop_from(shape_.faces[face - 1], number);
+        edge.faces.clear();
+        changed = true;
+        break;
+      }
+    }
+  }
+
+  static void drop_from(CadFace& face, int edge) {
+    for (CadWire& wire : face.wires)
+      std::erase_if(wire.coedges, [&](const Coedge& coedge) { return coedge.edge == edge; });
+    std::erase_if(face.wires, [](const CadWire& wire) { return wire.coedges.empty(); });
+  }
+
+  int start_of(const Coedge& coedge) const {
+    const CadEdge& edge = shape_.edges[coedge.edge - 1];
+    return coedge.forward ? edge.first_vertex : edge.last_vertex;
+  }
+  int end_of(const Coedge& coedge) const {
+    const CadEdge& edge = shape_.edges[coedge.edge - 1];
+    return coedge.forward ? edge.last_vertex : edge.first_vertex;
+  }
+
+  /// Where a coedge does not begin at the end of the one before, an edge that was at a split vertex may lead
+  /// there.
+  void close_wires(CadFace& face) {
+    for (CadWire& wire : face.wires) {
+      for (std::size_t i = 0; i < wire.coedges.size(); ++i) {
+        const Coedge& now = wire.coedges[i];
+        const Coedge& next = wire.coedges[(i + 1) % wire.coedges.size()];
+        if (!touched_.contains(now.edge) || !touched_.contains(next.edge)) continue;
+        if (end_of(now) == start_of(next)) continue;
+        Coedge link = link_between(face, end_of(now), start_of(next));
+        if (link.edge == 0) continue;
+        CadEdge& edge = shape_.edges[link.edge - 1];
+        const int number = static_cast<int>(&face - shape_.faces.data()) + 1;
+        edge.faces.insert(std::upper_bound(edge.faces.begin(), edge.faces.end(), number), number);
+        shape_.problems.push_back(
+            fmt::format("a wire of Face{} is open: Edge{} closes it", number, edge.number));
+        wire.coedges.insert(wire.coedges.begin() + static_cast<long>(i) + 1, std::move(link));
+      }
+    }
+  }
+
+  /// An edge of other faces from one vertex to another that lies on the face; edge 0 if there is none.
+  Coedge link_between(const CadFace& face, int from, int to) const {
+    for (const int number : touched_) {
+      const CadEdge& edge = shape_.edges[number - 1];
+      const bool forward = edge.first_vertex == from && edge.last_vertex == to;
+      if (!forward && !(edge.first_vertex == to && edge.last_vertex == from)) continue;
+      double first = 0, last = 0;
+      const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge.edge, first, last);
+      const Handle(Geom_Surface) surface = BRep_Tool::Surface(face.face);
+      if (curve.IsNull() || surface.IsNull()) continue;
+      Coedge link;
+      double tolerance = edge.tolerance;
+      link.parametric_curve = GeomProjLib::Curve2d(curve, first, last, surface, face.u_min, face.u_max,
+                                                   face.v_min, face.v_max, tolerance);
+      if (link.parametric_curve.IsNull()) continue;
+      link.edge = number;
+      link.forward = forward;
+      link.source = TopoDS::Edge(edge.edge.Oriented(forward ? TopAbs_FORWARD : TopAbs_REVERSED));
+      const gp_Pnt2d middle = link.parametric_curve->Value(0.5 * (first + last));
+      const Vector3 on_face = to_vector(surface->Value(middle.X(), middle.Y()));
+      if ((on_face - point_on(edge, 0.5)).norm() <= 0.01 * edge.length) return link;
+    }
+    return {};
+  }
+
+  CadShape& shape_;
+  std::set<int> swallowing_;  ///< vertices
+  std::set<int> touched_;     ///< edges whose vertices changed
+};
+
+}  // namespace
+
+void trust_curve_ends(CadShape& shape) {
+  CurveEndMender(shape).run();
+}
+
+}  // namespace quadrille
