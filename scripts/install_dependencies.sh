@@ -23,6 +23,8 @@ packages=(
   libgtest-dev
   # what meshes are made for, and compared with
   freecad gmsh python3-matplotlib
+  # translations of the FreeCAD workbench: lrelease, pylupdate5
+  qttools5-dev-tools pyqt5-dev-tools
   # read back what is written, in the tests; scripts/install_consumers.sh has those that are heavy to install
   python3-meshio python3-h5py python3-vtk9 libmed-tools
 )

@@ -31,8 +31,11 @@ class QuadrilleWorkbench(FreeCADGui.Workbench):
 
 def _start():
     """The commands are known from the start, so that the FEM workbench and macros have them too."""
-    from quadrille.gui import commands, fem_workbench
+    from quadrille.gui import TRANSLATIONS, commands, fem_workbench, preferences
 
+    FreeCADGui.addLanguagePath(str(TRANSLATIONS))
+    FreeCADGui.updateLocale()
+    preferences.add_page()
     commands.register()
     fem_workbench.join()
 

@@ -98,7 +98,7 @@ def check_references(mesh, references) -> None:
 
 def suggested_size(doc_object, quads: int = 5000, elements_per_circle: float = 12) -> float:
     """The size that gives a document object about so many quads, to two digits."""
-    return shapes.SizeEstimate(shape_of(doc_object)).suggested(quads, elements_per_circle)
+    return shapes.estimate_of(shape_of(doc_object)).suggested(quads, elements_per_circle)
 
 
 def defaults() -> Dict[str, object]:

@@ -8,6 +8,7 @@ import sys
 import time
 from pathlib import Path
 from unittest import mock
+from xml.etree import ElementTree
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
@@ -20,9 +21,10 @@ from PySide import QtCore, QtGui
 import quadrille.freecad
 from case import GuiCase, picture, run
 from driver import Boxes, close_panel, find, process, trigger, wait_for, window
-from quadrille import links, quality
-from quadrille.gui import commands, overlays
+from quadrille import links, quality, state
+from quadrille.gui import commands, overlays, preferences
 from quadrille.gui.task_panel import MeshPanel
+from quadrille.settings import SETTINGS
 from quadrille.state import is_quad_mesh
 
 CANCEL = QtGui.QDialogButtonBox.Cancel
@@ -400,6 +402,102 @@ class PanelTest(GuiCase):
         close_panel()
         self.assertFalse(overlays.is_shown(mesh, overlays.FREE))
         self.assertFalse(overlays.is_shown(mesh, overlays.QUALITY))
+
+    # Preferences, languages, commands
+
+    def test_preferences(self):
+        group = FreeCAD.ParamGet(quadrille.freecad.PREFERENCES)
+        pages = []
+
+        def look(dialog):
+            pages.append(dialog.findChild(QtGui.QWidget, "QuadrillePrefCommand") is not None)
+
+        page = preferences.PreferencesPage()
+        page.loadSettings()
+        self.assertIn("quadrille", page.found.text())
+        with mock.patch.dict(os.environ):
+            os.environ.pop("QUADRILLE_COMMAND", None)
+            page.command.setText("/nowhere/quadrille")
+        self.assertIn("cannot be run", page.found.text())
+        page.command.setText("")
+        page.suggested.setValue(1000)
+        page.line_width.setValue(3)
+        page.color.setChecked(True)
+        page.settings["order"].show("1st")
+        page.settings["elements_per_circle"].show(24.0)
+        page.settings["threads"].show(1)
+        page.saveSettings()
+        again = preferences.PreferencesPage()
+        again.loadSettings()
+        self.assertEqual((again.suggested.value(), again.settings["order"].value()), (1000, "1st"))
+        try:
+            mesh = self.open_panel(self.box())
+            self.assertEqual((mesh.ElementOrder, mesh.ElementsPerCircle, mesh.Threads), ("1st", 24.0, 1))
+            self.assertTrue(700 < 600 / mesh.Size.Value**2 < 1300)
+            self.assertEqual(mesh.ViewObject.LineWidth, 3)
+            self.press_mesh()
+            self.assertTrue(overlays.is_shown(mesh, overlays.QUALITY))
+            close_panel()
+            other = quadrille.freecad.make_mesh(self.document.Box)  # scripts give the same everywhere
+            self.assertEqual((other.ElementOrder, other.ElementsPerCircle), ("2nd", 12.0))
+        finally:
+            group.Clear()
+        with Boxes(look):
+            FreeCADGui.runCommand("Std_DlgPreferences")
+            process(1.0)
+        self.assertTrue(pages and pages[0], "the page is in FreeCAD's dialog")
+
+    def test_languages(self):
+        for language, mesh_word, command_word, status in (("German", "Vernetzen", "Vierecknetz aus Form", "aktuell"),
+                                                          ("French", "Mailler", "Maillage de quadrangles", "à jour")):
+            with self.subTest(language=language):
+                FreeCADGui.setLocale(language)
+                try:
+                    process(0.3)
+                    mesh = quadrille.freecad.mesh_object(self.box(), size=5)
+                    self.edit(mesh)
+                    self.assertEqual(find("QuadrilleMesh").text(), mesh_word)
+                    self.assertEqual(find("QuadrilleStatus").text(), status)
+                    self.assertEqual(mesh.Status, "up to date")  # for scripts, whatever the language
+                    picture(f"panel_{language}")
+                    type_into("QuadrilleSize", "2,5 mm")
+                    close_panel()
+                    self.assertEqual(mesh.Size.Value, 2.5)
+                    action = FreeCADGui.Command.get("Quadrille_Mesh").getAction()[0]
+                    self.assertEqual(action.text().replace("&", ""), command_word)
+                finally:
+                    FreeCADGui.setLocale("English")
+                    process(0.2)
+
+    def test_languages_are_complete(self):
+        folder = Path(quadrille.freecad.__file__).resolve().parents[1] / "translations"
+        files = sorted(folder.glob("*.ts"))
+        self.assertEqual([file.name for file in files], ["Quadrille_de.ts", "Quadrille_fr.ts"])
+        for file in files:
+            for message in ElementTree.parse(file).getroot().iter("message"):
+                translation = message.find("translation")
+                source = message.find("source").text
+                self.assertTrue(translation.text and translation.get("type") is None, f"{file.name}: {source}")
+                self.assertEqual(source.count("{}"), translation.text.count("{}"), source)
+        marked = {message.find("source").text for message in ElementTree.parse(files[0]).getroot().iter("message")}
+        for command in commands.COMMANDS.values():
+            self.assertLessEqual({command.text, command.tip}, marked)
+        self.assertLessEqual(set(state.STATUSES), marked)
+        self.assertLessEqual({setting["label"] for setting in SETTINGS if setting["label"]}, marked)
+
+    def test_each_command_has_icon_tip_and_shortcut(self):
+        icons, shortcuts = set(), {}
+        for name in FreeCADGui.listCommands():
+            shortcut = FreeCADGui.Command.get(name).getShortcut()
+            if shortcut:
+                shortcuts.setdefault(shortcut, []).append(name)
+        for name, command in commands.COMMANDS.items():
+            info = FreeCADGui.Command.get(name).getInfo()
+            self.assertTrue(Path(info["pixmap"]).is_file())
+            icons.add(Path(info["pixmap"]).read_text())
+            self.assertTrue(info["statusTip"], name)
+            self.assertEqual(shortcuts[info["shortcut"]], [name])
+        self.assertEqual(len(icons), len(commands.COMMANDS))
 
     # Figures
 

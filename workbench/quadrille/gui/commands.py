@@ -14,7 +14,7 @@ from .. import freecad as core
 from .. import picks
 from ..errors import Error
 from ..state import is_quad_mesh
-from . import QT_TRANSLATE_NOOP, do, icon, links_text, overlays, path_of, tell, transaction, translate
+from . import QT_TRANSLATE_NOOP, do, icon, links_text, overlays, path_of, preferences, tell, transaction, translate
 from .length_field import LengthField
 
 TOOLBAR = ["Quadrille_Mesh", "Quadrille_Refine", "Quadrille_Quality", "Quadrille_Normals", "Quadrille_Flip",
@@ -135,7 +135,10 @@ class MeshCommand(_Command):
             do(f"quadrille.freecad.fragments([{', '.join(map(path_of, selected))}])")
             part = document.Objects[-1]
         into = f", analysis={path_of(analysis)}" if analysis is not None else ""
-        do(f"quadrille.freecad.make_mesh({path_of(part)}, size={core.suggested_size(part)!r}{into})")
+        chosen = preferences.settings()
+        size = core.suggested_size(part, preferences.suggested_quads(), chosen.get("elements_per_circle", 12))
+        others = "".join(f", {name}={value!r}" for name, value in chosen.items())
+        do(f"quadrille.freecad.make_mesh({path_of(part)}, size={size!r}{others}{into})")
         self._edit, self._made = [obj for obj in document.Objects if is_quad_mesh(obj)][-1], True
 
     def afterwards(self) -> None:

@@ -7,7 +7,7 @@ from typing import Any, Callable, Dict, Tuple
 from PySide import QtGui
 
 from ..errors import Error
-from ..settings import SETTINGS, property_help, property_kind
+from ..settings import SETTINGS, property_help, property_kind, words
 from . import translate
 from .length_field import LengthField
 
@@ -15,21 +15,21 @@ from .length_field import LengthField
 class SettingWidget:
     """A widget for one setting of a mesh object."""
 
-    def __init__(self, setting: Dict[str, Any], mesh) -> None:
+    def __init__(self, setting: Dict[str, Any]) -> None:
         self.property = setting["property"]
-        self.label = translate("QuadrilleSettings", setting["label"])
+        self.label = translate("QuadrilleSettings", setting["label"]) if setting["label"] else ""
         self._kind = property_kind(setting)
-        self.widget = self._make(setting, mesh)
+        self.widget = self._make(setting)
         self.widget.setObjectName(f"Quadrille{self.property}")
         self.widget.setToolTip(translate("QuadrilleSettings", property_help(setting)))
         self._shown: Tuple[Any, Any] = (None, None)  # a value, and what the widget made of it
 
-    def _make(self, setting: Dict[str, Any], mesh):
+    def _make(self, setting: Dict[str, Any]):
         if self._kind == "App::PropertyLength":
             return LengthField(otherwise=translate("QuadrilleSettings", setting["otherwise"]))
         if self._kind == "App::PropertyEnumeration":
             box = QtGui.QComboBox()
-            for word in mesh.getEnumerationsOfProperty(self.property):
+            for word in words(setting):
                 box.addItem(translate("QuadrilleSettings", word), word)
             return box
         if self._kind == "App::PropertyBool":
@@ -49,7 +49,9 @@ class SettingWidget:
     def value(self) -> Any:
         """The value, as the property has it (links: the names). Raises Error when it cannot be read."""
         raw = self._raw()
-        return self._shown[0] if raw == self._shown[1] else raw
+        if raw == self._shown[1]:
+            return self._shown[0]
+        return int(raw) if self._kind == "App::PropertyInteger" else raw
 
     def _raw(self) -> Any:
         if self._kind == "App::PropertyLength":
@@ -85,6 +87,6 @@ class SettingWidget:
                 return
 
 
-def setting_widgets(mesh) -> Dict[str, SettingWidget]:
+def setting_widgets() -> Dict[str, SettingWidget]:
     """The widgets of all settings that have a label, by property, in the order of the table."""
-    return {setting["property"]: SettingWidget(setting, mesh) for setting in SETTINGS if setting["label"]}
+    return {setting["property"]: SettingWidget(setting) for setting in SETTINGS if setting["label"]}

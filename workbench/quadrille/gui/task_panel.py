@@ -15,14 +15,13 @@ from PySide import QtCore, QtGui
 from .. import freecad as core
 from .. import groups, links, old_documents, picks, shapes, solvers, state
 from ..errors import Error
-from . import do, icon, links_text, path_of, tell, translate
+from . import do, icon, links_text, path_of, preferences, tell, translate
 from .quality_view import QualityWidget
 from .refinement_list import RefinementList
 from .session import Session
 from .setting_widgets import setting_widgets
 
 _POLL_MILLISECONDS = 50
-SUGGESTED_QUADS = 5000
 #: Properties that are always in sight; the others are under "More settings".
 _IN_SIGHT = ("Size", "ElementOrder", "Faces")
 
@@ -57,9 +56,9 @@ class MeshPanel:
         self.form = QtGui.QWidget()
         self.form.setWindowTitle(translate("Quadrille", "Quad mesh"))
         self.form.setWindowIcon(QtGui.QIcon(icon("quadrille_mesh")))
-        self.settings = setting_widgets(self.mesh)
+        self.settings = setting_widgets()
         self.suggest = _button("QuadrilleSuggest", translate("Quadrille", "Suggest"),
-                               translate("Quadrille", "The size that gives about {} elements").format(SUGGESTED_QUADS))
+                               translate("Quadrille", "The size that gives about {} elements").format(preferences.suggested_quads()))
         self.take_selection = _button("QuadrilleTakeSelection", translate("Quadrille", "Take"),
                                       translate("Quadrille", "Mesh only the faces that are selected in the 3-D view"))
         self.surfaces = QtGui.QCheckBox(translate("Quadrille", "Stresses at the surfaces"))
@@ -195,7 +194,7 @@ class MeshPanel:
     def _suggest(self) -> None:
         try:
             per_circle = self.settings["ElementsPerCircle"].value()
-            size = shapes.estimate_of(self.mesh.Shape.Shape).suggested(SUGGESTED_QUADS, per_circle)
+            size = shapes.estimate_of(self.mesh.Shape.Shape).suggested(preferences.suggested_quads(), per_circle)
         except (Error, AttributeError, RuntimeError) as error:
             tell(str(error))
             return
@@ -292,6 +291,8 @@ class MeshPanel:
         self.mesh.ViewObject.show()
         self.mesh.Shape.ViewObject.hide()
         self.quality.refresh()
+        if preferences.color_after_meshing():
+            self.quality.color.setChecked(True)
 
     def _stop(self) -> None:
         if self._job is not None:

@@ -4,7 +4,7 @@
 import FreeCADGui
 
 from ..freecad import UP_TO_DATE
-from . import icon, overlays, tell, translate
+from . import icon, overlays, preferences, tell, translate
 
 
 class MeshViewProvider:
@@ -15,7 +15,7 @@ class MeshViewProvider:
 
     def __init__(self, vobj) -> None:
         vobj.Proxy = self
-        vobj.LineWidth = 2.0
+        vobj.LineWidth = preferences.line_width()
         # An open shell is seen from behind too.
         vobj.BackfaceCulling = False
         vobj.PointSize = 2.0

@@ -1,0 +1,551 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de">
+<context>
+    <name>Quadrille</name>
+    <message>
+        <source>open a document first</source>
+        <translation>zuerst ein Dokument öffnen</translation>
+    </message>
+    <message>
+        <source>the document has no quad mesh: select a part and use Quad mesh from shape first</source>
+        <translation>das Dokument hat kein Vierecknetz: zuerst ein Teil wählen und „Vierecknetz aus Form“ verwenden</translation>
+    </message>
+    <message>
+        <source>the document has several quad meshes: select one of them</source>
+        <translation>das Dokument hat mehrere Vierecknetze: eines davon wählen</translation>
+    </message>
+    <message>
+        <source>{}: is not meshed yet: double-click it and press Mesh</source>
+        <translation>{}: ist noch nicht vernetzt: doppelklicken und „Vernetzen“ drücken</translation>
+    </message>
+    <message>
+        <source>Open a document first.</source>
+        <translation>Zuerst ein Dokument öffnen.</translation>
+    </message>
+    <message>
+        <source>select one part to mesh, or several</source>
+        <translation>ein Teil zum Vernetzen wählen, oder mehrere</translation>
+    </message>
+    <message>
+        <source>select faces, edges or vertices of the part first</source>
+        <translation>zuerst Flächen, Kanten oder Ecken des Teils wählen</translation>
+    </message>
+    <message>
+        <source>Refine</source>
+        <translation>Verfeinern</translation>
+    </message>
+    <message>
+        <source>Element size</source>
+        <translation>Elementgröße</translation>
+    </message>
+    <message>
+        <source>none of what is selected is a face of {}: select its faces, or nothing to flip all of them</source>
+        <translation>nichts vom Gewählten ist eine Fläche von {}: seine Flächen wählen, oder nichts, um alle umzudrehen</translation>
+    </message>
+    <message>
+        <source>{}: &apos;{}&apos; is not a length, such as 0.5 mm or 1/8 in</source>
+        <translation>{}: „{}“ ist keine Länge wie 0,5 mm oder 1/8 in</translation>
+    </message>
+    <message>
+        <source>General</source>
+        <translation>Allgemein</translation>
+    </message>
+    <message>
+        <source>Mesher</source>
+        <translation>Vernetzer</translation>
+    </message>
+    <message>
+        <source>found by itself</source>
+        <translation>wird von selbst gefunden</translation>
+    </message>
+    <message>
+        <source>Path of the quadrille command, where it is not on PATH</source>
+        <translation>Pfad des Befehls quadrille, wenn er nicht auf PATH liegt</translation>
+    </message>
+    <message>
+        <source>Command</source>
+        <translation>Befehl</translation>
+    </message>
+    <message>
+        <source>New meshes start with</source>
+        <translation>Neue Netze beginnen mit</translation>
+    </message>
+    <message>
+        <source>Elements, about</source>
+        <translation>Elemente, etwa</translation>
+    </message>
+    <message>
+        <source>Threads</source>
+        <translation>Threads</translation>
+    </message>
+    <message>
+        <source>Look</source>
+        <translation>Aussehen</translation>
+    </message>
+    <message>
+        <source>Color a mesh by quality when it is made</source>
+        <translation>Ein neues Netz nach Qualität färben</translation>
+    </message>
+    <message>
+        <source>Width of lines</source>
+        <translation>Linienbreite</translation>
+    </message>
+    <message>
+        <source>The quadrille command</source>
+        <translation>Der Befehl quadrille</translation>
+    </message>
+    <message>
+        <source>uses {}</source>
+        <translation>verwendet {}</translation>
+    </message>
+    <message>
+        <source>q</source>
+        <translation>q</translation>
+    </message>
+    <message>
+        <source>Aspect</source>
+        <translation>Seitenverhältnis</translation>
+    </message>
+    <message>
+        <source>Warp</source>
+        <translation>Verwindung</translation>
+    </message>
+    <message>
+        <source>Skew</source>
+        <translation>Schiefe</translation>
+    </message>
+    <message>
+        <source>Least angle</source>
+        <translation>Kleinster Winkel</translation>
+    </message>
+    <message>
+        <source>Largest angle</source>
+        <translation>Größter Winkel</translation>
+    </message>
+    <message>
+        <source>Jacobian ratio</source>
+        <translation>Jacobi-Verhältnis</translation>
+    </message>
+    <message>
+        <source>Taper</source>
+        <translation>Verjüngung</translation>
+    </message>
+    <message>
+        <source>Criterion</source>
+        <translation>Kriterium</translation>
+    </message>
+    <message>
+        <source>Limit</source>
+        <translation>Grenze</translation>
+    </message>
+    <message>
+        <source>Fail</source>
+        <translation>Außen</translation>
+    </message>
+    <message>
+        <source>Worst</source>
+        <translation>Ärgster</translation>
+    </message>
+    <message>
+        <source>Color the mesh</source>
+        <translation>Netz färben</translation>
+    </message>
+    <message>
+        <source>Blue is good, red is bad; for a criterion, yellow is at its limit</source>
+        <translation>Blau ist gut, Rot ist schlecht; bei einem Kriterium liegt Gelb auf der Grenze</translation>
+    </message>
+    <message>
+        <source>Show free sides</source>
+        <translation>Freie Seiten zeigen</translation>
+    </message>
+    <message>
+        <source>Sides that one element alone has, and nodes on one place</source>
+        <translation>Seiten, die nur ein Element hat, und Knoten am selben Ort</translation>
+    </message>
+    <message>
+        <source>Worst elements (click on one)</source>
+        <translation>Ärgste Elemente (anklicken)</translation>
+    </message>
+    <message>
+        <source>Quads</source>
+        <translation>Vierecke</translation>
+    </message>
+    <message>
+        <source>Nodes</source>
+        <translation>Knoten</translation>
+    </message>
+    <message>
+        <source>q: least, mean</source>
+        <translation>q: kleinstes, Mittel</translation>
+    </message>
+    <message>
+        <source>Jacobian</source>
+        <translation>Jacobi</translation>
+    </message>
+    <message>
+        <source>Irregular nodes</source>
+        <translation>Irreguläre Knoten</translation>
+    </message>
+    <message>
+        <source>Outside limits</source>
+        <translation>Außer Grenzen</translation>
+    </message>
+    <message>
+        <source>Mesher&apos;s time</source>
+        <translation>Zeit</translation>
+    </message>
+    <message>
+        <source>Quality of {}</source>
+        <translation>Qualität von {}</translation>
+    </message>
+    <message>
+        <source>Refine selection</source>
+        <translation>Auswahl verfeinern</translation>
+    </message>
+    <message>
+        <source>Give the selected faces, edges or vertices a size of their own</source>
+        <translation>Den gewählten Flächen, Kanten oder Ecken eine eigene Größe geben</translation>
+    </message>
+    <message>
+        <source>Refinement</source>
+        <translation>Verfeinerung</translation>
+    </message>
+    <message>
+        <source>Remove this refinement</source>
+        <translation>Diese Verfeinerung entfernen</translation>
+    </message>
+    <message>
+        <source>Quad mesh</source>
+        <translation>Vierecknetz</translation>
+    </message>
+    <message>
+        <source>Suggest</source>
+        <translation>Vorschlag</translation>
+    </message>
+    <message>
+        <source>The size that gives about {} elements</source>
+        <translation>Die Größe, die etwa {} Elemente ergibt</translation>
+    </message>
+    <message>
+        <source>Take</source>
+        <translation>Holen</translation>
+    </message>
+    <message>
+        <source>Mesh only the faces that are selected in the 3-D view</source>
+        <translation>Nur die Flächen vernetzen, die in der 3D-Ansicht gewählt sind</translation>
+    </message>
+    <message>
+        <source>Stresses at the surfaces</source>
+        <translation>Spannungen an der Oberfläche</translation>
+    </message>
+    <message>
+        <source>CalculiX then gives results at the top and bottom of the shell, where bending stresses are, and not at its middle alone (the solver&apos;s property Beam Shell Result Output 3D)</source>
+        <translation>CalculiX gibt dann Ergebnisse an Ober- und Unterseite der Schale, wo Biegespannungen sind, und nicht nur in ihrer Mitte (Eigenschaft „Beam Shell Result Output 3D“ des Lösers)</translation>
+    </message>
+    <message>
+        <source>Mesh</source>
+        <translation>Vernetzen</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Anhalten</translation>
+    </message>
+    <message>
+        <source>Ends the mesher</source>
+        <translation>Beendet den Vernetzer</translation>
+    </message>
+    <message>
+        <source>Part</source>
+        <translation>Teil</translation>
+    </message>
+    <message>
+        <source>Expected</source>
+        <translation>Erwartet</translation>
+    </message>
+    <message>
+        <source>Refinements</source>
+        <translation>Verfeinerungen</translation>
+    </message>
+    <message>
+        <source>More settings</source>
+        <translation>Weitere Einstellungen</translation>
+    </message>
+    <message>
+        <source>about {} quads</source>
+        <translation>etwa {} Vierecke</translation>
+    </message>
+    <message>
+        <source>Select them on {} in the 3-D view first.</source>
+        <translation>Zuerst auf {} in der 3D-Ansicht auswählen.</translation>
+    </message>
+    <message>
+        <source>meshing</source>
+        <translation>vernetze</translation>
+    </message>
+    <message>
+        <source>{} quads: mesher {:.2f} s, into FreeCAD {:.2f} s</source>
+        <translation>{} Vierecke: Vernetzer {:.2f} s, nach FreeCAD {:.2f} s</translation>
+    </message>
+    <message>
+        <source>Another task panel is open: close it first.</source>
+        <translation>Ein anderes Aufgabenfenster ist offen: zuerst schließen.</translation>
+    </message>
+    <message>
+        <source>{}: the part that it meshes is gone.</source>
+        <translation>{}: das Teil, das es vernetzt, ist weg.</translation>
+    </message>
+</context>
+<context>
+    <name>QuadrilleSettings</name>
+    <message>
+        <source>1: four-node quads; 2: eight-node quads, better for shells</source>
+        <translation>1: Vierecke mit vier Knoten; 2: mit acht Knoten, besser für Schalen</translation>
+    </message>
+    <message>
+        <source>1st</source>
+        <translation>1.</translation>
+    </message>
+    <message>
+        <source>2 where a solver reads the mesh: in FreeCAD and in .inp, .unv, .med and .bdf files; else 1</source>
+        <translation>2, wo ein Löser das Netz liest: in FreeCAD und in .inp-, .unv-, .med- und .bdf-Dateien; sonst 1</translation>
+    </message>
+    <message>
+        <source>2nd</source>
+        <translation>2.</translation>
+    </message>
+    <message>
+        <source>Elements on a full circle of curvature; 0 = curvature is ignored</source>
+        <translation>Elemente auf einem vollen Kreis der Krümmung; 0 = ohne Krümmung</translation>
+    </message>
+    <message>
+        <source>Faces</source>
+        <translation>Flächen</translation>
+    </message>
+    <message>
+        <source>Faces to mesh, such as Face1,Face7; empty = all faces</source>
+        <translation>Zu vernetzende Flächen, etwa Face1,Face7; leer = alle</translation>
+    </message>
+    <message>
+        <source>First join edges of neighboring faces that lie within this length of each other; 0 = not sewn</source>
+        <translation>Zuerst Kanten von Nachbarflächen verbinden, die höchstens so weit auseinander liegen; 0 = nicht nähen</translation>
+    </message>
+    <message>
+        <source>Give up after this time; 0 = none</source>
+        <translation>Nach dieser Zeit aufgeben; 0 = nie</translation>
+    </message>
+    <message>
+        <source>Give up reading the model after this time; 0 = never</source>
+        <translation>Das Lesen nach dieser Zeit aufgeben; 0 = nie</translation>
+    </message>
+    <message>
+        <source>Growth</source>
+        <translation>Wachstum</translation>
+    </message>
+    <message>
+        <source>How fast the size may change: millimetres of size per millimetre of way</source>
+        <translation>Wie schnell sich die Größe ändern darf: Millimeter Größe je Millimeter Weg</translation>
+    </message>
+    <message>
+        <source>Keep what could be meshed when a face fails</source>
+        <translation>Behalten, was vernetzt werden konnte, wenn eine Fläche misslingt</translation>
+    </message>
+    <message>
+        <source>Leave out edges shorter and faces narrower than this length; 0 = all are meshed</source>
+        <translation>Kürzere Kanten und schmalere Flächen weglassen; 0 = alle werden vernetzt</translation>
+    </message>
+    <message>
+        <source>Merge tiny</source>
+        <translation>Winziges weg</translation>
+    </message>
+    <message>
+        <source>Mesh past 50 million elements and 5 million segments on edges</source>
+        <translation>Auch mehr als 50 Millionen Elemente und 5 Millionen Abschnitte auf Kanten vernetzen</translation>
+    </message>
+    <message>
+        <source>Minimum</source>
+        <translation>Minimum</translation>
+    </message>
+    <message>
+        <source>No size goes below this; 0 = size / 8</source>
+        <translation>Keine Größe liegt darunter; 0 = Größe / 8</translation>
+    </message>
+    <message>
+        <source>OpenVDB grid (.vdb) that caps the size</source>
+        <translation>OpenVDB-Gitter (.vdb), das die Größe begrenzt</translation>
+    </message>
+    <message>
+        <source>Order</source>
+        <translation>Ordnung</translation>
+    </message>
+    <message>
+        <source>Partial</source>
+        <translation>Teilweise</translation>
+    </message>
+    <message>
+        <source>Per circle</source>
+        <translation>Je Kreis</translation>
+    </message>
+    <message>
+        <source>Sew</source>
+        <translation>Nähen</translation>
+    </message>
+    <message>
+        <source>Size</source>
+        <translation>Größe</translation>
+    </message>
+    <message>
+        <source>Strategy</source>
+        <translation>Verfahren</translation>
+    </message>
+    <message>
+        <source>Subdivide: triangles at twice the size, paired, each quad cut in four; direct: triangles at the size, paired</source>
+        <translation>Unterteilen: Dreiecke doppelter Größe, gepaart, jedes Viereck in vier geteilt; direkt: Dreiecke in der Größe, gepaart</translation>
+    </message>
+    <message>
+        <source>Target edge length; 0 = a sixtieth of the model&apos;s diagonal</source>
+        <translation>Angestrebte Kantenlänge; 0 = ein Sechzigstel der Diagonale des Modells</translation>
+    </message>
+    <message>
+        <source>Threads to use, no more than there are cores; 0 = all cores</source>
+        <translation>Threads, höchstens so viele wie Kerne; 0 = alle Kerne</translation>
+    </message>
+    <message>
+        <source>Time limit</source>
+        <translation>Zeitgrenze</translation>
+    </message>
+    <message>
+        <source>a sixtieth of the model&apos;s diagonal</source>
+        <translation>ein Sechzigstel der Diagonale</translation>
+    </message>
+    <message>
+        <source>all are meshed</source>
+        <translation>alle werden vernetzt</translation>
+    </message>
+    <message>
+        <source>all faces</source>
+        <translation>alle Flächen</translation>
+    </message>
+    <message>
+        <source>direct</source>
+        <translation>direkt</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source>not sewn</source>
+        <translation>nicht genäht</translation>
+    </message>
+    <message>
+        <source>size / 8</source>
+        <translation>Größe / 8</translation>
+    </message>
+    <message>
+        <source>subdivide</source>
+        <translation>unterteilen</translation>
+    </message>
+</context>
+<context>
+    <name>QuadrilleStatus</name>
+    <message>
+        <source>up to date</source>
+        <translation>aktuell</translation>
+    </message>
+    <message>
+        <source>not meshed yet</source>
+        <translation>noch nicht vernetzt</translation>
+    </message>
+    <message>
+        <source>the part has changed: mesh again</source>
+        <translation>das Teil hat sich geändert: neu vernetzen</translation>
+    </message>
+    <message>
+        <source>the settings have changed: mesh again</source>
+        <translation>die Einstellungen haben sich geändert: neu vernetzen</translation>
+    </message>
+    <message>
+        <source>the part is gone</source>
+        <translation>das Teil ist weg</translation>
+    </message>
+    <message>
+        <source>the part has changed: choose faces, edges, vertices again</source>
+        <translation>das Teil hat sich geändert: Flächen, Kanten, Ecken neu wählen</translation>
+    </message>
+    <message>
+        <source>the settings make no sense</source>
+        <translation>die Einstellungen ergeben keinen Sinn</translation>
+    </message>
+    <message>
+        <source>made by other means: mesh again</source>
+        <translation>auf andere Weise entstanden: neu vernetzen</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Export</name>
+    <message>
+        <source>Export quad mesh</source>
+        <translation>Vierecknetz exportieren</translation>
+    </message>
+    <message>
+        <source>Write the mesh to a file for CalculiX, Gmsh, Salome, ParaView or Nastran, with its sets and groups</source>
+        <translation>Das Netz in eine Datei für CalculiX, Gmsh, Salome, ParaView oder Nastran schreiben, mit Mengen und Gruppen</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Flip</name>
+    <message>
+        <source>Flip shell normals</source>
+        <translation>Schalennormalen umdrehen</translation>
+    </message>
+    <message>
+        <source>Turn the shell normals of the selected faces over (of all faces when none is selected); meshes again</source>
+        <translation>Die Schalennormalen der gewählten Flächen umdrehen (aller, wenn keine gewählt ist); vernetzt neu</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Mesh</name>
+    <message>
+        <source>Quad mesh from shape</source>
+        <translation>Vierecknetz aus Form</translation>
+    </message>
+    <message>
+        <source>Mesh the selected part with quads; several parts are joined where they touch</source>
+        <translation>Das gewählte Teil mit Vierecken vernetzen; mehrere Teile werden verbunden, wo sie sich berühren</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Normals</name>
+    <message>
+        <source>Show shell normals</source>
+        <translation>Schalennormalen zeigen</translation>
+    </message>
+    <message>
+        <source>Show the normals of the shell elements as arrows, or hide them again</source>
+        <translation>Die Normalen der Schalenelemente als Pfeile zeigen oder wieder verbergen</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Quality</name>
+    <message>
+        <source>Mesh quality</source>
+        <translation>Netzqualität</translation>
+    </message>
+    <message>
+        <source>Show the quality of a quad mesh: numbers, histogram, colors, worst elements</source>
+        <translation>Die Qualität eines Vierecknetzes zeigen: Zahlen, Histogramm, Farben, ärgste Elemente</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Refine</name>
+    <message>
+        <source>Refine faces, edges, vertices</source>
+        <translation>Flächen, Kanten, Ecken verfeinern</translation>
+    </message>
+    <message>
+        <source>Give the selected faces, edges or vertices a size of their own (a FEM mesh region)</source>
+        <translation>Den gewählten Flächen, Kanten oder Ecken eine eigene Größe geben (FEM-Netzbereich)</translation>
+    </message>
+</context>
+</TS>

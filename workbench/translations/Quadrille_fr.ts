@@ -1,0 +1,551 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="fr">
+<context>
+    <name>Quadrille</name>
+    <message>
+        <source>open a document first</source>
+        <translation>ouvrez d'abord un document</translation>
+    </message>
+    <message>
+        <source>the document has no quad mesh: select a part and use Quad mesh from shape first</source>
+        <translation>le document n'a pas de maillage de quadrangles : sélectionnez d'abord une pièce et utilisez « Maillage de quadrangles »</translation>
+    </message>
+    <message>
+        <source>the document has several quad meshes: select one of them</source>
+        <translation>le document a plusieurs maillages de quadrangles : sélectionnez-en un</translation>
+    </message>
+    <message>
+        <source>{}: is not meshed yet: double-click it and press Mesh</source>
+        <translation>{} : n'est pas encore maillé : double-cliquez dessus et appuyez sur « Mailler »</translation>
+    </message>
+    <message>
+        <source>Open a document first.</source>
+        <translation>Ouvrez d'abord un document.</translation>
+    </message>
+    <message>
+        <source>select one part to mesh, or several</source>
+        <translation>sélectionnez une pièce à mailler, ou plusieurs</translation>
+    </message>
+    <message>
+        <source>select faces, edges or vertices of the part first</source>
+        <translation>sélectionnez d'abord des faces, arêtes ou sommets de la pièce</translation>
+    </message>
+    <message>
+        <source>Refine</source>
+        <translation>Raffiner</translation>
+    </message>
+    <message>
+        <source>Element size</source>
+        <translation>Taille des éléments</translation>
+    </message>
+    <message>
+        <source>none of what is selected is a face of {}: select its faces, or nothing to flip all of them</source>
+        <translation>rien de ce qui est sélectionné n'est une face de {} : sélectionnez ses faces, ou rien pour les retourner toutes</translation>
+    </message>
+    <message>
+        <source>{}: &apos;{}&apos; is not a length, such as 0.5 mm or 1/8 in</source>
+        <translation>{} : « {} » n'est pas une longueur comme 0,5 mm ou 1/8 in</translation>
+    </message>
+    <message>
+        <source>General</source>
+        <translation>Général</translation>
+    </message>
+    <message>
+        <source>Mesher</source>
+        <translation>Mailleur</translation>
+    </message>
+    <message>
+        <source>found by itself</source>
+        <translation>trouvée d'elle-même</translation>
+    </message>
+    <message>
+        <source>Path of the quadrille command, where it is not on PATH</source>
+        <translation>Chemin de la commande quadrille, si elle n'est pas dans PATH</translation>
+    </message>
+    <message>
+        <source>Command</source>
+        <translation>Commande</translation>
+    </message>
+    <message>
+        <source>New meshes start with</source>
+        <translation>Les nouveaux maillages débutent avec</translation>
+    </message>
+    <message>
+        <source>Elements, about</source>
+        <translation>Éléments, environ</translation>
+    </message>
+    <message>
+        <source>Threads</source>
+        <translation>Fils d'exécution</translation>
+    </message>
+    <message>
+        <source>Look</source>
+        <translation>Aspect visuel</translation>
+    </message>
+    <message>
+        <source>Color a mesh by quality when it is made</source>
+        <translation>Colorer un nouveau maillage selon sa qualité</translation>
+    </message>
+    <message>
+        <source>Width of lines</source>
+        <translation>Largeur des lignes</translation>
+    </message>
+    <message>
+        <source>The quadrille command</source>
+        <translation>La commande quadrille</translation>
+    </message>
+    <message>
+        <source>uses {}</source>
+        <translation>utilise {}</translation>
+    </message>
+    <message>
+        <source>q</source>
+        <translation>q</translation>
+    </message>
+    <message>
+        <source>Aspect</source>
+        <translation>Allongement</translation>
+    </message>
+    <message>
+        <source>Warp</source>
+        <translation>Gauchissement</translation>
+    </message>
+    <message>
+        <source>Skew</source>
+        <translation>Biais</translation>
+    </message>
+    <message>
+        <source>Least angle</source>
+        <translation>Angle minimal</translation>
+    </message>
+    <message>
+        <source>Largest angle</source>
+        <translation>Angle maximal</translation>
+    </message>
+    <message>
+        <source>Jacobian ratio</source>
+        <translation>Rapport jacobien</translation>
+    </message>
+    <message>
+        <source>Taper</source>
+        <translation>Trapèze</translation>
+    </message>
+    <message>
+        <source>Criterion</source>
+        <translation>Critère</translation>
+    </message>
+    <message>
+        <source>Limit</source>
+        <translation>Limite</translation>
+    </message>
+    <message>
+        <source>Fail</source>
+        <translation>Hors</translation>
+    </message>
+    <message>
+        <source>Worst</source>
+        <translation>Pire</translation>
+    </message>
+    <message>
+        <source>Color the mesh</source>
+        <translation>Colorer</translation>
+    </message>
+    <message>
+        <source>Blue is good, red is bad; for a criterion, yellow is at its limit</source>
+        <translation>Bleu est bon, rouge est mauvais ; pour un critère, jaune est à la limite</translation>
+    </message>
+    <message>
+        <source>Show free sides</source>
+        <translation>Montrer les côtés libres</translation>
+    </message>
+    <message>
+        <source>Sides that one element alone has, and nodes on one place</source>
+        <translation>Côtés d'un seul élément, et nœuds au même endroit</translation>
+    </message>
+    <message>
+        <source>Worst elements (click on one)</source>
+        <translation>Pires éléments (cliquez)</translation>
+    </message>
+    <message>
+        <source>Quads</source>
+        <translation>Quadrangles</translation>
+    </message>
+    <message>
+        <source>Nodes</source>
+        <translation>Nœuds</translation>
+    </message>
+    <message>
+        <source>q: least, mean</source>
+        <translation>q : min., moyen</translation>
+    </message>
+    <message>
+        <source>Jacobian</source>
+        <translation>Jacobien</translation>
+    </message>
+    <message>
+        <source>Irregular nodes</source>
+        <translation>Nœuds irréguliers</translation>
+    </message>
+    <message>
+        <source>Outside limits</source>
+        <translation>Hors limites</translation>
+    </message>
+    <message>
+        <source>Mesher&apos;s time</source>
+        <translation>Temps</translation>
+    </message>
+    <message>
+        <source>Quality of {}</source>
+        <translation>Qualité de {}</translation>
+    </message>
+    <message>
+        <source>Refine selection</source>
+        <translation>Raffiner la sélection</translation>
+    </message>
+    <message>
+        <source>Give the selected faces, edges or vertices a size of their own</source>
+        <translation>Donner une taille propre aux faces, arêtes ou sommets sélectionnés</translation>
+    </message>
+    <message>
+        <source>Refinement</source>
+        <translation>Raffinement</translation>
+    </message>
+    <message>
+        <source>Remove this refinement</source>
+        <translation>Supprimer ce raffinement</translation>
+    </message>
+    <message>
+        <source>Quad mesh</source>
+        <translation>Maillage de quadrangles</translation>
+    </message>
+    <message>
+        <source>Suggest</source>
+        <translation>Proposer</translation>
+    </message>
+    <message>
+        <source>The size that gives about {} elements</source>
+        <translation>La taille qui donne environ {} éléments</translation>
+    </message>
+    <message>
+        <source>Take</source>
+        <translation>Prendre</translation>
+    </message>
+    <message>
+        <source>Mesh only the faces that are selected in the 3-D view</source>
+        <translation>Ne mailler que les faces sélectionnées dans la vue 3D</translation>
+    </message>
+    <message>
+        <source>Stresses at the surfaces</source>
+        <translation>Contraintes en surface</translation>
+    </message>
+    <message>
+        <source>CalculiX then gives results at the top and bottom of the shell, where bending stresses are, and not at its middle alone (the solver&apos;s property Beam Shell Result Output 3D)</source>
+        <translation>CalculiX donne alors des résultats en haut et en bas de la coque, où sont les contraintes de flexion, et non seulement en son milieu (propriété « Beam Shell Result Output 3D » du solveur)</translation>
+    </message>
+    <message>
+        <source>Mesh</source>
+        <translation>Mailler</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Arrêter</translation>
+    </message>
+    <message>
+        <source>Ends the mesher</source>
+        <translation>Arrête le mailleur</translation>
+    </message>
+    <message>
+        <source>Part</source>
+        <translation>Pièce</translation>
+    </message>
+    <message>
+        <source>Expected</source>
+        <translation>Attendu</translation>
+    </message>
+    <message>
+        <source>Refinements</source>
+        <translation>Raffinements</translation>
+    </message>
+    <message>
+        <source>More settings</source>
+        <translation>Autres réglages</translation>
+    </message>
+    <message>
+        <source>about {} quads</source>
+        <translation>environ {} quadrangles</translation>
+    </message>
+    <message>
+        <source>Select them on {} in the 3-D view first.</source>
+        <translation>Sélectionnez-les d'abord sur {} dans la vue 3D.</translation>
+    </message>
+    <message>
+        <source>meshing</source>
+        <translation>maillage</translation>
+    </message>
+    <message>
+        <source>{} quads: mesher {:.2f} s, into FreeCAD {:.2f} s</source>
+        <translation>{} quadrangles : mailleur {:.2f} s, vers FreeCAD {:.2f} s</translation>
+    </message>
+    <message>
+        <source>Another task panel is open: close it first.</source>
+        <translation>Un autre panneau de tâches est ouvert : fermez-le d'abord.</translation>
+    </message>
+    <message>
+        <source>{}: the part that it meshes is gone.</source>
+        <translation>{} : la pièce maillée n'existe plus.</translation>
+    </message>
+</context>
+<context>
+    <name>QuadrilleSettings</name>
+    <message>
+        <source>1: four-node quads; 2: eight-node quads, better for shells</source>
+        <translation>1 : quadrangles à quatre nœuds ; 2 : à huit nœuds, meilleurs pour les coques</translation>
+    </message>
+    <message>
+        <source>1st</source>
+        <translation>1er</translation>
+    </message>
+    <message>
+        <source>2 where a solver reads the mesh: in FreeCAD and in .inp, .unv, .med and .bdf files; else 1</source>
+        <translation>2 là où un solveur lit le maillage : dans FreeCAD et les fichiers .inp, .unv, .med et .bdf ; sinon 1</translation>
+    </message>
+    <message>
+        <source>2nd</source>
+        <translation>2e</translation>
+    </message>
+    <message>
+        <source>Elements on a full circle of curvature; 0 = curvature is ignored</source>
+        <translation>Éléments sur un cercle complet de courbure ; 0 = courbure ignorée</translation>
+    </message>
+    <message>
+        <source>Faces</source>
+        <translation>Faces</translation>
+    </message>
+    <message>
+        <source>Faces to mesh, such as Face1,Face7; empty = all faces</source>
+        <translation>Faces à mailler, comme Face1,Face7 ; vide = toutes</translation>
+    </message>
+    <message>
+        <source>First join edges of neighboring faces that lie within this length of each other; 0 = not sewn</source>
+        <translation>Joindre d'abord les arêtes de faces voisines distantes d'au plus cette longueur ; 0 = pas de couture</translation>
+    </message>
+    <message>
+        <source>Give up after this time; 0 = none</source>
+        <translation>Abandonner après ce temps ; 0 = jamais</translation>
+    </message>
+    <message>
+        <source>Give up reading the model after this time; 0 = never</source>
+        <translation>Abandonner la lecture après ce temps ; 0 = jamais</translation>
+    </message>
+    <message>
+        <source>Growth</source>
+        <translation>Croissance</translation>
+    </message>
+    <message>
+        <source>How fast the size may change: millimetres of size per millimetre of way</source>
+        <translation>À quelle vitesse la taille peut changer : millimètres de taille par millimètre de chemin</translation>
+    </message>
+    <message>
+        <source>Keep what could be meshed when a face fails</source>
+        <translation>Garder ce qui a pu être maillé quand une face échoue</translation>
+    </message>
+    <message>
+        <source>Leave out edges shorter and faces narrower than this length; 0 = all are meshed</source>
+        <translation>Omettre les arêtes plus courtes et les faces plus étroites ; 0 = toutes sont maillées</translation>
+    </message>
+    <message>
+        <source>Merge tiny</source>
+        <translation>Omettre</translation>
+    </message>
+    <message>
+        <source>Mesh past 50 million elements and 5 million segments on edges</source>
+        <translation>Mailler au-delà de 50 millions d'éléments et 5 millions de segments d'arêtes</translation>
+    </message>
+    <message>
+        <source>Minimum</source>
+        <translation>Minimum</translation>
+    </message>
+    <message>
+        <source>No size goes below this; 0 = size / 8</source>
+        <translation>Aucune taille n'est inférieure ; 0 = taille / 8</translation>
+    </message>
+    <message>
+        <source>OpenVDB grid (.vdb) that caps the size</source>
+        <translation>Grille OpenVDB (.vdb) qui limite la taille</translation>
+    </message>
+    <message>
+        <source>Order</source>
+        <translation>Ordre</translation>
+    </message>
+    <message>
+        <source>Partial</source>
+        <translation>Partiel</translation>
+    </message>
+    <message>
+        <source>Per circle</source>
+        <translation>Par cercle</translation>
+    </message>
+    <message>
+        <source>Sew</source>
+        <translation>Coudre</translation>
+    </message>
+    <message>
+        <source>Size</source>
+        <translation>Taille</translation>
+    </message>
+    <message>
+        <source>Strategy</source>
+        <translation>Stratégie</translation>
+    </message>
+    <message>
+        <source>Subdivide: triangles at twice the size, paired, each quad cut in four; direct: triangles at the size, paired</source>
+        <translation>Subdiviser : triangles de taille double, appariés, chaque quadrangle coupé en quatre ; direct : triangles à la taille, appariés</translation>
+    </message>
+    <message>
+        <source>Target edge length; 0 = a sixtieth of the model&apos;s diagonal</source>
+        <translation>Longueur d'arête visée ; 0 = un soixantième de la diagonale du modèle</translation>
+    </message>
+    <message>
+        <source>Threads to use, no more than there are cores; 0 = all cores</source>
+        <translation>Fils à utiliser, au plus le nombre de cœurs ; 0 = tous les cœurs</translation>
+    </message>
+    <message>
+        <source>Time limit</source>
+        <translation>Temps limite</translation>
+    </message>
+    <message>
+        <source>a sixtieth of the model&apos;s diagonal</source>
+        <translation>un soixantième de la diagonale</translation>
+    </message>
+    <message>
+        <source>all are meshed</source>
+        <translation>toutes sont maillées</translation>
+    </message>
+    <message>
+        <source>all faces</source>
+        <translation>toutes les faces</translation>
+    </message>
+    <message>
+        <source>direct</source>
+        <translation>direct</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>aucun</translation>
+    </message>
+    <message>
+        <source>not sewn</source>
+        <translation>pas de couture</translation>
+    </message>
+    <message>
+        <source>size / 8</source>
+        <translation>taille / 8</translation>
+    </message>
+    <message>
+        <source>subdivide</source>
+        <translation>subdiviser</translation>
+    </message>
+</context>
+<context>
+    <name>QuadrilleStatus</name>
+    <message>
+        <source>up to date</source>
+        <translation>à jour</translation>
+    </message>
+    <message>
+        <source>not meshed yet</source>
+        <translation>pas encore maillé</translation>
+    </message>
+    <message>
+        <source>the part has changed: mesh again</source>
+        <translation>la pièce a changé : maillez à nouveau</translation>
+    </message>
+    <message>
+        <source>the settings have changed: mesh again</source>
+        <translation>les réglages ont changé : maillez à nouveau</translation>
+    </message>
+    <message>
+        <source>the part is gone</source>
+        <translation>la pièce n'existe plus</translation>
+    </message>
+    <message>
+        <source>the part has changed: choose faces, edges, vertices again</source>
+        <translation>la pièce a changé : choisissez à nouveau faces, arêtes, sommets</translation>
+    </message>
+    <message>
+        <source>the settings make no sense</source>
+        <translation>les réglages n'ont pas de sens</translation>
+    </message>
+    <message>
+        <source>made by other means: mesh again</source>
+        <translation>fait par d'autres moyens : maillez à nouveau</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Export</name>
+    <message>
+        <source>Export quad mesh</source>
+        <translation>Exporter le maillage de quadrangles</translation>
+    </message>
+    <message>
+        <source>Write the mesh to a file for CalculiX, Gmsh, Salome, ParaView or Nastran, with its sets and groups</source>
+        <translation>Écrire le maillage dans un fichier pour CalculiX, Gmsh, Salome, ParaView ou Nastran, avec ensembles et groupes</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Flip</name>
+    <message>
+        <source>Flip shell normals</source>
+        <translation>Retourner les normales de coque</translation>
+    </message>
+    <message>
+        <source>Turn the shell normals of the selected faces over (of all faces when none is selected); meshes again</source>
+        <translation>Retourner les normales des faces sélectionnées (de toutes si aucune ne l'est) ; maille à nouveau</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Mesh</name>
+    <message>
+        <source>Quad mesh from shape</source>
+        <translation>Maillage de quadrangles</translation>
+    </message>
+    <message>
+        <source>Mesh the selected part with quads; several parts are joined where they touch</source>
+        <translation>Mailler la pièce sélectionnée en quadrangles ; plusieurs pièces sont jointes où elles se touchent</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Normals</name>
+    <message>
+        <source>Show shell normals</source>
+        <translation>Montrer les normales de coque</translation>
+    </message>
+    <message>
+        <source>Show the normals of the shell elements as arrows, or hide them again</source>
+        <translation>Montrer les normales des éléments de coque par des flèches, ou les cacher</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Quality</name>
+    <message>
+        <source>Mesh quality</source>
+        <translation>Qualité du maillage</translation>
+    </message>
+    <message>
+        <source>Show the quality of a quad mesh: numbers, histogram, colors, worst elements</source>
+        <translation>Montrer la qualité d'un maillage : nombres, histogramme, couleurs, pires éléments</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Refine</name>
+    <message>
+        <source>Refine faces, edges, vertices</source>
+        <translation>Raffiner faces, arêtes, sommets</translation>
+    </message>
+    <message>
+        <source>Give the selected faces, edges or vertices a size of their own (a FEM mesh region)</source>
+        <translation>Donner une taille propre aux faces, arêtes ou sommets sélectionnés (région de maillage FEM)</translation>
+    </message>
+</context>
+</TS>
