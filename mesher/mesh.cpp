@@ -19,6 +19,7 @@
 #include "geometry/sizing/element_count.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/edges/edge_sampling.hpp"
+#include "mesher/edges/let_go.hpp"
 #include "mesher/faces/boundary_crossings.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/settings.hpp"
@@ -50,9 +51,14 @@ class Job {
         meshes_(shape_.faces.size()),
         problems_(shape_.faces.size()),
         problems_before_(shape_.faces.size()),
-        records_(shape_.faces.size()) {
-    asked_ = used_;
+        records_(shape_.faces.size()),
+        asked_(used_),
+        let_go_(shape_, asked_, reach_of_let_go(model, options)) {
+    leave_out_tiny();
   }
+
+  /// What is let go asks for no sizes.
+  UnsizedFeatures unsized() const { return {let_go_.edges(), edges_.plan.tiny.merged_faces}; }
 
   ShellMesh run(const SizingField& field) {
     mesh_in_rounds(field);
@@ -61,7 +67,9 @@ class Job {
     advise_on_tiny_faces();
     if (!options_.partial) throw_first_problem();
     slide_nodes(shape_, nodes_, meshes_, options_.improve, context_);
-    return assemble(shape_, nodes_, meshes_, statuses(), options_, context_);
+    ShellMesh result = assemble(shape_, nodes_, meshes_, statuses(), options_, context_);
+    result.let_go = list_let_go();
+    return result;
   }
 
  private:
@@ -69,7 +77,6 @@ class Job {
 
   /// Each round finds the charts first: faces are meshed once no boundary crosses itself that can be mended.
   void mesh_in_rounds(const SizingField& field) {
-    leave_out_tiny();
     int charted = 0, meshed = 0;
     for (bool changed = true; changed && meshed < FaceRecord::most_attempts;) {
       if (meshed > 0 && !may_go_on()) return;
@@ -90,11 +97,16 @@ class Job {
 
   void leave_out_tiny() {
     TinyFeatures& tiny = edges_.plan.tiny;
-    tiny = find_tiny_features(shape_, asked_, edges_.collapse, options_.merge_tiny);
+    tiny = let_go_.find(edges_.collapse, options_.merge_tiny);
     for (std::size_t face = 0; face < used_.size(); ++face) {
       used_[face] = asked_[face] && !tiny.merged_faces[face];
       if (!used_[face]) problems_[face].reset();
     }
+  }
+
+  static double reach_of_let_go(const CadModel& model, const MeshOptions& options) {
+    constexpr double far_below = 0.5;
+    return options.keep_features ? 0 : far_below * size_limits(model, options.sizing).least;
   }
 
   void sample(const SizingField& field) {
@@ -239,13 +251,19 @@ class Job {
     return order;
   }
 
-  /// Applies a remedy to each face with a problem; false if there is none for any.
+  /// Keeps what was let go round each face with a problem, or else applies a remedy to it; false if there is
+  /// none for any.
   bool treat() {
     bool any = false;
     for (std::size_t face = 0; face < problems_.size(); ++face) {
       FaceRecord& record = records_[face];
       if (!problems_[face] || record.given_up) continue;
       problems_before_[face] = problems_[face];
+      if (let_go_.keep_around(static_cast<int>(face), edges_.plan.tiny)) {
+        record.history.push_back("features kept that were let go");
+        any = true;
+        continue;
+      }
       record.given_up = !apply_remedy(shape_, *problems_[face], size_, record, edges_);
       any |= !record.given_up;
     }
@@ -271,6 +289,25 @@ class Job {
     for (const auto& problem : problems_) {
       if (problem) throw *problem;
     }
+  }
+
+  std::vector<ShellMesh::LetGo> list_let_go() const {
+    using Kind = ShellMesh::LetGo::Kind;
+    const TinyFeatures& tiny = edges_.plan.tiny;
+    std::vector<ShellMesh::LetGo> result;
+    for (std::size_t i = 0; i < tiny.edges.size(); ++i) {
+      const CadEdge& edge = shape_.edges[i];
+      if (tiny.collapsed_edges[i])
+        result.push_back({Kind::edge, edge.number, Kind::vertex, tiny.end(edge.first_vertex)});
+      else if (tiny.edges[i] != static_cast<int>(i))
+        result.push_back({Kind::edge, edge.number, Kind::edge, shape_.edges[tiny.edges[i]].number});
+    }
+    for (std::size_t i = 0; i < tiny.vertices.size(); ++i) {
+      const int vertex = static_cast<int>(i) + 1;
+      if (tiny.end(vertex) != vertex)
+        result.push_back({Kind::vertex, vertex, Kind::vertex, tiny.end(vertex)});
+    }
+    return result;
   }
 
   std::vector<ShellMesh::Face> statuses() const {
@@ -305,12 +342,14 @@ class Job {
   double size_;
   ExecutionContext& context_;
   EdgeTreatment edges_;
-  std::vector<char> asked_, used_;
+  std::vector<char> used_;
   BoundaryNodes nodes_;
   std::vector<std::optional<FaceChart>> charts_;  ///< of the faces to be meshed next
   std::vector<std::optional<FaceMesh>> meshes_;
   std::vector<std::optional<FaceProblem>> problems_, problems_before_;
   std::vector<FaceRecord> records_;
+  std::vector<char> asked_;
+  LetGo let_go_;
 };
 
 }  // namespace
@@ -326,7 +365,7 @@ ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionConte
     {
       const StageTimer timer(context, Stage::size);
       const ElementBudget budget(model, sizing, faces_used(model, options.faces), context);
-      field = SizingField::build(model, sizing, context);
+      field = SizingField::build(model, sizing, context, job.unsized());
       budget.check(*field);
     }
     if (!options.write_size_field.empty()) field->write(options.write_size_field);

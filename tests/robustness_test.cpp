@@ -45,6 +45,7 @@ ShellMesh mesh_of(const CadModel& model, double divisions, Strategy strategy = S
   options.sizing.elements_per_diagonal = divisions;
   options.strategy = strategy;
   options.order = order;
+  options.keep_features = true;  // these tests are about meshing what is hard to mesh
   ExecutionContext context(threads);
   return mesh(model, options, context);
 }
@@ -99,6 +100,7 @@ TEST_P(EveryTrouble, IsMeshedFarTooCoarselyToo) {
   MeshOptions options;
   options.sizing.elements_per_diagonal = 8;
   options.sizing.elements_per_circle = 0;
+  options.keep_features = true;
   ExecutionContext context(1);
   const ShellMesh coarse = mesh(model, options, context);
   EXPECT_EQ(joined(validate(coarse, trouble.closed)), "");
@@ -173,6 +175,7 @@ TEST(Robustness, MergesTinyFeaturesWhenAsked) {
   const CadModel model = model_of(trouble_named("sliver"));
   MeshOptions options;
   options.sizing.size = 5;
+  options.keep_features = true;
   ExecutionContext context(1);
   const ShellMesh kept = mesh(model, options, context);
   EXPECT_EQ(kept.faces[1].status, FaceStatus::meshed);

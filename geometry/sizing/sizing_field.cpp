@@ -155,9 +155,10 @@ namespace {
 /// Collects the sources of a model into the grids of a field.
 class Builder {
  public:
-  Builder(const CadModel& model, const SizingOptions& options, SizingField::Impl& field,
-          ExecutionContext& context)
+  Builder(const CadModel& model, const SizingOptions& options, const UnsizedFeatures& unsized,
+          SizingField::Impl& field, ExecutionContext& context)
       : shape_(model.shape()),
+        unsized_(unsized),
         options_(options),
         limits_{field.size_max, field.size_min},
         field_(field),
@@ -284,6 +285,7 @@ class Builder {
     sources.check();
     const CadEdge& edge = shape_.edges[index];
     if (edge.degenerate || edge.faces.empty() || edge.length <= 0) return;
+    if (unsized_.edge(index) && !options_.edge_sizes.contains(edge.number)) return;
     const EdgeCurve curve(edge);
     double cap = cap_of(edge);
     if (curve.straight()) {
@@ -336,6 +338,7 @@ class Builder {
 
   void add_face(int index, Sources& sources) const {
     const CadFace& face = shape_.faces[index];
+    if (unsized_.face(index) && !options_.face_sizes.contains(index + 1)) return;
     const FaceSurface surface(face);
     double cap = field_.size_max;
     if (const auto it = options_.face_sizes.find(index + 1); it != options_.face_sizes.end())
@@ -435,6 +438,7 @@ class Builder {
   }
 
   const CadShape& shape_;
+  const UnsizedFeatures& unsized_;
   const SizingOptions& options_;
   SizeLimits limits_;
   SizingField::Impl& field_;
@@ -456,8 +460,8 @@ double smallest(const SizingOptions& options) {
 
 }  // namespace
 
-SizingField SizingField::build(const CadModel& model, const SizingOptions& options,
-                               ExecutionContext& context) {
+SizingField SizingField::build(const CadModel& model, const SizingOptions& options, ExecutionContext& context,
+                               const UnsizedFeatures& unsized) {
   auto impl = std::make_shared<Impl>();
   const SizeLimits limits = size_limits(model, options);
   impl->growth = std::max(options.growth, least_growth);
@@ -474,7 +478,7 @@ SizingField SizingField::build(const CadModel& model, const SizingOptions& optio
                                   limits.largest, reach));
   }
   impl->finest = std::min(bits, max_levels - 1);
-  Builder(model, options, *impl, context).run();
+  Builder(model, options, unsized, *impl, context).run();
   return SizingField(std::move(impl));
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "geometry/base/execution_context.hpp"
 #include "geometry/base/vector.hpp"
@@ -21,6 +22,13 @@ SizeLimits size_limits(const CadModel& model, const SizingOptions& options);
 /// The size that a curvature (1 / length) asks for, within the limits.
 double size_of_curvature(const SizingOptions& options, const SizeLimits& limits, double curvature);
 
+/// What is too small for the mesh and so asks for no sizes of its own. Empty = nothing.
+struct UnsizedFeatures {
+  std::vector<char> edges, faces;
+  bool edge(std::size_t index) const { return index < edges.size() && edges[index] != 0; }
+  bool face(std::size_t index) const { return index < faces.size() && faces[index] != 0; }
+};
+
 /// h(x): the largest size that respects every source and the gradation |grad h| <= growth.
 ///
 /// Sources (global size, curvature of faces and edges, lengths of short edges, sizes asked for on faces,
@@ -33,7 +41,8 @@ class SizingField {
  public:
   /// \param options as mesh() checks them. Throws Error: usage for sizes that pass options.budget, failure
   /// for an unreadable external grid.
-  static SizingField build(const CadModel& model, const SizingOptions& options, ExecutionContext& context);
+  static SizingField build(const CadModel& model, const SizingOptions& options, ExecutionContext& context,
+                           const UnsizedFeatures& unsized = {});
 
   /// Writes the grids as .vdb: `size` (coarsest), `size_1`, ... with metadata unit, growth, size_max,
   /// version.

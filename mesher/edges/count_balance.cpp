@@ -68,8 +68,12 @@ class Balancer {
 
   double cost(const BalanceProblem::Variable& variable, int change) const {
     const int after = variable.value + change;
-    const double wanted = std::max(variable.wanted, 1.0 * variable.least);
-    if (after < variable.least || after > 2 * wanted + 1 || 2 * (after + 1) < wanted) return infinity;
+    const double possible = std::max(variable.wanted, 1.0 * variable.least);
+    if (after < variable.least || after > 2 * possible + 1 || 2 * (after + 1) < possible) return infinity;
+    // Of what is wanted, though it be less than possible: two rows in a strip that wants a fifth of one are
+    // worse than eleven segments for ten.
+    constexpr double smallest_wanted = 0.1;
+    const double wanted = std::max(variable.wanted, smallest_wanted);
     const auto deviation = [&](int value) { return std::pow((value - wanted) / wanted, 2); };
     constexpr double smallest = 1e-6;  // so that walks are short where all else is equal
     return variable.weight * std::max(0.0, deviation(after) - deviation(variable.value)) + smallest;

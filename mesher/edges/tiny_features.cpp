@@ -11,8 +11,8 @@ namespace {
 
 class Finder {
  public:
-  Finder(const CadShape& shape, const std::vector<char>& used, double length)
-      : shape_(shape), used_(used), length_(length) {
+  Finder(const CadShape& shape, const std::vector<char>& used, double length, const SliverLimits& slivers)
+      : shape_(shape), used_(used), length_(length), slivers_(slivers) {
     tiny_.vertices.resize(shape.vertices.size());
     std::iota(tiny_.vertices.begin(), tiny_.vertices.end(), 0);
     tiny_.edges.resize(shape.edges.size());
@@ -66,18 +66,33 @@ class Finder {
     }
     // Poles and seams without edges are not tiny.
     if (left.empty() && any_collapsed) tiny_.merged_faces[face] = 1;
-    if (length_ <= 0 || left.size() != 2 || left[0] == left[1]) return;
+    if (left.size() != 2 || left[0] == left[1]) return;
     const CadEdge &a = shape_.edges[left[0]], &b = shape_.edges[left[1]];
     const bool along = tiny_.end(a.first_vertex) == tiny_.end(b.first_vertex) &&
                        tiny_.end(a.last_vertex) == tiny_.end(b.last_vertex);
     const bool against = tiny_.end(a.first_vertex) == tiny_.end(b.last_vertex) &&
                          tiny_.end(a.last_vertex) == tiny_.end(b.first_vertex);
-    if (!(along || against) || !close(a, b)) return;
+    if (!(along || against) || !close(a, b, reach_of(face, any_collapsed, a, b))) return;
     // Of two closed edges either sense would fit the ends: the nearer points tell.
     const bool reversed = along && against ? !runs_along(a, b) : against;
     tiny_.merged_faces[face] = 1;
     tiny_.edges[left[1]] = left[0];
     tiny_.reversed_edges[left[1]] = reversed;
+  }
+
+  /// How far apart the two edges of a face may be that becomes an edge.
+  double reach_of(int face, bool has_points, const CadEdge& a, const CadEdge& b) const {
+    constexpr double slender = 4;  // a disc that small is no sliver
+    const bool is_sliver = (has_points || std::min(a.length, b.length) > slender * slivers_.reach) &&
+                           lies_between_others(a) && lies_between_others(b) &&
+                           (slivers_.kept == nullptr || !(*slivers_.kept)[face]);
+    return std::max(length_, is_sliver ? slivers_.reach : 0);
+  }
+
+  /// A sliver that others do not close in on is a part of its own.
+  bool lies_between_others(const CadEdge& edge) const {
+    return std::count_if(edge.faces.begin(), edge.faces.end(),
+                         [&](int face) { return used_[face - 1] != 0; }) > 1;
   }
 
   static Vector3 at(const CadEdge& edge, double t) {
@@ -90,7 +105,8 @@ class Finder {
   }
 
   /// Whether each curve stays within the length of the other, at samples.
-  bool close(const CadEdge& a, const CadEdge& b) const {
+  bool close(const CadEdge& a, const CadEdge& b, double reach) const {
+    if (!(reach > 0)) return false;
     constexpr int samples = 16, dense = 256;
     std::vector<Vector3> points;
     for (int i = 0; i <= dense; ++i) points.push_back(at(b, static_cast<double>(i) / dense));
@@ -103,7 +119,7 @@ class Finder {
         const double t = square > 0 ? std::clamp((p - points[k]).dot(side) / square, 0.0, 1.0) : 0;
         nearest = std::min(nearest, (p - points[k] - t * side).norm());
       }
-      if (!(nearest < length_)) return false;
+      if (!(nearest < reach)) return false;
     }
     return true;
   }
@@ -130,14 +146,16 @@ class Finder {
   const CadShape& shape_;
   const std::vector<char>& used_;
   double length_;
+  SliverLimits slivers_;
   TinyFeatures tiny_;
 };
 
 }  // namespace
 
 TinyFeatures find_tiny_features(const CadShape& shape, const std::vector<char>& used,
-                                const std::vector<Collapse>& collapse, double length) {
-  return Finder(shape, used, length).run(collapse);
+                                const std::vector<Collapse>& collapse, double length,
+                                const SliverLimits& slivers) {
+  return Finder(shape, used, length, slivers).run(collapse);
 }
 
 }  // namespace quadrille

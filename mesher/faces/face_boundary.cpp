@@ -51,6 +51,7 @@ class BoundaryWalker {
   struct Run {
     int first = -1, last = -1;  // point instances at the start and the end, in the wire's direction
     int first_segment = 0, end_segment = 0;
+    bool after_gap = false;  // edges before it became points
     Vector3 leaving{0, 0, 0},
         arriving{0, 0, 0};  // tangents at the start and the end, in the wire's direction
   };
@@ -67,14 +68,18 @@ class BoundaryWalker {
   void walk_wire(const CadWire& wire) {
     std::vector<Run> runs;
     auto& firsts = boundary_.first_segments.emplace_back();
+    bool gap = false;
     for (std::size_t i = 0; i < wire.coedges.size(); ++i) {
       const Coedge& coedge = wire.coedges[i];
       const CadEdge& edge = shape_.edges[coedge.edge - 1];
-      const Run run = edge.degenerate ? walk_pole(wire, i, edge) : walk_edge(coedge);
+      Run run = edge.degenerate ? walk_pole(wire, i, edge) : walk_edge(coedge);
       firsts.push_back(run.first >= 0 ? run.first_segment : -1);
+      run.after_gap = gap;
+      gap = run.first < 0 && !edge.degenerate;
       if (run.first >= 0) runs.push_back(run);
     }
     const std::size_t n = runs.size();
+    if (gap && n > 0) runs[0].after_gap = true;
     for (std::size_t i = 1; i < n; ++i) unwrap(runs[i - 1], runs[i]);
     for (std::size_t i = 0; i < n; ++i) join(runs[i], runs[(i + 1) % n]);
     drop_joined();
@@ -216,7 +221,7 @@ class BoundaryWalker {
     const auto& first = boundary_.segments[next.first_segment];
     const double nearby = std::max(scaled_distance(last.a, last.b), scaled_distance(first.a, first.b));
     const double jump = scaled_distance(a, b);
-    if (jump > 0.5 * nearby) {
+    if (jump > 0.5 * nearby && !next.after_gap) {
       FaceBoundary::Segment gap;
       gap.a = a;
       gap.b = b;

@@ -102,6 +102,17 @@ json off_geometry_to_json(const ShellMesh& mesh) {
   return nodes;
 }
 
+json let_go_to_json(const ShellMesh& mesh) {
+  const auto name = [](ShellMesh::LetGo::Kind kind, int number) {
+    return (kind == ShellMesh::LetGo::Kind::edge ? "Edge" : "Vertex") + std::to_string(number);
+  };
+  json features = json::array();
+  for (const ShellMesh::LetGo& feature : mesh.let_go)
+    features.push_back(
+        {{"name", name(feature.kind, feature.number)}, {"to", name(feature.to_kind, feature.to)}});
+  return features;
+}
+
 double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * time.tv_usec;
 }
@@ -122,6 +133,7 @@ json make_report(const ShellMesh& mesh, const QualitySummary& summary, const Exe
           {"peak_bytes", static_cast<std::int64_t>(usage.ru_maxrss) * 1024},
           {"faces", faces_to_json(mesh)},
           {"off_geometry", off_geometry_to_json(mesh)},
+          {"let_go", let_go_to_json(mesh)},
           {"warnings", warnings},
           {"versions",
            {{"quadrille", QUADRILLE_VERSION},

@@ -78,6 +78,15 @@ struct ShellMesh {
     double distance = 0;  ///< to its place on the CAD edge, or to the face's surface
   };
 
+  /// A CAD edge or vertex that has no place of its own in the mesh, since it is too small.
+  struct LetGo {
+    enum class Kind { edge, vertex };
+    Kind kind = Kind::edge;
+    int number = 0;  ///< from 1
+    Kind to_kind = Kind::edge;
+    int to = 0;  ///< the edge or vertex whose nodes stand for it
+  };
+
   int order = 1;                          ///< 1: four-node quads; 2: eight-node (serendipity) quads
   std::vector<Vector3> points;            ///< (n) all nodes, corner nodes first, then midside nodes
   std::vector<std::array<int, 4>> quads;  ///< (m) corner nodes, counter-clockwise seen from outside
@@ -89,6 +98,7 @@ struct ShellMesh {
   std::vector<Segment> segments;              ///< the sides on CAD edges, each once
   std::vector<Corner> corners;                ///< the nodes on CAD vertices
   std::vector<OffGeometry> off_geometry;      ///< ascending by node; empty but in coarse second-order meshes
+  std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; faces say it themselves
   std::vector<Face> faces;                    ///< one entry a CAD face; empty in meshes read from files
   /// Of the shell on each CAD face, by face number minus 1, in millimetres; empty where not known.
   std::vector<double> thicknesses;

@@ -1,0 +1,244 @@
+// Based on: Sheffer, Bercovier, Blacker & Clements, Virtual topology operators for meshing (2000), for faces
+// and edges that are taken together where the model divides them finer than elements are.
+
+#include "mesher/edges/let_go.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "geometry/surfaces/edge_curve.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// Angles of faces where edges meet that did not before, radians. Below the first quads there are slivers;
+/// beyond the second, edges on both sides of a slot would meet.
+constexpr double sharpest = 0.9, bluntest = 5.4;
+
+class HarmFinder {
+ public:
+  HarmFinder(const CadShape& shape, const TinyFeatures& tiny, double reach)
+      : shape_(shape), tiny_(tiny), reach_(reach) {}
+
+  /// What was let go on the face and leaves something that has no good quads there.
+  struct Harm {
+    std::vector<int> points;   // edges that became points
+    std::vector<int> slivers;  // edges that share the nodes of others
+  };
+
+  Harm find(const CadFace& face) const {
+    Harm harm;
+    for (const CadWire& wire : face.wires) {
+      const std::vector<Gap> gaps = find_gaps(wire);
+      const bool is_lost = !wire.ordered || is_small(wire);
+      for (const Gap& gap : gaps) {
+        if (is_lost || !meet_well(face, wire.coedges[gap.before], wire.coedges[gap.after]))
+          harm.points.insert(harm.points.end(), gap.edges.begin(), gap.edges.end());
+      }
+    }
+    find_edges_twice(face, harm);
+    return harm;
+  }
+
+  /// Whether an edge stays within reach of the one whose nodes it shares.
+  bool is_near_its_leader(int edge) const {
+    constexpr int samples = 8, dense = 128;
+    const CadEdge &own = shape_.edges[edge], &leader = shape_.edges[tiny_.edges[edge]];
+    const EdgeCurve curve(own), other(leader);
+    const double step = (leader.last - leader.first) / dense;
+    for (int i = 1; i < samples; ++i) {
+      const Vector3 p = curve.point(own.first + (own.last - own.first) * i / samples);
+      double nearest = std::numeric_limits<double>::infinity();
+      for (int k = 0; k <= dense; ++k)
+        nearest = std::min(nearest, (p - other.point(leader.first + k * step)).norm());
+      if (nearest > std::hypot(reach_, 0.5 * leader.length / dense)) return false;
+    }
+    return true;
+  }
+
+ private:
+  /// Consecutive edges of a wire that became points.
+  struct Gap {
+    std::size_t before = 0, after = 0;  // coedges; where nothing is left, any
+    std::vector<int> edges;
+  };
+
+  bool is_gone(const Coedge& coedge) const { return tiny_.collapsed_edges[coedge.edge - 1] != 0; }
+
+  std::vector<Gap> find_gaps(const CadWire& wire) const {
+    const std::size_t n = wire.coedges.size();
+    std::vector<Gap> gaps;
+    std::size_t start = 0;
+    while (start < n && is_gone(wire.coedges[start])) ++start;
+    if (start == n) start = 0;
+    bool inside = false;
+    for (std::size_t k = start; k < start + n; ++k) {
+      const bool gone = is_gone(wire.coedges[k % n]);
+      if (gone && !inside) gaps.push_back({(k + n - 1) % n, k % n, {}});
+      if (gone) {
+        gaps.back().edges.push_back(wire.coedges[k % n].edge - 1);
+        gaps.back().after = (k + 1) % n;
+      }
+      inside = gone;
+    }
+    return gaps;
+  }
+
+  /// Whether what is left of a loop is too small for elements.
+  bool is_small(const CadWire& wire) const {
+    constexpr double least = 4;
+    double length = 0;
+    int left = 0;
+    for (const Coedge& coedge : wire.coedges) {
+      if (is_gone(coedge)) continue;
+      length += shape_.edges[coedge.edge - 1].length;
+      ++left;
+    }
+    return length < least * reach_ || left == 0 || left == 2;
+  }
+
+  bool meet_well(const CadFace& face, const Coedge& from, const Coedge& to) const {
+    const CadEdge &before = shape_.edges[from.edge - 1], &after = shape_.edges[to.edge - 1];
+    if (before.degenerate || after.degenerate || from.internal || to.internal) return false;
+    const double t = to.forward ? after.first : after.last;
+    const Vector3 in = (from.forward ? 1 : -1) *
+                       EdgeCurve(before).derivative(from.forward ? before.last : before.first),
+                  out = (to.forward ? 1 : -1) * EdgeCurve(after).derivative(t);
+    const Vector3 normal = FaceSurface(face).normal(parametric_point(to, t));
+    const double angle = M_PI - std::atan2(in.cross(out).dot(normal), in.dot(out));
+    return angle > sharpest && angle < bluntest;
+  }
+
+  /// Both sides of a slot may not become one.
+  void find_edges_twice(const CadFace& face, Harm& harm) const {
+    std::map<int, int> first;  // leader -> edge
+    for (const CadWire& wire : face.wires) {
+      for (const Coedge& coedge : wire.coedges) {
+        const int edge = coedge.edge - 1;
+        if (is_gone(coedge)) continue;
+        const auto [at, is_new] = first.emplace(tiny_.edges[edge], edge);
+        if (!is_new && at->second != edge) harm.slivers.insert(harm.slivers.end(), {edge, at->second});
+      }
+    }
+  }
+
+  const CadShape& shape_;
+  const TinyFeatures& tiny_;
+  double reach_;
+};
+
+}  // namespace
+
+LetGo::LetGo(const CadShape& shape, const std::vector<char>& used, double reach)
+    : shape_(shape),
+      used_(used),
+      reach_(reach),
+      edges_(shape.edges.size(), 0),
+      kept_faces_(shape.faces.size(), 0) {
+  if (!(reach > 0)) return;
+  choose();
+  while (keep_harmed()) {
+  }
+}
+
+TinyFeatures LetGo::find(const std::vector<Collapse>& collapse, double length) const {
+  std::vector<Collapse> both = collapse;
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    if (edges_[i]) both[i] = Collapse::always;
+  }
+  return find_tiny_features(shape_, used_, both, length, {reach_, &kept_faces_});
+}
+
+/// The shortest edges first, as long as the vertices that share a node stay within reach of each other.
+void LetGo::choose() {
+  std::vector<int> candidates, cluster(shape_.vertices.size());
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    const CadEdge& edge = shape_.edges[i];
+    const bool is_used =
+        std::any_of(edge.faces.begin(), edge.faces.end(), [&](int f) { return used_[f - 1]; });
+    if (is_used && !edge.degenerate && !edge.closed() && edge.first_vertex > 0 && edge.last_vertex > 0 &&
+        edge.length > 0 && edge.length < reach_)
+      candidates.push_back(static_cast<int>(i));
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [&](int a, int b) { return shape_.edges[a].length < shape_.edges[b].length; });
+  std::iota(cluster.begin(), cluster.end(), 0);
+  std::vector<std::vector<int>> members(cluster.size());
+  for (std::size_t i = 0; i < members.size(); ++i) members[i] = {static_cast<int>(i)};
+  for (const int i : candidates) {
+    const int a = cluster[shape_.edges[i].first_vertex - 1], b = cluster[shape_.edges[i].last_vertex - 1];
+    if (a == b) continue;  // the last side of a loop of them
+    const auto fits = [&](int p) {
+      return std::all_of(members[b].begin(), members[b].end(),
+                         [&](int q) { return (shape_.vertices[p] - shape_.vertices[q]).norm() <= reach_; });
+    };
+    if (!std::all_of(members[a].begin(), members[a].end(), fits)) continue;
+    edges_[i] = 1;
+    for (const int vertex : members[b]) cluster[vertex] = a;
+    members[a].insert(members[a].end(), members[b].begin(), members[b].end());
+    members[b].clear();
+  }
+}
+
+/// \return whether there was something to keep.
+bool LetGo::keep_harmed() {
+  const TinyFeatures tiny = find(std::vector<Collapse>(edges_.size(), Collapse::no), 0);
+  const HarmFinder finder(shape_, tiny, reach_);
+  bool any = false;
+  const auto keep_edge = [&](int edge) {
+    any |= edges_[edge] != 0;
+    edges_[edge] = 0;
+  };
+  const auto keep_slivers_at = [&](int edge) {
+    for (const int face : shape_.edges[edge].faces) {
+      if (!tiny.merged_faces[face - 1] || kept_faces_[face - 1]) continue;
+      kept_faces_[face - 1] = 1;
+      any = true;
+      for (const CadWire& wire : shape_.faces[face - 1].wires) {
+        for (const Coedge& coedge : wire.coedges) keep_edge(coedge.edge - 1);
+      }
+    }
+  };
+  for (std::size_t face = 0; face < used_.size(); ++face) {
+    if (!used_[face] || tiny.merged_faces[face]) continue;
+    const auto harm = finder.find(shape_.faces[face]);
+    for (const int edge : harm.points) keep_edge(edge);
+    for (const int edge : harm.slivers) keep_slivers_at(edge);
+  }
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    const int edge = static_cast<int>(i);
+    if (tiny.edges[i] != edge && !finder.is_near_its_leader(edge)) keep_slivers_at(edge);
+  }
+  return any;
+}
+
+bool LetGo::keep_around(int face, const TinyFeatures& tiny) {
+  bool any = false;
+  std::vector<char> here(shape_.vertices.size() + 1, 0);
+  const auto keep_face = [&](int other) {
+    any |= tiny.merged_faces[other] && !kept_faces_[other];
+    kept_faces_[other] = 1;
+  };
+  keep_face(face);
+  for (const CadWire& wire : shape_.faces[face].wires) {
+    for (const Coedge& coedge : wire.coedges) {
+      const CadEdge& edge = shape_.edges[coedge.edge - 1];
+      here[tiny.end(edge.first_vertex)] = here[tiny.end(edge.last_vertex)] = 1;
+      for (const int other : edge.faces) keep_face(other - 1);
+    }
+  }
+  here[0] = 0;
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    if (!edges_[i] || !here[tiny.end(shape_.edges[i].first_vertex)]) continue;
+    edges_[i] = 0;
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,124 @@
+/// Features below the least size that the mesh does without.
+
+#include "mesher/edges/let_go.hpp"
+
+#include <gtest/gtest.h>
+
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <gp_Vec.hxx>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "geometry/cad/cad_shape.hpp"
+#include "mesher/quadrille.hpp"
+#include "mesher/shell/validate.hpp"
+
+namespace quadrille {
+namespace {
+
+/// A prism over a polygon in the plane z = 0.
+CadModel prism(const std::vector<std::array<double, 2>>& polygon, double height) {
+  BRepBuilderAPI_MakePolygon wire;
+  for (const auto& [x, y] : polygon) wire.Add(gp_Pnt(x, y, 0));
+  wire.Close();
+  const TopoDS_Shape solid =
+      BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Vec(0, 0, height)).Shape();
+  return CadModel(std::make_shared<CadShape>(solid, "prism"));
+}
+
+/// A block with one edge beveled, `width` from it on both sides.
+CadModel beveled_block(double width) {
+  return prism({{0, 0}, {60, 0}, {60, 40 - width}, {60 - width, 40}, {0, 40}}, 20);
+}
+
+ShellMesh mesh_of(const CadModel& model, double size, bool keep) {
+  MeshOptions options;
+  options.sizing.size = size;
+  options.keep_features = keep;
+  ExecutionContext context(1);
+  return mesh(model, options, context);
+}
+
+int merged_faces(const ShellMesh& mesh) {
+  return static_cast<int>(std::count_if(mesh.faces.begin(), mesh.faces.end(),
+                                        [](const auto& face) { return face.status == FaceStatus::merged; }));
+}
+
+TEST(LetGo, GivesABevelBelowTheLeastSizeToItsNeighbors) {
+  const CadModel block = beveled_block(0.1);
+  const ShellMesh kept = mesh_of(block, 5, true), mesh = mesh_of(block, 5, false);
+  EXPECT_EQ(merged_faces(kept), 0);
+  EXPECT_TRUE(kept.let_go.empty());
+  EXPECT_GT(check_criteria(kept).failing, 0);
+  EXPECT_EQ(validate(mesh, true), std::vector<std::string>{});
+  EXPECT_EQ(merged_faces(mesh), 1);
+  EXPECT_EQ(check_criteria(mesh).failing, 0);
+  EXPECT_LT(mesh.quads.size(), kept.quads.size());
+  // Both ends of the bevel, one of its sides, a vertex at each end.
+  using Kind = ShellMesh::LetGo::Kind;
+  std::vector<std::pair<Kind, Kind>> kinds;
+  for (const auto& feature : mesh.let_go) kinds.push_back({feature.kind, feature.to_kind});
+  std::sort(kinds.begin(), kinds.end());
+  EXPECT_EQ(kinds, (std::vector<std::pair<Kind, Kind>>{{Kind::edge, Kind::edge},
+                                                       {Kind::edge, Kind::vertex},
+                                                       {Kind::edge, Kind::vertex},
+                                                       {Kind::vertex, Kind::vertex},
+                                                       {Kind::vertex, Kind::vertex}}));
+}
+
+TEST(LetGo, KeepsWhatElementsCanShow) {
+  EXPECT_EQ(merged_faces(mesh_of(beveled_block(1), 5, false)), 0);
+  EXPECT_EQ(merged_faces(mesh_of(beveled_block(0.1), 0.4, false)), 0);
+}
+
+/// A slot closed, or a blade made a sheet without thickness, would be another part.
+TEST(LetGo, KeepsSlotsAndBlades) {
+  constexpr double width = 0.1;
+  for (const double depth : {15.0, -15.0}) {
+    const CadModel part = prism({{0, 0},
+                                 {60, 0},
+                                 {60, 20},
+                                 {60 - depth, 20},
+                                 {60 - depth, 20 + width},
+                                 {60, 20 + width},
+                                 {60, 40},
+                                 {0, 40}},
+                                20);
+    const std::vector<char> used(part.face_count(), 1);
+    const LetGo let_go(part.shape(), used, 0.5);
+    EXPECT_EQ(std::count(let_go.edges().begin(), let_go.edges().end(), 1), 0) << depth;
+  }
+}
+
+/// A sliver with nothing beside it is the whole part.
+TEST(LetGo, KeepsAFaceThatStandsAlone) {
+  BRepBuilderAPI_MakePolygon wire(gp_Pnt(0, 0, 0), gp_Pnt(60, 0, 0), gp_Pnt(60, 0.1, 0), gp_Pnt(0, 0.1, 0),
+                                  true);
+  const CadModel band(std::make_shared<CadShape>(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), "band"));
+  EXPECT_EQ(merged_faces(mesh_of(band, 5, false)), 0);
+}
+
+/// What is kept on request is kept with all that hangs together with it.
+TEST(LetGo, KeepsAroundAFaceOnRequest) {
+  const CadModel block = beveled_block(0.1);
+  const CadShape& shape = block.shape();
+  const std::vector<char> used(block.face_count(), 1);
+  const std::vector<Collapse> none(shape.edges.size(), Collapse::no);
+  LetGo let_go(shape, used, 0.5);
+  const TinyFeatures tiny = let_go.find(none, 0);
+  const auto bevel = std::find(tiny.merged_faces.begin(), tiny.merged_faces.end(), 1);
+  ASSERT_NE(bevel, tiny.merged_faces.end());
+  EXPECT_TRUE(let_go.keep_around(static_cast<int>(bevel - tiny.merged_faces.begin()), tiny));
+  const TinyFeatures after = let_go.find(none, 0);
+  EXPECT_EQ(std::count(after.merged_faces.begin(), after.merged_faces.end(), 1), 0);
+  EXPECT_EQ(std::count(after.collapsed_edges.begin(), after.collapsed_edges.end(), 1), 0);
+  EXPECT_FALSE(let_go.keep_around(0, after));
+}
+
+}  // namespace
+}  // namespace quadrille
