@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "geometry/base/api.hpp"
 #include "geometry/base/execution_context.hpp"
 #include "geometry/cad/cad_model.hpp"
 #include "geometry/sizing/element_count.hpp"
@@ -13,7 +14,7 @@ namespace quadrille {
 /// Tells for a model how many quads options give: from the sizing field at some hundred points a face, and
 /// from the segments of its edges. Time is that of the sizing field and of sampling the edges; within a
 /// factor of 1.5 on the models measured.
-class QuadEstimate {
+class QUADRILLE_API QuadEstimate {
  public:
   /// Keeps a reference to the model.
   QuadEstimate(const CadModel& model, ExecutionContext& context);

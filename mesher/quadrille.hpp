@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <string>
 
+#include "geometry/base/api.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/execution_context.hpp"
 #include "geometry/cad/cad_model.hpp"
@@ -32,12 +33,12 @@ namespace quadrille {
 /// Throws Error: usage for options that make no sense, failure naming the face that cannot be meshed (unless
 /// options.partial), cancelled. Time is linear in the number of quads. The result depends on the model and
 /// the options alone, not on the thread count.
-ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context);
+QUADRILLE_API ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context);
 
 /// Meshes the middle surface of thin solids, as above; the mesh knows the thickness of each face.
-ShellMesh mesh(const MidSurface& middle, const MeshOptions& options, ExecutionContext& context);
+QUADRILLE_API ShellMesh mesh(const MidSurface& middle, const MeshOptions& options, ExecutionContext& context);
 
 /// The library's version, "major.minor.patch".
-std::string version();
+QUADRILLE_API std::string version();
 
 }  // namespace quadrille

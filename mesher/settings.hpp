@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "geometry/base/api.hpp"
 #include "mesher/options.hpp"
 
 namespace quadrille {
@@ -31,7 +32,7 @@ using SettingValue =
     std::variant<double, bool, std::string, std::vector<std::string>, std::map<std::string, double>>;
 
 /// One entry of the table.
-struct Setting {
+struct QUADRILLE_API Setting {
   /// When it takes effect: while the model is read, while it is meshed, or while files are written.
   enum class Use { read, mesh, write };
   /// Where its value is kept, which tells what it takes: a number, a whole number, yes or no, a word of
@@ -61,23 +62,23 @@ struct Setting {
 };
 
 /// The table, in the order in which users read it.
-const std::vector<Setting>& all_settings();
+QUADRILLE_API const std::vector<Setting>& all_settings();
 
 /// The entry of that name; null if there is none.
-const Setting* find_setting(std::string_view name);
+QUADRILLE_API const Setting* find_setting(std::string_view name);
 
 /// What a text stands for. Throws Error (usage, subject: the setting's name).
-SettingValue parse(const Setting& setting, const std::vector<std::string>& texts);
+QUADRILLE_API SettingValue parse(const Setting& setting, const std::vector<std::string>& texts);
 
 /// Sets it. Throws Error (usage, subject: the setting's name) for a value that it does not take.
-void assign(Settings& settings, const Setting& setting, const SettingValue& value);
+QUADRILLE_API void assign(Settings& settings, const Setting& setting, const SettingValue& value);
 
 /// Throws Error (usage, subject: the setting's name) where a value, or two together, make no sense on the
 /// model: numbers out of their limits, names that it does not have, lengths larger than it is.
-void check(const Settings& settings, const CadModel& model);
+QUADRILLE_API void check(const Settings& settings, const CadModel& model);
 
 /// The table as an array of objects: name, option, property, label, kind, use, unit, default (null: see
 /// otherwise), low, high (null: none), above_low, choices, otherwise, help.
-nlohmann::ordered_json settings_table();
+QUADRILLE_API nlohmann::ordered_json settings_table();
 
 }  // namespace quadrille

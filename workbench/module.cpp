@@ -18,57 +18,13 @@
 
 #include "mesher/quadrille.hpp"
 #include "mesher/settings.hpp"
+#include "workbench/python_mesh.hpp"
 
 namespace py = pybind11;
 
 namespace quadrille {
 
 namespace {
-
-/// A mesh with the arrays that Python sees; never changed once made, so that arrays can point into it.
-struct PythonMesh {
-  ShellMesh mesh;
-  std::vector<std::array<int, 8>> quads8;  ///< corners and midsides side by side, at second order
-
-  explicit PythonMesh(ShellMesh made) : mesh(std::move(made)) {
-    if (mesh.order != 2) return;
-    quads8.resize(mesh.quads.size());
-    for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
-      std::copy(mesh.quads[i].begin(), mesh.quads[i].end(), quads8[i].begin());
-      std::copy(mesh.midsides[i].begin(), mesh.midsides[i].end(), quads8[i].begin() + 4);
-    }
-  }
-};
-
-/// A read-only NumPy array over memory that `owner` keeps alive.
-template <typename Scalar>
-py::array view(const void* data, std::vector<py::ssize_t> shape, const py::object& owner) {
-  py::array_t<Scalar> array(std::move(shape), static_cast<const Scalar*>(data), owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
-}
-
-/// A read-only (n, columns) array over a vector of plain records.
-template <typename Scalar, typename Record>
-py::array table(const std::vector<Record>& records, const py::object& owner) {
-  static_assert(sizeof(Record) % sizeof(Scalar) == 0);
-  constexpr py::ssize_t columns = sizeof(Record) / sizeof(Scalar);
-  return view<Scalar>(records.data(), {static_cast<py::ssize_t>(records.size()), columns}, owner);
-}
-
-const PythonMesh& mesh_of(const py::object& self) {
-  return self.cast<const PythonMesh&>();
-}
-
-py::array quads(const py::object& self) {
-  const PythonMesh& mesh = mesh_of(self);
-  return mesh.mesh.order == 2 ? table<int>(mesh.quads8, self) : table<int>(mesh.mesh.quads, self);
-}
-
-py::array face_ids(const py::object& self) {
-  const std::vector<int>& faces = mesh_of(self).mesh.quad_faces;
-  return view<int>(faces.data(), {static_cast<py::ssize_t>(faces.size())}, self);
-}
 
 /// \param limits a limits file; none = the usual limits.
 py::object quality_dict(const PythonMesh& mesh, const std::optional<std::filesystem::path>& limits) {
@@ -278,22 +234,11 @@ void bind_model(py::module_& module) {
 }
 
 void bind_mesh(py::module_& module) {
-  py::class_<PythonMesh>(
+  py::class_<PythonMesh> mesh(
       module, "Mesh",
-      "An all-quad mesh. Arrays are read-only views, node indices start at 0, CAD numbers at 1.")
-      .def_property_readonly("order", [](const PythonMesh& self) { return self.mesh.order; })
-      .def_property_readonly(
-          "points", [](const py::object& self) { return table<double>(mesh_of(self).mesh.points, self); },
-          "(n, 3) float64: the nodes, corner nodes first, then midside nodes.")
-      .def_property_readonly("quads", &quads,
-                             "(m, 4) or (m, 8) int32: corner nodes counter-clockwise, then midside nodes.")
-      .def_property_readonly("face_ids", &face_ids, "(m,) int32: CAD face of each quad.")
-      .def_property_readonly(
-          "segments", [](const py::object& self) { return table<int>(mesh_of(self).mesh.segments, self); },
-          "(k, 4) int32: first node, second node, midside node or -1, CAD edge.")
-      .def_property_readonly(
-          "corners", [](const py::object& self) { return table<int>(mesh_of(self).mesh.corners, self); },
-          "(c, 2) int32: node, CAD vertex.")
+      "An all-quad mesh. Arrays are read-only views, node indices start at 0, CAD numbers at 1.");
+  bind_arrays(mesh);
+  mesh.def_property_readonly("order", [](const PythonMesh& self) { return self.mesh.order; })
       .def_property_readonly("faces", &face_statuses, "What became of each CAD face: a list of dicts.")
       .def("quality", &quality_dict, py::arg("limits") = py::none(),
            "Counts and measures: a dict, named as in the command's report, with the criteria of industry "
@@ -404,6 +349,15 @@ void bind_functions(py::module_& module) {
       },
       py::arg("text"), py::arg("name") = "shape", py::kw_only(), py::arg("isolated") = true,
       ("Parses a shape in OpenCASCADE's BREP text format.\n\n" + isolated_help).c_str());
+  module.def(
+      "read_mesh",
+      [](const std::filesystem::path& path) {
+        const py::gil_scoped_release release;
+        return PythonMesh(read_mesh(path));
+      },
+      py::arg("path"),
+      "Reads a surface mesh: Gmsh .msh (2.2, 4.1) or Abaqus and CalculiX .inp. Raises quadrille.Error.");
+  bind_recombine(module);
   module.def(
       "suggested_size",
       [](const CadModel& model, int quads) {

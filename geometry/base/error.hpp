@@ -5,10 +5,12 @@
 #include <string>
 #include <utility>
 
+#include "geometry/base/api.hpp"
+
 namespace quadrille {
 
 /// What went wrong, as one sentence for the user (`what()`), with the thing it concerns.
-class Error : public std::runtime_error {
+class QUADRILLE_API Error : public std::runtime_error {
  public:
   enum class Kind {
     usage,     ///< the caller asked for something that makes no sense (the command exits with 2)

@@ -5,9 +5,11 @@
 
 #include <charconv>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <vector>
 
 namespace quadrille {
 
@@ -32,23 +34,33 @@ std::filesystem::path own_folder() {
   return {};
 }
 
+/// Where modules may lie, the first place that has one counts.
+std::vector<std::filesystem::path> module_folders(const std::filesystem::path& own) {
+  // Whoever links the library into a program that lies elsewhere names the folder; not heeded by programs
+  // that run with more rights than their user has.
+  if (const char* named = ::secure_getenv("QUADRILLE_MODULES"); named != nullptr && named[0] == '/')
+    return {named};
+  // Beside the program or library in the build tree and in bundles; installed, beneath the library's folder.
+  return {own, own / "quadrille", own / QUADRILLE_MODULES_FROM_COMMAND, QUADRILLE_MODULES_FOLDER};
+}
+
 void* open_library(const std::string& name) {
   const std::filesystem::path own = own_folder();
   if (!own.is_absolute())
     throw failure(name, fmt::format("{} cannot be looked for: /proc/self/maps does not tell where this "
                                     "program lies (is /proc mounted?)",
                                     name));
-  // In the build tree and in packages of ours beside the program or library, installed where CMake put them.
-  for (const std::string_view place : {"", QUADRILLE_INSTALLED_MODULES}) {
-    const std::filesystem::path candidate = (own / place / name).lexically_normal();
+  std::vector<std::string> looked_in;
+  for (const std::filesystem::path& folder : module_folders(own)) {
+    const std::filesystem::path candidate = (folder / name).lexically_normal();
+    looked_in.push_back(candidate.parent_path().string());
     std::error_code ignored;
     if (!std::filesystem::exists(candidate, ignored)) continue;
     if (void* handle = ::dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
     throw failure(name, fmt::format("{} cannot be loaded: {}", candidate.string(), ::dlerror()));
   }
-  throw failure(name,
-                fmt::format("{}, which this format needs, is neither in {} nor in {}", name, own.string(),
-                            (own / QUADRILLE_INSTALLED_MODULES).lexically_normal().string()));
+  throw failure(name, fmt::format("{}, which this format needs, is in none of the folders {}", name,
+                                  fmt::join(looked_in, ", ")));
 }
 
 }  // namespace

@@ -15,8 +15,9 @@ namespace quadrille {
 class Module {
  public:
   /// Opens lib<prefix>.so of the folder of the program or library that holds this code or, where it is not
-  /// there, of the folder that modules are installed to beside it: never from the current folder or from what
-  /// the environment names. Throws Error (failure) when it is missing or of another version.
+  /// there, of the folder that modules are installed to: never from the current folder. The environment
+  /// variable QUADRILLE_MODULES, a whole path, names another folder, which is then the only one. Throws Error
+  /// (failure) when it is missing or of another version.
   explicit Module(const std::string& prefix);
 
   /// The function <prefix><name>, exported with C linkage. Throws Error (failure) when the module lacks it.

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/base/api.hpp"
 #include "geometry/base/execution_context.hpp"
 #include "geometry/base/vector.hpp"
 
@@ -25,7 +26,7 @@ struct ReadOptions {
 };
 
 /// A boundary-representation model. Copies share the shape, which is never modified.
-class CadModel {
+class QUADRILLE_API CadModel {
  public:
   /// Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep, .brp); lengths are converted to
   /// millimetres. Throws Error (failure) with one sentence when the file is missing, is not CAD, or holds no

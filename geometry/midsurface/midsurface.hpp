@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/base/api.hpp"
 #include "geometry/base/execution_context.hpp"
 #include "geometry/cad/cad_model.hpp"
 
@@ -49,6 +50,7 @@ struct MidSurface {
 /// sentence: where the model holds no solid, a solid is not thin, or, without options.partial, where more
 /// than a twentieth of the volume is not in walls, or the result is checked and found not connected or with
 /// free edges inside the material; cancelled. Deterministic.
-MidSurface midsurface(const CadModel& model, const MidSurfaceOptions& options, ExecutionContext& context);
+QUADRILLE_API MidSurface midsurface(const CadModel& model, const MidSurfaceOptions& options,
+                                    ExecutionContext& context);
 
 }  // namespace quadrille

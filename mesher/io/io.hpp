@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "geometry/base/api.hpp"
 #include "mesher/mesh/criteria.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 #include "mesher/options.hpp"
@@ -16,30 +17,31 @@ namespace quadrille {
 /// groups named as in FreeCAD (Face3, Edge7, Vertex2), as far as options.groups wants them. Numbering is
 /// dense from 1. The file appears whole or not at all. What the formats hold: docs/formats.md. Throws Error:
 /// usage as check_format() does, failure when the file cannot be written.
-void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path, const WriteOptions& options = {});
+QUADRILLE_API void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path,
+                              const WriteOptions& options = {});
 
 /// Throws Error (usage) where no such file can hold the mesh: for unknown endings, for quads of nine nodes in
 /// .inp, .unv and .bdf files, for .med files with names of more than 64 bytes without the ending.
 /// \param quad_nodes 4, 8 or 9.
-void check_format(const std::filesystem::path& path, int quad_nodes);
+QUADRILLE_API void check_format(const std::filesystem::path& path, int quad_nodes);
 
 /// True if write_mesh knows the file's ending.
-bool is_mesh_format(const std::filesystem::path& path);
+QUADRILLE_API bool is_mesh_format(const std::filesystem::path& path);
 
 /// True where solvers read such files: .inp, .unv, .med, .bdf.
-bool is_solver_format(const std::filesystem::path& path);
+QUADRILLE_API bool is_solver_format(const std::filesystem::path& path);
 
 /// Reads a surface mesh: Gmsh .msh (2.2 and 4.1, ASCII and binary) or Abaqus/CalculiX .inp.
 /// Throws Error (failure) with one sentence that names the line, element or node at fault.
-ShellMesh read_mesh(const std::filesystem::path& path);
+QUADRILLE_API ShellMesh read_mesh(const std::filesystem::path& path);
 
 /// The measures of a mesh as a JSON object, named as in the report of the command, with nodes, quads,
 /// triangles and criteria beside them.
-std::string quality_json(const ShellMesh& mesh, const CriteriaLimits& limits = {});
+QUADRILLE_API std::string quality_json(const ShellMesh& mesh, const CriteriaLimits& limits = {});
 
 /// Draws the mesh, quads coloured by q, sides drawn, with a colour bar, into a PNG. Works without a screen.
 /// Throws Error (failure) when the picture cannot be drawn.
-void write_picture(const ShellMesh& mesh, const std::filesystem::path& path, int width = 1600,
-                   int height = 1200);
+QUADRILLE_API void write_picture(const ShellMesh& mesh, const std::filesystem::path& path, int width = 1600,
+                                 int height = 1200);
 
 }  // namespace quadrille

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "geometry/base/api.hpp"
 #include "mesher/mesh/criteria.hpp"
 
 namespace quadrille {
@@ -12,6 +13,6 @@ namespace quadrille {
 /// criterion with its name, 1 or 0 (checked or not) and the columns weight, ideal, good, warn, fail, worst,
 /// of which `fail` counts; criteria of it that are not measured here go to CriteriaLimits::not_measured.
 /// Throws Error (failure) with one sentence that names the file and what is wrong with it.
-CriteriaLimits read_limits(const std::filesystem::path& path);
+QUADRILLE_API CriteriaLimits read_limits(const std::filesystem::path& path);
 
 }  // namespace quadrille

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "geometry/base/api.hpp"
 #include "geometry/midsurface/midsurface.hpp"
 
 namespace quadrille {
@@ -11,9 +12,9 @@ namespace quadrille {
 /// for each face its area, thickness (mean, least and largest) and the solid's faces that it lies between,
 /// and the checks. The file appears whole or not at all. Throws Error: usage for an unknown ending, failure
 /// when the file cannot be written.
-void write_midsurface(const MidSurface& middle, const std::filesystem::path& path);
+QUADRILLE_API void write_midsurface(const MidSurface& middle, const std::filesystem::path& path);
 
 /// True if write_midsurface knows the file's ending.
-bool is_midsurface_format(const std::filesystem::path& path);
+QUADRILLE_API bool is_midsurface_format(const std::filesystem::path& path);
 
 }  // namespace quadrille

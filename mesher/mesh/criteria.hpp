@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/base/api.hpp"
 #include "geometry/base/vector.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
@@ -47,7 +48,7 @@ constexpr std::array<CriterionInfo, criterion_count> criteria_info{{{"aspect", "
                                                                     {"taper", "", 0, 0.6}}};
 
 /// A limit a criterion; NaN = not checked.
-struct CriteriaLimits {
+struct QUADRILLE_API CriteriaLimits {
   static constexpr double unchecked = std::numeric_limits<double>::quiet_NaN();
 
   CriteriaValues values = usual();
@@ -67,7 +68,8 @@ struct CriteriaLimits {
 };
 
 /// All criteria of the quad a, b, c, d.
-CriteriaValues measure_criteria(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
+QUADRILLE_API CriteriaValues measure_criteria(const Vector3& a, const Vector3& b, const Vector3& c,
+                                              const Vector3& d);
 
 /// Which quads of a mesh fail, and how.
 struct CriteriaSummary {
@@ -92,7 +94,7 @@ struct CriteriaSummary {
 };
 
 /// \param worst_count at most so many of the worst quads are listed. Complexity: linear in the mesh.
-CriteriaSummary check_criteria(const ShellMesh& mesh, const CriteriaLimits& limits = {},
-                               int worst_count = 10);
+QUADRILLE_API CriteriaSummary check_criteria(const ShellMesh& mesh, const CriteriaLimits& limits = {},
+                                             int worst_count = 10);
 
 }  // namespace quadrille

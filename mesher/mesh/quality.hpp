@@ -8,6 +8,7 @@
 #include <array>
 #include <vector>
 
+#include "geometry/base/api.hpp"
 #include "geometry/base/vector.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
@@ -15,10 +16,11 @@ namespace quadrille {
 
 /// q of the quad a, b, c, d in [0, 1]; reflex corners (against the mean normal) count with their angle over
 /// pi.
-double quad_q(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
+QUADRILLE_API double quad_q(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
 
 /// Scaled Jacobian of the quad, in [-1, 1].
-double quad_scaled_jacobian(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
+QUADRILLE_API double quad_scaled_jacobian(const Vector3& a, const Vector3& b, const Vector3& c,
+                                          const Vector3& d);
 
 struct QualitySummary {
   int nodes = 0;  ///< nodes used
@@ -40,9 +42,9 @@ struct QualitySummary {
 };
 
 /// Complexity: linear in the mesh, plus sorting of the sides.
-QualitySummary quality(const ShellMesh& mesh);
+QUADRILLE_API QualitySummary quality(const ShellMesh& mesh);
 
 /// q of each quad of the mesh.
-std::vector<double> quad_qualities(const ShellMesh& mesh);
+QUADRILLE_API std::vector<double> quad_qualities(const ShellMesh& mesh);
 
 }  // namespace quadrille

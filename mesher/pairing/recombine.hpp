@@ -1,6 +1,7 @@
 #pragma once
 /// Triangles into quads by edge colouring.
 
+#include "geometry/base/api.hpp"
 #include "geometry/base/execution_context.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 #include "mesher/pairing/recombine_options.hpp"
@@ -19,6 +20,7 @@ namespace quadrille {
 /// naming the triangle when the mesh is not manifold or not oriented alike. Deterministic for input, options
 /// and seed, whatever the thread count. Time: linear in practice. Based on: Giuliani & Krivodonova, Fast
 /// unstructured quadrilateral mesh generation (2018).
-QuadMesh recombine(const TriangleMesh& mesh, const RecombineOptions& options, ExecutionContext& context);
+QUADRILLE_API QuadMesh recombine(const TriangleMesh& mesh, const RecombineOptions& options,
+                                 ExecutionContext& context);
 
 }  // namespace quadrille

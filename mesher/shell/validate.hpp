@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/base/api.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
@@ -13,16 +14,16 @@ namespace quadrille {
 
 /// Indices in range, no repeated node in an element, manifold (at most two triangles a side), oriented alike,
 /// no unused point, no triangle of area zero.
-std::vector<std::string> validate(const TriangleMesh& mesh);
+QUADRILLE_API std::vector<std::string> validate(const TriangleMesh& mesh);
 
 /// As for triangles; `require_convex` asks for positive scaled Jacobians too.
-std::vector<std::string> validate(const QuadMesh& mesh, bool require_convex = false);
+QUADRILLE_API std::vector<std::string> validate(const QuadMesh& mesh, bool require_convex = false);
 
 /// All quads; indices in range; no unused, repeated or coincident node (within 1e-9 of the diagonal); each
 /// side that is not on a CAD edge has exactly two elements of the same face, oriented alike; positive scaled
 /// Jacobians; midside nodes shared, second-order elements with a positive Jacobian everywhere; each side on a
 /// CAD edge is listed once in `segments`; corners listed once. \param closed ask that every side have at
 /// least two elements (a watertight shell).
-std::vector<std::string> validate(const ShellMesh& mesh, bool closed = false);
+QUADRILLE_API std::vector<std::string> validate(const ShellMesh& mesh, bool closed = false);
 
 }  // namespace quadrille

@@ -6,8 +6,9 @@ Knows nothing of FreeCAD and needs only the standard library.
 """
 
 import json
+import operator
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Union
+from typing import Any, Dict, List, Optional, SupportsIndex, Union
 
 from .errors import Error
 
@@ -49,9 +50,9 @@ class MeshSettings(Dict[str, Any]):
         return {name: value for name, value in self.items() if name not in _WITHOUT_EFFECT_ON_THE_MESH}
 
 
-def face_name(face: Union[int, str]) -> str:
-    """3 and "Face3" as "Face3"."""
-    return f"Face{face}" if isinstance(face, int) else str(face)
+def face_name(face: Union[int, str, SupportsIndex]) -> str:
+    """3, NumPy's too, and "Face3" as "Face3"."""
+    return face if isinstance(face, str) else f"Face{operator.index(face)}"
 
 
 def _text(kind: str, value: Any) -> str:
@@ -60,7 +61,7 @@ def _text(kind: str, value: Any) -> str:
     if kind == "words":
         return ",".join(value)
     if kind == "sizes":
-        return ",".join(f"{name}={size!r}" for name, size in value.items())
+        return ",".join(f"{name}={float(size)!r}" for name, size in value.items())
     return repr(float(value)) if isinstance(value, float) else str(value)
 
 

@@ -1,0 +1,53 @@
+# What `cmake --install` puts where. Each component is a package of its own; see docs/install.md.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS quadrille RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
+install(TARGETS ${MODULES} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/quadrille COMPONENT library)
+
+# The library: what mesher/quadrille.hpp and mesher/settings.hpp include, and nothing else.
+set(PUBLIC_HEADERS
+  geometry/base/api.hpp geometry/base/error.hpp geometry/base/execution_context.hpp geometry/base/trimmed_domain.hpp
+  geometry/base/vector.hpp geometry/cad/cad_model.hpp geometry/midsurface/midsurface.hpp
+  geometry/sizing/element_count.hpp geometry/sizing/sizing_field.hpp geometry/sizing/sizing_options.hpp
+  mesher/estimate.hpp mesher/io/io.hpp mesher/io/limits_reader.hpp mesher/io/midsurface_writer.hpp
+  mesher/mesh/criteria.hpp mesher/mesh/mesh_types.hpp mesher/mesh/quality.hpp mesher/options.hpp
+  mesher/pairing/recombine.hpp mesher/pairing/recombine_options.hpp mesher/quadrille.hpp
+  mesher/quads/improve_options.hpp mesher/settings.hpp mesher/shell/validate.hpp)
+foreach(header ${PUBLIC_HEADERS})
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/quadrille/${folder} COMPONENT development)
+endforeach()
+install(TARGETS quadrille_library EXPORT quadrille-targets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development)
+set(CONFIG_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/quadrille)
+install(EXPORT quadrille-targets NAMESPACE quadrille:: DESTINATION ${CONFIG_FOLDER} COMPONENT development)
+configure_package_config_file(cmake/quadrille-config.cmake.in ${PROJECT_BINARY_DIR}/quadrille-config.cmake
+  INSTALL_DESTINATION ${CONFIG_FOLDER})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/quadrille-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/quadrille-config.cmake ${PROJECT_BINARY_DIR}/quadrille-config-version.cmake
+  DESTINATION ${CONFIG_FOLDER} COMPONENT development)
+
+if(QUADRILLE_PYTHON)
+  # Where Debian's interpreter looks: for packages, for the administrator, or else in a prefix of one's own.
+  set(python lib/python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR})
+  if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    set(python_folder lib/python3/dist-packages)
+  elseif(CMAKE_INSTALL_PREFIX STREQUAL "/usr/local")
+    set(python_folder ${python}/dist-packages)
+  else()
+    set(python_folder ${python}/site-packages)
+  endif()
+  set(QUADRILLE_PYTHON_FOLDER ${python_folder} CACHE STRING "Where the Python package is installed, under the prefix")
+  install(DIRECTORY workbench/quadrille DESTINATION ${QUADRILLE_PYTHON_FOLDER} COMPONENT python
+    PATTERN "__pycache__" EXCLUDE)
+  install(TARGETS quadrille_python LIBRARY DESTINATION ${QUADRILLE_PYTHON_FOLDER}/quadrille COMPONENT python)
+endif()
+
+# The FreeCAD addon: Debian's FreeCAD looks here; others take a copy, see install-addon.sh.
+install(DIRECTORY workbench/ DESTINATION ${CMAKE_INSTALL_DATADIR}/freecad/Mod/Quadrille COMPONENT addon
+  PATTERN "*.cpp" EXCLUDE PATTERN "*.hpp" EXCLUDE PATTERN "__pycache__" EXCLUDE)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/freecad/Mod/Quadrille COMPONENT addon)
+
+if(QUADRILLE_PACKAGES)
+  include(cmake/packages.cmake)
+endif()

@@ -1,0 +1,132 @@
+"""Meshes from arrays, read, recombined, pickled, shown in notebooks; and the stubs that editors read."""
+
+import ast
+import os
+import pickle
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import quadrille
+
+MODELS = Path(os.environ["QUADRILLE_MODELS"])
+#: A square of 2 x 2 with a point in its middle at (1, 1).
+POINTS = np.array([(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (1, 1, 0)], float)
+
+
+def grid(n):
+    """Points and triangles of the unit square, two a cell."""
+    points = [(i / n, j / n, 0) for j in range(n + 1) for i in range(n + 1)]
+    at = lambda i, j: j * (n + 1) + i
+    triangles = []
+    for j in range(n):
+        for i in range(n):
+            triangles += [(at(i, j), at(i + 1, j), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i, j + 1))]
+    return np.array(points), np.array(triangles)
+
+
+class ArraysTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.model = quadrille.read(MODELS / "bracket.step")
+
+    def same(self, one, two):
+        for name in ("points", "quads", "face_ids", "triangles", "triangle_face_ids", "segments", "corners"):
+            np.testing.assert_array_equal(getattr(one, name), getattr(two, name), name)
+        self.assertEqual(one.order, two.order)
+
+    def test_mesh_of_arrays_is_the_mesh(self):
+        for order in (1, 2):
+            mesh = quadrille.mesh(self.model, size=8, order=order)
+            again = quadrille.Mesh(mesh.points, mesh.quads, face_ids=mesh.face_ids, segments=mesh.segments,
+                                   corners=mesh.corners)
+            self.same(mesh, again)
+            self.assertEqual(mesh.quality(), again.quality())
+
+    def test_quality_of_arrays(self):
+        mesh = quadrille.Mesh(POINTS, [[0, 1, 2, 3]])
+        self.assertEqual(mesh.quality()["quads"], 1)
+        self.assertAlmostEqual(mesh.qualities()[0], 1)
+        self.assertEqual(list(mesh.face_ids), [0])
+
+    def test_wrong_arrays_are_named(self):
+        for arguments, part in (
+            (dict(points=POINTS[:, :2], quads=[[0, 1, 2, 3]]), "points must be an array of the shape (any, 3)"),
+            (dict(points=POINTS * np.nan, quads=[[0, 1, 2, 3]]), "points[0] is not finite"),
+            (dict(points=POINTS, quads=[[0, 1, 2]]), "quads must be"),
+            (dict(points=POINTS, quads=[[0, 1, 2, 5]]), "quads[0] has the node 5, but there are 5 points"),
+            (dict(points=POINTS, quads=[[0, 1, 2, -1]]), "quads[0] has the node -1"),
+            (dict(points=POINTS, quads=[[0.0, 1, 2, 3]]), "quads must hold whole numbers"),
+            (dict(points=POINTS, quads=[[0, 1, 2, 3]], face_ids=[1, 2]), "face_ids must be"),
+            (dict(points=POINTS, quads=[[0, 1, 2, 3]], face_ids=[-1]), "face_ids[0] is -1"),
+            (dict(points=POINTS, quads=[[0, 1, 2, 3]], segments=[[0, 1, 9, 1]]), "midside node 9"),
+        ):
+            with self.subTest(part=part), self.assertRaises(quadrille.Error) as caught:
+                quadrille.Mesh(**arguments)
+            self.assertIn(part, str(caught.exception))
+            self.assertEqual(caught.exception.kind, "usage")
+
+    def test_pickle(self):
+        for order in (1, 2):
+            mesh = quadrille.mesh(self.model, size=8, order=order)
+            again = pickle.loads(pickle.dumps(mesh))
+            self.same(mesh, again)
+            self.assertEqual(mesh.faces, again.faces)
+
+    def test_read_mesh(self):
+        mesh = quadrille.mesh(self.model, size=8, order=2)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "a.msh"
+            mesh.write(path)
+            self.same(mesh, quadrille.read_mesh(path))
+            with self.assertRaises(quadrille.Error):
+                quadrille.read_mesh(Path(folder) / "missing.msh")
+
+    def test_recombine(self):
+        points, triangles = grid(8)
+        for improve in (True, False):
+            mesh = quadrille.recombine(points, triangles, improve=improve)
+            self.assertEqual(len(mesh.quads), 64)
+            self.assertEqual(len(mesh.triangles), 0)
+            self.assertGreater(mesh.quality()["sj_min"], 0)
+        np.testing.assert_array_equal(mesh.points, points)
+        tags = np.where(np.arange(128) % 16 < 8, 1, 2)  # the left half, the right half
+        mesh = quadrille.recombine(points, triangles, tags=tags)
+        self.assertEqual({int(tag): int((mesh.face_ids == tag).sum()) for tag in set(mesh.face_ids)}, {1: 32, 2: 32})
+        left = mesh.points[mesh.quads[mesh.face_ids == 1]][:, :, 0]
+        self.assertLessEqual(left.max(), 0.5 + 1e-12)
+        with self.assertRaisesRegex(quadrille.Error, "no triangles"):
+            quadrille.recombine(points, np.empty((0, 3), int))
+
+    def test_faces_by_numpy_numbers(self):
+        mesh = quadrille.mesh(self.model, size=8, faces=np.array([1, 3]))
+        self.assertEqual(set(mesh.face_ids), {1, 3})
+        from quadrille.settings import MeshSettings
+
+        self.assertEqual(MeshSettings(faces=np.array([1, 3]), sizes={"Face1": np.float32(0.5)}).arguments(),
+                         ["--faces", "Face1,Face3", "--size-on", "Face1=0.5"])
+
+    def test_notebooks_show_a_picture(self):
+        text = quadrille.mesh(self.model, size=8)._repr_html_()
+        self.assertIn('src="data:image/png;base64,iVBOR', text)
+        self.assertIn("&lt;quadrille.Mesh: ", text)
+
+    def test_stubs_are_of_what_there_is(self):
+        tree = ast.parse(Path(quadrille.__file__).with_name("__init__.pyi").read_text())
+        functions = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
+        classes = {node.name: node for node in tree.body if isinstance(node, ast.ClassDef)}
+        self.assertEqual(set(functions) | set(classes) | {"Error", "__version__"}, set(quadrille.__all__))
+        for name, node in classes.items():
+            stubbed = {item.name if isinstance(item, ast.FunctionDef) else item.target.id for item in node.body}
+            there = {item for item in vars(getattr(quadrille, name)) if not item.startswith("_")}
+            self.assertEqual({item for item in stubbed if not item.startswith("_")}, there, name)
+        for use, node in (("read", functions["read"]), ("mesh", functions["mesh"]),
+                          ("write", next(item for item in classes["Mesh"].body if getattr(item, "name", "") == "write"))):
+            stubbed = {argument.arg for argument in node.args.kwonlyargs} - {"progress", "isolated", "title"}
+            self.assertEqual(stubbed, {setting["name"] for setting in quadrille.settings() if setting["use"] == use})
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+from os import PathLike
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, SupportsIndex, Tuple, Union
+
+from numpy import float64, int32
+from numpy.typing import ArrayLike, NDArray
+
+from .errors import Error as Error
+
+__version__: str
+
+_Path = Union[str, PathLike[str]]
+_Progress = Callable[[str, float], Optional[bool]]
+_Limits = Union[str, PathLike[str], None]
+
+class Model:
+    face_count: int
+    edge_count: int
+    vertex_count: int
+    solid_count: int
+    shell_count: int
+    diagonal: float
+    area: float
+    problems: List[str]
+    box: Tuple[List[float], List[float]]
+
+class Mesh:
+    order: int
+    points: NDArray[float64]
+    quads: NDArray[int32]
+    face_ids: NDArray[int32]
+    triangles: NDArray[int32]
+    triangle_face_ids: NDArray[int32]
+    segments: NDArray[int32]
+    corners: NDArray[int32]
+    faces: List[Dict[str, Any]]
+    def __init__(
+        self,
+        points: ArrayLike,
+        quads: ArrayLike,
+        *,
+        triangles: Optional[ArrayLike] = None,
+        face_ids: Optional[ArrayLike] = None,
+        triangle_face_ids: Optional[ArrayLike] = None,
+        segments: Optional[ArrayLike] = None,
+        corners: Optional[ArrayLike] = None,
+    ) -> None: ...
+    def quality(self, limits: _Limits = None) -> Dict[str, Any]: ...
+    def qualities(self) -> NDArray[float64]: ...
+    def write(
+        self,
+        path: _Path,
+        *,
+        title: str = "",
+        msh_version: Optional[str] = None,
+        nodes: Optional[int] = None,
+        groups: Optional[Sequence[str]] = None,
+    ) -> None: ...
+    def picture(self, path: _Path, *, width: int = 1600, height: int = 1200) -> None: ...
+    def _repr_html_(self) -> str: ...
+
+class MidSurface:
+    model: Model
+    faces: List[Dict[str, Any]]
+    volume: float
+    shell_volume: float
+    parts: int
+    free_edges: int
+    unpaired: List[int]
+    problems: List[str]
+    def write(self, path: _Path) -> None: ...
+
+def read(
+    path: _Path, *, isolated: bool = True, sew: Optional[float] = None, read_time_limit: Optional[float] = None
+) -> Model: ...
+def read_brep(
+    text: str,
+    name: str = "shape",
+    *,
+    isolated: bool = True,
+    sew: Optional[float] = None,
+    read_time_limit: Optional[float] = None,
+) -> Model: ...
+def read_mesh(path: _Path) -> Mesh: ...
+def mesh(
+    model: Model,
+    *,
+    progress: Optional[_Progress] = None,
+    size: Optional[float] = None,
+    elements_per_diagonal: Optional[float] = None,
+    size_min: Optional[float] = None,
+    elements_per_circle: Optional[float] = None,
+    growth: Optional[float] = None,
+    order: Optional[int] = None,
+    strategy: Optional[str] = None,
+    faces: Optional[Sequence[Union[str, SupportsIndex]]] = None,
+    sizes: Optional[Mapping[str, float]] = None,
+    size_field: Optional[_Path] = None,
+    merge_tiny: Optional[float] = None,
+    partial: Optional[bool] = None,
+    force: Optional[bool] = None,
+    time_limit: Optional[float] = None,
+    threads: Optional[int] = None,
+) -> Mesh: ...
+def midsurface(model: Model, *, partial: bool = False) -> MidSurface: ...
+def recombine(
+    points: ArrayLike, triangles: ArrayLike, *, tags: Optional[ArrayLike] = None, improve: bool = True, threads: int = 0
+) -> Mesh: ...
+def suggested_size(model: Model, quads: int = 5000) -> float: ...
+def settings() -> List[Dict[str, Any]]: ...
