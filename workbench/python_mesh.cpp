@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -155,8 +156,9 @@ py::array triangle_face_ids(const py::object& self) {
 py::tuple state_of(const py::object& self) {
   py::list faces;
   for (const ShellMesh::Face& face : mesh_of(self).mesh.faces)
-    faces.append(py::make_tuple(face.face, static_cast<int>(face.status), face.note, face.quads, face.q_min,
-                                face.seconds, face.off_geometry, face.off_geometry_max));
+    faces.append(py::make_tuple(face.face, static_cast<int>(face.status), face.note, face.work, face.share,
+                                face.attempts, face.quads, face.q_min, face.seconds, face.off_geometry,
+                                face.off_geometry_max));
   return py::make_tuple(self.attr("points"), self.attr("quads"), self.attr("triangles"),
                         self.attr("face_ids"), self.attr("triangle_face_ids"), self.attr("segments"),
                         self.attr("corners"), faces, mesh_of(self).mesh.thicknesses);
@@ -165,10 +167,12 @@ py::tuple state_of(const py::object& self) {
 PythonMesh from_state(const py::tuple& state) {
   PythonMesh result = mesh_of_arrays(state[0], state[1], state[2], state[3], state[4], state[5], state[6]);
   for (const py::handle entry : state[7]) {
-    const auto face = entry.cast<py::tuple>();
-    result.mesh.faces.push_back({face[0].cast<int>(), static_cast<FaceStatus>(face[1].cast<int>()),
-                                 face[2].cast<std::string>(), face[3].cast<int>(), face[4].cast<double>(),
-                                 face[5].cast<double>(), face[6].cast<int>(), face[7].cast<double>()});
+    using Kept =
+        std::tuple<int, int, std::string, std::int64_t, std::int64_t, int, int, double, double, int, double>;
+    const auto [number, status, note, work, share, attempts, quads, q_min, seconds, off, off_max] =
+        entry.cast<Kept>();
+    result.mesh.faces.push_back({number, static_cast<FaceStatus>(status), note, work, share, attempts, quads,
+                                 q_min, seconds, off, off_max});
   }
   result.mesh.thicknesses = state[8].cast<std::vector<double>>();
   return result;

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import quadrille
+from quadrille.settings import SETTINGS, MeshSettings
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
 #: A square of 2 x 2 with a point in its middle at (1, 1).
@@ -103,8 +104,6 @@ class ArraysTest(unittest.TestCase):
     def test_faces_by_numpy_numbers(self):
         mesh = quadrille.mesh(self.model, size=8, faces=np.array([1, 3]))
         self.assertEqual(set(mesh.face_ids), {1, 3})
-        from quadrille.settings import MeshSettings
-
         self.assertEqual(MeshSettings(faces=np.array([1, 3]), sizes={"Face1": np.float32(0.5)}).arguments(),
                          ["--faces", "Face1,Face3", "--size-on", "Face1=0.5"])
 
@@ -125,7 +124,7 @@ class ArraysTest(unittest.TestCase):
         for use, node in (("read", functions["read"]), ("mesh", functions["mesh"]),
                           ("write", next(item for item in classes["Mesh"].body if getattr(item, "name", "") == "write"))):
             stubbed = {argument.arg for argument in node.args.kwonlyargs} - {"progress", "isolated", "title"}
-            self.assertEqual(stubbed, {setting["name"] for setting in quadrille.settings() if setting["use"] == use})
+            self.assertEqual(stubbed, {setting["name"] for setting in SETTINGS if setting["use"] == use})
 
 
 if __name__ == "__main__":

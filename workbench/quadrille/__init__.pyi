@@ -98,6 +98,7 @@ def mesh(
     size_field: Optional[_Path] = None,
     merge_tiny: Optional[float] = None,
     partial: Optional[bool] = None,
+    keep_features: Optional[bool] = None,
     force: Optional[bool] = None,
     time_limit: Optional[float] = None,
     threads: Optional[int] = None,

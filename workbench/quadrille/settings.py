@@ -38,7 +38,8 @@ class MeshSettings(Dict[str, Any]):
         arguments: List[str] = []
         for setting in SETTINGS:
             value = self.get(setting["name"])
-            if value is None or (setting["kind"] in ("flag", "names", "sizes", "file") and not value):
+            if value is None or (setting["kind"] in ("names", "sizes") and len(value) == 0) or (
+                    setting["kind"] in ("flag", "file") and not value):
                 continue
             arguments.append(setting["option"])
             if setting["kind"] != "flag":
