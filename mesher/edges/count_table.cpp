@@ -110,6 +110,15 @@ void CountTable::make_finer(double from, double to, double least) {
   }
 }
 
+void CountTable::raise_to(double density) {
+  double before = 0;
+  for (std::size_t i = 1; i < counts.size(); ++i) {
+    const double own = counts[i] - before;
+    before = counts[i];
+    counts[i] = counts[i - 1] + std::max(own, density * (lengths[i] - lengths[i - 1]));
+  }
+}
+
 CountTable tabulate(const CadEdge& edge, SizingField::Sampler& size_at) {
   return EdgeTabulator(edge, size_at).table;
 }

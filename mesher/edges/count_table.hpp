@@ -26,6 +26,9 @@ struct CountTable {
   /// Raises the count between two parameters to `least`, evenly; the rest of the edge keeps its own.
   void make_finer(double from, double to, double least);
 
+  /// Makes it at least so many segments to a length everywhere.
+  void raise_to(double density);
+
  private:
   static double interpolate(const std::vector<double>& from, double at, const std::vector<double>& to) {
     const auto it = std::lower_bound(from.begin(), from.end(), at);

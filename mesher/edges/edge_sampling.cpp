@@ -11,6 +11,7 @@
 #include "mesher/edges/face_sides.hpp"
 #include "mesher/edges/facing_sides.hpp"
 #include "mesher/edges/narrow_faces.hpp"
+#include "mesher/edges/strip_counts.hpp"
 
 namespace quadrille {
 
@@ -114,8 +115,13 @@ class EdgeSampler {
 
   BoundaryNodes run() {
     tabulate_edges();
-    result_.sides = find_face_sides(shape_, used_, plan_.tiny, wishes_.wanted);
-    const EdgeCounts chosen = choose_counts(wishes_, plan_.tiny, result_.sides);
+    const std::vector<FaceSides> found = find_face_sides(shape_, used_, plan_.tiny, wishes_.wanted);
+    result_.sides = found;
+    EdgeCounts chosen = choose_counts(wishes_, plan_.tiny, result_.sides);
+    if (refine_along_strips(shape_, result_.sides, chosen, tables_, wishes_)) {
+      result_.sides = found;
+      chosen = choose_counts(wishes_, plan_.tiny, result_.sides);
+    }
     counts_ = chosen.counts;
     result_.odd_faces = chosen.odd_faces;
     shares_ = space_chords(shape_, result_.sides, chosen.chords, tables_, counts_);

@@ -1,0 +1,63 @@
+#include "mesher/edges/strip_counts.hpp"
+
+#include <algorithm>
+
+namespace quadrille {
+
+namespace {
+
+constexpr double wanted_aspect = 4;  // the limit is 5
+constexpr double most = 3;           // times as many segments
+
+/// One direction of a face of four sides: mean length and count of the sides along it.
+struct Extent {
+  double length = 0;
+  int count = 0;
+};
+
+Extent extent_of(const CadShape& shape, const FacingPair& pair, const std::vector<int>& counts) {
+  Extent extent;
+  for (const Side* side : {&pair.first, &pair.second}) {
+    for (const SideEdge& edge : *side) extent.length += 0.5 * shape.edges[edge.edge].length;
+  }
+  for (const SideEdge& edge : pair.first) extent.count += counts[edge.edge];
+  return extent;
+}
+
+}  // namespace
+
+bool refine_along_strips(const CadShape& shape, const std::vector<FaceSides>& sides, const EdgeCounts& chosen,
+                         std::vector<CountTable>& tables, CountWishes& wishes) {
+  std::vector<double> densities(shape.edges.size(),
+                                0);  // (chords) segments to a whole edge, anywhere along it
+  for (const FaceSides& face : sides) {
+    if (face.outline != FaceSides::Outline::four || face.facing.size() != 2) continue;
+    for (const int k : {0, 1}) {
+      const Extent along = extent_of(shape, face.facing[k], chosen.counts),
+                   across = extent_of(shape, face.facing[1 - k], chosen.counts);
+      if (along.count == 0 || across.count == 0 || !(across.length > 0)) continue;
+      const double needed = along.length * across.count / (wanted_aspect * across.length);
+      if (needed > most * along.count) continue;
+      for (const Side* side : {&face.facing[k].first, &face.facing[k].second}) {
+        for (const SideEdge& edge : *side) {
+          double& of_chord = densities[chosen.chords.of(edge.edge)];
+          of_chord = std::max(of_chord, needed * shape.edges[edge.edge].length / along.length);
+        }
+      }
+    }
+  }
+  bool any = false;
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const double density = densities[chosen.chords.of(static_cast<int>(i))];
+    if (wishes.least[i] == 0 || density <= 0) continue;
+    const double before = tables[i].total();
+    tables[i].raise_to(density / tables[i].length());
+    constexpr double noticeable = 1.02;
+    if (tables[i].total() <= noticeable * before) continue;
+    wishes.wanted[i] = std::max(wishes.wanted[i], tables[i].total() / wishes.stride);
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,47 @@
+/// Counts along faces narrower than the size.
+
+#include "mesher/edges/strip_counts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <BRepPrimAPI_MakeBox.hxx>
+
+#include <memory>
+
+#include "mesher/quadrille.hpp"
+#include "mesher/shell/validate.hpp"
+
+namespace quadrille {
+namespace {
+
+ShellMesh mesh_of_plate(double thickness, double size) {
+  const CadModel plate(std::make_shared<CadShape>(BRepPrimAPI_MakeBox(60, 40, thickness).Shape(), "plate"));
+  MeshOptions options;
+  options.sizing.size = size;
+  options.sizing.growth = 2;  // sizes near the short edges do not reach far
+  ExecutionContext context(1);
+  return mesh(plate, options, context);
+}
+
+TEST(StripCounts, KeepsTheQuadsOfAThinRimWithinTheLimits) {
+  for (const double thickness : {0.9, 0.7, 0.5}) {
+    const ShellMesh mesh = mesh_of_plate(thickness, 5);
+    EXPECT_EQ(validate(mesh, true), std::vector<std::string>{});
+    EXPECT_EQ(check_criteria(mesh).failing, 0) << thickness;
+  }
+}
+
+/// Where it would take more than three times as many segments, there are no more than the size asks for.
+TEST(StripCounts, GivesUpWhereItWouldTakeFarMore) {
+  EXPECT_GT(mesh_of_plate(0.5, 5).quads.size(), mesh_of_plate(0.32, 5).quads.size());
+}
+
+TEST(StripCounts, RaisesATableWhereItIsLow) {
+  CountTable table{{0, 1, 2}, {0, 4, 5}, {0, 10, 20}, 0};
+  table.raise_to(0.3);
+  EXPECT_DOUBLE_EQ(table.counts[1], 4);
+  EXPECT_DOUBLE_EQ(table.total(), 7);
+}
+
+}  // namespace
+}  // namespace quadrille
