@@ -18,6 +18,7 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/element_count.hpp"
 #include "geometry/sizing/sizing_field.hpp"
+#include "geometry/surfaces/stray_edges.hpp"
 #include "mesher/edges/edge_sampling.hpp"
 #include "mesher/edges/let_go.hpp"
 #include "mesher/faces/boundary_crossings.hpp"
@@ -356,8 +357,12 @@ class Job {
 
 ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
   check({options, {}}, model);
+  for (const StrayEdge& stray : stray_edges(model.shape(), faces_used(model, options.faces)))
+    throw failure(fmt::format("Edge{}", stray.edge),
+                  stray.sentence(model.shape()) + "; `faces` can leave its faces out");
   const double size = size_limits(model, options.sizing).largest;
   SizingOptions sizing = options.sizing;
+  sizing.budget.bytes_an_element = Budget::bytes_an_element_of_order(options.order);
   if (options.force) sizing.budget = Budget::unlimited();
   Job job(model, options, size, context);
   return on_threads(context.threads(), [&] {

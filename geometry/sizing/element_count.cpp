@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/free_memory.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 
@@ -50,12 +51,26 @@ std::vector<FaceSample> sample_face(const CadShape& shape, const CadFace& face) 
   return samples;
 }
 
-void hold(double count, double limit) {
-  if (!(count > limit)) return;
-  throw usage_error("size",
-                    fmt::format("the sizes asked for give about {:.3g} million elements, more than {:g} "
-                                "million: `force` meshes all the same",
-                                count / 1e6, limit / 1e6));
+/// Blocks of the sizing field that a square of one voxel of a surface takes: the field about it is some six
+/// voxels thick, lies at all angles to the blocks, and is taken over by the coarser levels, each a quarter.
+constexpr double blocks_a_square = 3.3 / 64;
+
+/// The size asked for by itself on a face, where that is less than everywhere.
+double size_on(const SizingOptions& options, const SizeLimits& limits, int face) {
+  const auto own = options.face_sizes.find(face + 1);
+  return own == options.face_sizes.end() ? limits.largest : std::min(limits.largest, own->second);
+}
+
+/// Whether blocks about the faces that have sizes of their own could be more than the budget has, by the
+/// faces' boxes.
+bool may_pass_blocks(const CadShape& shape, const SizingOptions& options) {
+  double squares = 0;
+  for (const auto& [face, size] : options.face_sizes) {
+    Bnd_Box box;
+    BRepBndLib::Add(shape.faces[face - 1].face, box, Standard_False);
+    if (!box.IsVoid()) squares += 2 * box.SquareExtent() / (size * size);
+  }
+  return squares * blocks_a_square > options.budget.blocks;
 }
 
 }  // namespace
@@ -100,24 +115,52 @@ double count_elements(const std::vector<std::vector<FaceSample>>& samples,
 
 ElementBudget::ElementBudget(const CadModel& model, const SizingOptions& options,
                              const std::vector<char>& used, ExecutionContext& context)
-    : limit_(options.budget.elements) {
+    : budget_(options.budget), free_(budget_.bytes_an_element > 0 ? free_memory() : 0) {
   const SizeLimits limits = size_limits(model, options);
-  if (!(most_elements(model.shape(), used, limits.least, limit_, context) > limit_)) return;
+  const double limit = budget_.bytes_an_element > 0
+                           ? std::min(budget_.elements, free_ / budget_.bytes_an_element)
+                           : budget_.elements;
+  if (!(most_elements(model.shape(), used, limits.least, limit, context) > limit) &&
+      !may_pass_blocks(model.shape(), options))
+    return;
   samples_ = sample_faces(model.shape(), used, context);
-  hold(count_elements(samples_,
-                      [&](int face, const FaceSample& sample) {
-                        const auto own = options.face_sizes.find(face + 1);
-                        const double size = std::min(
-                            limits.largest, own == options.face_sizes.end() ? limits.largest : own->second);
-                        return std::min(size, size_of_curvature(options, limits, sample.curvature));
-                      }),
-       limit_);
+  hold(count_elements(samples_, [&](int face, const FaceSample& sample) {
+    return std::min(size_on(options, limits, face), size_of_curvature(options, limits, sample.curvature));
+  }));
+  hold_blocks(options, limits);
 }
 
 void ElementBudget::check(const SizingField& field) const {
   SizingField::Sampler size_at(field);
-  hold(count_elements(samples_, [&](int, const FaceSample& sample) { return size_at(sample.point); }),
-       limit_);
+  hold(count_elements(samples_, [&](int, const FaceSample& sample) { return size_at(sample.point); }));
+}
+
+void ElementBudget::hold(double count) const {
+  const double bytes = count * budget_.bytes_an_element;
+  if (count > budget_.elements)
+    throw usage_error("size",
+                      fmt::format("the sizes asked for give about {:.3g} million elements, more than {:g} "
+                                  "million: `force` meshes all the same",
+                                  count / 1e6, budget_.elements / 1e6));
+  if (budget_.bytes_an_element > 0 && bytes > free_)
+    throw usage_error(
+        "size", fmt::format("the sizes asked for give about {:.3g} million elements, which take {:.2g} GB "
+                            "of memory, and {:.2g} GB are free: `force` meshes all the same",
+                            count / 1e6, bytes / 1e9, free_ / 1e9));
+}
+
+void ElementBudget::hold_blocks(const SizingOptions& options, const SizeLimits& limits) const {
+  double blocks = 0;
+  for (std::size_t face = 0; face < samples_.size(); ++face) {
+    for (const FaceSample& sample : samples_[face]) {
+      const double size = std::min(size_on(options, limits, static_cast<int>(face)),
+                                   size_of_curvature(options, limits, sample.curvature));
+      if (!(size < limits.largest)) continue;
+      blocks +=
+          blocks_a_square * sample.area / std::pow(field_voxel(limits.largest, size, options.growth), 2);
+    }
+  }
+  if (blocks > budget_.blocks) throw too_many_blocks(blocks);
 }
 
 }  // namespace quadrille

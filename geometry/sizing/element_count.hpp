@@ -33,11 +33,12 @@ std::vector<std::vector<FaceSample>> sample_faces(const CadShape& shape, const s
 double count_elements(const std::vector<std::vector<FaceSample>>& samples,
                       const std::function<double(int face, const FaceSample&)>& size_at);
 
-/// Holds a run to Budget::elements. Where bounding boxes show that no size asked for can pass it, nothing is
-/// measured.
+/// Holds a run to its budget, and its elements to the memory that is free. Where bounding boxes show that no
+/// size asked for can pass it, nothing is measured.
 class ElementBudget {
  public:
-  /// Throws Error (usage), with the number, if the sizes asked for on faces and by curvature pass the budget.
+  /// Throws Error (usage), with the number, if the sizes asked for on faces and by curvature pass the budget,
+  /// be it that of elements or that of the sizing field.
   /// \param used (faces) 1 = meshed.
   ElementBudget(const CadModel& model, const SizingOptions& options, const std::vector<char>& used,
                 ExecutionContext& context);
@@ -46,7 +47,11 @@ class ElementBudget {
   void check(const SizingField& field) const;
 
  private:
-  double limit_;
+  void hold(double count) const;
+  void hold_blocks(const SizingOptions& options, const SizeLimits& limits) const;
+
+  Budget budget_;
+  double free_;                                   ///< bytes
   std::vector<std::vector<FaceSample>> samples_;  ///< empty where the budget cannot be passed
 };
 

@@ -53,8 +53,21 @@ constexpr int max_levels = 32;
 constexpr double usual_growth = 0.3;
 /// Slower growth is none: single precision does not tell.
 constexpr double least_growth = 1e-9;
+/// Blocks that a voxel's length of an edge takes: the field about it is some five voxels wide, and the
+/// coarser levels take it over, each a half.
+constexpr double blocks_a_voxel = 0.85;
 /// Of halving an edge or a face's parameters; the budget ends it before.
 constexpr int max_depth = 40;
+
+/// By how much voxels are wider than the sizes of their level.
+double widening(double growth) {
+  return std::max(1.0, usual_growth / std::max(growth, least_growth));
+}
+
+/// The level whose sizes lie between this one and twice it, counted from the coarsest.
+int level_for(double size_max, double size) {
+  return static_cast<int>(std::floor(std::min(std::log2(size_max / size), 1.0 * max_levels)));
+}
 
 /// Counts the leaves of a field against its budget.
 class BlockCount {
@@ -62,10 +75,7 @@ class BlockCount {
   explicit BlockCount(double most) : most_(most) {}
   void add() {
     if (++count_ <= most_) return;
-    throw usage_error("size",
-                      fmt::format("the sizes asked for need a sizing field of more than {:.3g} million "
-                                  "voxels: ask for larger ones, or `force` it",
-                                  most_ * Leaf::NUM_VALUES / 1e6));
+    throw too_many_blocks(count_);
   }
 
  private:
@@ -139,10 +149,8 @@ class SizingField::Impl {
       levels;  // for sizes about size_max / 2^k; null where no size is as small
 
   double size(int level) const { return std::ldexp(size_max, -level); }
-  double voxel(int level) const { return size(level) * std::max(1.0, usual_growth / growth); }
-  int level_of(double size) const {
-    return std::clamp(static_cast<int>(std::floor(std::log2(size_max / size))), 0, finest);
-  }
+  double voxel(int level) const { return size(level) * widening(growth); }
+  int level_of(double size) const { return std::clamp(level_for(size_max, size), 0, finest); }
   Root& grid(int level) {
     if (static_cast<int>(levels.size()) <= level) levels.resize(level + 1);
     if (!levels[level]) levels[level] = std::make_unique<Root>(static_cast<float>(size_max));
@@ -256,20 +264,23 @@ class Builder {
     return std::min(cap, std::max(edge.length, field_.size_min));
   }
 
-  /// Throws Error (usage) if the edges' lengths alone pass the budget of segments.
+  /// Throws Error (usage) if the edges' lengths alone pass the budget of segments, or that of blocks.
   void hold_segments() const {
-    double sum = 0, most = 0;
+    double sum = 0, most = 0, blocks = 0;
     std::size_t longest = 0;
     for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
       const CadEdge& edge = shape_.edges[i];
       if (edge.degenerate || edge.faces.empty() || !(edge.length > 0)) continue;
       const double segments = edge.length / cap_of(edge);
       sum += segments;
+      if (cap_of(edge) < field_.size_max)
+        blocks += blocks_a_voxel * edge.length / field_voxel(field_.size_max, cap_of(edge), field_.growth);
       if (segments <= most) continue;
       most = segments;
       longest = i;
     }
     if (sum > options_.budget.segments) throw too_many_segments(longest, most);
+    if (blocks > options_.budget.blocks) throw too_many_blocks(blocks);
   }
 
   Error too_many_segments(std::size_t edge, double segments) const {
@@ -480,6 +491,17 @@ SizingField SizingField::build(const CadModel& model, const SizingOptions& optio
   impl->finest = std::min(bits, max_levels - 1);
   Builder(model, options, unsized, *impl, context).run();
   return SizingField(std::move(impl));
+}
+
+double field_voxel(double size_max, double size, double growth) {
+  return std::ldexp(size_max, -level_for(size_max, size)) * widening(growth);
+}
+
+Error too_many_blocks(double blocks) {
+  return usage_error(
+      "size", fmt::format("the sizes asked for need a sizing field of {:.3g} million voxels or more: ask "
+                          "for larger ones, or `force` it",
+                          blocks * Leaf::NUM_VALUES / 1e6));
 }
 
 SizeLimits size_limits(const CadModel& model, const SizingOptions& options) {

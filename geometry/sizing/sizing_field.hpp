@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/base/error.hpp"
 #include "geometry/base/execution_context.hpp"
 #include "geometry/base/vector.hpp"
 #include "geometry/cad/cad_model.hpp"
@@ -28,6 +29,12 @@ struct UnsizedFeatures {
   bool edge(std::size_t index) const { return index < edges.size() && edges[index] != 0; }
   bool face(std::size_t index) const { return index < faces.size() && faces[index] != 0; }
 };
+
+/// The width of the voxels that hold a size in a field whose largest is `size_max`.
+double field_voxel(double size_max, double size, double growth);
+
+/// That a field would take so many blocks (see Budget), or more.
+Error too_many_blocks(double blocks);
 
 /// h(x): the largest size that respects every source and the gradation |grad h| <= growth.
 ///

@@ -13,10 +13,14 @@ struct Budget {
   double elements = 50e6;
   double segments = 5e6;  ///< of all edges
   double blocks = 4e5;    ///< of 512 voxels (2.1 kB) in the sizing field
+  /// What an element takes at most while it is made, as measured on parts of half a million; all of them must
+  /// fit into the memory that is free.
+  double bytes_an_element = bytes_an_element_of_order(1);
 
+  static constexpr double bytes_an_element_of_order(int order) { return order == 2 ? 500 : 200; }
   static Budget unlimited() {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    return {infinity, infinity, infinity};
+    return {infinity, infinity, infinity, 0};
   }
 };
 

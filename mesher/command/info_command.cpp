@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/surfaces/stray_edges.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/setting_options.hpp"
 #include "mesher/quadrille.hpp"
@@ -9,6 +13,18 @@
 namespace quadrille::command {
 
 namespace {
+
+void add_sizes(const CadModel& model, ExecutionContext& context,
+               const std::function<void(std::string_view, const std::string&)>& line) {
+  QuadEstimate estimate(model, context);
+  double before = 0;
+  for (const double quads : {1e3, 1e4, 1e5}) {
+    const QuadEstimate::Suggestion found = estimate.size_for(quads);
+    if (found.size == before) continue;  // the model's own edges take more
+    before = found.size;
+    line("size", fmt::format("--size {:g} for about {:.0f} quads", found.size, found.quads));
+  }
+}
 
 std::string describe(const CadModel& model, ExecutionContext& context) {
   std::string text;
@@ -25,15 +41,10 @@ std::string describe(const CadModel& model, ExecutionContext& context) {
                           high.x(), high.y(), high.z()));
   line("diagonal", fmt::format("{:.6g} mm", model.diagonal()));
   line("area", fmt::format("{:.6g} mm2", model.area()));
-  QuadEstimate estimate(model, context);
-  double before = 0;
-  for (const double quads : {1e3, 1e4, 1e5}) {
-    const QuadEstimate::Suggestion found = estimate.size_for(quads);
-    if (found.size == before) continue;  // the model's own edges take more
-    before = found.size;
-    line("size", fmt::format("--size {:g} for about {:.0f} quads", found.size, found.quads));
-  }
-  if (model.problems().empty()) line("problems", "none found");
+  const auto strays = stray_edges(model.shape(), std::vector<char>(model.face_count(), 1));
+  if (strays.empty()) add_sizes(model, context, line);
+  for (const StrayEdge& stray : strays) line("problem", stray.sentence(model.shape()));
+  if (model.problems().empty() && strays.empty()) line("problems", "none found");
   for (const std::string& problem : model.problems()) line("problem", problem);
   return text;
 }

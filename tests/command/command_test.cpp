@@ -111,8 +111,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"mesh IN OUT --order 3", 2, "--order"}, Mistake{"mesh IN OUT --order 0", 2, "--order"},
         Mistake{"mesh IN OUT --threads -1", 2, "--threads"},
         Mistake{"mesh IN OUT --strategy best", 2, "--strategy"}, Mistake{"mesh IN OUT --seed 1", 2, "--seed"},
-        Mistake{"recombine IN OUT --seed -1", 2, "--seed"}, Mistake{"mesh IN OUT --size \'\'", 2, "--size"},
-        Mistake{"mesh IN OUT --size-min 3", 2, "--size-min"},
+        Mistake{"recombine IN OUT --seed -1", 2, "a whole number from 0"},
+        Mistake{"recombine IN OUT --seed 99999999999999999999", 2, "a whole number from 0"},
+        Mistake{"mesh IN OUT --size \'\'", 2, "--size"}, Mistake{"mesh IN OUT --size-min 3", 2, "--size-min"},
         Mistake{"mesh IN OUT --threads 1.5", 2, "--threads"},
         Mistake{"mesh IN OUT --faces \'\'", 2, "--faces"},
         Mistake{"mesh IN OUT --size-on \'\'", 2, "--size-on"},
@@ -128,6 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"mesh IN OUT --size-on Face3", 2, "--size-on"},
         Mistake{"mesh IN OUT --size-on Face3=x", 2, "--size-on"},
         Mistake{"mesh IN OUT --size-on Face3=-1", 2, "--size-on"},
+        Mistake{"mesh IN OUT --size-on Face3=1,Face3=2", 2, "Face3 twice"},
         Mistake{"mesh IN OUT --size-on Solid1=1", 2, "Solid1"},
         Mistake{"mesh IN OUT --size-on Edge13=1", 2, "no Edge13"},
         Mistake{"mesh IN OUT --size-on Vertex9=1", 2, "no Vertex9"},
@@ -185,7 +187,45 @@ INSTANTIATE_TEST_SUITE_P(Command, TooMuch,
                                          std::pair("--size-on Vertex1=1e-3 --growth 1e-9",
                                                    "million elements"),
                                          std::pair("--curvature 1e9 --size-min 1e-9", "million elements"),
-                                         std::pair("--size-on Edge1=1e-6", "Edge1 of")));
+                                         std::pair("--size-on Edge1=1e-6", "Edge1 of"),
+                                         // Below the budget of elements and segments, not that of voxels.
+                                         std::pair("--size 1.6 --size-on Face1=6.2e-3", "voxels"),
+                                         std::pair("--size-on Edge1=6e-6", "voxels")));
+
+TEST(Command, RefusesElementsThatMemoryHasNoRoomFor) {
+  const TemporaryFolder folder;
+  const auto run = [&](const char* size) {
+    return test::run(
+        fmt::format("cd {} && ulimit -v 2000000 && {} mesh {} -o out.msh --quiet --order 2 --size {} 2>&1",
+                    folder.path().string(), program, box, size));
+  };
+  const auto large = run("0.015");
+  EXPECT_EQ(large.exit_code, 2) << large.out;
+  EXPECT_PRED2(contains, large.out, "GB of memory, and 1.");
+  EXPECT_EQ(run("1").exit_code, 0);
+}
+
+/// One number of one edge's curve, in a file whose surfaces are as they were.
+TEST(Command, RefusesAnEdgeFarOutOfItsModel) {
+  const TemporaryFolder folder;
+  std::string text = test::file_text(QUADRILLE_SOURCE_DIR "/examples/models/wing.brep");
+  const std::string pole = "14.807028263431036 90.924340106511835 0  48 180 0";
+  const std::size_t place = text.find(pole, text.find("\nCurves 6"));
+  ASSERT_NE(place, std::string::npos);
+  text.replace(place, 18, "14807028.263431036");
+  test::write_text(folder / "wild.brep", text);
+  for (const char* size : {"--size 5", "--size 0.5"}) {
+    const auto result =
+        test::run(fmt::format("cd {} && ulimit -t 5 && {} mesh wild.brep -o out.msh {} --quiet 2>&1",
+                              folder.path().string(), program, size));
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_PRED2(contains, result.out, "Edge2 runs 7.4e+06 mm away from the model, whose diagonal is ");
+  }
+  EXPECT_EQ(folder.file_count(), 1);
+  const auto info = stdout_of(folder, "info wild.brep");
+  EXPECT_EQ(info.exit_code, 0);
+  EXPECT_PRED2(contains, info.out, "problem      Edge2 runs 7.4e+06 mm away");
+}
 
 TEST(Command, RefusesAnEnormousEdge) {
   const TemporaryFolder folder;

@@ -1,0 +1,64 @@
+#include "geometry/base/free_memory.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace quadrille {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+/// The number that a file holds; unknown if it holds none.
+double number_in(const std::string& path) {
+  double number = 0;
+  return std::ifstream(path) >> number ? number : unknown;
+}
+
+double available_on_machine() {
+  std::ifstream file("/proc/meminfo");
+  for (std::string name; file >> name; file.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
+    double kilobytes = 0;
+    if (name == "MemAvailable:" && file >> kilobytes) return 1024 * kilobytes;
+  }
+  return unknown;
+}
+
+/// What the limits of the process's control group and those around it leave (version 2; a container sees its
+/// own as the root).
+double left_in_group() {
+  std::string group;
+  std::ifstream file("/proc/self/cgroup");
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("0::/", 0) == 0) group = line.substr(4);
+  }
+  double left = unknown;
+  for (;;) {
+    const std::string folder = "/sys/fs/cgroup/" + group + "/";
+    const double most = number_in(folder + "memory.max"), used = number_in(folder + "memory.current");
+    if (most < unknown && used < unknown) left = std::min(left, std::max(0.0, most - used));
+    if (group.empty()) return left;
+    const std::size_t slash = group.rfind('/');
+    group.resize(slash == std::string::npos ? 0 : slash);
+  }
+}
+
+double left_of_address_space() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unknown;
+  const double used = number_in("/proc/self/statm") * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  return std::max(0.0, static_cast<double>(limit.rlim_cur) - used);
+}
+
+}  // namespace
+
+double free_memory() {
+  return std::min({available_on_machine(), left_in_group(), left_of_address_space()});
+}
+
+}  // namespace quadrille
