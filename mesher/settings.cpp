@@ -163,8 +163,11 @@ Sizes parse_sizes(const Setting& setting, const std::vector<std::string>& texts)
         refused(setting, fmt::format("takes Face3=0.5, Edge4=0.5 or Vertex2=0.5, not '{}'", text));
     if (equals == std::string::npos) throw bad;
     const char *begin = text.data() + equals + 1, *end = text.data() + text.size();
-    const auto parsed = std::from_chars(begin, end, sizes[text.substr(0, equals)]);
+    const std::string name = text.substr(0, equals);
+    double size = 0;
+    const auto parsed = std::from_chars(begin, end, size);
     if (parsed.ec != std::errc() || parsed.ptr != end) throw bad;
+    if (!sizes.emplace(name, size).second) throw refused(setting, fmt::format("names {} twice", name));
   }
   return sizes;
 }

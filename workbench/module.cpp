@@ -90,6 +90,7 @@ double number(const Setting& setting, const py::handle& value) {
 
 /// 3 and "Face3" as "Face3".
 std::string face_name(const Setting& setting, const py::handle& face) {
+  if (PyBool_Check(face.ptr())) throw wrong_type(setting, face);
   if (PyIndex_Check(face.ptr()))
     return fmt::format("Face{}", py::int_(py::reinterpret_borrow<py::object>(face)).cast<long>());
   if (!py::isinstance<py::str>(face)) throw wrong_type(setting, face);
@@ -101,16 +102,21 @@ SettingValue setting_value(const Setting& setting, const py::handle& value) {
   const std::string_view kind = setting.kind();
   if (kind == "number" || kind == "count") return number(setting, value);
   try {
-    if (kind == "flag") return value.cast<bool>();
+    if (kind == "flag") {
+      if (!PyBool_Check(value.ptr())) throw wrong_type(setting, value);
+      return value.cast<bool>();
+    }
     if (kind == "choice") return value.cast<std::string>();
     if (kind == "file") return value.cast<std::filesystem::path>().string();
     if (kind == "names" || kind == "words") {
-      if (py::isinstance<py::str>(value)) throw wrong_type(setting, value);
+      if (py::isinstance<py::str>(value) || !py::isinstance<py::iterable>(value))
+        throw wrong_type(setting, value);
       if (kind == "words") return value.cast<std::vector<std::string>>();
       std::vector<std::string> names;
       for (const py::handle face : value.cast<py::iterable>()) names.push_back(face_name(setting, face));
       return names;
     }
+    if (!py::isinstance<py::dict>(value)) throw wrong_type(setting, value);
     std::map<std::string, double> sizes;
     for (const auto& [name, size] : value.cast<py::dict>())
       sizes[name.cast<std::string>()] = number(setting, size);

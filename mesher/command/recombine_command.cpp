@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <numeric>
 #include <tuple>
 
@@ -161,6 +162,14 @@ void run(const RecombineArguments& arguments) {
   if (!arguments.quiet) print(quality_table(summary));
 }
 
+/// CLI11 takes what is too large for the largest, and gives a range of 300 digits.
+std::string seed_problem(const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error == std::errc() && end == text.data() + text.size()) return {};
+  return fmt::format("must be a whole number from 0 to 2^64 - 1, not '{}'", text);
+}
+
 }  // namespace
 
 void add_recombine_command(CLI::App& app) {
@@ -171,7 +180,7 @@ void add_recombine_command(CLI::App& app) {
       ->add_option("-o,--output", arguments->output, "mesh file: .msh, .inp, .unv, .med, .vtu, .vtk or .bdf")
       ->required();
   command->add_option("--seed", arguments->seed, "seed of the random choices of --no-improve (default 1)")
-      ->check(CLI::NonNegativeNumber);
+      ->check([](const std::string& text) { return seed_problem(text); });
   command->add_flag("--no-improve", arguments->no_improve,
                     "the method of the 2018 paper as it stands: colour, swap, remove; no node moves");
   command
