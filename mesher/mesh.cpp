@@ -358,8 +358,7 @@ class Job {
 ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
   check({options, {}}, model);
   for (const StrayEdge& stray : stray_edges(model.shape(), faces_used(model, options.faces)))
-    throw failure(fmt::format("Edge{}", stray.edge),
-                  stray.sentence(model.shape()) + "; `faces` can leave its faces out");
+    throw failure(fmt::format("Edge{}", stray.edge), stray.sentence() + "; `faces` can leave its faces out");
   const double size = size_limits(model, options.sizing).largest;
   SizingOptions sizing = options.sizing;
   sizing.budget.bytes_an_element = Budget::bytes_an_element_of_order(options.order);

@@ -1,5 +1,8 @@
 #include "geometry/surfaces/stray_edges.hpp"
 
+#include <BRepBndLib.hxx>
+#include <Bnd_Box.hxx>
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -10,37 +13,64 @@ namespace quadrille {
 
 namespace {
 
-/// The largest distance of points of an edge from the model's box.
-double distance_from_box(const CadShape& shape, const CadEdge& edge) {
+/// The box of all surfaces, which an edge's own curve does not enlarge but where it bounds a plane; void
+/// where there is none.
+Bnd_Box box_of_surfaces(const CadShape& shape) {
+  Bnd_Box box;
+  BRepBndLib::Add(shape.shape, box, Standard_False);
+  return box;
+}
+
+double diagonal_of_vertices(const CadShape& shape) {
+  if (shape.vertices.empty()) return 0;
+  Vector3 low = shape.vertices.front(), high = low;
+  for (const Vector3& vertex : shape.vertices) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  return (high - low).norm();
+}
+
+/// The largest distance of points of an edge from a box.
+double distance_from_box(const CadEdge& edge, const Vector3& low, const Vector3& high) {
   const EdgeCurve curve(edge);
   const int intervals = std::max(8, 4 * curve.spans());
   double largest = 0;
   for (int i = 0; i <= intervals; ++i) {
     const Vector3 p = curve.point(edge.first + (edge.last - edge.first) * i / intervals);
-    largest = std::max(largest, (p - p.cwiseMax(shape.box_min).cwiseMin(shape.box_max)).norm());
+    largest = std::max(largest, (p - p.cwiseMax(low).cwiseMin(high)).norm());
   }
   return largest;
 }
 
 }  // namespace
 
-std::string StrayEdge::sentence(const CadShape& shape) const {
+std::string StrayEdge::sentence() const {
   return fmt::format(
-      "Edge{} runs {:.3g} mm away from the model, whose diagonal is {:.3g} mm: the file may be damaged", edge,
-      distance, shape.diagonal());
+      "Edge{} runs {:.3g} mm away from the model's surfaces, which span {:.3g} mm: the file may be damaged",
+      edge, distance, span);
 }
 
 std::vector<StrayEdge> stray_edges(const CadShape& shape, const std::vector<char>& used) {
-  constexpr double diagonals = 10;
-  std::vector<StrayEdge> result;
+  constexpr double spans = 10;
+  std::vector<int> long_ones;
+  const double usual = diagonal_of_vertices(shape);
   for (std::size_t i = 0; i < shape.edges.size(); ++i) {
     const CadEdge& edge = shape.edges[i];
     const bool is_used =
         std::any_of(edge.faces.begin(), edge.faces.end(), [&](int face) { return used[face - 1]; });
     // A curve that could not be measured has no length.
-    if (!is_used || edge.degenerate || !(edge.length > diagonals * shape.diagonal())) continue;
-    const double distance = distance_from_box(shape, edge);
-    if (distance > diagonals * shape.diagonal()) result.push_back({static_cast<int>(i) + 1, distance});
+    if (is_used && !edge.degenerate && edge.length > spans * usual) long_ones.push_back(static_cast<int>(i));
+  }
+  std::vector<StrayEdge> result;
+  if (long_ones.empty()) return result;
+  const Bnd_Box box = box_of_surfaces(shape);
+  if (box.IsVoid()) return result;
+  const Vector3 low = to_vector(box.CornerMin()), high = to_vector(box.CornerMax());
+  const double span = (high - low).norm();
+  for (const int i : long_ones) {
+    const double distance = distance_from_box(shape.edges[i], low, high);
+    if (distance > spans * span) result.push_back({i + 1, distance, span});
   }
   return result;
 }

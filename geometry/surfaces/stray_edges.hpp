@@ -10,9 +10,10 @@ namespace quadrille {
 
 struct StrayEdge {
   int edge = 0;         ///< from 1
-  double distance = 0;  ///< from the model's box
-  /// "Edge7 runs 9998 mm away from the model, ...".
-  std::string sentence(const CadShape& shape) const;
+  double distance = 0;  ///< from the surfaces' box
+  double span = 0;      ///< that box's diagonal
+  /// "Edge7 runs 9998 mm away from the model's surfaces, ...".
+  std::string sentence() const;
 };
 
 /// The edges of the faces used that leave the model's box, which is that of its surfaces, by ten of its

@@ -43,7 +43,7 @@ std::string describe(const CadModel& model, ExecutionContext& context) {
   line("area", fmt::format("{:.6g} mm2", model.area()));
   const auto strays = stray_edges(model.shape(), std::vector<char>(model.face_count(), 1));
   if (strays.empty()) add_sizes(model, context, line);
-  for (const StrayEdge& stray : strays) line("problem", stray.sentence(model.shape()));
+  for (const StrayEdge& stray : strays) line("problem", stray.sentence());
   if (model.problems().empty() && strays.empty()) line("problems", "none found");
   for (const std::string& problem : model.problems()) line("problem", problem);
   return text;
