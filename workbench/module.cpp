@@ -294,6 +294,8 @@ py::dict face_dict(const MiddleFace& face) {
   result["solid"] = face.solid;
   result["solid_faces"] = face.solid_faces;
   result["step"] = face.step;
+  result["fitted"] = face.fitted;
+  result["off"] = face.off;
   return result;
 }
 

@@ -236,6 +236,10 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
   for (const WallEnd& end : ends) {
     if (joins_step(end, walls)) fuse.AddArgument(end.fence);
   }
+  for (const Wall& wall : walls) {
+    // Two that are fitted end apart by what either is off; at least what fitting aims at.
+    if (wall.fitted) fuse.SetFuzzyValue(std::max({fuse.FuzzyValue(), 4 * wall.off, 1e-3 * wall.thickness}));
+  }
   if (fuse.Arguments().Extent() > 1) fuse.Perform();
   if (fuse.HasErrors()) throw failure("", "the middle surfaces could not be joined where they meet");
   std::vector<JoinedFace> faces = covered_images(fuse, skin, walls, pieces);

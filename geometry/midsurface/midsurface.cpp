@@ -123,7 +123,7 @@ SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const Mid
   SolidMiddle result;
   result.volume = volume_of(skin.solid());
   const std::vector<int> surfaces = surface_numbers(skin);
-  result.walls = find_walls(skin, surfaces, context);
+  result.walls = find_walls(skin, surfaces, options.tolerance, context);
   if (result.walls.empty()) throw not_thin(name, options);
   const std::vector<WallEnd> ends = find_wall_ends(skin, result.walls, surfaces);
   std::vector<WallEnd> fences = find_rim_ends(skin, result.walls, surfaces);
@@ -180,10 +180,29 @@ std::vector<int> skin_at(const Skin& skin, const gp_Pnt& point, double tolerance
   return result;
 }
 
+/// Whether the point lies between the surfaces of a wall's sides, with one of its sides above or below it:
+/// where another wall stands on it the other side is interrupted.
+bool between_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
+  double around = 0;
+  bool on_side = false;
+  for (const auto& side : wall.sides) {
+    double nearest = skin.size();
+    for (const int index : side) {
+      const SkinFace& face = skin.faces()[index];
+      on_side = on_side || face.foot(point);
+      nearest = std::min(nearest, face.point(face.closest(point)).Distance(point));
+    }
+    around += nearest;
+  }
+  return on_side && around < 1.05 * wall.thickness;
+}
+
 /// Whether the point lies inside a wall other than its own: a rib's rim goes on to the middle of the plate.
 bool in_other_wall(const Skin& skin, const SolidMiddle& middle, int own, const gp_Pnt& point) {
   for (int wall = 0; wall < static_cast<int>(middle.walls.size()); ++wall) {
-    if (wall != own && position_in(middle.walls[wall], skin, point)) return true;
+    if (wall == own) continue;
+    if (position_in(middle.walls[wall], skin, point) || between_sides(skin, middle.walls[wall], point))
+      return true;
   }
   return false;
 }
@@ -274,8 +293,14 @@ void describe_faces(const std::vector<SolidMiddle>& middles, const std::deque<Sk
     for (const JoinedFace& joined : middle.faces) {
       const Coverage& coverage = joined.coverage;
       MiddleFace& face = result.faces.at(numbers.FindIndex(joined.face) - 1);
-      face = {coverage.thinnest,           coverage.thickest, coverage.mean, area_of(joined.face), {},
-              static_cast<int>(solid) + 1, joined.step};
+      face.thinnest = coverage.thinnest;
+      face.thickest = coverage.thickest;
+      face.thickness = coverage.mean;
+      face.area = area_of(joined.face);
+      face.solid = static_cast<int>(solid) + 1;
+      face.step = joined.step;
+      face.fitted = middle.walls[joined.wall].fitted && !joined.step;
+      if (face.fitted) face.off = middle.walls[joined.wall].off;
       for (const int index : coverage.faces) {
         face.solid_faces.push_back(skins[solid].faces()[index].number());
       }

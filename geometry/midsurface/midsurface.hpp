@@ -16,6 +16,8 @@ struct MidSurfaceOptions {
   bool partial = false;
   /// Largest thickness of a wall over its width that still counts as thin.
   double thickest = 0.2;
+  /// How far a middle surface that has to be fitted may lie off the true one, over the thickness.
+  double tolerance = 1e-3;
 };
 
 /// One face of the middle surface.
@@ -28,6 +30,8 @@ struct MiddleFace {
   /// It joins two middle surfaces that pass each other where the thickness steps; it has the smaller
   /// thickness of the two.
   bool step = false;
+  bool fitted = false;  ///< a B-spline: there is no exact middle surface
+  double off = 0;       ///< largest distance found from the true middle; 0 where exact
 };
 
 /// The middle surfaces of the solids of a model, and what the program found when it checked them.
@@ -45,11 +49,11 @@ struct MidSurface {
 };
 
 /// The middle surface of each solid of the model: faces that face each other through the material are paired;
-/// the surface in the middle of a pair is exact for planes, cylinders, cones, spheres and tori; surfaces run
-/// on to where they meet and share edges there. Solids are kept apart. Throws Error (failure) with a
-/// sentence: where the model holds no solid, a solid is not thin, or, without options.partial, where more
-/// than a twentieth of the volume is not in walls, or the result is checked and found not connected or with
-/// free edges inside the material; cancelled. Deterministic.
+/// the surface in the middle of a pair is exact for planes, cylinders, cones, spheres and tori that belong
+/// together, else fitted; surfaces run on to where they meet and share edges there. Solids are kept apart.
+/// Throws Error (failure) with a sentence: where the model holds no solid, a solid is not thin, or, without
+/// options.partial, where more than a twentieth of the volume is not in walls, or the result is checked and
+/// found not connected or with free edges inside the material; cancelled. Deterministic.
 QUADRILLE_API MidSurface midsurface(const CadModel& model, const MidSurfaceOptions& options,
                                     ExecutionContext& context);
 

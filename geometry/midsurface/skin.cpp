@@ -18,6 +18,7 @@ namespace quadrille {
 namespace {
 
 struct Triangle {
+  std::array<gp_Pnt, 3> points;  // on the surface
   std::array<gp_Pnt2d, 3> uv;
   double area = 0;
 };
@@ -33,7 +34,10 @@ std::vector<Triangle> triangles_of(const TopoDS_Face& face) {
     const gp_Vec ab(mesh->Node(nodes[0]), mesh->Node(nodes[1]));
     const gp_Vec ac(mesh->Node(nodes[0]), mesh->Node(nodes[2]));
     Triangle triangle;
-    for (int j = 0; j < 3; ++j) triangle.uv[j] = mesh->UVNode(nodes[j]);
+    for (int j = 0; j < 3; ++j) {
+      triangle.points[j] = mesh->Node(nodes[j]).Transformed(place.Transformation());
+      triangle.uv[j] = mesh->UVNode(nodes[j]);
+    }
     triangle.area = 0.5 * ab.Crossed(ac).Magnitude();
     result.push_back(triangle);
   }
@@ -46,12 +50,12 @@ gp_Pnt2d blend(const std::array<gp_Pnt2d, 3>& corners, double a, double b) {
           a * corners[0].Y() + b * corners[1].Y() + c * corners[2].Y()};
 }
 
-/// The centers of the n * n equal triangles that a triangle divides into.
-void add_centers(const Triangle& triangle, int n, const BRepAdaptor_Surface& surface,
+/// The centers of the n * n equal triangles that a triangle divides into. \param area that they stand for.
+void add_centers(const Triangle& triangle, double area, int n, const BRepAdaptor_Surface& surface,
                  std::vector<FaceSample>& samples) {
   const auto add = [&](double a, double b) {
     const gp_Pnt2d uv = blend(triangle.uv, a, b);
-    samples.push_back({uv, surface.Value(uv.X(), uv.Y()), triangle.area / (n * n)});
+    samples.push_back({uv, surface.Value(uv.X(), uv.Y()), area / (n * n)});
   };
   for (int i = 0; i < n; ++i) {
     for (int j = 0; i + j < n; ++j) {
@@ -70,9 +74,13 @@ std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least) {
   std::vector<FaceSample> result;
   if (!(area > 0)) return result;
   const BRepAdaptor_Surface surface(face, Standard_False);
+  double left_out = 0;  // small triangles are stood for by the next one
   for (const Triangle& triangle : triangles) {
+    left_out += triangle.area;
+    if (left_out < 0.5 * area / at_least && &triangle != &triangles.back()) continue;
     const int n = std::clamp(static_cast<int>(std::ceil(std::sqrt(at_least * triangle.area / area))), 1, 64);
-    add_centers(triangle, n, surface, result);
+    add_centers(triangle, left_out, n, surface, result);
+    left_out = 0;
   }
   return result;
 }
@@ -114,6 +122,51 @@ std::optional<gp_Pnt> SkinFace::foot(const gp_Pnt& from) const {
   return point(uv);
 }
 
+RayFace::RayFace(const SkinFace& face, double near) : surface_(face.surface()), near_(near) {
+  for (const auto& [points, uv, area] : triangles_of(face.face())) {
+    const gp_Vec ab(points[0], points[1]), ac(points[0], points[2]);
+    triangles_.push_back({points[0], ab, ac, uv});
+  }
+}
+
+std::vector<RayFace::Hit> RayFace::hits(const gp_Lin& line) const {
+  std::vector<Hit> result;
+  const gp_Vec along(line.Direction());
+  for (const Flat& flat : triangles_) {
+    // Barycentric, a little beyond the triangle: neighbors overlap, and what both give is one hit.
+    const gp_Vec normal = along.Crossed(flat.ac);
+    const double volume = flat.ab.Dot(normal);
+    if (std::abs(volume) < 1e-12 * flat.ab.Magnitude() * flat.ac.Magnitude()) continue;
+    const gp_Vec from(flat.corner, line.Location());
+    const double b = from.Dot(normal) / volume;
+    const gp_Vec aside = from.Crossed(flat.ab);
+    const double c = along.Dot(aside) / volume;
+    constexpr double beyond = 1e-9;
+    if (b < -beyond || c < -beyond || b + c > 1 + beyond) continue;
+    if (const auto hit = polished(line, blend(flat.uv, 1 - b - c, b), flat.ac.Dot(aside) / volume))
+      result.push_back(*hit);
+  }
+  return result;
+}
+
+std::optional<RayFace::Hit> RayFace::polished(const gp_Lin& line, gp_Pnt2d uv, double along) const {
+  const gp_Vec direction(line.Direction());
+  for (int step = 0; step < 12; ++step) {  // Newton's
+    gp_Pnt at;
+    gp_Vec du, dv;
+    surface_.D1(uv.X(), uv.Y(), at, du, dv);
+    const gp_Vec off(at, line.Location().Translated(along * direction));
+    if (off.Magnitude() < near_) return Hit{uv, along};
+    const gp_Vec normal = du.Crossed(dv);
+    const double volume = normal.Dot(direction);
+    if (std::abs(volume) < 1e-9 * normal.Magnitude() || !(normal.Magnitude() > 0)) return std::nullopt;
+    along -= off.Dot(normal) / volume;
+    uv.SetX(uv.X() + off.Crossed(dv).Dot(direction) / volume);
+    uv.SetY(uv.Y() + du.Crossed(off).Dot(direction) / volume);
+  }
+  return std::nullopt;
+}
+
 Skin::Skin(const TopoDS_Solid& solid, const TopTools_IndexedMapOfShape& numbers) : solid_(solid) {
   TopExp::MapShapes(solid, TopAbs_FACE, map_);
   faces_.reserve(map_.Extent());
@@ -124,7 +177,7 @@ Skin::Skin(const TopoDS_Solid& solid, const TopTools_IndexedMapOfShape& numbers)
   for (const SkinFace& face : faces_) box.Add(face.box());
   size_ = std::sqrt(box.SquareExtent());
   for (const SkinFace& face : faces_) {
-    rays_.push_back(std::make_unique<IntCurvesFace_Intersector>(face.face(), 1e-7 * size_));
+    rays_.emplace_back(face, 1e-8 * size_);
   }
 }
 
@@ -155,11 +208,9 @@ std::optional<Skin::Hit> Skin::first_hit(const gp_Pnt& from, const gp_Dir& direc
   const gp_Lin line(from, direction);
   Hit best;
   for (const int face : faces_along(line, 1e-6 * size_, size_)) {
-    IntCurvesFace_Intersector& ray = *rays_[face];
-    ray.Perform(line, 1e-6 * size_, size_);
-    for (int i = 1; ray.IsDone() && i <= ray.NbPnt(); ++i) {
-      if (best.face >= 0 && ray.WParameter(i) >= best.distance) continue;
-      best = {face, gp_Pnt2d(ray.UParameter(i), ray.VParameter(i)), ray.Pnt(i), ray.WParameter(i)};
+    for (const RayFace::Hit& hit : rays_[face].hits(line)) {
+      if (hit.along < 1e-6 * size_ || (best.face >= 0 && hit.along >= best.distance)) continue;
+      best = {face, hit.uv, faces_[face].point(hit.uv), hit.along};
     }
   }
   return best.face < 0 ? std::nullopt : std::optional(best);
@@ -168,8 +219,9 @@ std::optional<Skin::Hit> Skin::first_hit(const gp_Pnt& from, const gp_Dir& direc
 bool Skin::meets_face(const gp_Pnt& from, const gp_Dir& direction, double reach) const {
   const gp_Lin line(from, direction);
   for (const int face : faces_along(line, -reach, reach)) {
-    rays_[face]->Perform(line, -reach, reach);
-    if (rays_[face]->IsDone() && rays_[face]->NbPnt() > 0) return true;
+    for (const RayFace::Hit& hit : rays_[face].hits(line)) {
+      if (std::abs(hit.along) < reach) return true;
+    }
   }
   return false;
 }

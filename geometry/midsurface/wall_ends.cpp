@@ -79,15 +79,16 @@ Handle(Geom_Curve) interpolated(const FaceEdge& edge, double depth) {
   return Handle(Geom_Curve)(spline.Curve());
 }
 
-/// The edge moved into the material: lines stay lines, arcs arcs, where all its points do.
-Handle(Geom_Curve) moved(const FaceEdge& edge, double depth) {
+/// The edge moved into the material: lines stay lines, arcs arcs, where all its points do. \param longer by
+/// so much at both ends, where it stays a line or an arc.
+Handle(Geom_Curve) moved(const FaceEdge& edge, double depth, double longer) {
   const double first = edge.first(), last = edge.last(), near = 1e-5 * std::abs(depth);
   const auto at = [&](double share) { return edge.inside(first + share * (last - first), depth); };
   if (edge.curve().GetType() == GeomAbs_Line) {
     const gp_Pnt middle(0.5 * (at(0).XYZ() + at(1).XYZ()));
     if (middle.Distance(at(0.5)) < near)
-      return new Geom_TrimmedCurve(new Geom_Line(at(0), gp_Dir(gp_Vec(at(0), at(1)))), 0,
-                                   at(0).Distance(at(1)));
+      return new Geom_TrimmedCurve(new Geom_Line(at(0), gp_Dir(gp_Vec(at(0), at(1)))), -longer,
+                                   at(0).Distance(at(1)) + longer);
   }
   if (edge.curve().GetType() == GeomAbs_Circle) {
     gp_Ax2 frame = edge.curve().Circle().Position();
@@ -95,7 +96,9 @@ Handle(Geom_Curve) moved(const FaceEdge& edge, double depth) {
     frame.Translate(gp_Vec(frame.Location(), at(0)).Dot(up) * up);
     const gp_Circ circle(frame, at(0).Distance(frame.Location()));
     const bool stays = circle.Distance(at(0.3)) < near && circle.Distance(at(0.6)) < near;
-    if (stays) return new Geom_TrimmedCurve(new Geom_Circle(circle), first, last);
+    const double angle = std::min(longer / circle.Radius(), 0.45 * (2 * M_PI - (last - first)));
+    if (stays && edge.closed()) return new Geom_TrimmedCurve(new Geom_Circle(circle), first, last);
+    if (stays) return new Geom_TrimmedCurve(new Geom_Circle(circle), first - angle, last + angle);
   }
   return interpolated(edge, depth);
 }
@@ -121,22 +124,37 @@ int next_wall(const Skin& skin, const std::vector<Wall>& walls, int wall, const 
   return -1;
 }
 
-/// How deep below the edge the middle of the next wall lies, measured as the depth of this wall's middle is.
-double depth_of_next(const Skin& skin, const Wall& wall, const Wall& next, const FaceEdge& edge) {
-  const double at = 0.5 * (edge.first() + edge.last()), t = wall.thickness;
-  const gp_Pnt beyond = edge.inside(at, 0.5 * t).Translated(1e-3 * t * edge.away(at));
-  const auto position = position_in(next, skin, beyond);
-  if (!position) return 0.5 * t;
-  const gp_Pnt middle(0.5 * (position->feet[0].XYZ() + position->feet[1].XYZ()));
-  return 0.5 * t - gp_Vec(beyond, middle).Dot(gp_Vec(edge.outward(at)));
+/// How deep below the edge the middle of a wall lies, a little before the edge (`step` negative) or behind
+/// it. \param guess of the depth, which is given back where the wall is not there.
+double depth_at(const Skin& skin, const Wall& wall, const FaceEdge& edge, double step, double guess) {
+  const double at = 0.5 * (edge.first() + edge.last());
+  const gp_Pnt start = edge.curve().Value(at).Translated(step * edge.away(at));
+  double depth = guess;
+  for (int i = 0; i < 4; ++i) {  // where the sides are not parallel their middle lies a little aside
+    const gp_Pnt point = start.Translated(-depth * gp_Vec(edge.outward(at)));
+    const auto position = position_in(wall, skin, point);
+    if (!position) break;
+    const gp_Pnt middle(0.5 * (position->feet[0].XYZ() + position->feet[1].XYZ()));
+    depth -= gp_Vec(point, middle).Dot(gp_Vec(edge.outward(at)));
+  }
+  return depth;
+}
+
+double thickest_of(const std::vector<Wall>& walls) {
+  double result = 0;
+  for (const Wall& wall : walls) result = std::max(result, wall.thickness);
+  return result;
 }
 
 WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, int next, const FaceEdge& edge) {
   const double t = walls[wall].thickness;
-  const double own = 0.5 * t, other = depth_of_next(skin, walls[wall], walls[next], edge);
+  const double own = depth_at(skin, walls[wall], edge, -1e-3 * t, 0.5 * t);
+  const double other = depth_at(skin, walls[next], edge, 1e-3 * t, 0.5 * t);
   const bool step = std::abs(own - other) > 1e-2 * t;
   const double high = std::min(own, other) - 0.1 * t, low = std::max(own, other) + 0.1 * t;
-  const Handle(Geom_Surface) across = GeomFill::Surface(moved(edge, high), moved(edge, low));
+  // A rib across the bend interrupts the edge, not the wall: the fence runs on through the rib.
+  const double longer = step ? 0 : thickest_of(walls);
+  const Handle(Geom_Surface) across = GeomFill::Surface(moved(edge, high, longer), moved(edge, low, longer));
   return {wall, next, BRepBuilderAPI_MakeFace(across, Precision::Confusion()).Face(), step};
 }
 

@@ -1,7 +1,6 @@
 #include "geometry/midsurface/wall_pieces.hpp"
 
 #include <BOPAlgo_Builder.hxx>
-#include <BRepAdaptor_Curve.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRep_Builder.hxx>
@@ -20,42 +19,15 @@
 #include <gp_Cone.hxx>
 #include <set>
 
-#include <fmt/format.h>
-
-#include "geometry/base/error.hpp"
+#include "geometry/midsurface/parameter_range.hpp"
 
 namespace quadrille {
 
 namespace {
 
-/// An interval of a surface parameter.
-struct Range {
-  double low = 0, high = 0;
-};
-
-Range plain_range(const std::vector<double>& values, double margin) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return {*low - margin, *high + margin};
-}
-
-/// All round, unless the values leave a wide gap.
-Range periodic_range(std::vector<double> values, double margin, double period, double start) {
-  for (double& value : values) value -= period * std::floor((value - start) / period);
-  std::sort(values.begin(), values.end());
-  double gap = values.front() + period - values.back(), after = values.front();
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    if (values[i] - values[i - 1] <= gap) continue;
-    gap = values[i] - values[i - 1];
-    after = values[i];
-  }
-  const double least_gap = period / 10;
-  if (gap < least_gap + 2 * margin) return {start, start + period};
-  return {after - margin, after - gap + period + margin};
-}
-
 /// The faces that a wall's middle surface may have to reach over: its sides, and the faces next to them that
 /// belong to no wall, such as fillets.
-std::set<int> faces_to_cover(const Skin& skin, const std::vector<Wall>& walls, int wall) {
+std::vector<int> faces_to_cover(const Skin& skin, const std::vector<Wall>& walls, int wall) {
   TopTools_IndexedDataMapOfShapeListOfShape neighbors;
   TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, neighbors);
   std::set<int> in_walls, result;
@@ -73,27 +45,11 @@ std::set<int> faces_to_cover(const Skin& skin, const std::vector<Wall>& walls, i
       }
     }
   }
-  return result;
-}
-
-std::vector<gp_Pnt> points_on_edges(const Skin& skin, const std::set<int>& faces) {
-  constexpr int intervals = 16;
-  std::vector<gp_Pnt> result;
-  for (const int face : faces) {
-    for (TopExp_Explorer it(skin.faces()[face].face(), TopAbs_EDGE); it.More(); it.Next()) {
-      const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
-      if (BRep_Tool::Degenerated(edge)) continue;
-      const BRepAdaptor_Curve curve(edge);
-      const double first = curve.FirstParameter(), last = curve.LastParameter();
-      for (int i = 0; i <= intervals; ++i)
-        result.push_back(curve.Value(first + (last - first) * i / intervals));
-    }
-  }
-  return result;
+  return {result.begin(), result.end()};
 }
 
 /// Cones and spheres end where they become a point.
-void keep_regular(const GeomAdaptor_Surface& surface, Range& v) {
+void keep_regular(const GeomAdaptor_Surface& surface, ParameterRange& v) {
   if (surface.GetType() == GeomAbs_Sphere) {
     v.low = std::max(v.low, -0.5 * M_PI);
     v.high = std::min(v.high, 0.5 * M_PI);
@@ -112,37 +68,32 @@ TopoDS_Face middle_patch(const Skin& skin, const std::vector<Wall>& walls, int w
   double margin = 0;
   for (const Wall& other : walls) margin = std::max(margin, 1.5 * other.thickness);
   const Handle(Geom_Surface)& middle = walls[wall].middle;
-  ShapeAnalysis_Surface inverse(middle);
-  std::vector<double> us, vs;
-  for (const gp_Pnt& point : points_on_edges(skin, faces_to_cover(skin, walls, wall))) {
-    const gp_Pnt2d uv = inverse.ValueOfUV(point, Precision::Confusion());
-    us.push_back(uv.X());
-    vs.push_back(uv.Y());
-  }
+  if (walls[wall].fitted) return BRepBuilderAPI_MakeFace(middle, Precision::Confusion()).Face();
+  const auto points = points_on_edges(skin, faces_to_cover(skin, walls, wall));
+  const gp_Pnt2d uv = ShapeAnalysis_Surface(middle).ValueOfUV(points.front(), Precision::Confusion());
   gp_Pnt at;
   gp_Vec du, dv;
-  middle->D1(us.front(), vs.front(), at, du, dv);
-  const double u_margin = margin / std::max(du.Magnitude(), 1e-3 * margin);
-  const double v_margin = margin / std::max(dv.Magnitude(), 1e-3 * margin);
-  const GeomAdaptor_Surface surface(middle);
-  const Range u =
-      surface.IsUPeriodic() ? periodic_range(us, u_margin, surface.UPeriod(), 0) : plain_range(us, u_margin);
-  Range v =
-      surface.IsVPeriodic() ? periodic_range(vs, v_margin, surface.VPeriod(), 0) : plain_range(vs, v_margin);
-  keep_regular(surface, v);
+  middle->D1(uv.X(), uv.Y(), at, du, dv);
+  auto [u, v] = range_of(
+      middle, points,
+      {margin / std::max(du.Magnitude(), 1e-3 * margin), margin / std::max(dv.Magnitude(), 1e-3 * margin)});
+  keep_regular(GeomAdaptor_Surface(middle), v);
   return BRepBuilderAPI_MakeFace(middle, u.low, u.high, v.low, v.high, Precision::Confusion()).Face();
 }
 
 /// The faces of the skin that the patch may meet, as one argument: OpenCASCADE then does not look for
-/// intersections among them.
-TopoDS_Compound near_faces(const Skin& skin, const TopoDS_Face& patch) {
+/// intersections among them. A wall's own sides it cannot meet, and next to a bent one OpenCASCADE looks
+/// long.
+TopoDS_Compound near_faces(const Skin& skin, const Wall& wall, const TopoDS_Face& patch) {
   TopoDS_Compound result;
   const BRep_Builder builder;
   builder.MakeCompound(result);
   Bnd_Box box;
   BRepBndLib::Add(patch, box, Standard_False);
-  for (const SkinFace& face : skin.faces()) {
-    if (!box.IsOut(face.box())) builder.Add(result, face.face());
+  const std::vector<int> sides = both_sides(wall);
+  for (std::size_t i = 0; i < skin.faces().size(); ++i) {
+    const bool side = std::find(sides.begin(), sides.end(), static_cast<int>(i)) != sides.end();
+    if (!side && !box.IsOut(skin.faces()[i].box())) builder.Add(result, skin.faces()[i].face());
   }
   return result;
 }
@@ -151,9 +102,11 @@ TopoDS_Compound near_faces(const Skin& skin, const TopoDS_Face& patch) {
 void widen_to_corners(const TopoDS_Face& face, const Wall& wall, const Skin& skin, Coverage& coverage) {
   for (TopExp_Explorer it(face, TopAbs_VERTEX); it.More(); it.Next()) {
     const gp_Pnt corner = BRep_Tool::Pnt(TopoDS::Vertex(it.Current()));
-    double t = 0;
-    for (const auto& side : wall.sides) {
-      const SkinFace& skin_face = skin.faces()[side.front()];
+    const auto position = position_in(wall, skin, corner);
+    if (wall.fitted && !position) continue;
+    double t = position ? position->thickness() : 0;
+    for (int side = 0; side < 2 && !position; ++side) {
+      const SkinFace& skin_face = skin.faces()[wall.sides[side].front()];
       t += skin_face.point(skin_face.closest(corner)).Distance(corner);
     }
     coverage.thinnest = std::min(coverage.thinnest, t);
@@ -189,7 +142,7 @@ std::vector<TopoDS_Face> wall_pieces(const Skin& skin, const std::vector<Wall>& 
   BOPAlgo_Builder cutter;
   cutter.SetNonDestructive(Standard_True);
   cutter.AddArgument(patch);
-  cutter.AddArgument(near_faces(skin, patch));
+  cutter.AddArgument(near_faces(skin, walls[wall], patch));
   for (const WallEnd& end : ends) {
     if (end.wall == wall) cutter.AddArgument(end.fence);
   }

@@ -1,10 +1,16 @@
 #include "geometry/midsurface/walls.hpp"
 
+#include <TopExp.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS.hxx>
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
+#include "geometry/midsurface/fitted_middle.hpp"
 #include "geometry/midsurface/middle_geometry.hpp"
 
 namespace quadrille {
@@ -62,6 +68,126 @@ void add_once(std::vector<int>& list, int value) {
   if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
 }
 
+/// Two surfaces, the first with the lower number, that face each other.
+struct SurfacePair {
+  std::array<int, 2> surfaces{};
+  std::array<std::vector<int>, 2> faces;
+  Handle(Geom_Surface) middle;        ///< if there is an exact one
+  std::array<double, 2> areas{0, 0};  ///< of the samples on either that meet the other
+  double thickness_area = 0;
+  double area() const { return areas[0] + areas[1]; }
+};
+
+std::vector<SurfacePair> pair_surfaces(const Skin& skin, const std::vector<int>& surfaces,
+                                       const Facings& facings) {
+  std::map<std::pair<int, int>, std::size_t> indices;
+  std::vector<SurfacePair> result;
+  for (const auto& [faces, facing] : facings) {
+    const SkinFace& a = skin.faces()[faces.first];
+    const SkinFace& b = skin.faces()[faces.second];
+    const double paired = std::max(facing.areas[0], facing.areas[1]);
+    if (paired < least_share * std::min(a.area(), b.area())) continue;
+    const auto key = std::minmax(surfaces[faces.first], surfaces[faces.second]);
+    const auto [entry, is_new] = indices.try_emplace(key, result.size());
+    if (is_new) result.push_back({{key.first, key.second}, {}, middle_surface(a, b, skin.size())});
+    SurfacePair& pair = result[entry->second];
+    const bool ordered = surfaces[faces.first] == key.first;
+    add_once(pair.faces[0], ordered ? faces.first : faces.second);
+    add_once(pair.faces[1], ordered ? faces.second : faces.first);
+    pair.thickness_area += facing.thickness_area;
+    for (int side = 0; side < 2; ++side) pair.areas[side] += facing.areas[ordered ? side : 1 - side];
+  }
+  return result;
+}
+
+using Touching = std::set<std::pair<int, int>>;
+
+/// The surfaces whose faces have an edge in common.
+Touching touching_surfaces(const Skin& skin, const std::vector<int>& surfaces) {
+  TopTools_IndexedDataMapOfShapeListOfShape around;
+  TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, around);
+  Touching result;
+  for (const TopTools_ListOfShape& faces : around) {
+    const int a = surfaces[skin.index_of(TopoDS::Face(faces.First()))];
+    const int b = surfaces[skin.index_of(TopoDS::Face(faces.Last()))];
+    result.insert({a, b});
+    result.insert({b, a});
+  }
+  return result;
+}
+
+/// The pairs, by index, that have a surface in common with the one that starts and whose other surfaces lie
+/// one behind the other. \param side of the starting pair that is common.
+std::vector<std::size_t> pairs_around(const std::vector<SurfacePair>& pairs, std::size_t start, int side,
+                                      const Touching& touching) {
+  const int center = pairs[start].surfaces[side];
+  const auto other = [&](std::size_t i) {
+    return pairs[i].surfaces[0] == center ? pairs[i].surfaces[1] : pairs[i].surfaces[0];
+  };
+  std::vector<std::size_t> result{start};
+  for (std::size_t next = 0; next < result.size(); ++next) {
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (pairs[i].surfaces[0] != center && pairs[i].surfaces[1] != center) continue;
+      if (std::find(result.begin(), result.end(), i) != result.end()) continue;
+      if (touching.count({other(result[next]), other(i)}) != 0) result.push_back(i);
+    }
+  }
+  return result;
+}
+
+double area_of(const Skin& skin, const std::vector<int>& faces) {
+  double area = 0;
+  for (const int face : faces) area += skin.faces()[face].area();
+  return area;
+}
+
+/// The wall that pairs round one surface make. None where neither side is paired all over: a fillet at a
+/// junction faces the walls at its two ends, and beyond them the inside of the junction.
+std::optional<Wall> wall_of(const Skin& skin, const std::vector<SurfacePair>& pairs, int center) {
+  constexpr double least_covered = 0.75;
+  Wall wall;
+  std::array<double, 2> covered{0, 0};
+  for (const SurfacePair& pair : pairs) {
+    const int first = pair.surfaces[0] == center ? 0 : 1;
+    for (int side = 0; side < 2; ++side) {
+      const int from = side == 0 ? first : 1 - first;
+      for (const int face : pair.faces[from]) add_once(wall.sides[side], face);
+      covered[side] += pair.areas[from];
+    }
+    wall.thickness += pair.thickness_area;
+  }
+  wall.thickness /= covered[0] + covered[1];
+  for (int side = 0; side < 2; ++side) {
+    if (covered[side] > least_covered * area_of(skin, wall.sides[side])) return wall;
+  }
+  return std::nullopt;
+}
+
+/// Makes walls of pairs, the largest groups round one surface first; that surface is the first side.
+std::vector<Wall> group_pairs(const Skin& skin, std::vector<SurfacePair> pairs, const Touching& touching) {
+  std::vector<Wall> walls;
+  while (!pairs.empty()) {
+    std::vector<std::size_t> best;
+    int center = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      for (int side = 0; side < 2; ++side) {
+        const auto group = pairs_around(pairs, i, side, touching);
+        if (group.size() <= best.size()) continue;
+        best = group;
+        center = pairs[i].surfaces[side];
+      }
+    }
+    std::sort(best.rbegin(), best.rend());
+    std::vector<SurfacePair> group;
+    for (const std::size_t i : best) {
+      group.push_back(pairs[i]);
+      pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    if (const auto wall = wall_of(skin, group, center)) walls.push_back(*wall);
+  }
+  return walls;
+}
+
 }  // namespace
 
 std::vector<int> surface_numbers(const Skin& skin) {
@@ -78,31 +204,25 @@ std::vector<int> surface_numbers(const Skin& skin) {
   return result;
 }
 
-std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
+std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces, double tolerance,
                              const ExecutionContext& context) {
-  std::map<std::pair<int, int>, std::size_t> indices;
+  std::vector<SurfacePair> pairs = pair_surfaces(skin, surfaces, look_through_all(skin, context));
   std::vector<Wall> walls;
-  std::vector<double> areas;
-  for (const auto& [pair, facing] : look_through_all(skin, context)) {
-    const SkinFace& a = skin.faces()[pair.first];
-    const SkinFace& b = skin.faces()[pair.second];
-    const double paired = std::max(facing.areas[0], facing.areas[1]);
-    if (paired < least_share * std::min(a.area(), b.area())) continue;
-    const auto key = std::minmax(surfaces[pair.first], surfaces[pair.second]);
-    const auto [entry, is_new] = indices.try_emplace(key, walls.size());
-    if (is_new) {
-      walls.push_back({{}, middle_surface(a, b, skin.size()), 0});
-      areas.push_back(0);
-    }
-    Wall& wall = walls[entry->second];
-    const bool ordered = surfaces[pair.first] == key.first;
-    add_once(wall.sides[0], ordered ? pair.first : pair.second);
-    add_once(wall.sides[1], ordered ? pair.second : pair.first);
-    wall.thickness += facing.thickness_area;
-    areas[entry->second] += facing.areas[0] + facing.areas[1];
+  double thickest = 0;
+  for (const SurfacePair& pair : pairs) {
+    thickest = std::max(thickest, pair.thickness_area / pair.area());
+    if (!pair.middle.IsNull()) walls.push_back({pair.faces, pair.middle, pair.thickness_area / pair.area()});
   }
-  for (std::size_t i = 0; i < walls.size(); ++i) walls[i].thickness /= areas[i];
-  std::erase_if(walls, [](const Wall& wall) { return wall.middle.IsNull(); });
+  std::erase_if(pairs, [](const SurfacePair& pair) { return !pair.middle.IsNull(); });
+  for (Wall& wall : group_pairs(skin, std::move(pairs), touching_surfaces(skin, surfaces))) {
+    context.check();
+    const auto middle = fit_middle(skin, wall.sides, tolerance * wall.thickness, 3 * thickest);
+    if (!middle) continue;
+    wall.middle = middle->surface;
+    wall.fitted = true;
+    wall.off = middle->off;
+    walls.push_back(wall);
+  }
   return walls;
 }
 

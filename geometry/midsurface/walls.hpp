@@ -12,11 +12,14 @@
 
 namespace quadrille {
 
-/// All faces of a solid on one surface and those on another that it has in common a thickness with.
+/// All faces of a solid on one surface and those on another that it has in common a thickness with. Where
+/// the middle is fitted, the second side may be several surfaces, one behind the other.
 struct Wall {
   std::array<std::vector<int>, 2> sides;  ///< indices into Skin::faces()
-  Handle(Geom_Surface) middle;  ///< unbounded; every point is as far from one side as from the other
+  Handle(Geom_Surface) middle;  ///< every point is as far from one side as from the other; unbounded if exact
   double thickness = 0;         ///< mean over the wall
+  bool fitted = false;          ///< the middle is a B-spline, and ends
+  double off = 0;               ///< of a fitted middle: largest distance from the true one
 };
 
 /// A piece of the material at one point: how far the two sides of a wall are apart there.
@@ -31,8 +34,11 @@ struct WallPosition {
 std::vector<int> surface_numbers(const Skin& skin);
 
 /// Finds the walls: a ray from a face through the material meets the other face nearly at a right angle, and
-/// nothing else is nearer to the point in the middle. Time: some ten rays for each of some 24 points a face.
-std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
+/// nothing else is nearer to the point in the middle. Pairs without an exact middle, such as a bend whose two
+/// radii do not share a center with the flat parts it reaches over, become one wall with a fitted middle
+/// where they have one surface in common. \param tolerance of fitted middles, over their thickness. Time:
+/// some ten rays for each of some 24 points a face.
+std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces, double tolerance,
                              const ExecutionContext& context);
 
 /// Where the point stands in the wall: the feet of its perpendiculars, when they lie in faces of both sides

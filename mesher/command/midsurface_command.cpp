@@ -26,6 +26,7 @@ std::string describe(const MidSurface& middle) {
     text += fmt::format("Face{:<4} {:>12.6g} {:>12} ", i + 1, face.area, thickness);
     if (face.step) text += " a step between";
     for (const int number : face.solid_faces) text += fmt::format(" Face{}", number);
+    if (face.fitted) text += fmt::format(", fitted within {:.2g}", face.off);
     text += "\n";
   }
   text += fmt::format("area x thickness {:.6g} mm3, {:.2f} % of the volume; {} part(s), {} free edges\n",

@@ -64,7 +64,9 @@ nlohmann::json describe(const MidSurface& middle) {
                      {"thickness", face.thickness},
                      {"thickness_min", face.thinnest},
                      {"thickness_max", face.thickest},
-                     {"step", face.step}});
+                     {"step", face.step},
+                     {"fitted", face.fitted},
+                     {"off", face.off}});
   }
   return {{"faces", faces},
           {"volume", middle.volume},

@@ -5,13 +5,19 @@
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <GC_MakeArcOfCircle.hxx>
+#include <GeomAPI_Interpolate.hxx>
+#include <Geom_BSplineCurve.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
+#include <TColgp_HArray1OfPnt.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Wire.hxx>
@@ -186,6 +192,88 @@ TopoDS_Shape tank() {
   return cut(capsule(31), {capsule(29)});
 }
 
+/// An L whose outer radius is as large as the inner one: the sheet is thicker in the bend.
+TopoDS_Shape loose_bend() {
+  return cut(profile({{{0, 0, r}, {40, 0}, {40, t}, {t, t, r}, {t, 60}, {0, 60}}}, 100),
+             {drill(20, -1, 30, gp::DY(), 5, 4)});
+}
+
+/// The same with a gusset across the bend.
+TopoDS_Shape gusset_on_bend() {
+  const TopoDS_Shape gusset = profile({{{1, 1}, {35, 1}, {35, 2}, {2, 50}, {1, 50}}}, 2);
+  gp_Trsf place;
+  place.SetTranslation(gp_Vec(0, 0, 49));
+  return fuse({profile({{{0, 0, 4}, {40, 0}, {40, t}, {t, t, r}, {t, 60}, {0, 60}}}, 100),
+               BRepBuilderAPI_Transform(gusset, place).Shape()});
+}
+
+/// A sheet that is set off by 20 mm at 45 degrees.
+TopoDS_Shape joggle() {
+  const double k = t * std::tan(M_PI / 8);
+  return profile({{{0, 0},
+                   {40, 0, R},
+                   {60, 20, r},
+                   {100, 20},
+                   {100, 20 + t},
+                   {60 - k, 20 + t, R},
+                   {40 - k, t, r},
+                   {0, t}}},
+                 60);
+}
+
+/// A round sheet with a bead round its middle: planes, cones and tori.
+TopoDS_Shape beaded_disc() {
+  const double k = t * std::tan(M_PI / 8);
+  const TopoDS_Shape half = section({{{20, 0},
+                                      {40, 0, R},
+                                      {50, 10, r},
+                                      {60, 10, r},
+                                      {70, 0, R},
+                                      {90, 0},
+                                      {90, t},
+                                      {70 + k, t, r},
+                                      {60 + k, 10 + t, R},
+                                      {50 - k, 10 + t, R},
+                                      {40 - k, t, r},
+                                      {20, t}}});
+  return BRepPrimAPI_MakeRevol(half, gp_Ax1(gp_Pnt(0, 0, 0), gp::DY())).Shape();
+}
+
+Handle(Geom_Curve) wavy_curve(double height, double aside) {
+  Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, 17);
+  const double waves = 6 - 0.02 * height;
+  for (int i = 0; i < 17; ++i) {
+    const double x = 5.0 * i, slope = waves * 0.08 * std::cos(0.08 * x);
+    const double length = std::hypot(1, slope);
+    points->SetValue(i + 1,
+                     gp_Pnt(x - aside * slope / length, waves * std::sin(0.08 * x) + aside / length, height));
+  }
+  GeomAPI_Interpolate spline(points, Standard_False, 1e-9);
+  spline.Perform();
+  return Handle(Geom_Curve)(spline.Curve());
+}
+
+/// A wall of some 2 mm between B-spline surfaces, from a wavy line to one that waves less.
+TopoDS_Shape lofted_wall() {
+  BRepOffsetAPI_ThruSections loft(Standard_True, Standard_False);
+  for (const double height : {0.0, 30.0, 70.0}) {
+    const Handle(Geom_Curve) near = wavy_curve(height, -1), far = wavy_curve(height, 1);
+    BRepBuilderAPI_MakeWire wire;
+    wire.Add(BRepBuilderAPI_MakeEdge(near).Edge());
+    wire.Add(BRepBuilderAPI_MakeEdge(near->Value(near->LastParameter()), far->Value(far->LastParameter())));
+    wire.Add(BRepBuilderAPI_MakeEdge(far->Reversed()).Edge());
+    wire.Add(BRepBuilderAPI_MakeEdge(far->Value(far->FirstParameter()), near->Value(near->FirstParameter())));
+    loft.AddWire(wire.Wire());
+  }
+  loft.Build();
+  return loft.Shape();
+}
+
+/// The same on a plate, which it meets in a curve.
+TopoDS_Shape lofted_wall_on_plate() {
+  return fuse({box(-10, -20, -1, 100, 40, 3), lofted_wall()});
+}
+
 }  // namespace
 
 TopoDS_Shape section(const std::vector<Outline>& outlines) {
@@ -272,6 +360,12 @@ const std::vector<ThinModel>& thin_models() {
       {"tapering_web", tapering_web, 60 * 100 / std::cos(0.5 * std::atan(0.02)), {3}, 0.01, 1},
       {"tank", tank, 80 * 2 * M_PI * 30 + 4 * M_PI * 900, {2}, 0.01, 0},
       {"nozzle", nozzle, 0, {2, 3}, 0.03, 3},
+      {"joggle", joggle, 60 * (80 + 20 * M_SQRT2 - 4 * 4 * std::tan(M_PI / 8) + M_PI * 2), {2}, 0.01, 1},
+      {"beaded_disc", beaded_disc, 0, {2}, 0.01, 2},
+      {"loose_bend", loose_bend, 0, {2, 2.4}, 0.01, 2},
+      {"gusset_on_bend", gusset_on_bend, 0, {2, 2.2}, 0.02, 2},
+      {"lofted_wall", lofted_wall, 0, {2}, 0.01, 1},
+      {"lofted_wall_on_plate", lofted_wall_on_plate, 0, {2, 3}, 0.02, 2},
   };
   return models;
 }

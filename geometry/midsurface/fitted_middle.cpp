@@ -1,0 +1,248 @@
+#include "geometry/midsurface/fitted_middle.hpp"
+
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <BSplSLib.hxx>
+#include <GeomLib.hxx>
+#include <Geom_BoundedSurface.hxx>
+#include <TColStd_Array1OfInteger.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <TColgp_Array2OfPnt.hxx>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "geometry/midsurface/parameter_range.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// The faces of the side that lies across, and where their parameters end.
+class Opposite {
+ public:
+  Opposite(const Skin& skin, const std::vector<int>& faces) {
+    for (const int index : faces) {
+      Part part{&skin.faces()[index]};
+      BRepTools::UVBounds(part.face->face(), part.low[0], part.high[0], part.low[1], part.high[1]);
+      parts_.push_back(part);
+    }
+  }
+
+  /// The nearest point of the faces; of the surface of the nearest face where that ends before.
+  gp_Pnt nearest(const gp_Pnt& from) const {
+    gp_Pnt inside, outside;
+    double least_inside = -1, least_outside = -1;
+    for (const Part& part : parts_) {
+      if (const auto foot = part.face->foot(from)) {
+        if (least_inside >= 0 && foot->Distance(from) >= least_inside) continue;
+        least_inside = foot->Distance(from);
+        inside = *foot;
+      }
+      if (least_inside >= 0) continue;
+      const gp_Pnt2d uv = part.face->closest(from);
+      const gp_Pnt2d kept(std::clamp(uv.X(), part.low[0], part.high[0]),
+                          std::clamp(uv.Y(), part.low[1], part.high[1]));
+      const double distance = part.face->point(kept).Distance(from);
+      if (least_outside >= 0 && distance >= least_outside) continue;
+      least_outside = distance;
+      outside = part.face->point(uv);
+    }
+    return least_inside >= 0 ? inside : outside;
+  }
+
+ private:
+  struct Part {
+    const SkinFace* face;
+    std::array<double, 2> low{}, high{};
+  };
+  std::vector<Part> parts_;
+};
+
+/// One direction of the grid: the values interpolated at, knots of the B-spline through them.
+class GridLine {
+ public:
+  GridLine(const ParameterRange& range, int spans) : range_(range), spans_(spans) {}
+
+  int spans() const { return spans_; }
+  int degree() const { return spans_ == 1 ? 1 : 3; }
+  int count() const { return spans_ + degree(); }
+  double knot(int i) const { return range_.low + range_.length() * i / spans_; }
+  double value(int i) const {  // Greville's abscissae
+    double sum = 0;
+    for (int j = 1; j <= degree(); ++j) sum += knot(std::clamp(i + j - degree(), 0, spans_));
+    return sum / degree();
+  }
+  /// Values to look at between the i-th and the next: more of them where a straight line is tried.
+  std::vector<double> between(int i) const {
+    std::vector<double> result;
+    const auto shares =
+        spans_ == 1 ? std::vector<double>{0.1, 0.25, 0.5, 0.75, 0.9} : std::vector<double>{0.5};
+    for (const double share : shares) result.push_back((1 - share) * value(i) + share * value(i + 1));
+    return result;
+  }
+
+  TColStd_Array1OfReal values() const {
+    TColStd_Array1OfReal result(1, count());
+    for (int i = 0; i < count(); ++i) result(i + 1) = value(i);
+    return result;
+  }
+  TColStd_Array1OfReal knots() const {
+    TColStd_Array1OfReal result(1, spans_ + 1);
+    for (int i = 0; i <= spans_; ++i) result(i + 1) = knot(i);
+    return result;
+  }
+  TColStd_Array1OfInteger multiplicities() const {
+    TColStd_Array1OfInteger result(1, spans_ + 1);
+    result.Init(1);
+    result(1) = result(spans_ + 1) = degree() + 1;
+    return result;
+  }
+  TColStd_Array1OfReal flat_knots() const {
+    TColStd_Array1OfReal result(1, spans_ + 1 + 2 * degree());
+    for (int i = 0; i < result.Length(); ++i) result(i + 1) = knot(std::clamp(i - degree(), 0, spans_));
+    return result;
+  }
+
+ private:
+  ParameterRange range_;
+  int spans_;
+};
+
+class MiddlePoints {
+ public:
+  MiddlePoints(const Skin& skin, const std::array<std::vector<int>, 2>& sides)
+      : base_(skin.faces()[sides[0].front()]), across_(skin, sides[1]), size_(skin.size()) {}
+
+  /// The point along the normal at (u, v) that is as far from the other side.
+  std::optional<gp_Pnt> at(double u, double v) {
+    const auto [entry, is_new] = known_.try_emplace({u, v});
+    if (is_new) entry->second = find({u, v});
+    return entry->second;
+  }
+
+ private:
+  std::optional<gp_Pnt> find(const gp_Pnt2d& uv) const {
+    const auto outward = base_.outward(uv);
+    if (!outward) return std::nullopt;
+    const gp_Pnt foot = base_.point(uv);
+    const gp_Vec inward(outward->Reversed());
+    double depth = 0;
+    for (int step = 0; step < 40; ++step) {  // Newton's, on a distance that is nearly linear
+      const gp_Pnt point = foot.Translated(depth * inward);
+      const gp_Vec from_other(across_.nearest(point), point);
+      const double distance = from_other.Magnitude();
+      if (std::abs(distance - depth) < 1e-10 * size_) return point;
+      const double slope = distance > 0 ? from_other.Dot(inward) / distance - 1 : -1;
+      if (slope > -0.5) return std::nullopt;
+      depth -= (distance - depth) / slope;
+      if (depth < 0 || depth > size_) return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  const SkinFace& base_;
+  Opposite across_;
+  double size_;
+  std::map<std::pair<double, double>, std::optional<gp_Pnt>> known_;
+};
+
+std::optional<Handle(Geom_BSplineSurface)> interpolate(MiddlePoints& points,
+                                                       const std::array<GridLine, 2>& grid) {
+  TColgp_Array2OfPnt poles(1, grid[0].count(), 1, grid[1].count());
+  for (int i = 0; i < grid[0].count(); ++i) {
+    for (int j = 0; j < grid[1].count(); ++j) {
+      const auto point = points.at(grid[0].value(i), grid[1].value(j));
+      if (!point) return std::nullopt;
+      poles(i + 1, j + 1) = *point;
+    }
+  }
+  int problem = 0;
+  BSplSLib::Interpolate(grid[0].degree(), grid[1].degree(), grid[0].flat_knots(), grid[1].flat_knots(),
+                        grid[0].values(), grid[1].values(), poles, problem);
+  if (problem != 0) return std::nullopt;
+  return new Geom_BSplineSurface(poles, grid[0].knots(), grid[1].knots(), grid[0].multiplicities(),
+                                 grid[1].multiplicities(), grid[0].degree(), grid[1].degree());
+}
+
+/// How far the surface is off half way between grid points along one direction.
+std::optional<double> off_along(int direction, const Handle(Geom_BSplineSurface) & surface,
+                                MiddlePoints& points, const std::array<GridLine, 2>& grid) {
+  const GridLine &along = grid[direction], &across = grid[1 - direction];
+  double off = 0;
+  for (int i = 0; i + 1 < along.count(); ++i) {
+    for (const double value : along.between(i)) {
+      for (int j = 0; j < across.count(); ++j) {
+        std::array<double, 2> uv{value, across.value(j)};
+        if (direction == 1) std::swap(uv[0], uv[1]);
+        const auto point = points.at(uv[0], uv[1]);
+        if (!point) return std::nullopt;
+        off = std::max(off, surface->Value(uv[0], uv[1]).Distance(*point));
+      }
+    }
+  }
+  return off;
+}
+
+std::optional<FittedMiddle> fit(MiddlePoints& points, const std::array<ParameterRange, 2>& ranges,
+                                double tolerance) {
+  constexpr int most_spans = 128;
+  std::array<GridLine, 2> grid{GridLine(ranges[0], 1), GridLine(ranges[1], 1)};
+  for (;;) {
+    const auto surface = interpolate(points, grid);
+    if (!surface) return std::nullopt;
+    FittedMiddle result{*surface, 0};
+    bool finer = false;
+    for (int direction = 0; direction < 2; ++direction) {
+      const auto off = off_along(direction, *surface, points, grid);
+      if (!off) return std::nullopt;
+      result.off = std::max(result.off, *off);
+      const int spans = grid[direction].spans();
+      if (*off <= tolerance || spans >= most_spans) continue;
+      grid[direction] = GridLine(ranges[direction], std::max(4, 2 * spans));
+      finer = true;
+    }
+    if (!finer) return result;
+  }
+}
+
+/// The parameters of the first side's surface between which both sides lie.
+std::array<ParameterRange, 2> common_range(const Skin& skin, const std::array<std::vector<int>, 2>& sides) {
+  const Handle(Geom_Surface) base = BRep_Tool::Surface(skin.faces()[sides[0].front()].face());
+  auto ranges = range_of(base, points_on_edges(skin, sides[0]), {0, 0});
+  const auto others = range_of(base, points_on_edges(skin, sides[1]), {0, 0});
+  for (int i = 0; i < 2; ++i) {
+    if (i == 0 ? base->IsUPeriodic() : base->IsVPeriodic()) continue;
+    const double low = std::max(ranges[i].low, others[i].low);
+    const double high = std::min(ranges[i].high, others[i].high);
+    if (low < high) ranges[i] = {low, high};
+  }
+  return ranges;
+}
+
+/// Straight on at the ends that are not closed.
+Handle(Geom_BSplineSurface) run_on(const Handle(Geom_BSplineSurface) & surface, double margin) {
+  Handle(Geom_BoundedSurface) result(surface);
+  for (const bool in_u : {true, false}) {
+    if (in_u ? surface->IsUClosed() : surface->IsVClosed()) continue;
+    for (const bool after : {false, true}) GeomLib::ExtendSurfByLength(result, margin, 1, in_u, after);
+  }
+  return Handle(Geom_BSplineSurface)::DownCast(result);
+}
+
+}  // namespace
+
+std::optional<FittedMiddle> fit_middle(const Skin& skin, const std::array<std::vector<int>, 2>& sides,
+                                       double tolerance, double margin) {
+  const auto ranges = common_range(skin, sides);
+  if (!(ranges[0].length() > 0) || !(ranges[1].length() > 0)) return std::nullopt;
+  MiddlePoints points(skin, sides);
+  auto result = fit(points, ranges, tolerance);
+  if (!result) return std::nullopt;
+  result->surface = run_on(result->surface, margin);
+  if (result->surface.IsNull()) return std::nullopt;
+  return result;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,28 @@
+#pragma once
+/// Ranges of surface parameters that hold faces. Internal.
+
+#include <Geom_Surface.hxx>
+#include <array>
+#include <vector>
+
+#include "geometry/midsurface/skin.hpp"
+
+namespace quadrille {
+
+/// An interval of a surface parameter.
+struct ParameterRange {
+  double low = 0, high = 0;
+  double length() const { return high - low; }
+};
+
+/// Points on the edges of these faces, ends included. \param faces indices into skin.faces().
+std::vector<gp_Pnt> points_on_edges(const Skin& skin, const std::vector<int>& faces);
+
+/// The range of u and that of v that hold the feet of the points on a surface, each widened by a margin at
+/// both ends. In a periodic direction all round, unless the points leave a wide gap. \param margins
+/// in units of the parameters. \param points at least one.
+std::array<ParameterRange, 2> range_of(const Handle(Geom_Surface) & surface,
+                                       const std::vector<gp_Pnt>& points,
+                                       const std::array<double, 2>& margins);
+
+}  // namespace quadrille
