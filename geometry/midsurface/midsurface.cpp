@@ -189,6 +189,7 @@ bool between_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
     double nearest = skin.size();
     for (const int index : side) {
       const SkinFace& face = skin.faces()[index];
+      if (face.box().Distance(Bnd_Box(point, point)) > wall.thickness) continue;
       on_side = on_side || face.foot(point);
       nearest = std::min(nearest, face.point(face.closest(point)).Distance(point));
     }

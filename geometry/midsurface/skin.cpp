@@ -178,6 +178,7 @@ Skin::Skin(const TopoDS_Solid& solid, const TopTools_IndexedMapOfShape& numbers)
   size_ = std::sqrt(box.SquareExtent());
   for (const SkinFace& face : faces_) {
     rays_.emplace_back(face, 1e-8 * size_);
+    corners_.push_back({face.box().CornerMin(), face.box().CornerMax()});
   }
 }
 
@@ -186,7 +187,7 @@ std::vector<int> Skin::faces_along(const gp_Lin& line, double from, double to) c
   const gp_Pnt b(line.Location().XYZ() + to * line.Direction().XYZ());
   std::vector<int> result;
   for (std::size_t i = 0; i < faces_.size(); ++i) {
-    const gp_Pnt low = faces_[i].box().CornerMin(), high = faces_[i].box().CornerMax();
+    const auto& [low, high] = corners_[i];
     double first = 0, last = 1;
     for (int axis = 1; axis <= 3; ++axis) {
       const double start = a.Coord(axis), change = b.Coord(axis) - start;

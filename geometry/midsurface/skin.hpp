@@ -123,7 +123,8 @@ class Skin {
   TopTools_IndexedMapOfShape map_;
   std::vector<SkinFace> faces_;
   double size_ = 0;
-  std::vector<RayFace> rays_;  ///< a face
+  std::vector<RayFace> rays_;                   ///< a face
+  std::vector<std::array<gp_Pnt, 2>> corners_;  ///< of each face's box
 };
 
 }  // namespace quadrille

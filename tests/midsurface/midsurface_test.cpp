@@ -5,9 +5,11 @@
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
 #include <IntCurvesFace_ShapeIntersector.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -94,6 +96,15 @@ TEST_P(Thin, BecomesItsMiddleSurface) {
   EXPECT_EQ(thicknesses, model.thicknesses);
 }
 
+/// Without the inside, at which distances end.
+TopoDS_Compound shells_of(const TopoDS_Shape& solid) {
+  TopoDS_Compound result;
+  const BRep_Builder builder;
+  builder.MakeCompound(result);
+  for (TopExp_Explorer it(solid, TopAbs_SHELL); it.More(); it.Next()) builder.Add(result, it.Current());
+  return result;
+}
+
 /// How far a point is from the middle of the material: from the nearest point of the skin straight through
 /// the point to the other side.
 double off_the_middle(const gp_Pnt& point, const TopoDS_Shape& skin) {
@@ -114,7 +125,7 @@ TEST_P(Thin, LiesInTheMiddleAndCanBeMeshed) {
   ExecutionContext context;
   const ShellMesh result = mesh(middle.model, options, context);
   EXPECT_FALSE(result.quads.empty());
-  const TopoDS_Shape skin = TopExp_Explorer(solid, TopAbs_SHELL).Current();
+  const TopoDS_Shape skin = shells_of(solid);
   std::vector<bool> on_edge(result.points.size());
   for (const ShellMesh::Segment& segment : result.segments)
     on_edge[segment.nodes[0]] = on_edge[segment.nodes[1]] = true;
