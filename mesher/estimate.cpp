@@ -1,6 +1,7 @@
 #include "mesher/estimate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -15,6 +16,27 @@
 #include "mesher/settings.hpp"
 
 namespace quadrille {
+
+namespace {
+
+/// The rows of quads of a face with four sides, the fewer of both ways; 0 for other faces.
+int fewest_rows(const CadFace& face, const FaceSides& sides, const BoundaryNodes& nodes) {
+  if (sides.outline != FaceSides::Outline::four || sides.starts.size() != 4 || face.wires.size() != 1)
+    return 0;
+  const auto& coedges = face.wires.front().coedges;
+  std::array<int, 4> counts{};
+  for (std::size_t side = 0; side < counts.size(); ++side) {
+    std::size_t i = sides.starts[side];
+    do {
+      counts[side] += std::max(0, nodes.edges[coedges[i].edge - 1].segments());
+      i = (i + 1) % coedges.size();
+    } while (static_cast<int>(i) != sides.starts[(side + 1) % counts.size()]);
+  }
+  const bool is_grid = counts[0] == counts[2] && counts[1] == counts[3];
+  return is_grid ? std::min(counts[0], counts[1]) : 0;
+}
+
+}  // namespace
 
 QuadEstimate::QuadEstimate(const CadModel& model, ExecutionContext& context)
     : model_(model), context_(context) {
@@ -41,8 +63,9 @@ double QuadEstimate::quads(const MeshOptions& options) {
           for (const Coedge& coedge : wire.coedges)
             border += std::max(0, nodes.edges[coedge.edge - 1].segments());
         }
-        // The narrowest strip has two rows of quads, with ends of two sides each.
-        count += std::max({4.0, border - 4, inside});
+        // The narrowest strip has two rows of quads, with ends of two sides each; but a grid may have one.
+        const int rows = fewest_rows(shape.faces[face], nodes.sides[face], nodes);
+        count += rows == 1 ? std::max(1.0, 0.5 * border - 1) : std::max({4.0, border - 4, inside});
       }
       return count;
     });

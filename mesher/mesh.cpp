@@ -63,11 +63,13 @@ class Job {
 
   ShellMesh run(const SizingField& field) {
     mesh_in_rounds(field);
+    advise_on_tiny_faces();
+    const bool none =
+        std::none_of(meshes_.begin(), meshes_.end(), [](const auto& m) { return m.has_value(); });
+    if (!options_.partial || none) throw_first_problem();
+    slide();
     // What is done by then is delivered, however long that takes.
     if (options_.partial) context_.lift_time_limit();
-    advise_on_tiny_faces();
-    if (!options_.partial) throw_first_problem();
-    slide_nodes(shape_, nodes_, meshes_, options_.improve, context_);
     ShellMesh result = assemble(shape_, nodes_, meshes_, statuses(), options_, context_);
     result.let_go = list_let_go();
     return result;
@@ -75,6 +77,23 @@ class Job {
 
  private:
   static constexpr int most_chart_rounds = 12;
+
+  bool is_limited() const { return options_.partial && context_.has_time_limit(); }
+
+  /// With options.partial only where there is time for all of it.
+  void slide() {
+    if (!is_limited()) return slide_nodes(shape_, nodes_, meshes_, options_.improve, context_);
+    const BoundaryNodes nodes = nodes_;
+    const std::vector<std::optional<FaceMesh>> meshes = meshes_;
+    try {
+      context_.check();
+      slide_nodes(shape_, nodes_, meshes_, options_.improve, context_);
+    } catch (const Error& error) {
+      if (error.subject() != ExecutionContext::time_subject) throw;
+      nodes_ = nodes;
+      meshes_ = meshes;
+    }
+  }
 
   /// Each round finds the charts first: faces are meshed once no boundary crosses itself that can be mended.
   void mesh_in_rounds(const SizingField& field) {
@@ -166,7 +185,7 @@ class Job {
       ExecutionContext share(context_);
       if (record.attempts > 0) share.limit_work(std::max<std::int64_t>(1, record.share() - record.work));
       // The others are to have their turn.
-      if (options_.partial && context_.has_time_limit()) share.limit_time(0.5 * context_.seconds_left());
+      if (is_limited()) share.limit_time(0.5 * context_.seconds_left());
       const auto start = std::chrono::steady_clock::now();
       const auto count = [&] {
         record.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -202,7 +221,9 @@ class Job {
   template <class Work>
   void for_each_face_left(Stage stage, double done_before, Work&& work) {
     const int n = static_cast<int>(shape_.faces.size());
-    const std::vector<int> order = longest_first();
+    std::vector<int> order = longest_first();
+    // So that most are done when the time is over.
+    if (is_limited()) std::reverse(order.begin(), order.end());
     std::atomic<int> started{0}, done{0};
     const auto work_on = [&](int face) {
       if (!used_[face] || meshes_[face] || records_[face].given_up) return;
