@@ -65,10 +65,15 @@ def note(mesh, anew: Container[str] = ()) -> None:
     given name, since the user has just chosen them."""
     records = _read(mesh)
     present = [entry for entry in chosen(mesh) if _has_shape(entry.target)]
+    topologies: Dict[str, str] = {}
+    elements: Dict[str, shapes.Elements] = {}
     for entry in present:
-        of_target = records.setdefault(entry.target.Name, {})
+        target, of_target = entry.target, records.setdefault(entry.target.Name, {})
         if entry.source in anew or entry.name not in of_target:
-            of_target[entry.name] = (shapes.topology(entry.target.Shape), _measures(entry))
+            if target.Name not in topologies:
+                topologies[target.Name] = shapes.topology(target.Shape)
+                elements[target.Name] = shapes.Elements(target.Shape)
+            of_target[entry.name] = (topologies[target.Name], elements[target.Name].measures_of(entry.name))
     _write(mesh, records, present)
 
 
@@ -77,14 +82,20 @@ def follow(mesh, without: Container[str] = ()) -> Dict[Key, str]:
     cannot be told of one."""
     found: Dict[Key, str] = {}
     records = _read(mesh)
+    elements: Dict[str, shapes.Elements] = {}
     for entry in chosen(mesh):
         if entry.source in without or entry.key in found:
             continue
         if entry.name.startswith(_MISSING):
             raise _lost(mesh, entry)
         record = records.get(entry.target.Name, {}).get(entry.name)
-        known = record is not None and _has_shape(entry.target) and not carried_by_freecad(entry.target.Shape)
-        found[entry.key] = _now(mesh, entry, *record) if known else entry.name
+        if record is None or not _has_shape(entry.target):
+            found[entry.key] = entry.name
+            continue
+        if entry.target.Name not in elements:
+            elements[entry.target.Name] = shapes.Elements(entry.target.Shape)
+        of_target = elements[entry.target.Name]
+        found[entry.key] = entry.name if of_target.is_as_measured(entry.name, record[1]) else _now(mesh, entry, of_target, record)
     return found
 
 
@@ -113,16 +124,17 @@ def carried_by_freecad(shape) -> bool:
     return getattr(shape, "ElementMapSize", 0) > 0
 
 
-def _now(mesh, entry: Chosen, together: str, measures: List[float]) -> str:
-    """The present name of an element of which there is a record."""
+def _now(mesh, entry: Chosen, elements: shapes.Elements, record: Tuple[str, List[float]]) -> str:
+    """The present name of an element that is not what its record says."""
+    together, measures = record
     shape = entry.target.Shape
-    there = shapes.find_by_measures(shape, entry.name.rstrip("0123456789"), measures)
-    as_before = shapes.topology(shape) == together
-    if len(there) == 1 and (there[0] == entry.name or not as_before):
-        return there[0]
-    # In its old place there is nothing, and the part is put together as before: the element has moved or grown.
+    there = elements.find(entry.name.rstrip("0123456789"), measures)
+    as_before = carried_by_freecad(shape) or shapes.topology(shape) == together
+    # In its old place there is nothing, and the part is put together as before, or FreeCAD knows: it has moved or grown.
     if not there and as_before:
         return entry.name
+    if len(there) == 1 and not as_before:
+        return there[0]
     raise _lost(mesh, entry)
 
 
@@ -135,11 +147,6 @@ def _lost(mesh, entry: Chosen) -> Error:
 def _has_shape(target) -> bool:
     shape = getattr(target, "Shape", None)
     return shape is not None and hasattr(shape, "Faces") and not shape.isNull()
-
-
-def _measures(entry: Chosen) -> List[float]:
-    element = shapes.element_of(entry.target.Shape, entry.name)
-    return [] if element is None else shapes.measures(element)
 
 
 #: For each object and element: how its shape was put together, and the element's measures.

@@ -270,27 +270,44 @@ def find_element(shape, element) -> Optional[str]:
     for index, candidate in enumerate(candidates, 1):
         if candidate.isSame(element):
             return f"{kind}{index}"
-    found = find_by_measures(shape, kind, measures(element))
+    found = Elements(shape).find(kind, measures(element))
     return found[0] if found else None
 
 
-def find_by_measures(shape, kind: str, wanted: Sequence[float]) -> List[str]:
-    """The names of the elements of a kind ("Face") that have these measures but for rounding."""
-    tolerance = _ROUNDING * max(shape.BoundBox.DiagonalLength, 1e-300)
-    return [f"{kind}{index}" for index, candidate in enumerate(getattr(shape, _KINDS[kind]), 1)
-            if _alike(measures(candidate), wanted, tolerance)]
+class Elements:
+    """The faces, edges and vertices of a shape by name, and by what they measure. FreeCAD makes its lists anew whenever they
+    are asked for; here they are kept."""
+
+    def __init__(self, shape) -> None:
+        self._shape = shape
+        self._lists: Dict[str, List] = {}
+        self._tolerance = _ROUNDING * max(shape.BoundBox.DiagonalLength, 1e-300)
+
+    def all(self, kind: str) -> List:
+        """Those of a kind ("Face")."""
+        if kind not in self._lists:
+            self._lists[kind] = getattr(self._shape, _KINDS[kind])
+        return self._lists[kind]
+
+    def measures_of(self, name: str) -> List[float]:
+        """The measures of an element; empty when there is none of that name."""
+        kind = name.rstrip("0123456789")
+        if kind not in _KINDS or not 1 <= int(name[len(kind):] or 0) <= len(self.all(kind)):
+            return []
+        return measures(self.all(kind)[int(name[len(kind):]) - 1])
+
+    def is_as_measured(self, name: str, wanted: Sequence[float]) -> bool:
+        """True when an element has these measures but for rounding."""
+        return _alike(self.measures_of(name), wanted, self._tolerance)
+
+    def find(self, kind: str, wanted: Sequence[float]) -> List[str]:
+        """The names of the elements of a kind that have these measures but for rounding."""
+        return [f"{kind}{index}" for index, candidate in enumerate(self.all(kind), 1)
+                if _alike(measures(candidate), wanted, self._tolerance)]
 
 
 def _alike(one: Sequence[float], other: Sequence[float], tolerance: float) -> bool:
     return len(one) == len(other) > 0 and all(abs(a - b) <= tolerance for a, b in zip(one, other))
-
-
-def element_of(shape, name: str):
-    """The element of a shape with a name such as "Face3", or None."""
-    if not _exists(shape, name):
-        return None
-    kind = name.rstrip("0123456789")
-    return getattr(shape, _KINDS[kind])[int(name[len(kind):]) - 1]
 
 
 def topology(shape) -> str:

@@ -154,7 +154,8 @@ class RefineCommand(_Command):
 
     name = "Quadrille_Refine"
     text = QT_TRANSLATE_NOOP("Quadrille_Refine", "Refine faces, edges, vertices")
-    tip = QT_TRANSLATE_NOOP("Quadrille_Refine", "Give the selected faces, edges or vertices a size of their own (a FEM mesh region)")
+    tip = QT_TRANSLATE_NOOP(
+        "Quadrille_Refine", "Give the selected faces, edges or vertices a size of their own (a FEM mesh region)")
     accelerator = "Q, R"
     pixmap = "quadrille_refine"
     step = "Refine quad mesh"
@@ -229,7 +230,8 @@ class FlipCommand(_Command):
 
     name = "Quadrille_Flip"
     text = QT_TRANSLATE_NOOP("Quadrille_Flip", "Flip shell normals")
-    tip = QT_TRANSLATE_NOOP("Quadrille_Flip", "Turn the shell normals of the selected faces over (of all faces when none is selected); meshes again")
+    tip = QT_TRANSLATE_NOOP(
+        "Quadrille_Flip", "Turn the shell normals of the selected faces over (of all faces when none is selected); meshes again")
     accelerator = "Q, F"
     pixmap = "quadrille_flip"
     step = "Flip shell normals"
@@ -252,7 +254,8 @@ class ExportCommand(_Command):
 
     name = "Quadrille_Export"
     text = QT_TRANSLATE_NOOP("Quadrille_Export", "Export quad mesh")
-    tip = QT_TRANSLATE_NOOP("Quadrille_Export", "Write the mesh to a file for CalculiX, Gmsh, Salome, ParaView or Nastran, with its sets and groups")
+    tip = QT_TRANSLATE_NOOP(
+        "Quadrille_Export", "Write the mesh to a file for CalculiX, Gmsh, Salome, ParaView or Nastran, with its sets and groups")
     accelerator = "Q, E"
     pixmap = "quadrille_export"
 
