@@ -307,6 +307,12 @@ class Builder {
     sample_edge(curve, edge, cap, !curve.circular(), sources);
   }
 
+  struct EdgeSample {
+    double t;
+    Vector3 point;
+    double size;
+  };
+
   void sample_edge(const EdgeCurve& curve, const CadEdge& edge, double cap, bool with_curvature,
                    Sources& sources) const {
     const int intervals = std::max({4, with_curvature ? 3 * curve.spans() : 1,
@@ -315,36 +321,34 @@ class Builder {
       const double size = std::min(cap, external_size(p));
       return with_curvature ? std::min(size, size_of(curve.curvature(t))) : size;
     };
-    double t0 = edge.first;
-    Vector3 p0 = curve.point(t0);
-    double s0 = size_at(t0, p0);
-    sources.add(p0, s0);
+    const auto sample = [&](double t) {
+      const Vector3 point = curve.point(t);
+      return EdgeSample{t, point, size_at(t, point)};
+    };
+    EdgeSample first = sample(edge.first);
+    sources.add(first.point, first.size);
     for (int i = 1; i <= intervals; ++i) {
-      const double t1 = edge.first + (edge.last - edge.first) * i / intervals;
-      const Vector3 p1 = curve.point(t1);
-      const double s1 = size_at(t1, p1);
-      const double segments = (p1 - p0).norm() / std::min(s0, s1);
+      const EdgeSample last = sample(edge.first + (edge.last - edge.first) * i / intervals);
+      const double segments = (last.point - first.point).norm() / std::min(first.size, last.size);
       if (segments > options_.budget.segments) throw too_many_segments(&edge - shape_.edges.data(), segments);
-      split_edge(curve, size_at, t0, t1, p0, p1, s0, s1, 0, sources);
-      sources.add(p1, s1);
-      t0 = t1;
-      p0 = p1;
-      s0 = s1;
+      split_interval(sample, first, last, 0, sources);
+      sources.add(last.point, last.size);
+      first = last;
     }
   }
 
-  template <class SizeAt>
-  void split_edge(const EdgeCurve& curve, const SizeAt& size_at, double t0, double t1, const Vector3& p0,
-                  const Vector3& p1, double s0, double s1, int depth, Sources& sources) const {
+  /// Adds the sample half way between two, and those half way to it, until they are as near as the size
+  /// there.
+  template <class SampleAt>
+  void split_interval(const SampleAt& sample, const EdgeSample& first, const EdgeSample& last, int depth,
+                      Sources& sources) const {
     sources.check();
-    if ((p1 - p0).norm() <= std::min(s0, s1) || depth > max_depth) return;
-    const double t = 0.5 * (t0 + t1);
-    const Vector3 p = curve.point(t);
-    const double s = size_at(t, p);
-    if (std::min({s0, s, s1}) >= field_.size_max) return;
-    sources.add(p, s);
-    split_edge(curve, size_at, t0, t, p0, p, s0, s, depth + 1, sources);
-    split_edge(curve, size_at, t, t1, p, p1, s, s1, depth + 1, sources);
+    if ((last.point - first.point).norm() <= std::min(first.size, last.size) || depth > max_depth) return;
+    const EdgeSample middle = sample(0.5 * (first.t + last.t));
+    if (std::min({first.size, middle.size, last.size}) >= field_.size_max) return;
+    sources.add(middle.point, middle.size);
+    split_interval(sample, first, middle, depth + 1, sources);
+    split_interval(sample, middle, last, depth + 1, sources);
   }
 
   void add_face(int index, Sources& sources) const {
@@ -366,31 +370,39 @@ class Builder {
     const int nu = std::clamp(static_cast<int>(std::ceil(lengths.x() / field_.size_max)), 4, 400);
     const int nv = std::clamp(static_cast<int>(std::ceil(lengths.y() / field_.size_max)), 4, 400);
     const Vector2 cell(extent.x() / nu, extent.y() / nv);
+    const auto sample = [&](const Vector2& middle, const Vector2& part) {
+      const SurfacePoint at = surface.evaluate(middle);
+      const double size = size_at(middle, at.point);
+      if (size < field_.size_max && domain.inside(middle)) sources.add(at.point, size);
+      return CellSample{size, part.x() * at.du.norm(), part.y() * at.dv.norm()};
+    };
     for (int j = 0; j < nv; ++j) {
       for (int i = 0; i < nu; ++i) {
-        split_cell(surface, domain, size_at, low + Vector2((i + 0.5) * cell.x(), (j + 0.5) * cell.y()), cell,
-                   0, sources);
+        const Vector2 middle = low + Vector2((i + 0.5) * cell.x(), (j + 0.5) * cell.y());
+        split_cell(sample, middle, cell, 0, sources);
       }
     }
   }
 
+  /// The size in the middle of a cell of the parameter plane, and how long and wide the cell is in space.
+  struct CellSample {
+    double size, length, width;
+  };
+
   /// Samples the middle of a cell of the parameter plane, and its parts where the size is below the cell's.
-  template <class SizeAt>
-  void split_cell(const FaceSurface& surface, const TrimmedDomain& domain, const SizeAt& size_at,
-                  const Vector2& middle, const Vector2& cell, int depth, Sources& sources) const {
+  template <class SampleAt>
+  void split_cell(const SampleAt& sample, const Vector2& middle, const Vector2& cell, int depth,
+                  Sources& sources) const {
     sources.check();
-    const SurfacePoint at = surface.evaluate(middle);
-    const double size = size_at(middle, at.point);
-    const double du = cell.x() * at.du.norm(), dv = cell.y() * at.dv.norm();
-    if (size < field_.size_max && domain.inside(middle)) sources.add(at.point, size);
-    const bool split_u = du > 1.5 * size, split_v = dv > 1.5 * size;
+    const auto [size, length, width] = sample(middle, cell);
+    const bool split_u = length > 1.5 * size, split_v = width > 1.5 * size;
     if ((!split_u && !split_v) || depth > max_depth || size >= field_.size_max) return;
     const int nu = split_u ? 2 : 1, nv = split_v ? 2 : 1;
     const Vector2 part(cell.x() / nu, cell.y() / nv);
     for (int j = 0; j < nv; ++j) {
       for (int i = 0; i < nu; ++i) {
         const Vector2 offset((i + 0.5) * part.x() - 0.5 * cell.x(), (j + 0.5) * part.y() - 0.5 * cell.y());
-        split_cell(surface, domain, size_at, middle + offset, part, depth + 1, sources);
+        split_cell(sample, middle + offset, part, depth + 1, sources);
       }
     }
   }

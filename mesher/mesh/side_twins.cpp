@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "geometry/base/error.hpp"
 
@@ -56,6 +59,51 @@ void check_sides(const TriangleMesh& mesh) {
                              triangle_of(twin)));
     }
   }
+}
+
+SideRows::SideRows(const TriangleMesh& mesh)
+    : mesh_(mesh), tags_(mesh.tags.empty() ? nullptr : mesh.tags.data()), end_(mesh.points.size() + 1, 0) {
+  const auto& triangles = mesh.triangles;
+  std::vector<int>& start = end_;
+  for (const auto& [a, b, c] : triangles) {
+    start[a] += a < b;
+    start[b] += b < c;
+    start[c] += c < a;
+  }
+  for (int& s : start) rising += std::exchange(s, rising);
+  ups.resize(rising + at_once);
+  down.resize(3 * triangles.size() - rising + 1);
+  // Without a branch on which way a side runs, which cannot be foreseen: what is not to be kept is written as
+  // well, where it will be written over. Each start moves to its row's end.
+  for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const int a = triangles[t][i], b = triangles[t][next_index(i)];
+      const bool rises = a < b;
+      const int place = rises ? start[a] : rising;
+      start[a] += rises;
+      ups[place] = {b, make_side(t, i)};
+      down[falling] = make_side(t, i);
+      falling += !rises;
+    }
+  }
+}
+
+bool SideRows::repeated(std::span<Side> lone) const {
+  const auto& triangles = mesh_.triangles;
+  for (int place = 0; place < rising; ++place) {
+    if (ups[place].side < 0) continue;
+    // Of two sides that run the same way one at least was not taken.
+    const int t = triangle_of(ups[place].side), p = triangles[t][index_of(ups[place].side)];
+    const int same = find(begin(p), p, ups[place].to, t);
+    if (same != place || find(place + 1, p, ups[place].to, t) < end(p)) return true;
+  }
+  const auto key = [&](Side s) {
+    const int t = triangle_of(s), i = index_of(s);
+    return std::make_tuple(triangles[t][i], triangles[t][next_index(i)], tags_ ? tags_[t] : 0);
+  };
+  std::sort(lone.begin(), lone.end(), [&](Side a, Side b) { return key(a) < key(b); });
+  return std::adjacent_find(lone.begin(), lone.end(), [&](Side a, Side b) { return key(a) == key(b); }) !=
+         lone.end();
 }
 
 }  // namespace quadrille

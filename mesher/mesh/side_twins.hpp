@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <memory>
-#include <tuple>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "mesher/mesh/mesh_types.hpp"
@@ -47,87 +45,73 @@ void check_indices(const TriangleMesh& mesh);
 /// same way as another of its tag. Slower than join_twins(), which calls it where something is wrong.
 void check_sides(const TriangleMesh& mesh);
 
-/// Calls join(side, twin) once for each side that two triangles of one tag share.
-/// Throws Error (failure) as check_sides() does. Time and memory: linear (a counting sort of the sides that
-/// run up, to a point of higher index, by their lower point; those that run down are looked up).
-template <class Join>
-void join_twins(const TriangleMesh& mesh, Join&& join) {
-  const auto& triangles = mesh.triangles;
-  const int* const tags = mesh.tags.empty() ? nullptr : mesh.tags.data();
-  std::vector<int> start(mesh.points.size() + 1, 0);
-  for (const auto& [a, b, c] : triangles) {
-    start[a] += a < b;
-    start[b] += b < c;
-    start[c] += c < a;
-  }
-  int total = 0;
-  for (int& s : start) total += std::exchange(s, total);
-  // Without a branch on which way a side runs, which cannot be foreseen: what is not to be kept is written as
-  // well, where it will be written over.
-  constexpr int at_once = 8;
+/// The sides of a triangle mesh in rows: those that run up, to a point of higher index, by their lower point;
+/// those that run down in the order of the mesh. Made by a counting sort; time and memory linear.
+class SideRows {
+ public:
   struct Up {
     int to;
-    Side side;
+    Side side;  ///< its complement once it is taken
   };
-  std::vector<Up> ups(total + at_once);
-  std::vector<Side> down(3 * triangles.size() - total + 1);
-  std::size_t downs = 0;
-  for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      const int a = triangles[t][i], b = triangles[t][next_index(i)];
-      const bool rises = a < b;
-      const int place = rises ? start[a] : total;
-      start[a] += rises;
-      ups[place] = {b, make_side(t, i)};
-      down[downs] = make_side(t, i);
-      downs += !rises;
-    }
-  }
-  // start[p] is now the end of p's sides. The first place from `from` on of a side of p that rises to a
-  // point, in a tag; p's end if there is none.
-  const auto find = [&](int from, int p, int to, int t) {
-    const int end = start[p];
+
+  explicit SideRows(const TriangleMesh& mesh);
+
+  /// The first place from `from` on of a side of `point` that rises to `to`, beside triangle `t`'s tag; the
+  /// end of the point's row if there is none.
+  int find(int from, int point, int to, int t) const {
+    const int end = end_[point];
     for (; from < end; from += at_once) {
+      // Without a branch on each, which cannot be foreseen.
       unsigned found = 1U << at_once;
       for (int k = 0; k < at_once; ++k) found |= static_cast<unsigned>(ups[from + k].to == to) << k;
       const int place = from + std::countr_zero(found);
       if (place >= std::min(end, from + at_once)) continue;
       const int other = triangle_of(ups[place].side < 0 ? ~ups[place].side : ups[place].side);
-      if (!tags || tags[other] == tags[t]) return place;
+      if (!tags_ || tags_[other] == tags_[t]) return place;
       from = place + 1 - at_once;
     }
     return end;
-  };
-  const auto first_of = [&](int p) { return p == 0 ? 0 : start[p - 1]; };
+  }
+  int begin(int point) const { return point == 0 ? 0 : end_[point - 1]; }
+  int end(int point) const { return end_[point]; }
+
+  /// Whether some side runs the same way as another of its tag, or is the third: among those that rise, and
+  /// among `lone`, sides that run down and found no twin. Sorts `lone`.
+  bool repeated(std::span<Side> lone) const;
+
+  std::vector<Up> ups;     ///< `rising` of them, and room to read on
+  std::vector<Side> down;  ///< `falling` of them
+  int rising = 0, falling = 0;
+
+ private:
+  static constexpr int at_once = 8;
+
+  const TriangleMesh& mesh_;
+  const int* tags_;
+  std::vector<int> end_;  ///< of each point's row
+};
+
+/// Calls join(side, twin) once for each side that two triangles of one tag share.
+/// Throws Error (failure) as check_sides() does. Time and memory: linear.
+template <class Join>
+void join_twins(const TriangleMesh& mesh, Join&& join) {
+  SideRows rows(mesh);
   bool doubtful = false;
   std::size_t lone = 0;
-  for (std::size_t d = 0; d < downs; ++d) {
-    const Side side = down[d];
-    const int t = triangle_of(side), i = index_of(side), p = triangles[t][next_index(i)];
-    const int place = find(first_of(p), p, triangles[t][i], t);
-    if (place >= start[p]) {
-      down[lone++] = side;
-    } else if (ups[place].side < 0) {
+  for (int d = 0; d < rows.falling; ++d) {
+    const Side side = rows.down[d];
+    const int t = triangle_of(side), i = index_of(side), p = mesh.triangles[t][next_index(i)];
+    const int place = rows.find(rows.begin(p), p, mesh.triangles[t][i], t);
+    if (place >= rows.end(p)) {
+      rows.down[lone++] = side;
+    } else if (rows.ups[place].side < 0) {
       doubtful = true;
     } else {
-      join(side, ups[place].side);
-      ups[place].side = ~ups[place].side;  // taken
+      join(side, rows.ups[place].side);
+      rows.ups[place].side = ~rows.ups[place].side;
     }
   }
-  // Two sides that run the same way: one of them is left alone, if not taken twice above.
-  for (int place = 0; place < total && !doubtful; ++place) {
-    if (ups[place].side < 0) continue;
-    const int t = triangle_of(ups[place].side), p = triangles[t][index_of(ups[place].side)];
-    const int same = find(first_of(p), p, ups[place].to, t);
-    doubtful = same != place || find(place + 1, p, ups[place].to, t) < start[p];
-  }
-  const auto key = [&](Side s) {
-    const int t = triangle_of(s), i = index_of(s);
-    return std::make_tuple(triangles[t][i], triangles[t][next_index(i)], tags ? tags[t] : 0);
-  };
-  std::sort(&down[0], &down[lone], [&](Side a, Side b) { return key(a) < key(b); });
-  for (std::size_t d = 1; d < lone; ++d) doubtful |= key(down[d]) == key(down[d - 1]);
-  if (doubtful) check_sides(mesh);
+  if (doubtful || rows.repeated({rows.down.data(), lone})) check_sides(mesh);
 }
 
 }  // namespace quadrille

@@ -188,7 +188,21 @@ class CleanUp {
   bool improve_round(int node);
   bool try_patch(const Patch& patch);
   bool trace(const Patch& patch, Outline& outline) const;
+  /// A template laid into an outline: where its corners are and which nodes they are to be.
+  struct Filling {
+    const PatchTemplate& filling;
+    std::array<Vector3, PatchTemplate::max_sides + PatchTemplate::max_interior> x;
+    std::array<int, PatchTemplate::max_sides + PatchTemplate::max_interior> nodes;
+    Vector3 normal;  ///< the sum of those at the outline
+    /// The least scaled Jacobian, negative where a quad is folded.
+    double worst() const;
+  };
+
   bool fill(const Patch& patch, const Outline& outline, const PatchTemplate& filling);
+  /// The template with its inner corners relaxed from the middle of the outline.
+  Filling relaxed(const Outline& outline, const PatchTemplate& filling) const;
+  /// A new free node at the place of another; returns its number.
+  int add_node_like(int donor);
   void push(int node);
 
   static constexpr std::size_t tried_slots = 1 << 13;
@@ -559,40 +573,56 @@ bool CleanUp::try_patch(const Patch& patch) {
   return false;
 }
 
-bool CleanUp::fill(const Patch& patch, const Outline& outline, const PatchTemplate& filling) {
-  // Nodes inside start from the middle of the polygon and are relaxed among themselves and towards it.
-  std::array<Vector3, PatchTemplate::max_sides + PatchTemplate::max_interior> x;
-  std::array<int, PatchTemplate::max_sides + PatchTemplate::max_interior> nodes;
-  Vector3 centre = Vector3::Zero();
-  for (int i = 0; i < outline.length; ++i) {
-    nodes[i] = outline.ring[i];
-    x[i] = point(nodes[i]);
-    centre += x[i] / outline.length;
-  }
+CleanUp::Filling CleanUp::relaxed(const Outline& outline, const PatchTemplate& filling) const {
+  Filling result{filling, {}, {}, Vector3::Zero()};
   const int n = outline.length;
-  for (int i = 0; i < filling.interior; ++i) x[n + i] = centre;
+  auto& x = result.x;
+  Vector3 center = Vector3::Zero();
+  for (int i = 0; i < n; ++i) {
+    result.nodes[i] = outline.ring[i];
+    x[i] = point(outline.ring[i]);
+    center += x[i] / n;
+    result.normal += mesh_.normals[outline.ring[i]];
+  }
+  for (int i = 0; i < filling.interior; ++i) x[n + i] = center;
   for (int sweep = 0; sweep < 6; ++sweep)
     for (int i = n; i < n + filling.interior; ++i) {
       Vector3 sum = Vector3::Zero();
-      int neighbours = 0;
+      int neighbors = 0;
       for (int k = 0; k < filling.quads; ++k)
         for (int j = 0; j < 4; ++j)
           if (filling.corners[k][j] == i) {
             sum += x[filling.corners[k][(j + 1) & 3]];
-            ++neighbours;
+            ++neighbors;
           }
-      x[i] = sum / neighbours;
+      x[i] = sum / neighbors;
     }
-  Vector3 normal = Vector3::Zero();
-  for (int i = 0; i < n; ++i) normal += mesh_.normals[nodes[i]];
-  const auto worst_now = [&] {
-    double least = 1;
-    for (int k = 0; k < filling.quads; ++k) {
-      const auto& c = filling.corners[k];
-      least = std::min(least, folded_scaled_jacobian(x[c[0]], x[c[1]], x[c[2]], x[c[3]], normal));
-    }
-    return least;
-  };
+  return result;
+}
+
+double CleanUp::Filling::worst() const {
+  double least = 1;
+  for (int k = 0; k < filling.quads; ++k) {
+    const auto& c = filling.corners[k];
+    least = std::min(least, folded_scaled_jacobian(x[c[0]], x[c[1]], x[c[2]], x[c[3]], normal));
+  }
+  return least;
+}
+
+int CleanUp::add_node_like(int donor) {
+  const int node = topology_.add_node();
+  mesh_.mesh.points.push_back(point(donor));
+  mesh_.normals.push_back(mesh_.normals[donor]);
+  mesh_.parameters.push_back(mesh_.parameters[donor]);
+  mesh_.fixed.push_back(0);
+  if (!mesh_.boundary_angles.empty()) mesh_.boundary_angles.push_back(0);
+  locked_.push_back(0);
+  angles_.push_back(0);
+  doubtful_.push_back(0);
+  return node;
+}
+
+bool CleanUp::fill(const Patch& patch, const Outline& outline, const PatchTemplate& filling) {
   Change change;
   std::array<Quad, Patch::max_quads> before;
   for (int i = 0; i < patch.count; ++i) {
@@ -600,7 +630,8 @@ bool CleanUp::fill(const Patch& patch, const Outline& outline, const PatchTempla
     before[i] = topology_.quad(patch.quads[i]);
   }
   const double floor = std::min(worst({before.data(), static_cast<std::size_t>(patch.count)}), mendable);
-  if (!(worst_now() > floor)) return false;
+  Filling filled = relaxed(outline, filling);
+  if (!(filled.worst() > floor)) return false;
 
   // Only now the surface is asked.
   struct Saved {
@@ -608,41 +639,31 @@ bool CleanUp::fill(const Patch& patch, const Outline& outline, const PatchTempla
     Vector2 uv;
   };
   std::array<Saved, PatchTemplate::max_interior> saved;
-  int donor = nodes[0];
+  const int n = outline.length;
+  int donor = filled.nodes[0];
   for (int i = 0; i < n; ++i)
-    if (!mesh_.fixed[nodes[i]]) donor = nodes[i];
+    if (!mesh_.fixed[filled.nodes[i]]) donor = filled.nodes[i];
   for (int i = 0; i < filling.interior; ++i) {
-    int node;
-    if (i < outline.inside_count) {
-      node = outline.inside[i];
-      saved[i] = {point(node), mesh_.normals[node], mesh_.parameters[node]};
-    } else {
-      node = topology_.add_node();
-      mesh_.mesh.points.push_back(point(donor));
-      mesh_.normals.push_back(mesh_.normals[donor]);
-      mesh_.parameters.push_back(mesh_.parameters[donor]);
-      mesh_.fixed.push_back(0);
-      if (!mesh_.boundary_angles.empty()) mesh_.boundary_angles.push_back(0);
-      locked_.push_back(0);
-      angles_.push_back(0);
-      doubtful_.push_back(0);
-      saved[i] = {point(node), mesh_.normals[node], mesh_.parameters[node]};
-    }
-    nodes[n + i] = node;
-    x[n + i] = mesh_.mesh.points[node] = surface_.move(mesh_.parameters[node], x[n + i], mesh_.normals[node]);
+    const int node = i < outline.inside_count ? outline.inside[i] : add_node_like(donor);
+    saved[i] = {point(node), mesh_.normals[node], mesh_.parameters[node]};
+    Vector3& x = filled.x[n + i];
+    filled.nodes[n + i] = node;
+    x = mesh_.mesh.points[node] = surface_.move(mesh_.parameters[node], x, mesh_.normals[node]);
   }
   for (int k = 0; k < filling.quads; ++k) {
     const auto& c = filling.corners[k];
-    change.quads[change.count++] = {nodes[c[0]], nodes[c[1]], nodes[c[2]], nodes[c[3]]};
+    for (int j = 0; j < 4; ++j) change.quads[change.count][j] = filled.nodes[c[j]];
+    ++change.count;
   }
-  if (worst_now() > floor && !too_long(change) && topology_.replace(change.old_span(), change.new_span())) {
+  if (filled.worst() > floor && !too_long(change) &&
+      topology_.replace(change.old_span(), change.new_span())) {
     ++report_.valence_moves;
     drift_ += change.count - change.old_count;
-    for (int i = 0; i < n + filling.interior; ++i) push(nodes[i]);
+    for (int i = 0; i < n + filling.interior; ++i) push(filled.nodes[i]);
     return true;
   }
   for (int i = 0; i < filling.interior; ++i) {
-    const int node = nodes[n + i];
+    const int node = filled.nodes[n + i];
     mesh_.mesh.points[node] = saved[i].point;
     mesh_.normals[node] = saved[i].normal;
     mesh_.parameters[node] = saved[i].uv;

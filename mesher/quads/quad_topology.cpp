@@ -10,19 +10,16 @@ namespace {
 
 constexpr int max_patch = 48;  ///< quads in a patch; larger ones are refused
 
-/// A side of the new quads of a patch, on its way to its twin.
-struct PendingSide {
-  int from, to;
-  int twin;     ///< index of the new side opposite, or -1
-  int outside;  ///< side of a quad outside the patch, or -1
-};
-
 constexpr int boundary = -1;
 
 bool has_node(std::span<const QuadTopology::Quad> quads, int node) {
   return std::any_of(quads.begin(), quads.end(), [&](const QuadTopology::Quad& quad) {
     return std::find(quad.begin(), quad.end(), node) != quad.end();
   });
+}
+
+bool contains(std::span<const int> quads, int quad) {
+  return std::find(quads.begin(), quads.end(), quad) != quads.end();
 }
 
 }  // namespace
@@ -128,48 +125,74 @@ bool QuadTopology::only_in(int node, std::span<const int> patch) const {
          });
 }
 
+bool QuadTopology::find_outer_sides(std::span<const int> old_quads, std::span<PendingSide> sides) const {
+  for (const int quad : old_quads)
+    for (int k = 0; k < 4; ++k) {
+      const int side = 4 * quad + k, beyond = twins_[side];
+      if (beyond >= 0 && contains(old_quads, beyond >> 2)) continue;
+      PendingSide* found = nullptr;
+      for (PendingSide& pending : sides)
+        if (pending.from == origin(side) && pending.to == end(side)) {
+          if (found || pending.outer) return false;
+          found = &pending;
+        }
+      if (!found) return false;
+      found->outer = true;
+      found->outside = beyond;
+    }
+  return true;
+}
+
+bool QuadTopology::join_inside(std::span<const int> old_quads, std::span<PendingSide> sides) const {
+  const int count = static_cast<int>(sides.size());
+  for (int i = 0; i < count; ++i) {
+    PendingSide& side = sides[i];
+    if (side.outer) continue;
+    for (int j = 0; j < count; ++j) {
+      if (j != i && sides[j].from == side.from && sides[j].to == side.to) return false;
+      if (sides[j].from != side.to || sides[j].to != side.from) continue;
+      if (sides[j].outer || side.twin >= 0) return false;
+      side.twin = j;
+    }
+    if (side.twin < 0) return false;
+    if (i < side.twin && joined_outside(side.from, side.to, old_quads)) return false;
+  }
+  return true;
+}
+
+void QuadTopology::take_out(std::span<const int> quads) {
+  for (const int quad : quads) {
+    for (const int node : quads_[quad]) --uses_[node];
+    for (const int node : quads_[quad])
+      if (sides_[node] >= 0 && contains(quads, sides_[node] >> 2)) sides_[node] = -1;
+    quads_[quad] = {-1, -1, -1, -1};
+  }
+}
+
+int QuadTopology::free_slot() {
+  if (!dead_.empty()) {
+    const int slot = dead_.back();
+    dead_.pop_back();
+    return slot;
+  }
+  quads_.push_back({});
+  twins_.resize(twins_.size() + 4, boundary);
+  if (tagged()) tags_.push_back(0);
+  return size() - 1;
+}
+
 bool QuadTopology::replace(std::span<const int> old_quads, std::span<const Quad> new_quads) {
   if (old_quads.size() > max_patch || new_quads.size() > max_patch || new_quads.empty()) return false;
   std::array<PendingSide, 4 * max_patch> pending;
   const int count = 4 * static_cast<int>(new_quads.size());
   for (int i = 0; i < count; ++i) {
     const Quad& quad = new_quads[i >> 2];
-    pending[i] = {quad[i & 3], quad[(i + 1) & 3], -1, boundary};
+    pending[i] = {quad[i & 3], quad[(i + 1) & 3], -1, boundary, false};
     for (int k = 0; k < (i & 3); ++k)
       if (quad[k] == quad[i & 3]) return false;
   }
-  std::array<char, 4 * max_patch> outer{};
-  const auto in_patch = [&](int quad) {
-    return std::find(old_quads.begin(), old_quads.end(), quad) != old_quads.end();
-  };
-  // The outer sides must all be found again, once each.
-  int outer_count = 0;
-  for (const int quad : old_quads)
-    for (int k = 0; k < 4; ++k) {
-      const int side = 4 * quad + k, beyond = twins_[side];
-      if (beyond >= 0 && in_patch(beyond >> 2)) continue;
-      int found = -1;
-      for (int i = 0; i < count; ++i)
-        if (pending[i].from == origin(side) && pending[i].to == end(side)) {
-          if (found >= 0 || outer[i]) return false;
-          found = i;
-        }
-      if (found < 0) return false;
-      outer[found] = 1;
-      pending[found].outside = beyond;
-      ++outer_count;
-    }
-  for (int i = 0; i < count; ++i) {
-    if (outer[i]) continue;
-    for (int j = 0; j < count; ++j) {
-      if (j != i && pending[j].from == pending[i].from && pending[j].to == pending[i].to) return false;
-      if (pending[j].from != pending[i].to || pending[j].to != pending[i].from) continue;
-      if (outer[j] || pending[i].twin >= 0) return false;
-      pending[i].twin = j;
-    }
-    if (pending[i].twin < 0) return false;
-    if (i < pending[i].twin && joined_outside(pending[i].from, pending[i].to, old_quads)) return false;
-  }
+  const std::span<PendingSide> sides(pending.data(), count);
+  if (!find_outer_sides(old_quads, sides) || !join_inside(old_quads, sides)) return false;
   for (const int quad : old_quads) {
     for (const int node : quads_[quad])
       if (!has_node(new_quads, node) && !only_in(node, old_quads)) return false;
@@ -177,25 +200,10 @@ bool QuadTopology::replace(std::span<const int> old_quads, std::span<const Quad>
 
   // Nothing can fail from here on.
   const int patch_tag = tag(old_quads[0]);
-  for (const int quad : old_quads) {
-    for (const int node : quads_[quad]) --uses_[node];
-    for (const int node : quads_[quad])
-      if (sides_[node] >= 0 && in_patch(sides_[node] >> 2)) sides_[node] = -1;
-    quads_[quad] = {-1, -1, -1, -1};
-  }
+  take_out(old_quads);
   std::array<int, max_patch> slots;
   for (std::size_t i = 0; i < new_quads.size(); ++i) {
-    if (i < old_quads.size()) {
-      slots[i] = old_quads[i];
-    } else if (!dead_.empty()) {
-      slots[i] = dead_.back();
-      dead_.pop_back();
-    } else {
-      slots[i] = size();
-      quads_.push_back({});
-      twins_.resize(twins_.size() + 4, boundary);
-      if (tagged()) tags_.push_back(0);
-    }
+    slots[i] = i < old_quads.size() ? old_quads[i] : free_slot();
     quads_[slots[i]] = new_quads[i];
     if (tagged()) tags_[slots[i]] = patch_tag;
   }

@@ -65,7 +65,22 @@ class QuadTopology {
   bool replace(std::span<const int> old_quads, std::span<const Quad> new_quads);
 
  private:
+  /// A side of the new quads of a patch, on its way to its twin.
+  struct PendingSide {
+    int from, to;
+    int twin;     ///< index of the new side opposite, or -1
+    int outside;  ///< side of a quad outside the patch, or -1
+    bool outer;   ///< whether an outer side of the old quads runs along it
+  };
+
   void link(const ExecutionContext& context);
+  /// Sets `outer` and `outside`. False unless each outer side of the patch is found once among the new sides.
+  bool find_outer_sides(std::span<const int> old_quads, std::span<PendingSide> sides) const;
+  /// Sets `twin` of the others. False unless they join each other in pairs.
+  bool join_inside(std::span<const int> old_quads, std::span<PendingSide> sides) const;
+  void take_out(std::span<const int> quads);
+  /// The number of a slot for one more quad.
+  int free_slot();
   bool joined_outside(int from, int to, std::span<const int> patch) const;
   /// Whether all quads of a node are among these.
   bool only_in(int node, std::span<const int> patch) const;

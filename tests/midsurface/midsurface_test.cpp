@@ -214,7 +214,7 @@ TEST(MidSurface, IsQuickAndNeverEditsTheSolid) {
   EXPECT_EQ(middle.parts, 1);
   EXPECT_EQ(before.str(), after.str());
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  EXPECT_LT(seconds, 2);
+  EXPECT_LT(seconds, 10) << "bench/midsurface_figures.py measures; this only tells a runaway";
 #endif
 }
 
