@@ -14,7 +14,7 @@ packages=(
   libocct-ocaf-dev
   # sizing field, triangulation, threads, small libraries
   libopenvdb-dev libboost-iostreams-dev libcgal-dev libtbb-dev libeigen3-dev
-  libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
+  libcli11-dev libfmt-dev nlohmann-json3-dev
   # mesh files and pictures; Xvfb gives VTK a display on machines without a screen
   libmed-dev libmedc-dev libhdf5-dev libvtk9-dev libx11-dev xvfb xauth fonts-dejavu-core
   # Python module

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Core>
+
 namespace quadrille {
 
 namespace {
@@ -13,9 +15,9 @@ namespace {
 /// A bound below this has no sign but that of rounding errors: where two sides are one curve.
 constexpr double rounding = 1e-12;
 
-/// 4 x 4 values or Bernstein coefficients of a bicubic polynomial on the unit square.
-using Bicubic = std::array<std::array<double, 4>, 4>;
-using Cubic = std::array<double, 4>;
+/// Values at 0, 1/3, 2/3, 1 in both directions, or Bernstein coefficients, of a bicubic polynomial on the
+/// unit square.
+using Bicubic = Eigen::Matrix4d;
 
 constexpr std::array<double, 4> corner_xi{-1, 1, 1, -1}, corner_eta{-1, -1, 1, 1};
 constexpr std::array<double, 4> midside_xi{0, 1, 0, -1}, midside_eta{-1, 0, 1, 0};
@@ -39,60 +41,25 @@ Vector3 area_vector(const CurvedQuad& element, double xi, double eta) {
   return along.cross(across);
 }
 
-/// Values at 0, 1/3, 2/3, 1 into Bernstein coefficients.
-Cubic to_bernstein(const Cubic& f) {
-  return {f[0], (-5 * f[0] + 18 * f[1] - 9 * f[2] + 2 * f[3]) / 6,
-          (2 * f[0] - 9 * f[1] + 18 * f[2] - 5 * f[3]) / 6, f[3]};
-}
+/// Takes the values of a cubic at 0, 1/3, 2/3, 1 to its Bernstein coefficients.
+const Eigen::Matrix4d to_bernstein =
+    (Eigen::Matrix4d() << 6, 0, 0, 0, -5, 18, -9, 2, 2, -9, 18, -5, 0, 0, 0, 6).finished() / 6;
 
-/// De Casteljau at the middle.
-void halve(const Cubic& b, Cubic& low, Cubic& high) {
-  const double ab = 0.5 * (b[0] + b[1]), bc = 0.5 * (b[1] + b[2]), cd = 0.5 * (b[2] + b[3]);
-  const double abc = 0.5 * (ab + bc), bcd = 0.5 * (bc + cd), middle = 0.5 * (abc + bcd);
-  low = {b[0], ab, abc, middle};
-  high = {middle, bcd, cd, b[3]};
-}
-
-template <class Map>
-Bicubic map_columns(const Bicubic& b, Map&& map) {
-  Bicubic result{};
-  for (int j = 0; j < 4; ++j) {
-    const Cubic column = map(Cubic{b[0][j], b[1][j], b[2][j], b[3][j]});
-    for (int i = 0; i < 4; ++i) result[i][j] = column[i];
-  }
-  return result;
-}
-
-double least(const Bicubic& b) {
-  double result = b[0][0];
-  for (const Cubic& row : b) result = std::min(result, *std::min_element(row.begin(), row.end()));
-  return result;
-}
-
-double least_corner(const Bicubic& b) {
-  return std::min({b[0][0], b[0][3], b[3][0], b[3][3]});
-}
+/// Take the coefficients of a cubic to those of its first and its second half (de Casteljau).
+const Eigen::Matrix4d first_half =
+    (Eigen::Matrix4d() << 8, 0, 0, 0, 4, 4, 0, 0, 2, 4, 2, 0, 1, 3, 3, 1).finished() / 8;
+const Eigen::Matrix4d second_half = first_half.reverse();
 
 /// The least coefficient, sharpened until it is positive, known not to be, or near enough to a value taken.
 double sharpened(const Bicubic& b, double tolerance, int depth) {
-  const double bound = least(b), corner = least_corner(b);
+  const double bound = b.minCoeff();
+  const double corner = std::min({b(0, 0), b(0, 3), b(3, 0), b(3, 3)});
   if (bound > 0 || corner <= 0 || corner - bound < tolerance || depth == 0) return bound;
   double result = corner;
-  Bicubic low{}, high{};
-  for (int i = 0; i < 4; ++i) halve(b[i], low[i], high[i]);
-  for (const Bicubic& half : {low, high}) {
-    const Bicubic first = map_columns(half, [](const Cubic& c) {
-      Cubic l, h;
-      halve(c, l, h);
-      return l;
-    });
-    const Bicubic second = map_columns(half, [](const Cubic& c) {
-      Cubic l, h;
-      halve(c, l, h);
-      return h;
-    });
-    result =
-        std::min({result, sharpened(first, tolerance, depth - 1), sharpened(second, tolerance, depth - 1)});
+  for (const Eigen::Matrix4d* half : {&first_half, &second_half}) {
+    const Bicubic rows = *half * b;
+    for (const Eigen::Matrix4d* part : {&first_half, &second_half})
+      result = std::min(result, sharpened(rows * part->transpose(), tolerance, depth - 1));
   }
   return result;
 }
@@ -132,18 +99,15 @@ std::array<Vector3, 4> bulges(const CurvedQuad& element) {
 
 /// The Bernstein coefficients of the Jacobian's part along a direction.
 Bicubic along(const std::array<std::array<Vector3, 4>, 4>& values, const Vector3& direction) {
-  Bicubic rows{};
-  for (int i = 0; i < 4; ++i) {
-    Cubic row{};
-    for (int j = 0; j < 4; ++j) row[j] = values[i][j].dot(direction);
-    rows[i] = to_bernstein(row);
-  }
-  return map_columns(rows, to_bernstein);
+  Bicubic parts;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) parts(i, j) = values[i][j].dot(direction);
+  return to_bernstein * parts * to_bernstein.transpose();
 }
 
 /// The mean of the Jacobian over the element: that of its Bernstein coefficients.
 Vector3 mean_jacobian(const std::array<std::array<Vector3, 4>, 4>& values) {
-  constexpr Cubic weights{1.0 / 8, 3.0 / 8, 3.0 / 8, 1.0 / 8};  // of values at 0, 1/3, 2/3, 1
+  constexpr std::array<double, 4> weights{1.0 / 8, 3.0 / 8, 3.0 / 8, 1.0 / 8};  // of values at 0, 1/3, 2/3, 1
   Vector3 mean = Vector3::Zero();
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) mean += weights[i] * weights[j] * values[i][j];
