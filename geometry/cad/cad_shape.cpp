@@ -17,6 +17,7 @@
 #include <TopoDS_Iterator.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -34,7 +35,7 @@ CadShape::CadShape(const TopoDS_Shape& source, std::string shape_name)
 }
 
 void CadShape::read_topology() {
-  TopTools_IndexedMapOfShape face_map;
+  TopTools_IndexedMapOfShape face_map, solid_map, shell_map;
   TopExp::MapShapes(shape, TopAbs_FACE, face_map);
   const bool seams_lack = std::any_of(face_map.cbegin(), face_map.cend(), [](const TopoDS_Shape& face) {
     return lacks_seam(TopoDS::Face(face));
@@ -44,9 +45,6 @@ void CadShape::read_topology() {
     face_map.Clear();
     TopExp::MapShapes(shape, TopAbs_FACE, face_map);
   }
-  TopTools_IndexedMapOfShape edge_map, vertex_map, solid_map, shell_map;
-  TopExp::MapShapes(shape, TopAbs_EDGE, edge_map);
-  TopExp::MapShapes(shape, TopAbs_VERTEX, vertex_map);
   TopExp::MapShapes(shape, TopAbs_SOLID, solid_map);
   TopExp::MapShapes(shape, TopAbs_SHELL, shell_map);
   solids = solid_map.Extent();
@@ -57,35 +55,59 @@ void CadShape::read_topology() {
     if (!sources.back().IsSame(face_map(i)))
       problems.push_back(fmt::format("Face{} has no wire: it is bounded where its surface ends", i));
   }
+  TopTools_IndexedMapOfShape edge_map, vertex_map;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edge_map);
+  TopExp::MapShapes(shape, TopAbs_VERTEX, vertex_map);
   const int own_edges = edge_map.Extent(), own_vertices = vertex_map.Extent();
   std::vector<EdgePiece> pieces;
   if (seams_lack) pieces = add_seams(sources, problems);
   // What is new comes after the model's own edges and vertices, whose numbers stay.
-  TopTools_IndexedMapOfShape used_vertices;
   for (const TopoDS_Face& face : sources) {
     TopExp::MapShapes(face, TopAbs_EDGE, edge_map);
     TopExp::MapShapes(face, TopAbs_VERTEX, vertex_map);
-    if (seams_lack) TopExp::MapShapes(face, TopAbs_VERTEX, used_vertices);
   }
+  read_vertices(vertex_map);
+  read_edges(edge_map, vertex_map, vertex_numbers(vertex_map, own_vertices, sources));
+  for (const EdgePiece& piece : pieces) {
+    const int index = edge_map.FindIndex(piece.piece);
+    if (index > own_edges) edges[index - 1].number = edge_map.FindIndex(piece.whole);
+  }
+  faces.resize(face_map.Extent());
+  for (int i = 1; i <= face_map.Extent(); ++i) read_face(i - 1, sources[i - 1], edge_map, vertex_map);
+  measure_edges();
+}
 
+void CadShape::read_vertices(const TopTools_IndexedMapOfShape& vertex_map) {
   vertices.reserve(vertex_map.Extent());
   for (int i = 1; i <= vertex_map.Extent(); ++i) {
     const TopoDS_Vertex& vertex = TopoDS::Vertex(vertex_map(i));
     vertices.push_back(to_vector(BRep_Tool::Pnt(vertex)));
     vertex_tolerances.push_back(BRep_Tool::Tolerance(vertex));
   }
-  // Where a new vertex has taken the place of one of the model's own, it is that one.
-  const auto vertex_number = [&](const TopoDS_Vertex& vertex) {
-    const int index = vertex.IsNull() ? 0 : vertex_map.FindIndex(vertex);
-    if (index <= own_vertices || !seams_lack) return index;
-    for (int i = 1; i <= own_vertices; ++i) {
-      if (used_vertices.Contains(vertex_map(i))) continue;
-      const double reach = std::max(vertex_tolerances[i - 1], vertex_tolerances[index - 1]);
-      if ((vertices[i - 1] - vertices[index - 1]).norm() <= reach) return i;
-    }
-    return index;
-  };
+}
 
+std::vector<int> CadShape::vertex_numbers(const TopTools_IndexedMapOfShape& vertex_map, int own_vertices,
+                                          const std::vector<TopoDS_Face>& sources) const {
+  std::vector<int> numbers(vertex_map.Extent() + 1);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  if (own_vertices == vertex_map.Extent()) return numbers;
+  TopTools_IndexedMapOfShape used;
+  for (const TopoDS_Face& face : sources) TopExp::MapShapes(face, TopAbs_VERTEX, used);
+  for (int index = own_vertices + 1; index <= vertex_map.Extent(); ++index) {
+    for (int i = 1; i <= own_vertices && numbers[index] == index; ++i) {
+      if (used.Contains(vertex_map(i))) continue;
+      const double reach = std::max(vertex_tolerances[i - 1], vertex_tolerances[index - 1]);
+      if ((vertices[i - 1] - vertices[index - 1]).norm() <= reach) numbers[index] = i;
+    }
+  }
+  return numbers;
+}
+
+void CadShape::read_edges(const TopTools_IndexedMapOfShape& edge_map,
+                          const TopTools_IndexedMapOfShape& vertex_map, const std::vector<int>& numbers) {
+  const auto number_of = [&](const TopoDS_Vertex& vertex) {
+    return vertex.IsNull() ? 0 : numbers[vertex_map.FindIndex(vertex)];
+  };
   edges.resize(edge_map.Extent());
   for (int i = 1; i <= edge_map.Extent(); ++i) {
     CadEdge& edge = edges[i - 1];
@@ -94,21 +116,14 @@ void CadShape::read_topology() {
     edge.tolerance = BRep_Tool::Tolerance(edge.edge);
     TopoDS_Vertex first, last;
     TopExp::Vertices(edge.edge, first, last);
-    edge.first_vertex = vertex_number(first);
-    edge.last_vertex = vertex_number(last);
+    edge.first_vertex = number_of(first);
+    edge.last_vertex = number_of(last);
     BRep_Tool::Range(edge.edge, edge.first, edge.last);
     edge.number = i;
   }
-  for (const EdgePiece& piece : pieces) {
-    const int index = edge_map.FindIndex(piece.piece);
-    if (index > own_edges) edges[index - 1].number = edge_map.FindIndex(piece.whole);
-  }
+}
 
-  faces.resize(face_map.Extent());
-  for (int i = 1; i <= face_map.Extent(); ++i) {
-    read_face(i - 1, sources[i - 1], edge_map, vertex_map);
-  }
-
+void CadShape::measure_edges() {
   for (CadEdge& edge : edges) {
     std::sort(edge.faces.begin(), edge.faces.end());
     if (edge.degenerate || edge.faces.empty()) continue;

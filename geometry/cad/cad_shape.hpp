@@ -92,6 +92,14 @@ class CadShape {
 
  private:
   void read_topology();
+  void read_vertices(const TopTools_IndexedMapOfShape& vertex_map);
+  /// (vertices in the map, from 1) their numbers: where a new one has taken the place of one of the model's
+  /// own, that one's.
+  std::vector<int> vertex_numbers(const TopTools_IndexedMapOfShape& vertex_map, int own_vertices,
+                                  const std::vector<TopoDS_Face>& sources) const;
+  void read_edges(const TopTools_IndexedMapOfShape& edge_map, const TopTools_IndexedMapOfShape& vertex_map,
+                  const std::vector<int>& numbers);
+  void measure_edges();
   void read_face(int index, const TopoDS_Face& face, const TopTools_IndexedMapOfShape& edge_map,
                  const TopTools_IndexedMapOfShape& vertex_map);
   void measure();
