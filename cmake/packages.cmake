@@ -5,7 +5,6 @@ set(MANUAL ${PROJECT_BINARY_DIR}/manual)
 add_custom_command(OUTPUT ${MANUAL}/stamp
   COMMAND ${CMAKE_COMMAND} -E rm -rf ${MANUAL}
   COMMAND ${Python_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/make_manual.py $<TARGET_FILE:quadrille> ${MANUAL}
-  COMMAND gzip -9n ${MANUAL}/*.1
   COMMAND ${CMAKE_COMMAND} -E touch ${MANUAL}/stamp
   DEPENDS quadrille ${PROJECT_SOURCE_DIR}/scripts/make_manual.py VERBATIM)
 add_custom_target(manual ALL DEPENDS ${MANUAL}/stamp)

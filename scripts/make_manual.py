@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Makes man pages and the completion of the shell from what `quadrille --help` says of itself.
 
-    scripts/make_manual.py build/quadrille FOLDER     FOLDER/quadrille.1, quadrille-mesh.1, ..., FOLDER/quadrille.bash
+    scripts/make_manual.py build/quadrille FOLDER     FOLDER/quadrille.1.gz, quadrille-mesh.1.gz, ..., quadrille.bash
 """
 
+import gzip
 import re
 import subprocess
 import sys
@@ -98,7 +99,7 @@ def main():
     pages = {"quadrille": whole, **{f"quadrille-{name}": run(program, name, "--help") for name in names}}
     for name, text in pages.items():
         see = [other for other in pages if other != name]
-        (folder / f"{name}.1").write_text(page(name, version, text, see), encoding="utf-8")
+        (folder / f"{name}.1.gz").write_bytes(gzip.compress(page(name, version, text, see).encode(), 9, mtime=0))
     options = {name: sorted({option for entry, _ in parse(pages[f"quadrille-{name}"])[2]["Options"]
                              for option in entry.split(" ")[0].split(",") if option.startswith("--")}) for name in names}
     (folder / "quadrille.bash").write_text(completion(options), encoding="utf-8")
