@@ -22,7 +22,8 @@ struct MeshArguments : GivenSettings {
   std::filesystem::path input;
   std::vector<std::filesystem::path> outputs;
   std::filesystem::path write_size_field, report, picture;
-  bool thin = false, quiet = false, end_with_input = false;
+  std::string limits_file;
+  bool thin = false, quiet = false, end_with_input = false, within_limits = false;
 };
 
 /// The mesh's order: what is asked for, or second where a solver reads one of the files.
@@ -129,8 +130,25 @@ void warn_off_geometry(const ShellMesh& mesh, std::vector<std::string>& warnings
                   mesh.off_geometry.size(), worst->face, worst->off_geometry_max));
 }
 
+/// \param limits with --limits. The mesh is written by then, for a look at what fails.
+void hold_limits(const ShellMesh& mesh, const std::optional<CriteriaLimits>& limits,
+                 const MeshArguments& arguments) {
+  if (!limits) return;
+  const CriteriaSummary criteria = check_criteria(mesh, *limits);
+  if (criteria.failing == 0) return;
+  const std::string name = arguments.outputs.front().string();
+  throw failure(
+      name, fmt::format("{}: {} of {} quads are outside the limits", name, criteria.failing, criteria.quads));
+}
+
 void run(const MeshArguments& arguments) {
   check_files(arguments);
+  std::optional<CriteriaLimits> limits;
+  if (arguments.within_limits) limits.emplace();
+  if (!arguments.limits_file.empty()) {
+    require_readable(arguments.limits_file);
+    limits = read_limits(arguments.limits_file);
+  }
   const Settings& settings = arguments.settings;
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(settings.threads, [&](std::string_view stage, double fraction) {
@@ -159,7 +177,7 @@ void run(const MeshArguments& arguments) {
   context.check();
   write_outputs(result, arguments, context, cancel);
   list_left_out(result);
-  if (arguments.quiet && arguments.report.empty()) return;
+  if (arguments.quiet && arguments.report.empty()) return hold_limits(result, limits, arguments);
   QualitySummary summary;
   std::vector<std::string> warnings = model.problems();
   warn_off_geometry(result, warnings);
@@ -170,9 +188,10 @@ void run(const MeshArguments& arguments) {
   });
   if (!arguments.report.empty())
     write_report(result, summary, context, arguments.input, arguments.report, warnings);
-  if (arguments.quiet) return;
+  if (arguments.quiet) return hold_limits(result, limits, arguments);
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
   print(quality_table(summary));
+  hold_limits(result, limits, arguments);
 }
 
 }  // namespace
@@ -197,7 +216,15 @@ void add_mesh_command(CLI::App& app) {
   command->add_flag("--end-with-input", arguments->end_with_input,
                     "end the work when standard input closes, for programs that start this one");
   command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");
-  command->callback([arguments] { run(*arguments); });
+  const CLI::Option* limits = command
+                                  ->add_option("--limits", arguments->limits_file,
+                                               "exit with 1 when quads of the mesh fail the criteria; with a "
+                                               "FILE, JSON or a HyperMesh criteria file, those of it")
+                                  ->expected(0, 1);
+  command->callback([arguments, limits] {
+    arguments->within_limits = limits->count() > 0;
+    run(*arguments);
+  });
 }
 
 }  // namespace quadrille::command

@@ -289,6 +289,22 @@ TEST(Command, MeshesTheBox) {
   EXPECT_PRED2(contains, measured.out, fmt::format("quads              {}\n", mesh.quads.size()));
 }
 
+/// The mesh is written all the same.
+TEST(Command, MeshWithLimitsFailsWhereQuadsDo) {
+  const TemporaryFolder folder;
+  test::write_text(folder / "tight.json", R"({"aspect": 1.0001})");
+  const std::string line = "mesh " + bracket + " -o a.msh --size 20 --quiet --limits";
+  const auto tight = stderr_of(folder, line + " tight.json");
+  EXPECT_EQ(tight.exit_code, 1);
+  EXPECT_PRED2(contains, tight.out, "quads are outside the limits\n");
+  EXPECT_TRUE(std::filesystem::exists(folder / "a.msh"));
+  test::write_text(folder / "wide.json",
+                   R"({"aspect": 1000, "warp": 180, "skew": 90, "angle_min": 0, "angle_max": 360,)"
+                   R"( "jacobian_ratio": -10, "taper": 10})");
+  EXPECT_EQ(stderr_of(folder, line + " wide.json").exit_code, 0);
+  EXPECT_EQ(stderr_of(folder, line + " none.json").exit_code, 1);
+}
+
 TEST(Command, QualityWithLimitsFailsWhereQuadsDo) {
   const TemporaryFolder folder;
   ShellMesh mesh;  // a square beside a rectangle of 1 to 6
