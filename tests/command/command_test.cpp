@@ -406,21 +406,6 @@ TEST(Command, EndsAtTheTimeLimit) {
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 20);
 }
 
-TEST(Command, WritesWhatWasDoneAtTheTimeLimit) {
-  const TemporaryFolder folder;
-  const std::string run = "mesh " + bracket + " --size 0.04 --threads 1 --partial --time-limit 8";
-  const auto start = std::chrono::steady_clock::now();
-  const auto result = stderr_of(folder, run + " -o a.msh --quiet --report r.json");
-  EXPECT_EQ(result.exit_code, 0) << result.out;
-  EXPECT_PRED2(contains, result.out, "was not done in its share of the time limit of 8 s");
-  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 60);
-  int done = 0;
-  for (const auto& face : nlohmann::json::parse(test::file_text(folder / "r.json"))["faces"])
-    done += face["status"] == "meshed";
-  EXPECT_GT(done, 0);
-  EXPECT_GT(read_mesh(folder / "a.msh").quads.size(), 1000u);
-}
-
 TEST(Command, GivesSolversSecondOrder) {
   const TemporaryFolder folder;
   const auto order_in = [&](const std::string& arguments) {
