@@ -280,6 +280,11 @@ class Job {
     for (std::size_t face = 0; face < problems_.size(); ++face) {
       FaceRecord& record = records_[face];
       if (!problems_[face] || record.given_up) continue;
+      // Where a chart that stands in cannot even be made, what the face's own lacks is the cause.
+      const bool stands_in = record.recipe.chart != ChartKind::own;
+      if (stands_in && problems_[face]->cause() == Cause::unusable_boundary && problems_before_[face])
+        problems_[face].emplace(Cause::unusable_boundary, static_cast<int>(face) + 1,
+                                problems_before_[face]->what());
       problems_before_[face] = problems_[face];
       if (let_go_.keep_around(static_cast<int>(face), edges_.plan.tiny)) {
         record.history.push_back("features kept that were let go");

@@ -355,8 +355,11 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// The longest time of computing between two checks of the context, as a share of all the computing.
-double longest_unchecked(const CadModel& model, const MeshOptions& options) {
+/// The longest time of computing between two checks of the context: in seconds, and as a share of all of it.
+struct Unchecked {
+  double seconds, share;
+};
+Unchecked longest_unchecked(const CadModel& model, const MeshOptions& options) {
   double longest = 0, last = thread_seconds();
   const double start = last;
   const auto measure = [&] {
@@ -371,7 +374,7 @@ double longest_unchecked(const CadModel& model, const MeshOptions& options) {
   context.ask_every(std::chrono::milliseconds(0));
   mesh(model, options, context);
   measure();
-  return longest / (last - start);
+  return {longest, longest / (last - start)};
 }
 
 /// What takes time looks whether to go on: a face of any size is no single step.
@@ -387,12 +390,12 @@ TEST(Mesh, ChecksAllTheWhile) {
         options.sizing.size = QuadEstimate(model, measuring).size_for(1e5).size;
         options.strategy = strategy;
         options.order = order;
-        // In computing time, which other work on the machine hardly changes; once is enough.
-        double share = 1;
-        for (int tries = 0; tries < 3 && share > 0.08; ++tries)
-          share = std::min(share, longest_unchecked(model, options));
-        // The torus is a grid: so soon done that what follows has a larger share of little.
-        EXPECT_LT(share, 0.08);
+        // In computing time, which other work on the machine changes little; once is enough. Nobody notices
+        // ten milliseconds, however short the whole.
+        const auto bears = [](const Unchecked& found) { return found.share < 0.05 || found.seconds < 0.01; };
+        Unchecked found{1, 1};
+        for (int tries = 0; tries < 3 && !bears(found); ++tries) found = longest_unchecked(model, options);
+        EXPECT_TRUE(bears(found)) << found.seconds << " s, " << found.share;
       }
     }
   }

@@ -205,7 +205,8 @@ class PartsTest(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         faces = json.loads(report.read_text())["faces"]
         self.assertEqual(len(faces), len(shape.Faces))
-        self.assertEqual({face["status"] for face in faces}, {"meshed"})
+        # Slivers far below the least size are let go: an edge takes their place.
+        self.assertLessEqual({face["status"] for face in faces}, {"meshed", "merged"})
         nodes, quads = read_quads(mesh)
         area = 0
         sides = Counter()

@@ -65,6 +65,7 @@ bool is_sound(const ShellMesh& mesh, std::size_t quad) {
 struct Setting {
   double divisions, elements_per_circle;
   Strategy strategy;
+  bool keep_features = false;
 };
 
 std::vector<Setting> settings(const std::vector<double>& divisions, const std::vector<double>& curvatures) {
@@ -72,7 +73,7 @@ std::vector<Setting> settings(const std::vector<double>& divisions, const std::v
   for (const double n : divisions) {
     for (const double curvature : curvatures) {
       for (const Strategy strategy : {Strategy::subdivide, Strategy::direct})
-        result.push_back({n, curvature, strategy});
+        result.push_back({n, curvature, strategy, false});
     }
   }
   return result;
@@ -84,6 +85,7 @@ ShellMesh second_order_mesh(const CadModel& model, const Setting& setting, int t
   options.sizing.elements_per_diagonal = setting.divisions;
   options.sizing.elements_per_circle = setting.elements_per_circle;
   options.strategy = setting.strategy;
+  options.keep_features = setting.keep_features;
   ExecutionContext context(threads);
   return mesh(model, options, context);
 }
@@ -162,7 +164,7 @@ void expect_told(const CadModel& model, const ShellMesh& mesh) {
 
 TEST(Unfolding, TellsWhichNodesLeaveTheGeometry) {
   const CadModel model = CadModel::read(sample_model("wing").path());
-  const ShellMesh mesh = second_order_mesh(model, {1, 0, Strategy::direct});
+  const ShellMesh mesh = second_order_mesh(model, {1, 0, Strategy::direct, true});
   expect_told(model, mesh);
   const auto is_off = [&](int node) {
     return std::any_of(mesh.off_geometry.begin(), mesh.off_geometry.end(),
@@ -176,14 +178,14 @@ TEST(Unfolding, KeepsNodesOfUsualMeshesOnTheGeometry) {
   for (const SampleModel& sample : sample_models()) {
     SCOPED_TRACE(sample.name);
     const CadModel model = CadModel::read(sample.path());
-    EXPECT_TRUE(second_order_mesh(model, {40, 12, Strategy::subdivide}).off_geometry.empty());
+    EXPECT_TRUE(second_order_mesh(model, {40, 12, Strategy::subdivide, false}).off_geometry.empty());
   }
 }
 
 TEST(Unfolding, IsTheSameOnAnyNumberOfThreads) {
   const CadModel model = CadModel::read(sample_model("torus").path());
-  const ShellMesh one = second_order_mesh(model, {3, 2, Strategy::subdivide}, 1),
-                  four = second_order_mesh(model, {3, 2, Strategy::subdivide}, 4);
+  const ShellMesh one = second_order_mesh(model, {3, 2, Strategy::subdivide, false}, 1),
+                  four = second_order_mesh(model, {3, 2, Strategy::subdivide, false}, 4);
   EXPECT_EQ(one.points, four.points);
   EXPECT_EQ(one.off_geometry.size(), four.off_geometry.size());
 }

@@ -299,6 +299,14 @@
 <context>
     <name>QuadrilleSettings</name>
     <message>
+        <source>Keep features</source>
+        <translation>Feinheiten behalten</translation>
+    </message>
+    <message>
+        <source>Mesh features far below the least size too, instead of letting them go</source>
+        <translation>Auch Formelemente weit unter der kleinsten Größe vernetzen, statt sie wegzulassen</translation>
+    </message>
+    <message>
         <source>1: four-node quads; 2: eight-node quads, better for shells</source>
         <translation>1: Vierecke mit vier Knoten; 2: mit acht Knoten, besser für Schalen</translation>
     </message>

@@ -299,6 +299,14 @@
 <context>
     <name>QuadrilleSettings</name>
     <message>
+        <source>Keep features</source>
+        <translation>Garder les détails</translation>
+    </message>
+    <message>
+        <source>Mesh features far below the least size too, instead of letting them go</source>
+        <translation>Mailler aussi les détails bien inférieurs à la taille minimale, au lieu de les omettre</translation>
+    </message>
+    <message>
         <source>1: four-node quads; 2: eight-node quads, better for shells</source>
         <translation>1 : quadrangles à quatre nœuds ; 2 : à huit nœuds, meilleurs pour les coques</translation>
     </message>
