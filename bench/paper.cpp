@@ -1,15 +1,15 @@
-/// The tables of Giuliani & Krivodonova (2018): colouring against Gmsh's Blossom on identical triangulations.
+/// The tables of Giuliani & Krivodonova (2018): coloring against Gmsh's Blossom on identical triangulations.
 ///
-///     paper [--first N] [--domains N] [--colourings N] [--blossom-limit TRIANGLES] [--best-limit TRIANGLES]
+///     paper [--first N] [--domains N] [--colorings N] [--blossom-limit TRIANGLES] [--best-limit TRIANGLES]
 ///           [--aligned-limit TRIANGLES] [--gmsh PROGRAM] [--out FOLDER]
 ///
 /// All times are processor time of one thread, Blossom's too (as Gmsh prints it): other work on the machine
 /// hardly changes it. Short runs are repeated on both sides and the least is taken. The paper's count is
-/// colouring, removal of blanks, choice of the colour and its alternating paths; "all" goes from arrays of
+/// coloring, removal of blanks, choice of the color and its alternating paths; "all" goes from arrays of
 /// triangles to arrays of quads.
 ///
 /// Makes the triangulations from --first to --domains of six (rectangle 1 2 3, Lake Ontario 1 2 3), pairs
-/// each by colouring (paper's mode), by Quadrille's default and by Blossom, improves all three alike, prints
+/// each by coloring (paper's mode), by Quadrille's default and by Blossom, improves all three alike, prints
 /// a table and writes FOLDER/paper.json.
 
 #include <fmt/format.h>
@@ -179,7 +179,7 @@ json run_memory(const TriangleMesh& mesh) {
   const json entry = {{"coloring", bytes_per_triangle(mesh, coloring)},
                       {"default", bytes_per_triangle(mesh, {})},
                       {"shape", bytes_per_triangle(mesh, shape)}};
-  fmt::print("  peak memory, bytes a triangle: colouring {:.0f}, default {:.0f}, shape {:.0f}\n",
+  fmt::print("  peak memory, bytes a triangle: coloring {:.0f}, default {:.0f}, shape {:.0f}\n",
              entry["coloring"].get<double>(), entry["default"].get<double>(), entry["shape"].get<double>());
   std::fflush(stdout);
   return entry;
@@ -195,7 +195,7 @@ json run_quadrille(const TriangleMesh& mesh, const RecombineOptions& options) {
   return entry;
 }
 
-/// The paper's own end: the triangles that the colour leaves are collapsed, nodes of poor quads are averaged.
+/// The paper's own end: the triangles that the color leaves are collapsed, nodes of poor quads are averaged.
 json run_paper_end(const TriangleMesh& mesh) {
   RecombineOptions options;
   options.method = Method::paper;
@@ -212,7 +212,7 @@ json run_paper_end(const TriangleMesh& mesh) {
   return entry;
 }
 
-/// The stages of the paper's mode alone: order (of large meshes), neighbours, greedy colouring, blanks,
+/// The stages of the paper's mode alone: order (of large meshes), neighbors, greedy coloring, blanks,
 /// boundary.
 json time_coloring(const TriangleMesh& given) {
   double order = 0;
@@ -303,7 +303,7 @@ SharpestCorner sharpest_corner(const TriangleMesh& mesh) {
   return sharpest;
 }
 
-/// Gmsh's Blossom on a file, its topological optimisation off.
+/// Gmsh's Blossom on a file, its topological optimization off.
 json run_blossom(const TriangleMesh& mesh, const std::string& gmsh, const std::filesystem::path& folder) {
   const std::filesystem::path input = folder / "triangles.msh", output = folder / "blossom.msh";
   const std::filesystem::path script = folder / "blossom.geo";
@@ -397,7 +397,7 @@ json run_field_aligned(const Domain& domain, int blossom_limit, const std::strin
   RecombineOptions options;
   options.method = Method::paper;
   entry["coloring"] = run_quadrille(mesh, options);
-  print_row("colouring", entry["coloring"]);
+  print_row("coloring", entry["coloring"]);
   entry["default"] = run_quadrille(mesh, {});
   print_row("default", entry["default"]);
   if (static_cast<int>(mesh.triangles.size()) > blossom_limit) return entry;
@@ -426,16 +426,16 @@ json run_domain(const Domain& domain, int blossom_limit, [[maybe_unused]] int be
   const json& stages = entry["stages"];
   const auto per_triangle = [&](const char* stage) { return 1e6 * stages[stage].get<double>() / count; };
   fmt::print(
-      "  colouring {:.3f} + blanks {:.3f} + boundary {:.3f} us a triangle ({:.1f} % blank, {} left, {} "
+      "  coloring {:.3f} + blanks {:.3f} + boundary {:.3f} us a triangle ({:.1f} % blank, {} left, {} "
       "boundary edges "
-      "left); neighbours {:.3f}, order {:.3f}\n",
+      "left); neighbors {:.3f}, order {:.3f}\n",
       per_triangle("greedy_seconds"), per_triangle("blanks_seconds"), per_triangle("boundary_seconds"),
       100 * stages["greedy_blanks"].get<double>() / count, stages["blanks_left"].get<int>(),
       stages["boundary_left"].get<int>(), per_triangle("connect_seconds"), per_triangle("order_seconds"));
   RecombineOptions options;
   options.method = Method::paper;
   entry["coloring"] = run_quadrille(mesh, options);
-  print_row("colouring", entry["coloring"]);
+  print_row("coloring", entry["coloring"]);
   entry["paper_end"] = run_paper_end(mesh);
   const json& end = entry["paper_end"];
   fmt::print(
@@ -471,7 +471,7 @@ json run_domain(const Domain& domain, int blossom_limit, [[maybe_unused]] int be
              entry["blossom"]["triangles_at_sharpest_corner"].get<int>());
   const double blossom = entry["blossom"]["seconds"];
   fmt::print(
-      "  Blossom / colouring {:.0f} (paper's count; paper {:.1f}), / all of colouring {:.0f}, / default "
+      "  Blossom / coloring {:.0f} (paper's count; paper {:.1f}), / all of coloring {:.0f}, / default "
       "{:.0f}, / "
       "shape {:.1f}\n",
       blossom / stages["coloring_seconds"].get<double>(), domain.paper_blossom / domain.paper_coloring,
@@ -481,7 +481,7 @@ json run_domain(const Domain& domain, int blossom_limit, [[maybe_unused]] int be
   return entry;
 }
 
-/// Mean q of many colourings of the first rectangle: figure 10.
+/// Mean q of many colorings of the first rectangle: figure 10.
 json run_colorings(int count) {
   const TriangleMesh mesh = make(domains[0]);
   json means = json::array();
@@ -502,13 +502,13 @@ json run_colorings(int count) {
     high = std::max(high, mean);
     sum += mean;
   }
-  fmt::print("mean q of {} colourings of rectangle 1: {:.4f} to {:.4f}, mean {:.4f} (paper 0.505 to 0.522)\n",
+  fmt::print("mean q of {} colorings of rectangle 1: {:.4f} to {:.4f}, mean {:.4f} (paper 0.505 to 0.522)\n",
              count, low, high, sum / count);
   return means;
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("The tables of Giuliani & Krivodonova (2018), colouring against Gmsh's Blossom");
+  CLI::App app("The tables of Giuliani & Krivodonova (2018), coloring against Gmsh's Blossom");
   int first = 1, domain_count = 4, colorings = 0, blossom_limit = 300'000, best_limit = 300'000,
       aligned_limit = 300'000;
   std::string gmsh = "gmsh";
@@ -517,8 +517,8 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(1, 6));
   app.add_option("--domains", domain_count, "the last of the six triangulations to make (default 4)")
       ->check(CLI::Range(0, 6));
-  app.add_option("--colourings", colorings,
-                 "figure 10: how many colourings of the first rectangle (default 0)");
+  app.add_option("--colorings", colorings,
+                 "figure 10: how many colorings of the first rectangle (default 0)");
   app.add_option("--blossom-limit", blossom_limit, "largest triangulation given to Blossom (default 300000)");
   app.add_option("--best-limit", best_limit,
                  "largest triangulation whose best pairing is sought, with LEMON (default 300000)");
@@ -536,7 +536,7 @@ int run(int argc, char** argv) {
     }
     results["domains"].push_back(entry);
   }
-  if (colorings > 0) results["colourings"] = run_colorings(colorings);
+  if (colorings > 0) results["colorings"] = run_colorings(colorings);
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   results["peak_bytes"] = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;

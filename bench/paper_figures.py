@@ -17,18 +17,18 @@ import matplotlib.pyplot as plt
 
 
 def load(folders):
-    domains, colourings = {}, []
+    domains, colorings = {}, []
     for folder in folders:
         results = json.loads((folder / "paper.json").read_text())
         domains.update({domain["name"]: domain for domain in results["domains"]})
-        colourings = results.get("colourings", colourings)
-    return domains, colourings
+        colorings = results.get("colorings", colorings)
+    return domains, colorings
 
 
 def draw_histogram(domain, path):
     """Shares of the quads by q before and after improvement, as figures 12 and 14 of the paper."""
     methods = [
-        ("coloring", "colouring"),
+        ("coloring", "coloring"),
         ("default", "default"),
         ("shape", "--prefer shape"),
         ("blossom", "Blossom"),
@@ -41,8 +41,8 @@ def draw_histogram(domain, path):
             entry = domain[key] if axis is axes[0] else domain[key]["improved"]
             counts = entry["histogram"]
             shares = [100 * count / sum(counts) for count in counts]
-            centres = [(k + 0.5) / len(counts) for k in range(len(counts))]
-            axis.plot(centres, shares, drawstyle="steps-mid", label=label)
+            centers = [(k + 0.5) / len(counts) for k in range(len(counts))]
+            axis.plot(centers, shares, drawstyle="steps-mid", label=label)
         axis.set_title(f"{domain['name']}, {when}", fontsize=9)
         axis.set_xlabel("q")
     axes[0].set_ylabel("quads, %")
@@ -51,13 +51,13 @@ def draw_histogram(domain, path):
     figure.savefig(path, metadata={"Date": None})
 
 
-def draw_colourings(means, path):
-    """The distribution of mean q over many colourings, as figure 10 of the paper."""
+def draw_colorings(means, path):
+    """The distribution of mean q over many colorings, as figure 10 of the paper."""
     figure, axis = plt.subplots(figsize=(5, 3))
     axis.hist(means, bins=60)
     axis.axvspan(0.505, 0.522, alpha=0.2, label="range in the paper, its mesh")
-    axis.set_xlabel("mean q of a colouring")
-    axis.set_ylabel(f"of {len(means)} colourings")
+    axis.set_xlabel("mean q of a coloring")
+    axis.set_ylabel(f"of {len(means)} colorings")
     axis.legend(fontsize=8)
     figure.tight_layout()
     figure.savefig(path, metadata={"Date": None})
@@ -70,13 +70,13 @@ def main():
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     plt.rcParams["svg.hashsalt"] = "quadrille"
-    domains, colourings = load(arguments.folders)
+    domains, colorings = load(arguments.folders)
     for name in ("rectangle 1", "Lake Ontario 1"):
         if name in domains:
             file = "paper_" + name.lower().replace(" ", "_") + ".svg"
             draw_histogram(domains[name], arguments.output / file)
-    if colourings:
-        draw_colourings(colourings, arguments.output / "paper_colourings.svg")
+    if colorings:
+        draw_colorings(colorings, arguments.output / "paper_colorings.svg")
 
 
 if __name__ == "__main__":

@@ -226,7 +226,7 @@ TriangleMesh delaunay(const std::vector<Vector2>& points, const std::vector<std:
   return mesh;
 }
 
-/// One step of each point from `first` on part of the way to the mean of its neighbours.
+/// One step of each point from `first` on part of the way to the mean of its neighbors.
 void relax(std::vector<Vector2>& points, const TriangleMesh& mesh, std::size_t first) {
   constexpr double share = 0.15;
   std::vector<Vector2> sum(points.size(), Vector2::Zero());

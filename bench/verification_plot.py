@@ -29,11 +29,11 @@ def main():
     cases = [case for case in dict.fromkeys(row["case"] for row in rows) if case not in LEFT_OUT]
     figure, axes = plt.subplots(3, 4, figsize=(14, 9.6), constrained_layout=True)
     for axis, case in zip(axes.flat, cases):
-        for mesher, (label, colour, marker) in STYLES.items():
+        for mesher, (label, color, marker) in STYLES.items():
             found = sorted((row["elements"], max(error(row), 1e-3 if row["reference"] else 0)) for row in rows
                            if (row["case"], row["mesher"]) == (case, mesher))
             if found:
-                axis.loglog(*zip(*found), marker=marker, color=colour, label=label)
+                axis.loglog(*zip(*found), marker=marker, color=color, label=label)
         relative = all(row["reference"] == 0 for row in rows if row["case"] == case)
         axis.axhline(1e-6 if relative else 1, color="0.7", linewidth=0.8)
         axis.set_title(case)

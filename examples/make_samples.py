@@ -3,7 +3,7 @@
 
     freecadcmd examples/make_samples.py < /dev/null
 
-Lengths are millimetres. Each model is there for a property that meshers trip over; tests/support/sample_models.hpp lists
+Lengths are millimeters. Each model is there for a property that meshers trip over; tests/support/sample_models.hpp lists
 them by property.
 """
 

@@ -7,7 +7,7 @@ A cylindrical roof (radius 25, length 50, 80 degrees, thickness 0.25, E 4.32e8, 
 diaphragms, which hold it in their plane, and carries its own weight of 90 per area. The middle of a free edge sinks
 by 0.3024 (MacNeal & Harder 1985).
 
-The problem has no units of its own: one unit of length is a millimetre here and one of force a newton, so E is
+The problem has no units of its own: one unit of length is a millimeter here and one of force a newton, so E is
 4.32e8 MPa, and FreeCAD's numbers are the problem's. The weight is FreeCAD's self weight constraint with the density
 that makes it 90 N/mm^2 with FreeCAD's gravity.
 

@@ -354,7 +354,7 @@ class Job {
       if (meshes_[face] && meshes_[face]->grid) status.note += status.note.empty() ? "grid" : "; grid";
       if (edges_.plan.tiny.merged_faces[face]) {
         status.status = FaceStatus::merged;
-        status.note = "tiny: its place is taken by an edge or a node of its neighbours";
+        status.note = "tiny: its place is taken by an edge or a node of its neighbors";
       }
       if (problems_[face]) status.note = problems_[face]->what();
       if (!meshes_[face]) continue;

@@ -3,7 +3,7 @@
 ///
 ///     auto model = quadrille::CadModel::read("part.step");
 ///     quadrille::MeshOptions options;
-///     options.sizing.size = 2.0;                       // millimetres
+///     options.sizing.size = 2.0;                       // millimeters
 ///     quadrille::ExecutionContext context;             // progress, cancel, threads
 ///     quadrille::ShellMesh mesh = quadrille::mesh(model, options, context);
 ///     quadrille::write_mesh(mesh, "part.inp");

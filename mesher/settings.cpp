@@ -188,7 +188,7 @@ std::vector<Setting> make_table() {
        none, "elements on a full circle of curvature; 0 = curvature is ignored",
        [](Settings& v) -> double& { return v.mesh.sizing.elements_per_circle; }},
       {"growth", "growth", "Growth", "Growth", mesh, none, 0, infinity, true, none,
-       "how fast the size may change: millimetres of size per millimetre of way",
+       "how fast the size may change: millimeters of size per millimeter of way",
        [](Settings& v) -> double& { return v.mesh.sizing.growth; }},
       {"order", "order", "ElementOrder", "Order", mesh, none, 1, 2, false,
        "2 where a solver reads the mesh: in FreeCAD and in .inp, .unv, .med and .bdf files; else 1",

@@ -21,7 +21,7 @@ class CadModel;
 struct Settings {
   MeshOptions mesh;
   WriteOptions write;           ///< without title and threads, which are not in the table
-  double sew = 0;               ///< millimetres, see CadModel::sewn(); 0 = not
+  double sew = 0;               ///< millimeters, see CadModel::sewn(); 0 = not
   double read_time_limit = 60;  ///< seconds for reading the CAD file; 0 = any
   double time_limit = 0;        ///< seconds for all of the run; 0 = any
   int threads = 0;              ///< 0 = all cores

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds with the address and undefined-behaviour sanitizers, then with the thread sanitizer, and runs the C++ tests and
+# Builds with the address and undefined-behavior sanitizers, then with the thread sanitizer, and runs the C++ tests and
 # the models of ../shared/corpus (left out, and said so, where that folder is missing) under each. Ends with 1 if
 # anything was found; the reports lie in build-asan/found and build-tsan/found.
 #

@@ -277,7 +277,7 @@ void bind_mesh(py::module_& module) {
             write_picture(self.mesh, path, width, height);
           },
           py::arg("path"), py::kw_only(), py::arg("width") = 1600, py::arg("height") = 1200,
-          py::call_guard<py::gil_scoped_release>(), "Draws the mesh, coloured by q, into a PNG.")
+          py::call_guard<py::gil_scoped_release>(), "Draws the mesh, colored by q, into a PNG.")
       .def("__repr__", [](const PythonMesh& self) {
         return py::str("<quadrille.Mesh: {} quads of order {}, {} nodes>")
             .format(self.mesh.quads.size(), self.mesh.order, self.mesh.points.size());

@@ -100,7 +100,7 @@ class Mesh:
         loads = {}
         for element in self.elements:
             corners = len(element) // 2
-            centre = self.points[element[:corners]].mean(axis=0)
+            center = self.points[element[:corners]].mean(axis=0)
             for i in range(corners):
                 edge = [element[i], element[(i + 1) % corners], element[corners + i]]
                 if not on_edge.issuperset(edge):
@@ -112,7 +112,7 @@ class Mesh:
                     normal = np.array([tangent[1], -tangent[0], 0.0])
                     length = np.linalg.norm(tangent)
                     normal /= length
-                    if normal @ (point - centre) < 0:
+                    if normal @ (point - center) < 0:
                         normal = -normal
                     force = np.asarray(traction(point, normal))
                     for node, value in zip(edge, shape):

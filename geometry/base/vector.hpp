@@ -1,5 +1,5 @@
 #pragma once
-/// Small vectors used throughout: lengths in the model's unit (millimetre for CAD files, as in FreeCAD).
+/// Small vectors used throughout: lengths in the model's unit (millimeter for CAD files, as in FreeCAD).
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

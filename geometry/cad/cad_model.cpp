@@ -100,7 +100,7 @@ TopoDS_Shape read_brep(std::istream& stream, const std::string& name) {
   return shape;
 }
 
-/// Millimetres, a light hour: costs of elements are kept in single precision.
+/// Millimeters, a light hour: costs of elements are kept in single precision.
 constexpr double largest_diagonal = 1e15;
 
 CadModel build(const TopoDS_Shape& shape, const std::string& name) {

@@ -29,7 +29,7 @@ struct ReadOptions {
 class QUADRILLE_API CadModel {
  public:
   /// Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep, .brp); lengths are converted to
-  /// millimetres. Throws Error (failure) with one sentence when the file is missing, is not CAD, or holds no
+  /// millimeters. Throws Error (failure) with one sentence when the file is missing, is not CAD, or holds no
   /// face.
   static CadModel read(const std::filesystem::path& path, const ReadOptions& options = {});
 
@@ -41,7 +41,7 @@ class QUADRILLE_API CadModel {
   /// The model with the edges joined that lie within `tolerance` of each other, as in files whose faces touch
   /// without sharing their edges. Faces keep their numbers, edges and vertices get new ones; solids and
   /// shells are not kept. Throws Error: usage if the tolerance is not positive, failure if OpenCASCADE cannot
-  /// sew the model. \param tolerance millimetres.
+  /// sew the model. \param tolerance millimeters.
   CadModel sewn(double tolerance) const;
 
   int face_count() const;    ///< faces are numbered 1 .. face_count() (FreeCAD's Face1, Face2, ...)

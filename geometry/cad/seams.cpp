@@ -323,10 +323,10 @@ TopoDS_Face joined_with_seam(const TopoDS_Face& source) {
         left_out.Add(outer.edges[i]);
         const Vector2 along = (outer.lines[i].back() - outer.lines[i].front()).cwiseAbs();
         const int axis = along.x() < along.y() ? 0 : 1;
-        const double centre = 0.5 * (outer.low[axis] + outer.high[axis]);
+        const double center = 0.5 * (outer.low[axis] + outer.high[axis]);
         const double half = 0.5 * sampled.period(axis);
-        low[axis] = centre - half;
-        high[axis] = centre + half;
+        low[axis] = center - half;
+        high[axis] = center + half;
       }
     }
   }

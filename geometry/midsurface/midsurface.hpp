@@ -22,7 +22,7 @@ struct MidSurfaceOptions {
 
 /// One face of the middle surface.
 struct MiddleFace {
-  double thinnest = 0, thickest = 0;  ///< millimetres; equal where the thickness is constant
+  double thinnest = 0, thickest = 0;  ///< millimeters; equal where the thickness is constant
   double thickness = 0;               ///< mean over the face
   double area = 0;
   std::vector<int> solid_faces;  ///< numbers of the solid's faces that it lies between

@@ -1,4 +1,4 @@
-/// Gradation by Dijkstra's algorithm over the voxels (chamfer distances over 26 neighbours, Borgefors 1986):
+/// Gradation by Dijkstra's algorithm over the voxels (chamfer distances over 26 neighbors, Borgefors 1986):
 /// a monotone min-update, so that the result is the largest field under the sources with the slope asked for.
 /// Size from curvature: 2 pi R / (elements a circle), as in Gmsh's and Netgen's manuals.
 

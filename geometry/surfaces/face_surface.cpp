@@ -1,4 +1,4 @@
-/// Elementary surfaces follow the parametrisations of OpenCASCADE's ElSLib; curvature from the first and
+/// Elementary surfaces follow the parametrizations of OpenCASCADE's ElSLib; curvature from the first and
 /// second fundamental forms (do Carmo, Differential Geometry of Curves and Surfaces, 3.3).
 
 #include "geometry/surfaces/face_surface.hpp"
@@ -217,7 +217,7 @@ void FaceSurface::recognize() {
   x_ = direction(frame.XDirection());
   y_ = direction(frame.YDirection());
   z_ = direction(frame.Direction());
-  // A scaled placement changes the parametrisation: trust the formulas only where they agree with
+  // A scaled placement changes the parametrization: trust the formulas only where they agree with
   // OpenCASCADE.
   const double tolerance = 1e-9 * (1 + (to_vector(adaptor_->Value(low_.x(), low_.y())).norm() + radius_));
   for (const Vector2& uv : {low_, high_, Vector2(0.7 * low_ + 0.3 * high_)}) {

@@ -25,9 +25,9 @@ class FaceSurface {
  public:
   explicit FaceSurface(const CadFace& face);
 
-  /// The same surface in another parametrisation: (u, v) are coordinates in a plane, in the model's unit, and
+  /// The same surface in another parametrization: (u, v) are coordinates in a plane, in the model's unit, and
   /// stand for the point of the surface that is seen there along the plane's normal. For faces whose own
-  /// parametrisation is of no use. The plane is that of the loop's vector area. \param loop points round the
+  /// parametrization is of no use. The plane is that of the loop's vector area. \param loop points round the
   /// face. Throws Error (failure) where the surface turns away from the plane's normal by more than 80
   /// degrees at a point of the loop or between them.
   static FaceSurface seen_from_above(const CadFace& face, const std::vector<Vector3>& loop);
@@ -51,7 +51,7 @@ class FaceSurface {
   double max_curvature(const Vector2& uv) const;
 
   /// The change of (u, v) that moves a point by `displacement` in space, to first order, in the least squares
-  /// sense. Directions in which the parametrisation is singular stay still.
+  /// sense. Directions in which the parametrization is singular stay still.
   static Vector2 parameter_step(const SurfacePoint& at, const Vector3& displacement);
 
   /// The point of the surface near `target`, searched from `uv`, which is updated. Exact for elementary

@@ -182,7 +182,7 @@ void add_recombine_command(CLI::App& app) {
   command->add_option("--seed", arguments->seed, "seed of the random choices of --no-improve (default 1)")
       ->check([](const std::string& text) { return seed_problem(text); });
   command->add_flag("--no-improve", arguments->no_improve,
-                    "the method of the 2018 paper as it stands: colour, swap, remove; no node moves");
+                    "the method of the 2018 paper as it stands: color, swap, remove; no node moves");
   command
       ->add_option(
           "--prefer", arguments->prefer,

@@ -189,13 +189,13 @@ class GridMaker {
       feet.push_back(sides[i][first[i]]);
       middle += grid_.uv[feet.back()] / k;
     }
-    const int centre = add_point(middle);
-    std::vector<Line> spokes;  // from the sides to the centre
+    const int center = add_point(middle);
+    std::vector<Line> spokes;  // from the sides to the center
     for (int i = 0; i < k; ++i) {
       const int n = first[(i + 1) % k];
       Line line{feet[i]};
-      for (int j = 1; j < n; ++j) line.push_back(add_between(feet[i], centre, static_cast<double>(j) / n));
-      line.push_back(centre);
+      for (int j = 1; j < n; ++j) line.push_back(add_between(feet[i], center, static_cast<double>(j) / n));
+      line.push_back(center);
       spokes.push_back(line);
     }
     for (int i = 0; i < k; ++i) {

@@ -176,10 +176,10 @@ class Triangulator {
       const Cdt::Face_handle f = stack.back();
       stack.pop_back();
       for (int i = 0; i < 3; ++i) {
-        const Cdt::Face_handle neighbour = f->neighbor(i);
-        if (neighbour->mark >= 0) continue;
-        neighbour->mark = switches_side(f, i) ? 1 - f->mark : f->mark;
-        stack.push_back(neighbour);
+        const Cdt::Face_handle neighbor = f->neighbor(i);
+        if (neighbor->mark >= 0) continue;
+        neighbor->mark = switches_side(f, i) ? 1 - f->mark : f->mark;
+        stack.push_back(neighbor);
       }
     }
   }
@@ -214,10 +214,10 @@ std::vector<std::array<int, 3>> triangles_of(int face, const FaceBoundary& bound
   }
 }
 
-/// Triangle neighbours over sides: neighbour[3 t + k] is across the side from corner k to corner k + 1.
+/// Triangle neighbors over sides: neighbor[3 t + k] is across the side from corner k to corner k + 1.
 /// Unlike join_twins() it takes the double sides that a collapsed pole may leave, for the flips to undo.
-std::vector<int> triangle_neighbours(const std::vector<std::array<int, 3>>& triangles, int points,
-                                     const ExecutionContext& context) {
+std::vector<int> triangle_neighbors(const std::vector<std::array<int, 3>>& triangles, int points,
+                                    const ExecutionContext& context) {
   SparseCheck check(context);
   // Sides bucketed by their lower end.
   std::vector<int> offsets(points + 1, 0), sides(3 * triangles.size());
@@ -235,7 +235,7 @@ std::vector<int> triangle_neighbours(const std::vector<std::array<int, 3>>& tria
     ++offsets[low(side) + 1];
   }
   for (int i = 0; i < points; ++i) offsets[i + 1] += offsets[i];
-  std::vector<int> next(offsets.begin(), offsets.end() - 1), neighbour(n, -1);
+  std::vector<int> next(offsets.begin(), offsets.end() - 1), neighbor(n, -1);
   for (int side = 0; side < n; ++side) {
     check();
     sides[next[low(side)]++] = side;
@@ -245,13 +245,13 @@ std::vector<int> triangle_neighbours(const std::vector<std::array<int, 3>>& tria
     for (int i = offsets[p]; i < offsets[p + 1]; ++i) {
       for (int j = i + 1; j < offsets[p + 1]; ++j) {
         if (high(sides[i]) == high(sides[j])) {
-          neighbour[sides[i]] = sides[j];
-          neighbour[sides[j]] = sides[i];
+          neighbor[sides[i]] = sides[j];
+          neighbor[sides[j]] = sides[i];
         }
       }
     }
   }
-  return neighbour;
+  return neighbor;
 }
 
 /// Flips sides in space.
@@ -262,7 +262,7 @@ class SpaceFlipper {
         points_(face.mesh.points),
         normals_(face.normals),
         check_(context),
-        across_(triangle_neighbours(triangles_, static_cast<int>(points_.size()), context)) {
+        across_(triangle_neighbors(triangles_, static_cast<int>(points_.size()), context)) {
     for (const auto& segment : face.segments) {
       if (segment.internal) kept_.insert(std::minmax(segment.a, segment.b));
     }

@@ -17,7 +17,7 @@ struct FaceTriangulation {
   TriangleMesh mesh;             ///< counter-clockwise in the parameter plane
   std::vector<Vector2> uv;       ///< (n)
   std::vector<Vector3> normals;  ///< (n) unit, du x dv
-  std::vector<char> pole;        ///< (n) 1 = singular point of the parametrisation, its uv is one of many
+  std::vector<char> pole;        ///< (n) 1 = singular point of the parametrization, its uv is one of many
   std::vector<int> nodes;        ///< (boundary_count) index into BoundaryNodes::points
   std::vector<double>
       angles;  ///< (boundary_count) as in FaceBoundary, the face's side of the curves; 0 = not known

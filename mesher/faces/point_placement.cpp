@@ -140,7 +140,7 @@ class Placer {
           throw failure("", fmt::format("a face would take more than {} points at this size", most_points));
         }
       }
-      if (front_[i].proposes) propose_neighbours(i);
+      if (front_[i].proposes) propose_neighbors(i);
     }
     context_.check();
     PlacedPoints result;
@@ -203,7 +203,7 @@ class Placer {
     }
   }
 
-  void propose_neighbours(std::size_t i) {
+  void propose_neighbors(std::size_t i) {
     const FrontPoint from = front_[i];
     const Vector3 across = from.normal.cross(from.direction);
     if (options_.aligned) {

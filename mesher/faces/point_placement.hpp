@@ -23,9 +23,9 @@ struct PlacementOptions {
   bool aligned = true;  ///< false: a hexagonal front, for faces where alignment fails
 };
 
-/// Places points: a queue that starts with the boundary proposes for each point its four neighbours along the
+/// Places points: a queue that starts with the boundary proposes for each point its four neighbors along the
 /// field, one size away on the surface; the field is carried along from the nearest boundary's tangents. The
-/// distance test runs in space, so that the parametrisation does not matter. Time: linear in the points
+/// distance test runs in space, so that the parametrization does not matter. Time: linear in the points
 /// placed.
 PlacedPoints place_points(const FaceBoundary& boundary, const FaceSurface& surface,
                           const TrimmedDomain& domain, SizingField::Sampler& size_at,

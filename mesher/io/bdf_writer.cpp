@@ -51,7 +51,7 @@ void write_set(int set, const char* kind, int cad, const char* of_what, const st
   for (std::size_t i = 0; i < numbers.size();) {
     std::size_t last = i;
     while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
-    // Two neighbours are no range.
+    // Two neighbors are no range.
     if (last < i + 2) last = i;
     std::string item = std::to_string(numbers[i]);
     if (last > i) item += " THRU " + std::to_string(numbers[last]);

@@ -39,7 +39,7 @@ QUADRILLE_API ShellMesh read_mesh(const std::filesystem::path& path);
 /// triangles and criteria beside them.
 QUADRILLE_API std::string quality_json(const ShellMesh& mesh, const CriteriaLimits& limits = {});
 
-/// Draws the mesh, quads coloured by q, sides drawn, with a colour bar, into a PNG. Works without a screen.
+/// Draws the mesh, quads colored by q, sides drawn, with a color bar, into a PNG. Works without a screen.
 /// Throws Error (failure) when the picture cannot be drawn.
 QUADRILLE_API void write_picture(const ShellMesh& mesh, const std::filesystem::path& path, int width = 1600,
                                  int height = 1200);

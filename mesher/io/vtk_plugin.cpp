@@ -153,7 +153,7 @@ std::string vtu_bytes(vtkUnstructuredGrid* grid) {
 
 // ---- the picture ----
 
-/// Red (bad) over yellow to blue (good): told apart by the colour-blind too.
+/// Red (bad) over yellow to blue (good): told apart by the color-blind too.
 vtkNew<vtkLookupTable> color_map() {
   constexpr double stops[][4] = {{0.0, 0.65, 0.00, 0.15}, {0.3, 0.91, 0.36, 0.23},  {0.5, 0.99, 0.68, 0.38},
                                  {0.7, 1.00, 0.92, 0.62}, {0.85, 0.80, 0.92, 0.94}, {1.0, 0.42, 0.66, 0.82}};
@@ -290,7 +290,7 @@ View make_view(const ShellMesh& mesh) {
   return view;
 }
 
-constexpr double picture_share = 0.9;  // of the width; the colour bar has the rest
+constexpr double picture_share = 0.9;  // of the width; the color bar has the rest
 
 /// Half the height of the picture in the mesh's unit, with a margin around the mesh.
 double parallel_scale(const View& view, int width, int height) {

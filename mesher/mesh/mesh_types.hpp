@@ -100,7 +100,7 @@ struct ShellMesh {
   std::vector<OffGeometry> off_geometry;      ///< ascending by node; empty but in coarse second-order meshes
   std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; faces say it themselves
   std::vector<Face> faces;                    ///< one entry a CAD face; empty in meshes read from files
-  /// Of the shell on each CAD face, by face number minus 1, in millimetres; empty where not known.
+  /// Of the shell on each CAD face, by face number minus 1, in millimeters; empty where not known.
   std::vector<double> thicknesses;
 };
 

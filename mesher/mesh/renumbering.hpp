@@ -1,5 +1,5 @@
 #pragma once
-/// Large triangulations in an order in which neighbours are near each other in memory. Internal.
+/// Large triangulations in an order in which neighbors are near each other in memory. Internal.
 
 #include <vector>
 

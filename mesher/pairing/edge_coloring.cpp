@@ -283,7 +283,7 @@ int color_greedily(EdgeColoring& coloring, Random& random) {
   static constexpr std::array<Choices, 512> table = list_choices();
   int blanks = 0;
   for (int t = 0; t < coloring.size(); ++t) {
-    // No branches: what a triangle's neighbours are like cannot be foreseen, and a wrong guess costs more
+    // No branches: what a triangle's neighbors are like cannot be foreseen, and a wrong guess costs more
     // than all the rest.
     const int left = 7 & ~coloring.colors_used(t), colored = coloring.colored_sides(t);
     int masks = 0, later = 0;

@@ -214,7 +214,7 @@ int count_blanks(const EdgeColoring& coloring);
 /// leave, or leaves it blank. \return the number of blanks. Time: linear.
 int color_greedily(EdgeColoring& coloring, Random& random);
 
-/// Removes blanks by swapping colors with neighbouring edges along chains of two colors, which moves the
+/// Removes blanks by swapping colors with neighboring edges along chains of two colors, which moves the
 /// blank until it meets the boundary or another blank, or until its two triangles leave a color. Each step
 /// keeps the coloring proper. \return the number of blanks that were left after many tries: 0 in practice.
 int remove_blanks(EdgeColoring& coloring, Random& random);

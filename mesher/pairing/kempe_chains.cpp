@@ -1,4 +1,4 @@
-/// Based on: Kempe, On the geographical problem of the four colours (1879), for the chains; Lin & Kernighan,
+/// Based on: Kempe, On the geographical problem of the four colors (1879), for the chains; Lin & Kernighan,
 /// An effective heuristic algorithm for the traveling-salesman problem (1973), for chains whose partial gains
 /// stay positive.
 

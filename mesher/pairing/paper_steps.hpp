@@ -1,6 +1,6 @@
 #pragma once
 /// The steps that end the 2018 paper's method, as it describes them: for comparison with what Quadrille does
-/// instead. Quadrille pairs the triangles that the colour leaves (recombine()) and smooths with a guard
+/// instead. Quadrille pairs the triangles that the color leaves (recombine()) and smooths with a guard
 /// (smooth()). Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018),
 /// sections 2.4 and 3.
 
@@ -14,7 +14,7 @@ namespace quadrille {
 /// the number collapsed. Time: linear.
 int collapse_boundary_triangles(QuadMesh& mesh);
 
-/// Moves each inner node of the quads with q below a limit to the mean of its neighbours (the other ends of
+/// Moves each inner node of the quads with q below a limit to the mean of its neighbors (the other ends of
 /// its sides), in the order of the nodes, without regard to what that does to other quads; nothing where none
 /// is below. Boundary nodes stay. Meant for planar meshes: on others nodes leave the surface. Time: linear in
 /// sweeps. \return the number of moves.

@@ -1,5 +1,5 @@
 #pragma once
-/// Triangles into quads by edge colouring.
+/// Triangles into quads by edge coloring.
 
 #include "geometry/base/api.hpp"
 #include "geometry/base/execution_context.hpp"

@@ -43,7 +43,7 @@ struct Change {
   int old_count = 0;
   std::array<Quad, max_patch> quads;
   int count = 0;
-  int moved = -1;  ///< node that is placed anew, at the mean of its neighbours
+  int moved = -1;  ///< node that is placed anew, at the mean of its neighbors
 
   bool add_old(int quad) {
     if (std::find(old_quads.begin(), old_quads.begin() + old_count, quad) != old_quads.begin() + old_count)
@@ -318,15 +318,15 @@ bool CleanUp::apply(Change& change, double allowed_cost) {
     normal = mesh_.normals[node];
     uv = mesh_.parameters[node];
     Vector3 sum = Vector3::Zero();
-    int neighbours = 0;
+    int neighbors = 0;
     for (const Quad& quad : change.new_span())
       for (int k = 0; k < 4; ++k)
         if (quad[k] == node) {
           sum += point(quad[(k + 1) & 3]);
-          ++neighbours;
+          ++neighbors;
         }
     mesh_.mesh.points[node] =
-        surface_.move(mesh_.parameters[node], sum / std::max(neighbours, 1), mesh_.normals[node]);
+        surface_.move(mesh_.parameters[node], sum / std::max(neighbors, 1), mesh_.normals[node]);
   }
   const bool done = worst(change.new_span()) > std::min(worst_before, mendable) && !too_long(change) &&
                     topology_.replace(change.old_span(), change.new_span());

@@ -1,4 +1,4 @@
-// Quads with their neighbours: half-edges kept implicitly, four a quad.
+// Quads with their neighbors: half-edges kept implicitly, four a quad.
 
 #include "mesher/quads/quad_topology.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Quads with their neighbours, changed patch by patch; not part of the public interface.
+/// Quads with their neighbors, changed patch by patch; not part of the public interface.
 
 #include <array>
 #include <span>
@@ -24,7 +24,7 @@ class QuadTopology {
     bool closed = false;
   };
 
-  /// \param tags one a quad or empty; quads of different tags do not count as neighbours.
+  /// \param tags one a quad or empty; quads of different tags do not count as neighbors.
   QuadTopology(std::vector<Quad> quads, const std::vector<int>& tags, int node_count,
                const ExecutionContext& context = {});
 

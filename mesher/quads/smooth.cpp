@@ -2,7 +2,7 @@
 // Based on: Field, Laplacian smoothing and Delaunay triangulations (1988), made "smart" by the acceptance
 // test of Freitag, On combining Laplacian and optimization-based mesh smoothing techniques (1997): sweeps of
 // averages first, then the worst elements node by node, by a compass search on the least scaled Jacobian
-// round the node. Untangling maximises the negative part of the corner areas, as Freitag & Plassmann (2000).
+// round the node. Untangling maximizes the negative part of the corner areas, as Freitag & Plassmann (2000).
 
 #include <algorithm>
 #include <array>
@@ -20,11 +20,11 @@ namespace {
 /// A move that leaves every element above this scaled Jacobian is good even if the least one falls a little.
 constexpr double good_jacobian = 0.6;
 constexpr double opposite_weight =
-    0.5;                           ///< weight of the corner opposite in a quad, beside 1 for the neighbours
+    0.5;                           ///< weight of the corner opposite in a quad, beside 1 for the neighbors
 constexpr double overshoot = 1.3;  ///< of a sweep's moves
 /// Moves below this fraction of the mean side round the node are not worth evaluating the surface for.
 constexpr double still_share = 4e-3;
-/// A place on the surface within this share of the size of the place judged needs no second judgement.
+/// A place on the surface within this share of the size of the place judged needs no second judgment.
 constexpr double near_share = 0.01;
 /// A side shorter than this share of the mean side round the node counts against the node's place.
 constexpr double short_side = 0.5;
@@ -78,7 +78,7 @@ class Smoother {
 
   /// Works on the nodes of the elements below `floor`, worst node first by index; returns whether a node
   /// moved.
-  bool optimise_below(double floor) {
+  bool optimize_below(double floor) {
     bool any = false;
     for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
       check(node);
@@ -211,7 +211,7 @@ class Smoother {
   }
 
   /// What the search raises: the least scaled Jacobian, less where a side gets short beside the others. The
-  /// worst angle alone would often be best at a neighbour's place.
+  /// worst angle alone would often be best at a neighbor's place.
   double merit_at(int node, const Vector3& p, const Vector3& normal, double enough) const {
     const double least = least_at(node, p, normal, enough);
     if (least < enough || least <= 0) return least;
@@ -232,7 +232,7 @@ class Smoother {
     return sum / std::max(first_[node + 1] - first_[node], 1);
   }
 
-  /// The mean of the neighbours, in the tangent plane of the node.
+  /// The mean of the neighbors, in the tangent plane of the node.
   Vector3 middle_of(int node) const {
     Vector3 sum = Vector3::Zero();
     for (int i = first_[node]; i < first_[node + 1]; ++i)
@@ -300,8 +300,8 @@ class Smoother {
   }
 
   /// One step of a sweep: towards the mean of the nodes of the quads round the node, overshot. Corners
-  /// opposite count half as much as neighbours: measured on graded meshes, that and the overshooting reach in
-  /// 3 sweeps the mean quality that plain averages of neighbours reach in 8; weights by length or area, and
+  /// opposite count half as much as neighbors: measured on graded meshes, that and the overshooting reach in
+  /// 3 sweeps the mean quality that plain averages of neighbors reach in 8; weights by length or area, and
   /// parallelogram targets, gave less.
   bool relax(int node) {
     Plan plan;
@@ -394,9 +394,9 @@ class Smoother {
     for (int halvings = 0; halvings < 4; ++halvings, step *= 0.5) {
       for (int tries = 0, moved = 1; moved && tries < 3; ++tries) {
         moved = 0;
-        const Vector3 centre = best;
+        const Vector3 center = best;
         for (const auto& way : compass) {
-          const Vector3 p = centre + step * (way[0] * u + way[1] * v);
+          const Vector3 p = center + step * (way[0] * u + way[1] * v);
           const double candidate = value_at(p, value);
           if (candidate > value) {
             value = candidate;
@@ -572,20 +572,20 @@ class Smoother {
 void smooth(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const ImproveOptions& options,
             ImproveReport& report, ExecutionContext& context) {
   Smoother smoother(surface_mesh, surface, context);
-  for (int i = 0; i < 10 && smoother.optimise_below(1e-3); ++i) continue;
+  for (int i = 0; i < 10 && smoother.optimize_below(1e-3); ++i) continue;
   for (int i = 0; i < options.smoothing_sweeps && smoother.sweep(); ++i) continue;
   smoother.measure_all();
-  for (int i = 0; i < 10 && smoother.optimise_below(1e-3); ++i) continue;
+  for (int i = 0; i < 10 && smoother.optimize_below(1e-3); ++i) continue;
   // The worst by turns with their surroundings, which have to give way.
-  for (int i = 0; i < 8 && smoother.optimise_below(bad_jacobian); ++i) {
+  for (int i = 0; i < 8 && smoother.optimize_below(bad_jacobian); ++i) {
     for (int k = 0; k < 3 && smoother.sweep(); ++k) continue;
     smoother.measure_all();
   }
   constexpr double half_pi = 1.57079632679489662;
   constexpr int most_failures = 4;
   if (smoother.loosen_below(std::sin(half_pi * std::clamp(options.q_floor, 0.0, 0.9)), most_failures))
-    for (int i = 0; i < 2 && smoother.optimise_below(bad_jacobian); ++i) continue;
-  for (int i = 0; i < 2 && smoother.optimise_below(poor_jacobian); ++i) continue;
+    for (int i = 0; i < 2 && smoother.optimize_below(bad_jacobian); ++i) continue;
+  for (int i = 0; i < 2 && smoother.optimize_below(poor_jacobian); ++i) continue;
   for (int i = 0; i < 10 && smoother.untangle(); ++i) continue;
   report.bad_elements = smoother.bad_elements();
 }

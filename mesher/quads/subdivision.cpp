@@ -75,7 +75,7 @@ class Subdivider {
   /// The surface point near the mean of the middles of an element's sides. At curved boundaries that lies
   /// further inside than the mean of the corners.
   template <std::size_t n>
-  int add_centre(const std::array<int, n>& middles) {
+  int add_center(const std::array<int, n>& middles) {
     const auto& fine = fine_.surface_mesh;
     Vector3 target = Vector3::Zero();
     Vector2 uv(0, 0);
@@ -87,11 +87,11 @@ class Subdivider {
     return add_point(at.point, uv, surface_.normal(at, uv), false, false);
   }
 
-  /// Between two boundaries that bend alike (a narrow ring, the tip of a wedge) the centre lies where a Coons
+  /// Between two boundaries that bend alike (a narrow ring, the tip of a wedge) the center lies where a Coons
   /// patch or the triangle of second order has it, beyond the mean of the middles: taken if that is better
   /// for the worst of the parts.
   template <std::size_t n>
-  void improve_centre(const std::array<int, n>& element, const std::array<int, n>& middles, int centre) {
+  void improve_center(const std::array<int, n>& element, const std::array<int, n>& middles, int center) {
     const int fixed = static_cast<int>(fine_.nodes.size());
     if (std::none_of(middles.begin(), middles.end(), [&](int i) { return i < fixed; })) return;
     auto& fine = fine_.surface_mesh;
@@ -101,23 +101,23 @@ class Subdivider {
       for (std::size_t k = 0; k < n; ++k) {
         result =
             std::min(result, folded_scaled_jacobian(points[renumbered_[element[k]]], points[middles[k]], at,
-                                                    points[middles[(k + n - 1) % n]], fine.normals[centre]));
+                                                    points[middles[(k + n - 1) % n]], fine.normals[center]));
       }
       return result;
     };
     constexpr double good = 0.3;
-    const double before = worst(points[centre]);
+    const double before = worst(points[center]);
     if (before > good) return;
     Vector3 target = Vector3::Zero();
     constexpr double of_middle = n == 4 ? 0.5 : 4.0 / 9, of_corner = n == 4 ? -0.25 : -1.0 / 9;
     for (std::size_t k = 0; k < n; ++k)
       target += of_middle * points[middles[k]] + of_corner * points[renumbered_[element[k]]];
-    Vector2 uv = fine.parameters[centre];
+    Vector2 uv = fine.parameters[center];
     const SurfacePoint at = surface_.move(uv, target);
     if (!(worst(at.point) > before)) return;
-    points[centre] = at.point;
-    fine.parameters[centre] = uv;
-    fine.normals[centre] = surface_.normal(at, uv);
+    points[center] = at.point;
+    fine.parameters[center] = uv;
+    fine.normals[center] = surface_.normal(at, uv);
   }
 
   int middle(int a, int b) {
@@ -131,11 +131,11 @@ class Subdivider {
     check_();
     std::array<int, n> middles;
     for (std::size_t k = 0; k < n; ++k) middles[k] = middle(element[k], element[(k + 1) % n]);
-    const int centre = add_centre(middles);
-    improve_centre(element, middles, centre);
+    const int center = add_center(middles);
+    improve_center(element, middles, center);
     for (std::size_t k = 0; k < n; ++k) {
       fine_.surface_mesh.mesh.quads.push_back(
-          {renumbered_[element[k]], middles[k], centre, middles[(k + n - 1) % n]});
+          {renumbered_[element[k]], middles[k], center, middles[(k + n - 1) % n]});
     }
   }
 
@@ -151,12 +151,12 @@ class Subdivider {
 /// where a part lies the wrong way round.
 template <std::size_t n>
 double worst_part(const std::array<Vector3, n>& corners, const Vector3& normal) {
-  Vector3 centre = Vector3::Zero();
-  for (const Vector3& corner : corners) centre += corner / static_cast<double>(n);
+  Vector3 center = Vector3::Zero();
+  for (const Vector3& corner : corners) center += corner / static_cast<double>(n);
   double worst = 1;
   for (std::size_t k = 0; k < n; ++k) {
     const Vector3& at = corners[k];
-    worst = std::min(worst, folded_scaled_jacobian(at, 0.5 * (at + corners[(k + 1) % n]), centre,
+    worst = std::min(worst, folded_scaled_jacobian(at, 0.5 * (at + corners[(k + 1) % n]), center,
                                                    0.5 * (at + corners[(k + n - 1) % n]), normal));
   }
   return worst;

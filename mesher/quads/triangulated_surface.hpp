@@ -15,7 +15,7 @@ namespace quadrille {
 /// ends on the nearest point of the last one. Normals vary linearly between those of the points.
 class TriangulatedSurface : public SmoothingSurface {
  public:
-  /// One patch: all triangles are neighbours across the sides they share, whatever their tags.
+  /// One patch: all triangles are neighbors across the sides they share, whatever their tags.
   explicit TriangulatedSurface(TriangleMesh patch);
 
   Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const override;

@@ -31,18 +31,18 @@ void write_iges(const std::filesystem::path& file, const char* unit) {
   ASSERT_TRUE(writer.Write(file.c_str()));
 }
 
-TEST(CadModel, LengthsAreMillimetresWhateverTheFilesUnit) {
+TEST(CadModel, LengthsAreMillimetersWhateverTheFilesUnit) {
   const test::TemporaryFolder folder;
   write_step(folder / "mm.step", "MM");
   write_step(folder / "inch.step", "INCH");
-  write_step(folder / "metre.step", "M");
+  write_step(folder / "meter.step", "M");
   write_iges(folder / "mm.igs", "MM");
   write_iges(folder / "inch.igs", "INCH");
-  write_iges(folder / "metre.igs", "M");
+  write_iges(folder / "meter.igs", "M");
   // The files do differ: an inch is an inch.
   EXPECT_NE(test::file_text(folder / "inch.step").find("INCH"), std::string::npos);
   EXPECT_EQ(test::file_text(folder / "mm.step").find("INCH"), std::string::npos);
-  for (const char* name : {"mm.step", "inch.step", "metre.step", "mm.igs", "inch.igs", "metre.igs"}) {
+  for (const char* name : {"mm.step", "inch.step", "meter.step", "mm.igs", "inch.igs", "meter.igs"}) {
     SCOPED_TRACE(name);
     const CadModel model = CadModel::read(folder / name);
     const Vector3 extent = model.box_max() - model.box_min();

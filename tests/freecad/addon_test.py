@@ -104,9 +104,9 @@ class AddonTest(unittest.TestCase):
     def test_mesh_groups(self):
         box = self.box()
         mesh = core.make_mesh(box, size=2, order=1)
-        labelled = ObjectsFem.makeMeshGroup(self.document, mesh, True, "MeshGroup")
-        labelled.Label = "Bolts"
-        labelled.References = [(box, ("Edge1", "Edge2"))]
+        labeled = ObjectsFem.makeMeshGroup(self.document, mesh, True, "MeshGroup")
+        labeled.Label = "Bolts"
+        labeled.References = [(box, ("Edge1", "Edge2"))]
         core.remesh(mesh)
         self.assertEqual(group(mesh, "Bolts_Edges", "Edge"), group(mesh, "Edge1") | group(mesh, "Edge2"))
         late = ObjectsFem.makeMeshGroup(self.document, mesh, False, "Late")
@@ -230,7 +230,7 @@ class AddonTest(unittest.TestCase):
 
     # Mesh regions
 
-    def test_mesh_regions_are_honoured(self):
+    def test_mesh_regions_are_honored(self):
         box = self.box()
         mesh = core.make_mesh(box, size=2)
         core.remesh(mesh)
@@ -288,7 +288,7 @@ class AddonTest(unittest.TestCase):
         found = {}
         for index, face in enumerate(mesh.Shape.Shape.Faces, 1):
             row = rows[min(group(mesh, f"Face{index}"))]
-            point = Vector(*measured.centres[row])
+            point = Vector(*measured.centers[row])
             normal = face.normalAt(*face.Surface.parameter(point))
             found[f"Face{index}"] = 1 if normal.dot(Vector(*measured.normals[row])) > 0 else -1
         return found

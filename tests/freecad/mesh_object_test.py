@@ -122,10 +122,10 @@ class MeshObjectTest(unittest.TestCase):
 
     def test_lengths_with_units(self):
         part = self.part(Part.makeBox(20, 20, 20))
-        millimetres = mesh_object(part, size=5).FemMesh
-        self.assertEqual(mesh_object(part, size="0.5 cm").FemMesh.FaceCount, millimetres.FaceCount)
+        millimeters = mesh_object(part, size=5).FemMesh
+        self.assertEqual(mesh_object(part, size="0.5 cm").FemMesh.FaceCount, millimeters.FaceCount)
         self.assertEqual(mesh_object(part, size=FreeCAD.Units.Quantity("5 mm")).FemMesh.FaceCount,
-                         millimetres.FaceCount)
+                         millimeters.FaceCount)
 
     def test_saved_and_reopened(self):
         part = self.model("bracket.step")

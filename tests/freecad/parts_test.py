@@ -32,8 +32,8 @@ def spline(*points):
     return curve.toShape()
 
 
-def circle(radius, centre=(0, 0, 0), normal=UP):
-    return Part.Wire(Part.makeCircle(radius, Vector(*centre), normal))
+def circle(radius, center=(0, 0, 0), normal=UP):
+    return Part.Wire(Part.makeCircle(radius, Vector(*center), normal))
 
 
 def along_helix(helix, profile):

@@ -35,7 +35,7 @@ TEST(Renumbering, OnlyLargeScatteredMeshesNeedIt) {
   EXPECT_TRUE(is_scattered(shuffled(grid(500, 400, 1), 1)));
 }
 
-TEST(Renumbering, KeepsEveryTriangleAndBringsNeighboursTogether) {
+TEST(Renumbering, KeepsEveryTriangleAndBringsNeighborsTogether) {
   TriangleMesh mesh = shuffled(grid(500, 400, 1), 2);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) mesh.tags.push_back(static_cast<int>(t));
   mesh.points.emplace_back(-1, -1, 0);  // no triangle uses it

@@ -219,9 +219,9 @@ TopoDS_Shape crescent() {
 /// A quarter of a cylinder of radius 10 and height 30, on a cylindrical surface.
 /// Half a disc with a rim round it that tapers to a tip of half a degree.
 TopoDS_Shape wedge() {
-  const gp_Pnt tip(10, 0, 0), inner_end(-10, 0, 0), outer_end(-10.1, 0, 0), centre(-0.05, 0.1, 0);
+  const gp_Pnt tip(10, 0, 0), inner_end(-10, 0, 0), outer_end(-10.1, 0, 0), center(-0.05, 0.1, 0);
   const TopoDS_Edge inner = BRepBuilderAPI_MakeEdge(gp_Circ(gp::XOY(), 10), tip, inner_end).Edge();
-  const gp_Circ rim(gp_Ax2(centre, gp::DZ()), centre.Distance(tip));
+  const gp_Circ rim(gp_Ax2(center, gp::DZ()), center.Distance(tip));
   const TopoDS_Edge outer = BRepBuilderAPI_MakeEdge(rim, tip, outer_end).Edge();
   const TopoDS_Edge base = BRepBuilderAPI_MakeEdge(outer_end, inner_end).Edge(),
                     chord = BRepBuilderAPI_MakeEdge(inner_end, tip).Edge();
@@ -578,11 +578,11 @@ TopoDS_Shape cone_without_apex() {
 }
 
 /// The side of a cylinder with a hole that lies over the seam, which nothing splits there, and a face in it.
-TopoDS_Shape hole_over_seam(double centre) {
+TopoDS_Shape hole_over_seam(double center) {
   TopoDS_Face side = cylinder_side();
   side.Free(Standard_True);
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(side);
-  const TopoDS_Edge rim = closed_edge(new Geom2d_Circle(gp_Ax2d({centre, 15}, {0.6, 0.8}), 0.4), surface);
+  const TopoDS_Edge rim = closed_edge(new Geom2d_Circle(gp_Ax2d({center, 15}, {0.6, 0.8}), 0.4), surface);
   TopoDS_Wire hole;
   const BRep_Builder builder;
   builder.MakeWire(hole);

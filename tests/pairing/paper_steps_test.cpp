@@ -67,7 +67,7 @@ TEST(CollapseBoundaryTriangles, LeavesInnerTrianglesAndEars) {
   EXPECT_EQ(mesh.triangles.size(), 1U);
 }
 
-TEST(CollapseBoundaryTriangles, TakesMostOfWhatColoursLeave) {
+TEST(CollapseBoundaryTriangles, TakesMostOfWhatColorsLeave) {
   std::size_t left = 0;
   int collapsed = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {

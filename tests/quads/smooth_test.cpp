@@ -107,7 +107,7 @@ TEST(Smooth, StaysOnTheSurface) {
 }
 
 TEST(Smooth, UntanglesWhatWasThrownAbout) {
-  // Nodes thrown far across their neighbours: quads inverted, folded over and lying on one another.
+  // Nodes thrown far across their neighbors: quads inverted, folded over and lying on one another.
   for (const double far : {1.3, 2.2}) {
     SurfaceMesh mesh = grid(14);
     std::mt19937 random(11);

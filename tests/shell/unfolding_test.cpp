@@ -204,7 +204,7 @@ TEST(Unfolding, NamesTheFaceThatNoStraightSideMends) {
                        options, {}, context);
   std::vector<ShellMesh::Face> statuses(faces.size());
   EXPECT_NO_THROW(assemble(model.shape(), nodes, faces, statuses, options, context));
-  // The last node, far across its neighbours.
+  // The last node, far across its neighbors.
   faces[2]->points.back() += 3 * (faces[2]->points.front() - faces[2]->points.back());
   try {
     assemble(model.shape(), nodes, faces, statuses, options, context);

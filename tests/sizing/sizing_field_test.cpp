@@ -280,7 +280,7 @@ TEST(EdgeSampling, MakesEveryFaceEvenWithSegmentsOfTheSize) {
   }
 }
 
-TEST(EdgeSampling, NoSegmentIsFarFromItsNeighbourOnAUniformField) {
+TEST(EdgeSampling, NoSegmentIsFarFromItsNeighborOnAUniformField) {
   const CadModel model = CadModel::read(sample_model("bezier_patch").path());
   MeshOptions options;
   options.sizing.size = model.diagonal() / 80;

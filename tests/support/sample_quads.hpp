@@ -255,9 +255,9 @@ inline SurfaceMesh subdivide(const SurfaceMesh& coarse, const SmoothingSurface& 
     return entry->second;
   };
   for (const auto& q : coarse.mesh.quads) {
-    Vector3 centre = Vector3::Zero();
-    for (const int node : q) centre += 0.25 * coarse.mesh.points[node];
-    const int m = add(centre, q[0], false);
+    Vector3 center = Vector3::Zero();
+    for (const int node : q) center += 0.25 * coarse.mesh.points[node];
+    const int m = add(center, q[0], false);
     for (int k = 0; k < 4; ++k)
       fine.mesh.quads.push_back({q[k], middle(q[k], q[(k + 1) & 3]), m, middle(q[(k + 3) & 3], q[k])});
   }

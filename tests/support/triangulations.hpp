@@ -42,15 +42,15 @@ inline TriangleMesh compact(const TriangleMesh& mesh) {
   return result;
 }
 
-/// The triangles for which keep(index, centre) holds.
+/// The triangles for which keep(index, center) holds.
 template <class Keep>
 TriangleMesh keep_triangles(const TriangleMesh& mesh, Keep&& keep) {
   TriangleMesh result;
   result.points = mesh.points;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
-    const Vector3 centre = (mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3;
-    if (!keep(static_cast<int>(t), centre)) continue;
+    const Vector3 center = (mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3;
+    if (!keep(static_cast<int>(t), center)) continue;
     result.triangles.push_back(mesh.triangles[t]);
     if (!mesh.tags.empty()) result.tags.push_back(mesh.tags[t]);
   }
@@ -88,11 +88,11 @@ inline TriangleMesh random_square(int count, unsigned seed) {
 inline TriangleMesh random_with_holes(int count, int holes, unsigned seed) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> uniform(0, 1);
-  std::vector<Vector3> centres;
+  std::vector<Vector3> centers;
   for (int k = 0; k < holes; ++k)
-    centres.emplace_back(uniform(generator), uniform(generator), 0.25 * uniform(generator));
+    centers.emplace_back(uniform(generator), uniform(generator), 0.25 * uniform(generator));
   return keep_triangles(random_square(count, seed + 1), [&](int, const Vector3& p) {
-    return std::all_of(centres.begin(), centres.end(),
+    return std::all_of(centers.begin(), centers.end(),
                        [&](const Vector3& c) { return std::hypot(p.x() - c.x(), p.y() - c.y()) > c.z(); });
   });
 }
@@ -365,7 +365,7 @@ inline TriangleMesh shrink(TriangleMesh mesh, const std::function<bool(const Tri
   return mesh;
 }
 
-/// The triangles as a C++ initialiser, for a failing case to be kept as a test.
+/// The triangles as a C++ initializer, for a failing case to be kept as a test.
 inline std::string describe(const TriangleMesh& mesh) {
   std::string text;
   for (const auto& [a, b, c] : mesh.triangles) text += fmt::format("{{{}, {}, {}}}, ", a, b, c);

@@ -62,7 +62,7 @@ def mesh_object(
     Raises:
         Error: with one sentence, the document unchanged.
     """
-    wanted = _in_millimetres(MeshSettings(size=size, order=order, **settings))
+    wanted = _in_millimeters(MeshSettings(size=size, order=order, **settings))
     _check_analysis(analysis)
     shape = shape_of(doc_object)
     job = ShapeJob(shape, wanted, command, outputs, picture)
@@ -77,7 +77,7 @@ def mesh_object(
 def make_mesh(doc_object, size: Optional[float] = None, order: int = 2, name: str = "QuadMesh", analysis=None,
               **settings):
     """Adds a mesh object for a document object, without meshing yet: the task panel or remesh() does that."""
-    wanted = _in_millimetres(MeshSettings(size=size, order=order, **settings))
+    wanted = _in_millimeters(MeshSettings(size=size, order=order, **settings))
     shape = shape_of(doc_object)
     _check_analysis(analysis)
     names = [*map(face_name, wanted.get("faces", ())), *wanted.get("sizes", ())]
@@ -222,7 +222,7 @@ def refine(mesh, references, size, name: str = "Refinement"):
 
     if not references or not any(names for _, names in references):
         raise Error("select the faces, edges or vertices to refine", "usage", mesh.Name)
-    length = _millimetres(size)
+    length = _millimeters(size)
     if not length > 0:
         raise Error(f"a refinement of size {size} makes no sense: it must be larger than 0", "usage", mesh.Name)
     check_references(mesh, references)  # an error now, not when meshing
@@ -371,22 +371,22 @@ def _mesh_type() -> str:
     return "Fem::FemMeshShapeBaseObjectPython" if version >= (1, 0) else "Fem::FemMeshObjectPython"
 
 
-def _millimetres(value) -> float:
-    """A number, or a quantity or text with a unit ("2 cm"), in millimetres."""
+def _millimeters(value) -> float:
+    """A number, or a quantity or text with a unit ("2 cm"), in millimeters."""
     if isinstance(value, str):
         value = FreeCAD.Units.Quantity(value)
     return float(getattr(value, "Value", value))
 
 
-def _in_millimetres(settings: MeshSettings) -> MeshSettings:
+def _in_millimeters(settings: MeshSettings) -> MeshSettings:
     """Lengths may come with a unit."""
     for name, value in settings.items():
         if BY_NAME[name]["unit"] != "mm":
             continue
         if isinstance(value, Mapping):
-            settings[name] = {str(key): _millimetres(size) for key, size in value.items()}
+            settings[name] = {str(key): _millimeters(size) for key, size in value.items()}
         else:
-            settings[name] = _millimetres(value)
+            settings[name] = _millimeters(value)
     return settings
 
 

@@ -22,7 +22,7 @@ class ElementQuality(NamedTuple):
     scaled_jacobian: np.ndarray  #: least of the corners
     aspect: np.ndarray  #: longest edge / shortest edge
     corners: np.ndarray  #: (n, 4, 3)
-    centres: np.ndarray  #: (n, 3)
+    centers: np.ndarray  #: (n, 3)
     normals: np.ndarray  #: (n, 3), of length 1
     lengths: np.ndarray  #: mean edge length
     criteria: Dict[str, np.ndarray]  #: values of industry's criteria, by name
@@ -107,9 +107,9 @@ def _measure(ids: np.ndarray, nodes: np.ndarray, corners: np.ndarray) -> Element
     angles = np.arccos(np.clip(cosines, -1.0, 1.0))
     angles = np.where(sines < 0, 2 * np.pi - angles, angles)  # a concave corner
     q = np.maximum(0.0, 1.0 - 2.0 / np.pi * np.abs(np.pi / 2 - angles).max(axis=1))
-    centres = corners.mean(axis=1)
+    centers = corners.mean(axis=1)
     aspect = lengths.max(axis=1) / np.maximum(lengths.min(axis=1), 1e-300)
-    return ElementQuality(ids, q, sines.min(axis=1), aspect, corners, centres, normals,
+    return ElementQuality(ids, q, sines.min(axis=1), aspect, corners, centers, normals,
                           lengths.mean(axis=1), _criteria(corners, out, aspect), nodes)
 
 

@@ -44,7 +44,7 @@ class SizeEstimate:
                           for same, number in numbers.get(edge.hashCode(), ()) if same.isSame(edge)]
         self._sides = _columns(sides, 3)
         self._edge_curvatures = np.array([_curvature_of_edge(edge) for edge in edges])
-        # The neighbour is as fine as its curvature wants, up to the edge.
+        # The neighbor is as fine as its curvature wants, up to the edge.
         typical = self._typical_curvatures()[self._column(self._sides, 0)]
         np.maximum.at(self._edge_curvatures, self._column(self._sides, 1), typical)
         self._lengths = lengths
@@ -182,7 +182,7 @@ def _curvatures(face, area: float, samples: int) -> List[Tuple[float, float]]:
 
 
 def fingerprint(shape) -> List[float]:
-    """Numbers that change when a shape does: its corners, the lengths of its edges, areas and centres of its faces.
+    """Numbers that change when a shape does: its corners, the lengths of its edges, areas and centers of its faces.
 
     BREP text would not do: it holds the triangulation for the screen and flags of checks.
     """

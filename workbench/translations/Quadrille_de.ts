@@ -351,7 +351,7 @@
         <translation>Wachstum</translation>
     </message>
     <message>
-        <source>How fast the size may change: millimetres of size per millimetre of way</source>
+        <source>How fast the size may change: millimeters of size per millimeter of way</source>
         <translation>Wie schnell sich die Größe ändern darf: Millimeter Größe je Millimeter Weg</translation>
     </message>
     <message>

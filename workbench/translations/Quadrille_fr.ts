@@ -351,7 +351,7 @@
         <translation>Croissance</translation>
     </message>
     <message>
-        <source>How fast the size may change: millimetres of size per millimetre of way</source>
+        <source>How fast the size may change: millimeters of size per millimeter of way</source>
         <translation>À quelle vitesse la taille peut changer : millimètres de taille par millimètre de chemin</translation>
     </message>
     <message>

@@ -24,21 +24,21 @@ class LengthField(QtGui.QLineEdit):
         self.setMinimumWidth(70)
         self.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
 
-    def show_length(self, millimetres: float) -> None:
-        """Shows a length in the user's units; in millimetres and in full where those would round it."""
-        if self._otherwise and millimetres == 0:
+    def show_length(self, millimeters: float) -> None:
+        """Shows a length in the user's units; in millimeters and in full where those would round it."""
+        if self._otherwise and millimeters == 0:
             self.setText("")
             return
-        text = FreeCAD.Units.Quantity(millimetres, FreeCAD.Units.Length).UserString
+        text = FreeCAD.Units.Quantity(millimeters, FreeCAD.Units.Length).UserString
         try:
-            exact = abs(_parsed(text) - millimetres) <= 1e-9 * abs(millimetres)
+            exact = abs(_parsed(text) - millimeters) <= 1e-9 * abs(millimeters)
         except Error:  # FreeCAD does not read all that it writes
             exact = False
-        self.setText(text if exact else f"{millimetres:.10g} mm")
+        self.setText(text if exact else f"{millimeters:.10g} mm")
         self.setCursorPosition(0)
 
     def length(self, label: str = "") -> float:
-        """The length in millimetres; raises Error when it is none."""
+        """The length in millimeters; raises Error when it is none."""
         if self._otherwise and not self.text().strip():
             return 0.0
         try:
@@ -58,7 +58,7 @@ class LengthField(QtGui.QLineEdit):
 
 
 def _parsed(text: str) -> float:
-    """A length in millimetres; a bare number is in the unit that the user's schema has for lengths of about a millimetre."""
+    """A length in millimeters; a bare number is in the unit that the user's schema has for lengths of about a millimeter."""
     try:
         quantity = FreeCAD.Units.Quantity(text)
     except Exception as error:  # FreeCAD versions raise different ones

@@ -124,7 +124,7 @@ def show_normals(mesh) -> int:
     hide(mesh, NORMALS)
     measured = quality.measure(mesh.FemMesh)
     step = max(1, -(-measured.ids.size // MOST_ARROWS))
-    feet, normals = measured.centres[::step], measured.normals[::step]
+    feet, normals = measured.centers[::step], measured.normals[::step]
     length = float(np.median(measured.lengths)) * step**0.5
     tips = feet + normals * length
     # Two barbs make a line an arrow; any direction across the normal will do.

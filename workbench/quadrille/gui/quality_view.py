@@ -220,11 +220,11 @@ def show_element(mesh, measured: quality.ElementQuality, index: int) -> None:
 
     camera = view.getCameraNode()
     reach = 12 * float(measured.lengths[index])
-    centre, normal = measured.centres[index], measured.normals[index]
-    place = coin.SbVec3f(*(centre + reach * normal))
+    center, normal = measured.centers[index], measured.normals[index]
+    place = coin.SbVec3f(*(center + reach * normal))
     camera.position.setValue(place)
     up = coin.SbVec3f(0, 0, 1) if abs(normal[2]) < 0.9 else coin.SbVec3f(0, 1, 0)
-    camera.pointAt(coin.SbVec3f(*centre), up)
+    camera.pointAt(coin.SbVec3f(*center), up)
     camera.focalDistance.setValue(reach)
     if hasattr(camera, "height"):
         camera.height.setValue(reach)
