@@ -183,7 +183,9 @@ class Job {
       FaceRecord& record = records_[face];
       const FaceChart chart = std::move(*charts_[face]);
       ExecutionContext share(context_);
-      if (record.attempts > 0) share.limit_work(std::max<std::int64_t>(1, record.share() - record.work));
+      // A face that its neighbors' remedies alone have meshed again is not held to it.
+      if (record.attempts > 0 && problems_before_[face])
+        share.limit_work(std::max<std::int64_t>(1, record.share() - record.work));
       // The others are to have their turn.
       if (is_limited()) share.limit_time(0.5 * context_.seconds_left());
       const auto start = std::chrono::steady_clock::now();
@@ -204,11 +206,10 @@ class Job {
 
   /// \return what the end of a share of work or time means for its face; the same thrown on if it ends all.
   FaceProblem share_problem(int face, const Error& error) const {
-    const std::string found = problems_before_[face] ? problems_before_[face]->what() : "";
     if (error.subject() == ExecutionContext::work_subject) {
       return {Cause::out_of_work, face + 1,
-              fmt::format("{}, and {} times the work of its first meshing mends nothing", found,
-                          FaceRecord::most_work)};
+              fmt::format("{}, and {} times the work of its first meshing mends nothing",
+                          problems_before_[face]->what(), FaceRecord::most_work)};
     }
     if (!options_.partial) throw Error(error);
     return {Cause::out_of_time, face + 1,
