@@ -67,6 +67,9 @@ class Job {
     const bool none =
         std::none_of(meshes_.begin(), meshes_.end(), [](const auto& m) { return m.has_value(); });
     if (!options_.partial || none) throw_first_problem();
+    if (none)
+      throw failure("size_min",
+                    "all faces are far below the least size: ask for a smaller one, or `keep_features`");
     slide();
     // What is done by then is delivered, however long that takes.
     if (options_.partial) context_.lift_time_limit();
