@@ -7,6 +7,7 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,11 @@ struct CadEdge {
   bool degenerate = false;  ///< a single point in space (pole, apex)
   bool closed() const { return first_vertex == last_vertex; }
   std::vector<int> faces;  ///< the faces that use it, a seam's face twice, ascending
+
+  /// Whether a face of these uses it. \param used (faces) 1 = one of them.
+  bool is_used(const std::vector<char>& used) const {
+    return std::any_of(faces.begin(), faces.end(), [&](int face) { return used[face - 1] != 0; });
+  }
 };
 
 /// The use of an edge by a face.

@@ -57,10 +57,9 @@ std::vector<StrayEdge> stray_edges(const CadShape& shape, const std::vector<char
   const double usual = diagonal_of_vertices(shape);
   for (std::size_t i = 0; i < shape.edges.size(); ++i) {
     const CadEdge& edge = shape.edges[i];
-    const bool is_used =
-        std::any_of(edge.faces.begin(), edge.faces.end(), [&](int face) { return used[face - 1]; });
     // A curve that could not be measured has no length.
-    if (is_used && !edge.degenerate && edge.length > spans * usual) long_ones.push_back(static_cast<int>(i));
+    if (edge.is_used(used) && !edge.degenerate && edge.length > spans * usual)
+      long_ones.push_back(static_cast<int>(i));
   }
   std::vector<StrayEdge> result;
   if (long_ones.empty()) return result;

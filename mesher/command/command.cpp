@@ -183,10 +183,6 @@ void copy_line(char (&buffer)[n], const std::string& line) {
   buffer[length + 1] = 0;
 }
 
-}  // namespace
-
-namespace {
-
 std::vector<std::string> whole_files;
 
 void prepare_time_line(double time_limit) {

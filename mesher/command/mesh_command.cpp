@@ -8,6 +8,7 @@
 #include "geometry/base/isolated_work.hpp"
 #include "geometry/base/threads.hpp"
 #include "mesher/command/command.hpp"
+#include "mesher/command/limits_option.hpp"
 #include "mesher/command/print_quality.hpp"
 #include "mesher/command/setting_options.hpp"
 #include "mesher/io/report.hpp"
@@ -22,8 +23,8 @@ struct MeshArguments : GivenSettings {
   std::filesystem::path input;
   std::vector<std::filesystem::path> outputs;
   std::filesystem::path write_size_field, report, picture;
-  std::string limits_file;
-  bool thin = false, quiet = false, end_with_input = false, within_limits = false;
+  LimitsOption limits;
+  bool thin = false, quiet = false, end_with_input = false;
 };
 
 /// The mesh's order: what is asked for, or second where a solver reads one of the files.
@@ -130,25 +131,28 @@ void warn_off_geometry(const ShellMesh& mesh, std::vector<std::string>& warnings
                   mesh.off_geometry.size(), worst->face, worst->off_geometry_max));
 }
 
-/// \param limits with --limits. The mesh is written by then, for a look at what fails.
-void hold_limits(const ShellMesh& mesh, const std::optional<CriteriaLimits>& limits,
-                 const MeshArguments& arguments) {
-  if (!limits) return;
-  const CriteriaSummary criteria = check_criteria(mesh, *limits);
-  if (criteria.failing == 0) return;
-  const std::string name = arguments.outputs.front().string();
-  throw failure(
-      name, fmt::format("{}: {} of {} quads are outside the limits", name, criteria.failing, criteria.quads));
+/// The table on stdout, warnings on stderr and the report, as far as they are wanted.
+void tell_quality(const ShellMesh& result, const CadModel& model, const std::optional<MidSurface>& middle,
+                  const MeshArguments& arguments, ExecutionContext& context) {
+  if (arguments.quiet && arguments.report.empty()) return;
+  QualitySummary summary;
+  std::vector<std::string> warnings = model.problems();
+  warn_off_geometry(result, warnings);
+  if (middle) warnings.insert(warnings.end(), middle->problems.begin(), middle->problems.end());
+  on_threads(arguments.settings.threads, [&] {
+    summary = quality(result);
+    for (std::string& warning : area_differences(model, result)) warnings.push_back(std::move(warning));
+  });
+  if (!arguments.report.empty())
+    write_report(result, summary, context, arguments.input, arguments.report, warnings);
+  if (arguments.quiet) return;
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+  print(quality_table(summary));
 }
 
 void run(const MeshArguments& arguments) {
   check_files(arguments);
-  std::optional<CriteriaLimits> limits;
-  if (arguments.within_limits) limits.emplace();
-  if (!arguments.limits_file.empty()) {
-    require_readable(arguments.limits_file);
-    limits = read_limits(arguments.limits_file);
-  }
+  const CriteriaLimits limits = arguments.limits.limits();
   const Settings& settings = arguments.settings;
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(settings.threads, [&](std::string_view stage, double fraction) {
@@ -177,21 +181,10 @@ void run(const MeshArguments& arguments) {
   context.check();
   write_outputs(result, arguments, context, cancel);
   list_left_out(result);
-  if (arguments.quiet && arguments.report.empty()) return hold_limits(result, limits, arguments);
-  QualitySummary summary;
-  std::vector<std::string> warnings = model.problems();
-  warn_off_geometry(result, warnings);
-  if (middle) warnings.insert(warnings.end(), middle->problems.begin(), middle->problems.end());
-  on_threads(settings.threads, [&] {
-    summary = quality(result);
-    for (std::string& warning : area_differences(model, result)) warnings.push_back(std::move(warning));
-  });
-  if (!arguments.report.empty())
-    write_report(result, summary, context, arguments.input, arguments.report, warnings);
-  if (arguments.quiet) return hold_limits(result, limits, arguments);
-  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
-  print(quality_table(summary));
-  hold_limits(result, limits, arguments);
+  tell_quality(result, model, middle, arguments, context);
+  // Last: what fails can be looked at then.
+  if (arguments.limits.given())
+    arguments.limits.hold(arguments.outputs.front(), check_criteria(result, limits));
 }
 
 }  // namespace
@@ -216,15 +209,8 @@ void add_mesh_command(CLI::App& app) {
   command->add_flag("--end-with-input", arguments->end_with_input,
                     "end the work when standard input closes, for programs that start this one");
   command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");
-  const CLI::Option* limits = command
-                                  ->add_option("--limits", arguments->limits_file,
-                                               "exit with 1 when quads of the mesh fail the criteria; with a "
-                                               "FILE, JSON or a HyperMesh criteria file, those of it")
-                                  ->expected(0, 1);
-  command->callback([arguments, limits] {
-    arguments->within_limits = limits->count() > 0;
-    run(*arguments);
-  });
+  arguments->limits.add_to(*command);
+  command->callback([arguments] { run(*arguments); });
 }
 
 }  // namespace quadrille::command

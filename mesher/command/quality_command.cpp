@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "mesher/command/command.hpp"
+#include "mesher/command/limits_option.hpp"
 #include "mesher/command/print_quality.hpp"
 #include "mesher/quadrille.hpp"
 
@@ -12,30 +13,18 @@ void add_quality_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "quality", "measure a mesh: counts, q, Jacobians, valence, and what fails industry's criteria");
   auto input = std::make_shared<std::filesystem::path>();
-  auto limits_file = std::make_shared<std::string>();
+  auto limits_option = std::make_shared<LimitsOption>();
   command->add_option("MESH", *input, "mesh file: .msh or .inp")->required();
-  CLI::Option* limits_option =
-      command
-          ->add_option(
-              "--limits", *limits_file,
-              "exit with 1 when quads fail the criteria; with a FILE, JSON or a HyperMesh criteria file, "
-              "those of it in place of the usual limits")
-          ->expected(0, 1);
-  command->callback([input, limits_file, limits_option] {
+  limits_option->add_to(*command);
+  command->callback([input, limits_option] {
     require_readable(*input);
-    CriteriaLimits limits;
-    if (!limits_file->empty()) {
-      require_readable(*limits_file);
-      limits = read_limits(*limits_file);
-    }
+    const CriteriaLimits limits = limits_option->limits();
     const ShellMesh mesh = read_mesh(*input);
     const QualitySummary summary = quality(mesh);
     const CriteriaSummary criteria = check_criteria(mesh, limits);
     print(quality_table(summary) + "\n" + quality_histogram(summary) + "\n" + valence_table(summary) + "\n" +
           criteria_table(criteria, limits));
-    if (limits_option->count() > 0 && criteria.failing > 0)
-      throw failure(input->string(), fmt::format("{}: {} of {} quads are outside the limits", input->string(),
-                                                 criteria.failing, criteria.quads));
+    limits_option->hold(*input, criteria);
   });
 }
 

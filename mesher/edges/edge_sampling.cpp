@@ -63,9 +63,7 @@ std::vector<char> find_used_edges(const CadShape& shape, const std::vector<char>
                                   const TinyFeatures& tiny) {
   std::vector<char> result(shape.edges.size(), 0);
   for (std::size_t i = 0; i < result.size(); ++i) {
-    const CadEdge& edge = shape.edges[i];
-    if (std::any_of(edge.faces.begin(), edge.faces.end(), [&](int face) { return used[face - 1]; }))
-      result[i] = result[tiny.edges[i]] = 1;
+    if (shape.edges[i].is_used(used)) result[i] = result[tiny.edges[i]] = 1;
   }
   return result;
 }

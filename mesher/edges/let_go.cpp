@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 
@@ -43,22 +42,6 @@ class HarmFinder {
     }
     find_edges_twice(face, harm);
     return harm;
-  }
-
-  /// Whether an edge stays within reach of the one whose nodes it shares.
-  bool is_near_its_leader(int edge) const {
-    constexpr int samples = 8, dense = 128;
-    const CadEdge &own = shape_.edges[edge], &leader = shape_.edges[tiny_.edges[edge]];
-    const EdgeCurve curve(own), other(leader);
-    const double step = (leader.last - leader.first) / dense;
-    for (int i = 1; i < samples; ++i) {
-      const Vector3 p = curve.point(own.first + (own.last - own.first) * i / samples);
-      double nearest = std::numeric_limits<double>::infinity();
-      for (int k = 0; k <= dense; ++k)
-        nearest = std::min(nearest, (p - other.point(leader.first + k * step)).norm());
-      if (nearest > std::hypot(reach_, 0.5 * leader.length / dense)) return false;
-    }
-    return true;
   }
 
  private:
@@ -159,10 +142,8 @@ void LetGo::choose() {
   std::vector<int> candidates, cluster(shape_.vertices.size());
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     const CadEdge& edge = shape_.edges[i];
-    const bool is_used =
-        std::any_of(edge.faces.begin(), edge.faces.end(), [&](int f) { return used_[f - 1]; });
-    if (is_used && !edge.degenerate && !edge.closed() && edge.first_vertex > 0 && edge.last_vertex > 0 &&
-        edge.length > 0 && edge.length < reach_)
+    if (edge.is_used(used_) && !edge.degenerate && !edge.closed() && edge.first_vertex > 0 &&
+        edge.last_vertex > 0 && edge.length > 0 && edge.length < reach_)
       candidates.push_back(static_cast<int>(i));
   }
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -212,7 +193,8 @@ bool LetGo::keep_harmed() {
   }
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     const int edge = static_cast<int>(i);
-    if (tiny.edges[i] != edge && !finder.is_near_its_leader(edge)) keep_slivers_at(edge);
+    if (tiny.edges[i] != edge && !lies_along(shape_.edges[i], shape_.edges[tiny.edges[i]], reach_))
+      keep_slivers_at(edge);
   }
   return any;
 }

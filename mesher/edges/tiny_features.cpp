@@ -72,7 +72,7 @@ class Finder {
                        tiny_.end(a.last_vertex) == tiny_.end(b.last_vertex);
     const bool against = tiny_.end(a.first_vertex) == tiny_.end(b.last_vertex) &&
                          tiny_.end(a.last_vertex) == tiny_.end(b.first_vertex);
-    if (!(along || against) || !close(a, b, reach_of(face, any_collapsed, a, b))) return;
+    if (!(along || against) || !lies_along(a, b, reach_of(face, any_collapsed, a, b))) return;
     // Of two closed edges either sense would fit the ends: the nearer points tell.
     const bool reversed = along && against ? !runs_along(a, b) : against;
     tiny_.merged_faces[face] = 1;
@@ -104,26 +104,6 @@ class Finder {
     return (p - at(b, 0.25)).norm() < (p - at(b, 0.75)).norm();
   }
 
-  /// Whether each curve stays within the length of the other, at samples.
-  bool close(const CadEdge& a, const CadEdge& b, double reach) const {
-    if (!(reach > 0)) return false;
-    constexpr int samples = 16, dense = 256;
-    std::vector<Vector3> points;
-    for (int i = 0; i <= dense; ++i) points.push_back(at(b, static_cast<double>(i) / dense));
-    for (int i = 1; i < samples; ++i) {
-      const Vector3 p = at(a, static_cast<double>(i) / samples);
-      double nearest = (p - points[0]).norm();
-      for (int k = 0; k < dense; ++k) {
-        const Vector3 side = points[k + 1] - points[k];
-        const double square = side.squaredNorm();
-        const double t = square > 0 ? std::clamp((p - points[k]).dot(side) / square, 0.0, 1.0) : 0;
-        nearest = std::min(nearest, (p - points[k] - t * side).norm());
-      }
-      if (!(nearest < reach)) return false;
-    }
-    return true;
-  }
-
   /// Chains of merged edges end in one that keeps its nodes. Each merge removes a face, so a ring of them
   /// would be a closed fan of slivers: the one that closes it is kept apart.
   void resolve_edges() {
@@ -151,6 +131,29 @@ class Finder {
 };
 
 }  // namespace
+
+bool lies_along(const CadEdge& edge, const CadEdge& other, double reach) {
+  if (!(reach > 0)) return false;
+  constexpr int samples = 16, dense = 256;
+  const auto place = [](const CadEdge& on, const EdgeCurve& curve, int i, int of) {
+    return curve.point(on.first + (on.last - on.first) * (static_cast<double>(i) / of));
+  };
+  const EdgeCurve curve(edge), other_curve(other);
+  std::vector<Vector3> points;
+  for (int i = 0; i <= dense; ++i) points.push_back(place(other, other_curve, i, dense));
+  for (int i = 1; i < samples; ++i) {
+    const Vector3 p = place(edge, curve, i, samples);
+    double nearest = (p - points[0]).norm();
+    for (int k = 0; k < dense; ++k) {
+      const Vector3 side = points[k + 1] - points[k];
+      const double square = side.squaredNorm();
+      const double t = square > 0 ? std::clamp((p - points[k]).dot(side) / square, 0.0, 1.0) : 0;
+      nearest = std::min(nearest, (p - points[k] - t * side).norm());
+    }
+    if (!(nearest < reach)) return false;
+  }
+  return true;
+}
 
 TinyFeatures find_tiny_features(const CadShape& shape, const std::vector<char>& used,
                                 const std::vector<Collapse>& collapse, double length,

@@ -29,6 +29,9 @@ struct SliverLimits {
   const std::vector<char>* kept = nullptr;  ///< (faces) 1 = not this one; null = any
 };
 
+/// Whether an edge's curve stays nearer than `reach` to another's, at samples between its ends.
+bool lies_along(const CadEdge& edge, const CadEdge& other, double reach);
+
 /// Edges marked for it, and edges shorter than `length`, become points; faces between two edges that are then
 /// left with the same ends, less than `length` apart, become edges, and faces without edges vanish. \param
 /// used (faces) 1 = the face is meshed. \param collapse (edges) \param length model units; 0 = none.

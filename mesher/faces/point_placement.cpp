@@ -206,16 +206,8 @@ class Placer {
   void propose_neighbors(std::size_t i) {
     const FrontPoint from = front_[i];
     const Vector3 across = from.normal.cross(from.direction);
-    if (options_.aligned) {
-      for (const Vector3& direction : {across, Vector3(-across), from.direction, Vector3(-from.direction)}) {
-        propose(from, direction);
-      }
-      return;
-    }
-    for (int k = 0; k < 6; ++k) {
-      const double angle = M_PI / 2 + k * M_PI / 3;
-      propose(from, std::cos(angle) * from.direction + std::sin(angle) * across);
-    }
+    for (const Vector3& direction : {across, Vector3(-across), from.direction, Vector3(-from.direction)})
+      propose(from, direction);
   }
 
   void propose(const FrontPoint& from, const Vector3& direction) {
@@ -269,7 +261,7 @@ class Placer {
     constexpr double same_sheet = 4;
     const Vector3 across = p.normal.cross(p.direction);
     const double limit = options_.refusal * p.size;
-    const double reach = options_.aligned ? limit * M_SQRT2 : limit;
+    const double reach = limit * M_SQRT2;
     return grid_.any_near(p.at.point, reach, p.size, [&](int entry) {
       const int i = grid_index_[entry];
       const Vector3 d = grid_.point(entry) - p.at.point;
@@ -281,7 +273,6 @@ class Placer {
       if (std::min(way_along(p.at, p.uv, front_[i].uv), way_along(front_[i].at, p.uv, front_[i].uv)) >
           same_sheet * reach)
         return false;
-      if (!options_.aligned) return true;
       return std::abs(d.dot(p.direction)) < limit && std::abs(d.dot(across)) < limit;
     });
   }

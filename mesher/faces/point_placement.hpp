@@ -20,7 +20,6 @@ struct PlacementOptions {
   double scale = 1;  ///< times the sizing field: 2 for Strategy::subdivide
   double refusal =
       0.72;  ///< no two points nearer than this, times the size, in the L-infinity norm of the field's frame
-  bool aligned = true;  ///< false: a hexagonal front, for faces where alignment fails
 };
 
 /// Places points: a queue that starts with the boundary proposes for each point its four neighbors along the

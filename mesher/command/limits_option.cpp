@@ -1,0 +1,31 @@
+#include "mesher/command/limits_option.hpp"
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "mesher/command/command.hpp"
+#include "mesher/io/limits_reader.hpp"
+
+namespace quadrille::command {
+
+void LimitsOption::add_to(CLI::App& command) {
+  option_ = command
+                .add_option("--limits", file_,
+                            "exit with 1 when quads fail the criteria; with a FILE, JSON or a HyperMesh "
+                            "criteria file, those of it in place of the usual limits")
+                ->expected(0, 1);
+}
+
+CriteriaLimits LimitsOption::limits() const {
+  if (file_.empty()) return {};
+  require_readable(file_);
+  return read_limits(file_);
+}
+
+void LimitsOption::hold(const std::filesystem::path& mesh, const CriteriaSummary& criteria) const {
+  if (!given() || criteria.failing == 0) return;
+  throw failure(mesh.string(), fmt::format("{}: {} of {} quads are outside the limits", mesh.string(),
+                                           criteria.failing, criteria.quads));
+}
+
+}  // namespace quadrille::command
