@@ -120,7 +120,7 @@ class Run:
             return "UNTOLD", f"exit code {self.code}, not one sentence: {self.message[:200]!r}"
         elif self.cpu > LATE_SECONDS and "time limit" not in self.message and not self.limits and self.kill_after is None:
             return "late", f"{self.cpu:.1f} s of CPU until: {self.message[:200]}"
-        elif self.peak > LATE_BYTES:
+        elif self.peak > LATE_BYTES and not self.limits:  # with limits, --force may take what they leave
             return "late", f"{self.peak / GIGABYTE:.1f} GB until: {self.message[:200]}"
         return self._with_files("crashes told" if "crashed" in self.message else "told errors")
 

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepGProp.hxx>
 #include <BRepTools.hxx>
 #include <GProp_GProps.hxx>
+#include <Geom_ToroidalSurface.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -12,6 +14,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <gp.hxx>
+#include <gp_Ax3.hxx>
 #include <map>
 #include <memory>
 #include <ostream>
@@ -135,6 +139,19 @@ TEST(Robustness, NamesTheCauseAndItsRemedy) {
     EXPECT_EQ(meshed(name).faces[0].attempts, 1) << name;
 }
 
+TEST(Robustness, RefusesASurfaceThatIsACurve) {
+  const TopoDS_Shape torus =
+      BRepBuilderAPI_MakeFace(new Geom_ToroidalSurface(gp_Ax3(gp::XOY()), 20, 0), 1e-7).Shape();
+  const CadModel model(std::make_shared<CadShape>(torus, "torus"));
+  try {
+    mesh_of(model, 15);
+    FAIL() << "meshed";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.subject(), "Face1");
+    EXPECT_NE(std::string(error.what()).find("is a curve"), std::string::npos) << error.what();
+  }
+}
+
 /// Least and greatest length of the segments on a CAD edge.
 std::pair<double, double> segment_lengths(const ShellMesh& mesh, int edge) {
   std::pair<double, double> range{INFINITY, 0};
@@ -169,6 +186,19 @@ TEST(Robustness, MakesAPointOfATinyFaceThatFails) {
   EXPECT_EQ(mesh.faces[0].status, FaceStatus::meshed);
   EXPECT_EQ(mesh.faces[1].status, FaceStatus::merged);
   EXPECT_NEAR(mesh_area(mesh), 400, 1e-3);
+}
+
+TEST(Robustness, WritesNoMeshWithoutQuads) {
+  const CadModel model(std::make_shared<CadShape>(tiny_cusp(), "tiny_cusp"));
+  MeshOptions options;
+  options.faces = {2};
+  try {
+    ExecutionContext context(1);
+    mesh(model, options, context);
+    FAIL() << "meshed";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.subject(), "size_min");
+  }
 }
 
 TEST(Robustness, MergesTinyFeaturesWhenAsked) {

@@ -218,10 +218,15 @@ const std::vector<std::string>& CadModel::problems() const {
 
 double CadModel::area(const ExecutionContext& context) const {
   double sum = 0;
-  for (const CadFace& face : shape_->faces) {
+  for (std::size_t i = 0; i < shape_->faces.size(); ++i) {
     context.check();
     GProp_GProps properties;
-    BRepGProp::SurfaceProperties(face.face, properties, 1e-4);
+    try {
+      BRepGProp::SurfaceProperties(shape_->faces[i].face, properties, 1e-4);
+    } catch (const Standard_Failure&) {
+      const std::string face = fmt::format("Face{}", i + 1);
+      throw failure(face, fmt::format("the area of {} cannot be measured: the file may be damaged", face));
+    }
     sum += std::abs(properties.Mass());
   }
   return sum;

@@ -54,7 +54,7 @@ class QUADRILLE_API CadModel {
   double diagonal() const;
   Vector3 box_min() const;
   Vector3 box_max() const;
-  /// Sum of the face areas.
+  /// Sum of the face areas. Throws Error (failure), naming the face, where one cannot be integrated.
   double area(const ExecutionContext& context = {}) const;
   /// Problems noticed while reading (invalid faces, loose tolerances, ...), one sentence each.
   const std::vector<std::string>& problems() const;

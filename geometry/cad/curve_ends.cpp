@@ -5,7 +5,10 @@
 #include <GeomProjLib.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -30,10 +33,11 @@ class CurveEndMender {
 
   void run() {
     for (const CadEdge& edge : shape_.edges) {
-      if (is_swallowed(edge)) swallowing_.insert(edge.first_vertex);
+      if (is_swallowed(edge)) wrong_.insert(edge.first_vertex);
     }
-    if (swallowing_.empty()) return;
-    for (const int vertex : swallowing_) split(vertex);
+    find_far_vertices();
+    if (wrong_.empty()) return;
+    for (const int vertex : wrong_) split(vertex);
     drop_dangling();
     for (CadFace& face : shape_.faces) close_wires(face);
   }
@@ -52,6 +56,30 @@ class CurveEndMender {
       if (distance(static_cast<double>(i) / samples) > reach) return false;
     }
     return true;
+  }
+
+  /// Those from which all curves that should end there end farther than the shortest of them is long.
+  void find_far_vertices() {
+    struct Near {
+      double distance = std::numeric_limits<double>::infinity(), shortest = distance;
+    };
+    std::vector<Near> near(shape_.vertices.size());
+    for (const CadEdge& edge : shape_.edges) {
+      if (edge.degenerate || !(edge.length > 0)) continue;
+      for (const bool last : {false, true}) {
+        const int vertex = last ? edge.last_vertex : edge.first_vertex;
+        if (vertex == 0) continue;
+        Near& at = near[vertex - 1];
+        at.distance =
+            std::min(at.distance, (point_on(edge, last ? 1 : 0) - shape_.vertices[vertex - 1]).norm());
+        at.shortest = std::min(at.shortest, edge.length);
+      }
+    }
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      if (std::isfinite(near[i].distance) &&
+          near[i].distance > std::max(near[i].shortest, shape_.vertex_tolerances[i]))
+        wrong_.insert(static_cast<int>(i) + 1);
+    }
   }
 
   std::vector<CurveEnd> ends_at(int vertex) const {
@@ -92,11 +120,23 @@ class CurveEndMender {
     std::stable_sort(places.begin(), places.end(),
                      [](const auto& a, const auto& b) { return a.size() > b.size(); });
     shape_.problems.push_back(fmt::format(
-        "Vertex{} has a tolerance of {:.3g}, more than an edge of its own is long: {} taken in its stead",
-        vertex, shape_.vertex_tolerances[vertex - 1],
-        places.size() == 1 ? "the end of its curve is"
+        "{}: {} taken in its stead", what_is_wrong(vertex, places),
+        places.size() == 1 ? "the place where its curves end is"
                            : fmt::format("the {} places where its curves end are", places.size())));
     for (std::size_t i = 0; i < places.size(); ++i) place_vertex(i == 0 ? vertex : 0, places[i], tolerance);
+  }
+
+  std::string what_is_wrong(int vertex, const std::vector<std::vector<CurveEnd>>& places) const {
+    const double tolerance = shape_.vertex_tolerances[vertex - 1];
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto& place : places) {
+      for (const CurveEnd& end : place)
+        nearest = std::min(nearest, (end.point - shape_.vertices[vertex - 1]).norm());
+    }
+    if (nearest > tolerance)
+      return fmt::format("Vertex{} lies {:.3g} away from where its curves end", vertex, nearest);
+    return fmt::format("Vertex{} has a tolerance of {:.3g}, more than an edge of its own is long", vertex,
+                       tolerance);
   }
 
   /// \param vertex from 1; 0 = a new one.
@@ -204,8 +244,8 @@ class CurveEndMender {
   }
 
   CadShape& shape_;
-  std::set<int> swallowing_;  ///< vertices
-  std::set<int> touched_;     ///< edges whose vertices changed
+  std::set<int> wrong_;    ///< vertices
+  std::set<int> touched_;  ///< edges whose vertices changed
 };
 
 }  // namespace

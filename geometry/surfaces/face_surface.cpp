@@ -394,6 +394,9 @@ void FaceSurface::measure_scale() {
     }
   }
   mean_scale_ = sum / (n * n);
+  constexpr double no_width = 1e-12;
+  const Vector2 lengths = mean_scale_.cwiseProduct(high_ - low_);
+  is_curve_ = !(lengths.minCoeff() > no_width * lengths.maxCoeff());
   for (int k = 0; k < 2; ++k) {
     if (!(mean_scale_[k] > 0) || !std::isfinite(mean_scale_[k])) mean_scale_[k] = 1;
   }

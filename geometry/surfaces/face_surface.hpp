@@ -69,6 +69,8 @@ class FaceSurface {
   /// Mean lengths in space of a unit step in u and in v over the face: scales the parameter plane to be as
   /// isometric as it can be by two numbers.
   Vector2 mean_scale() const { return mean_scale_; }
+  /// Whether all of it is one curve or point, as a torus that has lost its smaller radius is.
+  bool is_curve() const { return is_curve_; }
 
  private:
   enum class Kind { plane, cylinder, cone, sphere, torus, other };
@@ -94,6 +96,7 @@ class FaceSurface {
   double u_period_ = 0, v_period_ = 0;
   Vector2 low_, high_;  // bounds of the face in the parameter plane
   Vector2 mean_scale_{1, 1};
+  bool is_curve_ = false;
 };
 
 }  // namespace quadrille

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "geometry/base/error.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/surfaces/stray_edges.hpp"
 #include "mesher/command/command.hpp"
@@ -40,11 +41,18 @@ std::string describe(const CadModel& model, ExecutionContext& context) {
   line("box", fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", low.x(), low.y(), low.z(),
                           high.x(), high.y(), high.z()));
   line("diagonal", fmt::format("{:.6g} mm", model.diagonal()));
-  line("area", fmt::format("{:.6g} mm2", model.area()));
+  std::string unmeasured;
+  try {
+    line("area", fmt::format("{:.6g} mm2", model.area(context)));
+  } catch (const Error& error) {
+    if (error.kind() != Error::Kind::failure || !error.subject().starts_with("Face")) throw;
+    unmeasured = error.what();
+  }
   const auto strays = stray_edges(model.shape(), std::vector<char>(model.face_count(), 1));
   if (strays.empty()) add_sizes(model, context, line);
   for (const StrayEdge& stray : strays) line("problem", stray.sentence());
-  if (model.problems().empty() && strays.empty()) line("problems", "none found");
+  if (!unmeasured.empty()) line("problem", unmeasured);
+  if (model.problems().empty() && strays.empty() && unmeasured.empty()) line("problems", "none found");
   for (const std::string& problem : model.problems()) line("problem", problem);
   return text;
 }

@@ -39,6 +39,12 @@ FaceChart chart_of(const CadShape& shape, int face, const BoundaryNodes& nodes, 
   chart.surface = std::make_shared<const FaceSurface>(
       kind == ChartKind::view ? FaceSurface::seen_from_above(cad_face, widest_loop(cad_face, nodes))
                               : FaceSurface(cad_face));
+  if (chart.surface->is_curve())
+    throw FaceProblem(
+        Cause::no_area, face + 1,
+        fmt::format("the surface of Face{} is a curve, without area: the file may be damaged, or "
+                    "`faces` leaves it out",
+                    face + 1));
   chart.boundary = face_boundary(shape, face, cad_face, *chart.surface, nodes);
   return chart;
 }
@@ -48,6 +54,8 @@ FaceChart chart_of(const CadShape& shape, int face, const BoundaryNodes& nodes, 
 FaceChart make_chart(const CadShape& shape, int face, const BoundaryNodes& nodes, ChartKind kind) {
   try {
     return chart_of(shape, face, nodes, kind);
+  } catch (const FaceProblem&) {
+    throw;
   } catch (const Error& problem) {
     if (problem.kind() != Error::Kind::failure) throw;
     throw FaceProblem(Cause::unusable_boundary, face + 1, problem.what());

@@ -13,6 +13,7 @@ namespace quadrille {
 
 /// What the table of remedies (remedies.hpp) is asked with.
 enum class Cause {
+  no_area,               ///< its surface is a curve
   unusable_boundary,     ///< no boundary in the parameter plane, or one that runs to infinity
   coarse_segments,       ///< boundary segments cross where the curves that they stand for do not
   looped_edge,           ///< segments of one edge cross, however fine: its curve has a loop

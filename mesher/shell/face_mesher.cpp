@@ -18,6 +18,7 @@
 #include "mesher/pairing/recombine.hpp"
 #include "mesher/quads/improve.hpp"
 #include "mesher/quads/subdivision.hpp"
+#include "mesher/shell/boundary_sides.hpp"
 
 namespace quadrille {
 
@@ -149,7 +150,16 @@ class FaceMesher {
       result.q_min = std::min(result.q_min, quad_q(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]));
     }
     if (!inverted.empty()) throw inverted_problem(result, inverted);
+    if (const auto side = wrong_boundary_side(chart_.boundary, result.nodes, result.quads))
+      throw boundary_problem(nodes_.points[side->first], nodes_.points[side->second]);
     return result;
+  }
+
+  FaceProblem boundary_problem(const Vector3& a, const Vector3& b) const {
+    const Vector3 middle = 0.5 * (a + b);
+    return {Cause::no_mesh, face_ + 1,
+            fmt::format("the mesh of Face{} does not end as its wires do near ({:.6g}, {:.6g}, {:.6g})",
+                        face_ + 1, middle.x(), middle.y(), middle.z())};
   }
 
   /// With the stretches of the edges that the inverted quads and those round them touch.

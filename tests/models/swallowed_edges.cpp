@@ -73,6 +73,13 @@ TopoDS_Shape square_with_far_vertex() {
               {edge(new Geom_BSplineCurve(poles, knots, multiplicities, 1), 0, 4, far, far)});
 }
 
+TopoDS_Shape square_with_thrown_vertex() {
+  const gp_Pnt a(0, 0, 0), b(side, 0, 0), c(side, side, 0), d(0, side, 0);
+  const TopoDS_Vertex at_a = vertex(a), at_b = vertex(b), at_c = vertex({2147483647, 0, 0}), at_d = vertex(d);
+  return face(gp_Pln(gp::XOY()), {line(a, b, at_a, at_b), line(b, c, at_b, at_c), line(c, d, at_c, at_d),
+                                  line(d, a, at_d, at_a)});
+}
+
 TopoDS_Shape square_with_collapsed_edge() {
   const gp_Pnt a(0, 0, 0), b(side, 0, 0), c(side, side, 0), d(0, side, 0);
   const TopoDS_Vertex at_a = vertex(a, 1.01), at_b = vertex(b), at_c = vertex(c), at_d = vertex(d);

@@ -1,5 +1,6 @@
 #pragma once
-/// Shapes with vertices whose tolerance holds a whole edge, as translators make them of bad topology.
+/// Shapes with vertices that cannot be trusted: their tolerance holds a whole edge, as translators make them
+/// of bad topology, or they lie far from where their edges end.
 
 #include <TopoDS_Shape.hxx>
 
@@ -7,6 +8,9 @@ namespace quadrille {
 
 /// A square of 12 bounded by one closed curve that begins at one corner; its vertex is at the opposite one.
 TopoDS_Shape square_with_far_vertex();
+
+/// A square of 12, one of whose vertices lies two million kilometers away.
+TopoDS_Shape square_with_thrown_vertex();
 
 /// A square of 12 with a fifth edge, 1 long, that begins and ends at the same vertex.
 TopoDS_Shape square_with_collapsed_edge();

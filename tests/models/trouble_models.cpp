@@ -789,6 +789,8 @@ std::vector<TroubleModel> all_models() {
       {"short_edge", "an edge shorter than its tolerance", short_edge, false, 400},
       {"loose_tolerance", "vertices off their edges, tolerance 0.1", loose_box, true, 2 * (600 + 800 + 1200)},
       {"far_vertex", "a closed curve whose vertex is not on it", square_with_far_vertex, false, 144},
+      {"thrown_vertex", "a vertex that a damaged number has thrown away", square_with_thrown_vertex, false,
+       144},
       {"collapsed_edge", "a dangling edge that its vertex holds", square_with_collapsed_edge, false, 144, 4},
       {"collapsed_piece", "an edge that its vertex holds, and a wire without it",
        tetrahedron_with_collapsed_piece, true, 216 + 72 * std::sqrt(3.0)},

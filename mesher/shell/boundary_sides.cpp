@@ -1,0 +1,84 @@
+#include "mesher/shell/boundary_sides.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "mesher/mesh/side_key.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// A side as a quad meets it, or as the boundary asks for it.
+struct Use {
+  int low, high;
+  bool forward;      ///< the quad runs it from low to high
+  int quads, asked;  ///< one of them is 0
+  bool spur;         ///< asked for where nothing need end
+};
+
+void add(std::vector<Use>& uses, int a, int b, int quads, int asked, bool spur = false) {
+  if (a != b) uses.push_back({std::min(a, b), std::max(a, b), a < b, quads, asked, spur});
+}
+
+/// The ends of segments that the boundary runs there and back, one after the other, ascending: where these
+/// lie outside the face, nothing ends on them.
+std::vector<std::uint64_t> spurs(const FaceBoundary& boundary) {
+  std::vector<std::uint64_t> keys, twice;
+  for (const auto& segment : boundary.segments) {
+    if (!segment.degenerate) keys.push_back(side_key(boundary.nodes[segment.a], boundary.nodes[segment.b]));
+  }
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t i = 0, j = 0; i < keys.size(); i = j) {
+    while (j < keys.size() && keys[j] == keys[i]) ++j;
+    if ((j - i) % 2 == 0) twice.push_back(keys[i]);
+  }
+  return twice;
+}
+
+}  // namespace
+
+std::optional<std::pair<int, int>> wrong_boundary_side(const FaceBoundary& boundary,
+                                                       const std::vector<int>& nodes,
+                                                       const std::vector<std::array<int, 4>>& quads) {
+  std::vector<Use> uses;
+  const std::vector<std::uint64_t> there_and_back = spurs(boundary);
+  for (const auto& segment : boundary.segments) {
+    if (segment.degenerate) continue;
+    const int a = boundary.nodes[segment.a], b = boundary.nodes[segment.b];
+    const bool spur = std::binary_search(there_and_back.begin(), there_and_back.end(), side_key(a, b));
+    const int count = segment.internal ? 2 : 1;
+    if (segment.middle_node < 0) {
+      add(uses, a, b, 0, count, spur);
+    } else {
+      add(uses, a, segment.middle_node, 0, count, spur);
+      add(uses, segment.middle_node, b, 0, count, spur);
+    }
+  }
+  const int fixed = static_cast<int>(nodes.size());
+  for (const auto& quad : quads) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const int a = quad[k], b = quad[(k + 1) % 4];
+      if (a < fixed && b < fixed) add(uses, nodes[a], nodes[b], 1, 0);
+    }
+  }
+  std::sort(uses.begin(), uses.end(),
+            [](const Use& a, const Use& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+  for (std::size_t i = 0, j = 0; i < uses.size(); i = j) {
+    int met = 0, forward = 0, asked = 0;
+    bool spur = false;
+    for (; j < uses.size() && uses[j].low == uses[i].low && uses[j].high == uses[i].high; ++j) {
+      met += uses[j].quads;
+      forward += uses[j].quads * static_cast<int>(uses[j].forward);
+      asked += uses[j].asked;
+      spur |= uses[j].spur;
+    }
+    if (asked == 0) asked = 2;
+    const bool ends_there = (met <= asked && met % 2 == asked % 2) || (spur && met == 0);
+    if (!ends_there || forward > 1 || met - forward > 1) return std::pair(uses[i].low, uses[i].high);
+  }
+  return std::nullopt;
+}
+
+}  // namespace quadrille
