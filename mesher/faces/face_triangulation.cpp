@@ -214,8 +214,8 @@ std::vector<std::array<int, 3>> triangles_of(int face, const FaceBoundary& bound
   }
 }
 
-/// Triangle neighbors over sides: neighbor[3 t + k] is across the side from corner k to corner k + 1.
-/// Unlike join_twins() it takes the double sides that a collapsed pole may leave, for the flips to undo.
+/// Triangle neighbors over sides: neighbor[3 t + k] is across the side from corner k to corner k + 1; -1 =
+/// none.
 std::vector<int> triangle_neighbors(const std::vector<std::array<int, 3>>& triangles, int points,
                                     const ExecutionContext& context) {
   SparseCheck check(context);
@@ -257,12 +257,14 @@ std::vector<int> triangle_neighbors(const std::vector<std::array<int, 3>>& trian
 /// Flips sides in space.
 class SpaceFlipper {
  public:
-  SpaceFlipper(FaceTriangulation& face, const ExecutionContext& context)
+  /// \param across as triangle_neighbors() gives them; collapsed poles may leave two sides between two
+  /// points.
+  SpaceFlipper(FaceTriangulation& face, std::vector<int> across, const ExecutionContext& context)
       : triangles_(face.mesh.triangles),
         points_(face.mesh.points),
         normals_(face.normals),
         check_(context),
-        across_(triangle_neighbors(triangles_, static_cast<int>(points_.size()), context)) {
+        across_(std::move(across)) {
     for (const auto& segment : face.segments) {
       if (segment.internal) kept_.insert(std::minmax(segment.a, segment.b));
     }
@@ -489,7 +491,7 @@ class CrackOpener {
   std::vector<int> copies_;
 };
 
-/// One point for all parameter points of a pole; triangles with two corners in it vanish.
+/// One point for all parameter points of a pole.
 void collapse_poles(const FaceBoundary& boundary, std::vector<int>& target) {
   const auto root = [&](int i) {
     while (target[i] != i) i = target[i];
@@ -501,6 +503,37 @@ void collapse_poles(const FaceBoundary& boundary, std::vector<int>& target) {
     target[std::max(a, b)] = std::min(a, b);
   }
   for (int& i : target) i = root(i);
+}
+
+/// Renames the corners. Triangles with two corners in a pole vanish, and those at their two other sides
+/// become neighbors: several sides between the same two points stay apart that way.
+void rename_corners(const std::vector<int>& target, std::vector<std::array<int, 3>>& triangles,
+                    std::vector<int>& across) {
+  std::vector<int> renumbered(triangles.size());
+  int left = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    auto& corners = triangles[t];
+    for (int& corner : corners) corner = target[corner];
+    int collapsed = 0;
+    while (collapsed < 3 && corners[collapsed] != corners[(collapsed + 1) % 3]) ++collapsed;
+    renumbered[t] = collapsed < 3 ? -1 : left++;
+    if (collapsed == 3 || across.empty()) continue;
+    const std::size_t first = 3 * t;
+    const int a = across[first + (collapsed + 1) % 3], b = across[first + (collapsed + 2) % 3];
+    if (a >= 0) across[a] = b;
+    if (b >= 0) across[b] = a;
+  }
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (renumbered[t] < 0) continue;
+    const std::size_t to = renumbered[t];
+    triangles[to] = triangles[t];
+    for (std::size_t k = 0; k < 3 && !across.empty(); ++k) {
+      const int other = across[3 * t + k];
+      across[3 * to + k] = other < 0 ? -1 : 3 * renumbered[other / 3] + other % 3;
+    }
+  }
+  triangles.resize(left);
+  if (!across.empty()) across.resize(3 * triangles.size());
 }
 
 /// Wires may run the wrong way round: takes of an angle and its rest to 2 pi the one that the triangles fill.
@@ -536,10 +569,9 @@ FaceTriangulation triangulate_face(int face, FaceBoundary boundary, PlacedPoints
   for (const auto& segment : boundary.segments) {
     if (segment.degenerate) pole[target[segment.a]] = 1;
   }
-  std::erase_if(triangles, [&](std::array<int, 3>& t) {
-    for (int& corner : t) corner = target[corner];
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-  });
+  std::vector<int> across;
+  if (!surface.planar()) across = triangle_neighbors(triangles, count, context);
+  rename_corners(target, triangles, across);
   if (triangles.empty()) throw no_triangles(face, boundary.points.front());
   context.check();
 
@@ -576,7 +608,7 @@ FaceTriangulation triangulate_face(int face, FaceBoundary boundary, PlacedPoints
     if (kept.a < 0 || kept.b < 0) throw no_triangles(face, boundary.points[segment.a]);
     result.segments.push_back(kept);
   }
-  if (!surface.planar()) SpaceFlipper(result, context).run();
+  if (!surface.planar()) SpaceFlipper(result, std::move(across), context).run();
   context.check();
   choose_sides(result);
   context.check();

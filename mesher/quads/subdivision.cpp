@@ -178,8 +178,8 @@ void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals, const E
                                   worst_part(std::array<Vector3, 3>{p[a], p[c], p[d]}, normal));
     const double second = std::min(worst_part(std::array<Vector3, 3>{p[a], p[b], p[d]}, normal),
                                    worst_part(std::array<Vector3, 3>{p[b], p[c], p[d]}, normal));
-    // A corner of 180 degrees has to go at any price.
-    if (std::max(first, second) < whole + (whole > flat ? gain : flat)) return false;
+    // A corner of 180 degrees has to go at any price, one near it, as at cusps, for twice as much.
+    if (std::max(first, second) < whole + std::clamp(whole, flat, gain)) return false;
     if (first > second) {
       mesh.triangles.push_back({a, b, c});
       mesh.triangles.push_back({a, c, d});
