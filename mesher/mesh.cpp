@@ -176,8 +176,18 @@ class Job {
       FaceChart chart = make_chart(shape_, face, nodes_, records_[face].recipe.chart);
       if (auto problem = crossing_problem(face + 1, shape_, chart.boundary, *chart.surface))
         throw FaceProblem(std::move(*problem));
+      widen_gaps(face, chart);
       charts_[face] = std::move(chart);
     });
+  }
+
+  /// Faces that are grids need no room between their sides. Throws FaceProblem.
+  void widen_gaps(int face, const FaceChart& chart) {
+    int& looks = records_[face].looks_at_gaps;
+    if (looks == FaceRecord::most_looks || nodes_.sides[face].outline != FaceSides::Outline::other) return;
+    auto problem = crowding_problem(face + 1, chart.boundary, *chart.surface);
+    looks = problem ? looks + 1 : FaceRecord::most_looks;
+    if (problem) throw FaceProblem(std::move(*problem));
   }
 
   void mesh_faces(const SizingField& field) {
@@ -290,7 +300,8 @@ class Job {
         problems_[face].emplace(Cause::unusable_boundary, static_cast<int>(face) + 1,
                                 problems_before_[face]->what());
       problems_before_[face] = problems_[face];
-      if (let_go_.keep_around(static_cast<int>(face), edges_.plan.tiny)) {
+      const bool is_failure = problems_[face]->cause() != Cause::narrow_gaps;
+      if (is_failure && let_go_.keep_around(static_cast<int>(face), edges_.plan.tiny)) {
         record.history.push_back("features kept that were let go");
         any = true;
         continue;

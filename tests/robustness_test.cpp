@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepGProp.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepTools.hxx>
 #include <GProp_GProps.hxx>
 #include <Geom_ToroidalSurface.hxx>
@@ -15,6 +18,7 @@
 #include <chrono>
 #include <cmath>
 #include <gp.hxx>
+#include <gp_Ax2.hxx>
 #include <gp_Ax3.hxx>
 #include <map>
 #include <memory>
@@ -177,6 +181,44 @@ TEST(Robustness, RefinesOnlyWhereSegmentsCross) {
     EXPECT_LT(least, 1.5) << edge;     // where the hole is 0.05 from the rim
     EXPECT_GT(greatest, 2.2) << edge;  // elsewhere as asked
   }
+}
+
+/// A square plate with two holes of radius 10, `gap` apart.
+CadModel plate_with_two_holes(double gap) {
+  const TopoDS_Shape plate = BRepPrimAPI_MakeBox({-40, -40, 0}, 80, 80, 5).Shape();
+  TopoDS_Shape result = plate;
+  for (const double side : {-1.0, 1.0}) {
+    const gp_Ax2 axis({side * (10 + gap / 2), 0, -1}, gp::DZ());
+    result = BRepAlgoAPI_Cut(result, BRepPrimAPI_MakeCylinder(axis, 10, 7).Shape()).Shape();
+  }
+  return CadModel(std::make_shared<CadShape>(result, "plate_with_two_holes"));
+}
+
+TEST(Robustness, MakesRoomInGapsBeforeMeshing) {
+  MeshOptions options;
+  options.sizing.size = 6;
+  options.sizing.elements_per_circle = 0;
+  for (const double gap : {0.3, 6.0}) {
+    ExecutionContext context(1);
+    const ShellMesh mesh = quadrille::mesh(plate_with_two_holes(gap), options, context);
+    EXPECT_EQ(joined(validate(mesh, true)), "") << gap;
+    int narrow = 0;
+    for (const auto& face : mesh.faces) {
+      const bool is_told = face.note.find("is narrower near") != std::string::npos;
+      narrow += is_told;
+      EXPECT_LE(face.attempts, 1) << gap << " Face" << face.face;
+    }
+    EXPECT_EQ(narrow, gap < 1 ? 2 : 0) << gap;
+  }
+}
+
+TEST(Robustness, MeshesPolesAtManySizes) {
+  for (const char* name : {"lemon", "apex", "seam_and_poles", "collapsed_patch"}) {
+    const CadModel model = model_of(trouble_named(name));
+    for (double divisions = 60; divisions < 90; divisions *= 1.06)
+      EXPECT_EQ(joined(validate(mesh_of(model, divisions), false)), "") << name << " " << divisions;
+  }
+  EXPECT_EQ(joined(validate(mesh_of(model_of(trouble_named("lemon")), 77.33), false)), "");
 }
 
 TEST(Robustness, MakesAPointOfATinyFaceThatFails) {

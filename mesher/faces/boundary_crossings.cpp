@@ -67,14 +67,38 @@ bool cross(const std::vector<Point>& a, const std::vector<Point>& b) {
   return false;
 }
 
-/// In how many pieces each of two crossing segments crosses the other no more; 0 = however many. Not for the
+/// What segments stand for: their chords, and the same with the middles of their curves put three times as
+/// far out.
+struct Span {
+  std::vector<Point> chords, bulges;
+
+  /// \param line the ends of the segments with the middles of the curves between them.
+  explicit Span(const std::vector<Point>& line) {
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      if (i % 2 == 0) chords.push_back(line[i]);
+      bulges.push_back(i % 2 == 0 ? line[i]
+                                  : line[i] + 2 * (line[i] - CGAL::midpoint(line[i - 1], line[i + 1])));
+    }
+  }
+};
+
+/// Whether curves come nearer to each other than they leave their chords. Triangles between them then hold no
+/// place for the nodes in the middle.
+bool crowd(const Span& a, const Span& b) {
+  return cross(a.chords, b.bulges) || cross(a.bulges, b.chords) || cross(a.bulges, b.bulges);
+}
+
+/// In how many pieces each of two segments that cross or crowd does so no more; 0 = however many. Not for the
 /// view from above, whose plane the parametric curves know nothing of.
 int pieces_apart(const FaceBoundary& boundary, const FaceSurface& surface, const std::pair<int, int>& pair) {
   constexpr int most = 32;
   const auto &s = boundary.segments[pair.first], &t = boundary.segments[pair.second];
   if (s.degenerate || t.degenerate || surface.is_view()) return 0;
   for (int pieces = 2; pieces <= most; pieces *= 2) {
-    if (!cross(refined(boundary, s, pieces), refined(boundary, t, pieces))) return pieces;
+    if (cross(refined(boundary, s, pieces), refined(boundary, t, pieces))) continue;
+    const bool need_room = boundary.stride == 2 && !boundary.touch(s, t);
+    if (!need_room || !crowd(Span(refined(boundary, s, 2 * pieces)), Span(refined(boundary, t, 2 * pieces))))
+      return pieces;
   }
   return 0;
 }
@@ -107,6 +131,37 @@ std::vector<std::pair<int, int>> crossing_segments(const FaceBoundary& boundary)
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
+
+namespace {
+
+/// The pairs of segments that crowd, see above; none that have a node in common.
+std::vector<std::pair<int, int>> crowding_segments(const FaceBoundary& boundary) {
+  std::vector<std::pair<int, int>> pairs;
+  if (boundary.stride != 2) return pairs;
+  std::vector<Span> spans;
+  std::vector<Box> boxes;
+  spans.reserve(boundary.segments.size());
+  for (int i = 0; i < static_cast<int>(boundary.segments.size()); ++i) {
+    const auto& segment = boundary.segments[i];
+    if (segment.degenerate || segment.middle_node < 0) {
+      spans.emplace_back(std::vector<Point>{});
+      continue;
+    }
+    spans.emplace_back(std::vector{to_point(boundary.uv[segment.a]), to_point(segment.middle_uv),
+                                   to_point(boundary.uv[segment.b])});
+    const auto& bulge = spans.back().bulges;
+    boxes.emplace_back(bulge[0].bbox() + bulge[1].bbox() + bulge[2].bbox(), i);
+  }
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    const auto &s = boundary.segments[a.info()], &t = boundary.segments[b.info()];
+    if (!boundary.touch(s, t) && crowd(spans[a.info()], spans[b.info()]))
+      pairs.push_back(std::minmax(a.info(), b.info()));
+  });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+}  // namespace
 
 double largest_stray(const FaceBoundary& boundary, const FaceSurface& surface) {
   double largest = 0;
@@ -150,6 +205,26 @@ std::optional<FaceProblem> crossing_problem(int face, const CadShape& shape, con
   for (const int edge : std::set{s.edge, t.edge}) {
     if (edge > 0) problem.edges.push_back(edge);
   }
+  problem.stretches = std::move(stretches);
+  return problem;
+}
+
+std::optional<FaceProblem> crowding_problem(int face, const FaceBoundary& boundary,
+                                            const FaceSurface& surface) {
+  std::vector<EdgeStretch> stretches;
+  const Vector3* near = nullptr;
+  for (const auto& pair : crowding_segments(boundary)) {
+    const int pieces = pieces_apart(boundary, surface, pair);
+    if (pieces == 0) continue;
+    for (const int i : {pair.first, pair.second})
+      stretches.push_back(stretch_of(boundary.segments[i], pieces));
+    if (near == nullptr) near = &boundary.segments[pair.first].middle_point;
+  }
+  if (stretches.empty()) return std::nullopt;
+  FaceProblem problem(
+      Cause::narrow_gaps, face,
+      fmt::format("Face{} is narrower near ({:.6g}, {:.6g}, {:.6g}) than its edges bend between nodes", face,
+                  near->x(), near->y(), near->z()));
   problem.stretches = std::move(stretches);
   return problem;
 }

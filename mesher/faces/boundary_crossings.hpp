@@ -22,6 +22,13 @@ std::vector<std::pair<int, int>> crossing_segments(const FaceBoundary& boundary)
 std::optional<FaceProblem> crossing_problem(int face, const CadShape& shape, const FaceBoundary& boundary,
                                             const FaceSurface& surface);
 
+/// Where curves of a boundary that does not cross itself come nearer to each other than they leave their
+/// segments, as rims of holes that nearly touch do: nodes in their middle have no room then, however the
+/// segments are joined by triangles. With the segments that would do. \return nothing where there is no such
+/// place, finer segments do not help, or all nodes are ends of segments (Strategy::direct).
+std::optional<FaceProblem> crowding_problem(int face, const FaceBoundary& boundary,
+                                            const FaceSurface& surface);
+
 /// How far, at most, a node of the boundary is from where the surface has it, over the length of the segments
 /// there.
 double largest_stray(const FaceBoundary& boundary, const FaceSurface& surface);

@@ -34,6 +34,11 @@ struct FaceBoundary {
   /// Segments of the final mesh to one here: BoundaryNodes::stride, but 1 where an edge has an odd number.
   int stride = 1;
 
+  /// Whether two segments have a node in common, on a seam too.
+  bool touch(const Segment& s, const Segment& t) const {
+    return nodes[s.a] == nodes[t.a] || nodes[s.a] == nodes[t.b] || nodes[s.b] == nodes[t.a] ||
+           nodes[s.b] == nodes[t.b];
+  }
   int size() const { return static_cast<int>(uv.size()); }
 };
 

@@ -16,6 +16,7 @@ enum class Cause {
   no_area,               ///< its surface is a curve
   unusable_boundary,     ///< no boundary in the parameter plane, or one that runs to infinity
   coarse_segments,       ///< boundary segments cross where the curves that they stand for do not
+  narrow_gaps,           ///< curves come nearer to each other than they leave their segments
   looped_edge,           ///< segments of one edge cross, however fine: its curve has a loop
   stray_curves,          ///< segments cross, and the parametric curves lie away from their edges
   crossing_curves,       ///< segments of two edges cross or touch, however fine

@@ -128,6 +128,7 @@ struct Row {
 
 /// For each cause its remedies, the one that asks for least first.
 constexpr std::array table{
+    Row{any_of({Cause::narrow_gaps}), "finer segments there", FaceRecord::most_looks, finer_there},
     Row{any_of({Cause::coarse_segments}), "finer segments there", 4, finer_there},
     Row{any_of({Cause::looped_edge}), "nodes along the chord of that edge", 1, along_chord},
     Row{any_of({Cause::crossing_curves}), "edges below their tolerance taken as points", 1,

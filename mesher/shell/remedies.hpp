@@ -21,11 +21,14 @@ struct FaceRecord {
   /// All its meshings together may take so many times the work of the first, if that is not little.
   static constexpr int most_work = 6;
   static constexpr std::int64_t little_work = 20000;
+  /// For gaps between curves that segments leave no room in.
+  static constexpr int most_looks = 3;
 
   /// Of ExecutionContext::work().
   std::int64_t share() const { return std::max(little_work, most_work * first_work); }
 
   FaceRecipe recipe;
+  int looks_at_gaps = 0;
   int attempts = 0;                       ///< times that it was meshed
   double seconds = 0;                     ///< that this took
   std::int64_t first_work = 0, work = 0;  ///< of the first meshing, and of all
