@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 
 #include "mesher/faces/face_problem.hpp"
+#include "mesher/faces/triangle_flips.hpp"
 
 namespace quadrille {
 
@@ -213,160 +214,6 @@ std::vector<std::array<int, 3>> triangles_of(int face, const FaceBoundary& bound
     }
   }
 }
-
-/// Triangle neighbors over sides: neighbor[3 t + k] is across the side from corner k to corner k + 1; -1 =
-/// none.
-std::vector<int> triangle_neighbors(const std::vector<std::array<int, 3>>& triangles, int points,
-                                    const ExecutionContext& context) {
-  SparseCheck check(context);
-  // Sides bucketed by their lower end.
-  std::vector<int> offsets(points + 1, 0), sides(3 * triangles.size());
-  const auto low = [&](int side) {
-    const auto& t = triangles[side / 3];
-    return std::min(t[side % 3], t[(side % 3 + 1) % 3]);
-  };
-  const auto high = [&](int side) {
-    const auto& t = triangles[side / 3];
-    return std::max(t[side % 3], t[(side % 3 + 1) % 3]);
-  };
-  const int n = static_cast<int>(sides.size());
-  for (int side = 0; side < n; ++side) {
-    check();
-    ++offsets[low(side) + 1];
-  }
-  for (int i = 0; i < points; ++i) offsets[i + 1] += offsets[i];
-  std::vector<int> next(offsets.begin(), offsets.end() - 1), neighbor(n, -1);
-  for (int side = 0; side < n; ++side) {
-    check();
-    sides[next[low(side)]++] = side;
-  }
-  for (int p = 0; p < points; ++p) {
-    check();
-    for (int i = offsets[p]; i < offsets[p + 1]; ++i) {
-      for (int j = i + 1; j < offsets[p + 1]; ++j) {
-        if (high(sides[i]) == high(sides[j])) {
-          neighbor[sides[i]] = sides[j];
-          neighbor[sides[j]] = sides[i];
-        }
-      }
-    }
-  }
-  return neighbor;
-}
-
-/// Flips sides in space.
-class SpaceFlipper {
- public:
-  /// \param across as triangle_neighbors() gives them; collapsed poles may leave two sides between two
-  /// points.
-  SpaceFlipper(FaceTriangulation& face, std::vector<int> across, const ExecutionContext& context)
-      : triangles_(face.mesh.triangles),
-        points_(face.mesh.points),
-        normals_(face.normals),
-        check_(context),
-        across_(std::move(across)) {
-    for (const auto& segment : face.segments) {
-      if (segment.internal) kept_.insert(std::minmax(segment.a, segment.b));
-    }
-  }
-
-  void run() {
-    std::vector<int> queue(across_.size());
-    for (std::size_t i = 0; i < queue.size(); ++i) queue[i] = static_cast<int>(i);
-    const std::size_t bound = 30 * across_.size() + 1000;
-    for (std::size_t k = 0; k < queue.size() && k < bound; ++k) {
-      check_();
-      const int side = queue[k];
-      if (!improves(side)) continue;
-      flip(side);
-      const int t = side / 3, u = across_[side] / 3;
-      for (int i = 0; i < 3; ++i) {
-        queue.push_back(3 * t + i);
-        queue.push_back(3 * u + i);
-      }
-    }
-  }
-
- private:
-  int corner(int side, int k) const { return triangles_[side / 3][(side % 3 + k) % 3]; }
-
-  Vector3 area_normal(int a, int b, int c) const {
-    return (points_[b] - points_[a]).cross(points_[c] - points_[a]);
-  }
-
-  /// How well a triangle faces the surface's side: cosine against the mean normal of its corners.
-  double facing(int a, int b, int c) const {
-    const Vector3 n = area_normal(a, b, c);
-    const double length = n.norm();
-    const double scale = (points_[b] - points_[a]).squaredNorm() + (points_[c] - points_[a]).squaredNorm();
-    if (!(length > 1e-10 * scale)) return -1;
-    return n.dot((normals_[a] + normals_[b] + normals_[c]).normalized()) / length;
-  }
-
-  /// Cotangent of the angle at c over the side a b.
-  double cotangent(int a, int b, int c) const {
-    const Vector3 x = points_[a] - points_[c], y = points_[b] - points_[c];
-    return x.dot(y) / std::max(x.cross(y).norm(), 1e-300);
-  }
-
-  bool improves(int side) const {
-    const int other = across_[side];
-    if (other < 0) return false;
-    const int a = corner(side, 0), b = corner(side, 1), c = corner(side, 2), d = corner(other, 2);
-    if (c == d || (!kept_.empty() && kept_.contains(std::minmax(a, b)))) return false;
-    const double now = std::min(facing(a, b, c), facing(b, a, d));
-    const double then = std::min(facing(c, d, b), facing(d, c, a));
-    if (now < 0.1) return then > now + 0.05 && !has_side(side, c, d);
-    if (then < std::min(0.3, 0.8 * now)) return false;
-    return cotangent(a, b, c) + cotangent(a, b, d) < -1e-7 && !has_side(side, c, d);
-  }
-
-  /// True if c and d are joined already, round the corner a of the side (only possible at low valence).
-  bool has_side(int side, int c, int d) const {
-    for (const int start : {side, across_[side]}) {
-      int s = start;  // walk round the first corner of the side
-      for (int k = 0; k < 8; ++k) {
-        if (corner(s, 2) == c || corner(s, 2) == d) {
-          // The side opposite the corner joins corner(s, 1) and corner(s, 2).
-          const int other_end = corner(s, 2) == c ? d : c;
-          if (corner(s, 1) == other_end) return true;
-        }
-        const int previous = 3 * (s / 3) + (s % 3 + 2) % 3;
-        s = across_[previous];
-        if (s < 0 || s == start) break;
-      }
-    }
-    return false;
-  }
-
-  void link(int side, int other) {
-    across_[side] = other;
-    if (other >= 0) across_[other] = side;
-  }
-
-  /// Triangles (a, b, c) and (b, a, d) become (d, b, c) and (c, a, d).
-  void flip(int side) {
-    const int other = across_[side], t = side / 3, u = other / 3;
-    const auto next = [](int s) { return 3 * (s / 3) + (s % 3 + 1) % 3; };
-    const int a = corner(side, 0), b = corner(side, 1), c = corner(side, 2), d = corner(other, 2);
-    const int bc = across_[next(side)], ca = across_[next(next(side))];
-    const int ad = across_[next(other)], db = across_[next(next(other))];
-    triangles_[t] = {d, b, c};
-    triangles_[u] = {c, a, d};
-    link(3 * t, db);
-    link(3 * t + 1, bc);
-    link(3 * t + 2, 3 * u + 2);
-    link(3 * u, ca);
-    link(3 * u + 1, ad);
-  }
-
-  std::vector<std::array<int, 3>>& triangles_;
-  const std::vector<Vector3>& points_;
-  const std::vector<Vector3>& normals_;
-  SparseCheck check_;
-  std::vector<int> across_;
-  std::set<std::pair<int, int>> kept_;
-};
 
 /// Opens the triangulation along the segments that have the face on both sides, as if each side had a
 /// boundary of its own: recombination then keeps them as sides of the mesh.
@@ -608,7 +455,7 @@ FaceTriangulation triangulate_face(int face, FaceBoundary boundary, PlacedPoints
     if (kept.a < 0 || kept.b < 0) throw no_triangles(face, boundary.points[segment.a]);
     result.segments.push_back(kept);
   }
-  if (!surface.planar()) SpaceFlipper(result, std::move(across), context).run();
+  if (!surface.planar()) flip_in_space(result, std::move(across), context);
   context.check();
   choose_sides(result);
   context.check();

@@ -147,46 +147,79 @@ class Subdivider {
   std::unordered_map<std::uint64_t, int> middles_;
 };
 
-/// Least scaled Jacobian of the parts that an element is split into, its sides taken as straight; negative
-/// where a part lies the wrong way round.
+/// The middles of sides: the edges' own nodes on boundary sides, elsewhere halfway.
+class SideMiddles {
+ public:
+  SideMiddles(const std::vector<Vector3>& points, const std::vector<FaceBoundary::Segment>& segments,
+              const std::vector<Vector3>& node_points)
+      : points_(points), node_points_(node_points) {
+    nodes_.reserve(segments.size());
+    on_boundary_.assign(points.size(), 0);
+    for (const auto& segment : segments) {
+      nodes_.emplace(side_key(segment.a, segment.b), segment.middle_node);
+      on_boundary_[segment.a] = on_boundary_[segment.b] = 1;
+    }
+  }
+
+  Vector3 between(int a, int b) const {
+    if (on_boundary_[a] && on_boundary_[b]) {
+      const auto node = nodes_.find(side_key(a, b));
+      if (node != nodes_.end()) return node_points_[node->second];
+    }
+    return 0.5 * (points_[a] + points_[b]);
+  }
+
+ private:
+  const std::vector<Vector3>& points_;
+  const std::vector<Vector3>& node_points_;
+  std::unordered_map<std::uint64_t, int> nodes_;
+  std::vector<char> on_boundary_;
+};
+
+/// Least scaled Jacobian of the parts that an element is split into; negative where a part lies the wrong way
+/// round.
 template <std::size_t n>
-double worst_part(const std::array<Vector3, n>& corners, const Vector3& normal) {
+double worst_part(const std::vector<Vector3>& points, const std::array<int, n>& corners,
+                  const SideMiddles& middles, const Vector3& normal) {
+  std::array<Vector3, n> middle;
   Vector3 center = Vector3::Zero();
-  for (const Vector3& corner : corners) center += corner / static_cast<double>(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    middle[k] = middles.between(corners[k], corners[(k + 1) % n]);
+    center += middle[k] / static_cast<double>(n);
+  }
   double worst = 1;
   for (std::size_t k = 0; k < n; ++k) {
-    const Vector3& at = corners[k];
-    worst = std::min(worst, folded_scaled_jacobian(at, 0.5 * (at + corners[(k + 1) % n]), center,
-                                                   0.5 * (at + corners[(k + n - 1) % n]), normal));
+    worst = std::min(worst, folded_scaled_jacobian(points[corners[k]], middle[k], center,
+                                                   middle[(k + n - 1) % n], normal));
   }
   return worst;
 }
 
 }  // namespace
 
-void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals, const ExecutionContext& context) {
+void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
+                    const std::vector<FaceBoundary::Segment>& segments,
+                    const std::vector<Vector3>& node_points, const ExecutionContext& context) {
   SparseCheck check(context);
   constexpr double bad = 0.3, gain = 0.1, flat = 1e-6;
-  const auto& p = mesh.points;
+  const SideMiddles middles(mesh.points, segments, node_points);
   std::erase_if(mesh.quads, [&](const std::array<int, 4>& quad) {
     check();
     const auto [a, b, c, d] = quad;
     const Vector3 normal = normals[a] + normals[b] + normals[c] + normals[d];
-    const double whole = worst_part(std::array<Vector3, 4>{p[a], p[b], p[c], p[d]}, normal);
+    const auto worst = [&](const auto& corners) { return worst_part(mesh.points, corners, middles, normal); };
+    const double whole = worst(quad);
     if (whole > bad) return false;
-    const double first = std::min(worst_part(std::array<Vector3, 3>{p[a], p[b], p[c]}, normal),
-                                  worst_part(std::array<Vector3, 3>{p[a], p[c], p[d]}, normal));
-    const double second = std::min(worst_part(std::array<Vector3, 3>{p[a], p[b], p[d]}, normal),
-                                   worst_part(std::array<Vector3, 3>{p[b], p[c], p[d]}, normal));
+    using Triangle = std::array<int, 3>;
+    const std::array first{Triangle{a, b, c}, Triangle{a, c, d}},
+        second{Triangle{a, b, d}, Triangle{b, c, d}};
+    const double by_first = std::min(worst(first[0]), worst(first[1])),
+                 by_second = std::min(worst(second[0]), worst(second[1]));
     // A corner of 180 degrees has to go at any price, one near it, as at cusps, for twice as much.
-    if (std::max(first, second) < whole + std::clamp(whole, flat, gain)) return false;
-    if (first > second) {
-      mesh.triangles.push_back({a, b, c});
-      mesh.triangles.push_back({a, c, d});
-    } else {
-      mesh.triangles.push_back({a, b, d});
-      mesh.triangles.push_back({b, c, d});
-    }
+    const double cut = std::max(by_first, by_second);
+    if (cut < 0 || cut < whole + std::clamp(whole, flat, gain)) return false;
+    const auto& parts = by_first > by_second ? first : second;
+    mesh.triangles.insert(mesh.triangles.end(), parts.begin(), parts.end());
     return true;
   });
 }

@@ -17,9 +17,11 @@ struct FaceQuads {
 
 /// Cuts those quads into two triangles whose four parts would be worse than the six parts of the triangles:
 /// quads with a corner that is almost straight or more, which no smoothing mends where the boundary makes it.
-/// \param normals (points) unit normals of the surface.
+/// Parts have the edges' own nodes on boundary sides. \param normals (points) unit normals of the surface.
+/// \param segments as for subdivide().
 void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
-                    const ExecutionContext& context = {});
+                    const std::vector<FaceBoundary::Segment>& segments,
+                    const std::vector<Vector3>& node_points, const ExecutionContext& context = {});
 
 /// Splits each quad into four and each triangle into three quads. New points on boundary sides are the edges'
 /// own nodes, others are put on the surface. \param segments the boundary sides, which carry the nodes in

@@ -14,6 +14,7 @@
 #include "mesher/faces/face_grid.hpp"
 #include "mesher/faces/face_triangulation.hpp"
 #include "mesher/faces/point_placement.hpp"
+#include "mesher/mesh/criteria.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/pairing/recombine.hpp"
 #include "mesher/quads/improve.hpp"
@@ -54,21 +55,54 @@ class FaceMesher {
         size_at_(field) {}
 
   FaceMesh run() {
-    if (recipe_.mapped) {
-      if (auto grid = mesh_as_grid()) return std::move(*grid);
+    if (!recipe_.mapped) return mesh_freely();
+    auto grid = mesh_as_grid();
+    if (!grid) return mesh_freely();
+    if (is_squeezed(*grid)) {
+      try {
+        FaceMesh free = mesh_freely();
+        if (2 * outside_limits(free) < outside_limits(*grid)) return free;
+      } catch (const FaceProblem&) {  // the grid has none
+      }
     }
+    return std::move(*grid);
+  }
+
+ private:
+  /// Quads outside the usual limits, but for warp.
+  static int outside_limits(const FaceMesh& mesh) {
+    const CriteriaLimits limits;
+    const auto& p = mesh.points;
+    return static_cast<int>(std::count_if(mesh.quads.begin(), mesh.quads.end(), [&](const auto& quad) {
+      const CriteriaValues values = measure_criteria(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]);
+      for (std::size_t i = 0; i < criterion_count; ++i) {
+        const auto criterion = static_cast<Criterion>(i);
+        if (criterion != Criterion::warp && limits.fails(criterion, values[i])) return true;
+      }
+      return false;
+    }));
+  }
+
+  /// Whether the nodes that one side has for its neighbors' sake crowd a grid of several rows.
+  bool is_squeezed(const FaceMesh& grid) const {
+    constexpr double much = 0.05, rows = 3;
+    const auto quads = static_cast<double>(grid.quads.size());
+    return 2 * quads > rows * static_cast<double>(grid.nodes.size()) && outside_limits(grid) > much * quads;
+  }
+
+  FaceMesh mesh_freely() {
     FaceTriangulation triangulation = triangulate();
     FaceQuads quads = recombine_face(triangulation);
     improve(quads, recipe_.clean_up);
     if (chart_.boundary.stride == 2) {
-      cut_flat_quads(quads.surface_mesh.mesh, quads.surface_mesh.normals, context_);
+      cut_flat_quads(quads.surface_mesh.mesh, quads.surface_mesh.normals, triangulation.segments,
+                     nodes_.points, context_);
       quads = subdivide(quads, triangulation.segments, nodes_.points, surface_, context_);
       improve(quads, false);
     }
     return finish(std::move(quads));
   }
 
- private:
   std::optional<FaceMesh> mesh_as_grid() {
     const StageTimer timer(context_, Stage::triangulate);
     auto grid = make_grid(chart_.boundary, nodes_.sides[face_], surface_, size_at_, context_);
@@ -92,9 +126,25 @@ class FaceMesher {
     PlacementOptions placement;
     placement.scale = static_cast<double>(chart_.boundary.stride) / recipe_.fineness;
     placement.refusal = recipe_.refusal;
-    PlacedPoints placed = place_points(chart_.boundary, surface_, domain_, size_at_, placement, context_);
-    context_.check();
-    return triangulate_face(face_ + 1, chart_.boundary, std::move(placed), surface_, context_);
+    for (int tries = 1;; ++tries, placement.scale *= denser) {
+      PlacedPoints placed = place_points(chart_.boundary, surface_, domain_, size_at_, placement, context_);
+      context_.check();
+      const bool empty = placed.uv.empty();
+      FaceTriangulation result =
+          triangulate_face(face_ + 1, chart_.boundary, std::move(placed), surface_, context_);
+      if (!empty || tries == most_tries || !turns_sharply(result)) return result;
+    }
+  }
+
+  /// Elements so large that no point has room between the edges may miss most of a ball.
+  static constexpr int most_tries = 4;
+  static constexpr double denser = 0.8;
+
+  static bool turns_sharply(const FaceTriangulation& face) {
+    const auto& n = face.normals;
+    return std::any_of(face.mesh.triangles.begin(), face.mesh.triangles.end(), [&](const auto& t) {
+      return n[t[0]].dot(n[t[1]]) < 0 || n[t[1]].dot(n[t[2]]) < 0 || n[t[2]].dot(n[t[0]]) < 0;
+    });
   }
 
   FaceQuads recombine_face(const FaceTriangulation& triangulation) {
