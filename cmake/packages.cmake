@@ -23,7 +23,17 @@ set(COMPONENTS command library development python addon)
 file(STRINGS /etc/os-release os_release REGEX "^VERSION_ID=")
 string(REGEX REPLACE "[^0-9]" "" QUADRILLE_DEBIAN "${os_release}")
 set(QUADRILLE_RELEASE 1~deb${QUADRILLE_DEBIAN})
-set(QUADRILLE_MAINTAINER "The Quadrille maintainers <quadrille@localhost.localdomain>")
+# Who packs says so as for Debian's own tools, by DEBFULLNAME and DEBEMAIL. Else the address is none, which lintian
+# finds fault with.
+set(maintainer "The Quadrille maintainers")
+set(address quadrille@localhost.localdomain)
+if(DEFINED ENV{DEBFULLNAME})
+  set(maintainer $ENV{DEBFULLNAME})
+endif()
+if(DEFINED ENV{DEBEMAIL})
+  set(address $ENV{DEBEMAIL})
+endif()
+set(QUADRILLE_MAINTAINER "${maintainer} <${address}>")
 set(DATE_FORMAT "%a, %d %b %Y %H:%M:%S +0000")
 string(TIMESTAMP QUADRILLE_DATE "${DATE_FORMAT}" UTC)  # SOURCE_DATE_EPOCH, where it is set
 foreach(component ${COMPONENTS})
@@ -70,8 +80,9 @@ file(WRITE ${PROJECT_BINARY_DIR}/documents/shlibs
   "libquadrille ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} ${PACKAGE_library} ${same}\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/documents/triggers
   ${PROJECT_BINARY_DIR}/documents/shlibs)
-set(about "Quadrille meshes the faces of CAD parts with quads only, for finite elements: one\n\
-chain of nodes on each edge, nodes on the geometry, groups named as in FreeCAD.\n")
+set(about "Quadrille meshes the faces of CAD parts with quads only, for finite elements:\n\
+one chain of nodes on each edge, nodes on the geometry, groups named as in\n\
+FreeCAD.\n")
 foreach(pair "COMMAND;all-quad shell meshes of CAD parts;This package has the command."
     "LIBRARY;all-quad shell meshes of CAD parts - library;This package has the shared library and its modules."
     "DEVELOPMENT;all-quad shell meshes of CAD parts - headers;This package has what C++ programs are built with."

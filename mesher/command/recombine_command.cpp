@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <charconv>
-#include <numeric>
-#include <tuple>
+#include <cstdio>
+#include <optional>
 
 #include "mesher/command/command.hpp"
 #include "mesher/command/print_quality.hpp"
 #include "mesher/command/setting_options.hpp"
 #include "mesher/io/report.hpp"
 #include "mesher/quadrille.hpp"
-#include "mesher/quads/improve.hpp"
-#include "mesher/quads/triangulated_surface.hpp"
+#include "mesher/shell/from_triangles.hpp"
 
 namespace quadrille::command {
 
@@ -25,6 +24,7 @@ struct RecombineArguments {
   GivenSettings options;
   bool no_improve = false, quiet = false;
   std::string prefer = "regular";
+  std::optional<double> merge, feature_angle;
 };
 
 void check(const RecombineArguments& arguments) {
@@ -36,86 +36,28 @@ void check(const RecombineArguments& arguments) {
       {{"TRI", arguments.input}, {"-o", arguments.output}, {"--report", arguments.report}});
 }
 
-/// Triangles without area, and points of which two lie on one place, leave cracks and folds: throws Error
-/// (failure) that names them.
-void check_shapes(const TriangleMesh& mesh, const std::string& name) {
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    const Vector3 ab = mesh.points[b] - mesh.points[a], ac = mesh.points[c] - mesh.points[a];
-    const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
-    if (ab.cross(ac).norm() <= 1e-14 * longest) {
-      throw failure(name, fmt::format("{}: triangle {} has no area: its corners are the points {}, {} and {} "
-                                      "(counted from 0, as they come in the file)",
-                                      name, t, a, b, c));
-    }
-  }
-  std::vector<int> order(mesh.points.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto place = [&](int v) {
-    const Vector3& p = mesh.points[v];
-    return std::make_tuple(p.x(), p.y(), p.z(), v);
-  };
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return place(a) < place(b); });
-  for (std::size_t k = 1; k < order.size(); ++k) {
-    const Vector3& p = mesh.points[order[k]];
-    if (mesh.points[order[k - 1]] != p) continue;
-    throw failure(name,
-                  fmt::format("{}: the points {} and {} (counted from 0, as they come in the file) lie on "
-                              "one place, {} {} {}: join them first",
-                              name, order[k - 1], order[k], p.x(), p.y(), p.z()));
-  }
+/// Faces of .msh files come from a CAD model: a fold inside one is a coarse curve. In all else sets and parts
+/// tell nothing about the shape.
+double feature_angle(const RecombineArguments& arguments, const ShellMesh& input) {
+  if (arguments.feature_angle) return *arguments.feature_angle;
+  constexpr double usual = 40;
+  const std::vector<int>& faces = input.triangle_faces.empty() ? input.quad_faces : input.triangle_faces;
+  const bool several =
+      std::any_of(faces.begin(), faces.end(), [&](int face) { return face != faces.front(); });
+  return arguments.input.extension() == ".msh" && several ? 0 : usual;
 }
 
-TriangleMesh triangles_of(const ShellMesh& shell, const std::string& name) {
-  if (!shell.quads.empty()) {
-    const auto& [a, b, c, d] = shell.quads.front();
-    throw failure(
-        name,
-        fmt::format("{}: holds a quad, with the points {}, {}, {} and {} (counted from 0, as they come in "
-                    "the file): only triangles can be recombined",
-                    name, a, b, c, d));
-  }
-  if (shell.triangles.empty()) throw failure(name, fmt::format("{}: holds no triangle", name));
-  TriangleMesh mesh;
-  mesh.points = shell.points;
-  mesh.triangles = shell.triangles;
-  mesh.tags = shell.triangle_faces;
-  check_shapes(mesh, name);
-  return mesh;
-}
-
-/// Drops the points that no element uses. The input's groups of points and sides stay where those still
-/// exist. \param renumbered point of the input -> of the quads, -1 = gone.
-ShellMesh to_shell(const QuadMesh& quads, const ShellMesh& input, const std::vector<int>& renumbered) {
-  ShellMesh shell;
-  std::vector<int> number(quads.points.size(), -1);
-  const auto renumber = [&](auto element) {
-    for (int& v : element) {
-      if (number[v] < 0) {
-        number[v] = static_cast<int>(shell.points.size());
-        shell.points.push_back(quads.points[v]);
-      }
-      v = number[v];
-    }
-    return element;
-  };
-  for (const auto& quad : quads.quads) shell.quads.push_back(renumber(quad));
-  for (const auto& triangle : quads.triangles) shell.triangles.push_back(renumber(triangle));
-  shell.quad_faces = quads.quad_tags;
-  shell.triangle_faces = quads.triangle_tags;
-  const auto now = [&](int v) { return v < 0 || renumbered[v] < 0 ? -1 : number[renumbered[v]]; };
-  for (const ShellMesh::Segment& segment : input.segments) {
-    const int a = now(segment.nodes[0]), b = now(segment.nodes[1]);
-    if (a >= 0 && b >= 0) shell.segments.push_back({{a, b}, -1, segment.edge});
-  }
-  for (const ShellMesh::Corner& corner : input.corners) {
-    if (now(corner.node) >= 0) shell.corners.push_back({now(corner.node), corner.vertex});
-  }
-  return shell;
+/// An error in a mesh with the name of its file.
+Error named(const Error& error, const ShellMesh& input, const std::string& name) {
+  const char* counted = input.quads.empty()
+                            ? "triangles and points counted from 0, as they come in the file"
+                            : "points counted from 0, triangles too, and after them two for each quad";
+  return failure(name, fmt::format("{}: {} ({})", name, with_options(error.what()), counted));
 }
 
 void run(const RecombineArguments& arguments) {
   check(arguments);
+  const std::string name = arguments.input.string();
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(arguments.options.settings.threads, [&](std::string_view stage, double fraction) {
     return display.show(stage, fraction);
@@ -123,42 +65,35 @@ void run(const RecombineArguments& arguments) {
   context.expect({Stage::read, Stage::color, Stage::recombine, Stage::improve, Stage::write});
   const CancelOnSignal cancel(context);
   ShellMesh input;
+  std::vector<std::string> notes;
   {
     const StageTimer timer(context, Stage::read);
-    input = read_mesh(arguments.input);
+    input = read_mesh(arguments.input, &notes);
   }
-  const TriangleMesh triangles = triangles_of(input, arguments.input.string());
-  RecombineOptions options;
-  options.method = arguments.no_improve ? Method::paper : Method::quality;
-  options.seed = arguments.seed;
-  options.objective = arguments.prefer == "shape" ? Objective::shape : Objective::regular;
-  QuadMesh quads;
-  {
-    context.report(Stage::color, 0);
+  FromTrianglesOptions options;
+  options.merge = arguments.merge.value_or(-1);
+  options.feature_angle = feature_angle(arguments, input);
+  options.improve = !arguments.no_improve;
+  options.recombine.method = arguments.no_improve ? Method::paper : Method::quality;
+  options.recombine.seed = arguments.seed;
+  options.recombine.objective = arguments.prefer == "shape" ? Objective::shape : Objective::regular;
+  context.report(Stage::color, 0);
+  const ShellMesh result = [&] {
     try {
-      quads = recombine(triangles, options, context);
+      return quads_from_triangles(input, options, notes, context);
     } catch (const Error& error) {
       if (error.kind() != Error::Kind::failure) throw;
-      throw failure(arguments.input.string(),
-                    fmt::format("{}: {} (triangles and points counted from 0, as they come in the file)",
-                                arguments.input.string(), error.what()));
+      throw named(error, input, name);
     }
-  }
-  std::vector<int> renumbered(triangles.points.size());
-  std::iota(renumbered.begin(), renumbered.end(), 0);
-  if (!arguments.no_improve) {
-    const StageTimer timer(context, Stage::improve);
-    context.report(Stage::improve, 0);
-    ImproveReport improved;
-    quads = improve_on(triangles, quads, {}, renumbered, improved, context);
-  }
-  const ShellMesh result = to_shell(quads, input, renumbered);
+  }();
   {
     const StageTimer timer(context, Stage::write);
     write_mesh(result, arguments.output, arguments.options.settings.write);
   }
   const QualitySummary summary = quality(result);
-  if (!arguments.report.empty()) write_report(result, summary, context, arguments.input, arguments.report);
+  if (!arguments.report.empty())
+    write_report(result, summary, context, arguments.input, arguments.report, notes);
+  for (const std::string& note : notes) fmt::print(stderr, "{}: {}\n", name, note);
   if (!arguments.quiet) print(quality_table(summary));
 }
 
@@ -175,7 +110,11 @@ std::string seed_problem(const std::string& text) {
 void add_recombine_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("recombine", "make quads of a triangulation");
   auto arguments = std::make_shared<RecombineArguments>();
-  command->add_option("TRI", arguments->input, "triangulation: .msh or .inp")->required();
+  command
+      ->add_option("TRI", arguments->input,
+                   "mesh of triangles, or of triangles and quads: .msh, .inp, .unv, .bdf, .stl, .obj, .ply, "
+                   ".vtk, .vtu or .vtp")
+      ->required();
   command
       ->add_option("-o,--output", arguments->output, "mesh file: .msh, .inp, .unv, .med, .vtu, .vtk or .bdf")
       ->required();
@@ -188,6 +127,16 @@ void add_recombine_command(CLI::App& app) {
           "--prefer", arguments->prefer,
           "what pairs are exchanged for: regular (points with four quads, default) or shape (mean q)")
       ->check(CLI::IsMember({"regular", "shape"}));
+  command
+      ->add_option(
+          "--feature-angle", arguments->feature_angle,
+          "degrees between the normals of neighbors from which on their side is an edge that stays; 0 = "
+          "none (default 40, none in .msh files with several faces)")
+      ->check(CLI::Range(0.0, 180.0));
+  command
+      ->add_option("--merge", arguments->merge,
+                   "make one of nodes at most this far apart, millimeters; 0 = on one place")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--report", arguments->report, "write counts, quality and times as JSON");
   add_settings(*command, arguments->options, {"threads", "msh_version", "groups"});
   command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");

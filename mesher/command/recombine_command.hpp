@@ -1,5 +1,5 @@
 #pragma once
-/// quadrille recombine TRI.msh -o QUAD.msh: a triangulation in, quads out.
+/// quadrille recombine TRI.msh -o QUAD.msh: a mesh of triangles in, quads out.
 
 #include <CLI/CLI.hpp>
 

@@ -44,9 +44,10 @@ void write_real(double value, TextWriter& out) {
 }
 
 /// "SET 3 = 1 THRU 7, 9": consecutive numbers are joined, lines stay under 72 columns.
-void write_set(int set, const char* kind, int cad, const char* of_what, const std::vector<int>& numbers,
+void write_set(int set, const std::string& name, const char* of_what, const std::vector<int>& numbers,
                TextWriter& out) {
-  out << "$ " << kind << cad << ": " << of_what << "\n";
+  if (numbers.empty()) return;
+  out << "$ " << name << ": " << of_what << "\n";
   std::string line = "SET " + std::to_string(set) + " = ";
   for (std::size_t i = 0; i < numbers.size();) {
     std::size_t last = i;
@@ -68,17 +69,14 @@ void write_set(int set, const char* kind, int cad, const char* of_what, const st
 
 void write_sets(const OutputMesh& mesh, TextWriter& out) {
   int set = 0;
-  for (const CadGroup& group : mesh.faces()) {
-    std::vector<int> numbers;
-    for (const int shell : group.members) numbers.push_back(shell + 1);
-    if (group.number > 0) write_set(++set, "Face", group.number, "elements", numbers, out);
+  for (const NamedGroup& group : mesh.groups(2)) {
+    std::vector<int> numbers = mesh.members(2, group);
+    for (int& number : numbers) ++number;
+    write_set(++set, group.name, "elements", numbers, out);
   }
-  for (const CadGroup& group : mesh.edges())
-    if (group.number > 0)
-      write_set(++set, "Edge", group.number, "grids", mesh.segment_node_numbers(group), out);
-  for (const CadGroup& group : mesh.vertices())
-    if (group.number > 0)
-      write_set(++set, "Vertex", group.number, "grids", mesh.corner_node_numbers(group), out);
+  for (const int dimension : {1, 0})
+    for (const NamedGroup& group : mesh.groups(dimension))
+      write_set(++set, group.name, "grids", mesh.node_numbers(dimension, group), out);
 }
 
 const char* card(const ElementNodes& element) {

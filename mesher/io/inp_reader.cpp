@@ -1,11 +1,13 @@
-/// Abaqus / CalculiX .inp: *NODE, *ELEMENT with shells or plane elements, *ELSET. Other keywords are passed
-/// over.
+/// Abaqus / CalculiX .inp: *NODE, *ELEMENT with shells or plane elements, *ELSET, *NSET. Other keywords are
+/// passed over.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <map>
+#include <set>
 
 #include "mesher/io/mesh_builder.hpp"
 #include "mesher/io/readers.hpp"
@@ -23,20 +25,21 @@ std::string upper_trimmed(std::string_view text) {
   return result;
 }
 
-/// "FACE3" -> 3, anything else 0.
-int face_number(std::string_view set) {
-  if (set.substr(0, 4) != "FACE") return 0;
-  set.remove_prefix(4);
-  int number = 0;
-  const auto [end, error] = std::from_chars(set.data(), set.data() + set.size(), number);
-  return error == std::errc() && end == set.data() + set.size() && number > 0 ? number : 0;
-}
+/// A set as the file has it: numbers, and names of other sets.
+struct FileSet {
+  struct Range {
+    std::int64_t first, last, step;
+  };
+  std::string name;  // with the capitals and small letters that it came with first
+  std::vector<Range> ranges;
+  std::vector<std::string> sets;  // in capitals
+};
 
 class InpReader {
  public:
   InpReader(std::string_view bytes, const std::string& name) : cursor_(bytes, name), builder_(name) {}
 
-  ShellMesh read() {
+  ShellMesh read(std::vector<std::string>* notes) {
     while (!cursor_.at_end()) {
       const std::string_view line = cursor_.line();
       if (line.substr(0, 2) == "**") continue;
@@ -47,11 +50,11 @@ class InpReader {
     }
     finish_element();
     assign_sets();
-    return builder_.finish();
+    return builder_.finish(notes);
   }
 
  private:
-  enum class Block { other, nodes, elements, element_set };
+  enum class Block { other, nodes, elements, set };
 
   void begin_keyword(std::string_view line) {
     finish_element();
@@ -60,12 +63,15 @@ class InpReader {
     block_ = Block::other;
     if (keyword == "*NODE") {
       block_ = Block::nodes;
+      set_ = set_named(node_sets_, line, text, "NSET");
     } else if (keyword == "*ELEMENT") {
       begin_elements(text);
-    } else if (keyword == "*ELSET") {
-      set_face_ = face_number(parameter(text, "ELSET"));
+      set_ = set_named(element_sets_, line, text, "ELSET");
+    } else if (keyword == "*ELSET" || keyword == "*NSET") {
+      set_ = keyword == "*ELSET" ? set_named(element_sets_, line, text, "ELSET")
+                                 : set_named(node_sets_, line, text, "NSET");
       generated_ = text.find(",GENERATE") != std::string::npos;
-      if (set_face_ > 0) block_ = Block::element_set;
+      if (set_ != nullptr) block_ = Block::set;
     } else if (keyword == "*INCLUDE") {
       throw cursor_line("*INCLUDE is not followed: put the mesh into one file");
     }
@@ -78,10 +84,26 @@ class InpReader {
     return text.substr(begin, text.find(',', begin) - begin);
   }
 
+  using Sets = std::map<std::string, FileSet>;  // by name in capitals
+
+  /// The set that the keyword's parameter names; none where there is no such parameter.
+  static FileSet* set_named(Sets& sets, std::string_view line, const std::string& text,
+                            const std::string& key) {
+    const std::string upper_name = parameter(text, key);
+    if (upper_name.empty()) return nullptr;
+    FileSet& set = sets[upper_name];
+    if (!set.name.empty()) return &set;
+    // `text` is the line without blanks and quotes.
+    std::string plain;
+    for (const char c : line)
+      if (c != ' ' && c != '\t' && c != '"') plain += c;
+    set.name = plain.substr(text.find("," + key + "=") + key.size() + 2, upper_name.size());
+    return &set;
+  }
+
   void begin_elements(const std::string& text) {
     const std::string type = parameter(text, "TYPE");
     pending_ = {};
-    pending_.cad = face_number(parameter(text, "ELSET"));
     const auto is_one_of = [&](std::initializer_list<std::string_view> names) {
       return std::find(names.begin(), names.end(), type) != names.end();
     };
@@ -120,7 +142,7 @@ class InpReader {
         return read_node(line);
       case Block::elements:
         return read_element(line);
-      case Block::element_set:
+      case Block::set:
         return read_set(line);
       case Block::other:
         return;
@@ -155,6 +177,14 @@ class InpReader {
       if (const std::string_view text = field(line); !text.empty())
         position[i] = number<double>(text, "a coordinate");
     builder_.add_node(node, position);
+    if (set_ != nullptr) add_to_set(node);
+  }
+
+  void add_to_set(std::int64_t number) {
+    if (!set_->ranges.empty() && set_->ranges.back().step == 1 && set_->ranges.back().last == number - 1)
+      set_->ranges.back().last = number;
+    else
+      set_->ranges.push_back({number, number, 1});
   }
 
   /// An element may go over several lines.
@@ -169,6 +199,7 @@ class InpReader {
         pending_.nodes[read_numbers_ - 1] = value;
       if (++read_numbers_ <= pending_.node_count) continue;
       builder_.add_element(pending_);
+      if (set_ != nullptr) add_to_set(pending_.number);
       read_numbers_ = 0;
       if (line.find_first_not_of(" \t,") != std::string_view::npos)
         throw cursor_line(
@@ -185,57 +216,95 @@ class InpReader {
 
   void read_set(std::string_view line) {
     if (generated_) {
-      const auto first = number<std::int64_t>(field(line), "the first element of the range");
-      const auto last = number<std::int64_t>(field(line), "the last element of the range");
+      const auto first = number<std::int64_t>(field(line), "the first number of the range");
+      const auto last = number<std::int64_t>(field(line), "the last number of the range");
       const std::string_view step_text = field(line);
       const auto step = step_text.empty() ? 1 : number<std::int64_t>(step_text, "the step of the range");
       if (step < 1) throw cursor_line("the step of the range must be positive");
-      ranges_.push_back({first, last, step, set_face_});
+      set_->ranges.push_back({first, last, step});
       return;
     }
     while (!line.empty()) {
       const std::string_view text = field(line);
-      std::int64_t element = 0;
-      // Sets may hold the names of other sets: those are passed over.
-      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), element);
+      if (text.empty()) continue;
+      std::int64_t member = 0;
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), member);
       if (error == std::errc() && end == text.data() + text.size())
-        ranges_.push_back({element, element, 1, set_face_});
+        add_to_set(member);
+      else
+        set_->sets.push_back(upper_trimmed(text));
     }
   }
 
+  /// The sets that a set consists of, itself first; those that the file does not have are passed over.
+  static std::vector<const FileSet*> parts_of(const Sets& sets, const std::string& upper_name) {
+    std::vector<std::string> names{upper_name};
+    std::set<std::string> known{upper_name};
+    std::vector<const FileSet*> parts;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto found = sets.find(names[i]);
+      if (found == sets.end()) continue;
+      parts.push_back(&found->second);
+      for (const std::string& other : found->second.sets)
+        if (known.insert(other).second) names.push_back(other);
+    }
+    return parts;
+  }
+
+  /// \param put takes a number and a group; false = there is no such element or node.
+  template <class Put>
+  void assign(const Sets& sets, const std::string& upper_name, const char* what, Put&& put) {
+    const std::string& name = sets.at(upper_name).name;
+    const int group = builder_.group(name, 0);
+    for (const FileSet* part : parts_of(sets, upper_name))
+      for (const FileSet::Range& range : part->ranges)
+        for (std::int64_t member = range.first; member <= range.last; member += range.step) {
+          if (!put(member, group))
+            throw failure(cursor_.name(),
+                          fmt::format("{}: the set {} holds {} {}, which the file does not define",
+                                      cursor_.name(), name, what, member));
+          if (member > std::numeric_limits<std::int64_t>::max() - range.step) break;
+        }
+  }
+
+  /// Sets that our own files have beside those with a meaning: of everything, and of the elements that have a
+  /// certain side on an edge. They are written anew.
+  bool is_made_anew(const std::string& upper_name) const {
+    if (upper_name == "NALL" || upper_name == "EALL" || upper_name == "EOTHER") return true;
+    const std::size_t side = upper_name.rfind("_SIDE");
+    return side != std::string::npos && side + 6 == upper_name.size() &&
+           node_sets_.count(upper_name.substr(0, side)) > 0;
+  }
+
   void assign_sets() {
-    for (const Range& range : ranges_)
-      for (std::int64_t element = range.first; element <= range.last; element += range.step) {
-        if (!builder_.set_cad(element, range.face))
-          throw failure(cursor_.name(),
-                        fmt::format("{}: the set Face{} holds element {}, which the file does not define",
-                                    cursor_.name(), range.face, element));
-        if (element > std::numeric_limits<std::int64_t>::max() - range.step) break;
-      }
+    for (const auto& [name, set] : element_sets_)
+      if (!is_made_anew(name))
+        assign(element_sets_, name, "element",
+               [this](std::int64_t member, int group) { return builder_.put_element(member, group); });
+    // A set of elements is written with their nodes as a set of its name.
+    for (const auto& [name, set] : node_sets_)
+      if (!is_made_anew(name) && element_sets_.count(name) == 0)
+        assign(node_sets_, name, "node",
+               [this](std::int64_t member, int group) { return builder_.put_node(member, group); });
   }
 
   /// An error in the line that was read last.
   Error cursor_line(const std::string& sentence) const { return cursor_.error_before(sentence); }
 
-  struct Range {
-    std::int64_t first, last, step;
-    int face;
-  };
-
   TextCursor cursor_;
   MeshBuilder builder_;
   Block block_ = Block::other;
   FileElement pending_;
-  int read_numbers_ = 0;  // of the element that is being read, its own number included
-  int set_face_ = 0;
+  int read_numbers_ = 0;    // of the element that is being read, its own number included
+  FileSet* set_ = nullptr;  // that nodes, elements or numbers go to
   bool generated_ = false;
-  std::vector<Range> ranges_;
+  Sets element_sets_, node_sets_;
 };
 
 }  // namespace
 
-ShellMesh read_inp(std::string_view bytes, const std::string& name) {
-  return InpReader(bytes, name).read();
+ShellMesh read_inp(std::string_view bytes, const std::string& name, std::vector<std::string>* notes) {
+  return InpReader(bytes, name).read(notes);
 }
 
 }  // namespace quadrille

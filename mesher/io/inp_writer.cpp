@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <set>
+#include <string>
 
 #include "mesher/io/segment_sides.hpp"
 #include "mesher/io/writers.hpp"
@@ -25,15 +28,46 @@ const char* element_type(const OutputMesh& mesh, bool quad) {
   return mesh.order() == 2 ? "S8R" : "S4";
 }
 
-/// The quads, or the triangles, of one face.
-void write_elements(const OutputMesh& mesh, const CadGroup& group, bool quads, TextWriter& out) {
+/// Names of sets as Abaqus and CalculiX read them. They take capitals and small letters for the same, and
+/// tell sets of one kind apart by their names alone.
+class SetNames {
+ public:
+  explicit SetNames(const OutputMesh& mesh) {
+    for (const int dimension : {2, 1, 0})
+      for (const NamedGroup& group : mesh.groups(dimension))
+        names_[dimension].push_back(free_name(group.name));
+  }
+  /// \param group its place in OutputMesh::groups(dimension).
+  const std::string& of(int dimension, std::size_t group) const { return names_[dimension][group]; }
+
+ private:
+  std::string free_name(std::string name) {
+    constexpr std::size_t longest = 70;  // of 80, with room for what is put behind
+    name.resize(std::min(name.size(), longest));
+    for (char& c : name)
+      if (std::isspace(static_cast<unsigned char>(c)) || c == ',' || c == '=' || c == '"' || c == '*')
+        c = '_';
+    std::string free = name;
+    for (int i = 2; !taken_.insert(upper(free)).second; ++i) free = name + '_' + std::to_string(i);
+    return free;
+  }
+  static std::string upper(std::string name) {
+    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return name;
+  }
+
+  std::set<std::string> taken_{"NALL", "EALL", "EOTHER"};
+  std::vector<std::string> names_[3];
+};
+
+/// The quads, or the triangles, of one face. \param set that they are put into; empty = none.
+void write_elements(const OutputMesh& mesh, const CadGroup& group, bool quads, const std::string& set,
+                    TextWriter& out) {
   const auto is_wanted = [&](int shell) { return mesh.is_quad(shell) == quads; };
   if (std::none_of(group.members.begin(), group.members.end(), is_wanted)) return;
-  out << "*ELEMENT, TYPE=" << element_type(mesh, quads) << ", ELSET=";
-  if (group.number > 0)
-    out << "Face" << group.number << '\n';
-  else
-    out << "Eother\n";
+  out << "*ELEMENT, TYPE=" << element_type(mesh, quads);
+  if (!set.empty()) out << ", ELSET=" << set;
+  out << '\n';
   write_in_order(group.members.size(), out, [&](std::size_t i, TextWriter& to) {
     const int shell = group.members[i];
     if (!is_wanted(shell)) return;
@@ -43,35 +77,63 @@ void write_elements(const OutputMesh& mesh, const CadGroup& group, bool quads, T
   });
 }
 
+/// The elements with the sets that are one face's; then the sets that are not.
+void write_element_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& out) {
+  const std::vector<NamedGroup>& groups = mesh.groups(2);
+  std::vector<char> written(groups.size(), 0);
+  for (const CadGroup& face : mesh.faces()) {
+    std::string set = face.number > 0 ? "" : "Eother";
+    for (std::size_t i = 0; i < groups.size() && set.empty(); ++i) {
+      if (written[i] || groups[i].entities != std::vector<int>{face.number}) continue;
+      set = names.of(2, i);
+      written[i] = 1;
+    }
+    write_elements(mesh, face, true, set, out);
+    write_elements(mesh, face, false, set, out);
+  }
+  out << "*ELSET, ELSET=Eall, GENERATE\n1, " << mesh.shell_count() << ", 1\n";
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    std::vector<int> elements = written[i] ? std::vector<int>() : mesh.members(2, groups[i]);
+    if (elements.empty()) continue;
+    for (int& element : elements) ++element;
+    out << "*ELSET, ELSET=" << names.of(2, i) << '\n';
+    write_list(elements, out);
+  }
+}
+
 /// Sets of the elements that have their first side on an edge, their second, and so on: Edge7_Side1 takes the
 /// load EDNOR1. Where elements on both sides of an edge share it, those of the first face have it: a load on
 /// all four sets is one load.
-void write_side_sets(const OutputMesh& mesh, TextWriter& out) {
-  std::vector<std::array<std::vector<int>, 4>> of_segments(mesh.edges().size());
-  std::vector<std::size_t> place(mesh.segment_count());
-  for (std::size_t i = 0; i < mesh.edges().size(); ++i) {
-    for (const int segment : mesh.edges()[i].members) place[segment] = i;
-  }
+void write_side_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& out) {
+  std::vector<std::array<int, 4>> elements(mesh.segment_count(), {0, 0, 0, 0});  // from 1; 0 = none
   int last = -1;
   for (const SegmentSide& side : segment_sides(mesh)) {
-    if (side.segment != last) of_segments[place[side.segment]][side.side].push_back(side.shell + 1);
+    if (side.segment != last) elements[side.segment][side.side] = side.shell + 1;
     last = side.segment;
   }
-  for (std::size_t i = 0; i < of_segments.size(); ++i) {
-    for (int side = 0; side < 4 && mesh.edges()[i].number > 0; ++side) {
-      std::vector<int>& elements = of_segments[i][side];
-      if (elements.empty()) continue;
-      std::sort(elements.begin(), elements.end());
-      out << "*ELSET, ELSET=Edge" << mesh.edges()[i].number << "_Side" << side + 1 << '\n';
-      write_list(elements, out);
+  const std::vector<NamedGroup>& groups = mesh.groups(1);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const std::vector<int> segments = mesh.members(1, groups[i]);
+    for (int side = 0; side < 4; ++side) {
+      std::vector<int> set;
+      for (const int segment : segments)
+        if (elements[segment][side] > 0) set.push_back(elements[segment][side]);
+      if (set.empty()) continue;
+      std::sort(set.begin(), set.end());
+      out << "*ELSET, ELSET=" << names.of(1, i) << "_Side" << side + 1 << '\n';
+      write_list(set, out);
     }
   }
 }
 
-void write_node_set(const char* kind, int cad, const std::vector<int>& numbers, TextWriter& out) {
-  if (cad <= 0) return;
-  out << "*NSET, NSET=" << kind << cad << '\n';
-  write_list(numbers, out);
+void write_node_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& out) {
+  for (const int dimension : {2, 1, 0})
+    for (std::size_t i = 0; i < mesh.groups(dimension).size(); ++i) {
+      const std::vector<int> nodes = mesh.node_numbers(dimension, mesh.groups(dimension)[i]);
+      if (nodes.empty()) continue;
+      out << "*NSET, NSET=" << names.of(dimension, i) << '\n';
+      write_list(nodes, out);
+    }
 }
 
 /// A set and a section for each thickness. Whoever includes the file defines the material before.
@@ -98,23 +160,13 @@ void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& 
     }
     to << '\n';
   });
-  for (const CadGroup& group : mesh.faces()) {
-    write_elements(mesh, group, true, out);
-    write_elements(mesh, group, false, out);
-  }
-  out << "*ELSET, ELSET=Eall, GENERATE\n1, " << mesh.shell_count() << ", 1\n";
-  for (const CadGroup& group : mesh.faces())
-    write_node_set("Face", group.number, mesh.shell_node_numbers(group), out);
-  for (const CadGroup& group : mesh.edges())
-    write_node_set("Edge", group.number, mesh.segment_node_numbers(group), out);
-  for (const CadGroup& group : mesh.vertices())
-    write_node_set("Vertex", group.number, mesh.corner_node_numbers(group), out);
-  write_side_sets(mesh, out);
+  const SetNames names(mesh);
+  write_element_sets(mesh, names, out);
+  write_node_sets(mesh, names, out);
+  write_side_sets(mesh, names, out);
   // The side that the element normals point to.
-  for (const CadGroup& group : mesh.faces())
-    if (group.number > 0)
-      out << "*SURFACE, NAME=Surface_Face" << group.number << ", TYPE=ELEMENT\nFace" << group.number
-          << ", SPOS\n";
+  for (std::size_t i = 0; i < mesh.groups(2).size(); ++i)
+    out << "*SURFACE, NAME=Surface_" << names.of(2, i) << ", TYPE=ELEMENT\n" << names.of(2, i) << ", SPOS\n";
   write_sections(mesh, out);
 }
 

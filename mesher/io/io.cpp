@@ -116,12 +116,28 @@ void write_picture(const ShellMesh& mesh, const std::filesystem::path& path, int
   write_file(path, vtk_picture(mesh, width, height));
 }
 
-ShellMesh read_mesh(const std::filesystem::path& path) {
-  const std::string ending = lower_ending(path);
-  if (ending != ".msh" && ending != ".inp")
-    throw failure(path.string(), fmt::format("{}: only .msh and .inp meshes are read", path.string()));
-  const std::string bytes = whole_file(path);
-  return ending == ".msh" ? read_msh(bytes, path.string()) : read_inp(bytes, path.string());
+bool is_readable_format(const std::filesystem::path& path) {
+  constexpr std::string_view known[] = {".msh", ".inp", ".unv", ".bdf", ".nas", ".dat",
+                                        ".stl", ".obj", ".ply", ".vtk", ".vtu", ".vtp"};
+  return std::find(std::begin(known), std::end(known), lower_ending(path)) != std::end(known);
+}
+
+ShellMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>* notes) {
+  const std::string ending = lower_ending(path), name = path.string();
+  if (!is_readable_format(path))
+    throw failure(name,
+                  fmt::format("{}: unknown mesh format: .msh, .inp, .unv, .bdf, .stl, .obj, .ply, .vtk, "
+                              ".vtu and .vtp are read",
+                              name));
+  const std::string bytes = ending == ".vtk" || ending == ".vtu" || ending == ".vtp" || ending == ".stl" ||
+                                    ending == ".obj" || ending == ".ply"
+                                ? std::string()
+                                : whole_file(path);
+  if (ending == ".msh") return read_msh(bytes, name, notes);
+  if (ending == ".inp") return read_inp(bytes, name, notes);
+  if (ending == ".unv") return read_unv(bytes, name, notes);
+  if (ending == ".bdf" || ending == ".nas" || ending == ".dat") return read_bdf(bytes, name, notes);
+  return read_by_vtk(path, notes);
 }
 
 }  // namespace quadrille

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "geometry/base/api.hpp"
 #include "mesher/mesh/criteria.hpp"
@@ -31,9 +32,15 @@ QUADRILLE_API bool is_mesh_format(const std::filesystem::path& path);
 /// True where solvers read such files: .inp, .unv, .med, .bdf.
 QUADRILLE_API bool is_solver_format(const std::filesystem::path& path);
 
-/// Reads a surface mesh: Gmsh .msh (2.2 and 4.1, ASCII and binary) or Abaqus/CalculiX .inp.
+/// True if read_mesh knows the file's ending.
+QUADRILLE_API bool is_readable_format(const std::filesystem::path& path);
+
+/// Reads a surface mesh: Gmsh .msh (2.2 and 4.1, ASCII and binary), Abaqus/CalculiX .inp, I-deas .unv,
+/// Nastran .bdf (.nas, .dat), .stl, .obj, .ply, .vtk, .vtu, .vtp. Sets and physical groups are in
+/// ShellMesh::groups. \param notes takes a sentence for each thing in the file that a mesh has no place for.
 /// Throws Error (failure) with one sentence that names the line, element or node at fault.
-QUADRILLE_API ShellMesh read_mesh(const std::filesystem::path& path);
+QUADRILLE_API ShellMesh read_mesh(const std::filesystem::path& path,
+                                  std::vector<std::string>* notes = nullptr);
 
 /// The measures of a mesh as a JSON object, named as in the report of the command, with nodes, quads,
 /// triangles and criteria beside them.

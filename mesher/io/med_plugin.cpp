@@ -94,33 +94,46 @@ class MedWriter {
           "the mesh");
   }
 
-  /// \param second a further group that the family belongs to; empty = none.
-  void make_family(const std::string& group, med_int number, const std::string& second = {}) const {
-    const std::string family = "FAM_" + std::to_string(number) + "_" + group;
-    std::string names = group;
-    names.resize(MED_LNAME_SIZE, '\0');
-    names += second;
-    names.resize(2 * MED_LNAME_SIZE, '\0');
-    check(MEDfamilyCr(file_, name_.c_str(), family.c_str(), number, second.empty() ? 1 : 2, names.c_str()),
+  /// \param groups that the family belongs to, at least one.
+  void make_family(const std::vector<std::string>& groups, med_int number) const {
+    std::string family = "FAM_" + std::to_string(number) + "_" + groups.front();
+    // A family's name is a place in the file.
+    std::replace(family.begin(), family.end(), '/', '_');
+    family.resize(std::min<std::size_t>(family.size(), MED_NAME_SIZE));
+    std::string names;
+    for (const std::string& group : groups) {
+      names += group.substr(0, MED_LNAME_SIZE);
+      names.resize((names.size() + MED_LNAME_SIZE - 1) / MED_LNAME_SIZE * MED_LNAME_SIZE, '\0');
+    }
+    check(MEDfamilyCr(file_, name_.c_str(), family.c_str(), number, static_cast<med_int>(groups.size()),
+                      names.c_str()),
           "a family");
   }
 
-  /// The name of the group of faces as thick as this one; empty where that is not known.
-  std::string thickness_name(int face) const {
-    for (const ThicknessGroup& group : mesh_.thicknesses()) {
-      if (std::find(group.faces.begin(), group.faces.end(), face) != group.faces.end()) return group.name;
-    }
-    return {};
+  /// The names of what an entity belongs to: of the faces as thick as this one, too.
+  std::vector<std::string> names_of(int dimension, int entity) const {
+    std::vector<std::string> names;
+    const auto has = [entity](const std::vector<int>& entities) {
+      return std::binary_search(entities.begin(), entities.end(), entity);
+    };
+    for (const NamedGroup& group : mesh_.groups(dimension))
+      if (has(group.entities)) names.push_back(group.name);
+    for (const ThicknessGroup& group : mesh_.thicknesses())
+      if (dimension == 2 && has(group.faces)) names.push_back(group.name);
+    return names;
   }
 
-  template <class SecondName>
-  void add_element_families(const std::vector<CadGroup>& groups, const char* kind, med_int& next,
-                            std::vector<med_int>& numbers, SecondName second_name) const {
-    for (const CadGroup& group : groups) {
-      if (group.number == 0) continue;
-      make_family(kind + std::to_string(group.number), next, second_name(group.number));
-      for (const int member : group.members) numbers[member] = next;
-      --next;
+  /// \param place_of gives the place in `numbers` of a member of a group.
+  template <class PlaceOf>
+  void add_families(int dimension, const std::vector<CadGroup>& entities, med_int& next,
+                    std::vector<med_int>& numbers, PlaceOf place_of) const {
+    for (const CadGroup& entity : entities) {
+      if (entity.number == 0) continue;
+      const std::vector<std::string> names = names_of(dimension, entity.number);
+      if (names.empty()) continue;
+      make_family(names, next);
+      for (const int member : entity.members) numbers[place_of(member)] = next;
+      next += dimension == 0 ? 1 : -1;
     }
   }
 
@@ -130,17 +143,10 @@ class MedWriter {
                       std::vector<med_int>(mesh_.shell_count(), 0),
                       std::vector<med_int>(mesh_.segment_count(), 0)};
     med_int next_node = 1, next_element = -1;
-    for (const CadGroup& group : mesh_.vertices()) {
-      if (group.number == 0) continue;
-      make_family("Vertex" + std::to_string(group.number), next_node);
-      for (const int corner : group.members)
-        families.nodes[mesh_.number(mesh_.corner_node(corner)) - 1] = next_node;
-      ++next_node;
-    }
-    add_element_families(mesh_.faces(), "Face", next_element, families.shells,
-                         [this](int face) { return thickness_name(face); });
-    add_element_families(mesh_.edges(), "Edge", next_element, families.segments,
-                         [](int) { return std::string(); });
+    add_families(0, mesh_.vertices(), next_node, families.nodes,
+                 [this](int corner) { return mesh_.number(mesh_.corner_node(corner)) - 1; });
+    add_families(2, mesh_.faces(), next_element, families.shells, [](int shell) { return shell; });
+    add_families(1, mesh_.edges(), next_element, families.segments, [](int segment) { return segment; });
     return families;
   }
 

@@ -2,6 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <set>
+#include <utility>
+
 #include "geometry/base/error.hpp"
 
 namespace quadrille {
@@ -40,13 +46,59 @@ int MeshBuilder::index_of(std::int64_t number) const {
   return found == scattered_.end() ? -1 : found->second;
 }
 
-bool MeshBuilder::set_cad(std::int64_t element_number, int cad) {
+int MeshBuilder::group(const std::string& name, int number, int dimension) {
+  const auto [found, is_new] =
+      group_places_.try_emplace({name, number, dimension}, static_cast<int>(groups_.size()));
+  if (is_new) groups_.push_back({name, number, dimension});
+  return found->second;
+}
+
+int MeshBuilder::joined(int groups, int group) {
+  std::vector<int> set = group_sets_[groups];
+  const auto place = std::lower_bound(set.begin(), set.end(), group);
+  if (place != set.end() && *place == group) return groups;
+  set.insert(place, group);
+  const auto [found, is_new] = set_places_.try_emplace(set, static_cast<int>(group_sets_.size()));
+  if (is_new) group_sets_.push_back(std::move(set));
+  return found->second;
+}
+
+bool MeshBuilder::put_element(std::int64_t element_number, int group) {
   if (element_places_.empty())
     for (std::size_t i = 0; i < elements_.size(); ++i) element_places_[elements_[i].number] = i;
   const auto found = element_places_.find(element_number);
   if (found == element_places_.end()) return false;
-  elements_[found->second].cad = cad;
+  FileElement& element = elements_[found->second];
+  element.groups = joined(element.groups, group);
   return true;
+}
+
+bool MeshBuilder::put_node(std::int64_t node_number, int group) {
+  const int node = index_of(node_number);
+  if (node < 0) return false;
+  if (node_groups_.size() <= static_cast<std::size_t>(node)) node_groups_.resize(points_.size(), 0);
+  node_groups_[node] = joined(node_groups_[node], group);
+  return true;
+}
+
+void MeshBuilder::unite_repeated() {
+  std::map<std::array<std::int64_t, 4>, std::size_t> places;
+  std::size_t kept = 0;
+  for (const FileElement& element : elements_) {
+    std::array<std::int64_t, 4> corners{};
+    std::copy_n(element.nodes.begin(), corner_count(element.shape), corners.begin());
+    std::sort(corners.begin(), corners.end());
+    const auto [found, is_new] = places.try_emplace(corners, kept);
+    if (is_new) {
+      elements_[kept++] = element;
+      continue;
+    }
+    FileElement& first = elements_[found->second];
+    for (const int group : std::vector<int>(group_sets_[element.groups]))
+      first.groups = joined(first.groups, group);
+  }
+  elements_.resize(kept);
+  element_places_.clear();
 }
 
 int MeshBuilder::resolve(const FileElement& element, int place) const {
@@ -83,15 +135,18 @@ void MeshBuilder::find_order() {
 void MeshBuilder::renumber() {
   enum : char { unused, midside, corner };
   std::vector<char> use(points_.size(), unused);
+  bool has_curved_triangles = false;
   for (const FileElement& element : elements_) {
     check(element);
     const int corners = corner_count(element.shape);
     const bool keeps_midsides = mesh_.order == 2 && element.shape != ElementShape::triangle;
+    has_curved_triangles |= element.shape == ElementShape::triangle && element.node_count == 6;
     for (int i = 0; i < (keeps_midsides ? element.node_count : corners); ++i) {
       char& mark = use[resolve(element, i)];
       mark = std::max<char>(mark, i < corners ? corner : midside);
     }
   }
+  if (has_curved_triangles) note("the midside nodes of triangles are left out");
   new_index_.assign(points_.size(), -1);
   for (const char kind : {corner, midside})
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -124,12 +179,93 @@ void MeshBuilder::append(const FileElement& element) {
   }
 }
 
-ShellMesh MeshBuilder::finish() {
+int MeshBuilder::number_in_name(int groups, std::string_view kind) const {
+  const auto same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+  };
+  const std::vector<int>& set = group_sets_[groups];
+  for (auto group = set.rbegin(); group != set.rend(); ++group) {
+    const std::string_view name = groups_[*group].name;
+    if (name.size() <= kind.size() || !std::equal(kind.begin(), kind.end(), name.begin(), same)) continue;
+    int number = 0;
+    const auto [end, error] = std::from_chars(name.data() + kind.size(), name.data() + name.size(), number);
+    if (error == std::errc() && end == name.data() + name.size() && number > 0) return number;
+  }
+  return 0;
+}
+
+/// Gives each combination of a CAD number with groups a number of its own, the CAD number where that is free,
+/// and lists the numbers that each group consists of.
+class EntityNumbers {
+ public:
+  /// The number that finish() is asked for later. \param cad 0 = none.
+  void add(int cad, int groups) { keys_.try_emplace({cad, groups}, static_cast<int>(keys_.size())); }
+
+  void finish() {
+    std::vector<std::pair<int, int>> in_order(keys_.size());
+    for (const auto& [key, place] : keys_) in_order[place] = key;
+    int largest = 0;
+    std::set<int> taken;
+    std::vector<std::pair<int, int>> waiting;
+    for (const auto& key : in_order) {
+      largest = std::max(largest, key.first);
+      if (key == std::pair(0, 0) || (key.first > 0 && taken.insert(key.first).second))
+        keys_[key] = key.first;
+      else
+        waiting.push_back(key);
+    }
+    for (const auto& key : waiting) keys_[key] = ++largest;
+  }
+
+  int of(int cad, int groups) const { return keys_.at({cad, groups}); }
+  const std::map<std::pair<int, int>, int>& all() const { return keys_; }
+
+ private:
+  std::map<std::pair<int, int>, int> keys_;
+};
+
+void MeshBuilder::number_entities() {
+  constexpr std::string_view kinds[] = {"Vertex", "Edge", "Face"};
+  const auto dimension_of = [](const FileElement& element) {
+    return std::min(static_cast<int>(element.shape), 2);
+  };
+  EntityNumbers numbers[3];
+  for (FileElement& element : elements_) {
+    const int dimension = dimension_of(element);
+    if (element.cad == 0 && element.groups != 0)
+      element.cad = number_in_name(element.groups, kinds[dimension]);
+    numbers[dimension].add(element.cad, element.groups);
+  }
+  for (const int groups : node_groups_)
+    if (groups != 0) numbers[0].add(number_in_name(groups, kinds[0]), groups);
+  std::map<std::pair<int, int>, std::vector<int>> entities;  // by group and dimension
+  for (const int dimension : {2, 1, 0}) {
+    numbers[dimension].finish();
+    for (const auto& [key, number] : numbers[dimension].all())
+      for (const int group : group_sets_[key.second]) entities[{group, dimension}].push_back(number);
+  }
+  for (auto& [key, members] : entities) {
+    std::sort(members.begin(), members.end());
+    const Group& group = groups_[key.first];
+    mesh_.groups.push_back({group.name, key.second, group.number, std::move(members)});
+  }
+  for (FileElement& element : elements_)
+    element.cad = numbers[dimension_of(element)].of(element.cad, element.groups);
+  for (std::size_t node = 0; node < node_groups_.size(); ++node) {
+    if (node_groups_[node] == 0 || new_index_[node] < 0) continue;
+    const int cad = number_in_name(node_groups_[node], kinds[0]);
+    mesh_.corners.push_back({new_index_[node], numbers[0].of(cad, node_groups_[node])});
+  }
+}
+
+ShellMesh MeshBuilder::finish(std::vector<std::string>* notes) {
   find_order();
   renumber();
+  number_entities();
   for (const FileElement& element : elements_) append(element);
   if (mesh_.quads.empty() && mesh_.triangles.empty())
     throw failure(name_, fmt::format("{}: holds neither quads nor triangles", name_));
+  if (notes != nullptr) notes->insert(notes->end(), notes_.begin(), notes_.end());
   return std::move(mesh_);
 }
 

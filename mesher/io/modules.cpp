@@ -37,6 +37,12 @@ std::string vtk_picture(const ShellMesh& mesh, int width, int height) {
   return bytes;
 }
 
+ImportedMesh vtk_mesh(const std::string& path, const std::string& ending) {
+  ImportedMesh mesh;
+  check(vtk_module().function<VtkReadFunction>("_read")(path, ending, mesh));
+  return mesh;
+}
+
 std::string med_file(const OutputMesh& mesh, const std::string& name, const std::string& description) {
   std::string bytes;
   check(med_module().function<MedFileFunction>("_file")(mesh, name, description, bytes));

@@ -5,10 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "mesher/io/mesh_builder.hpp"
 #include "mesher/io/output_mesh.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
+
+/// A mesh as VTK has read it: nodes are numbered from 1 in the order of the points.
+struct ImportedMesh {
+  std::vector<Vector3> points;
+  std::vector<FileElement> elements;
+};
 
 /// What the modules export, as C symbols of these types. Each function returns an empty string, or the
 /// sentence that says what went wrong; nothing is thrown across the border.
@@ -16,6 +23,7 @@ using VtkFileFunction = std::string(const OutputMesh& mesh, const std::vector<do
                                     std::string& bytes);
 using VtkPictureFunction = std::string(const ShellMesh& mesh, const std::vector<double>& qualities, int width,
                                        int height, std::string& bytes);
+using VtkReadFunction = std::string(const std::string& path, const std::string& ending, ImportedMesh& mesh);
 using MedFileFunction = std::string(const OutputMesh& mesh, const std::string& name,
                                     const std::string& description, std::string& bytes);
 
@@ -25,6 +33,10 @@ std::string vtu_file(const OutputMesh& mesh, const std::vector<double>& qualitie
 
 /// The bytes of a PNG of the mesh. Throws Error (failure).
 std::string vtk_picture(const ShellMesh& mesh, int width, int height);
+
+/// What a file holds. \param ending .stl, .obj, .ply, .vtk, .vtu or .vtp. Throws Error (failure) that does
+/// not name the file.
+ImportedMesh vtk_mesh(const std::string& path, const std::string& ending);
 
 /// The bytes of a .med file.
 /// \param name of the mesh in the file; FreeCAD reads only a mesh that is named as its file, without the

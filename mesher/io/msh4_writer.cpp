@@ -46,8 +46,8 @@ void claim_nodes(const OutputMesh& mesh, Entities& entities, std::vector<char>& 
       }
 }
 
-void write_entity(const OutputMesh& mesh, const Entities& entities, std::size_t index, int physical,
-                  TextWriter& out) {
+void write_entity(const OutputMesh& mesh, const Entities& entities, std::size_t index,
+                  std::span<const int> physical, TextWriter& out) {
   const CadGroup& group = entities.elements[index];
   Vector3 low = Vector3::Constant(std::numeric_limits<double>::max()), high = -low;
   for (const int member : group.members)
@@ -61,10 +61,8 @@ void write_entity(const OutputMesh& mesh, const Entities& entities, std::size_t 
     out << ' ';
     write_msh_point(high, out);
   }
-  if (physical > 0)
-    out << " 1 " << physical;
-  else
-    out << " 0";
+  out << ' ' << physical.size();
+  for (const int number : physical) out << ' ' << number;
   if (entities.dimension > 0) {
     out << ' ' << entities.boundaries[index].size();
     for (const int boundary : entities.boundaries[index]) out << ' ' << boundary;
@@ -147,10 +145,9 @@ void write_msh4(const OutputMesh& mesh, TextWriter& out) {
   for (const Entities& entities : all) out << entities.tags.size() << ' ';
   out << "0\n";
   for (const Entities& entities : all)
-    for (std::size_t i = 0; i < entities.tags.size(); ++i) {
-      const int number = physical.of(entities.dimension, entities.elements[i].number);
-      write_entity(mesh, entities, i, number, out);
-    }
+    for (std::size_t i = 0; i < entities.tags.size(); ++i)
+      write_entity(mesh, entities, i, physical.of_entity(entities.dimension, entities.elements[i].number),
+                   out);
   out << "$EndEntities\n";
   write_node_blocks(mesh, all, out);
   write_element_blocks(mesh, all, out);

@@ -9,11 +9,6 @@ namespace {
 constexpr int type_point = 15, type_line = 1, type_line3 = 8, type_triangle = 2, type_quad = 3,
               type_quad9 = 10, type_quad8 = 16;
 
-/// Elements of no CAD entity belong to no physical group.
-std::size_t named_count(const std::vector<CadGroup>& groups) {
-  return std::count_if(groups.begin(), groups.end(), [](const CadGroup& group) { return group.number > 0; });
-}
-
 int largest_number(const std::vector<CadGroup>& groups) {
   int largest = 0;
   for (const CadGroup& group : groups) largest = std::max(largest, group.number);
@@ -37,21 +32,43 @@ int msh_element_type(const ElementNodes& element, int dimension) {
   }
 }
 
-PhysicalNumbers::PhysicalNumbers(const OutputMesh& mesh)
-    : first_{mesh.cad_face_count() + largest_number(mesh.edges()), mesh.cad_face_count(), 0} {}
+PhysicalNumbers::PhysicalNumbers(const OutputMesh& mesh) {
+  const int first[] = {mesh.cad_face_count() + largest_number(mesh.edges()), mesh.cad_face_count(), 0};
+  int last = 0;
+  for (int dimension = 0; dimension < 3; ++dimension)
+    for (const NamedGroup& group : mesh.groups(dimension)) last = std::max(last, group.number);
+  for (const int dimension : {2, 1, 0}) {
+    for (const NamedGroup& group : mesh.groups(dimension)) {
+      int number = group.number;
+      if (!mesh.groups_were_read()) number = first[dimension] + group.entities.front();
+      if (number == 0) number = ++last;
+      numbers_[dimension].push_back(number);
+      for (const int entity : group.entities) of_entities_[dimension][entity].push_back(number);
+    }
+    for (auto& [entity, numbers] : of_entities_[dimension]) std::sort(numbers.begin(), numbers.end());
+  }
+}
+
+std::span<const int> PhysicalNumbers::of_entity(int dimension, int cad) const {
+  const auto found = of_entities_[dimension].find(cad);
+  return found == of_entities_[dimension].end() ? std::span<const int>() : found->second;
+}
 
 void write_physical_names(const OutputMesh& mesh, const PhysicalNumbers& physical, TextWriter& out) {
-  const std::vector<CadGroup>* const kinds[] = {&mesh.vertices(), &mesh.edges(), &mesh.faces()};
-  constexpr const char* names[] = {"Vertex", "Edge", "Face"};
+  const auto each = [&](auto&& visit) {
+    for (int dimension = 0; dimension < 3; ++dimension) {
+      const std::vector<NamedGroup>& groups = mesh.groups(dimension);
+      for (std::size_t i = 0; i < groups.size(); ++i)
+        if (groups[i].has_name) visit(dimension, physical.of_group(dimension, i), groups[i].name);
+    }
+  };
   std::size_t count = 0;
-  for (const auto* groups : kinds) count += named_count(*groups);
+  each([&](int, int, const std::string&) { ++count; });
   if (count == 0) return;
   out << "$PhysicalNames\n" << count << '\n';
-  for (int dimension = 0; dimension < 3; ++dimension)
-    for (const CadGroup& group : *kinds[dimension])
-      if (group.number > 0)
-        out << dimension << ' ' << physical.of(dimension, group.number) << " \"" << names[dimension]
-            << group.number << "\"\n";
+  each([&](int dimension, int number, const std::string& name) {
+    out << dimension << ' ' << number << " \"" << name << "\"\n";
+  });
   out << "$EndPhysicalNames\n";
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 /// What both versions of Gmsh's .msh share. Internal.
 
+#include <span>
+#include <unordered_map>
+
 #include "mesher/io/output_mesh.hpp"
 #include "mesher/io/text_writer.hpp"
 
@@ -9,20 +12,23 @@ namespace quadrille {
 /// Gmsh's number for the type of an element. \param dimension 0, 1 or 2.
 int msh_element_type(const ElementNodes& element, int dimension);
 
-/// Numbers of physical groups. A face's is its CAD number; edges follow after the last face of the model, and
-/// vertices after the last edge: several programs take groups of one number for one group, whatever their
-/// dimensions.
+/// Numbers of physical groups: those that the mesh was read with. Else a face's is its CAD number; edges
+/// follow after the last face of the model, and vertices after the last edge: several programs take groups of
+/// one number for one group, whatever their dimensions.
 class PhysicalNumbers {
  public:
   explicit PhysicalNumbers(const OutputMesh& mesh);
-  /// \param cad number of a CAD face (dimension 2), edge (1) or vertex (0); 0 stays 0: in no group.
-  int of(int dimension, int cad) const { return cad > 0 ? first_[dimension] + cad : 0; }
+  /// \param group its place in OutputMesh::groups(dimension).
+  int of_group(int dimension, std::size_t group) const { return numbers_[dimension][group]; }
+  /// Of the groups that a CAD face (dimension 2), edge (1) or vertex (0) belongs to, ascending.
+  std::span<const int> of_entity(int dimension, int cad) const;
 
  private:
-  int first_[3];  ///< by dimension
+  std::vector<int> numbers_[3];                               ///< by dimension and group
+  std::unordered_map<int, std::vector<int>> of_entities_[3];  ///< by dimension and CAD number
 };
 
-/// The section $PhysicalNames: Face3, Edge7, Vertex2. Nothing where there are no groups.
+/// The section $PhysicalNames: Face3, Edge7, Vertex2. Nothing where there are no names.
 void write_physical_names(const OutputMesh& mesh, const PhysicalNumbers& physical, TextWriter& out);
 
 /// The numbers of an element's nodes, and the end of the line.

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "mesher/io/mesh_builder.hpp"
 #include "mesher/io/readers.hpp"
@@ -33,12 +37,13 @@ class MshReader {
  public:
   MshReader(std::string_view bytes, const std::string& name) : cursor_(bytes, name), builder_(name) {}
 
-  ShellMesh read() {
+  ShellMesh read(std::vector<std::string>* notes) {
     read_format();
     while (!cursor_.at_end()) read_section();
     if (!has_nodes_) throw cursor_.truncated("$Nodes");
     if (!has_elements_) throw cursor_.truncated("$Elements");
-    return builder_.finish();
+    if (repeated_) builder_.unite_repeated();
+    return builder_.finish(notes);
   }
 
  private:
@@ -75,6 +80,13 @@ class MshReader {
       begin_once(has_elements_, "$Elements");
       new_ ? read_elements4() : read_elements2();
       expect_end("$EndElements");
+    } else if (heading == "$PhysicalNames") {
+      read_names();
+      expect_end("$EndPhysicalNames");
+    } else if (heading == "$Entities" && new_) {
+      cursor_.line();
+      read_entities4();
+      expect_end("$EndEntities");
     } else if (heading.front() == '$' && heading.size() < 80) {
       const std::string end = "$End" + std::string(heading.substr(1));
       if (!cursor_.skip_past(end)) throw cursor_.truncated(end.c_str());
@@ -115,6 +127,46 @@ class MshReader {
     if (count < 0 || count > static_cast<std::int64_t>(cursor_.remaining()))
       throw cursor_.error(fmt::format("{} ({}) does not fit the file's length", what, count));
     return count;
+  }
+
+  /// Lines such as: 2 7 "the top".
+  void read_names() {
+    const std::int64_t count = count_of(cursor_.integer("the number of names"), "the number of names");
+    cursor_.line();
+    for (std::int64_t i = 0; i < count; ++i) {
+      const std::int64_t dimension = cursor_.integer("a group's dimension");
+      const int number = cad_number(cursor_.integer("a group's number"));
+      const std::string_view rest = cursor_.line();
+      const std::size_t begin = rest.find('"'), end = rest.rfind('"');
+      if (begin == end) throw cursor_.error_before("expected a name in quotes");
+      names_[{dimension, number}] = rest.substr(begin + 1, end - begin - 1);
+    }
+  }
+
+  /// The group that a physical number is. \param tag negative where Gmsh turns the elements.
+  int group_of(int dimension, std::int64_t tag) {
+    const int number = cad_number(tag < 0 ? -tag : tag);
+    if (number == 0) return -1;
+    const auto found = names_.find({dimension, number});
+    return builder_.group(found == names_.end() ? "" : found->second, number, dimension);
+  }
+
+  void read_entities4() {
+    std::int64_t counts[4];
+    for (std::int64_t& count : counts)
+      count = count_of(large("the number of entities"), "the number of entities");
+    for (int dimension = 0; dimension < 4; ++dimension)
+      for (std::int64_t i = 0; i < counts[dimension]; ++i) {
+        const std::int64_t tag = small("an entity's number");
+        for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) real("an entity's bounds");
+        int& groups = entity_groups_[{dimension, tag}];
+        for (std::int64_t k = large("an entity's number of groups"); k > 0; --k) {
+          const int group = group_of(dimension, small("an entity's group"));
+          if (group >= 0) groups = builder_.joined(groups, group);
+        }
+        if (dimension == 0) continue;
+        for (std::int64_t k = large("an entity's number of bounds"); k > 0; --k) small("an entity's bound");
+      }
   }
 
   Vector3 position() {
@@ -177,10 +229,22 @@ class MshReader {
     FileElement element;
     element.number = number;
     const ElementType& known = type_of(type, number);
+    std::int64_t physical = 0;
     for (std::int64_t i = 0; i < count_of(tags, "an element's number of tags"); ++i) {
       const std::int64_t tag = small("an element's tag");
+      if (i == 0) physical = tag;
       if (i == 1) element.cad = cad_number(tag);
     }
+    const int dimension = std::min(static_cast<int>(known.shape), 2);
+    // Elements come in rows that have the same tags.
+    if (const std::array<std::int64_t, 3> tagged{dimension, element.cad, physical}; tagged != last_tags_) {
+      last_tags_ = tagged;
+      const int group = group_of(dimension, physical);
+      last_groups_ = group < 0 ? 0 : builder_.joined(0, group);
+      const auto [found, is_new] = physical_of_.try_emplace({dimension, element.cad}, physical);
+      repeated_ |= !is_new && found->second != physical;
+    }
+    element.groups = last_groups_;
     read_element_nodes(known, element, [this] { return small("an element's node"); });
   }
 
@@ -210,9 +274,11 @@ class MshReader {
     const std::int64_t blocks = large("the number of element blocks");
     for (int i = 0; i < 3; ++i) large("the element counts");
     for (std::int64_t block = 0; block < blocks; ++block) {
-      small("a block's dimension");
+      const std::int64_t dimension = small("a block's dimension"), entity = small("a block's entity");
       FileElement element;
-      element.cad = cad_number(small("a block's entity"));
+      element.cad = cad_number(entity);
+      if (const auto found = entity_groups_.find({dimension, entity}); found != entity_groups_.end())
+        element.groups = found->second;
       const std::int64_t type = small("a block's element type");
       const std::int64_t count =
           count_of(large("a block's number of elements"), "a block's number of elements");
@@ -229,12 +295,19 @@ class MshReader {
   bool new_ = false;  // version 4.1
   bool binary_ = false;
   bool has_nodes_ = false, has_elements_ = false;
+  using DimensionAndTag = std::pair<std::int64_t, std::int64_t>;
+  std::map<DimensionAndTag, std::string> names_;         // of physical groups
+  std::map<DimensionAndTag, int> entity_groups_;         // 4.1
+  std::map<DimensionAndTag, std::int64_t> physical_of_;  // 2.2: the first of each entity
+  std::array<std::int64_t, 3> last_tags_{-1, -1, -1};
+  int last_groups_ = 0;
+  bool repeated_ = false;  // 2.2: an entity is in several groups
 };
 
 }  // namespace
 
-ShellMesh read_msh(std::string_view bytes, const std::string& name) {
-  return MshReader(bytes, name).read();
+ShellMesh read_msh(std::string_view bytes, const std::string& name, std::vector<std::string>* notes) {
+  return MshReader(bytes, name).read(notes);
 }
 
 }  // namespace quadrille

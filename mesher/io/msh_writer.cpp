@@ -7,12 +7,48 @@ namespace quadrille {
 
 namespace {
 
-/// One element: its tags are the physical group and the CAD entity.
-void write_element(const OutputMesh& mesh, std::size_t number, const ElementNodes& element, int dimension,
-                   std::array<int, 2> tags, TextWriter& out) {
-  out << number << ' ' << msh_element_type(element, dimension) << " 2 " << tags[0] << ' ' << tags[1];
-  write_msh_nodes(mesh, element, out);
-}
+/// The elements of one dimension, each once for each group that it belongs to, as Gmsh writes them in this
+/// version: an element has one physical number here.
+class ElementLines {
+ public:
+  ElementLines(const OutputMesh& mesh, const PhysicalNumbers& physical, int dimension, int count)
+      : mesh_(mesh), physical_(physical), dimension_(dimension), count_(count) {
+    for (int i = 0; i < count && mesh.groups_were_read(); ++i) {
+      const std::size_t groups = physical.of_entity(dimension, entity(i)).size();
+      for (std::size_t k = 1; k < groups; ++k) repeated_.emplace_back(i, k);
+    }
+  }
+
+  std::size_t size() const { return count_ + repeated_.size(); }
+
+  /// \param before how many elements the file has before these.
+  void write(std::size_t before, TextWriter& out) const {
+    write_in_order(size(), out, [&](std::size_t line, TextWriter& to) {
+      const bool first = line < static_cast<std::size_t>(count_);
+      const auto [i, group] =
+          first ? std::pair(static_cast<int>(line), std::size_t{0}) : repeated_[line - count_];
+      const std::span<const int> numbers = physical_.of_entity(dimension_, entity(i));
+      const ElementNodes element = nodes(i);
+      to << before + line + 1 << ' ' << msh_element_type(element, dimension_) << " 2 "
+         << (numbers.empty() ? 0 : numbers[group]) << ' ' << entity(i);
+      write_msh_nodes(mesh_, element, to);
+    });
+  }
+
+ private:
+  int entity(int i) const {
+    return dimension_ == 2 ? mesh_.face(i) : dimension_ == 1 ? mesh_.edge(i) : mesh_.vertex(i);
+  }
+  ElementNodes nodes(int i) const {
+    if (dimension_ == 0) return {{mesh_.corner_node(i)}, 1};
+    return dimension_ == 1 ? mesh_.segment_nodes(i) : mesh_.shell_nodes(i);
+  }
+
+  const OutputMesh& mesh_;
+  const PhysicalNumbers& physical_;
+  int dimension_, count_;
+  std::vector<std::pair<int, std::size_t>> repeated_;  // element, and which of its groups
+};
 
 }  // namespace
 
@@ -26,20 +62,15 @@ void write_msh2(const OutputMesh& mesh, TextWriter& out) {
     write_msh_point(mesh.point(static_cast<int>(i)), to);
     to << '\n';
   });
-  out << "$EndNodes\n$Elements\n" << mesh.corner_count() + mesh.segment_count() + mesh.shell_count() << '\n';
-  std::size_t number = 0;
-  for (int i = 0; i < mesh.corner_count(); ++i) {
-    const int cad = mesh.vertex(i);
-    write_element(mesh, ++number, {{mesh.corner_node(i)}, 1}, 0, {physical.of(0, cad), cad}, out);
+  const ElementLines kinds[] = {{mesh, physical, 0, mesh.corner_count()},
+                                {mesh, physical, 1, mesh.segment_count()},
+                                {mesh, physical, 2, mesh.shell_count()}};
+  out << "$EndNodes\n$Elements\n" << kinds[0].size() + kinds[1].size() + kinds[2].size() << '\n';
+  std::size_t before = 0;
+  for (const ElementLines& kind : kinds) {
+    kind.write(before, out);
+    before += kind.size();
   }
-  for (int i = 0; i < mesh.segment_count(); ++i) {
-    const int cad = mesh.edge(i);
-    write_element(mesh, ++number, mesh.segment_nodes(i), 1, {physical.of(1, cad), cad}, out);
-  }
-  write_in_order(mesh.shell_count(), out, [&](std::size_t i, TextWriter& to) {
-    const int shell = static_cast<int>(i), cad = mesh.face(shell);
-    write_element(mesh, number + i + 1, mesh.shell_nodes(shell), 2, {physical.of(2, cad), cad}, to);
-  });
   out << "$EndElements\n";
 }
 

@@ -47,6 +47,51 @@ OutputMesh::OutputMesh(const ShellMesh& mesh, const GroupKinds& groups, int quad
   edges_ = grouped(segment_count(), [this](int i) { return edge(i); });
   vertices_ = grouped(corner_count(), [this](int i) { return vertex(i); });
   group_by_thickness();
+  for (const int dimension : {0, 1, 2}) name_groups(dimension);
+}
+
+void OutputMesh::name_groups(int dimension) {
+  constexpr const char* kinds[] = {"Vertex", "Edge", "Face"};
+  constexpr const char* unnamed[] = {"PhysicalPoint", "PhysicalCurve", "PhysicalSurface"};
+  const bool wanted[] = {groups_.vertices, groups_.edges, groups_.faces};
+  if (!wanted[dimension]) return;
+  std::vector<NamedGroup>& named = named_[dimension];
+  if (!groups_were_read()) {
+    for (const CadGroup& entity : entities(dimension))
+      if (entity.number > 0)
+        named.push_back({kinds[dimension] + std::to_string(entity.number), true, 0, {entity.number}});
+    return;
+  }
+  for (const ShellMesh::Group& group : mesh_.groups) {
+    if (group.dimension != dimension) continue;
+    const bool has_name = !group.name.empty();
+    named.push_back({has_name ? group.name : unnamed[dimension] + std::to_string(group.number), has_name,
+                     group.number, group.entities});
+  }
+}
+
+std::vector<int> OutputMesh::members(int dimension, const NamedGroup& group) const {
+  std::vector<int> result;
+  for (const CadGroup& entity : entities(dimension)) {
+    if (entity.number > 0 && std::binary_search(group.entities.begin(), group.entities.end(), entity.number))
+      result.insert(result.end(), entity.members.begin(), entity.members.end());
+  }
+  if (group.entities.size() > 1) std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<int> OutputMesh::node_numbers(int dimension, const NamedGroup& group) const {
+  std::vector<int> numbers;
+  for (const int member : members(dimension, group)) {
+    if (dimension == 0) {
+      numbers.push_back(number(corner_node(member)));
+      continue;
+    }
+    for (const int node : dimension == 1 ? segment_nodes(member) : shell_nodes(member))
+      numbers.push_back(number(node));
+  }
+  sort_unique(numbers);
+  return numbers;
 }
 
 void OutputMesh::add_middles() {
@@ -143,29 +188,6 @@ ElementNodes OutputMesh::segment_nodes(int segment) const {
   ElementNodes result{{side.nodes[0], side.nodes[1]}, 2};
   if (mesh_.order == 2 && side.middle >= 0) result.nodes[result.count++] = side.middle;
   return result;
-}
-
-std::vector<int> OutputMesh::shell_node_numbers(const CadGroup& group) const {
-  std::vector<int> numbers;
-  for (const int shell : group.members)
-    for (const int node : shell_nodes(shell)) numbers.push_back(number(node));
-  sort_unique(numbers);
-  return numbers;
-}
-
-std::vector<int> OutputMesh::segment_node_numbers(const CadGroup& group) const {
-  std::vector<int> numbers;
-  for (const int segment : group.members)
-    for (const int node : segment_nodes(segment)) numbers.push_back(number(node));
-  sort_unique(numbers);
-  return numbers;
-}
-
-std::vector<int> OutputMesh::corner_node_numbers(const CadGroup& group) const {
-  std::vector<int> numbers;
-  for (const int corner : group.members) numbers.push_back(number(corner_node(corner)));
-  sort_unique(numbers);
-  return numbers;
 }
 
 }  // namespace quadrille

@@ -18,10 +18,20 @@ struct ElementNodes {
   const int* end() const { return nodes.data() + count; }
 };
 
-/// The elements, segments or corners that belong to one CAD entity.
+/// The elements, segments or corners that belong to one CAD entity, or to a part of the file that the mesh
+/// was read from.
 struct CadGroup {
   int number = 0;            ///< CAD number; 0 = elements that belong to none
   std::vector<int> members;  ///< ascending indices of shell elements, segments or corners
+};
+
+/// What goes by one name in a file: the elements, segments or corners of one CAD entity or, in meshes that
+/// were read, what their file named.
+struct NamedGroup {
+  std::string name;
+  bool has_name = true;       ///< else the name is made of the number: PhysicalSurface7
+  int number = 0;             ///< in the file that it was read from; 0 = none
+  std::vector<int> entities;  ///< CAD numbers, ascending
 };
 
 /// The faces that are shells of one thickness, to the six digits that the name tells.
@@ -77,15 +87,23 @@ class OutputMesh {
   /// By thickness, in the order of their first faces; empty where no thickness is known.
   const std::vector<ThicknessGroup>& thicknesses() const { return thicknesses_; }
 
-  /// File numbers of the nodes of a group of shell elements / segments / corners, ascending, each once.
-  std::vector<int> shell_node_numbers(const CadGroup& group) const;
-  std::vector<int> segment_node_numbers(const CadGroup& group) const;
-  std::vector<int> corner_node_numbers(const CadGroup& group) const;
+  /// What has a name: shell elements (dimension 2), segments (1), corners (0).
+  const std::vector<NamedGroup>& groups(int dimension) const { return named_[dimension]; }
+  /// Whether the groups are those of a file that the mesh was read from.
+  bool groups_were_read() const { return !mesh_.groups.empty(); }
+  /// Indices of shell elements, segments or corners, ascending.
+  std::vector<int> members(int dimension, const NamedGroup& group) const;
+  /// File numbers of the nodes of a group, ascending, each once.
+  std::vector<int> node_numbers(int dimension, const NamedGroup& group) const;
 
  private:
   void number_nodes();
   void add_middles();
   void group_by_thickness();
+  void name_groups(int dimension);
+  const std::vector<CadGroup>& entities(int dimension) const {
+    return dimension == 2 ? faces_ : dimension == 1 ? edges_ : vertices_;
+  }
   void use(int node, const char* what, std::size_t index);
 
   const ShellMesh& mesh_;
@@ -94,6 +112,7 @@ class OutputMesh {
   std::vector<int> numbers_;
   std::vector<int> nodes_;
   std::vector<CadGroup> faces_, edges_, vertices_;
+  std::array<std::vector<NamedGroup>, 3> named_;
   std::vector<ThicknessGroup> thicknesses_;
 };
 

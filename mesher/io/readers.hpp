@@ -1,20 +1,41 @@
 #pragma once
-/// The readers behind read_mesh(). They take the file's bytes, so that they can be fuzzed.
+/// The readers behind read_mesh(). Those of text formats take the file's bytes, so that they can be fuzzed.
+/// Each throws Error (failure) with one sentence that names the line, element or node at fault. What a mesh
+/// has no place for is told in `notes`, a sentence each.
 
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
 
 /// Parses Gmsh .msh 2.2 or 4.1, ASCII or binary. A quad's face is its elementary tag (2.2) or its entity
-/// (4.1). \param name used in error messages. Throws Error (failure) with one sentence that names the line,
-/// element or node at fault.
-ShellMesh read_msh(std::string_view bytes, const std::string& name);
+/// (4.1); groups are the physical ones. \param name used in error messages.
+ShellMesh read_msh(std::string_view bytes, const std::string& name,
+                   std::vector<std::string>* notes = nullptr);
 
-/// Parses Abaqus / CalculiX .inp. A quad's face is the number of its element set's name (Face3), else 0.
-/// Throws Error (failure) with one sentence that names the line, element or node at fault.
-ShellMesh read_inp(std::string_view bytes, const std::string& name);
+/// Parses Abaqus / CalculiX .inp. Groups are element and node sets; a quad's face is the number in the name
+/// of its element set (Face3), else one that the elements of the same sets share.
+ShellMesh read_inp(std::string_view bytes, const std::string& name,
+                   std::vector<std::string>* notes = nullptr);
+
+/// Parses I-deas universal files: nodes (15, 781, 2411), elements (780, 2412), groups (2435, 2452, 2467,
+/// 2477). A quad's face is its property number.
+ShellMesh read_unv(std::string_view bytes, const std::string& name,
+                   std::vector<std::string>* notes = nullptr);
+
+/// Parses Nastran bulk data in fixed fields of 8 or 16 columns and in free ones: GRID, CTRIA3, CTRIA6,
+/// CTRIAR, CQUAD4, CQUAD8, CQUADR. A quad's face is its property number; names that HyperMesh and ANSA give
+/// properties in comments are groups.
+ShellMesh read_bdf(std::string_view bytes, const std::string& name,
+                   std::vector<std::string>* notes = nullptr);
+
+/// Reads .stl, .obj, .ply, .vtk, .vtu and .vtp by VTK. A quad's face is in a cell array that is called face
+/// (our own), CellEntityIds (Gmsh) or gmsh:geometrical (meshio); solids of .stl files are groups. Nodes of
+/// .stl and .obj files that lie on one place are one: the formats repeat them.
+ShellMesh read_by_vtk(const std::filesystem::path& path, std::vector<std::string>* notes = nullptr);
 
 }  // namespace quadrille

@@ -97,11 +97,6 @@ class GroupWriter {
 
   /// \param label_of maps a member of the group to its node or element number.
   template <class LabelOf>
-  void write(const CadGroup& group, const char* kind, int entity_type, LabelOf label_of) {
-    if (group.number != 0) write(kind + std::to_string(group.number), group.members, entity_type, label_of);
-  }
-
-  template <class LabelOf>
   void write(const std::string& name, const std::vector<int>& members, int entity_type, LabelOf label_of) {
     Fields fields(out_);
     fields.add(++number_);
@@ -120,20 +115,16 @@ class GroupWriter {
 };
 
 void write_groups(const OutputMesh& mesh, TextWriter& out) {
-  const auto is_named = [](const CadGroup& group) { return group.number != 0; };
-  const auto has_named = [&](const auto& groups) {
-    return std::any_of(groups.begin(), groups.end(), is_named);
-  };
-  if (!has_named(mesh.faces()) && !has_named(mesh.edges()) && !has_named(mesh.vertices())) return;
+  if (mesh.groups(2).empty() && mesh.groups(1).empty() && mesh.groups(0).empty()) return;
   begin_dataset(2467, out);
   GroupWriter groups(out);
-  for (const CadGroup& group : mesh.faces())
-    groups.write(group, "Face", entity_element, [](int shell) { return shell + 1; });
-  for (const CadGroup& group : mesh.edges())
-    groups.write(group, "Edge", entity_element,
+  for (const NamedGroup& group : mesh.groups(2))
+    groups.write(group.name, mesh.members(2, group), entity_element, [](int shell) { return shell + 1; });
+  for (const NamedGroup& group : mesh.groups(1))
+    groups.write(group.name, mesh.members(1, group), entity_element,
                  [&](int segment) { return mesh.shell_count() + segment + 1; });
-  for (const CadGroup& group : mesh.vertices())
-    groups.write(group, "Vertex", entity_node,
+  for (const NamedGroup& group : mesh.groups(0))
+    groups.write(group.name, mesh.members(0, group), entity_node,
                  [&](int corner) { return mesh.number(mesh.corner_node(corner)); });
   for (const ThicknessGroup& group : mesh.thicknesses())
     groups.write(group.name, group.members, entity_element, [](int shell) { return shell + 1; });

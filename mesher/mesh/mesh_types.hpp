@@ -18,6 +18,8 @@ struct TriangleMesh {
   std::vector<std::array<int, 3>> triangles;  ///< (m) indices into points, counter-clockwise
   /// (m) or empty. Elements of different tags are never joined: the sides between them are kept as boundary.
   std::vector<int> tags;
+  /// (n) or empty: 1 = a point that keeps its place when the quads made of the triangles are improved.
+  std::vector<char> fixed;
 };
 
 /// Quadrilaterals over points, and the triangle that an odd count leaves.
@@ -87,6 +89,14 @@ struct ShellMesh {
     int to = 0;  ///< the edge or vertex whose nodes stand for it
   };
 
+  /// What goes by a name, or by a number of its own, in the file that the mesh was read from.
+  struct Group {
+    std::string name;           ///< empty = it has a number alone
+    int dimension = 2;          ///< 2: of elements, 1: of segments, 0: of nodes
+    int number = 0;             ///< that the file gives it; 0 = none
+    std::vector<int> entities;  ///< ascending: the faces, edges or vertices that make it up
+  };
+
   int order = 1;                          ///< 1: four-node quads; 2: eight-node (serendipity) quads
   std::vector<Vector3> points;            ///< (n) all nodes, corner nodes first, then midside nodes
   std::vector<std::array<int, 4>> quads;  ///< (m) corner nodes, counter-clockwise seen from outside
@@ -100,6 +110,9 @@ struct ShellMesh {
   std::vector<OffGeometry> off_geometry;      ///< ascending by node; empty but in coarse second-order meshes
   std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; faces say it themselves
   std::vector<Face> faces;                    ///< one entry a CAD face; empty in meshes read from files
+  /// Of meshes read from files that name any, in their order. Groups may share entities: those are as small
+  /// as it takes. Empty: files have a group Face3, Edge7, Vertex2 for each entity.
+  std::vector<Group> groups;
   /// Of the shell on each CAD face, by face number minus 1, in millimeters; empty where not known.
   std::vector<double> thicknesses;
 };

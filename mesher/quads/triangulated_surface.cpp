@@ -165,9 +165,10 @@ std::map<int, std::vector<int>> by_tag(const std::vector<Element>& elements, con
   return result;
 }
 
-/// Marks the points that triangles of more than one tag use.
-std::vector<char> points_of_several(const TriangleMesh& mesh) {
-  std::vector<char> several(mesh.points.size(), 0);
+/// Marks the points that triangles of more than one tag use, and those that are to keep their places.
+std::vector<char> points_that_stay(const TriangleMesh& mesh) {
+  std::vector<char> several = mesh.fixed;
+  several.resize(mesh.points.size(), 0);
   if (mesh.tags.empty()) return several;
   std::vector<int> first(mesh.points.size(), -1);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -190,7 +191,7 @@ bool is_level(const TriangleMesh& patch) {
 }
 
 /// Improves one patch.
-/// \param shared points of the whole that several tags use.
+/// \param shared points of the whole that several tags use or that stay.
 /// \param fixed out: the patch's points that kept their place, in the order of the result.
 SurfaceMesh improve_patch(Patch& patch, const std::vector<char>& shared, const ImproveOptions& options,
                           ImproveReport& report, std::vector<int>& fixed, ExecutionContext& context) {
@@ -231,7 +232,7 @@ QuadMesh improve_on(const TriangleMesh& triangulation, const QuadMesh& quads, co
   const auto quads_by_tag = by_tag(quads.quads, quads.quad_tags);
   const auto left_by_tag = by_tag(quads.triangles, quads.triangle_tags);
   const bool tagged = !triangulation.tags.empty();
-  const std::vector<char> shared = points_of_several(triangulation);
+  const std::vector<char> shared = points_that_stay(triangulation);
   Localiser localise(triangulation.points, local);
   for (const auto& [tag, members] : triangles_by_tag) {
     context.check();

@@ -43,9 +43,9 @@ class TriangulatedSurface : public SmoothingSurface {
 };
 
 /// Cleans up and smooths quads that recombine() made of a triangulation, tag by tag, on the triangulation
-/// itself. Nodes on the boundary of a tag stay where they are; others move, go or come, so that points are
-/// renumbered. \param renumbered out, by point of the triangulation: the point of the result if it is one of
-/// those that stay, else -1. Throws Error (cancelled). Time: linear in practice.
+/// itself. Nodes on the boundary of a tag, and those marked as fixed, stay where they are; others move, go or
+/// come, so that points are renumbered. \param renumbered out, by point of the triangulation: the point of
+/// the result if it is one of those that stay, else -1. Throws Error (cancelled). Time: linear in practice.
 QuadMesh improve_on(const TriangleMesh& triangulation, const QuadMesh& quads, const ImproveOptions& options,
                     std::vector<int>& renumbered, ImproveReport& report, ExecutionContext& context);
 

@@ -57,10 +57,14 @@ TEST_P(BadInputs, GiveOneSentenceAndNoFile) {
 INSTANTIATE_TEST_SUITE_P(
     Recombine, BadInputs,
     ::testing::Values(
-        BadInput{"not manifold", square("5 0.5 0.5 1\n", 5, two + "3 2 2 0 1 1 3 5\n", 3),
-                 "triangle 2 is the third on the side 0-2"},
-        BadInput{"not oriented alike", square("", 4, "1 2 2 0 1 1 2 3\n2 2 2 0 1 1 4 3\n", 2),
-                 "triangle 1 runs along its side 2-0 the same way as triangle 0"},
+        BadInput{"a triangle twice", square("", 4, two + "3 2 2 0 1 2 3 1\n", 3),
+                 "triangle 2 has the same corners as triangle 0"},
+        BadInput{
+            "one side only",
+            square("5 2 0.5 1\n6 2 1 2\n", 6,
+                   "1 2 2 0 1 1 2 3\n2 2 2 0 1 2 3 4\n3 2 2 0 1 3 4 5\n4 2 2 0 1 4 5 1\n5 2 2 0 1 5 1 2\n",
+                   5),
+            "as a Moebius strip has"},
         BadInput{"no area", square("5 2 0 0\n", 5, two + "3 2 2 0 1 1 5 2\n", 3), "triangle 2 has no area"},
         BadInput{"a node twice in an element", square("", 4, two + "3 2 2 0 1 1 1 2\n", 3),
                  "element 3 uses node 1 twice"},
@@ -71,8 +75,6 @@ INSTANTIATE_TEST_SUITE_P(
                  "element 3 refers to node 9"},
         BadInput{"a node number out of range", square("99999999999999999999 0 2 0\n", 5, two, 2), "node"},
         BadInput{"no finite position", square("5 nan 0 0\n", 5, two, 2), "node 5 has no finite position"},
-        BadInput{"a quad mixed in", square("5 2 0 0\n6 2 1 0\n", 6, two + "3 3 2 0 1 2 5 6 3\n", 3),
-                 "holds a quad, with the points 1, 4, 5 and 2"},
         BadInput{"a volume mixed in", square("5 0 0 1\n", 5, two + "3 4 2 0 1 1 2 3 5\n", 3),
                  "element 3 is a volume"},
         BadInput{"truncated", square("", 4, two, 2).substr(0, 100), "the file ends where"},
@@ -181,6 +183,71 @@ TEST(RecombineCommand, DropsNodesThatNoElementUses) {
   const ShellMesh mesh = read_mesh(folder / "out.msh");
   EXPECT_EQ(mesh.points.size(), 4U);
   EXPECT_EQ(mesh.quads.size(), 1U);
+}
+
+TEST(RecombineCommand, NamesAreKeptWhateverTheNumbers) {
+  const TemporaryFolder folder;
+  // The right half of a square is the surface 6, and called Face1.
+  TriangleMesh halves = testing::grid(8, 8, 3);
+  for (const auto& [a, b, c] : halves.triangles)
+    halves.tags.push_back((halves.points[a] + halves.points[b] + halves.points[c]).x() < 12 ? 1 : 6);
+  std::string text = as_msh(halves);
+  text.insert(text.find("$Nodes"), "$PhysicalNames\n2\n2 1 \"the left\"\n2 6 \"Face1\"\n$EndPhysicalNames\n");
+  test::write_text(folder / "in.msh", text);
+  for (const char* out : {"out.msh", "out.unv", "out.inp"}) {
+    const auto result = test::run(fmt::format("cd {} && timeout 60 {} recombine in.msh -o {} --quiet 2>&1",
+                                              folder.path().string(), program, out));
+    ASSERT_EQ(result.exit_code, 0) << result.out;
+    const ShellMesh mesh = read_mesh(folder / out);
+    ASSERT_EQ(mesh.groups.size(), 2U);
+    for (const ShellMesh::Group& group : mesh.groups) {
+      EXPECT_TRUE(group.name == "Face1" || group.name == "the left" || group.name == "the_left")
+          << group.name;
+      for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+        if (!std::binary_search(group.entities.begin(), group.entities.end(), mesh.quad_faces[q])) continue;
+        for (const int v : mesh.quads[q]) {
+          const double inwards = group.name == "Face1" ? 1 : -1;
+          EXPECT_GE(inwards * (mesh.points[v].x() - 4), -1e-9);
+        }
+      }
+    }
+  }
+}
+
+TEST(RecombineCommand, TakesTrianglesAndQuadsAndTurnsWhatDisagrees) {
+  const TemporaryFolder folder;
+  test::write_text(folder / "in.msh", square("5 2 0 0\n6 2 1 0\n", 6,
+                                             "1 2 2 0 1 1 2 3\n2 2 2 0 1 1 4 3\n3 3 2 0 1 2 5 6 3\n", 3));
+  const auto result = test::run(fmt::format("cd {} && timeout 60 {} recombine in.msh -o out.msh --quiet 2>&1",
+                                            folder.path().string(), program));
+  EXPECT_EQ(result.exit_code, 0) << result.out;
+  EXPECT_EQ(result.out, "in.msh: 1 triangles were turned to agree with their neighbors\n");
+  EXPECT_EQ(read_mesh(folder / "out.msh").quads.size(), 2U);
+}
+
+TEST(RecombineCommand, CutsUntaggedMeshesAtFeatures) {
+  const TemporaryFolder folder;
+  // A roof of 90 degrees, each side a grid.
+  TriangleMesh roof = testing::grid(8, 5, 4);
+  roof.tags.assign(roof.triangles.size(), 0);
+  for (Vector3& p : roof.points) p.z() = -std::abs(p.x() - 4);
+  test::write_text(folder / "in.msh", as_msh(roof));
+  const auto area = [&](const std::string& options) {
+    const auto result =
+        test::run(fmt::format("cd {} && timeout 60 {} recombine in.msh -o out.msh --quiet {} 2>&1",
+                              folder.path().string(), program, options));
+    EXPECT_EQ(result.exit_code, 0) << result.out;
+    const ShellMesh mesh = read_mesh(folder / "out.msh");
+    double sum = 0;
+    for (const auto& [a, b, c, d] : mesh.quads)
+      sum += 0.5 * (mesh.points[c] - mesh.points[a]).cross(mesh.points[d] - mesh.points[b]).norm();
+    return sum;
+  };
+  EXPECT_NEAR(area(""), 40 * std::sqrt(2.0), 1e-9);
+  EXPECT_LT(area("--feature-angle 0"), 40 * std::sqrt(2.0) - 0.01);
+  const auto bad = test::run(fmt::format("cd {} && {} recombine in.msh -o out.msh --feature-angle 200 2>&1",
+                                         folder.path().string(), program));
+  EXPECT_EQ(bad.exit_code, 2) << bad.out;
 }
 
 }  // namespace

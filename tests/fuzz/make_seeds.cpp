@@ -41,12 +41,12 @@ void write_meshes(const TroubleModel& trouble, const std::filesystem::path& fold
     if (order == 1) options.write_size_field = folder / "vdb" / (trouble.name + ".vdb");
     ExecutionContext context(1);
     const ShellMesh result = mesh(model, options, context);
-    for (const char* format : {"msh", "inp"}) {
+    for (const char* format : {"msh", "inp", "unv", "bdf"}) {
       const std::string name = trouble.name + std::to_string(order) + "." + format;
       write_mesh(result, folder / format / name);
     }
     write_mesh(result, folder / "msh" / (trouble.name + std::to_string(order) + "v4.msh"),
-               {MshVersion::v4_1, "seed"});
+               {.msh_version = MshVersion::v4_1});
   }
 }
 
@@ -67,7 +67,7 @@ constexpr const char* command_lines[] = {
 };
 
 void write_seeds(const std::filesystem::path& folder) {
-  for (const char* format : {"brep", "step", "iges", "msh", "inp", "vdb", "options"}) {
+  for (const char* format : {"brep", "step", "iges", "msh", "inp", "unv", "bdf", "vdb", "options"}) {
     std::filesystem::create_directories(folder / format);
   }
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));

@@ -1,0 +1,189 @@
+/// Part of the module libquadrille_vtk.so: meshes in the formats that VTK reads. See modules.hpp.
+
+#include <fmt/format.h>
+#include <vtkAlgorithm.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDataSet.h>
+#include <vtkDataSetReader.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkOBJReader.h>
+#include <vtkPLYReader.h>
+#include <vtkSTLReader.h>
+#include <vtkSmartPointer.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+
+#include "geometry/base/error.hpp"
+#include "mesher/io/module_export.hpp"
+#include "mesher/io/modules.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// The first error that a reader tells of.
+class FirstError {
+ public:
+  explicit FirstError(vtkObject* reader) {
+    command_->SetClientData(this);
+    command_->SetCallback([](vtkObject*, unsigned long, void* self, void* text) {
+      std::string& kept = static_cast<FirstError*>(self)->text_;
+      if (kept.empty() && text != nullptr) kept = static_cast<const char*>(text);
+    });
+    reader->AddObserver("ErrorEvent", command_);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  vtkNew<vtkCallbackCommand> command_;
+  std::string text_;
+};
+
+/// VTK's messages take several lines, the first of which names its source: the last says what is wrong.
+std::string last_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+  const std::size_t begin = text.find_last_of('\n');
+  if (begin != std::string::npos) text = text.substr(begin + 1);
+  // "vtkSTLReader (0x55d0): what is wrong"
+  const std::size_t source = text.find("): ");
+  return source == std::string::npos ? text : text.substr(source + 3);
+}
+
+template <class Reader>
+vtkSmartPointer<vtkDataSet> read_with(Reader* reader, const std::string& path) {
+  const FirstError error(reader);
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+  if (!error.text().empty() || reader->GetErrorCode() != 0 || mesh == nullptr)
+    throw failure(path, error.text().empty() ? "VTK could not read it" : last_line(error.text()));
+  return mesh;
+}
+
+vtkSmartPointer<vtkDataSet> read_data_set(const std::string& path, const std::string& ending) {
+  if (ending == ".stl") {
+    const vtkNew<vtkSTLReader> reader;
+    reader->ScalarTagsOn();
+    return read_with(reader.Get(), path);
+  }
+  if (ending == ".obj") return read_with(vtkNew<vtkOBJReader>().Get(), path);
+  if (ending == ".ply") return read_with(vtkNew<vtkPLYReader>().Get(), path);
+  if (ending == ".vtu") return read_with(vtkNew<vtkXMLUnstructuredGridReader>().Get(), path);
+  if (ending == ".vtp") return read_with(vtkNew<vtkXMLPolyDataReader>().Get(), path);
+  return read_with(vtkNew<vtkDataSetReader>().Get(), path);
+}
+
+/// Where the files of other programs, and ours, tell the CAD entity of a cell; by dimension.
+vtkDataArray* entity_array(vtkDataSet* mesh, int dimension) {
+  constexpr const char* own[] = {"vertex", "edge", "face"};
+  constexpr const char* others[] = {"CellEntityIds", "gmsh:geometrical", "STLSolidLabeling"};
+  vtkCellData* data = mesh->GetCellData();
+  vtkDataArray* array = data->GetArray(own[dimension]);
+  for (const char* name : others)
+    if (array == nullptr) array = data->GetArray(name);
+  return array != nullptr && array->GetNumberOfComponents() == 1 ? array : nullptr;
+}
+
+class CellImport {
+ public:
+  CellImport(vtkDataSet* mesh, ImportedMesh& result) : mesh_(mesh), result_(result) {
+    for (int dimension = 0; dimension < 3; ++dimension) arrays_[dimension] = entity_array(mesh, dimension);
+  }
+
+  void add(vtkIdType cell) {
+    const int type = mesh_->GetCellType(cell);
+    mesh_->GetCellPoints(cell, nodes_);
+    const auto count = static_cast<int>(nodes_->GetNumberOfIds());
+    switch (type) {
+      case VTK_EMPTY_CELL:
+        return;
+      case VTK_VERTEX:
+        return add(cell, ElementShape::point, {0});
+      case VTK_LINE:
+        return add(cell, ElementShape::line, {0, 1});
+      case VTK_QUADRATIC_EDGE:
+        return add(cell, ElementShape::line, {0, 1, 2});
+      case VTK_POLY_LINE:
+        for (int i = 1; i < count; ++i) add(cell, ElementShape::line, {i - 1, i});
+        return;
+      case VTK_TRIANGLE:
+        return add(cell, ElementShape::triangle, {0, 1, 2});
+      case VTK_TRIANGLE_STRIP:
+        for (int i = 2; i < count; ++i)
+          add(cell, ElementShape::triangle, {i - 2, i % 2 == 0 ? i - 1 : i, i % 2 == 0 ? i : i - 1});
+        return;
+      case VTK_QUADRATIC_TRIANGLE:
+        return add(cell, ElementShape::triangle, {0, 1, 2, 3, 4, 5});
+      case VTK_PIXEL:
+        return add(cell, ElementShape::quad, {0, 1, 3, 2});
+      case VTK_QUAD:
+        return add(cell, ElementShape::quad, {0, 1, 2, 3});
+      case VTK_QUADRATIC_QUAD:
+      case VTK_BIQUADRATIC_QUAD:
+        return add(cell, ElementShape::quad, {0, 1, 2, 3, 4, 5, 6, 7});
+      case VTK_POLYGON:
+        if (count == 3) return add(cell, ElementShape::triangle, {0, 1, 2});
+        if (count == 4) return add(cell, ElementShape::quad, {0, 1, 2, 3});
+        throw failure("",
+                      fmt::format("cell {} (counted from 0) is a polygon with {} corners: only triangles and "
+                                  "quads are read",
+                                  cell, count));
+      default:
+        throw failure(
+            "", fmt::format("cell {} (counted from 0) is of VTK's type {}: only triangles, quads, lines "
+                            "and points are read",
+                            cell, type));
+    }
+  }
+
+ private:
+  void add(vtkIdType cell, ElementShape shape, std::initializer_list<int> places) {
+    FileElement element;
+    element.number = cell + 1;
+    element.shape = shape;
+    if (vtkDataArray* array = arrays_[std::min(static_cast<int>(shape), 2)]; array != nullptr) {
+      const double number = array->GetComponent(cell, 0);
+      if (number > 0 && number <= std::numeric_limits<int>::max()) element.cad = static_cast<int>(number);
+      // Solids count from 0.
+      if (array->GetName() == std::string_view("STLSolidLabeling") && number >= 0 && number < 1e6)
+        element.cad = static_cast<int>(number) + 1;
+    }
+    for (const int place : places) {
+      if (place >= nodes_->GetNumberOfIds())
+        throw failure("", fmt::format("cell {} (counted from 0) has too few nodes", cell));
+      element.nodes[element.node_count++] = nodes_->GetId(place) + 1;
+    }
+    result_.elements.push_back(element);
+  }
+
+  vtkDataSet* mesh_;
+  ImportedMesh& result_;
+  vtkNew<vtkIdList> nodes_;
+  vtkDataArray* arrays_[3];
+};
+
+}  // namespace
+
+}  // namespace quadrille
+
+QUADRILLE_EXPORT std::string quadrille_vtk_read(const std::string& path, const std::string& ending,
+                                                quadrille::ImportedMesh& mesh) try {
+  vtkObject::GlobalWarningDisplayOff();
+  const vtkSmartPointer<vtkDataSet> read = quadrille::read_data_set(path, ending);
+  mesh.points.resize(read->GetNumberOfPoints());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    read->GetPoint(static_cast<vtkIdType>(i), mesh.points[i].data());
+  quadrille::CellImport cells(read, mesh);
+  mesh.elements.reserve(read->GetNumberOfCells());
+  for (vtkIdType cell = 0; cell < read->GetNumberOfCells(); ++cell) cells.add(cell);
+  return {};
+} catch (const std::exception& error) {
+  return error.what();
+}

@@ -1,0 +1,98 @@
+/// What VTK reads, as a mesh.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <numeric>
+#include <set>
+
+#include "geometry/base/error.hpp"
+#include "mesher/io/mesh_builder.hpp"
+#include "mesher/io/modules.hpp"
+#include "mesher/io/readers.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// The names of the solids in a text file, in their order; none in a binary one, which tells no names.
+std::vector<std::string> solid_names(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::vector<std::string> names;
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
+    std::string word = line.substr(begin, 6);
+    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (word == "solid" || word == "solid ") {
+      line.erase(0, std::min(begin + 6, line.size()));
+      while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.pop_back();
+      names.push_back(line);
+    } else if (names.empty()) {
+      break;
+    }
+  }
+  return names;
+}
+
+/// Points on one place become one, elements that have lost a corner by that are dropped.
+void unite_points(ImportedMesh& mesh, MeshBuilder& builder) {
+  std::vector<int> order(mesh.points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto before = [&](int a, int b) {
+    const Vector3 &p = mesh.points[a], &q = mesh.points[b];
+    return std::tie(p.x(), p.y(), p.z(), a) < std::tie(q.x(), q.y(), q.z(), b);
+  };
+  for (const Vector3& p : mesh.points)
+    if (!p.allFinite()) return;  // which the builder refuses
+  std::sort(order.begin(), order.end(), before);
+  std::vector<int> first(mesh.points.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool same = k > 0 && mesh.points[order[k]] == mesh.points[order[k - 1]];
+    first[order[k]] = same ? first[order[k - 1]] : order[k];
+  }
+  const std::size_t count = mesh.elements.size();
+  std::erase_if(mesh.elements, [&](FileElement& element) {
+    const auto end = element.nodes.begin() + element.node_count;
+    for (auto node = element.nodes.begin(); node != end; ++node) *node = first[*node - 1] + 1;
+    std::array<std::int64_t, 8> sorted = element.nodes;
+    std::sort(sorted.begin(), sorted.begin() + element.node_count);
+    return std::adjacent_find(sorted.begin(), sorted.begin() + element.node_count) !=
+           sorted.begin() + element.node_count;
+  });
+  if (mesh.elements.size() < count)
+    builder.note(
+        fmt::format("{} triangles with two corners on one place are left out", count - mesh.elements.size()));
+}
+
+}  // namespace
+
+ShellMesh read_by_vtk(const std::filesystem::path& path, std::vector<std::string>* notes) {
+  const std::string name = path.string();
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  ImportedMesh mesh;
+  try {
+    mesh = vtk_mesh(name, ending);
+  } catch (const Error& error) {
+    throw failure(name, fmt::format("{}: {}", name, error.what()));
+  }
+  MeshBuilder builder(name);
+  if (ending == ".stl" || ending == ".obj") unite_points(mesh, builder);
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    builder.add_node(static_cast<std::int64_t>(i) + 1, mesh.points[i]);
+  std::vector<std::string> solids;
+  if (ending == ".stl") solids = solid_names(path);
+  const bool has_names = solids.size() > 1;
+  for (FileElement& element : mesh.elements) {
+    const auto solid = static_cast<std::size_t>(element.cad);
+    if (has_names && solid > 0 && solid <= solids.size() && !solids[solid - 1].empty())
+      element.groups = builder.joined(0, builder.group(solids[solid - 1], 0));
+    builder.add_element(element);
+  }
+  return builder.finish(notes);
+}
+
+}  // namespace quadrille

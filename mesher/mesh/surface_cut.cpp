@@ -1,0 +1,328 @@
+#include "mesher/mesh/surface_cut.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "geometry/base/error.hpp"
+#include "mesher/mesh/side_twins.hpp"
+
+namespace quadrille {
+
+namespace {
+
+using Twins = std::vector<std::array<Side, 3>>;  // by triangle and side; -1 = none
+
+int from(const TriangleMesh& mesh, Side side) {
+  return mesh.triangles[triangle_of(side)][index_of(side)];
+}
+int to(const TriangleMesh& mesh, Side side) {
+  return mesh.triangles[triangle_of(side)][next_index(index_of(side))];
+}
+int across(const TriangleMesh& mesh, Side side) {
+  return mesh.triangles[triangle_of(side)][previous_index(index_of(side))];
+}
+int tag_of(const TriangleMesh& mesh, Side side) {
+  return mesh.tags.empty() ? 0 : mesh.tags[triangle_of(side)];
+}
+
+/// The sides between the same two points and of one tag, one group after the other.
+/// \param visit takes each group as a span of sides.
+template <class Visit>
+void each_side_group(const TriangleMesh& mesh, Visit&& visit) {
+  struct Entry {
+    int to, tag;
+    Side side;
+    bool operator<(const Entry& other) const {
+      return std::tie(to, tag, side) < std::tie(other.to, other.tag, other.side);
+    }
+  };
+  std::vector<int> start(mesh.points.size() + 1, 0);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    ++start[std::min(a, b)];
+    ++start[std::min(b, c)];
+    ++start[std::min(c, a)];
+  }
+  int sum = 0;
+  for (int& s : start) sum += std::exchange(s, sum);
+  std::vector<Entry> entries(sum);
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const Side side = make_side(t, i);
+      const int a = from(mesh, side), b = to(mesh, side);
+      entries[start[std::min(a, b)]++] = {std::max(a, b), tag_of(mesh, side), side};
+    }
+  }
+  std::vector<Side> group;
+  int begin = 0;  // each start has moved to its row's end
+  for (const int end : start) {
+    std::sort(entries.begin() + begin, entries.begin() + end);
+    for (int k = begin; k < end; ++k) {
+      group.push_back(entries[k].side);
+      if (k + 1 < end && entries[k + 1].to == entries[k].to && entries[k + 1].tag == entries[k].tag) continue;
+      visit(std::span<const Side>(group));
+      group.clear();
+    }
+    begin = end;
+  }
+}
+
+/// The neighbors of one tag across sides that no third triangle of it has, whichever way they run.
+Twins neighbors(const TriangleMesh& mesh) {
+  Twins twins(mesh.triangles.size(), {-1, -1, -1});
+  each_side_group(mesh, [&](std::span<const Side> group) {
+    for (std::size_t i = 0; i < group.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (across(mesh, group[i]) == across(mesh, group[j]))
+          throw failure(fmt::format("triangle {}", triangle_of(group[i])),
+                        fmt::format("triangle {} has the same corners as triangle {}", triangle_of(group[i]),
+                                    triangle_of(group[j])));
+    if (group.size() != 2) return;
+    twins[triangle_of(group[0])][index_of(group[0])] = group[1];
+    twins[triangle_of(group[1])][index_of(group[1])] = group[0];
+  });
+  return twins;
+}
+
+/// Which triangles of the piece that `seed` is in are to be turned for the others to agree with it.
+/// \param turned -1 = not looked at yet; out: 1 = to be turned. \return the triangles of the piece.
+std::vector<int> agree_with(int seed, const TriangleMesh& mesh, const Twins& twins,
+                            std::vector<char>& turned) {
+  std::vector<int> piece{seed};
+  turned[seed] = 0;
+  for (std::size_t k = 0; k < piece.size(); ++k) {
+    const int t = piece[k];
+    for (int i = 0; i < 3; ++i) {
+      const Side twin = twins[t][i];
+      if (twin < 0) continue;
+      const bool opposite = mesh.triangles[t][i] == to(mesh, twin);
+      const char wanted = static_cast<char>(opposite ? turned[t] : 1 - turned[t]);
+      char& other = turned[triangle_of(twin)];
+      if (other < 0) {
+        other = wanted;
+        piece.push_back(triangle_of(twin));
+      } else if (other != wanted) {
+        throw failure(fmt::format("triangle {}", t),
+                      fmt::format("triangle {} agrees with its neighbors neither way round: the surface has "
+                                  "one side only, as a Moebius strip has",
+                                  t));
+      }
+    }
+  }
+  return piece;
+}
+
+std::uint64_t key(int a, int b) {
+  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
+}
+
+/// Undoes neighborhood across sides that are to be cut.
+void cut_twins(const TriangleMesh& mesh, double angle, const std::vector<std::array<int, 2>>& sides,
+               Twins& twins) {
+  std::vector<std::uint64_t> keys;
+  std::vector<char> on_side(mesh.points.size(), 0);
+  for (const auto& [a, b] : sides) {
+    keys.push_back(key(a, b));
+    on_side[a] = on_side[b] = 1;
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<Vector3> normals;
+  if (angle > 0) {
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Vector3& p = mesh.points[a];
+      normals.emplace_back((mesh.points[b] - p).cross(mesh.points[c] - p).normalized());
+    }
+  }
+  const double least = std::cos(angle * std::numbers::pi / 180);
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const Side side = make_side(t, i), twin = twins[t][i];
+      if (twin < side) continue;
+      const int a = from(mesh, side), b = to(mesh, side);
+      const bool folded = angle > 0 && normals[t].dot(normals[triangle_of(twin)]) < least;
+      const bool listed = on_side[a] && on_side[b] && std::binary_search(keys.begin(), keys.end(), key(a, b));
+      if (folded || listed) twins[t][i] = twins[triangle_of(twin)][index_of(twin)] = -1;
+    }
+  }
+}
+
+/// Numbers the triangles' pieces.
+int number_pieces(const Twins& twins, std::vector<int>& pieces) {
+  pieces.assign(twins.size(), -1);
+  int count = 0;
+  std::vector<int> waiting;
+  for (int seed = 0; seed < static_cast<int>(twins.size()); ++seed) {
+    if (pieces[seed] >= 0) continue;
+    pieces[seed] = count;
+    waiting.push_back(seed);
+    while (!waiting.empty()) {
+      const int t = waiting.back();
+      waiting.pop_back();
+      for (const Side twin : twins[t]) {
+        if (twin < 0 || pieces[triangle_of(twin)] >= 0) continue;
+        pieces[triangle_of(twin)] = count;
+        waiting.push_back(triangle_of(twin));
+      }
+    }
+    ++count;
+  }
+  return count;
+}
+
+/// Gives the triangles round a point a copy of it for each fan of theirs but the first.
+class PointSplitter {
+ public:
+  PointSplitter(const Twins& twins, CutSurface& surface)
+      : twins_(twins),
+        surface_(surface),
+        done_(twins.size(), {0, 0, 0}),
+        met_(surface.mesh.points.size(), 0) {}
+
+  void split() {
+    for (int t = 0; t < static_cast<int>(twins_.size()); ++t)
+      for (int i = 0; i < 3; ++i)
+        if (!done_[t][i]) number_fan(t, i);
+  }
+
+ private:
+  void number_fan(int t, int i) {
+    TriangleMesh& mesh = surface_.mesh;
+    int point = mesh.triangles[t][i];
+    if (met_[point]) {
+      surface_.original.push_back(point);
+      mesh.points.push_back(Vector3(mesh.points[point]));
+      if (!mesh.fixed.empty()) mesh.fixed.push_back(mesh.fixed[point]);
+      point = static_cast<int>(mesh.points.size()) - 1;
+    } else {
+      met_[point] = 1;
+    }
+    // Across the side that leaves the point, all the way round or to the end; then the other way.
+    int at = t, corner = i;
+    while (take(at, corner, point)) {
+      const Side twin = twins_[at][corner];
+      if (twin < 0) break;
+      at = triangle_of(twin);
+      corner = next_index(index_of(twin));
+    }
+    at = t;
+    corner = i;
+    for (Side twin = twins_[at][previous_index(corner)]; twin >= 0;
+         twin = twins_[at][previous_index(corner)]) {
+      at = triangle_of(twin);
+      corner = index_of(twin);
+      if (!take(at, corner, point)) break;
+    }
+  }
+
+  bool take(int t, int corner, int point) {
+    if (done_[t][corner]) return false;
+    done_[t][corner] = 1;
+    surface_.mesh.triangles[t][corner] = point;
+    return true;
+  }
+
+  const Twins& twins_;
+  CutSurface& surface_;
+  std::vector<std::array<char, 3>> done_;
+  std::vector<char> met_;
+};
+
+/// Of two or three whole numbers, by which points are put into cells.
+struct Cell {
+  std::array<std::int64_t, 3> place;
+  int point;
+  bool operator<(const Cell& other) const {
+    return std::tie(place, point) < std::tie(other.place, other.point);
+  }
+};
+
+}  // namespace
+
+std::vector<int> coincident_points(const std::vector<Vector3>& points, double tolerance) {
+  std::vector<int> first(points.size());
+  std::iota(first.begin(), first.end(), 0);
+  if (!(tolerance > 0)) {
+    std::vector<int> order = first;
+    const auto place = [&](int v) { return std::tie(points[v].x(), points[v].y(), points[v].z()); };
+    std::sort(order.begin(), order.end(), [&](int a, int b) {
+      return std::tuple_cat(place(a), std::tie(a)) < std::tuple_cat(place(b), std::tie(b));
+    });
+    for (std::size_t k = 1; k < order.size(); ++k)
+      if (place(order[k]) == place(order[k - 1])) first[order[k]] = first[order[k - 1]];
+    return first;
+  }
+  const auto cell_of = [&](const Vector3& p) {
+    std::array<std::int64_t, 3> cell;
+    for (int i = 0; i < 3; ++i)
+      cell[i] = static_cast<std::int64_t>(std::clamp(std::floor(p[i] / tolerance), -9e15, 9e15));
+    return cell;
+  };
+  std::vector<Cell> cells;
+  for (int v = 0; v < static_cast<int>(points.size()); ++v) cells.push_back({cell_of(points[v]), v});
+  std::sort(cells.begin(), cells.end());
+  for (int v = 0; v < static_cast<int>(points.size()); ++v) {
+    const auto own = cell_of(points[v]);
+    for (int k = 0; k < 9; ++k) {
+      // Three cells in a row lie behind each other.
+      const std::array<std::int64_t, 3> low{own[0] + k / 3 - 1, own[1] + k % 3 - 1, own[2] - 1};
+      const std::array<std::int64_t, 3> high{low[0], low[1], own[2] + 1};
+      for (auto at = std::lower_bound(cells.begin(), cells.end(), Cell{low, -1});
+           at != cells.end() && at->place <= high; ++at)
+        if (at->point < first[v] && first[at->point] == at->point &&
+            (points[at->point] - points[v]).norm() <= tolerance)
+          first[v] = at->point;
+    }
+  }
+  return first;
+}
+
+int orient_alike(TriangleMesh& mesh) {
+  const Twins twins = neighbors(mesh);
+  std::vector<char> turned(mesh.triangles.size(), -1);
+  int count = 0;
+  for (int seed = 0; seed < static_cast<int>(mesh.triangles.size()); ++seed) {
+    if (turned[seed] >= 0) continue;
+    const std::vector<int> piece = agree_with(seed, mesh, twins, turned);
+    const auto ones = std::count_if(piece.begin(), piece.end(), [&](int t) { return turned[t] == 1; });
+    const char wrong = 2 * ones > static_cast<std::ptrdiff_t>(piece.size()) ? 0 : 1;
+    for (const int t : piece) {
+      if (turned[t] != wrong) continue;
+      std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+      ++count;
+    }
+  }
+  return count;
+}
+
+CutSurface cut_surface(const TriangleMesh& mesh, double angle, std::vector<std::array<int, 2>> sides) {
+  const Twins whole = neighbors(mesh);
+  for (;;) {
+    Twins twins = whole;
+    cut_twins(mesh, angle, sides, twins);
+    CutSurface surface{mesh, std::vector<int>(mesh.points.size()), 0};
+    std::iota(surface.original.begin(), surface.original.end(), 0);
+    surface.pieces = number_pieces(twins, surface.mesh.tags);
+    PointSplitter(twins, surface).split();
+    // A cut of one side alone parts no points: it goes on along the next side of its triangle.
+    const std::size_t count = sides.size();
+    for (int t = 0; t < static_cast<int>(twins.size()); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        const Side side = make_side(t, i), twin = whole[t][i];
+        if (twins[t][i] >= 0 || twin < side || surface.mesh.tags[t] != surface.mesh.tags[triangle_of(twin)] ||
+            from(surface.mesh, side) != to(surface.mesh, twin) ||
+            to(surface.mesh, side) != from(surface.mesh, twin))
+          continue;
+        sides.push_back({to(mesh, side), across(mesh, side)});
+      }
+    }
+    if (sides.size() == count) return surface;
+  }
+}
+
+}  // namespace quadrille

@@ -1,0 +1,255 @@
+/// Meshes of other programs: their elements, names and sets, and one sentence for what is damaged.
+
+#include "mesher/io/readers.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "geometry/base/error.hpp"
+#include "mesher/io/io.hpp"
+#include "tests/support/process.hpp"
+#include "tests/support/shell_grid.hpp"
+
+namespace quadrille {
+namespace {
+
+using test::ShellGrid;
+using test::TemporaryFolder;
+
+/// Where the members of each group lie, by the group's dimension and name.
+std::map<std::string, std::multiset<std::string>> members(const ShellMesh& mesh) {
+  std::map<std::string, std::multiset<std::string>> result;
+  for (const ShellMesh::Group& group : mesh.groups) {
+    auto& places = result[fmt::format("{} {}", group.dimension, group.name)];
+    const auto has = [&](int entity) {
+      return std::binary_search(group.entities.begin(), group.entities.end(), entity);
+    };
+    const auto add = [&](const auto& nodes) {
+      Vector3 sum = Vector3::Zero();
+      for (const int node : nodes) sum += mesh.points[node];
+      sum /= static_cast<double>(nodes.size());
+      places.insert(fmt::format("{:.6f} {:.6f} {:.6f}", sum.x(), sum.y(), sum.z()));
+    };
+    for (std::size_t i = 0; i < mesh.quads.size(); ++i)
+      if (group.dimension == 2 && has(mesh.quad_faces[i])) add(mesh.quads[i]);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+      if (group.dimension == 2 && has(mesh.triangle_faces[i])) add(mesh.triangles[i]);
+    for (const ShellMesh::Segment& segment : mesh.segments)
+      if (group.dimension == 1 && has(segment.edge)) add(segment.nodes);
+    for (const ShellMesh::Corner& corner : mesh.corners)
+      if (group.dimension == 0 && has(corner.vertex)) add(std::array{corner.node});
+  }
+  return result;
+}
+
+/// The grid of two faces with names that have nothing to do with their numbers, and overlap.
+ShellMesh named_grid(int order = 1) {
+  ShellMesh mesh = ShellGrid(3, order).mesh();
+  mesh.groups = {{"Face1", 2, 12, {2}},
+                 {"the whole plate", 2, 5, {1, 2}},
+                 {"left rim", 1, 7, {1}},
+                 {"outer edges", 1, 3, {4, 6}},
+                 {"support", 0, 9, {1, 4}}};
+  return mesh;
+}
+
+class Named : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Formats, Named, testing::Values("a.msh", "4.msh", "a.unv"), [](const auto& file) {
+  std::string name = file.param;
+  name[1] = '_';
+  return name;
+});
+
+TEST_P(Named, GroupsComeBackAsTheyWentOut) {
+  const TemporaryFolder folder;
+  for (const int order : {1, 2}) {
+    const ShellMesh mesh = named_grid(order);
+    WriteOptions options;
+    options.msh_version = GetParam()[0] == '4' ? MshVersion::v4_1 : MshVersion::v2_2;
+    write_mesh(mesh, folder / GetParam(), options);
+    const ShellMesh back = read_mesh(folder / GetParam());
+    EXPECT_EQ(members(back), members(mesh));
+    EXPECT_EQ(back.quads.size(), mesh.quads.size());
+    EXPECT_EQ(back.segments.size(), mesh.segments.size());
+    EXPECT_EQ(back.order, order);
+    if (GetParam() == "a.unv") continue;
+    for (const ShellMesh::Group& group : back.groups) {
+      const auto same = std::find_if(mesh.groups.begin(), mesh.groups.end(),
+                                     [&](const auto& other) { return other.name == group.name; });
+      ASSERT_NE(same, mesh.groups.end());
+      EXPECT_EQ(group.number, same->number);
+    }
+  }
+}
+
+TEST(Readers, InpKeepsSetsOfElementsAndOfNodes) {
+  const TemporaryFolder folder;
+  const ShellMesh mesh = named_grid();
+  write_mesh(mesh, folder / "a.inp");
+  const auto back = members(read_mesh(folder / "a.inp"));
+  const auto before = members(mesh);
+  EXPECT_EQ(back.at("2 Face1"), before.at("2 Face1"));
+  EXPECT_EQ(back.at("2 the_whole_plate"), before.at("2 the whole plate"));
+  EXPECT_EQ(back.at("0 support"), before.at("0 support"));
+  EXPECT_EQ(back.at("0 left_rim").size(), 4U);  // lines are the nodes on them
+  EXPECT_EQ(back.size(), 5U);
+}
+
+TEST(Readers, InpSetsMayNameOthersAndOverlap) {
+  const ShellMesh mesh = read_inp(
+      "*NODE, NSET=every one\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,2,0,0\n6,2,1,0\n"
+      "*ELEMENT, TYPE=S3, ELSET=Plate\n1,1,2,3\n2,1,3,4\n*ELEMENT, TYPE=S4, ELSET=Plate\n3,2,5,6,3\n"
+      "*ELSET, ELSET=Tip\n3,\n*ELSET, ELSET=Both\ntip, 1\n*NSET, NSET=Ends, "
+      "GENERATE\n1,5,4\n*NSET,NSET=Tip\n5,6\n",
+      "a.inp");
+  const auto groups = members(mesh);
+  ASSERT_EQ(groups.size(), 5U);
+  EXPECT_EQ(groups.at("2 Plate").size(), 3U);
+  EXPECT_EQ(groups.at("2 Tip").size(), 1U);
+  EXPECT_EQ(groups.at("2 Both").size(), 2U);
+  EXPECT_EQ(groups.at("0 Ends"),
+            (std::multiset<std::string>{"0.000000 0.000000 0.000000", "2.000000 0.000000 0.000000"}));
+  EXPECT_EQ(groups.at("0 everyone").size(), 6U);
+  EXPECT_EQ(std::set<int>(mesh.triangle_faces.begin(), mesh.triangle_faces.end()).size(), 2U);
+}
+
+/// Gmsh writes an element of two physical groups twice in version 2.2.
+TEST(Readers, MshUnitesElementsOfSeveralGroups) {
+  const ShellMesh mesh = read_msh(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"all of it\"\n2 2 "
+      "\"top\"\n$EndPhysicalNames\n"
+      "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n3\n1 2 2 1 6 1 2 3\n2 2 2 1 7 1 "
+      "3 4\n"
+      "3 2 2 2 7 1 3 4\n$EndElements\n",
+      "a.msh");
+  EXPECT_EQ(mesh.triangles.size(), 2U);
+  EXPECT_EQ(mesh.triangle_faces, (std::vector<int>{6, 7}));
+  EXPECT_EQ(members(mesh).at("2 all of it").size(), 2U);
+  EXPECT_EQ(members(mesh).at("2 top").size(), 1U);
+}
+
+TEST(Readers, BdfComesBackWithItsFaces) {
+  const TemporaryFolder folder;
+  for (const int order : {1, 2}) {
+    const ShellMesh mesh = ShellGrid(4, order).mesh();
+    write_mesh(mesh, folder / "a.bdf");
+    const ShellMesh back = read_mesh(folder / "a.bdf");
+    EXPECT_EQ(back.quads, mesh.quads);
+    EXPECT_EQ(back.midsides, mesh.midsides);
+    EXPECT_EQ(back.quad_faces, mesh.quad_faces);
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      EXPECT_LT((back.points[i] - mesh.points[i]).norm(), 1e-9) << i;
+  }
+}
+
+TEST(Readers, BdfTakesFreeFieldsExponentsWithoutLetterAndNames) {
+  const ShellMesh mesh = read_bdf(
+      "SOL 101\nCEND\nTITLE = a plate\nBEGIN BULK\n$HMNAME PROP        4\"upper skin\" 4\n"
+      "GRID,1,,0.,0.,0.\nGRID,2,,1.+1,0.,0.\nGRID           3             10.    1.+1  -.25-1\n"
+      "GRID*                  4                              0.             10.\n*                     0.\n"
+      "MAT1,1,2.1+5,,0.3\nCTRIA3,1,4,1,2,3\nCTRIA3  2       9       1       3       4\nENDDATA\nrubbish\n",
+      "a.bdf");
+  ASSERT_EQ(mesh.points.size(), 4U);
+  EXPECT_EQ(mesh.points[1], Vector3(10, 0, 0));
+  EXPECT_EQ(mesh.points[2], Vector3(10, 10, -0.025));
+  EXPECT_EQ(mesh.points[3], Vector3(0, 10, 0));
+  EXPECT_EQ(mesh.triangle_faces, (std::vector<int>{4, 9}));
+  ASSERT_EQ(mesh.groups.size(), 1U);
+  EXPECT_EQ(mesh.groups[0].name, "upper skin");
+  EXPECT_EQ(mesh.groups[0].entities, std::vector<int>{4});
+}
+
+TEST(Readers, VtkReadsWhatWeWrite) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.vtu", "a.vtk"}) {
+    const ShellMesh mesh = ShellGrid(3, 1).mesh();
+    write_mesh(mesh, folder / name);
+    const ShellMesh back = read_mesh(folder / name);
+    EXPECT_EQ(back.quads, mesh.quads) << name;
+    EXPECT_EQ(back.quad_faces, mesh.quad_faces) << name;
+    EXPECT_EQ(back.segments.size(), std::string(name) == "a.vtu" ? mesh.segments.size() : 0U);
+  }
+}
+
+const std::string two_solids =
+    "solid lower part\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 "
+    "0\nendloop\nendfacet\n"
+    "endsolid\nsolid upper part\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 1 0\nvertex 0 1 0\n"
+    "endloop\nendfacet\nendsolid\n";
+
+TEST(Readers, StlObjAndPlyShareTheirNodes) {
+  const TemporaryFolder folder;
+  test::write_text(folder / "a.stl", two_solids);
+  const ShellMesh stl = read_mesh(folder / "a.stl");
+  EXPECT_EQ(stl.points.size(), 4U);
+  EXPECT_EQ(stl.triangles.size(), 2U);
+  EXPECT_EQ(members(stl).at("2 lower part").size(), 1U);
+  EXPECT_EQ(members(stl).at("2 upper part").size(), 1U);
+  test::write_text(folder / "a.obj",
+                   "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 1 0\nv 2 0 0\nf 1 2 3 4\nf 2 6 5\n");
+  const ShellMesh obj = read_mesh(folder / "a.obj");
+  EXPECT_EQ(obj.points.size(), 5U);
+  EXPECT_EQ(obj.quads.size(), 1U);
+  EXPECT_EQ(obj.triangles.size(), 1U);
+  test::write_text(
+      folder / "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+      "3 0 1 2\n3 0 2 3\n");
+  EXPECT_EQ(read_mesh(folder / "a.ply").triangles.size(), 2U);
+}
+
+struct Damaged {
+  std::string file, text, says;
+};
+
+class DamagedFiles : public testing::TestWithParam<Damaged> {};
+INSTANTIATE_TEST_SUITE_P(
+    Readers, DamagedFiles,
+    testing::Values(
+        Damaged{"a.unv", "solid\n", "begins with -1"},
+        Damaged{"b.unv", "    -1\n  2411\n         1         1         1        11\n", "the file ends where"},
+        Damaged{"c.unv", "    -1\n  2411\n         1         1         1        11\n 0 0 x\n    -1\n",
+                "line 4: expected a node's z, found \"x\""},
+        Damaged{"d.unv", "    -1\n  2412\n  1  111  1  1  7  4\n 1 2 3 4\n    -1\n", "element 1 is a volume"},
+        Damaged{"e.unv", "    -1\n  2412\n  1  91  1  1  7  3\n 1 2 3\n    -1\n", "refers to node 1"},
+        Damaged{"a.bdf", "GRID,1,7,0.,0.,0.\nENDDATA\n", "coordinate system 7"},
+        Damaged{"b.bdf", "GRID,1,,0.,a,0.\nENDDATA\n", "found \"a\""},
+        Damaged{"c.bdf", "CTETRA,1,1,1,2,3,4\n", "CTETRA is a volume"},
+        Damaged{"d.bdf", "INCLUDE 'other.bdf'\n", "INCLUDE is not followed"},
+        Damaged{"e.bdf", "", "neither quads nor triangles"}, Damaged{"a.stl", "rubbish\n", "a.stl"},
+        Damaged{"a.ply", "ply\nformat ascii 1.0\n", "a.ply"},
+        Damaged{"a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 2 0\nf 1 2 3 4 5\n",
+                "polygon with 5 corners"},
+        Damaged{"a.vtu", "<VTKFile", "a.vtu"}, Damaged{"a.vtk", "# vtk DataFile", "a.vtk"},
+        Damaged{"a.inp", "*NODE\n1,0,0\n*ELSET,ELSET=A\n7\n", "the set A holds element 7"},
+        Damaged{"a.msh",
+                "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 top\n$EndPhysicalNames\n",
+                "line 6: expected a name in quotes"},
+        Damaged{"a.xyz", "", "unknown mesh format"}),
+    [](const auto& file) {
+      std::string name = file.param.file;
+      name[1] = '_';
+      return name;
+    });
+
+TEST_P(DamagedFiles, GiveOneSentenceThatNamesTheFile) {
+  const TemporaryFolder folder;
+  test::write_text(folder / GetParam().file, GetParam().text);
+  try {
+    read_mesh(folder / GetParam().file);
+    FAIL() << "nothing was refused";
+  } catch (const Error& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find(GetParam().says), std::string::npos) << what;
+    EXPECT_NE(what.find(GetParam().file), std::string::npos) << what;
+    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+  }
+}
+
+}  // namespace
+}  // namespace quadrille
