@@ -137,8 +137,12 @@ TEST(FromTriangles, TrianglesAreTurnedAndItIsSaid) {
               1e-9);
 }
 
-TEST(FromTriangles, SegmentsAndCornersInsideAFaceStay) {
-  ShellMesh input = shell_of(random_square(900, 4));
+/// Points; large meshes are put into another order.
+class Sizes : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(FromTriangles, Sizes, ::testing::Values(900, 12000));
+
+TEST_P(Sizes, SegmentsAndCornersInsideAFaceStay) {
+  ShellMesh input = shell_of(random_square(GetParam(), 4));
   // A path of sides through the middle: from a point on to the one nearest to a line.
   std::vector<int> path;
   for (std::size_t t = 0; t < input.triangles.size() && path.empty(); ++t)
@@ -147,7 +151,7 @@ TEST(FromTriangles, SegmentsAndCornersInsideAFaceStay) {
   ASSERT_EQ(path.size(), 2U);
   input.segments.push_back({{path[0], path[1]}, -1, 7});
   int alone = 0;
-  for (int v = 0; v < 900; ++v)
+  for (int v = 0; v < GetParam(); ++v)
     if ((input.points[v] - Vector3(0.2, 0.7, 0)).norm() < (input.points[alone] - Vector3(0.2, 0.7, 0)).norm())
       alone = v;
   input.corners.push_back({alone, 3});
