@@ -13,6 +13,11 @@ const Module& vtk_module() {
   return module;
 }
 
+const Module& picture_module() {
+  static const Module module("quadrille_picture");
+  return module;
+}
+
 const Module& med_module() {
   static const Module module("quadrille_med");
   return module;
@@ -32,7 +37,7 @@ std::string vtu_file(const OutputMesh& mesh, const std::vector<double>& qualitie
 
 std::string vtk_picture(const ShellMesh& mesh, int width, int height) {
   std::string bytes;
-  check(vtk_module().function<VtkPictureFunction>("_picture")(mesh, quad_qualities(mesh), width, height,
+  check(picture_module().function<PictureFunction>("_draw")(mesh, quad_qualities(mesh), width, height,
                                                               bytes));
   return bytes;
 }

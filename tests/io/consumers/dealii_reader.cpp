@@ -14,8 +14,8 @@ int main(int, char** arguments) try {
   reader.read_msh(file);
   std::set<int> materials;
   for (const auto& cell : triangulation.active_cell_iterators()) materials.insert(cell->material_id());
-  std::cout << triangulation.n_used_vertices() << ' ' << triangulation.n_active_cells() << ' ' << materials.size()
-            << '\n';
+  std::cout << triangulation.n_used_vertices() << ' ' << triangulation.n_active_cells() << ' '
+            << materials.size() << '\n';
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';
   return 1;
