@@ -92,11 +92,25 @@ def _which(path: str) -> Optional[str]:
     return answer.stdout.strip() or None if answer.returncode == 0 else None
 
 
+def _own(here: Path) -> Optional[str]:
+    """The command that came with this package: in it, of a wheel; in bin/ of the folder that a bundle is."""
+    folders = [here / "quadrille"]
+    if here.parts[-4:-1] == ("freecad", "Mod", "Quadrille"):  # BUNDLE/share/freecad/Mod/Quadrille/quadrille
+        folders.append(here.parents[4] / "bin" / "quadrille")
+    elif here.parent.name == "python":
+        folders.append(here.parents[1] / "bin" / "quadrille")
+    for path in folders:
+        if path.is_file() and os.access(path, os.X_OK):
+            return str(path)
+    return None
+
+
 def find_command(command: Optional[str] = None, preference: Optional[str] = None) -> str:
     """The path of the `quadrille` command; of the system around it when FreeCAD runs inside Flatpak.
 
-    Looked for in this order: the argument, the environment variable QUADRILLE_COMMAND, the preference, PATH, the path
-    recorded by install-addon.sh, the build folder beside this file. A path that was asked for and cannot be run is an
+    Looked for in this order: the argument, the environment variable QUADRILLE_COMMAND, the preference, beside this file
+    where it came with the command (wheel, bundle), PATH, the path recorded by install-addon.sh, the build folder beside
+    this file. A path that was asked for and cannot be run is an
     error: nothing else is tried.
     """
     for path, origin in (
@@ -109,10 +123,10 @@ def find_command(command: Optional[str] = None, preference: Optional[str] = None
             if not found:
                 raise Error(f"{path}: cannot be run, though {origin} names it as the mesher", "usage", path)
             return found
-    found = _which("quadrille")
+    here = Path(__file__).absolute().parent
+    found = _own(here) or _which("quadrille")
     if found:
         return found
-    here = Path(__file__).absolute().parent
     recorded = here / "command_path"  # written by install-addon.sh
     if recorded.is_file():
         found = _which(recorded.read_text(encoding="utf-8").strip())

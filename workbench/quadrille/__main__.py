@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs the `quadrille` command: `python -m quadrille mesh part.step -o part.inp`, and the command of the wheel."""
+
+import os
+import sys
+
+from .command import find_command
+from .errors import Error
+
+
+def main() -> None:
+    """Becomes the command, with this process's arguments."""
+    try:
+        command = find_command()
+    except Error as error:
+        sys.exit(f"quadrille: {error}")
+    os.execv(command, [command, *sys.argv[1:]])
+
+
+if __name__ == "__main__":
+    main()
