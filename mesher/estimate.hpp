@@ -25,10 +25,10 @@ class QUADRILLE_API QuadEstimate {
   /// The largest size, rounded to three digits, that gives about so many quads, and how many that are: more
   /// where the model's own edges take more at any size.
   struct Suggestion {
-    double size = 0;
-    double quads = 0;
+    double size = 0;   ///< millimeters
+    double quads = 0;  ///< that it gives
   };
-  Suggestion size_for(double quads);
+  Suggestion size_for(double quads);  ///< the size that gives about so many
 
  private:
   const CadModel& model_;

@@ -11,6 +11,7 @@
 
 namespace quadrille {
 
+/// How faces are meshed.
 enum class Strategy {
   direct,    ///< triangles at the target size, paired into quads
   subdivide  ///< triangles at twice the size, paired, each quad split into four
@@ -31,19 +32,21 @@ struct GroupKinds {
   bool vertices = true;  ///< nodes, and points where the format has them: Vertex2; without them no points
 };
 
+/// What files hold.
 struct WriteOptions {
-  MshVersion msh_version = MshVersion::v2_2;
-  GroupKinds groups;
-  int quad_nodes = 8;  ///< of second-order quads: 8, or 9 with one in the middle
-  std::string title;   ///< put into formats that have a comment or title line, control characters as '?'
-  int threads = 0;     ///< that make the text of .msh, .inp, .unv, .bdf and .vtk; 0 = all cores
+  MshVersion msh_version = MshVersion::v2_2;  ///< of .msh files
+  GroupKinds groups;                          ///< that files have
+  int quad_nodes = 8;                         ///< of second-order quads: 8, or 9 with one in the middle
+  std::string title;  ///< put into formats that have a comment or title line, control characters as '?'
+  int threads = 0;    ///< that make the text of .msh, .inp, .unv, .bdf and .vtk; 0 = all cores
 };
 
+/// How a model is meshed.
 struct MeshOptions {
-  SizingOptions sizing;
-  Strategy strategy = Strategy::subdivide;
-  int order = 1;           ///< 1 or 2
-  std::vector<int> faces;  ///< CAD faces to mesh; empty = all
+  SizingOptions sizing;                     ///< lengths of elements
+  Strategy strategy = Strategy::subdivide;  ///< of all faces
+  int order = 1;                            ///< 1 or 2
+  std::vector<int> faces;                   ///< CAD faces to mesh; empty = all
   /// Edges shorter than this become points, and faces narrower than this between two edges become edges; 0 =
   /// all are kept.
   double merge_tiny = 0;
@@ -52,8 +55,8 @@ struct MeshOptions {
   bool partial = false;  ///< deliver what could be meshed when a face fails, instead of throwing
   std::filesystem::path write_size_field;  ///< .vdb to write the sizing field to; empty = none
   bool force = false;                      ///< go on where the mesh would pass 50 million elements
-  RecombineOptions recombine;
-  ImproveOptions improve;
+  RecombineOptions recombine;              ///< how triangles are paired
+  ImproveOptions improve;                  ///< how quads are improved
 };
 
 }  // namespace quadrille

@@ -19,7 +19,7 @@ class CadModel;
 
 /// The values of all settings of the table.
 struct Settings {
-  MeshOptions mesh;
+  MeshOptions mesh;             ///< how the model is meshed
   WriteOptions write;           ///< without title and threads, which are not in the table
   double sew = 0;               ///< millimeters, see CadModel::sewn(); 0 = not
   double read_time_limit = 60;  ///< seconds for reading the CAD file; 0 = any
@@ -47,18 +47,18 @@ struct QUADRILLE_API Setting {
   std::string_view option;    ///< as the command has it, without the two hyphens
   std::string_view property;  ///< as FreeCAD has it; empty = not there
   std::string_view label;     ///< in FreeCAD's panel; empty = not there
-  Use use = Use::mesh;
-  std::string_view unit;  ///< "mm", "s" or empty
-  double low = 0, high = 0;
-  bool above_low = false;      ///< `low` itself is not taken
-  std::string_view otherwise;  ///< what holds where it is not given, if that is no value
-  std::string_view help;
-  Place place;
+  Use use = Use::mesh;        ///< what it is for
+  std::string_view unit;      ///< "mm", "s" or empty
+  double low = 0 /**< least value */, high = 0; /**< largest */
+  bool above_low = false;                       ///< `low` itself is not taken
+  std::string_view otherwise;                   ///< what holds where it is not given, if that is no value
+  std::string_view help;                        ///< a line on it
+  Place place;                                  ///< where Settings has it
 
   std::string_view kind() const;  ///< number, count, flag, choice, file, names, sizes, words
   std::vector<std::string_view> choices()
       const;  ///< the words taken; empty unless the kind is choice or words
-  SettingValue value(const Settings& settings) const;
+  SettingValue value(const Settings& settings) const;  ///< as it is set
 };
 
 /// The table, in the order in which users read it.

@@ -12,6 +12,7 @@ namespace quadrille {
 /// What went wrong, as one sentence for the user (`what()`), with the thing it concerns.
 class QUADRILLE_API Error : public std::runtime_error {
  public:
+  /// What went wrong, by whose doing.
   enum class Kind {
     usage,     ///< the caller asked for something that makes no sense (the command exits with 2)
     failure,   ///< the input or the machine made it impossible (the command exits with 1)
@@ -22,17 +23,19 @@ class QUADRILLE_API Error : public std::runtime_error {
   Error(Kind kind, std::string subject, const std::string& sentence)
       : std::runtime_error(sentence), kind_(kind), subject_(std::move(subject)) {}
 
-  Kind kind() const noexcept { return kind_; }
-  const std::string& subject() const noexcept { return subject_; }
+  Kind kind() const noexcept { return kind_; }                      ///< of what went wrong
+  const std::string& subject() const noexcept { return subject_; }  ///< what it is about
 
  private:
   Kind kind_;
   std::string subject_;
 };
 
+/// An Error of bad use.
 inline Error usage_error(std::string subject, const std::string& sentence) {
   return {Error::Kind::usage, std::move(subject), sentence};
 }
+/// An Error of what could not be done.
 inline Error failure(std::string subject, const std::string& sentence) {
   return {Error::Kind::failure, std::move(subject), sentence};
 }

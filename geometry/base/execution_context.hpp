@@ -38,9 +38,11 @@ enum class Stage {
 };
 
 inline constexpr std::array<std::string_view, 12> stage_names{
+    ///< by Stage
     "read",  "midsurface", "size",    "sample", "mesh",     "triangulate",
     "color", "recombine",  "improve", "slide",  "assemble", "write"};
 
+/// As progress and reports have it.
 inline std::string_view name_of(Stage stage) {
   return stage_names[static_cast<std::size_t>(stage)];
 }
@@ -68,15 +70,15 @@ class ExecutionContext {
   /// The subject of the Error that ends a share with more checks than it may have.
   static constexpr const char* work_subject = "work";
 
-  int threads() const noexcept { return threads_; }
+  int threads() const noexcept { return threads_; }  ///< that work
 
   /// Ends the work with an Error (failure, work_subject) at the first check after so many.
   void limit_work(std::int64_t checks) noexcept { most_checks_ = checks; }
   /// How often a share was checked: a measure of its work that is the same in each run.
   std::int64_t work() const noexcept { return checks_; }
 
-  bool has_time_limit() const noexcept { return limit_seconds_ > 0; }
-  double time_limit() const noexcept { return limit_seconds_; }  ///< seconds; 0 = none
+  bool has_time_limit() const noexcept { return limit_seconds_ > 0; }  ///< whether one was set
+  double time_limit() const noexcept { return limit_seconds_; }        ///< seconds; 0 = none
   /// Until the time limit; infinite without one.
   double seconds_left() const {
     if (limit_seconds_ <= 0) return std::numeric_limits<double>::infinity();
@@ -104,8 +106,8 @@ class ExecutionContext {
                                                std::chrono::duration<double>(seconds));
   }
 
-  void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
-  bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
+  void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }  ///< asks for the end
+  bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }  ///< asked to end
 
   /// Throws Error (cancelled) once the work has been cancelled, Error (failure) once its time is over.
   void check() const {
@@ -196,10 +198,11 @@ class ExecutionContext {
 /// thread-safe.
 class SparseCheck {
  public:
+  /// \param calls one check in so many.
   explicit SparseCheck(const ExecutionContext& context, int calls = 1024)
       : context_(context), calls_(calls), left_(calls) {}
 
-  void operator()() {
+  void operator()() {  ///< Checks, now and then.
     if (--left_ > 0) return;
     left_ = calls_;
     context_.check();
@@ -213,6 +216,7 @@ class SparseCheck {
 /// Adds its own lifetime to a stage of the context.
 class StageTimer {
  public:
+  /// Begins to count.
   StageTimer(ExecutionContext& context, Stage stage)
       : context_(context), stage_(stage), start_(std::chrono::steady_clock::now()) {}
   ~StageTimer() {

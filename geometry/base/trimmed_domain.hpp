@@ -11,17 +11,18 @@ namespace quadrille {
 /// segments that cross one of as many horizontal slabs as there are segments: a few.
 class TrimmedDomain {
  public:
+  /// A side of the outline.
   struct Segment {
-    Vector2 a, b;
+    Vector2 a /**< where it begins */, b; /**< where it ends */
   };
 
   TrimmedDomain() = default;
-  explicit TrimmedDomain(std::vector<Segment> segments);
+  explicit TrimmedDomain(std::vector<Segment> segments);  ///< of the sides of its outline
 
-  bool inside(const Vector2& p) const;
-  bool empty() const { return segments_.empty(); }
-  const Vector2& low() const { return low_; }
-  const Vector2& high() const { return high_; }
+  bool inside(const Vector2& p) const;              ///< whether the point lies in it
+  bool empty() const { return segments_.empty(); }  ///< whether it has no outline
+  const Vector2& low() const { return low_; }       ///< corner of the box round it
+  const Vector2& high() const { return high_; }     ///< corner of the box round it
 
  private:
   int slab(double y) const;

@@ -7,8 +7,8 @@
 
 namespace quadrille {
 
-using Vector2 = Eigen::Vector2d;
-using Vector3 = Eigen::Vector3d;
+using Vector2 = Eigen::Vector2d;  ///< (2) in a plane
+using Vector3 = Eigen::Vector3d;  ///< (3) in space, millimeters
 
 /// Between two vectors of any length, 0 to pi; exact for small angles too.
 inline double angle_between(const Vector3& a, const Vector3& b) {

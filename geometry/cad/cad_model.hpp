@@ -47,20 +47,21 @@ class QUADRILLE_API CadModel {
   int face_count() const;    ///< faces are numbered 1 .. face_count() (FreeCAD's Face1, Face2, ...)
   int edge_count() const;    ///< edges are numbered 1 .. edge_count()
   int vertex_count() const;  ///< vertices are numbered 1 .. vertex_count()
-  int solid_count() const;
-  int shell_count() const;
+  int solid_count() const;   ///< how many solids
+  int shell_count() const;   ///< how many shells
 
   /// Length of the diagonal of the model's bounding box, as FreeCAD gives it (control points may widen it).
   double diagonal() const;
-  Vector3 box_min() const;
-  Vector3 box_max() const;
+  Vector3 box_min() const;  ///< corner of the box round it
+  Vector3 box_max() const;  ///< corner of the box round it
   /// Sum of the face areas. Throws Error (failure), naming the face, where one cannot be integrated.
   double area(const ExecutionContext& context = {}) const;
   /// Problems noticed while reading (invalid faces, loose tolerances, ...), one sentence each.
   const std::vector<std::string>& problems() const;
 
-  const CadShape& shape() const { return *shape_; }
+  const CadShape& shape() const { return *shape_; }  ///< the library's own
 
+  /// Of the library's own kind of shape.
   explicit CadModel(std::shared_ptr<const CadShape> shape) : shape_(std::move(shape)) {}
 
  private:

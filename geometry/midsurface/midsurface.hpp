@@ -10,6 +10,7 @@
 
 namespace quadrille {
 
+/// How middle surfaces are found.
 struct MidSurfaceOptions {
   /// Give what could be paired where a part of the solid is not thin, and say what is left out. Otherwise
   /// that is an error.
@@ -22,9 +23,10 @@ struct MidSurfaceOptions {
 
 /// One face of the middle surface.
 struct MiddleFace {
-  double thinnest = 0, thickest = 0;  ///< millimeters; equal where the thickness is constant
-  double thickness = 0;               ///< mean over the face
-  double area = 0;
+  double thinnest = 0 /**< millimeters */,
+         thickest = 0;           ///< millimeters; equal where the thickness is constant
+  double thickness = 0;          ///< mean over the face
+  double area = 0;               ///< square millimeters
   std::vector<int> solid_faces;  ///< numbers of the solid's faces that it lies between
   int solid = 0;                 ///< from 1, in the order of the model
   /// It joins two middle surfaces that pass each other where the thickness steps; it has the smaller
@@ -36,11 +38,11 @@ struct MiddleFace {
 
 /// The middle surfaces of the solids of a model, and what the program found when it checked them.
 struct MidSurface {
-  CadModel model;                   ///< its faces, which share their edges where they meet
-  std::vector<MiddleFace> faces{};  ///< by face number minus 1
-  double volume = 0;                ///< of the solids
-  double shell_volume = 0;          ///< sum of area times mean thickness
-  int solids = 0;
+  CadModel model;                       ///< its faces, which share their edges where they meet
+  std::vector<MiddleFace> faces{};      ///< by face number minus 1
+  double volume = 0;                    ///< of the solids
+  double shell_volume = 0;              ///< sum of area times mean thickness
+  int solids = 0;                       ///< of the model
   int parts = 0;                        ///< connected parts of the middle surface
   int free_edges = 0;                   ///< edges that bound one face only
   std::vector<int> stray_edges{};       ///< of these, the ones that do not lie on the skin of the solid

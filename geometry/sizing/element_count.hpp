@@ -19,7 +19,7 @@ TrimmedDomain coarse_domain(const CadShape& shape, const CadFace& face);
 
 /// A point of a face.
 struct FaceSample {
-  Vector3 point;
+  Vector3 point;         ///< on the face
   double area = 0;       ///< that it stands for
   double curvature = 0;  ///< the larger principal one, 1 / length
 };

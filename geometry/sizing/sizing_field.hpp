@@ -18,15 +18,17 @@ struct SizeLimits {
   double largest;  ///< the global size
   double least;    ///< that any source may ask for
 };
-SizeLimits size_limits(const CadModel& model, const SizingOptions& options);
+SizeLimits size_limits(const CadModel& model, const SizingOptions& options);  ///< of a model
 
 /// The size that a curvature (1 / length) asks for, within the limits.
 double size_of_curvature(const SizingOptions& options, const SizeLimits& limits, double curvature);
 
 /// What is too small for the mesh and so asks for no sizes of its own. Empty = nothing.
 struct UnsizedFeatures {
-  std::vector<char> edges, faces;
+  std::vector<char> edges /**< by edge */, faces; /**< by face */
+  /// Whether an edge, from 0, is one of them.
   bool edge(std::size_t index) const { return index < edges.size() && edges[index] != 0; }
+  /// Whether a face, from 0, is one of them.
   bool face(std::size_t index) const { return index < faces.size() && faces[index] != 0; }
 };
 
@@ -55,20 +57,20 @@ class SizingField {
   /// version.
   void write(const std::filesystem::path& path) const;
 
-  double size_max() const;
-  double size_min() const;
+  double size_max() const;  ///< millimeters
+  double size_min() const;  ///< millimeters
 
   class Impl;
 
   /// Looks sizes up; holds the accessors.
   class Sampler {
    public:
-    explicit Sampler(const SizingField& field);
+    explicit Sampler(const SizingField& field);  ///< of a field that must outlive it
     ~Sampler();
     Sampler(const Sampler&) = delete;
     Sampler& operator=(const Sampler&) = delete;
-    double operator()(const Vector3& point);
-    const Budget& budget() const;  ///< the field's
+    double operator()(const Vector3& point);  ///< size wanted there, millimeters
+    const Budget& budget() const;             ///< the field's
 
    private:
     struct Accessors;

@@ -15,6 +15,7 @@
 
 namespace quadrille {
 
+/// What industry asks of a quad.
 enum class Criterion {
   aspect,          ///< longest over shortest side
   warp,            ///< larger angle between the two triangles of a diagonal, degrees
@@ -25,7 +26,7 @@ enum class Criterion {
   taper            ///< 1 - least corner triangle over half the quad's area
 };
 
-constexpr std::size_t criterion_count = 7;
+constexpr std::size_t criterion_count = 7;  ///< members of Criterion
 
 /// Values of all criteria, by Criterion.
 using CriteriaValues = std::array<double, criterion_count>;
@@ -35,7 +36,7 @@ struct CriterionInfo {
   std::string_view name;  ///< in reports and limit files
   std::string_view unit;  ///< empty, or "degrees"
   double ideal;           ///< of the perfect square; values beyond the limit, seen from here, fail
-  double usual_limit;
+  double usual_limit;     ///< that CriteriaLimits has unless told otherwise
 };
 
 /// Indexed by Criterion.
@@ -49,15 +50,15 @@ constexpr std::array<CriterionInfo, criterion_count> criteria_info{{{"aspect", "
 
 /// A limit a criterion; NaN = not checked.
 struct QUADRILLE_API CriteriaLimits {
-  static constexpr double unchecked = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double unchecked = std::numeric_limits<double>::quiet_NaN();  ///< a limit that all meet
 
-  CriteriaValues values = usual();
+  CriteriaValues values = usual();        ///< by criterion
   std::vector<std::string> not_measured;  ///< criteria of a limits file that are none of ours
 
   /// How far a value is from the ideal, in units of the limit's distance: above 1 the quad fails; 0 where the
   /// criterion is not checked.
   double severity(Criterion criterion, double value) const;
-  bool fails(Criterion criterion, double value) const;
+  bool fails(Criterion criterion, double value) const;  ///< whether the value is outside the limit
 
  private:
   static constexpr CriteriaValues usual() {
@@ -73,24 +74,26 @@ QUADRILLE_API CriteriaValues measure_criteria(const Vector3& a, const Vector3& b
 
 /// Which quads of a mesh fail, and how.
 struct CriteriaSummary {
+  /// The quads of one CAD face.
   struct Face {
-    int face = 0;  ///< CAD face, from 1; 0 = none
-    int quads = 0;
-    int failing = 0;
+    int face = 0;     ///< CAD face, from 1; 0 = none
+    int quads = 0;    ///< how many
+    int failing = 0;  ///< how many of them
   };
+  /// One of the worst.
   struct Quad {
     int quad = 0;                             ///< index into ShellMesh::quads
     int face = 0;                             ///< CAD face, from 1; 0 = none
     Vector3 center;                           ///< mean of the corners
     Criterion criterion = Criterion::aspect;  ///< the one with the largest severity
-    double value = 0;
+    double value = 0;                         ///< of the criterion that it fails by most
   };
-  int quads = 0;
+  int quads = 0;             ///< how many
   int failing = 0;           ///< by any criterion
   int failing_but_warp = 0;  ///< by any criterion other than warp, which the surface's curvature forces
-  std::array<int, criterion_count> failing_by{};
-  std::vector<Face> faces;  ///< faces with failing quads, ascending
-  std::vector<Quad> worst;  ///< of the failing quads, worst first
+  std::array<int, criterion_count> failing_by{};  ///< quads that fail, by criterion
+  std::vector<Face> faces;                        ///< faces with failing quads, ascending
+  std::vector<Quad> worst;                        ///< of the failing quads, worst first
 };
 
 /// \param worst_count at most so many of the worst quads are listed. Complexity: linear in the mesh.

@@ -55,38 +55,39 @@ struct ShellMesh {
   };
   /// A node that lies on a CAD vertex.
   struct Corner {
-    int node = -1;
+    int node = -1;   ///< index into points
     int vertex = 0;  ///< CAD vertex, from 1
   };
   /// What became of one CAD face.
   struct Face {
-    int face = 0;  ///< CAD face, from 1
-    FaceStatus status = FaceStatus::skipped;
+    int face = 0;                             ///< CAD face, from 1
+    FaceStatus status = FaceStatus::skipped;  ///< what became of it
     /// Why it failed, or the causes found on the way and the remedy applied to each; empty if nothing to say.
     std::string note;
     /// What its meshings took, and the most that they may take together; in checks for cancellation, which
     /// are the same in each run.
-    std::int64_t work = 0, share = 0;
-    int attempts = 0;  ///< how often it was meshed, for its own sake or a neighbor's
-    int quads = 0;
-    double q_min = 0;
-    double seconds = 0;
+    std::int64_t work = 0 /**< taken */, share = 0; /**< allowed */
+    int attempts = 0;             ///< how often it was meshed, for its own sake or a neighbor's
+    int quads = 0;                ///< how many it has
+    double q_min = 0;             ///< least q of theirs
+    double seconds = 0;           ///< that meshing took
     int off_geometry = 0;         ///< midside nodes on it that are in ShellMesh::off_geometry
     double off_geometry_max = 0;  ///< the largest distance of theirs
   };
   /// A midside node that would fold an element if it lay on the geometry.
   struct OffGeometry {
-    int node = -1;
+    int node = -1;        ///< index into points
     double distance = 0;  ///< to its place on the CAD edge, or to the face's surface
   };
 
   /// A CAD edge or vertex that has no place of its own in the mesh, since it is too small.
   struct LetGo {
+    /// Of entities.
     enum class Kind { edge, vertex };
-    Kind kind = Kind::edge;
-    int number = 0;  ///< from 1
-    Kind to_kind = Kind::edge;
-    int to = 0;  ///< the edge or vertex whose nodes stand for it
+    Kind kind = Kind::edge;     ///< of what was let go
+    int number = 0;             ///< from 1
+    Kind to_kind = Kind::edge;  ///< of what stands for it
+    int to = 0;                 ///< the edge or vertex whose nodes stand for it
   };
 
   /// What goes by a name, or by a number of its own, in the file that the mesh was read from.

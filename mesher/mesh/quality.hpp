@@ -22,23 +22,25 @@ QUADRILLE_API double quad_q(const Vector3& a, const Vector3& b, const Vector3& c
 QUADRILLE_API double quad_scaled_jacobian(const Vector3& a, const Vector3& b, const Vector3& c,
                                           const Vector3& d);
 
+/// Measures of a whole mesh.
 struct QualitySummary {
-  int nodes = 0;  ///< nodes used
-  int quads = 0;
-  int triangles = 0;
-  double q_min = 0, q_mean = 0;
-  double sj_min = 0, sj_mean = 0;
+  int nodes = 0;                                                ///< nodes used
+  int quads = 0;                                                ///< how many
+  int triangles = 0;                                            ///< how many
+  double q_min = 0 /**< least q */, q_mean = 0;                 /**< mean q */
+  double sj_min = 0 /**< least scaled Jacobian */, sj_mean = 0; /**< mean of it */
   /// The least Jacobian of an element over its mean: jacobian_bound() at second order, the least of the four
   /// corners at first order; 1 = all parallelograms with straight sides.
   double jacobian_min = 0;
   int inverted = 0;  ///< quads with scaled Jacobian <= 0, or that fold at second order
   double irregular_percent =
       0;  ///< interior nodes (all sides with two elements, one face) of valence other than 4
-  std::array<int, 20> q_histogram{};       ///< counts in 20 equal bins over [0, 1]
-  std::vector<int> valence_counts;         ///< interior nodes by valence
-  double aspect_max = 0, aspect_mean = 0;  ///< longest over shortest side
-  double warping_max_degrees = 0;          ///< largest angle between a corner's normal and the mean normal
-  double edge_min = 0, edge_median = 0, edge_max = 0;
+  std::array<int, 20> q_histogram{};                           ///< counts in 20 equal bins over [0, 1]
+  std::vector<int> valence_counts;                             ///< interior nodes by valence
+  double aspect_max = 0 /**< the largest */, aspect_mean = 0;  ///< longest over shortest side
+  double warping_max_degrees = 0;  ///< largest angle between a corner's normal and the mean normal
+  double edge_min = 0 /**< shortest side */, edge_median = 0 /**< the middle one */,
+         edge_max = 0; /**< longest */
 };
 
 /// Complexity: linear in the mesh, plus sorting of the sides.

@@ -27,12 +27,13 @@ enum class Leftovers {
   leave  ///< at the boundary, as the paper does before it collapses them (collapse_boundary_triangles())
 };
 
+/// How recombine() works.
 struct RecombineOptions {
-  Method method = Method::quality;
-  std::uint64_t seed = 1;  ///< of the random choices of the paper's method; `quality` makes none
-  Objective objective = Objective::regular;
-  Exchange exchange = Exchange::where_it_gains;
-  Leftovers leftovers = Leftovers::pair;
+  Method method = Method::quality;  ///< how colors are given
+  std::uint64_t seed = 1;           ///< of the random choices of the paper's method; `quality` makes none
+  Objective objective = Objective::regular;      ///< of the exchange
+  Exchange exchange = Exchange::where_it_gains;  ///< whether there is one
+  Leftovers leftovers = Leftovers::pair;         ///< what becomes of them
 };
 
 }  // namespace quadrille

@@ -3,9 +3,10 @@
 
 namespace quadrille {
 
+/// How quads are improved.
 struct ImproveOptions {
-  bool clean_up = true;  ///< quad-vertex merge, doublet collapse, valence-driven moves
-  int smoothing_sweeps = 8;
+  bool clean_up = true;      ///< quad-vertex merge, doublet collapse, valence-driven moves
+  int smoothing_sweeps = 8;  ///< over the nodes of a face
   /// Passes of the last optimization over all faces together, in which nodes slide along CAD edges too; 0 =
   /// none.
   int sliding_sweeps = 30;

@@ -11,14 +11,15 @@
 
 namespace quadrille {
 
+/// How quads_from_triangles() works.
 struct FromTrianglesOptions {
   /// Nodes at most this far apart become one, millimeters; 0 = those on one place; negative = none, and two
   /// on one place are refused.
   double merge = -1;
   /// Degrees: no quad reaches over a side at which the normals differ by more; 0 = none is kept for that.
   double feature_angle = 40;
-  bool improve = true;  ///< clean up and smooth; else nodes stay where they are
-  RecombineOptions recombine;
+  bool improve = true;         ///< clean up and smooth; else nodes stay where they are
+  RecombineOptions recombine;  ///< how triangles are paired
 };
 
 /// Quads in place of the triangles of a mesh; its quads are cut in two first. Sides between faces, sides that
