@@ -27,6 +27,8 @@ packages=(
   qttools5-dev-tools pyqt5-dev-tools
   # read back what is written, in the tests; scripts/install_consumers.sh has those that are heavy to install
   python3-meshio python3-h5py python3-vtk9 libmed-tools
+  # packages, bundles and the manual
+  patchelf dpkg-dev lintian doxygen mkdocs
 )
 # What needs these is left out where a release of Debian does not have them (Debian 13 has no CalculiX). LEMON tells
 # bench/paper the best pairing that there is.

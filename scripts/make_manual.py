@@ -2,6 +2,7 @@
 """Makes man pages and the completion of the shell from what `quadrille --help` says of itself.
 
     scripts/make_manual.py build/quadrille FOLDER     FOLDER/quadrille.1.gz, quadrille-mesh.1.gz, ..., quadrille.bash
+    scripts/make_manual.py build/quadrille FILE.md    the same as one page of the manual
 """
 
 import gzip
@@ -65,6 +66,20 @@ def page(name, version, help_text, see):
     return "\n".join(lines) + "\n"
 
 
+def markdown(pages):
+    """All commands on one page."""
+    lines = ["# The command", "", "Made of what `quadrille --help` says. Lengths are millimeters. Exit codes: 0 done, 1 could "
+             "not, 2 makes no sense as", "asked, 130 cancelled; then one sentence on stderr and no half-written file."]
+    for name, help_text in pages.items():
+        about, usage, sections = parse(help_text)
+        lines += ["", f"## {name.replace('quadrille-', 'quadrille ')}", "", about[0].upper() + about[1:] + ".", "",
+                  "```", usage, "```"]
+        for heading, entries in sections.items():
+            lines += ["", f"| {heading.lower()} | |", "| --- | --- |"]
+            lines += [f"| `{entry}` | {explanation.replace('|', chr(92) + '|')} |" for entry, explanation in entries]
+    return "\n".join(lines) + "\n"
+
+
 def completion(commands):
     """For bash: subcommands, their options, and files."""
     cases = "\n".join(f"    {name}) options='{' '.join(options)}' ;;" for name, options in commands.items())
@@ -92,11 +107,14 @@ complete -F _quadrille quadrille
 
 def main():
     program, folder = sys.argv[1], Path(sys.argv[2])
-    folder.mkdir(parents=True, exist_ok=True)
     version = run(program, "--version").split()[-1]
     whole = run(program, "--help")
     names = [entry for entry, _ in parse(whole)[2]["Subcommands"]]
     pages = {"quadrille": whole, **{f"quadrille-{name}": run(program, name, "--help") for name in names}}
+    if folder.suffix == ".md":
+        folder.write_text(markdown(pages), encoding="utf-8")
+        return
+    folder.mkdir(parents=True, exist_ok=True)
     for name, text in pages.items():
         see = [other for other in pages if other != name]
         (folder / f"{name}.1.gz").write_bytes(gzip.compress(page(name, version, text, see).encode(), 9, mtime=0))

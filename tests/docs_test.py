@@ -1,0 +1,68 @@
+"""The manual: links lead somewhere, README is short, every page is in the site."""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+CODE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
+
+
+def pages():
+    return [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").rglob("*.md"))]
+
+
+def anchors(page):
+    """What the headings of a page are called in links, as GitHub and mkdocs make it."""
+    text = CODE.sub("", page.read_text(encoding="utf-8"))
+    headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", re.sub(r"[`*]", "", heading)).strip().lower().replace(" ", "-") for heading in headings}
+
+
+class Docs(unittest.TestCase):
+    def test_links_lead_somewhere(self):
+        generated = {"command.md", "changelog.md"}  # by scripts/site.sh
+        wrong, count = [], 0
+        for page in pages():
+            for link in LINK.findall(CODE.sub("", page.read_text(encoding="utf-8"))):
+                if re.match(r"[a-z]+:", link):
+                    continue
+                count += 1
+                path, _, anchor = link.partition("#")
+                target = (page.parent / path).resolve() if path else page
+                if page.parent == ROOT / "docs" and path in generated:
+                    continue
+                if not target.exists():
+                    wrong.append(f"{page.relative_to(ROOT)}: {link}")
+                elif anchor and target.suffix == ".md" and anchor not in anchors(target):
+                    wrong.append(f"{page.relative_to(ROOT)}: {link}: there is no such heading")
+        self.assertEqual(wrong, [])
+        self.assertGreater(count, 40)
+
+    def test_readme_is_short(self):
+        self.assertLessEqual(len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()), 120)
+
+    def test_every_page_is_in_the_site(self):
+        nav = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
+        for page in (ROOT / "docs").glob("*.md"):
+            self.assertIn(f": {page.name}\n", nav)
+
+    @unittest.skipUnless(shutil.which("mkdocs"), "NOT TESTED: mkdocs is not installed")
+    def test_site_is_made(self):
+        with tempfile.TemporaryDirectory() as folder:
+            made = subprocess.run([ROOT / "scripts" / "site.sh", folder, COMMAND], capture_output=True, text=True, check=False)
+            self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
+            text = (pathlib.Path(folder) / "command.html").read_text(encoding="utf-8")
+            for part in ("quadrille recombine", "--feature-angle", "--size-on"):
+                self.assertIn(part, text)
+            self.assertTrue((pathlib.Path(folder) / "tutorial.html").is_file())
+
+
+if __name__ == "__main__":
+    COMMAND = sys.argv.pop(1)
+    unittest.main(verbosity=2)
