@@ -13,6 +13,7 @@ from ..errors import Error
 from ..jobs import PREFERENCES
 from ..settings import BY_NAME, to_property
 from . import icon, translate
+from .mesher_choice import MesherChoice
 from .setting_widgets import SettingWidget
 
 #: The settings that new meshes take from the preferences.
@@ -93,6 +94,8 @@ class PreferencesPage:
         form = QtGui.QFormLayout(box)
         form.addRow(translate("Quadrille", "Command"), row)
         form.addRow(self.found)
+        self.choice = MesherChoice(self.command.setText)
+        form.addRow(self.choice)
         return box
 
     def _new_meshes(self):

@@ -16,6 +16,7 @@ from .. import freecad as core
 from .. import groups, links, old_documents, picks, shapes, solvers, state
 from ..errors import Error
 from . import do, icon, links_text, path_of, preferences, tell, translate
+from .mesher_choice import MesherChoice, is_missing
 from .quality_view import QualityWidget
 from .refinement_list import RefinementList
 from .session import Session
@@ -103,6 +104,9 @@ class MeshPanel:
             basic.addRow(self.surfaces)
         basic.addRow(translate("Quadrille", "Expected"), self.estimate)
         layout = QtGui.QVBoxLayout(self.form)
+        if is_missing():
+            choice = MesherChoice(lambda _command: choice.hide())
+            layout.addWidget(choice)
         layout.addLayout(basic)
         layout.addWidget(_beside(self.mesh_button, self.stop_button))
         layout.addWidget(self.bar)

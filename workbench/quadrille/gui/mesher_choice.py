@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the mesher comes from: the panel shows it while there is none, the preferences always."""
+
+import shutil
+import tempfile
+import threading
+from pathlib import Path
+from typing import Callable, Optional
+
+import FreeCAD
+from PySide import QtCore, QtGui
+
+from .. import mesher_setup
+from ..command import check_version
+from ..errors import Error
+from ..jobs import PREFERENCES, find_mesher
+from . import translate
+
+_POLL_MILLISECONDS = 100
+
+
+def is_missing() -> bool:
+    """Whether no mesher of the addon's version can be run."""
+    try:
+        find_mesher()
+    except Error:
+        return True
+    return False
+
+
+def data_folder() -> Path:
+    """The addon's own folder among the user's data."""
+    return Path(FreeCAD.getUserAppDataDir()) / "Quadrille"
+
+
+class MesherChoice(QtGui.QGroupBox):
+    """Takes the command on PATH, a bundle's file, or one from an address; says what it does before it does it."""
+
+    def __init__(self, when_there: Callable[[str], None]) -> None:
+        """when_there is called with the command's path, once the preference names it."""
+        super().__init__(translate("Quadrille", "Get the mesher"))
+        self.setObjectName("QuadrilleMesherChoice")
+        self._when_there = when_there
+        self._archive: Optional[Path] = None
+        self._thread: Optional[threading.Thread] = None
+        self._outcome: object = None
+        self._downloads = None
+        self._build()
+        self._timer = QtCore.QTimer(self)
+        self._timer.setInterval(_POLL_MILLISECONDS)
+        self._timer.timeout.connect(self._poll)
+
+    def _build(self) -> None:
+        self.on_path = QtGui.QPushButton(translate("Quadrille", "Use the one on PATH"))
+        self.on_path.setObjectName("QuadrilleMesherOnPath")
+        found = shutil.which("quadrille")
+        self.on_path.setEnabled(found is not None)
+        self.on_path.setToolTip(found or translate("Quadrille", "There is no command quadrille on PATH"))
+        self.on_path.clicked.connect(self._take_path)
+        self.file = QtGui.QPushButton(translate("Quadrille", "Take a bundle's file ..."))
+        self.file.setObjectName("QuadrilleMesherFile")
+        self.file.clicked.connect(self._browse)
+        self.address = QtGui.QLineEdit()
+        self.address.setObjectName("QuadrilleMesherAddress")
+        self.address.setPlaceholderText("https://.../quadrille-...-linux-x86_64.tar.xz")
+        self.fetch = QtGui.QPushButton(translate("Quadrille", "Download"))
+        self.fetch.setObjectName("QuadrilleMesherDownload")
+        self.fetch.clicked.connect(self._download)
+        self.text = QtGui.QLabel(translate(
+            "Quadrille", "A bundle is unpacked into {}, tried, and named in the preferences. Nothing else is changed.").format(
+                data_folder() / "mesher"))
+        self.text.setObjectName("QuadrilleMesherText")
+        self.text.setWordWrap(True)
+        self.text.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Preferred)  # a panel is narrow
+        self.text.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
+        self.install = QtGui.QPushButton(translate("Quadrille", "Install it"))
+        self.install.setObjectName("QuadrilleMesherInstall")
+        self.install.setEnabled(False)
+        self.install.clicked.connect(self._install)
+        layout = QtGui.QVBoxLayout(self)
+        for widget in (self.on_path, self.file, self.address, self.fetch, self.text, self.install):
+            layout.addWidget(widget)
+
+    def _take_path(self) -> None:
+        try:
+            command = shutil.which("quadrille") or "quadrille"
+            check_version(command)
+        except Error as error:
+            self.text.setText(str(error))
+            return
+        self._use(command)
+
+    def _browse(self) -> None:
+        path, _ = QtGui.QFileDialog.getOpenFileName(self, translate("Quadrille", "A bundle of Quadrille"), "",
+                                                    "*.tar.xz *.tar.gz")
+        if path:
+            self.offer(Path(path))
+
+    def offer(self, archive: Path) -> None:
+        """Shows what would be installed, with its checksum."""
+        self._work(lambda: (archive, mesher_setup.checksum(archive)))
+
+    def _download(self) -> None:
+        address = self.address.text().strip()
+        self._downloads = tempfile.TemporaryDirectory(prefix="quadrille-download-")
+        folder = self._downloads.name
+
+        def work():
+            archive = mesher_setup.download(address, folder)
+            return archive, mesher_setup.checksum(archive)
+
+        self.text.setText(translate("Quadrille", "downloading {}").format(address))
+        self._work(work)
+
+    def _install(self) -> None:
+        archive = self._archive
+        self.text.setText(translate("Quadrille", "unpacking {}").format(archive))
+        self._work(lambda: mesher_setup.install(archive, data_folder()))
+
+    def _work(self, function: Callable[[], object]) -> None:
+        """Runs a function beside the window; _poll() takes what it gives or raises."""
+        if self._thread is not None:
+            return
+
+        def run() -> None:
+            try:
+                self._outcome = function()
+            except Error as error:
+                self._outcome = error
+
+        self._set_busy(True)
+        self._thread = threading.Thread(target=run, daemon=True)
+        self._thread.start()
+        self._timer.start()
+
+    def _set_busy(self, busy: bool) -> None:
+        for widget in (self.file, self.fetch, self.address):
+            widget.setEnabled(not busy)
+        self.install.setEnabled(not busy and self._archive is not None)
+
+    def _poll(self) -> None:
+        if self._thread is None or self._thread.is_alive():
+            return
+        self._timer.stop()
+        self._thread, outcome = None, self._outcome
+        if isinstance(outcome, tuple):
+            self._archive, digest = outcome
+            digest = "\n".join(digest[i:i + 32] for i in (0, 32))  # a panel is narrow
+            self.text.setText(translate(
+                "Quadrille", "{} has the SHA-256\n{}\nCompare it with the one beside the file where it was published. "
+                "Installing unpacks it into {} and runs it.").format(self._archive.name, digest, data_folder() / "mesher"))
+        elif isinstance(outcome, str):
+            self._use(outcome)
+        else:
+            self.text.setText(str(outcome))
+        self._set_busy(False)
+
+    def _use(self, command: str) -> None:
+        FreeCAD.ParamGet(PREFERENCES).SetString("Command", command)
+        self.text.setText(translate("Quadrille", "uses {}").format(command))
+        self._when_there(command)

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Puts a mesher from a bundle (scripts/bundle.sh) where the addon uses it. Knows nothing of FreeCAD and needs only the
+standard library.
+
+What is got from elsewhere is not trusted by itself: its checksum is shown before anything of it is run, archives are
+refused whose members would lie outside of their folder, and the mesher is tried before it takes the place of another.
+"""
+
+import hashlib
+import os
+import shutil
+import subprocess
+import sys
+import tarfile
+import tempfile
+import urllib.error
+import urllib.request
+from pathlib import Path
+from typing import Callable, Optional, Union
+from urllib.parse import urlsplit
+
+from .command import check_version
+from .errors import Error
+
+#: Called with the share that is done, in [0, 1]; returning False cancels.
+Progress = Callable[[float], Optional[bool]]
+
+_FOLDER = "mesher"
+_CHUNK = 1 << 18
+_MOST_BYTES = 2 << 30  #: unpacked; a bundle has a tenth of that
+
+
+def checksum(path: Union[str, Path]) -> str:
+    """The SHA-256 of a file, in hexadecimal digits."""
+    digest = hashlib.sha256()
+    try:
+        with open(path, "rb") as file:
+            for chunk in iter(lambda: file.read(_CHUNK), b""):
+                digest.update(chunk)
+    except OSError as error:
+        raise Error(f"{path}: cannot be read ({error.strerror})", "failure", str(path)) from error
+    return digest.hexdigest()
+
+
+def download(address: str, folder: Union[str, Path], progress: Optional[Progress] = None) -> Path:
+    """Gets a file from an address (https, http, file) into a folder, whole or not at all; gives its path."""
+    parts = urlsplit(address.strip())
+    name = os.path.basename(parts.path)
+    if parts.scheme not in ("https", "http", "file") or not name:
+        raise Error(f"{address}: is not the address of a file (https://.../quadrille-...tar.xz)", "usage", address)
+    target = Path(folder) / name
+    part = target.with_name(name + ".part")
+    try:
+        with urllib.request.urlopen(address.strip(), timeout=30) as answer, open(part, "wb") as file:
+            whole, done = int(answer.headers.get("Content-Length") or 0), 0
+            for chunk in iter(lambda: answer.read(_CHUNK), b""):
+                file.write(chunk)
+                done += len(chunk)
+                if progress and progress(min(1.0, done / whole) if whole else 0.0) is False:
+                    raise Error(f"{address}: was cancelled", "cancelled", address)
+            if whole and done != whole:
+                raise Error(f"{address}: ended after {done} of {whole} bytes", "failure", address)
+        os.replace(part, target)
+    except (OSError, ValueError) as error:  # URLError is an OSError
+        reason = getattr(error, "reason", error)
+        raise Error(f"{address}: cannot be downloaded ({reason})", "failure", address) from error
+    finally:
+        if part.exists():
+            part.unlink()
+    return target
+
+
+def _members(archive: tarfile.TarFile, path: Path) -> list:
+    """The archive's members, all of them below one folder; raises Error where one would lie or lead elsewhere."""
+    members, tops, size = archive.getmembers(), set(), 0
+    for member in members:
+        parts = Path(member.name).parts
+        inside = parts and not member.name.startswith("/") and ".." not in parts
+        if member.issym():
+            inside = inside and not member.linkname.startswith("/") and \
+                len(parts) - 1 > Path(member.linkname).parts.count("..")
+        if not inside or not (member.isfile() or member.isdir() or member.issym()):
+            raise Error(f"{path}: is refused: {member.name!r} would lie outside of its folder", "failure", str(path))
+        tops.add(parts[0])
+        size += member.size
+    if len(tops) != 1 or size > _MOST_BYTES:
+        raise Error(f"{path}: is not a bundle of Quadrille", "failure", str(path))
+    return members
+
+
+def install(archive: Union[str, Path], data_folder: Union[str, Path]) -> str:
+    """Unpacks a bundle into the folder `mesher` of a folder of the user's, in the place of what is there; gives the path of
+    the command. The mesher is tried first: where it does not run, nothing changes."""
+    path, folder = Path(archive), Path(data_folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        fresh = Path(tempfile.mkdtemp(prefix=f"{_FOLDER}-", dir=folder))
+    except OSError as error:
+        raise Error(f"{folder}: cannot be written ({error.strerror})", "failure", str(folder)) from error
+    try:
+        with tarfile.open(path) as bundle:
+            members = _members(bundle, path)
+            extra = {"filter": "data"} if sys.version_info >= (3, 12) else {}
+            bundle.extractall(fresh, members, **extra)
+        root = fresh / Path(members[0].name).parts[0]
+        if not (root / "bin" / "quadrille").is_file():
+            raise Error(f"{path}: is not a bundle of Quadrille: it has no bin/quadrille", "failure", str(path))
+        check_version(str(root / "bin" / "quadrille"))
+        target, old = folder / _FOLDER, fresh / "replaced"
+        if target.exists():
+            os.rename(target, old)
+        try:
+            os.rename(root, target)
+        except OSError:
+            if old.exists():
+                os.rename(old, target)
+            raise
+    except (OSError, tarfile.TarError, EOFError, subprocess.SubprocessError) as error:
+        raise Error(f"{path}: cannot be unpacked ({error})", "failure", str(path)) from error
+    finally:
+        shutil.rmtree(fresh, ignore_errors=True)
+    return str(folder / _FOLDER / "bin" / "quadrille")
