@@ -50,12 +50,13 @@ double QuadEstimate::quads(const MeshOptions& options) {
   try {
     return on_threads(context_.threads(), [&] {
       const SizingField field = SizingField::build(model_, options.sizing, context_);
-      const BoundaryNodes nodes =
-          sample_edges(shape, field, stride(options.strategy), std::vector<char>(shape.faces.size(), 1),
-                       SamplingPlan(shape), context_);
-      SizingField::Sampler size_at(field);
+      SamplingPlan plan(shape);
+      plan.prescribed = prescribed_edges(shape, options.sizing, field.size_max());
+      const BoundaryNodes nodes = sample_edges(shape, field, stride(options.strategy),
+                                               std::vector<char>(shape.faces.size(), 1), plan, context_);
       double count = 0;
       for (std::size_t face = 0; face < shape.faces.size(); ++face) {
+        SizingField::Sampler size_at(field, static_cast<int>(face));
         double inside = 0, border = 0;
         for (const FaceSample& sample : samples_[face])
           inside += sample.area / std::pow(size_at(sample.point), 2);

@@ -55,6 +55,7 @@ class Job {
         records_(shape_.faces.size()),
         asked_(used_),
         let_go_(shape_, asked_, reach_of_let_go(model, options)) {
+    edges_.plan.prescribed = prescribed_edges(shape_, options.sizing, size);
     leave_out_tiny();
   }
 

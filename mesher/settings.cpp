@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
 #include "geometry/cad/cad_model.hpp"
+#include "mesher/size_entries.hpp"
 
 namespace quadrille {
 
@@ -22,6 +24,8 @@ using Sizes = std::map<std::string, double>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::pair<Strategy, std::string_view> strategies[] = {{Strategy::subdivide, "subdivide"},
                                                                 {Strategy::direct, "direct"}};
+constexpr std::pair<Gradation, std::string_view> gradations[] = {{Gradation::surface, "surface"},
+                                                                 {Gradation::space, "space"}};
 constexpr std::pair<MshVersion, std::string_view> msh_versions[] = {{MshVersion::v2_2, "2.2"},
                                                                     {MshVersion::v4_1, "4.1"}};
 constexpr std::pair<bool GroupKinds::*, std::string_view> group_kinds[] = {
@@ -37,15 +41,6 @@ Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
 Error refused(const Setting& setting, const std::string& rule) {
   return usage_error(std::string(setting.name), fmt::format("`{}` {}", setting.name, rule));
-}
-
-/// "Face3" as 3; 0 when the name is not of that kind.
-int number_of(std::string_view name, std::string_view kind) {
-  if (name.substr(0, kind.size()) != kind) return 0;
-  name.remove_prefix(kind.size());
-  int number = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  return error == std::errc() && end == name.data() + name.size() && number > 0 ? number : 0;
 }
 
 /// "a positive number", "a whole number between 0 and 4096".
@@ -148,6 +143,16 @@ Sizes sizes_of(const SizingOptions& sizing) {
   return sizes;
 }
 
+/// What `work` refuses is refused in the name of the setting.
+template <class Work>
+void in_name_of(const Setting& setting, Work&& work) {
+  try {
+    work();
+  } catch (const std::invalid_argument& problem) {
+    throw refused(setting, problem.what());
+  }
+}
+
 double parse_number(const Setting& setting, std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -190,6 +195,19 @@ std::vector<Setting> make_table() {
       {"growth", "growth", "Growth", "Growth", mesh, none, 0, infinity, true, none,
        "how fast the size may change: millimeters of size per millimeter of way",
        [](Settings& v) -> double& { return v.mesh.sizing.growth; }},
+      {"gradation", "gradation", "Gradation", none, mesh, none, 0, 0, false, none,
+       "surface: sizes grow along faces and over their edges, not across gaps and through walls; space: "
+       "through "
+       "air too",
+       [](Settings& v) -> Gradation& { return v.mesh.sizing.gradation; }},
+      {"chord_error", "chord-error", "ChordError", "Chord error", mesh, none, 0, 0, false, "any",
+       "how far a segment may be from its curve or surface: a length in mm such as 0.05, or a share of the "
+       "size such "
+       "as 2%",
+       Setting::Text{set_chord_error, chord_error_of}},
+      {"proximity", "proximity", "Proximity", "Across gaps", mesh, none, 0, 1000, false, none,
+       "elements across a gap inside a face, between its loops and rims; 0 = any number",
+       [](Settings& v) -> double& { return v.mesh.sizing.proximity; }},
       {"order", "order", "ElementOrder", "Order", mesh, none, 1, 2, false,
        "2 where a solver reads the mesh: in FreeCAD and in .inp, .unv, .med and .bdf files; else 1",
        "1: four-node quads; 2: eight-node quads, better for shells",
@@ -206,6 +224,34 @@ std::vector<Setting> make_table() {
       {"size_field", "size-field", "SizeField", none, mesh, none, 0, 0, false, "none",
        "OpenVDB grid (.vdb) that caps the size",
        [](Settings& v) -> std::filesystem::path& { return v.mesh.sizing.size_field; }},
+      {"size_field_scale", "size-field-scale", "SizeFieldScale", none, mesh, none, 0, infinity, true, none,
+       "the sizes in the grid times this",
+       [](Settings& v) -> double& { return v.mesh.sizing.size_field_scale; }},
+      {"size_field_unit", "size-field-unit", "SizeFieldUnit", none, mesh, none, 0, infinity, true, none,
+       "millimeters to a unit of length in the grid, of its places and its sizes",
+       [](Settings& v) -> double& { return v.mesh.sizing.size_field_unit; }},
+      {"size_points", "size-points", "SizePoints", none, mesh, none, 0, 0, false, "none",
+       "file (.csv) of lines x,y,z,size: points that ask for a size",
+       [](Settings& v) -> std::filesystem::path& { return v.mesh.sizing.size_points; }},
+      {"size_in", "size-in", "SizeIn", none, mesh, none, 0, 0, false, "none",
+       "sizes in space: box:x,y,z,x,y,z=SIZE, sphere:x,y,z,r=SIZE, cylinder:x,y,z,x,y,z,r=SIZE, "
+       "halfspace:x,y,z,nx,ny,nz=SIZE (where the direction points to), in mm; SIZE,LENGTH: the size around "
+       "grows to "
+       "the global one over that length",
+       Setting::EntryList{set_regions, regions_of}},
+      {"layers", "layers", "Layers", none, mesh, none, 0, 0, false, "none",
+       "sizes by distance from a face, edge or vertex, as heights of layers grow: first height, ratio and "
+       "number, "
+       "such as Edge4=0.1,1.2,6",
+       Setting::EntryList{set_layers, layers_of}},
+      {"segments", "segments", "Segments", none, mesh, none, 0, 0, false, "by size",
+       "how many segments edges get, such as Edge4=20; those that run along them get as many",
+       Setting::EntryList{set_segments, segments_of}},
+      {"bias", "bias", "Bias", none, mesh, none, 0, 0, false, "none",
+       "length of each segment of an edge over that of the one before, such as Edge4=1.2",
+       Setting::EntryList{set_bias, bias_of}},
+      {"bias_both", "bias-both", "BiasBoth", none, mesh, none, 0, 0, false, "none",
+       "the same from both ends of an edge to its middle", Setting::EntryList{set_bias_both, bias_both_of}},
       {"sew", "sew", "Sew", "Sew", read, mm, 0, infinity, true, "not sewn",
        "first join edges of neighboring faces that lie within this length of each other",
        [](Settings& v) -> double& { return v.sew; }},
@@ -262,7 +308,8 @@ void check_names(const Setting& setting, const std::vector<int>& numbers, std::s
   }
 }
 
-std::vector<int> keys(const std::map<int, double>& sizes) {
+template <class Value>
+std::vector<int> keys(const std::map<int, Value>& sizes) {
   std::vector<int> numbers;
   for (const auto& [number, size] : sizes) numbers.push_back(number);
   return numbers;
@@ -271,8 +318,8 @@ std::vector<int> keys(const std::map<int, double>& sizes) {
 }  // namespace
 
 std::string_view Setting::kind() const {
-  constexpr std::string_view kinds[] = {"number", "count", "flag",   "choice", "file",
-                                        "names",  "sizes", "choice", "words"};
+  constexpr std::string_view kinds[] = {"number", "count",  "flag",  "choice", "file",    "names",
+                                        "sizes",  "choice", "words", "choice", "entries", "text"};
   return kinds[place.index()];
 }
 
@@ -283,6 +330,7 @@ std::vector<std::string_view> Setting::choices() const {
   };
   if (std::holds_alternative<Strategy& (*)(Settings&)>(place)) take_from(strategies);
   if (std::holds_alternative<MshVersion& (*)(Settings&)>(place)) take_from(msh_versions);
+  if (std::holds_alternative<Gradation& (*)(Settings&)>(place)) take_from(gradations);
   if (std::holds_alternative<GroupKinds& (*)(Settings&)>(place)) {
     take_from(group_kinds);
     words.push_back(no_groups);
@@ -299,7 +347,10 @@ SettingValue Setting::value(const Settings& settings) const {
           [&](bool& (*at)(Settings&)) -> SettingValue { return at(from); },
           [&](Strategy& (*at)(Settings&)) { return word_for(strategies, at(from)); },
           [&](MshVersion& (*at)(Settings&)) { return word_for(msh_versions, at(from)); },
+          [&](Gradation& (*at)(Settings&)) { return word_for(gradations, at(from)); },
           [&](GroupKinds& (*at)(Settings&)) -> SettingValue { return words_of(at(from)); },
+          [&](const EntryList& list) -> SettingValue { return list.get(from.mesh.sizing); },
+          [&](const Text& text) -> SettingValue { return text.get(from.mesh.sizing); },
           [&](std::filesystem::path& (*at)(Settings&)) -> SettingValue { return at(from).string(); },
           [&](std::vector<int>& (*at)(Settings&)) -> SettingValue {
             Names names;
@@ -324,10 +375,10 @@ const Setting* find_setting(std::string_view name) {
 
 SettingValue parse(const Setting& setting, const std::vector<std::string>& texts) {
   const std::string_view kind = setting.kind();
-  if (kind == "names" || kind == "words") return texts;
+  if (kind == "names" || kind == "words" || kind == "entries") return texts;
   if (kind == "sizes") return parse_sizes(setting, texts);
   if (texts.size() != 1) throw refused(setting, fmt::format("takes one value, not {}", texts.size()));
-  if (kind == "choice" || kind == "file") return texts.front();
+  if (kind == "choice" || kind == "file" || kind == "text") return texts.front();
   if (kind == "flag") return texts.front() == "true";
   return parse_number(setting, texts.front());
 }
@@ -342,7 +393,14 @@ void assign(Settings& settings, const Setting& setting, const SettingValue& valu
           [&](bool& (*at)(Settings&)) { at(settings) = as<bool>(setting, value); },
           [&](Strategy& (*at)(Settings&)) { at(settings) = chosen(setting, strategies, value); },
           [&](MshVersion& (*at)(Settings&)) { at(settings) = chosen(setting, msh_versions, value); },
+          [&](Gradation& (*at)(Settings&)) { at(settings) = chosen(setting, gradations, value); },
           [&](GroupKinds& (*at)(Settings&)) { at(settings) = kinds_of(setting, value); },
+          [&](const Setting::EntryList& list) {
+            in_name_of(setting, [&] { list.set(settings.mesh.sizing, as<Names>(setting, value)); });
+          },
+          [&](const Setting::Text& text) {
+            in_name_of(setting, [&] { text.set(settings.mesh.sizing, as<std::string>(setting, value)); });
+          },
           [&](std::filesystem::path& (*at)(Settings&)) {
             const auto& name = as<std::string>(setting, value);
             if (name.empty()) throw refused(setting, "must be the name of a file, not ''");
@@ -372,6 +430,13 @@ void check(const Settings& settings, const CadModel& model) {
   check_names(entry("sizes"), keys(sizing.face_sizes), "Face", model.face_count());
   check_names(entry("sizes"), keys(sizing.edge_sizes), "Edge", model.edge_count());
   check_names(entry("sizes"), keys(sizing.vertex_sizes), "Vertex", model.vertex_count());
+  check_names(entry("layers"), keys(sizing.layers.faces), "Face", model.face_count());
+  check_names(entry("layers"), keys(sizing.layers.edges), "Edge", model.edge_count());
+  check_names(entry("layers"), keys(sizing.layers.vertices), "Vertex", model.vertex_count());
+  for (const auto& [edge, spacing] : sizing.spacings) {
+    const char* name = spacing.segments > 0 ? "segments" : spacing.bias != 1 ? "bias" : "bias_both";
+    check_names(entry(name), {edge}, "Edge", model.edge_count());
+  }
 }
 
 nlohmann::ordered_json settings_table() {

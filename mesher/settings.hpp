@@ -35,13 +35,23 @@ using SettingValue =
 struct QUADRILLE_API Setting {
   /// When it takes effect: while the model is read, while it is meshed, or while files are written.
   enum class Use { read, mesh, write };
+  /// Entries of a form that the help tells: read from and written to the sizing options.
+  struct EntryList {
+    void (*set)(SizingOptions&, const std::vector<std::string>&);
+    std::vector<std::string> (*get)(const SizingOptions&);
+  };
+  /// The same for one text.
+  struct Text {
+    void (*set)(SizingOptions&, const std::string&);
+    std::string (*get)(const SizingOptions&);
+  };
   /// Where its value is kept, which tells what it takes: a number, a whole number, yes or no, a word of
-  /// `choices` (Strategy, MshVersion), a file, faces, sizes on faces, edges and vertices, several words of
-  /// `choices`.
-  using Place = std::variant<double& (*)(Settings&), int& (*)(Settings&), bool& (*)(Settings&),
-                             Strategy& (*)(Settings&), std::filesystem::path& (*)(Settings&),
-                             std::vector<int>& (*)(Settings&), SizingOptions& (*)(Settings&),
-                             MshVersion& (*)(Settings&), GroupKinds& (*)(Settings&)>;
+  /// `choices` (Strategy, MshVersion, Gradation), a file, faces, sizes on faces, edges and vertices, several
+  /// words of `choices`, entries, a text.
+  using Place = std::variant<
+      double& (*)(Settings&), int& (*)(Settings&), bool& (*)(Settings&), Strategy& (*)(Settings&),
+      std::filesystem::path& (*)(Settings&), std::vector<int>& (*)(Settings&), SizingOptions& (*)(Settings&),
+      MshVersion& (*)(Settings&), GroupKinds& (*)(Settings&), Gradation& (*)(Settings&), EntryList, Text>;
 
   std::string_view name;      ///< as Python has it; messages of the library give it in backquotes
   std::string_view option;    ///< as the command has it, without the two hyphens
@@ -55,7 +65,7 @@ struct QUADRILLE_API Setting {
   std::string_view help;                        ///< a line on it
   Place place;                                  ///< where Settings has it
 
-  std::string_view kind() const;  ///< number, count, flag, choice, file, names, sizes, words
+  std::string_view kind() const;  ///< number, count, flag, choice, file, names, sizes, words, entries, text
   std::vector<std::string_view> choices()
       const;  ///< the words taken; empty unless the kind is choice or words
   SettingValue value(const Settings& settings) const;  ///< as it is set

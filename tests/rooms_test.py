@@ -18,6 +18,8 @@ ROOMS = [
     "mesher/pairing",
     "mesher/quads",
     "mesher/options.hpp",
+    "mesher/size_entries.hpp",
+    "mesher/size_entries.cpp",
     "mesher/settings.hpp",
     "mesher/settings.cpp",
     "mesher/estimate.hpp",

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "mesher/quadrille.hpp"
@@ -97,6 +98,24 @@ std::string face_name(const Setting& setting, const py::handle& face) {
   return face.cast<std::string>();
 }
 
+/// Texts, or a dict of names with a number or several each: {"Edge4": 20}, {"Edge4": (0.1, 1.2, 6)}.
+std::vector<std::string> entries(const Setting& setting, const py::handle& value) {
+  if (py::isinstance<py::str>(value) || !py::isinstance<py::iterable>(value))
+    throw wrong_type(setting, value);
+  if (!py::isinstance<py::dict>(value)) return value.cast<std::vector<std::string>>();
+  std::vector<std::string> texts;
+  for (const auto& [name, own] : value.cast<py::dict>()) {
+    std::vector<double> numbers;
+    if (py::isinstance<py::iterable>(own)) {
+      for (const py::handle part : own.cast<py::iterable>()) numbers.push_back(number(setting, part));
+    } else {
+      numbers.push_back(number(setting, own));
+    }
+    texts.push_back(fmt::format("{}={}", name.cast<std::string>(), fmt::join(numbers, ",")));
+  }
+  return texts;
+}
+
 /// What a Python value stands for.
 SettingValue setting_value(const Setting& setting, const py::handle& value) {
   const std::string_view kind = setting.kind();
@@ -106,7 +125,7 @@ SettingValue setting_value(const Setting& setting, const py::handle& value) {
       if (!PyBool_Check(value.ptr())) throw wrong_type(setting, value);
       return value.cast<bool>();
     }
-    if (kind == "choice") return value.cast<std::string>();
+    if (kind == "choice" || kind == "text") return value.cast<std::string>();
     if (kind == "file") return value.cast<std::filesystem::path>().string();
     if (kind == "names" || kind == "words") {
       if (py::isinstance<py::str>(value) || !py::isinstance<py::iterable>(value))
@@ -116,6 +135,7 @@ SettingValue setting_value(const Setting& setting, const py::handle& value) {
       for (const py::handle face : value.cast<py::iterable>()) names.push_back(face_name(setting, face));
       return names;
     }
+    if (kind == "entries") return entries(setting, value);
     if (!py::isinstance<py::dict>(value)) throw wrong_type(setting, value);
     std::map<std::string, double> sizes;
     for (const auto& [name, size] : value.cast<py::dict>())

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -131,8 +132,13 @@ ElementBudget::ElementBudget(const CadModel& model, const SizingOptions& options
 }
 
 void ElementBudget::check(const SizingField& field) const {
-  SizingField::Sampler size_at(field);
-  hold(count_elements(samples_, [&](int, const FaceSample& sample) { return size_at(sample.point); }));
+  std::optional<SizingField::Sampler> size_at;
+  int last = -1;
+  hold(count_elements(samples_, [&](int face, const FaceSample& sample) {
+    if (face != last) size_at.emplace(field, face);
+    last = face;
+    return (*size_at)(sample.point);
+  }));
 }
 
 void ElementBudget::hold(double count) const {

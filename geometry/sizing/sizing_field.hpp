@@ -13,6 +13,8 @@
 
 namespace quadrille {
 
+struct CadEdge;
+
 /// Between which sizes a field lies.
 struct SizeLimits {
   double largest;  ///< the global size
@@ -38,14 +40,23 @@ double field_voxel(double size_max, double size, double growth);
 /// That a field would take so many blocks (see Budget), or more.
 Error too_many_blocks(double blocks);
 
+/// Whether curvature asks for sizes.
+bool has_curvature_sizes(const SizingOptions& options);
+
+struct CascadeFrame;
+/// What the voxels of a model's field have in common. Throws Error (usage) where the model is so far from the
+/// origin that its sizes cannot be told apart.
+CascadeFrame frame_of(const CadModel& model, const SizingOptions& options, const SizeLimits& limits);
+
 /// h(x): the largest size that respects every source and the gradation |grad h| <= growth.
 ///
 /// Sources (global size, curvature of faces and edges, lengths of short edges, sizes asked for on faces,
-/// edges and vertices, an external grid) are sampled on the model. Values live in a cascade of OpenVDB float
-/// grids with voxels of size_max / 2^k: each is active only where the size is about its voxel, so that small
-/// features cost what they need and no more; where sizes grow slowly, voxels are wider by as much. Gradation
-/// goes through space, not along the surface: thin walls see each other's sizes. Immutable and thread-safe;
-/// look-ups go through one Sampler a thread.
+/// edges and vertices, gaps inside faces, regions, points, layers, an external grid) are sampled on the
+/// model. Values live in cascades of OpenVDB float grids with voxels of size_max / 2^k: each is active only
+/// where the size is about its voxel, so that small features cost what they need and no more; where sizes
+/// grow slowly, voxels are wider by as much. Each face has a cascade of its own, and sizes grow along faces
+/// and over the edges between them; with Gradation::space all have one, and thin walls see each other's
+/// sizes. Immutable and thread-safe; look-ups go through one Sampler a thread.
 class SizingField {
  public:
   /// \param options as mesh() checks them. Throws Error: usage for sizes that pass options.budget, failure
@@ -54,7 +65,7 @@ class SizingField {
                            const UnsizedFeatures& unsized = {});
 
   /// Writes the grids as .vdb: `size` (coarsest), `size_1`, ... with metadata unit, growth, size_max,
-  /// version.
+  /// version. Where faces have sizes of their own, the least of all holds.
   void write(const std::filesystem::path& path) const;
 
   double size_max() const;  ///< millimeters
@@ -62,10 +73,15 @@ class SizingField {
 
   class Impl;
 
-  /// Looks sizes up; holds the accessors.
+  /// Looks sizes up on one face, on one edge, or anywhere; holds the accessors.
   class Sampler {
    public:
+    /// The least size of all faces: slow where there are many.
     explicit Sampler(const SizingField& field);  ///< of a field that must outlive it
+    /// On a face, from 0.
+    Sampler(const SizingField& field, int face);
+    /// On an edge: the least of its faces.
+    Sampler(const SizingField& field, const CadEdge& edge);
     ~Sampler();
     Sampler(const Sampler&) = delete;
     Sampler& operator=(const Sampler&) = delete;
@@ -73,8 +89,8 @@ class SizingField {
     const Budget& budget() const;             ///< the field's
 
    private:
-    struct Accessors;
-    std::unique_ptr<Accessors> accessors_;
+    struct Lookups;
+    std::unique_ptr<Lookups> lookups_;
     const Impl& impl_;
   };
 

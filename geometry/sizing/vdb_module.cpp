@@ -44,12 +44,41 @@ struct ExternalField {
       const Coord base = Coord::floor(index);
       for (int k = 0; k < 8; ++k) {
         float value = 0;
-        if (grid->tree().probeValue(base.offsetBy(k & 1, k >> 1 & 1, k >> 2), value) && value > 0) {
+        if (grid->tree().probeValue(base.offsetBy(k & 1, k >> 1 & 1, k >> 2), value))
           result = std::min(result, unit * value);
-        }
       }
     }
     return result;
+  }
+
+  /// \return the sentence that says what is wrong with the sizes; empty = nothing.
+  std::string measure(ExternalSizes& sizes) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    sizes.low.setConstant(infinity);
+    sizes.high.setConstant(-infinity);
+    sizes.voxel = infinity;
+    for (const auto& [grid, unit] : grids) {
+      for (auto it = grid->cbeginValueOn(); it; ++it) {
+        if (*it > 0 && std::isfinite(*it) && unit > 0 && std::isfinite(unit)) continue;
+        const openvdb::Vec3d p = grid->indexToWorld(it.getCoord());
+        return fmt::format("the size {:g} at ({:.4g}, {:.4g}, {:.4g}), and sizes are positive numbers",
+                           unit * *it, p.x(), p.y(), p.z());
+      }
+      const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
+      if (box.empty()) continue;
+      for (int k = 0; k < 8; ++k) {
+        const openvdb::Vec3d corner =
+            grid->indexToWorld(openvdb::Vec3d((k & 1) ? box.max().x() + 1 : box.min().x() - 1,
+                                              (k >> 1 & 1) ? box.max().y() + 1 : box.min().y() - 1,
+                                              (k >> 2) ? box.max().z() + 1 : box.min().z() - 1));
+        const Vector3 p(corner.x(), corner.y(), corner.z());
+        sizes.low = sizes.low.cwiseMin(p);
+        sizes.high = sizes.high.cwiseMax(p);
+      }
+      const openvdb::Vec3d voxel = grid->voxelSize();
+      sizes.voxel = std::min({sizes.voxel, voxel.x(), voxel.y(), voxel.z()});
+    }
+    return sizes.voxel < infinity ? std::string() : "no active voxel";
   }
 };
 
@@ -99,8 +128,7 @@ QUADRILLE_EXPORT std::string quadrille_vdb_file(const VdbField& field, std::stri
   }
 }
 
-QUADRILLE_EXPORT std::string quadrille_vdb_open(const std::string& path,
-                                                std::function<double(const Vector3&)>& size_at) {
+QUADRILLE_EXPORT std::string quadrille_vdb_open(const std::string& path, ExternalSizes& sizes) {
   try {
     openvdb::initialize();
     openvdb::io::File file(path);
@@ -115,7 +143,9 @@ QUADRILLE_EXPORT std::string quadrille_vdb_open(const std::string& path,
     }
     file.close();
     if (field->grids.empty()) return fmt::format("{} holds no float grid to use as a size field", path);
-    size_at = [field](const Vector3& p) { return field->at(p); };
+    if (const std::string problem = field->measure(sizes); !problem.empty())
+      return fmt::format("{} holds {}", path, problem);
+    sizes.at = [field](const Vector3& p) { return field->at(p); };
     return {};
   } catch (const std::exception&) {
     return fmt::format("{} is not a readable .vdb file", path);

@@ -25,11 +25,17 @@ struct VdbField {
   double growth = 0;
 };
 
+/// What the grids of a file of others ask for, in the file's own unit.
+struct ExternalSizes {
+  std::function<double(const Vector3&)>
+      at;                               ///< the least that a grid asks for; infinite where all are silent
+  Vector3 low{0, 0, 0}, high{0, 0, 0};  ///< where they are not
+  double voxel = 0;                     ///< shortest side of a voxel
+};
+
 /// Both return an empty string, or the sentence that says what went wrong.
 /// \param bytes of the .vdb file.
 using VdbFileFunction = std::string(const VdbField& field, std::string& bytes);
-/// \param size_at gives the least size at a point that the file's float grids ask for, infinite where they
-/// are silent.
-using VdbOpenFunction = std::string(const std::string& path, std::function<double(const Vector3&)>& size_at);
+using VdbOpenFunction = std::string(const std::string& path, ExternalSizes& sizes);
 
 }  // namespace quadrille

@@ -180,6 +180,29 @@ SurfacePoint FaceSurface::evaluate_view(const Vector2& xy) const {
 FaceSurface::~FaceSurface() = default;
 FaceSurface::FaceSurface(FaceSurface&&) noexcept = default;
 
+double FaceSurface::distance_at_least(const Vector3& point) const {
+  const Vector3 from = point - origin_;
+  const double height = from.dot(z_), beside = std::hypot(from.dot(x_), from.dot(y_));
+  switch (kind_) {
+    case Kind::plane:
+      return std::abs(height);
+    case Kind::cylinder:
+      return std::abs(beside - radius_);
+    case Kind::cone: {  // of both halves
+      const double near = (beside - radius_) * cos_angle_ - height * sin_angle_;
+      const double far = (-beside - radius_) * cos_angle_ - height * sin_angle_;
+      return std::min(std::abs(near), std::abs(far));
+    }
+    case Kind::sphere:
+      return std::abs(from.norm() - radius_);
+    case Kind::torus:
+      return std::abs(std::hypot(beside - radius_, height) - minor_radius_);
+    case Kind::other:
+      break;
+  }
+  return 0;
+}
+
 void FaceSurface::recognize() {
   gp_Ax3 frame;
   switch (adaptor_->GetType()) {

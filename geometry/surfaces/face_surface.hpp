@@ -61,6 +61,10 @@ class FaceSurface {
   /// The closest point of the surface to `target` near `uv` (Newton iterations, bounded).
   SurfacePoint project(Vector2& uv, const Vector3& target) const;
 
+  /// No more than the distance from a point to the surface, trimmed or not: exact for elementary surfaces
+  /// without their trimming, 0 for others.
+  double distance_at_least(const Vector3& point) const;
+
   bool planar() const { return kind_ == Kind::plane; }
   bool u_periodic() const { return u_period_ > 0; }
   bool v_periodic() const { return v_period_ > 0; }

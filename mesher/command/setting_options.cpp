@@ -37,6 +37,9 @@ void add_setting(CLI::App& command, const Setting& setting, GivenSettings& targe
     command.add_option_function<std::vector<std::string>>(option, take, help_of(setting))
         ->delimiter(',')
         ->allow_extra_args(false);
+  } else if (kind == "entries") {  // which have commas of their own
+    command.add_option_function<std::vector<std::string>>(option, take, help_of(setting))
+        ->allow_extra_args(false);
   } else {
     command.add_option_function<std::string>(
         option, [take](const std::string& text) { take({text}); }, help_of(setting));

@@ -41,8 +41,8 @@ namespace {
 class ChordSpacing {
  public:
   ChordSpacing(const CadShape& shape, const Chords& chords, const std::vector<CountTable>& tables,
-               const std::vector<int>& counts)
-      : shape_(shape), chords_(chords), tables_(tables), counts_(counts) {
+               const std::vector<int>& counts, const std::vector<std::vector<double>>& prescribed)
+      : shape_(shape), chords_(chords), tables_(tables), counts_(counts), prescribed_(prescribed) {
     for (std::size_t i = 0; i < counts.size(); ++i) {
       if (counts[i] > 0) members_[chords.of(static_cast<int>(i))].push_back(static_cast<int>(i));
     }
@@ -50,6 +50,7 @@ class ChordSpacing {
 
   std::vector<std::vector<double>> run(const std::vector<FaceSides>& sides) {
     for (const auto& [chord, members] : members_) shares_[chord] = equidistribute(members);
+    for (const auto& [chord, members] : members_) prescribe(chord, members);
     for (const FaceSides& face : sides) {
       for (const FacingPair& pair : face.facing) {
         follow(pair.first, pair.second);
@@ -60,13 +61,36 @@ class ChordSpacing {
     for (const auto& [chord, members] : members_) {
       if (members.size() == 1 && !followed_.contains(chord)) continue;
       for (const int edge : members) {
-        if (suits(edge)) result[edge] = shares_of(edge);
+        if (is_prescribed_.contains(chord) || suits(edge)) result[edge] = shares_of(edge);
       }
+    }
+    for (std::size_t edge = 0; edge < result.size(); ++edge) {
+      if (holds(static_cast<int>(edge))) result[edge] = prescribed_[edge];
     }
     return result;
   }
 
  private:
+  bool holds(int edge) const {
+    return !prescribed_[edge].empty() && static_cast<int>(prescribed_[edge].size()) == counts_[edge] + 1;
+  }
+
+  /// The first member whose shares are prescribed stands for all.
+  void prescribe(int chord, const std::vector<int>& members) {
+    for (const int edge : members) {
+      if (!holds(edge)) continue;
+      shares_[chord] = prescribed_[edge];
+      if (chords_.against(edge)) turn_round(shares_[chord]);
+      followed_[chord] = is_prescribed_[chord] = true;
+      return;
+    }
+  }
+
+  static void turn_round(std::vector<double>& shares) {
+    std::reverse(shares.begin(), shares.end());
+    for (double& share : shares) share = 1 - share;
+  }
+
   /// Counts up to equal shares of the members' lengths, the tightest at each.
   std::vector<double> equidistribute(const std::vector<int>& members) const {
     const int n = counts_[members.front()];
@@ -98,9 +122,7 @@ class ChordSpacing {
 
   std::vector<double> shares_of(int edge) const {
     std::vector<double> shares = shares_.at(chords_.of(edge));
-    if (!chords_.against(edge)) return shares;
-    std::reverse(shares.begin(), shares.end());
-    for (double& share : shares) share = 1 - share;
+    if (chords_.against(edge)) turn_round(shares);
     return shares;
   }
 
@@ -114,10 +136,7 @@ class ChordSpacing {
     for (const SideEdge& part : several) {
       if (counts_[part.edge] == 0) return;
       std::vector<double> own = shares_of(part.edge);
-      if (!part.forward) {
-        std::reverse(own.begin(), own.end());
-        for (double& share : own) share = 1 - share;
-      }
+      if (!part.forward) turn_round(own);
       const double part_length = shape_.edges[part.edge].length;
       for (std::size_t i = shares.empty() ? 0 : 1; i < own.size(); ++i)
         shares.push_back(length + own[i] * part_length);
@@ -125,10 +144,7 @@ class ChordSpacing {
     }
     if (static_cast<int>(shares.size()) != counts_[edge] + 1 || !(length > 0)) return;
     for (double& share : shares) share /= length;
-    if (one[0].forward == chords_.against(edge)) {
-      std::reverse(shares.begin(), shares.end());
-      for (double& share : shares) share = 1 - share;
-    }
+    if (one[0].forward == chords_.against(edge)) turn_round(shares);
     shares_[chords_.of(edge)] = shares;
     followed_[chords_.of(edge)] = true;
   }
@@ -153,15 +169,17 @@ class ChordSpacing {
   const std::vector<int>& counts_;
   std::map<int, std::vector<int>> members_;    // chord -> edges
   std::map<int, std::vector<double>> shares_;  // chord -> of its representative
-  std::map<int, bool> followed_;
+  const std::vector<std::vector<double>>& prescribed_;
+  std::map<int, bool> followed_, is_prescribed_;
 };
 
 }  // namespace
 
 std::vector<std::vector<double>> space_chords(const CadShape& shape, const std::vector<FaceSides>& sides,
                                               const Chords& chords, const std::vector<CountTable>& tables,
-                                              const std::vector<int>& counts) {
-  return ChordSpacing(shape, chords, tables, counts).run(sides);
+                                              const std::vector<int>& counts,
+                                              const std::vector<std::vector<double>>& prescribed) {
+  return ChordSpacing(shape, chords, tables, counts, prescribed).run(sides);
 }
 
 }  // namespace quadrille

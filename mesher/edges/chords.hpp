@@ -34,11 +34,13 @@ class Chords {
 /// Where the nodes of the chords go: the nodes of all members at equal shares of their lengths, by the
 /// tightest spacing that one of them asks for there. A side that is a single edge takes over the spacing of
 /// several edges that it runs along.
-/// \param tables (edges) \param counts (edges) segments of the final mesh
+/// \param tables (edges) \param counts (edges) segments of the final mesh \param prescribed (edges) shares
+/// that users ask for, which their chord gets too; empty where there are none.
 /// \return (edges) shares of the edge's length from its start, ascending, one for each node; empty where an
 /// edge is alone in its chord, or where the shares would leave its own spacing too far behind.
 std::vector<std::vector<double>> space_chords(const CadShape& shape, const std::vector<FaceSides>& sides,
                                               const Chords& chords, const std::vector<CountTable>& tables,
-                                              const std::vector<int>& counts);
+                                              const std::vector<int>& counts,
+                                              const std::vector<std::vector<double>>& prescribed);
 
 }  // namespace quadrille

@@ -49,7 +49,7 @@ class Balancer {
   };
 
   static bool can_change(const BalanceProblem::Variable& variable) {
-    return variable.terms.size() <= 2 &&
+    return !variable.fixed && variable.terms.size() <= 2 &&
            std::all_of(variable.terms.begin(), variable.terms.end(),
                        [](const auto& term) { return std::abs(term.second) == 1; });
   }

@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "geometry/base/error.hpp"
 #include "mesher/edges/count_balance.hpp"
 #include "mesher/edges/parity.hpp"
 
@@ -11,7 +16,8 @@ namespace quadrille {
 
 namespace {
 
-constexpr double largest_ratio = 2;  // of what the sides of a pair, or the edges of a chord, want
+constexpr double largest_ratio = 2;        // of what the sides of a pair, or the edges of a chord, want
+constexpr double largest_fixed_ratio = 4;  // the same where one of them is fixed
 
 class CountChooser {
  public:
@@ -36,6 +42,7 @@ class CountChooser {
       tie_chords();
       odd = make_faces_even();
     }
+    hold_fixed(odd);
     EdgeCounts result{std::vector<int>(effective_.size(), 0), chords_, odd};
     std::vector<int> least(effective_.size(), 1);
     for (std::size_t i = 0; i < effective_.size(); ++i) {
@@ -46,6 +53,10 @@ class CountChooser {
       const int chord = chords_.of(static_cast<int>(i));
       const auto& variable = problem_.variables[chord];
       if (wishes_.least[i] == 0) continue;
+      if (fixed_[chord] > 0) {
+        result.counts[i] = fixed_[chord];
+        continue;
+      }
       // No rule holds a chord between grids.
       result.counts[i] = variable.terms.empty() && is_between_grids_[chord]
                              ? std::max(least[chord], rounded(wishes_.stride * variable.wanted))
@@ -80,17 +91,83 @@ class CountChooser {
     return sum;
   }
 
+  bool has_fixed(const FacingPair& pair) const {
+    const auto is_fixed = [&](const SideEdge& edge) { return fixed_[chords_.of(edge.edge)] > 0; };
+    return std::any_of(pair.first.begin(), pair.first.end(), is_fixed) ||
+           std::any_of(pair.second.begin(), pair.second.end(), is_fixed);
+  }
+
   bool is_far_off(const FacingPair& pair) const {
     const auto [low, high] = std::minmax({sum_of(pair.first), sum_of(pair.second)});
-    return high > largest_ratio * low;
+    return high > (has_fixed(pair) ? largest_fixed_ratio : largest_ratio) * low;
+  }
+
+  /// Makes two chords one; not where users ask for different numbers.
+  bool tie(const SideEdge& a, const SideEdge& b, double ratio) {
+    const int one = fixed_[chords_.of(a.edge)], other = fixed_[chords_.of(b.edge)];
+    if (one > 0 && other > 0 && one != other) return false;
+    if (!chords_.tie(a, b, std::max(one, other) > 0 ? std::max(ratio, largest_fixed_ratio) : ratio))
+      return false;
+    fixed_[chords_.of(a.edge)] = std::max(one, other);
+    return true;
+  }
+
+  /// The CAD edges of a chord or of a face whose numbers are fixed, as "Edge4, Edge7".
+  template <class Includes>
+  std::string fixed_edges(Includes&& includes) const {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < wishes_.fixed.size(); ++i) {
+      if (wishes_.fixed[i] > 0 && includes(static_cast<int>(i)))
+        names.push_back(fmt::format("Edge{}", i + 1));
+    }
+    return fmt::format("{}", fmt::join(names, ", "));
+  }
+
+  /// Throws where fixed numbers cannot be kept. \param odd faces (from 1) that stay odd.
+  void hold_fixed(const std::vector<int>& odd) const {
+    for (std::size_t i = 0; i < fixed_.size(); ++i) {
+      const int chord = static_cast<int>(i);
+      if (chords_.of(chord) != chord || fixed_[i] % wishes_.stride == 0) continue;
+      if (problem_.variables[i].terms.empty() && is_between_grids_[i]) continue;
+      throw usage_error(
+          "segments",
+          fmt::format(
+              "`segments` gives {} to {}, and a face there that is no grid takes even numbers only: {} or "
+              "{}, or `strategy` direct",
+              fixed_[i], fixed_edges([&](int edge) { return chords_.of(edge) == chord; }), fixed_[i] - 1,
+              fixed_[i] + 1));
+    }
+    for (const int face : odd) {
+      const std::string names = fixed_edges([&](int edge) { return is_on(edge, sides_[face - 1]); });
+      if (names.empty()) continue;
+      throw usage_error("segments",
+                        fmt::format("`segments` leaves Face{} with an odd number of segments around it: "
+                                    "one more or fewer on one of {}",
+                                    face, names));
+    }
+  }
+
+  static bool is_on(int edge, const FaceSides& sides) {
+    const auto is_it = [&](const SideEdge& side) { return side.edge == edge; };
+    return std::find(sides.rest.begin(), sides.rest.end(), edge) != sides.rest.end() ||
+           std::any_of(sides.facing.begin(), sides.facing.end(), [&](const FacingPair& pair) {
+             return std::any_of(pair.first.begin(), pair.first.end(), is_it) ||
+                    std::any_of(pair.second.begin(), pair.second.end(), is_it);
+           });
   }
 
   void tie_chords() {
     chords_ = Chords(effective_);
+    fixed_ = wishes_.fixed;
+    fixed_.resize(effective_.size(), 0);
     for (std::size_t i = 0; i < effective_.size(); ++i) {
       const int edge = static_cast<int>(i), same = tiny_.edges[i];
-      if (same != edge)
-        chords_.tie({same, true}, {edge, !tiny_.reversed_edges[i]}, std::numeric_limits<double>::infinity());
+      if (same == edge) continue;
+      if (!tie({same, true}, {edge, !tiny_.reversed_edges[i]}, std::numeric_limits<double>::infinity()))
+        throw usage_error("segments",
+                          fmt::format("`segments` gives different numbers to Edge{} and Edge{}, which "
+                                      "have the same nodes",
+                                      same + 1, edge + 1));
     }
     for (std::size_t face = 0; face < sides_.size(); ++face) {
       const auto& facing = sides_[face].facing;
@@ -98,7 +175,7 @@ class CountChooser {
                                [&](const FacingPair& pair) { return is_far_off(pair); });
       for (const FacingPair& pair : facing) {
         if (fits && pair.first.size() == 1 && pair.second.size() == 1)
-          fits = chords_.tie(pair.first[0], pair.second[0], largest_ratio);
+          fits = tie(pair.first[0], pair.second[0], largest_ratio);
       }
       if (!fits) drop(static_cast<int>(face));
     }
@@ -123,6 +200,11 @@ class CountChooser {
       variables[i].wanted /= members[i];
       variables[i].weight = members[i];
       variables[i].value = std::max(variables[i].least, rounded(variables[i].wanted));
+      if (fixed_[i] == 0) continue;
+      variables[i].fixed = true;
+      variables[i].wanted = 1.0 * fixed_[i] / wishes_.stride;
+      variables[i].value = std::max(1, fixed_[i] / wishes_.stride);
+      variables[i].least = variables[i].value;
     }
   }
 
@@ -203,7 +285,8 @@ class CountChooser {
     std::vector<char> odd(sides_.size(), 0);
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const auto& variable = problem_.variables[i];
-      edges[i].cost = variable.weight * cost_of_change(variable);
+      edges[i].cost = variable.fixed ? std::numeric_limits<double>::infinity()
+                                     : variable.weight * cost_of_change(variable);
       for (const auto& [node, coefficient] : variable.terms) {
         const int face = faces_of_nodes_[node];
         edges[i].faces.push_back(face);
@@ -233,6 +316,7 @@ class CountChooser {
   std::vector<FaceSides>& sides_;
   std::vector<double> effective_;  // (edges) what is wanted, not below the least
   Chords chords_;
+  std::vector<int> fixed_;  // (chords) segments of the final mesh; 0 = any number
   BalanceProblem problem_;  // a variable for each edge, of which those of chords' representatives count
   std::vector<int> faces_of_nodes_;
   std::vector<char> is_between_grids_;  // (chords)

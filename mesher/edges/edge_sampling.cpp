@@ -5,6 +5,9 @@
 #include <limits>
 #include <map>
 
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "mesher/edges/count_table.hpp"
 #include "mesher/edges/edge_counts.hpp"
@@ -122,7 +125,8 @@ class EdgeSampler {
     }
     counts_ = chosen.counts;
     result_.odd_faces = chosen.odd_faces;
-    shares_ = space_chords(shape_, result_.sides, chosen.chords, tables_, counts_);
+    shares_ = space_chords(shape_, result_.sides, chosen.chords, tables_, counts_, prescribed_shares());
+    keep_spacing(chosen.chords);
     place_vertices();
     context_.check();
     SparseCheck check(context_, 64);
@@ -136,7 +140,6 @@ class EdgeSampler {
 
  private:
   void tabulate_edges() {
-    SizingField::Sampler sampler(field_);
     const std::vector<char> shared_ends = find_shared_ends(shape_, plan_.tiny);
     const std::vector<char> inner = find_inner_edges(shape_);
     tables_.resize(n_);
@@ -144,12 +147,14 @@ class EdgeSampler {
     wishes_.least.assign(n_, 0);
     wishes_.least_of_grids.assign(n_, 0);
     wishes_.wanted.assign(n_, 0);
+    wishes_.fixed.assign(n_, 0);
     double segments = 0;
     for (int i = 0; i < n_; ++i) {
       if (i % 256 == 0) context_.report(Stage::sample, 0.5 * i / n_);
       context_.check();
       const CadEdge& edge = shape_.edges[i];
       if (edge.degenerate || edge.length <= 0 || !used_edges_[i] || plan_.tiny.collapsed_edges[i]) continue;
+      SizingField::Sampler sampler(field_, edge);
       tables_[i] = tabulate(edge, sampler);
       for (const EdgeStretch& part : plan_.finer) {
         if (part.edge == i + 1) tables_[i].make_finer(part.from, part.to, part.segments * result_.stride);
@@ -166,7 +171,46 @@ class EdgeSampler {
           least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], result_.stride);
       // Straight edges between grids may do with one; curves keep their shape as well there as anywhere.
       wishes_.least_of_grids[i] = turning > 1e-3 ? result_.stride * wishes_.least[i] : 1;
+      if (is_prescribed(i)) fix_count(i, shared_ends[i], inner[i]);
     }
+  }
+
+  bool is_prescribed(int edge) const {
+    return !plan_.prescribed.empty() && plan_.prescribed[edge].has_value();
+  }
+
+  /// Fewer than keep an edge's shape may be asked for, but a loop has to stay open.
+  void fix_count(int i, bool shares_both_ends, bool inner) {
+    const int segments = plan_.prescribed[i]->segments;
+    const bool closed = plan_.tiny.closed(shape_.edges[i]);
+    constexpr double hardly = 0.01;
+    const double turning = std::min(tables_[i].turning, hardly);
+    const int least = least_segments(closed, turning, shares_both_ends, inner, result_.stride);
+    const bool needs_stride = closed || shares_both_ends || inner;
+    if (segments < (needs_stride ? result_.stride * least : 1))
+      throw usage_error("segments", fmt::format("`segments` gives {} to Edge{}, which needs {} or more",
+                                                segments, shape_.edges[i].number, result_.stride * least));
+    wishes_.fixed[i] = segments;
+    wishes_.wanted[i] = 1.0 * segments / result_.stride;
+    wishes_.least[i] = std::max(1, std::min(wishes_.least[i], segments / result_.stride));
+    wishes_.least_of_grids[i] = std::min(wishes_.least_of_grids[i], segments);
+  }
+
+  std::vector<std::vector<double>> prescribed_shares() const {
+    std::vector<std::vector<double>> shares(n_);
+    for (int i = 0; i < n_; ++i) {
+      if (is_prescribed(i)) shares[i] = plan_.prescribed[i]->shares;
+    }
+    return shares;
+  }
+
+  /// Where users ask for a spacing, nodes stay: on the edge and on those of its chord.
+  void keep_spacing(const Chords& chords) {
+    std::vector<char> kept(n_, 0);
+    for (int i = 0; i < n_; ++i) {
+      if (is_prescribed(i) && !plan_.prescribed[i]->shares.empty()) kept[chords.of(i)] = 1;
+    }
+    for (int i = 0; i < n_; ++i) result_.edges[i].kept = kept[chords.of(i)] != 0;
   }
 
   bool along_chord(int edge) const { return plan_.bare[edge] && !plan_.tiny.closed(shape_.edges[edge]); }

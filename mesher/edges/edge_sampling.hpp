@@ -1,10 +1,12 @@
 #pragma once
 /// Nodes on CAD edges: each edge once, by the sizing field, with counts that make every face even. Internal.
 
+#include <optional>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/sizing/edge_spacing.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/edges/face_sides.hpp"
 #include "mesher/edges/tiny_features.hpp"
@@ -17,6 +19,7 @@ struct BoundaryNodes {
     std::vector<double> parameters;  ///< of each node, ascending, both ends included; empty = edge not used
     std::vector<int> nodes;          ///< indices into `points`; the ends are the vertices' nodes
     bool borrowed = false;           ///< the nodes are those of another edge (TinyFeatures)
+    bool kept = false;               ///< users ask for its spacing: its nodes stay where they are
     int segments() const { return static_cast<int>(nodes.size()) - 1; }
   };
   std::vector<Vector3> points;
@@ -43,6 +46,7 @@ struct SamplingPlan {
   std::vector<EdgeStretch> finer;
   std::vector<char> bare;  ///< (edges) 1 = by length alone, though the curve turns: it may have loops in it
   TinyFeatures tiny;
+  std::vector<std::optional<PrescribedEdge>> prescribed;  ///< (edges) that users divide; may be empty
 };
 
 /// Samples the edges of the faces used by true arc length and the sizing field.

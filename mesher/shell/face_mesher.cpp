@@ -52,7 +52,7 @@ class FaceMesher {
         chart_(chart),
         surface_(*chart.surface),
         domain_(enclosed_domain(chart.boundary)),
-        size_at_(field) {}
+        size_at_(field, face) {}
 
   FaceMesh run() {
     if (!recipe_.mapped) return mesh_freely();

@@ -181,6 +181,10 @@ class NodeSliding {
     std::vector<char> uses(nodes_.points.size(), 0);
     for (const auto& edge : nodes_.edges)
       for (std::size_t k = 1; k + 1 < edge.nodes.size(); ++k) uses[edge.nodes[k]] += uses[edge.nodes[k]] < 2;
+    for (const auto& edge : nodes_.edges) {
+      if (!edge.kept) continue;
+      for (const int node : edge.nodes) uses[node] = 2;
+    }
     for (const int node : nodes_.vertex_nodes)
       if (node >= 0) uses[node] = 2;
     slidable_.resize(uses.size());

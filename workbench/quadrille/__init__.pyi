@@ -10,6 +10,7 @@ from .errors import Error as Error
 __version__: str
 
 _Path = Union[str, PathLike[str]]
+_Entries = Union[Sequence[str], Mapping[str, Union[float, Sequence[float]]]]  # ["Edge4=20"] or {"Edge4": 20}
 _Progress = Callable[[str, float], Optional[bool]]
 _Limits = Union[str, PathLike[str], None]
 
@@ -91,11 +92,22 @@ def mesh(
     size_min: Optional[float] = None,
     elements_per_circle: Optional[float] = None,
     growth: Optional[float] = None,
+    gradation: Optional[str] = None,
+    chord_error: Optional[str] = None,
+    proximity: Optional[float] = None,
     order: Optional[int] = None,
     strategy: Optional[str] = None,
     faces: Optional[Sequence[Union[str, SupportsIndex]]] = None,
     sizes: Optional[Mapping[str, float]] = None,
     size_field: Optional[_Path] = None,
+    size_field_scale: Optional[float] = None,
+    size_field_unit: Optional[float] = None,
+    size_points: Optional[_Path] = None,
+    size_in: Optional[Sequence[str]] = None,
+    layers: Optional[_Entries] = None,
+    segments: Optional[_Entries] = None,
+    bias: Optional[_Entries] = None,
+    bias_both: Optional[_Entries] = None,
     merge_tiny: Optional[float] = None,
     partial: Optional[bool] = None,
     keep_features: Optional[bool] = None,

@@ -38,8 +38,12 @@ class MeshSettings(Dict[str, Any]):
         arguments: List[str] = []
         for setting in SETTINGS:
             value = self.get(setting["name"])
-            if value is None or (setting["kind"] in ("names", "sizes") and len(value) == 0) or (
-                    setting["kind"] in ("flag", "file") and not value):
+            if value is None or (setting["kind"] in ("names", "sizes", "entries") and len(value) == 0) or (
+                    setting["kind"] in ("flag", "file", "text") and not value):
+                continue
+            if setting["kind"] == "entries":
+                for entry in entry_texts(value):
+                    arguments += [setting["option"], entry]
                 continue
             arguments.append(setting["option"])
             if setting["kind"] != "flag":
@@ -54,6 +58,13 @@ class MeshSettings(Dict[str, Any]):
 def face_name(face: Union[int, str, SupportsIndex]) -> str:
     """3, NumPy's too, and "Face3" as "Face3"."""
     return face if isinstance(face, str) else f"Face{operator.index(face)}"
+
+
+def entry_texts(value: Any) -> List[str]:
+    """Entries as the command takes them: texts, or a dict of names with a number or several each."""
+    if not isinstance(value, dict):
+        return list(value)
+    return [f"{name}={','.join(map(str, own)) if isinstance(own, (list, tuple)) else own}" for name, own in value.items()]
 
 
 def _text(kind: str, value: Any) -> str:
@@ -84,7 +95,8 @@ def property_kind(setting: Dict[str, Any]) -> str:
     if setting["name"] == "order":
         return "App::PropertyEnumeration"
     return {"count": "App::PropertyInteger", "flag": "App::PropertyBool", "choice": "App::PropertyEnumeration",
-            "file": "App::PropertyFile", "names": "App::PropertyStringList"}[setting["kind"]]
+            "file": "App::PropertyFile", "names": "App::PropertyStringList",
+            "entries": "App::PropertyStringList", "text": "App::PropertyString"}[setting["kind"]]
 
 
 def property_help(setting: Dict[str, Any]) -> str:
@@ -92,7 +104,7 @@ def property_help(setting: Dict[str, Any]) -> str:
     text = setting["help"][0].upper() + setting["help"][1:]
     if setting["kind"] == "number" and setting["otherwise"]:
         return f"{text}; 0 = {setting['otherwise']}"
-    if setting["kind"] in ("names", "sizes") and setting["otherwise"]:
+    if setting["kind"] in ("names", "sizes", "entries", "text") and setting["otherwise"]:
         return f"{text}; empty = {setting['otherwise']}"
     return text
 
@@ -107,12 +119,14 @@ def to_property(setting: Dict[str, Any], value: Any) -> Any:
     kind, default = setting["kind"], setting["default"]
     if kind == "names":
         return [face_name(face) for face in value or ()]
+    if kind == "entries":
+        return entry_texts(value or ())
     if value is None:
         value = default
     if setting["name"] == "order":
         return _ORDERS[int(value or 2) - 1]
     if value is None:
-        return "" if kind == "file" else 0
+        return "" if kind in ("file", "text") else 0
     return int(value) if kind == "count" else value
 
 
@@ -122,11 +136,11 @@ def from_property(setting: Dict[str, Any], value: Any) -> Optional[Any]:
     kind = setting["kind"]
     if setting["name"] == "order":
         return _ORDERS.index(value) + 1
-    if kind == "names":
+    if kind in ("names", "entries"):
         return list(value) or None
     if kind == "choice":
         return value if value in setting["choices"] else None
-    if kind == "file":
+    if kind in ("file", "text"):
         return value or None
     if kind == "number" and value == 0 and setting["default"] is None:
         return None

@@ -1,0 +1,92 @@
+#include "geometry/sizing/edge_spacing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// Shares of the whole at which parts begin and end that follow each other by ratios.
+std::vector<double> shares_of(int segments, const EdgeSpacing& spacing) {
+  if (spacing.bias == 1 && spacing.bias_both == 1) return {};
+  std::vector<double> shares{0};
+  for (int k = 0; k < segments; ++k) {
+    const int from_end = std::min(k, segments - 1 - k);
+    shares.push_back(shares.back() + std::pow(spacing.bias, k) * std::pow(spacing.bias_both, from_end));
+  }
+  for (double& share : shares) share /= shares.back();
+  return shares;
+}
+
+/// The pieces of a CAD edge, in the order in which they follow each other from its start as far as vertices
+/// tell.
+std::vector<int> pieces_of(const CadShape& shape, int number) {
+  std::vector<int> pieces;
+  for (std::size_t i = 0; i < shape.edges.size(); ++i) {
+    if (shape.edges[i].number == number && !shape.edges[i].degenerate && shape.edges[i].length > 0)
+      pieces.push_back(static_cast<int>(i));
+  }
+  std::sort(pieces.begin(), pieces.end(),
+            [&](int a, int b) { return shape.edges[a].first < shape.edges[b].first; });
+  return pieces;
+}
+
+/// Segments of each piece: at least one, otherwise as their lengths are.
+std::vector<int> split_count(const CadShape& shape, const std::vector<int>& pieces, int segments) {
+  double length = 0, before = 0;
+  for (const int piece : pieces) length += shape.edges[piece].length;
+  std::vector<int> counts;
+  int left = segments;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    before += shape.edges[pieces[i]].length;
+    const int others = static_cast<int>(pieces.size() - 1 - i);
+    const int upto =
+        i + 1 == pieces.size() ? segments : static_cast<int>(std::lround(segments * before / length));
+    counts.push_back(std::clamp(upto - (segments - left), 1, std::max(1, left - others)));
+    left -= counts.back();
+  }
+  return counts;
+}
+
+}  // namespace
+
+double PrescribedEdge::size_at(double share, double length) const {
+  if (shares.empty()) return length / segments;
+  const auto it = std::upper_bound(shares.begin() + 1, shares.end() - 1, share);
+  return length * (*it - *(it - 1));
+}
+
+std::vector<std::optional<PrescribedEdge>> prescribed_edges(const CadShape& shape,
+                                                            const SizingOptions& options, double size) {
+  std::vector<std::optional<PrescribedEdge>> result(shape.edges.size());
+  for (const auto& [number, spacing] : options.spacings) {
+    const std::vector<int> pieces = pieces_of(shape, number);
+    if (pieces.empty()) continue;
+    int segments = spacing.segments;
+    if (segments == 0) {
+      const auto own = options.edge_sizes.find(number);
+      const double cap = own == options.edge_sizes.end() ? size : std::min(size, own->second);
+      double length = 0;
+      for (const int piece : pieces) length += shape.edges[piece].length;
+      // Even, so that subdivision can give it.
+      segments = 2 * std::max(1, static_cast<int>(std::lround(0.5 * length / cap)));
+    }
+    if (segments < static_cast<int>(pieces.size()))
+      throw usage_error("segments", fmt::format("`segments` asks for {} on Edge{}, which is in {} pieces",
+                                                segments, number, pieces.size()));
+    if (pieces.size() > 1 && (spacing.bias != 1 || spacing.bias_both != 1))
+      throw usage_error("bias",
+                        fmt::format("`bias` cannot be given on Edge{}, which a seam divides", number));
+    const std::vector<int> counts = split_count(shape, pieces, segments);
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      result[pieces[i]] = PrescribedEdge{counts[i], shares_of(counts[i], spacing)};
+  }
+  return result;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,128 @@
+#include "geometry/sizing/face_gaps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "geometry/surfaces/edge_curve.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// The cosine of the angle up to which parts of a boundary face each other.
+const double facing = std::cos(40 * M_PI / 180);
+/// Pieces turn by no more than this, radians.
+constexpr double turn_of_piece = 0.26;
+constexpr int most_pieces = 20000;
+
+Vector3 nearest_on(const Vector3& a, const Vector3& b, const Vector3& p) {
+  const Vector3 way = b - a;
+  const double length2 = way.squaredNorm();
+  return length2 > 0 ? Vector3(a + std::clamp((p - a).dot(way) / length2, 0.0, 1.0) * way) : a;
+}
+
+double turning(const EdgeCurve& curve, const CadEdge& edge) {
+  if (curve.straight()) return 0;
+  constexpr int samples = 32;
+  double sum = 0;
+  Vector3 before = curve.derivative(edge.first).normalized();
+  for (int i = 1; i <= samples; ++i) {
+    const Vector3 now = curve.derivative(edge.first + (edge.last - edge.first) * i / samples).normalized();
+    sum += std::acos(std::clamp(before.dot(now), -1.0, 1.0));
+    before = now;
+  }
+  return sum;
+}
+
+}  // namespace
+
+FaceGaps::FaceGaps(const CadShape& shape, int face, double widest, double narrowest)
+    : widest_(widest), narrowest_(narrowest) {
+  const CadFace& cad = shape.faces[face];
+  const FaceSurface surface(cad);
+  std::map<int, int> uses;  // a seam is no rim
+  for (const CadWire& wire : cad.wires) {
+    for (const Coedge& coedge : wire.coedges) ++uses[coedge.edge];
+  }
+  for (const CadWire& wire : cad.wires) {
+    for (const Coedge& coedge : wire.coedges) {
+      const CadEdge& edge = shape.edges[coedge.edge - 1];
+      if (uses[coedge.edge] == 1 && !coedge.internal && !edge.degenerate && edge.length > 0)
+        add_coedge(edge, coedge, surface);
+    }
+  }
+  for (std::size_t i = 0; i < pieces_.size(); ++i)
+    cells_[cell_of(0.5 * (pieces_[i].a + pieces_[i].b))].push_back(static_cast<int>(i));
+}
+
+void FaceGaps::add_coedge(const CadEdge& edge, const Coedge& coedge, const FaceSurface& surface) {
+  const EdgeCurve curve(edge);
+  const double wanted = std::max({1.0, 2 * edge.length / widest_, turning(curve, edge) / turn_of_piece});
+  const int n = static_cast<int>(std::min<double>(most_pieces, std::ceil(wanted)));
+  Vector3 from = curve.point(edge.first);
+  for (int i = 0; i < n; ++i) {
+    const double step = (edge.last - edge.first) / n;
+    const Vector3 to = curve.point(edge.first + (i + 1) * step);
+    const Vector3 normal = surface.normal(parametric_point(coedge, edge.first + (i + 0.5) * step));
+    // The face lies to the left of its wires.
+    const Vector3 inward = (coedge.forward ? 1 : -1) * normal.cross(to - from);
+    if (inward.norm() > 0) pieces_.push_back({from, to, inward.normalized()});
+    from = to;
+  }
+}
+
+FaceGaps::Cell FaceGaps::cell_of(const Vector3& point) const {
+  // Pieces are at most half as long as the widest gap: all that is near lies in the next cell.
+  const Vector3 index = point / (1.5 * widest_);
+  return {static_cast<std::int64_t>(std::floor(index.x())), static_cast<std::int64_t>(std::floor(index.y())),
+          static_cast<std::int64_t>(std::floor(index.z()))};
+}
+
+std::optional<FaceGap> FaceGaps::gap_at(const Vector3& point, const Vector3& inward) const {
+  const Cell middle = cell_of(point);
+  double width = widest_;
+  std::optional<FaceGap> gap;
+  for (int k = 0; k < 27; ++k) {
+    const auto cell = cells_.find({middle[0] + k % 3 - 1, middle[1] + k / 3 % 3 - 1, middle[2] + k / 9 - 1});
+    if (cell == cells_.end()) continue;
+    for (const int i : cell->second) {
+      const Piece& piece = pieces_[i];
+      if (piece.inward.dot(inward) > -facing) continue;
+      const Vector3 to = nearest_on(piece.a, piece.b, point), way = to - point;
+      const double length = way.norm();
+      if (!(length > 0) || length >= width) continue;
+      if (way.dot(inward) < facing * length || -way.dot(piece.inward) < facing * length) continue;
+      width = length;
+      gap = FaceGap{point, to};
+    }
+  }
+  return gap;
+}
+
+void FaceGaps::find_between(const Piece& piece, std::vector<FaceGap>& gaps, SparseCheck& check) const {
+  check();
+  const auto gap = gap_at(0.5 * (piece.a + piece.b), piece.inward);
+  if (gap) gaps.push_back(*gap);
+  // Its own halves may be nearer to something by as much as they are long.
+  const double length = (piece.b - piece.a).norm();
+  const double width = std::max((gap ? gap->width() : widest_) - 0.5 * length, narrowest_);
+  if (length <= 0.5 * width) return;
+  const Vector3 middle = 0.5 * (piece.a + piece.b);
+  find_between({piece.a, middle, piece.inward}, gaps, check);
+  find_between({middle, piece.b, piece.inward}, gaps, check);
+}
+
+std::vector<FaceGap> FaceGaps::find(const ExecutionContext& context) const {
+  std::vector<FaceGap> gaps;
+  SparseCheck check(context, 64);
+  for (const Piece& piece : pieces_) {
+    if (const auto gap = gap_at(piece.a, piece.inward)) gaps.push_back(*gap);
+    if (const auto gap = gap_at(piece.b, piece.inward)) gaps.push_back(*gap);
+    find_between(piece, gaps, check);
+  }
+  return gaps;
+}
+
+}  // namespace quadrille

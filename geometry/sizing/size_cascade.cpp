@@ -1,0 +1,180 @@
+/// Gradation by Dijkstra's algorithm over the voxels (chamfer distances over 26 neighbors, Borgefors 1986):
+/// a monotone min-update, so that the result is the largest field under the sources with the slope asked for.
+
+#include "geometry/sizing/size_cascade.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+
+#include "geometry/sizing/sizing_field.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// A level's grid covers sizes up to this many of its voxels.
+constexpr double coverage = 1.3;
+/// Up to this growth a voxel is as wide as it is with it: then sizes change by as much over one whatever the
+/// growth, and its values reach as few voxels far.
+constexpr double usual_growth = 0.3;
+
+struct Item {
+  float value;
+  Coord coord;
+  bool operator<(const Item& other) const {
+    return value != other.value ? value > other.value : other.coord < coord;
+  }
+};
+
+Coord floor_of(const Vector3& index) {
+  return Coord::floor(openvdb::Vec3d(index.x(), index.y(), index.z()));
+}
+
+}  // namespace
+
+double widening(double growth) {
+  return std::max(1.0, usual_growth / growth);
+}
+
+int level_for(double size_max, double size) {
+  return static_cast<int>(std::floor(std::min(std::log2(size_max / size), 1.0 * max_size_levels)));
+}
+
+void BlockCount::add() {
+  const auto count = static_cast<double>(count_.fetch_add(1, std::memory_order_relaxed) + 1);
+  if (count > most_) throw too_many_blocks(count);
+}
+
+double CascadeFrame::size(int level) const {
+  return std::ldexp(size_max, -level);
+}
+double CascadeFrame::voxel(int level) const {
+  return size(level) * widening(growth);
+}
+int CascadeFrame::level_of(double size) const {
+  return std::clamp(level_for(size_max, size), 0, finest);
+}
+
+SizeTree& SizeCascade::make_tree(int level) {
+  if (levels() <= level) {
+    trees_.resize(level + 1);
+    fresh_.resize(level + 1);
+    changed_.resize(level + 1);
+  }
+  if (!trees_[level]) trees_[level] = std::make_unique<SizeTree>(static_cast<float>(frame_.size_max));
+  return *trees_[level];
+}
+
+void SizeCascade::lower(int level, const Coord& c, float value, BlockCount& blocks) {
+  if (level != last_level_) {
+    accessor_ = std::make_unique<VoxelAccessor>(make_tree(level), &blocks);
+    last_level_ = level;
+  }
+  if (!(value < accessor_->value(c))) return;
+  accessor_->set(c, value);
+  fresh_[level].push_back(c);
+}
+
+void SizeCascade::add(const Vector3& point, double size, BlockCount& blocks) {
+  const int level = frame_.level_of(size);
+  const Coord base = floor_of(point / frame_.voxel(level));
+  for (int k = 0; k < 8; ++k)
+    lower(level, base.offsetBy(k & 1, k >> 1 & 1, k >> 2), static_cast<float>(size), blocks);
+}
+
+bool SizeCascade::is_fresh() const {
+  return std::any_of(fresh_.begin(), fresh_.end(), [](const auto& coords) { return !coords.empty(); });
+}
+
+void SizeCascade::grade(double slope, double most, const Near& near, BlockCount& blocks,
+                        const ExecutionContext& context) {
+  for (int level = levels() - 1; level >= 0; --level) {
+    if (level + 1 < levels()) take_over(level, blocks);
+    grade_level(level, slope, most, near, blocks, context);
+  }
+  last_level_ = -1;
+  accessor_.reset();
+  changed_.assign(changed_.size(), {});
+}
+
+void SizeCascade::take_over(int level, BlockCount& blocks) {
+  if (changed_[level + 1].empty()) return;
+  VoxelAccessor finer(*trees_[level + 1]), here(make_tree(level), &blocks);
+  for (const Coord& c : changed_[level + 1]) {
+    if ((c.x() | c.y() | c.z()) & 1) continue;
+    const Coord half(c.x() >> 1, c.y() >> 1, c.z() >> 1);
+    const float value = finer.value(c);
+    if (!(value < here.value(half))) continue;
+    here.set(half, value);
+    fresh_[level].push_back(half);
+  }
+}
+
+void SizeCascade::grade_level(int level, double slope, double most, const Near& near, BlockCount& blocks,
+                              const ExecutionContext& context) {
+  std::vector<Coord>& changed = changed_[level];
+  changed = std::move(fresh_[level]);
+  fresh_[level].clear();
+  if (changed.empty()) return;
+  SparseCheck check(context);
+  VoxelAccessor accessor(*trees_[level], &blocks);
+  std::vector<Item> items;
+  items.reserve(changed.size());
+  for (const Coord& c : changed) items.push_back({accessor.value(c), c});
+  std::priority_queue<Item> queue(std::less<Item>(), std::move(items));
+  const double voxel = frame_.voxel(level);
+  const auto limit = static_cast<float>(std::min({frame_.size_max, most, coverage * frame_.size(level)}));
+  std::array<float, 4> step{};
+  for (int k = 1; k < 4; ++k) step[k] = static_cast<float>(slope * voxel * std::sqrt(k));
+  while (!queue.empty()) {
+    const Item item = queue.top();
+    queue.pop();
+    check();
+    if (item.value + step[1] >= limit) break;
+    if (item.value > accessor.value(item.coord)) continue;
+    for (int k = 0; k < 27; ++k) {
+      const int dx = k % 3 - 1, dy = k / 3 % 3 - 1, dz = k / 9 - 1;
+      const int steps = std::abs(dx) + std::abs(dy) + std::abs(dz);
+      if (steps == 0) continue;
+      const float value = item.value + step[steps];
+      const Coord c = item.coord.offsetBy(dx, dy, dz);
+      if (!(value < limit) || !(value < accessor.value(c))) continue;
+      if (near && !near(voxel * Vector3(c.x(), c.y(), c.z()), voxel)) continue;
+      accessor.set(c, value);
+      changed.push_back(c);
+      queue.push({value, c});
+    }
+  }
+}
+
+SizeCascade::Lookup::Lookup(const SizeCascade& cascade) : size_max_(cascade.frame().size_max) {
+  for (int level = cascade.levels() - 1; level >= 0; --level) {
+    SizeTree* tree = cascade.tree(level);
+    if (tree == nullptr) continue;
+    const CascadeFrame& frame = cascade.frame();
+    levels_.push_back({1 / frame.voxel(level), frame.size(level), level == 0, VoxelAccessor(*tree)});
+  }
+}
+
+double SizeCascade::Lookup::operator()(const Vector3& point) {
+  for (auto& [scale, limit, coarsest, accessor] : levels_) {
+    const Vector3 index = point * scale;
+    const Coord base = floor_of(index);
+    const Vector3 t(index.x() - base.x(), index.y() - base.y(), index.z() - base.z());
+    double value = 0;
+    int active = 0;
+    for (int k = 0; k < 8; ++k) {
+      const double weight =
+          ((k & 1) ? t.x() : 1 - t.x()) * ((k >> 1 & 1) ? t.y() : 1 - t.y()) * ((k >> 2) ? t.z() : 1 - t.z());
+      float corner = 0;
+      active += accessor.probe(base.offsetBy(k & 1, k >> 1 & 1, k >> 2), corner);
+      value += weight * corner;
+    }
+    if (coarsest || (active == 8 && value <= limit)) return std::min(value, size_max_);
+  }
+  return size_max_;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,243 @@
+/// Size from curvature: 2 pi R / (elements a circle), as in Gmsh's and Netgen's manuals.
+
+#include "geometry/sizing/size_sources.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "geometry/base/trimmed_domain.hpp"
+#include "geometry/sizing/element_count.hpp"
+#include "geometry/sizing/face_gaps.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// Blocks that a voxel's length of an edge takes: the field about it is some five voxels wide, and the
+/// coarser levels take it over, each a half.
+constexpr double blocks_a_voxel = 0.85;
+/// Of halving an edge or a face's parameters; the budget ends it before.
+constexpr int max_depth = 40;
+/// Cells of a face along each parameter before any is halved.
+constexpr int fewest_cells = 4, most_cells = 400;
+
+}  // namespace
+
+SizeSources::SizeSources(const CadShape& shape, const SizingOptions& options, const SizeLimits& limits,
+                         const UnsizedFeatures& unsized, const SpatialSizes& spatial,
+                         const ExecutionContext& context)
+    : shape_(shape),
+      options_(options),
+      limits_(limits),
+      unsized_(unsized),
+      spatial_(spatial),
+      context_(context),
+      prescribed_(prescribed_edges(shape, options, limits.largest)) {}
+
+/// The size asked for on an edge by itself and by its length.
+double SizeSources::cap_of(const CadEdge& edge) const {
+  double cap = limits_.largest;
+  if (const auto it = options_.edge_sizes.find(edge.number); it != options_.edge_sizes.end())
+    cap = it->second;
+  // A short edge is one element: its surroundings are refined towards it.
+  return std::min(cap, std::max(edge.length, limits_.least));
+}
+
+void SizeSources::hold_segments() const {
+  double sum = 0, most = 0, blocks = 0;
+  std::size_t longest = 0;
+  for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
+    const CadEdge& edge = shape_.edges[i];
+    if (edge.degenerate || edge.faces.empty() || !(edge.length > 0)) continue;
+    const double cap = cap_of(edge), segments = prescribed_[i] ? prescribed_[i]->segments : edge.length / cap;
+    sum += segments;
+    if (cap < limits_.largest)
+      blocks += blocks_a_voxel * edge.length / field_voxel(limits_.largest, cap, options_.growth);
+    if (segments <= most) continue;
+    most = segments;
+    longest = i;
+  }
+  if (sum > options_.budget.segments) throw too_many_segments(longest, most);
+  if (blocks > options_.budget.blocks) throw too_many_blocks(blocks);
+}
+
+Error SizeSources::too_many_segments(std::size_t edge, double segments) const {
+  return usage_error(
+      "size",
+      fmt::format("Edge{} of {:.3g} mm would take about {:.3g} million segments at the sizes asked for, and "
+                  "all edges more than {:g} million: `force` meshes all the same",
+                  edge + 1, shape_.edges[edge].length, segments / 1e6, options_.budget.segments / 1e6));
+}
+
+void SizeSources::edge(int index, const Sink& sink) const {
+  context_.check();
+  const CadEdge& edge = shape_.edges[index];
+  if (edge.degenerate || edge.faces.empty() || edge.length <= 0) return;
+  if (prescribed_[index]) prescribed_edge(edge, *prescribed_[index], sink);
+  if (unsized_.edge(index) && !options_.edge_sizes.contains(edge.number)) return;
+  const EdgeCurve curve(edge);
+  double cap = cap_of(edge);
+  if (curve.straight()) {
+    if (cap < limits_.largest || !spatial_.empty()) sample_edge(curve, edge, cap, false, sink);
+    return;
+  }
+  if (curve.circular()) cap = std::min(cap, size_of(curve.curvature(edge.first)));
+  sample_edge(curve, edge, cap, !curve.circular(), sink);
+}
+
+/// Faces are as fine beside an edge as the edge is.
+void SizeSources::prescribed_edge(const CadEdge& edge, const PrescribedEdge& prescribed,
+                                  const Sink& sink) const {
+  const EdgeCurve curve(edge);
+  const int n = prescribed.segments;
+  for (int k = 0; k <= 2 * n; ++k) {
+    const double share = prescribed.shares.empty() ? 0.5 * k / n
+                         : k % 2 == 0              ? prescribed.shares[k / 2]
+                                      : 0.5 * (prescribed.shares[k / 2] + prescribed.shares[k / 2 + 1]);
+    const double size = prescribed.size_at(share, edge.length);
+    if (size < limits_.largest)
+      sink(curve.point(edge.first + share * (edge.last - edge.first)), std::max(size, limits_.least));
+  }
+}
+
+void SizeSources::sample_edge(const EdgeCurve& curve, const CadEdge& edge, double cap, bool with_curvature,
+                              const Sink& sink) const {
+  const int intervals = std::max({4, with_curvature ? 3 * curve.spans() : 1,
+                                  static_cast<int>(std::ceil(edge.length / spatial_.spacing()))});
+  const auto sample = [&](double t) {
+    const Vector3 point = curve.point(t);
+    double size = cap;
+    if (with_curvature) size = std::min(size, size_of(curve.curvature(t)));
+    if (spatial_.empty()) return EdgeSample{t, point, size, size};
+    return EdgeSample{t, point, std::min(size, spatial_.at(point)), std::min(size, spatial_.hint(point))};
+  };
+  const auto add = [&](const EdgeSample& at) {
+    if (at.size < limits_.largest) sink(at.point, at.size);
+  };
+  EdgeSample first = sample(edge.first);
+  add(first);
+  SparseCheck check(context_, 256);
+  for (int i = 1; i <= intervals; ++i) {
+    check();
+    const EdgeSample last = sample(edge.first + (edge.last - edge.first) * i / intervals);
+    const double segments = (last.point - first.point).norm() / std::min(first.size, last.size);
+    if (segments > options_.budget.segments) throw too_many_segments(&edge - shape_.edges.data(), segments);
+    split_interval(sample, first, last, 0, add, check);
+    add(last);
+    first = last;
+  }
+}
+
+/// Adds the sample half way between two, and those half way to it, until they are as near as the size there.
+template <class SampleAt, class Add>
+void SizeSources::split_interval(const SampleAt& sample, const EdgeSample& first, const EdgeSample& last,
+                                 int depth, const Add& add, SparseCheck& check) const {
+  check();
+  if ((last.point - first.point).norm() <= std::min(first.hint, last.hint) || depth > max_depth) return;
+  const EdgeSample middle = sample(0.5 * (first.t + last.t));
+  if (std::min({first.hint, middle.hint, last.hint}) >= limits_.largest) return;
+  add(middle);
+  split_interval(sample, first, middle, depth + 1, add, check);
+  split_interval(sample, middle, last, depth + 1, add, check);
+}
+
+void SizeSources::face(int index, const Sink& sink) const {
+  const CadFace& face = shape_.faces[index];
+  if (unsized_.face(index) && !options_.face_sizes.contains(index + 1)) return;
+  if (options_.proximity > 0) gaps(index, sink);
+  const FaceSurface surface(face);
+  double cap = limits_.largest;
+  if (const auto it = options_.face_sizes.find(index + 1); it != options_.face_sizes.end()) cap = it->second;
+  const bool curved = !surface.planar() && has_curvature_sizes(options_);
+  if (!curved && cap >= limits_.largest && spatial_.empty()) return;
+  const TrimmedDomain domain = coarse_domain(shape_, face);
+  const Vector2 low(face.u_min, face.v_min), extent(face.u_max - face.u_min, face.v_max - face.v_min);
+  const Vector2 lengths = extent.cwiseProduct(surface.mean_scale()) / spatial_.spacing();
+  const int nu = std::clamp(static_cast<int>(std::ceil(lengths.x())), fewest_cells, most_cells);
+  const int nv = std::clamp(static_cast<int>(std::ceil(lengths.y())), fewest_cells, most_cells);
+  const Vector2 cell(extent.x() / nu, extent.y() / nv);
+  SparseCheck check(context_, 256);
+  const auto sample = [&](const Vector2& middle, const Vector2& part) {
+    check();
+    const SurfacePoint at = surface.evaluate(middle);
+    double size = curved ? std::min(cap, size_of(surface.max_curvature(middle))) : cap, hint = size;
+    if (!spatial_.empty()) {
+      hint = std::min(size, spatial_.hint(at.point));
+      size = std::min(size, spatial_.at(at.point));
+    }
+    if (size < limits_.largest && domain.inside(middle)) sink(at.point, size);
+    return CellSample{hint, part.x() * at.du.norm(), part.y() * at.dv.norm()};
+  };
+  for (int j = 0; j < nv; ++j) {
+    for (int i = 0; i < nu; ++i) {
+      const Vector2 middle = low + Vector2((i + 0.5) * cell.x(), (j + 0.5) * cell.y());
+      split_cell(sample, middle, cell, 0);
+    }
+  }
+}
+
+void SizeSources::uniform_edge(const CadEdge& edge, double spacing, const PointSink& sink) const {
+  if (edge.degenerate || !(edge.length > 0)) return;
+  const EdgeCurve curve(edge);
+  const double n = std::ceil(edge.length / spacing);
+  if (n > options_.budget.segments) throw too_many_segments(&edge - shape_.edges.data(), n);
+  SparseCheck check(context_, 256);
+  for (int i = 0; i <= n; ++i) {
+    check();
+    sink(curve.point(edge.first + (edge.last - edge.first) * i / n));
+  }
+}
+
+void SizeSources::uniform_face(int index, double spacing, const PointSink& sink) const {
+  const CadFace& face = shape_.faces[index];
+  const FaceSurface surface(face);
+  const TrimmedDomain domain = coarse_domain(shape_, face);
+  const Vector2 low(face.u_min, face.v_min), extent(face.u_max - face.u_min, face.v_max - face.v_min);
+  SparseCheck check(context_, 256);
+  const auto sample = [&](const Vector2& middle, const Vector2& part) {
+    check();
+    const SurfacePoint at = surface.evaluate(middle);
+    if (domain.inside(middle)) sink(at.point);
+    return CellSample{spacing, part.x() * at.du.norm(), part.y() * at.dv.norm()};
+  };
+  const Vector2 cell = extent / fewest_cells;
+  for (int k = 0; k < fewest_cells * fewest_cells; ++k) {
+    const Vector2 place(k % fewest_cells + 0.5, k / fewest_cells + 0.5);
+    split_cell(sample, low + place.cwiseProduct(cell), cell, 0);
+  }
+}
+
+/// So many elements across each gap.
+void SizeSources::gaps(int index, const Sink& sink) const {
+  const double n = options_.proximity;
+  const FaceGaps gaps(shape_, index, n * limits_.largest, n * limits_.least);
+  for (const FaceGap& gap : gaps.find(context_)) {
+    const double size = std::max(gap.width() / n, limits_.least);
+    if (!(size < limits_.largest)) continue;
+    const int steps = static_cast<int>(std::ceil(gap.width() / size));
+    for (int k = 0; k <= steps; ++k) sink(gap.from + k * (gap.to - gap.from) / steps, size);
+  }
+}
+
+/// Samples the middle of a cell of the parameter plane, and its parts where the size is below the cell's.
+template <class SampleAt>
+void SizeSources::split_cell(const SampleAt& sample, const Vector2& middle, const Vector2& cell,
+                             int depth) const {
+  const auto [size, length, width] = sample(middle, cell);
+  const bool split_u = length > 1.5 * size, split_v = width > 1.5 * size;
+  if ((!split_u && !split_v) || depth > max_depth || size >= limits_.largest) return;
+  const int nu = split_u ? 2 : 1, nv = split_v ? 2 : 1;
+  const Vector2 part(cell.x() / nu, cell.y() / nv);
+  for (int j = 0; j < nv; ++j) {
+    for (int i = 0; i < nu; ++i) {
+      const Vector2 offset((i + 0.5) * part.x() - 0.5 * cell.x(), (j + 0.5) * part.y() - 0.5 * cell.y());
+      split_cell(sample, middle + offset, part, depth + 1);
+    }
+  }
+}
+
+}  // namespace quadrille

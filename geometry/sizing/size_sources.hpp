@@ -1,0 +1,73 @@
+#pragma once
+/// The sizes that a model's edges and faces ask for, as points. Internal.
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "geometry/base/execution_context.hpp"
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/sizing/edge_spacing.hpp"
+#include "geometry/sizing/sizing_field.hpp"
+#include "geometry/sizing/sizing_options.hpp"
+#include "geometry/sizing/spatial_sizes.hpp"
+#include "geometry/surfaces/edge_curve.hpp"
+
+namespace quadrille {
+
+/// Samples edges and faces as closely as the sizes there are. Thread-safe.
+class SizeSources {
+ public:
+  /// Takes a point that asks for a size smaller than the largest.
+  using Sink = std::function<void(const Vector3& point, double size)>;
+
+  SizeSources(const CadShape& shape, const SizingOptions& options, const SizeLimits& limits,
+              const UnsizedFeatures& unsized, const SpatialSizes& spatial, const ExecutionContext& context);
+
+  /// Throws Error (usage) if the edges' lengths alone pass the budget of segments, or that of blocks.
+  void hold_segments() const;
+
+  /// What an edge asks for by its length, its curvature and its own size. \param index from 0
+  void edge(int index, const Sink& sink) const;
+  /// What a face asks for inside. \param index from 0
+  void face(int index, const Sink& sink) const;
+
+  using PointSink = std::function<void(const Vector3& point)>;
+  /// Points of an edge and of a face's inside, as close together as `spacing`.
+  void uniform_edge(const CadEdge& edge, double spacing, const PointSink& sink) const;
+  void uniform_face(int index, double spacing, const PointSink& sink) const;
+
+ private:
+  struct EdgeSample {
+    double t;
+    Vector3 point;
+    double size, hint;
+  };
+  /// The size in the middle of a cell of the parameter plane, and how long and wide the cell is in space.
+  struct CellSample {
+    double size, length, width;
+  };
+
+  void gaps(int index, const Sink& sink) const;
+  double size_of(double curvature) const { return size_of_curvature(options_, limits_, curvature); }
+  double cap_of(const CadEdge& edge) const;
+  Error too_many_segments(std::size_t edge, double segments) const;
+  void prescribed_edge(const CadEdge& edge, const PrescribedEdge& prescribed, const Sink& sink) const;
+  void sample_edge(const EdgeCurve& curve, const CadEdge& edge, double cap, bool with_curvature,
+                   const Sink& sink) const;
+  template <class SampleAt, class Add>
+  void split_interval(const SampleAt& sample, const EdgeSample& first, const EdgeSample& last, int depth,
+                      const Add& add, SparseCheck& check) const;
+  template <class SampleAt>
+  void split_cell(const SampleAt& sample, const Vector2& middle, const Vector2& cell, int depth) const;
+
+  const CadShape& shape_;
+  const SizingOptions& options_;
+  SizeLimits limits_;
+  const UnsizedFeatures& unsized_;
+  const SpatialSizes& spatial_;
+  const ExecutionContext& context_;
+  std::vector<std::optional<PrescribedEdge>> prescribed_;  // (edges)
+};
+
+}  // namespace quadrille

@@ -1,0 +1,195 @@
+#include "geometry/sizing/spatial_sizes.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "geometry/base/module_loader.hpp"
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/cad/isolated_reading.hpp"
+#include "geometry/sizing/vdb_module.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// A slope that halving steps cannot pass over.
+constexpr double slope_of_hints = 0.3;
+
+double distance_to_box(const Vector3& p, const Vector3& low, const Vector3& high) {
+  return (low - p).cwiseMax(p - high).cwiseMax(0).norm();
+}
+
+double distance_to_cylinder(const Vector3& p, const Vector3& start, const Vector3& end, double radius) {
+  const Vector3 axis = (end - start).normalized();
+  const double along = (p - start).dot(axis), length = (end - start).norm();
+  const double beside = ((p - start) - along * axis).norm();
+  return std::hypot(std::max({0.0, -along, along - length}), std::max(0.0, beside - radius));
+}
+
+bool reaches(const SizeRegion& region, const CadModel& model) {
+  // Boxes are compared; a region that only its box brings near is taken to reach.
+  const Vector3 &low = model.box_min(), &high = model.box_max();
+  const Vector3 radii = Vector3::Constant(region.radius);
+  switch (region.shape) {
+    case SizeRegion::Shape::box:
+      return (region.a.array() <= high.array()).all() && (region.b.array() >= low.array()).all();
+    case SizeRegion::Shape::sphere:
+      return distance_to_box(region.a, low, high) <= region.radius;
+    case SizeRegion::Shape::cylinder: {
+      const Vector3 bottom = region.a.cwiseMin(region.b) - radii, top = region.a.cwiseMax(region.b) + radii;
+      return (bottom.array() <= high.array()).all() && (top.array() >= low.array()).all();
+    }
+    case SizeRegion::Shape::half_space: {
+      const Vector3 deepest = (region.b.array() > 0).select(high, low);
+      return (deepest - region.a).dot(region.b) >= 0;
+    }
+  }
+  return true;
+}
+
+/// The numbers of a line between commas; fewer than four, or none at all, where it has others.
+std::vector<double> numbers_of(std::string_view line) {
+  std::vector<double> numbers;
+  while (true) {
+    const std::size_t comma = std::min(line.find(','), line.size());
+    std::string_view field = line.substr(0, comma);
+    const auto trim = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+    while (!field.empty() && trim(field.front())) field.remove_prefix(1);
+    while (!field.empty() && trim(field.back())) field.remove_suffix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error != std::errc() || end != field.data() + field.size()) return {};
+    numbers.push_back(value);
+    if (comma == line.size()) return numbers;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+}  // namespace
+
+double SizeRegion::distance(const Vector3& point) const {
+  switch (shape) {
+    case Shape::box:
+      return distance_to_box(point, a, b);
+    case Shape::sphere:
+      return std::max(0.0, (point - a).norm() - radius);
+    case Shape::cylinder:
+      return distance_to_cylinder(point, a, b, radius);
+    case Shape::half_space:
+      return std::max(0.0, -(point - a).dot(b) / b.norm());
+  }
+  return 0;
+}
+
+std::vector<SizePoint> read_size_points(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  const auto refused = [&](std::size_t line, const std::string& what) {
+    return failure(path.string(), fmt::format("{}: line {} {}", path.string(), line, what));
+  };
+  if (!file) throw failure(path.string(), fmt::format("{} cannot be read", path.string()));
+  std::vector<SizePoint> points;
+  std::string line;
+  for (std::size_t number = 1; std::getline(file, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const std::vector<double> values = numbers_of(line);
+    if (values.empty() && number == 1) continue;  // the names of the columns
+    if (values.size() != 4) throw refused(number, "is not x,y,z,size");
+    if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }) ||
+        !(values[3] > 0))
+      throw refused(number, fmt::format("asks for the size {:g}: sizes are positive numbers", values[3]));
+    points.push_back({{values[0], values[1], values[2]}, values[3]});
+  }
+  if (points.empty()) throw failure(path.string(), fmt::format("{} holds no points", path.string()));
+  return points;
+}
+
+SpatialSizes::SpatialSizes(const CadModel& model, const SizingOptions& options, const SizeLimits& limits,
+                           BlockCount& blocks, ExecutionContext& context)
+    : limits_(limits),
+      growth_(options.growth),
+      spacing_(limits.largest),
+      regions_(options.regions),
+      cascade_(frame_of(model, options, limits)) {
+  for (std::size_t i = 0; i < regions_.size(); ++i) {
+    if (!reaches(regions_[i], model))
+      throw usage_error("size_in", fmt::format("region {} of `size_in` does not reach the model", i + 1));
+  }
+  if (!options.size_field.empty()) open_external(model, options, context);
+  if (!options.size_points.empty()) read_points(model, options, blocks, context);
+}
+
+void SpatialSizes::open_external(const CadModel& model, const SizingOptions& options,
+                                 ExecutionContext& context) {
+  static const Module module("quadrille_vdb");
+  const std::string path = options.size_field.string();
+  ExternalSizes sizes;
+  const auto open = [&] {
+    const std::string problem = module.function<VdbOpenFunction>("_open")(path, sizes);
+    if (!problem.empty()) throw failure(path, problem);
+    return TopoDS_Shape();
+  };
+  // OpenVDB believes whatever lengths a damaged file gives: tried apart, where it may crash or want no end
+  // of memory.
+  constexpr std::size_t room = std::size_t{1} << 30, room_each_byte = 20;
+  std::error_code unknown;
+  const std::uintmax_t bytes = std::filesystem::file_size(options.size_field, unknown);
+  read_isolated(path, open, &context, 0, room + (unknown ? 0 : room_each_byte * bytes));
+  open();
+  const double unit = options.size_field_unit, scale = unit * options.size_field_scale;
+  const Vector3 low = unit * sizes.low, high = unit * sizes.high;
+  if ((low.array() > model.box_max().array()).any() || (high.array() < model.box_min().array()).any())
+    throw usage_error(
+        "size_field",
+        fmt::format("{} lies beside the model: its sizes reach from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, "
+                    "{:.4g}, {:.4g}) mm; is `size_field_unit` right?",
+                    path, low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
+  external_ = [at = std::move(sizes.at), unit, scale](const Vector3& p) { return scale * at(p / unit); };
+  spacing_ = std::min(spacing_, std::max(unit * sizes.voxel, limits_.least));
+}
+
+void SpatialSizes::read_points(const CadModel& model, const SizingOptions& options, BlockCount& blocks,
+                               ExecutionContext& context) {
+  points_ = read_size_points(options.size_points);
+  bool any = false;
+  for (SizePoint& at : points_) {
+    at.size = std::clamp(at.size, limits_.least, limits_.largest);
+    const double reach = (limits_.largest - at.size) / growth_;
+    if (distance_to_box(at.point, model.box_min(), model.box_max()) > reach) continue;
+    any = true;
+    if (at.size < limits_.largest) cascade_.add(at.point, at.size, blocks);
+  }
+  if (!any)
+    throw usage_error("size_points", fmt::format("no point of {} is near the model: are they in mm?",
+                                                 options.size_points.string()));
+  cascade_.grade(std::min(growth_, slope_of_hints), limits_.largest, {}, blocks, context);
+}
+
+double SpatialSizes::of_regions(const Vector3& point, double steepest) const {
+  double size = limits_.largest;
+  for (const SizeRegion& region : regions_) {
+    const double inside = std::max(region.size, limits_.least);
+    double slope = growth_;
+    if (region.transition > 0) slope = std::min(slope, (limits_.largest - inside) / region.transition);
+    size = std::min(size, inside + std::min(slope, steepest) * region.distance(point));
+  }
+  return size;
+}
+
+double SpatialSizes::at(const Vector3& point) const {
+  double size = of_regions(point, growth_);
+  if (external_) size = std::min(size, external_(point));
+  if (!points_.empty()) size = std::min(size, SizeCascade::Lookup(cascade_)(point));
+  return std::max(size, limits_.least);
+}
+
+double SpatialSizes::hint(const Vector3& point) const {
+  return std::min(of_regions(point, slope_of_hints), at(point));
+}
+
+}  // namespace quadrille

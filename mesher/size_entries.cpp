@@ -1,0 +1,246 @@
+#include "mesher/size_entries.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace quadrille {
+
+namespace {
+
+using Shape = SizeRegion::Shape;
+
+struct ShapeForm {
+  Shape shape;
+  std::string_view name;
+  std::size_t numbers;
+};
+constexpr std::array<ShapeForm, 4> shape_forms{{{Shape::box, "box", 6},
+                                                {Shape::sphere, "sphere", 4},
+                                                {Shape::cylinder, "cylinder", 7},
+                                                {Shape::half_space, "halfspace", 6}}};
+
+[[noreturn]] void refuse(const std::string& what, const std::string& entry) {
+  throw std::invalid_argument(fmt::format("takes {}, not '{}'", what, entry));
+}
+
+std::optional<double> number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::vector<std::string_view> split(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (std::size_t comma; (comma = text.find(',')) != std::string_view::npos; text.remove_prefix(comma + 1))
+    parts.push_back(text.substr(0, comma));
+  parts.push_back(text);
+  return parts;
+}
+
+/// Numbers between commas; none where one of them is not.
+std::vector<double> numbers(std::string_view text) {
+  std::vector<double> values;
+  for (const std::string_view part : split(text)) {
+    const auto value = number(part);
+    if (!value) return {};
+    values.push_back(*value);
+  }
+  return values;
+}
+
+SizeRegion region(const std::string& entry) {
+  constexpr const char* what =
+      "box:x,y,z,x,y,z=SIZE, sphere:x,y,z,r=SIZE, cylinder:x,y,z,x,y,z,r=SIZE or "
+      "halfspace:x,y,z,nx,ny,nz=SIZE, "
+      "with ,TRANSITION behind SIZE or without";
+  const std::size_t colon = entry.find(':'), equals = entry.find('=');
+  if (colon == std::string::npos || equals == std::string::npos || equals < colon) refuse(what, entry);
+  const std::string_view text = entry;
+  const ShapeForm* form = nullptr;
+  for (const ShapeForm& known : shape_forms) {
+    if (known.name == text.substr(0, colon)) form = &known;
+  }
+  const std::vector<double> place = numbers(text.substr(colon + 1, equals - colon - 1));
+  const std::vector<double> sizes = numbers(text.substr(equals + 1));
+  if (form == nullptr || place.size() != form->numbers || sizes.empty() || sizes.size() > 2)
+    refuse(what, entry);
+  if (!(sizes[0] > 0) || (sizes.size() == 2 && !(sizes[1] >= 0))) refuse("positive sizes", entry);
+  SizeRegion result{form->shape, Vector3(place[0], place[1], place[2]), {0, 0, 0}, 0,
+                    sizes[0],    sizes.size() == 2 ? sizes[1] : 0};
+  if (place.size() >= 6) result.b = Vector3(place[3], place[4], place[5]);
+  if (place.size() == 4 || place.size() == 7) result.radius = place.back();
+  if (result.shape == Shape::box) {
+    const Vector3 low = result.a.cwiseMin(result.b), high = result.a.cwiseMax(result.b);
+    result.a = low;
+    result.b = high;
+  }
+  const bool has_radius = result.shape == Shape::sphere || result.shape == Shape::cylinder;
+  if (has_radius && !(result.radius > 0)) refuse("positive radii", entry);
+  if (result.shape == Shape::cylinder && result.a == result.b) refuse("cylinders with two ends apart", entry);
+  if (result.shape == Shape::half_space && result.b.isZero()) refuse("half-spaces with a direction", entry);
+  return result;
+}
+
+std::string text_of(const SizeRegion& region) {
+  const ShapeForm& form = shape_forms[static_cast<std::size_t>(region.shape)];
+  std::vector<double> place{region.a.x(), region.a.y(), region.a.z()};
+  if (form.numbers >= 6) place.insert(place.end(), {region.b.x(), region.b.y(), region.b.z()});
+  if (form.numbers != 6) place.push_back(region.radius);
+  const std::string text = fmt::format("{}:{}={}", form.name, fmt::join(place, ","), region.size);
+  return region.transition > 0 ? text + fmt::format(",{}", region.transition) : text;
+}
+
+/// Entries such as "Edge4=20", split at commas: calls take(number, value) for each. Names come once.
+template <class Take>
+void take_edges(const Entries& entries, const char* what, Take&& take) {
+  std::set<int> names;
+  for (const std::string& entry : entries) {
+    for (const std::string_view part : split(entry)) {
+      const std::size_t equals = std::min(part.find('='), part.size());
+      const int edge = number_of(part.substr(0, equals), "Edge");
+      const auto value = equals < part.size() ? number(part.substr(equals + 1)) : std::nullopt;
+      if (edge == 0 || !value || !take(edge, *value)) refuse(what, std::string(part));
+      if (!names.insert(edge).second) throw std::invalid_argument(fmt::format("names Edge{} twice", edge));
+    }
+  }
+}
+
+/// Spacings that prescribe nothing are left out.
+void tidy(SizingOptions& sizing) {
+  std::erase_if(sizing.spacings, [](const auto& item) {
+    return item.second.segments == 0 && item.second.bias == 1 && item.second.bias_both == 1;
+  });
+}
+
+void set_ratio(SizingOptions& sizing, const Entries& entries, double EdgeSpacing::*place) {
+  for (auto& [edge, spacing] : sizing.spacings) spacing.*place = 1;
+  constexpr double steepest = 10;
+  take_edges(entries, "ratios between 0.1 and 10 such as Edge4=1.2", [&](int edge, double value) {
+    if (!(value >= 1 / steepest && value <= steepest)) return false;
+    sizing.spacings[edge].*place = value;
+    return true;
+  });
+  tidy(sizing);
+}
+
+Entries ratios_of(const SizingOptions& sizing, double EdgeSpacing::*place) {
+  Entries entries;
+  for (const auto& [edge, spacing] : sizing.spacings) {
+    if (spacing.*place != 1) entries.push_back(fmt::format("Edge{}={}", edge, spacing.*place));
+  }
+  return entries;
+}
+
+}  // namespace
+
+int number_of(std::string_view name, std::string_view kind) {
+  if (name.substr(0, kind.size()) != kind) return 0;
+  name.remove_prefix(kind.size());
+  int number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  return error == std::errc() && end == name.data() + name.size() && number > 0 ? number : 0;
+}
+
+void set_regions(SizingOptions& sizing, const Entries& entries) {
+  sizing.regions.clear();
+  for (const std::string& entry : entries) sizing.regions.push_back(region(entry));
+}
+
+Entries regions_of(const SizingOptions& sizing) {
+  Entries entries;
+  for (const SizeRegion& region : sizing.regions) entries.push_back(text_of(region));
+  return entries;
+}
+
+void set_segments(SizingOptions& sizing, const Entries& entries) {
+  for (auto& [edge, spacing] : sizing.spacings) spacing.segments = 0;
+  take_edges(entries, "whole numbers from 1 to a million such as Edge4=20", [&](int edge, double value) {
+    if (!(value >= 1 && value <= 1e6 && value == std::floor(value))) return false;
+    sizing.spacings[edge].segments = static_cast<int>(value);
+    return true;
+  });
+  tidy(sizing);
+}
+
+Entries segments_of(const SizingOptions& sizing) {
+  Entries entries;
+  for (const auto& [edge, spacing] : sizing.spacings) {
+    if (spacing.segments > 0) entries.push_back(fmt::format("Edge{}={}", edge, spacing.segments));
+  }
+  return entries;
+}
+
+void set_bias(SizingOptions& sizing, const Entries& entries) {
+  set_ratio(sizing, entries, &EdgeSpacing::bias);
+}
+Entries bias_of(const SizingOptions& sizing) {
+  return ratios_of(sizing, &EdgeSpacing::bias);
+}
+void set_bias_both(SizingOptions& sizing, const Entries& entries) {
+  set_ratio(sizing, entries, &EdgeSpacing::bias_both);
+}
+Entries bias_both_of(const SizingOptions& sizing) {
+  return ratios_of(sizing, &EdgeSpacing::bias_both);
+}
+
+void set_layers(SizingOptions& sizing, const Entries& entries) {
+  constexpr const char* what =
+      "the first height, the ratio (1 to 3) and the number of layers such as Edge4=0.1,1.2,6";
+  constexpr double steepest = 3, most = 1000;
+  sizing.layers = {};
+  for (const std::string& entry : entries) {
+    const std::size_t equals = std::min(entry.find('='), entry.size());
+    const std::string name = entry.substr(0, equals);
+    const std::vector<double> values =
+        equals < entry.size() ? numbers(std::string_view(entry).substr(equals + 1)) : std::vector<double>();
+    if (values.size() != 3 || !(values[0] > 0) || !(values[1] >= 1 && values[1] <= steepest) ||
+        !(values[2] >= 1 && values[2] <= most && values[2] == std::floor(values[2])))
+      refuse(what, entry);
+    auto& layers = sizing.layers;
+    const int face = number_of(name, "Face"), edge = number_of(name, "Edge"),
+              vertex = number_of(name, "Vertex");
+    if (face + edge + vertex == 0) refuse("names such as Face3, Edge4 or Vertex2", name);
+    auto& same = face ? layers.faces : edge ? layers.edges : layers.vertices;
+    if (!same.emplace(face + edge + vertex, SizeLayers{values[0], values[1], static_cast<int>(values[2])})
+             .second)
+      throw std::invalid_argument(fmt::format("names {} twice", name));
+  }
+}
+
+Entries layers_of(const SizingOptions& sizing) {
+  Entries entries;
+  const auto add = [&](std::string_view kind, const std::map<int, SizeLayers>& layers) {
+    for (const auto& [element, own] : layers)
+      entries.push_back(fmt::format("{}{}={},{},{}", kind, element, own.first, own.ratio, own.count));
+  };
+  add("Face", sizing.layers.faces);
+  add("Edge", sizing.layers.edges);
+  add("Vertex", sizing.layers.vertices);
+  return entries;
+}
+
+void set_chord_error(SizingOptions& sizing, const std::string& text) {
+  std::string_view digits = text;
+  const bool share = !digits.empty() && digits.back() == '%';
+  if (share) digits.remove_suffix(1);
+  const auto value = number(digits);
+  if (!value || !(*value > 0))
+    refuse("a positive length such as 0.05 or a share of the size such as 2%", text);
+  sizing.chord_error = share ? ChordError{0, 0.01 * *value} : ChordError{*value, 0};
+}
+
+std::string chord_error_of(const SizingOptions& sizing) {
+  if (sizing.chord_error.share > 0) return fmt::format("{}%", 100 * sizing.chord_error.share);
+  return sizing.chord_error.length > 0 ? fmt::format("{}", sizing.chord_error.length) : std::string();
+}
+
+}  // namespace quadrille

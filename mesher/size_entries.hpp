@@ -1,0 +1,41 @@
+#pragma once
+/// Sizes and divisions as users write them: "box:0,0,0,10,10,5=0.5", "Edge4=20", "Edge4=0.1,1.2,6". Internal.
+
+#include <string>
+#include <vector>
+
+#include "geometry/sizing/sizing_options.hpp"
+
+namespace quadrille {
+
+/// Lists of settings whose entries have a form of their own. Each function throws std::invalid_argument with
+/// what the setting takes, to be put behind its name: "takes ..., not '...'".
+using Entries = std::vector<std::string>;
+
+/// "box:x,y,z,x,y,z=SIZE", "sphere:x,y,z,r=SIZE", "cylinder:x,y,z,x,y,z,r=SIZE",
+/// "halfspace:x,y,z,nx,ny,nz=SIZE", each with ",TRANSITION" behind SIZE or without.
+void set_regions(SizingOptions& sizing, const Entries& entries);
+Entries regions_of(const SizingOptions& sizing);
+
+/// "Edge4=20", several in one entry with commas between them.
+void set_segments(SizingOptions& sizing, const Entries& entries);
+Entries segments_of(const SizingOptions& sizing);
+
+/// "Edge4=1.2", the same way.
+void set_bias(SizingOptions& sizing, const Entries& entries);
+Entries bias_of(const SizingOptions& sizing);
+void set_bias_both(SizingOptions& sizing, const Entries& entries);
+Entries bias_both_of(const SizingOptions& sizing);
+
+/// "Edge4=FIRST,RATIO,COUNT", faces and vertices too.
+void set_layers(SizingOptions& sizing, const Entries& entries);
+Entries layers_of(const SizingOptions& sizing);
+
+/// "0.05" (mm) or "2%" (of the size).
+void set_chord_error(SizingOptions& sizing, const std::string& text);
+std::string chord_error_of(const SizingOptions& sizing);
+
+/// "Face3" as 3; 0 when the name is not of that kind.
+int number_of(std::string_view name, std::string_view kind);
+
+}  // namespace quadrille

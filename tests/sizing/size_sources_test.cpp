@@ -1,0 +1,295 @@
+/// What sizes come from: regions, points, layers, gaps, chord errors, grids of others, and how users write
+/// them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/sizing/face_gaps.hpp"
+#include "geometry/sizing/sizing_field.hpp"
+#include "geometry/sizing/spatial_sizes.hpp"
+#include "geometry/surfaces/edge_curve.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+#include "mesher/quadrille.hpp"
+#include "mesher/settings.hpp"
+#include "tests/support/sample_models.hpp"
+
+namespace quadrille {
+namespace {
+
+CadModel sample(const std::string& name) {
+  return CadModel::read(sample_model(name).path());
+}
+
+/// The settings that "name=text" gives.
+Settings settings_of(const std::string& name, const std::vector<std::string>& texts) {
+  Settings settings;
+  const Setting& setting = *find_setting(name);
+  assign(settings, setting, parse(setting, texts));
+  return settings;
+}
+
+/// Looks at points of all faces: visit(point, size there).
+template <class Visit>
+void look(const CadModel& model, const SizingOptions& options, Visit&& visit) {
+  ExecutionContext context;
+  const SizingField field = SizingField::build(model, options, context);
+  for (std::size_t face = 0; face < model.shape().faces.size(); ++face) {
+    SizingField::Sampler size_at(field, static_cast<int>(face));
+    const CadFace& cad = model.shape().faces[face];
+    const FaceSurface surface(cad);
+    constexpr int n = 40;
+    for (int k = 0; k <= n * n; ++k) {
+      const Vector2 share(1.0 * (k % n) / n, 1.0 * (k / n) / n);
+      const Vector3 p = surface.point(
+          {cad.u_min + share.x() * (cad.u_max - cad.u_min), cad.v_min + share.y() * (cad.v_max - cad.v_min)});
+      visit(p, size_at(p));
+    }
+  }
+}
+
+class SizeIn : public testing::TestWithParam<std::pair<const char*, Gradation>> {};
+
+/// Inside the size asked for, outside what grows from it: computed point by point.
+TEST_P(SizeIn, HasItsSizeInsideAndGrowsOutside) {
+  const CadModel box = sample("box");  // 30 x 20 x 10
+  SizingOptions options = settings_of("size_in", {GetParam().first}).mesh.sizing;
+  options.size = 4;
+  options.gradation = GetParam().second;
+  int inside = 0, beyond = 0;
+  look(box, options, [&](const Vector3& p, double size) {
+    const SizeRegion& region = options.regions[0];
+    const double distance = region.distance(p);
+    double slope = options.growth;
+    if (region.transition > 0) slope = std::min(slope, (4 - region.size) / region.transition);
+    const double expected = std::min(4.0, region.size + slope * distance);
+    EXPECT_LE(size, expected * 1.35 + 1e-6) << p.transpose();
+    EXPECT_GE(size, expected * 0.5) << p.transpose();
+    inside += distance == 0;
+    beyond += expected == 4.0 && size > 3.9;
+    if (distance == 0) {
+      EXPECT_NEAR(size, region.size, 0.05 * region.size);
+    }
+  });
+  EXPECT_GT(inside, 0);
+  EXPECT_GT(beyond, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Regions, SizeIn,
+                         testing::Values(std::pair{"box:-1,-1,-1,2,3,4=0.5", Gradation::space},
+                                         std::pair{"box:12,8,-1,12.4,8.4,0.5=0.4", Gradation::space},
+                                         std::pair{"sphere:30,20,10,2=0.5", Gradation::space},
+                                         std::pair{"sphere:3,3,0,1=0.5,20", Gradation::surface},
+                                         std::pair{"cylinder:0,0,10,0,20,10,1=0.6", Gradation::surface},
+                                         std::pair{"halfspace:25,0,0,1,0,0=0.7", Gradation::surface}));
+
+TEST(SizeSources, PointsAskForTheirSize) {
+  const auto path = std::filesystem::temp_directory_path() / "quadrille_points_test.csv";
+  std::ofstream(path) << "x,y,z,size\n30,20,10,0.3\r\n\n 0 , 0 , 0 , 1\n";
+  const std::vector<SizePoint> points = read_size_points(path);
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[0].point, Vector3(30, 20, 10));
+  for (const Gradation gradation : {Gradation::space, Gradation::surface}) {
+    SizingOptions options;
+    options.size = 4;
+    options.size_points = path;
+    options.gradation = gradation;
+    int near = 0;
+    look(sample("box"), options, [&](const Vector3& p, double size) {
+      const double a = 0.3 + 0.3 * (p - points[0].point).norm(), b = 1 + 0.3 * (p - points[1].point).norm();
+      const double expected = std::max(options.size / 8, std::min({4.0, a, b}));
+      EXPECT_LE(size, 1.35 * expected) << p.transpose();
+      EXPECT_GE(size, 0.5 * expected) << p.transpose();
+      near += expected < 2;
+    });
+    EXPECT_GT(near, 50);
+  }
+  std::filesystem::remove(path);
+}
+
+TEST(SizeSources, LayersGrowByTheirRatioAndEnd) {
+  const CadModel box = sample("box");
+  for (const Gradation gradation : {Gradation::space, Gradation::surface}) {
+    SizingOptions options = settings_of("layers", {"Edge1=0.2,1.1,10"}).mesh.sizing;
+    options.size = 4;
+    options.gradation = gradation;
+    const EdgeCurve curve(box.shape().edges[0]);
+    const Vector3 a = curve.point(box.shape().edges[0].first), b = curve.point(box.shape().edges[0].last);
+    const Vector3 along = (b - a).normalized();
+    int inside = 0;
+    look(box, options, [&](const Vector3& p, double size) {
+      const double t = std::clamp((p - a).dot(along), 0.0, (b - a).norm());
+      const double distance = (p - a - t * along).norm();
+      // Layers end where heights of ratio 1.1 are 3.19 together; then sizes grow as fast as they may.
+      const double depth = 0.2 * (std::pow(1.1, 10) - 1) / 0.1;
+      const double expected =
+          std::min(4.0, 0.2 + 0.1 * std::min(distance, depth) + 0.3 * std::max(0.0, distance - depth));
+      EXPECT_LE(size, 1.35 * expected) << p.transpose();
+      EXPECT_GE(size, 0.5 * expected) << p.transpose();
+      inside += distance < depth;
+    });
+    EXPECT_GT(inside, 100);
+  }
+}
+
+TEST(SizeSources, ChordErrorIsTheHeightOverTheChord) {
+  const CadModel cylinder = sample("cylinder");
+  const CadEdge* circle = nullptr;
+  for (const CadEdge& edge : cylinder.shape().edges) {
+    if (edge.closed()) circle = &edge;
+  }
+  ASSERT_NE(circle, nullptr);
+  const double radius = circle->length / (2 * M_PI);
+  for (const char* text : {"0.05", "1%"}) {
+    SizingOptions options = settings_of("chord_error", {text}).mesh.sizing;
+    options.size = 5;
+    options.elements_per_circle = 0;
+    ExecutionContext context;
+    const SizingField field = SizingField::build(cylinder, options, context);
+    SizingField::Sampler size_at(field, *circle);
+    const double size = size_at(EdgeCurve(*circle).point(circle->first));
+    EXPECT_NEAR(radius - std::sqrt(radius * radius - size * size / 4), 0.05, 1e-4) << text;
+  }
+}
+
+TEST(FaceGaps, FindsHolesByTheirRims) {
+  const CadModel model = sample("bracket");
+  ExecutionContext context;
+  int found = 0;
+  for (int face = 0; face < model.face_count(); ++face) {
+    if (!FaceSurface(model.shape().faces[face]).planar()) continue;
+    for (const FaceGap& gap : FaceGaps(model.shape(), face, 12, 0.1).find(context)) {
+      ++found;
+      EXPECT_LE(gap.width(), 12);
+      // Across the face, not through the hole: the middle lies in the plane and in the domain.
+      const FaceSurface surface(model.shape().faces[face]);
+      EXPECT_LT(surface.distance_at_least(0.5 * (gap.from + gap.to)), 1e-6);
+    }
+  }
+  EXPECT_GT(found, 50);
+}
+
+TEST(FaceGaps, CornersOfABoxAreNone) {
+  const CadModel model = sample("box");
+  ExecutionContext context;
+  for (int face = 0; face < model.face_count(); ++face)
+    EXPECT_TRUE(FaceGaps(model.shape(), face, 9, 0.1).find(context).empty());
+  EXPECT_FALSE(FaceGaps(model.shape(), 0, 30, 0.1).find(context).empty());
+}
+
+TEST(SizeSources, SoManyElementsAreAcrossAGap) {
+  const CadModel model = sample("bracket");
+  SizingOptions options;
+  options.size = 6;
+  options.elements_per_circle = 0;
+  options.proximity = 4;
+  options.size_min = 0.2;
+  ExecutionContext context;
+  const SizingField field = SizingField::build(model, options, context);
+  int gaps = 0;
+  for (int face = 0; face < model.face_count(); ++face) {
+    SizingField::Sampler size_at(field, face);
+    for (const FaceGap& gap : FaceGaps(model.shape(), face, 24, 0.8).find(context)) {
+      ++gaps;
+      for (const double share : {0.0, 0.3, 0.5, 0.9})
+        EXPECT_LE(size_at(gap.from + share * (gap.to - gap.from)), 1.3 * std::max(0.2, gap.width() / 4));
+    }
+  }
+  EXPECT_GT(gaps, 100);
+}
+
+TEST(SizeSources, GridsOfOthersHaveAScaleAndAUnit) {
+  const CadModel box = sample("box");
+  const auto path = std::filesystem::temp_directory_path() / "quadrille_scale_test.vdb";
+  SizingOptions written;
+  written.size = 2;
+  const auto& vertices = box.shape().vertices;
+  const Vector3 corner = *std::min_element(vertices.begin(), vertices.end(),
+                                           [](const auto& a, const auto& b) { return a.norm() < b.norm(); });
+  ASSERT_LT(corner.norm(), 1e-6);  // so that it stays there in any unit
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (vertices[i] == corner) written.vertex_sizes[static_cast<int>(i) + 1] = 0.2;
+  }
+  ExecutionContext context;
+  SizingField::build(box, written, context).write(path);
+  const auto size_with = [&](double scale, double unit, double size) {
+    SizingOptions options;
+    options.size = size;
+    options.size_min = 0.01;
+    options.size_field = path;
+    options.size_field_scale = scale;
+    options.size_field_unit = unit;
+    const SizingField field = SizingField::build(box, options, context);
+    return SizingField::Sampler(field)(corner);
+  };
+  EXPECT_NEAR(size_with(1, 1, 2), 0.2, 0.01);
+  EXPECT_NEAR(size_with(3, 1, 2), 0.6, 0.03);
+  EXPECT_NEAR(size_with(1, 2, 4), 0.4, 0.02);
+  std::filesystem::remove(path);
+}
+
+TEST(SizeSources, RefuseWhatMakesNoSense) {
+  const auto refused = [](const std::string& name, const std::vector<std::string>& texts) {
+    try {
+      settings_of(name, texts);
+      ADD_FAILURE() << name << " takes " << texts.front();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), Error::Kind::usage) << error.what();
+      EXPECT_EQ(error.subject(), name);
+    }
+  };
+  for (const char* text :
+       {"box:0,0,0,1,1=1", "box=1", "ball:0,0,0,1=1", "sphere:0,0,0,-1=1", "sphere:0,0,0,1=0",
+        "sphere:0,0,0,1=nan", "sphere:0,0,0,1=1,-2", "cylinder:1,1,1,1,1,1,2=1", "halfspace:0,0,0,0,0,0=1",
+        "sphere:0,0,0,1=1,2,3", "", "="})
+    refused("size_in", {text});
+  for (const char* text :
+       {"Edge4", "Edge4=0", "Edge4=2.5", "Edge4=-3", "Edge=3", "Face4=3", "Edge4=3,Edge4=5", ""})
+    refused("segments", {text});
+  for (const char* text : {"Edge4=0", "Edge4=11", "Edge4=-1.2", "Edge4=x"}) refused("bias", {text});
+  for (const char* text : {"Edge4=1", "Edge4=0.1,1.2", "Edge4=0,1.2,6", "Edge4=0.1,0.9,6",
+                           "Edge4=0.1,1.2,2.5", "Solid1=0.1,1.2,6"})
+    refused("layers", {text});
+  for (const char* text : {"0", "-1", "%", "1 %", "mm", "nan"}) refused("chord_error", {text});
+  const CadModel box = sample("box");
+  const auto senseless = [&](const std::string& name, const std::string& text) {
+    try {
+      Settings settings = settings_of(name, {text});
+      settings.mesh.sizing.size = 2;
+      ExecutionContext context(1);
+      mesh(box, settings.mesh, context);
+      ADD_FAILURE() << name << " takes " << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), Error::Kind::usage) << error.what();
+      EXPECT_EQ(error.subject(), name) << error.what();
+    }
+  };
+  senseless("size_in", "sphere:100,0,0,1=1");
+  senseless("size_in", "halfspace:31,0,0,1,0,0=1");
+  senseless("segments", "Edge99=4");
+  senseless("bias", "Edge99=1.1");
+  senseless("layers", "Vertex99=1,1.1,2");
+}
+
+TEST(SizeSources, RefuseFilesThatMakeNoSense) {
+  const CadModel box = sample("box");
+  const auto path = std::filesystem::temp_directory_path() / "quadrille_bad_points_test.csv";
+  for (const char* text : {"", "x,y,z,size\n", "1,2,3\n", "0,0,0,-1\n", "0,0,0,nan\n", "0,0,0,1,\n",
+                           "a,b\nc,d\n", "900,0,0,1\n"}) {
+    std::ofstream(path) << text;
+    SizingOptions options;
+    options.size = 2;
+    options.size_points = path;
+    ExecutionContext context;
+    EXPECT_THROW(SizingField::build(box, options, context), Error) << text;
+  }
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace quadrille
