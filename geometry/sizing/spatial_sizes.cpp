@@ -174,6 +174,7 @@ double SpatialSizes::of_regions(const Vector3& point, double steepest) const {
   double size = limits_.largest;
   for (const SizeRegion& region : regions_) {
     const double inside = std::max(region.size, limits_.least);
+    if (inside >= limits_.largest) continue;
     double slope = growth_;
     if (region.transition > 0) slope = std::min(slope, (limits_.largest - inside) / region.transition);
     size = std::min(size, inside + std::min(slope, steepest) * region.distance(point));

@@ -71,7 +71,7 @@ class CommandTest(unittest.TestCase):
                     self.assertEqual(from_property(setting, there), value)
                     self.assertEqual(from_property(setting, to_property(setting, None)),
                                      2 if setting["name"] == "order" else setting["default"] or
-                                     (setting["default"] if setting["kind"] in ("flag", "count") else None))
+                                     (setting["default"] if setting["kind"] in ("flag", "count", "number") else None))
 
     def test_progress_is_of_the_whole_and_never_falls(self):
         seen = []

@@ -88,6 +88,12 @@ INSTANTIATE_TEST_SUITE_P(Regions, SizeIn,
                                          std::pair{"cylinder:0,0,10,0,20,10,1=0.6", Gradation::surface},
                                          std::pair{"halfspace:25,0,0,1,0,0=0.7", Gradation::surface}));
 
+TEST(SizeSources, NoRegionMakesSizesLarger) {
+  SizingOptions options = settings_of("size_in", {"sphere:0,0,0,5=9,2"}).mesh.sizing;
+  options.size = 4;
+  look(sample("box"), options, [](const Vector3&, double size) { EXPECT_EQ(size, 4); });
+}
+
 TEST(SizeSources, PointsAskForTheirSize) {
   const auto path = std::filesystem::temp_directory_path() / "quadrille_points_test.csv";
   std::ofstream(path) << "x,y,z,size\n30,20,10,0.3\r\n\n 0 , 0 , 0 , 1\n";
