@@ -69,7 +69,7 @@ SizeTree& SizeCascade::make_tree(int level) {
 
 void SizeCascade::lower(int level, const Coord& c, float value, BlockCount& blocks) {
   if (level != last_level_) {
-    accessor_ = std::make_unique<VoxelAccessor>(make_tree(level), &blocks);
+    accessor_ = std::make_unique<VoxelAccessor>(make_tree(level), &blocks, stamp_ + 1);
     last_level_ = level;
   }
   if (!(value < accessor_->value(c))) return;
@@ -90,6 +90,7 @@ bool SizeCascade::is_fresh() const {
 
 void SizeCascade::grade(double slope, double most, const Near& near, BlockCount& blocks,
                         const ExecutionContext& context) {
+  ++stamp_;
   for (int level = levels() - 1; level >= 0; --level) {
     if (level + 1 < levels()) take_over(level, blocks);
     grade_level(level, slope, most, near, blocks, context);
@@ -101,7 +102,7 @@ void SizeCascade::grade(double slope, double most, const Near& near, BlockCount&
 
 void SizeCascade::take_over(int level, BlockCount& blocks) {
   if (changed_[level + 1].empty()) return;
-  VoxelAccessor finer(*trees_[level + 1]), here(make_tree(level), &blocks);
+  VoxelAccessor finer(*trees_[level + 1]), here(make_tree(level), &blocks, stamp_);
   for (const Coord& c : changed_[level + 1]) {
     if ((c.x() | c.y() | c.z()) & 1) continue;
     const Coord half(c.x() >> 1, c.y() >> 1, c.z() >> 1);
@@ -119,7 +120,7 @@ void SizeCascade::grade_level(int level, double slope, double most, const Near& 
   fresh_[level].clear();
   if (changed.empty()) return;
   SparseCheck check(context);
-  VoxelAccessor accessor(*trees_[level], &blocks);
+  VoxelAccessor accessor(*trees_[level], &blocks, stamp_);
   std::vector<Item> items;
   items.reserve(changed.size());
   for (const Coord& c : changed) items.push_back({accessor.value(c), c});

@@ -47,8 +47,10 @@ class BlockCount {
 /// Reads and writes voxels, remembering the leaf it was in.
 class VoxelAccessor {
  public:
-  /// \param made counts the leaves made; may be null where none is.
-  explicit VoxelAccessor(SizeTree& root, BlockCount* made = nullptr) : root_(&root), made_(made) {}
+  /// \param made counts the leaves made; may be null where none is. \param stamp is left on leaves that are
+  /// written to.
+  explicit VoxelAccessor(SizeTree& root, BlockCount* made = nullptr, std::uint32_t stamp = 0)
+      : root_(&root), made_(made), stamp_(stamp) {}
 
   float value(const Coord& c) {
     enter(c);
@@ -68,6 +70,12 @@ class VoxelAccessor {
       leaf_ = root_->touchLeaf(c);
     }
     leaf_->setValueOn(c, value);
+    leaf_->setTransientData(stamp_);
+  }
+  /// Of the leaf that a voxel is in; 0 where there is none.
+  std::uint32_t stamp(const Coord& c) {
+    enter(c);
+    return leaf_ ? leaf_->transientData() : 0;
   }
 
  private:
@@ -81,6 +89,7 @@ class VoxelAccessor {
 
   SizeTree* root_;
   BlockCount* made_;
+  std::uint32_t stamp_;
   SizeLeaf* leaf_ = nullptr;
   Coord origin_;
   bool known_ = false;
@@ -114,6 +123,8 @@ class SizeCascade {
 
   /// Whether something was added since it was graded.
   bool is_fresh() const;
+  /// What leaves are stamped with that the last grading, or what was added before it, has changed.
+  std::uint32_t stamp() const { return stamp_; }
 
   /// What voxels are worth having: true at all corners of voxels where sizes will be looked up. Empty = all.
   using Near = std::function<bool(const Vector3& point, double voxel)>;
@@ -170,6 +181,7 @@ class SizeCascade {
   std::vector<std::vector<Coord>> changed_;  // (levels) lowered by it
   std::unique_ptr<VoxelAccessor> accessor_;  // of the level that was added to last
   int last_level_ = -1;
+  std::uint32_t stamp_ = 0;  // number of gradings
 };
 
 }  // namespace quadrille

@@ -18,14 +18,14 @@ namespace quadrille {
 
 namespace {
 
-/// Voxels that faces keep beside them: look-ups read the corners of the voxel that a point is in, and points
-/// may be a little off the surface.
-constexpr double band = 2;
-
-/// Where voxels of a face lie.
+/// Where voxels of a face lie: look-ups read the corners of the voxel that a point is in, and points may be
+/// a little off the surface.
 class FaceBand {
  public:
   explicit FaceBand(const CadFace& face) : surface_(face) {
+    constexpr double off = 0.3;
+    // From the corner of a cube to the plane through its other one.
+    width_ = off + (surface_.planar() ? surface_.normal({0, 0}).lpNorm<1>() : std::sqrt(3.0));
     Bnd_Box box;
     BRepBndLib::Add(face.face, box, Standard_False);
     if (box.IsVoid()) return;
@@ -33,13 +33,60 @@ class FaceBand {
     high_ = to_vector(box.CornerMax());
   }
   bool operator()(const Vector3& p, double voxel) const {
-    const double width = band * voxel;
+    const double width = width_ * voxel;
     return (low_ - p).cwiseMax(p - high_).maxCoeff() <= width && surface_.distance_at_least(p) <= width;
   }
 
  private:
   FaceSurface surface_;
+  double width_;  // in voxels
   Vector3 low_{0, 0, 0}, high_{0, 0, 0};
+};
+
+/// Finds the voxels of a cascade that points lie in.
+class VoxelFinder {
+ public:
+  explicit VoxelFinder(const SizeCascade& cascade) : cascade_(cascade) {
+    for (int level = 0; level < cascade.levels(); ++level) {
+      accessors_.emplace_back();
+      if (SizeTree* tree = cascade.tree(level)) accessors_.back().emplace(*tree);
+    }
+  }
+
+  struct Place {
+    int level = -1;  // -1 = nowhere
+    Coord base;
+    bool changed = false;  // by the last grading
+  };
+
+  /// The voxel of the finest level with an active corner there.
+  Place find(const Vector3& p) {
+    for (int level = cascade_.levels() - 1; level >= 0; --level) {
+      if (!accessors_[level]) continue;
+      const Vector3 index = p / cascade_.frame().voxel(level);
+      Place place{level, Coord::floor(openvdb::Vec3d(index.x(), index.y(), index.z())), false};
+      bool active = false;
+      for (int k = 0; k < 8; ++k) {
+        const Coord c = corner(place.base, k);
+        float value = 0;
+        active |= accessors_[level]->probe(c, value);
+        place.changed |= accessors_[level]->stamp(c) >= cascade_.stamp();
+      }
+      if (active) return place;
+    }
+    return {};
+  }
+
+  static Coord corner(const Coord& base, int k) { return base.offsetBy(k & 1, k >> 1 & 1, k >> 2); }
+
+  /// \return whether the voxel is active.
+  bool probe(int level, const Coord& c, float& value) {
+    return level < cascade_.levels() && accessors_[level] && accessors_[level]->probe(c, value);
+  }
+
+ private:
+  const SizeCascade& cascade_;
+  std::vector<std::optional<VoxelAccessor>> accessors_;
 };
 
 class SurfaceGradation {
@@ -58,10 +105,12 @@ class SurfaceGradation {
         lowered_(shape.edges.size()) {}
 
   void run() {
-    while (grade_faces()) {
+    // Most of what passes over edges lies at them: it need not be graded first.
+    for (std::size_t face = 0; face < graded_.size(); ++face) graded_[face] = cascades_[face]->is_fresh();
+    do {
       pass_over_edges();
       take_what_passed();
-    }
+    } while (grade_faces());
   }
 
  private:
@@ -115,82 +164,77 @@ class SurfaceGradation {
     const SizeCascade& cascade = *cascades_[from];
     if (cascade.levels() == 0) return;
     const EdgeCurve curve(edge);
-    SizeCascade::Lookup size_at(cascade);
     std::vector<Sample>& samples = samples_[index];
     if (samples.empty()) {
       const int n = 1 + static_cast<int>(std::ceil(edge.length / cascade.frame().size_max));
       for (int i = 0; i <= n; ++i)
         samples.push_back(sample(curve, edge.first + (edge.last - edge.first) * i / n));
     }
-    std::vector<Sample> closer;
+    Passing passing{index, from, SizeCascade::Lookup(cascade), VoxelFinder(cascade), {}, {}};
+    for (const int face : faces) {
+      if (face != from) passing.targets.emplace_back(face, VoxelFinder(*cascades_[face]));
+    }
     SparseCheck check(context_, 256);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
+    bool changed = pass_voxel(passing, samples.front().point);
+    std::vector<Sample>& closer = passing.samples;
+    closer.push_back(samples.front());
+    for (std::size_t i = 1; i < samples.size(); ++i) {
       check();
+      const bool changed_before = changed;
+      changed = pass_voxel(passing, samples[i].point);
+      if (changed || changed_before)
+        split(curve, passing, {samples[i - 1], passing.size_at(samples[i - 1].point)},
+              {samples[i], passing.size_at(samples[i].point)}, 0);
       closer.push_back(samples[i]);
-      if (i + 1 < samples.size()) split(curve, size_at, samples[i], samples[i + 1], 0, closer);
     }
     samples = std::move(closer);
-    Coord last;
-    int last_level = -1;
-    for (const Sample& at : samples) {
-      const int level = level_at(cascade, at.point);
-      if (level < 0) continue;
-      const Coord base = base_at(cascade, at.point, level);
-      if (level == last_level && base == last) continue;
-      last = base;
-      last_level = level;
-      for (const int to : faces) {
-        if (to != from) pass_voxel(index, from, to, level, base);
-      }
-    }
   }
+
+  /// One face's sizes on the way to others over an edge.
+  struct Passing {
+    int edge, from;
+    SizeCascade::Lookup size_at;
+    VoxelFinder finder;
+    std::vector<std::pair<int, VoxelFinder>> targets;
+    std::vector<Sample> samples;  // along the edge
+  };
+  struct SizedSample {
+    Sample at;
+    double size;
+  };
 
   static Sample sample(const EdgeCurve& curve, double t) { return {t, curve.point(t)}; }
 
-  /// Appends samples between two until they are half as far apart as the sizes there are.
-  void split(const EdgeCurve& curve, SizeCascade::Lookup& size_at, const Sample& a, const Sample& b,
-             int depth, std::vector<Sample>& samples) const {
+  /// Passes samples between two until they are as near as voxels are wide.
+  void split(const EdgeCurve& curve, Passing& passing, const SizedSample& a, const SizedSample& b,
+             int depth) {
     constexpr int max_depth = 40;
-    const double size = std::min(size_at(a.point), size_at(b.point));
-    if (depth > max_depth || (a.point - b.point).norm() <= 0.5 * size) return;
-    const Sample middle = sample(curve, 0.5 * (a.t + b.t));
-    if (std::min(size, size_at(middle.point)) >= cascades_.front()->frame().size_max) return;
-    split(curve, size_at, a, middle, depth + 1, samples);
-    samples.push_back(middle);
-    split(curve, size_at, middle, b, depth + 1, samples);
+    constexpr double share = 0.7;  // of the size, which is at most a voxel
+    if (depth > max_depth || (a.at.point - b.at.point).norm() <= share * std::min(a.size, b.size)) return;
+    SizedSample middle{sample(curve, 0.5 * (a.at.t + b.at.t)), 0};
+    middle.size = passing.size_at(middle.at.point);
+    if (std::min({a.size, b.size, middle.size}) >= cascades_.front()->frame().size_max) return;
+    split(curve, passing, a, middle, depth + 1);
+    pass_voxel(passing, middle.at.point);
+    passing.samples.push_back(middle.at);
+    split(curve, passing, middle, b, depth + 1);
   }
 
-  static Coord base_at(const SizeCascade& cascade, const Vector3& p, int level) {
-    const Vector3 index = p / cascade.frame().voxel(level);
-    return Coord::floor(openvdb::Vec3d(index.x(), index.y(), index.z()));
-  }
-
-  /// The finest level with an active corner at a point; -1 where there is none.
-  static int level_at(const SizeCascade& cascade, const Vector3& p) {
-    for (int level = cascade.levels() - 1; level >= 0; --level) {
-      if (cascade.tree(level) == nullptr) continue;
-      VoxelAccessor accessor(*cascade.tree(level));
-      const Coord base = base_at(cascade, p, level);
-      float value = 0;
-      for (int k = 0; k < 8; ++k) {
-        if (accessor.probe(base.offsetBy(k & 1, k >> 1 & 1, k >> 2), value)) return level;
+  /// Notes the corners of the voxel at a point that are less on one face than on others. \return whether the
+  /// last grading changed any near it.
+  bool pass_voxel(Passing& passing, const Vector3& point) {
+    const VoxelFinder::Place place = passing.finder.find(point);
+    if (place.level < 0 || !place.changed) return false;
+    for (int k = 0; k < 8; ++k) {
+      const Coord c = VoxelFinder::corner(place.base, k);
+      float value = 0, own = 0;
+      if (!passing.finder.probe(place.level, c, value)) continue;
+      for (auto& [face, finder] : passing.targets) {
+        if (!finder.probe(place.level, c, own) || value < own)
+          lowered_[passing.edge].push_back({face, place.level, c, value});
       }
     }
-    return -1;
-  }
-
-  /// Notes the corners of a voxel that are less on one face than on another.
-  void pass_voxel(int edge, int from, int to, int level, const Coord& base) {
-    const SizeCascade& target = *cascades_[to];
-    VoxelAccessor there(*cascades_[from]->tree(level));
-    const bool known = level < target.levels() && target.tree(level) != nullptr;
-    for (int k = 0; k < 8; ++k) {
-      const Coord c = base.offsetBy(k & 1, k >> 1 & 1, k >> 2);
-      float value = 0, own = 0;
-      if (!there.probe(c, value)) continue;
-      if (known && VoxelAccessor(*target.tree(level)).probe(c, own) && own <= value) continue;
-      lowered_[edge].push_back({to, level, c, value});
-    }
+    return true;
   }
 
   void take_what_passed() {
