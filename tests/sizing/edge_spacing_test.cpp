@@ -76,6 +76,14 @@ TEST(EdgeSpacing, SegmentsFollowEachOtherByTheirBias) {
   const auto& one = segments.at(4);
   ASSERT_EQ(one.size(), 12u);
   for (std::size_t i = 0; i + 1 < one.size(); ++i) EXPECT_NEAR(one[i + 1] / one[i], 1.25, 1e-6);
+  int alike = 0;  // the edges that run along it, in whichever direction
+  for (const auto& [edge, lengths] : segments) {
+    if (std::abs(box.shape().edges[edge - 1].length - box.shape().edges[3].length) > 1e-6) continue;
+    ASSERT_EQ(lengths.size(), 12u);
+    EXPECT_NEAR(std::max(lengths[1] / lengths[0], lengths[0] / lengths[1]), 1.25, 1e-6);
+    ++alike;
+  }
+  EXPECT_EQ(alike, 4);
   const auto& both = segments.at(1);
   ASSERT_GE(both.size(), 4u);
   EXPECT_EQ(both.size() % 2, 0u);
