@@ -26,6 +26,7 @@ ROOMS = [
     "mesher/estimate.cpp",
     "mesher/shell",
     "mesher/io",
+    "mesher/adapt",
     "mesher/quadrille.hpp",
     "mesher/mesh.cpp",
     "mesher/command",

@@ -141,7 +141,7 @@ class Problem:
             self.loads[node] = self.loads.get(node, 0.0) + np.asarray(force, dtype=float)
 
 
-def write_input(path, mesh, problem, solver_shells="S8R"):
+def write_input(path, mesh, problem, solver_shells="S8R", output="*NODE PRINT, NSET=Nall\nU\n*EL FILE, OUTPUT=2D\nS\n"):
     """Writes CalculiX's input. It reads 20 characters of a number: no more digits than fit."""
     names = {6: "CPS6", 8: "CPS8R"} if problem.plane else {6: "S6", 8: solver_shells}
     corners_only = solver_shells in ("S4", "S4R")  # the midside nodes are then in no element
@@ -173,7 +173,7 @@ def write_input(path, mesh, problem, solver_shells="S8R"):
                     if value:
                         file.write(f"{node + 1}, {freedom}, {value:.12g}\n")
         if problem.step == "*STATIC":
-            file.write("*NODE PRINT, NSET=Nall\nU\n*EL FILE, OUTPUT=2D\nS\n")
+            file.write(output)
         file.write("*END STEP\n")
 
 
@@ -309,13 +309,16 @@ class EllipticMembrane:
         lines = [Part.makeLine(Vector(2, 0, 0), Vector(3.25, 0, 0)), Part.makeLine(Vector(0, 1, 0), Vector(0, 2.75, 0))]
         return Part.Face(Part.Wire(Part.__sortEdges__([inner, outer, *lines])))
 
-    def answer(self, mesh):
+    def problem(self, mesh):
         problem = Problem(210e3, 0.3, 0.1, plane=True)
         problem.fix(mesh.where(lambda p: p[:, 0]), 1)
         problem.fix(mesh.where(lambda p: p[:, 1]), 2)
         outer = mesh.where(lambda p: (p[:, 0] / 3.25) ** 2 + (p[:, 1] / 2.75) ** 2 - 1)
         problem.load(mesh.edge_load(outer, lambda point, normal: 10 * 0.1 * normal))
-        return stresses(solve(mesh, problem)[1], len(mesh.points))[mesh.at(2, 0, 0), 1]
+        return problem
+
+    def answer(self, mesh):
+        return stresses(solve(mesh, self.problem(mesh))[1], len(mesh.points))[mesh.at(2, 0, 0), 1]
 
 
 class PlateWithHole:
@@ -338,7 +341,7 @@ class PlateWithHole:
         xy = -a2 * (0.5 * math.sin(2 * t) + math.sin(4 * t)) + 1.5 * a4 * math.sin(4 * t)
         return xx, yy, xy
 
-    def answer(self, mesh):
+    def problem(self, mesh):
         def traction(point, normal):
             xx, yy, xy = self.kirsch(point)
             return (xx * normal[0] + xy * normal[1], xy * normal[0] + yy * normal[1], 0.0)
@@ -348,7 +351,10 @@ class PlateWithHole:
         problem.fix(mesh.where(lambda p: p[:, 1]), 2)
         for axis in (0, 1):
             problem.load(mesh.edge_load(mesh.where(lambda p, axis=axis: p[:, axis] - self.side), traction))
-        return stresses(solve(mesh, problem)[1], len(mesh.points))[mesh.at(0, 1, 0), 0]
+        return problem
+
+    def answer(self, mesh):
+        return stresses(solve(mesh, self.problem(mesh))[1], len(mesh.points))[mesh.at(0, 1, 0), 0]
 
 
 class SupportedPlate:
@@ -665,4 +671,5 @@ def main():
         sys.exit(f"off by more than allowed: {', '.join(wrong)}")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -12,15 +12,13 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/atomic_file.hpp"
-#include "geometry/base/module_loader.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/edge_spacing.hpp"
 #include "geometry/sizing/size_cascade.hpp"
+#include "geometry/sizing/size_file.hpp"
 #include "geometry/sizing/size_sources.hpp"
 #include "geometry/sizing/spatial_sizes.hpp"
 #include "geometry/sizing/surface_gradation.hpp"
-#include "geometry/sizing/vdb_module.hpp"
 
 namespace quadrille {
 
@@ -327,30 +325,11 @@ double SizingField::size_min() const {
 }
 
 void SizingField::write(const std::filesystem::path& path) const {
-  const CascadeFrame& frame = impl_->frame;
-  SizeCascade all(frame);
+  SizeCascade all(impl_->frame);
   BlockCount any(std::numeric_limits<double>::infinity());
   for (const auto& cascade : impl_->cascades)
     cascade->for_each([&](int level, const Coord& c, float value) { all.lower(level, c, value, any); });
-  VdbField field{{}, frame.size_max, frame.growth};
-  std::vector<int> place(max_size_levels + 1, -1);
-  for (int k = 0; k < std::max(all.levels(), 1); ++k) {
-    if (k > 0 && all.tree(k) == nullptr) continue;
-    place[k] = static_cast<int>(field.levels.size());
-    VdbLevel& level = field.levels.emplace_back();
-    level.name = k == 0 ? "size" : fmt::format("size_{}", k);
-    level.voxel = frame.voxel(k);
-  }
-  all.for_each([&](int k, const Coord& c, float value) {
-    VdbLevel& level = field.levels[place[k]];
-    level.coordinates.push_back({c.x(), c.y(), c.z()});
-    level.values.push_back(value);
-  });
-  static const Module module("quadrille_vdb");
-  std::string bytes;
-  const std::string problem = module.function<VdbFileFunction>("_file")(field, bytes);
-  if (!problem.empty()) throw failure(path.string(), fmt::format("{}: {}", path.string(), problem));
-  write_file(path, bytes);
+  write_cascade(all, path);
 }
 
 struct SizingField::Sampler::Lookups {

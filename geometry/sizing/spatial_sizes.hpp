@@ -8,16 +8,11 @@
 #include "geometry/base/vector.hpp"
 #include "geometry/cad/cad_model.hpp"
 #include "geometry/sizing/size_cascade.hpp"
+#include "geometry/sizing/size_file.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/sizing/sizing_options.hpp"
 
 namespace quadrille {
-
-/// A point that asks for a size.
-struct SizePoint {
-  Vector3 point;
-  double size;
-};
 
 /// Reads lines x,y,z,size, with or without a line of names first. Throws Error (failure) for anything else.
 std::vector<SizePoint> read_size_points(const std::filesystem::path& path);

@@ -19,6 +19,7 @@ void add_mesh_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_quality_command(CLI::App& app);
 void add_midsurface_command(CLI::App& app);
+void add_adapt_command(CLI::App& app);
 void add_settings_command(CLI::App& app);
 
 /// Writes to stdout at once. Throws Error (failure) when it is closed or full.

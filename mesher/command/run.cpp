@@ -47,6 +47,7 @@ void add_commands(CLI::App& app) {
   add_info_command(app);
   add_quality_command(app);
   add_midsurface_command(app);
+  add_adapt_command(app);
   add_settings_command(app);
 }
 

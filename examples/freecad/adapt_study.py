@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes that follow their own results, beside uniform ones: `quadrille adapt` in a loop with CalculiX.
+
+    scripts/freecad_python examples/freecad/adapt_study.py --out study.json [--case le1]
+
+Each round meshes, solves, estimates the error of the stresses by patch recovery, and writes the sizes for the next one.
+The cases are those of verification.py, and an L-shaped plate whose inner corner has no finite stress.
+"""
+
+import argparse
+import json
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import numpy as np
+import Part
+from FreeCAD import Vector
+
+import verification  # which makes quadrille known
+import quadrille.command
+from verification import Mesh, Problem, displacements, write_input
+
+OUTPUT = "*NODE PRINT, NSET=Nall\nU\n*NODE FILE, OUTPUT=3D\nU\n*EL FILE, OUTPUT=3D\nS\n"
+
+
+class Membrane(verification.EllipticMembrane):
+    """NAFEMS LE1; the stress at its inner end."""
+
+    start, goals = 0.5, (0.05, 0.02, 0.01, 0.005)
+    uniform = (0.5, 0.35, 0.25, 0.17, 0.12, 0.08)
+
+
+class Hole(verification.PlateWithHole):
+    """The plate with a hole; the stress at its flank."""
+
+    start, goals = 0.8, (0.05, 0.02, 0.01, 0.005)
+    uniform = (0.8, 0.55, 0.4, 0.28, 0.2, 0.14, 0.1)
+
+
+class Corner:
+    """An L of two squares of 1 and one more, pulled at its upper end: what it moves, against 0.7 million elements'."""
+
+    start, goals, reference = 0.25, (0.1, 0.05, 0.03, 0.02), None
+    uniform = (0.25, 0.17, 0.12, 0.08, 0.05, 0.035)
+
+    def shape(self):
+        points = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2), (0, 0)]
+        return Part.Face(Part.makePolygon([Vector(x, y, 0) for x, y in points]))
+
+    def problem(self, mesh):
+        problem = Problem(1000.0, 0.3, 0.1, plane=True)
+        problem.fix(mesh.where(lambda p: p[:, 0] - 2), 1, 2)
+        problem.load(mesh.edge_load(mesh.where(lambda p: p[:, 1] - 2), lambda point, normal: 0.1 * normal))
+        return problem
+
+
+class Cylinder(verification.PinchedCylinder):
+    """The pinched cylinder as a shell: membrane and bending."""
+
+    start, goals = 60, (0.2, 0.1, 0.07, 0.05)
+    uniform = (60, 40, 25, 18, 12)
+
+    def problem(self, mesh):
+        problem = Problem(3e6, 0.3, 3.0)
+        for end in (-self.half, self.half):
+            problem.fix(mesh.where(lambda p, end=end: p[:, 2] - end), 1, 2)
+        top, bottom = mesh.at(0, self.radius, 0), mesh.at(0, -self.radius, 0)
+        problem.fix(np.array([top, bottom]), 3)
+        problem.load({top: (0, -1, 0), bottom: (0, 1, 0)})
+        return problem
+
+
+CASES = {"le1": Membrane, "hole": Hole, "corner": Corner, "cylinder": Cylinder}
+
+
+def run(*arguments):
+    """The quadrille command; its output."""
+    done = subprocess.run([str(quadrille.command.find_command()), *map(str, arguments)], capture_output=True, text=True,
+                          timeout=600, check=False)
+    if done.returncode != 0:
+        raise RuntimeError(done.stderr.strip())
+    return done.stdout
+
+
+class Study:
+    """One case in a folder."""
+
+    def __init__(self, case, folder):
+        self.case, self.folder = case, Path(folder)
+        self.part = self.folder / "part.brep"
+        case.shape().exportBrep(str(self.part))
+
+    def solve(self, *options):
+        """Meshes and solves; elements, the answer, and the force times what it moves."""
+        run("mesh", self.part, "-o", self.folder / "mesh.msh", "--order", 2, "--quiet", *options)
+        mesh = Mesh.of_msh((self.folder / "mesh.msh").read_text())
+        problem = self.case.problem(mesh)
+        write_input(self.folder / "case.inp", mesh, problem, output=OUTPUT)
+        done = subprocess.run(["ccx", "case"], capture_output=True, text=True, timeout=900, check=False, cwd=self.folder)
+        if done.returncode != 0:
+            raise RuntimeError(done.stdout[-300:])
+        moved = displacements((self.folder / "case.dat").read_text(), len(mesh.points))
+        energy = sum(float(np.dot(force, moved[node])) for node, force in problem.loads.items())
+        return {"quads": len(mesh.elements), "energy": energy, **self.answer(mesh, moved)}
+
+    def answer(self, mesh, moved):
+        """What the case is judged by, where it is no energy."""
+        if isinstance(self.case, Corner):
+            return {}
+        if isinstance(self.case, Cylinder):
+            top, bottom = mesh.at(0, 300, 0), mesh.at(0, -300, 0)
+            return {"answer": (moved[bottom, 1] - moved[top, 1]) / 2}
+        # The solver's own nodes come first; results of bricks are at nodes behind them, two or three to one of ours.
+        frd = (self.folder / "case.frd").read_text()
+        place, axis = ((2, 0, 0), 1) if isinstance(self.case, Membrane) else ((0, 1, 0), 0)
+        return {"answer": stress_at(frd, np.array(place, dtype=float), axis)}
+
+    def estimate(self, *options):
+        """The estimated error of the last solution; sizes for the next."""
+        report = self.folder / "adapt.json"
+        run("adapt", self.folder / "mesh.msh", self.folder / "case.frd", "-o", self.folder / "sizes.vdb", "--quiet",
+            "--report", report, *options)
+        return json.loads(report.read_text())
+
+
+def stress_at(frd, place, axis):
+    """A component of the mean stress of the bricks' nodes nearest to a place, seen from above."""
+    points, values, block = {}, {}, ""
+    for line in frd.splitlines():
+        if line.startswith("    2C"):
+            block = "nodes"
+        elif line.startswith(" -4"):
+            block = line.split()[1]
+        elif line.startswith(" -3"):
+            block = ""
+        elif line.startswith(" -1") and block in ("nodes", "STRESS"):
+            node = int(line[3:13])
+            if block == "nodes":
+                points[node] = [float(line[13 + 12 * k:25 + 12 * k]) for k in range(3)]
+            else:
+                values[node] = float(line[13 + 12 * axis:25 + 12 * axis])
+    near = [node for node in values if np.hypot(*(np.array(points[node][:2]) - place[:2])) < 1e-6]
+    return float(np.mean([values[node] for node in near]))
+
+
+def study(name):
+    """Uniform and adapted meshes of one case."""
+    case, rows = CASES[name](), []
+    with tempfile.TemporaryDirectory() as folder:
+        this = Study(case, folder)
+        for size in case.uniform:
+            found = this.solve("--size", size)
+            rows.append({"kind": "uniform", "size": size, **found, "estimate": this.estimate()["error"]})
+            print(name, rows[-1], flush=True)
+        this.solve("--size", case.start)
+        for goal in case.goals:
+            sizes = this.estimate("--error", goal)
+            for _ in range(2):
+                found = this.solve("--size", sizes["size_max"], "--size-min", sizes["size_min"], "--curvature", 0,
+                                   "--size-field", this.folder / "sizes.vdb")
+                sizes = this.estimate("--error", goal)
+            rows.append({"kind": "adapted", "goal": goal, **found, "estimate": sizes["error"]})
+            print(name, rows[-1], flush=True)
+    return rows
+
+
+def main():
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+    parser.add_argument("--case", choices=CASES, action="append")
+    parser.add_argument("--out", default="study.json")
+    arguments = parser.parse_args()
+    if not shutil.which("ccx"):
+        print("CalculiX (ccx) is not installed: nothing is solved")
+        return
+    rows = {name: study(name) for name in arguments.case or CASES}
+    Path(arguments.out).write_text(json.dumps(rows, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,58 @@
+#include "geometry/sizing/size_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "geometry/base/atomic_file.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/module_loader.hpp"
+#include "geometry/sizing/size_cascade.hpp"
+#include "geometry/sizing/sizing_options.hpp"
+#include "geometry/sizing/vdb_module.hpp"
+
+namespace quadrille {
+
+void write_cascade(const SizeCascade& cascade, const std::filesystem::path& path) {
+  const CascadeFrame& frame = cascade.frame();
+  VdbField field{{}, frame.size_max, frame.growth};
+  std::vector<std::size_t> places(max_size_levels + 1, 0);
+  for (int k = 0; k < std::max(cascade.levels(), 1); ++k) {
+    if (k > 0 && cascade.tree(k) == nullptr) continue;
+    places[k] = field.levels.size();
+    VdbLevel& level = field.levels.emplace_back();
+    level.name = k == 0 ? "size" : fmt::format("size_{}", k);
+    level.voxel = frame.voxel(k);
+  }
+  cascade.for_each([&](int k, const Coord& c, float value) {
+    VdbLevel& level = field.levels[places[k]];
+    level.coordinates.push_back({c.x(), c.y(), c.z()});
+    level.values.push_back(value);
+  });
+  static const Module module("quadrille_vdb");
+  std::string bytes;
+  const std::string problem = module.function<VdbFileFunction>("_file")(field, bytes);
+  if (!problem.empty()) throw failure(path.string(), fmt::format("{}: {}", path.string(), problem));
+  write_file(path, bytes);
+}
+
+void write_sizes(const std::vector<SizePoint>& points, double growth, const std::filesystem::path& path,
+                 const ExecutionContext& context) {
+  CascadeFrame frame{0, growth, max_size_levels - 1};
+  double reach = 0;
+  for (const SizePoint& at : points) {
+    frame.size_max = std::max(frame.size_max, at.size);
+    reach = std::max(reach, at.point.cwiseAbs().maxCoeff());
+  }
+  frame.finest = std::clamp(30 - std::ilogb(reach / frame.voxel(0) + 1), 0, frame.finest);
+  SizeCascade cascade(frame);
+  BlockCount blocks(Budget().blocks);
+  for (const SizePoint& at : points) cascade.add(at.point, at.size, blocks);
+  cascade.grade(growth, frame.size_max, {}, blocks, context);
+  write_cascade(cascade, path);
+}
+
+}  // namespace quadrille

@@ -1,0 +1,29 @@
+#pragma once
+/// Sizes as .vdb files. Internal.
+
+#include <filesystem>
+#include <vector>
+
+#include "geometry/base/execution_context.hpp"
+#include "geometry/base/vector.hpp"
+
+namespace quadrille {
+
+class SizeCascade;
+
+/// A point that asks for a size.
+struct SizePoint {
+  Vector3 point;
+  double size;
+};
+
+/// Writes the voxels: `size` (coarsest), `size_1`, ... with metadata unit, growth, size_max, version. Throws
+/// Error (failure) where the file cannot be written.
+void write_cascade(const SizeCascade& cascade, const std::filesystem::path& path);
+
+/// Writes the largest sizes under those at points that grow by at most `growth` per length, up to the largest
+/// of them. Throws as write_cascade().
+void write_sizes(const std::vector<SizePoint>& points, double growth, const std::filesystem::path& path,
+                 const ExecutionContext& context);
+
+}  // namespace quadrille

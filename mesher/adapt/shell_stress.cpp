@@ -1,0 +1,179 @@
+#include "mesher/adapt/shell_stress.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+
+namespace quadrille {
+
+namespace {
+
+constexpr int eight_nodes = 1, twenty_nodes = 4;  // types of the .frd format
+
+/// Nodes of a brick in the order of the .frd format: corners of bottom and top, then sides of the bottom,
+/// upright, of the top.
+constexpr double places[20][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1},  {-1, 1, -1}, {-1, -1, 1},
+                                  {1, -1, 1},   {1, 1, 1},   {-1, 1, 1},  {0, -1, -1}, {1, 0, -1},
+                                  {0, 1, -1},   {-1, 0, -1}, {-1, -1, 0}, {1, -1, 0},  {1, 1, 0},
+                                  {-1, 1, 0},   {0, -1, 1},  {1, 0, 1},   {0, 1, 1},   {-1, 0, 1}};
+
+/// Serendipity functions.
+double shape(const Vector3& at, int node, int nodes) {
+  double product = 1, sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double here = at[k] * places[node][k];
+    product *= places[node][k] == 0 ? 1 - at[k] * at[k] : 1 + here;
+    sum += here;
+  }
+  if (nodes == 8) return product / 8;
+  return node < 8 ? product * (sum - 2) / 8 : product / 4;
+}
+
+/// A brick of CalculiX's.
+class Brick {
+ public:
+  Brick(const FrdResult& result, const FrdResult::Element& element)
+      : result_(result), nodes_(element.nodes), n_(static_cast<int>(nodes_.size())) {}
+
+  /// Of the middle between bottom and top.
+  Vector3 corner(int k) const { return 0.5 * (result_.points[nodes_[k]] + result_.points[nodes_[k + 4]]); }
+
+  /// Derivatives of place and of displacement by the three coordinates.
+  void derivatives(const Vector3& at, Eigen::Matrix3d& place, Eigen::Matrix3d& moved) const {
+    place.setZero();
+    moved.setZero();
+    for (int k = 0; k < 3; ++k) {
+      // Exact: along each coordinate the functions are quadratic.
+      constexpr double h = 0.5;
+      const Vector3 step = h * Vector3::Unit(k);
+      for (int i = 0; i < n_; ++i) {
+        const double slope = (shape(at + step, i, n_) - shape(at - step, i, n_)) / (2 * h);
+        place.col(k) += slope * result_.points[nodes_[i]];
+        moved.col(k) += slope * result_.displacements[nodes_[i]];
+      }
+    }
+  }
+
+  Vector3 point(const Vector3& at) const {
+    Vector3 p = Vector3::Zero();
+    for (int i = 0; i < n_; ++i) p += shape(at, i, n_) * result_.points[nodes_[i]];
+    return p;
+  }
+
+  /// Plane stress in the layer there.
+  Tensor stress(const Vector3& at, double poisson) const {
+    Eigen::Matrix3d place, moved;
+    derivatives(at, place, moved);
+    const Eigen::Matrix3d gradient = moved * place.inverse();
+    const Eigen::Matrix3d strain = 0.5 * (gradient + gradient.transpose());
+    const Vector3 normal = place.col(0).cross(place.col(1)).normalized();
+    const Vector3 a = place.col(0).normalized(), b = normal.cross(a);
+    const double aa = a.dot(strain * a), bb = b.dot(strain * b), ab = a.dot(strain * b);
+    const double factor = 1 / (1 - poisson * poisson);
+    const Eigen::Matrix3d stress = factor * (aa + poisson * bb) * a * a.transpose() +
+                                   factor * (bb + poisson * aa) * b * b.transpose() +
+                                   ab / (1 + poisson) * (a * b.transpose() + b * a.transpose());
+    Tensor result;
+    result << stress(0, 0), stress(1, 1), stress(2, 2), stress(0, 1), stress(1, 2), stress(2, 0);
+    return result;
+  }
+
+ private:
+  const FrdResult& result_;
+  const std::vector<int>& nodes_;
+  int n_;
+};
+
+Vector3 center_of(const ShellMesh& mesh, int quad) {
+  Vector3 sum = Vector3::Zero();
+  for (const int node : mesh.quads[quad]) sum += mesh.points[node];
+  return sum / 4;
+}
+
+/// Whether a brick stands on a quad, whatever corner comes first; a section may have an offset.
+bool belongs(const ShellMesh& mesh, int quad, const Brick& brick) {
+  Vector3 center = Vector3::Zero();
+  for (int k = 0; k < 4; ++k) center += brick.corner(k) / 4;
+  const double side = (mesh.points[mesh.quads[quad][2]] - mesh.points[mesh.quads[quad][0]]).norm();
+  Eigen::Matrix3d place, moved;
+  brick.derivatives(Vector3::Zero(), place, moved);
+  constexpr double share = 0.1;
+  return (center - center_of(mesh, quad)).norm() <= share * side + 1.1 * place.col(2).norm();
+}
+
+ShellStress stress_at(const Brick& brick, double x, double y, double poisson) {
+  const double layer = 1 / std::sqrt(3.0);  // where bricks are most exact
+  const Tensor low = brick.stress({x, y, -layer}, poisson), high = brick.stress({x, y, layer}, poisson);
+  Eigen::Matrix3d place, moved;
+  brick.derivatives({x, y, 0}, place, moved);
+  const Vector3 normal = place.col(0).cross(place.col(1));
+  return {brick.point({x, y, 0}), normal.norm(), 2 * std::abs(place.col(2).dot(normal.normalized())),
+          0.5 * (low + high), 0.5 / layer * (high - low)};
+}
+
+/// At the corners of the quad, as it goes round and with its normal: solvers may want it the other way round.
+std::array<ShellStress, 4> stresses_of(const ShellMesh& mesh, int quad, const Brick& brick, double poisson) {
+  const auto& corners = mesh.quads[quad];
+  const Vector3 normal = (mesh.points[corners[2]] - mesh.points[corners[0]])
+                             .cross(mesh.points[corners[3]] - mesh.points[corners[1]]);
+  Eigen::Matrix3d place, moved;
+  brick.derivatives(Vector3::Zero(), place, moved);
+  const double side = place.col(0).cross(place.col(1)).dot(normal) < 0 ? -1 : 1;
+  std::array<ShellStress, 4> stresses;
+  for (int k = 0; k < 4; ++k) {
+    int nearest = 0;
+    for (int j = 1; j < 4; ++j) {
+      const Vector3& corner = mesh.points[corners[k]];
+      if ((brick.corner(j) - corner).norm() < (brick.corner(nearest) - corner).norm()) nearest = j;
+    }
+    const double at = 1 / std::sqrt(3.0);
+    stresses[k] = stress_at(brick, at * places[nearest][0], at * places[nearest][1], poisson);
+    stresses[k].bending *= side;
+  }
+  return stresses;
+}
+
+}  // namespace
+
+double energy(const Tensor& membrane, const Tensor& bending, double area, double thickness, double poisson) {
+  const auto density = [&](const Tensor& s) {
+    const double trace = s[0] + s[1] + s[2];
+    const double squares = s.head<3>().squaredNorm() + 2 * s.tail<3>().squaredNorm();
+    return (1 + poisson) * squares - poisson * trace * trace;
+  };
+  return area * thickness * (density(membrane) + density(bending) / 3);
+}
+
+std::vector<std::array<ShellStress, 4>> shell_stresses(const ShellMesh& mesh, const FrdResult& result,
+                                                       double poisson, const std::string& name) {
+  std::vector<const FrdResult::Element*> bricks;
+  for (const FrdResult::Element& element : result.elements) {
+    const bool fits = (element.type == eight_nodes && element.nodes.size() == 8) ||
+                      (element.type == twenty_nodes && element.nodes.size() == 20);
+    if (!fits)
+      throw failure(
+          name, fmt::format("{}: element {} is no brick of 8 or 20 nodes: results are wanted as bricks, by "
+                            "*NODE FILE, OUTPUT=3D",
+                            name, element.number));
+    bricks.push_back(&element);
+  }
+  if (bricks.size() != mesh.quads.size())
+    throw failure(name, fmt::format("{} does not fit the mesh: it has {} elements, the mesh {}", name,
+                                    bricks.size(), mesh.quads.size()));
+  std::vector<std::array<ShellStress, 4>> stresses(bricks.size());
+  for (std::size_t quad = 0; quad < bricks.size(); ++quad) {
+    const Brick brick(result, *bricks[quad]);
+    if (!belongs(mesh, static_cast<int>(quad), brick))
+      throw failure(name, fmt::format("{} does not fit the mesh: its element {} lies elsewhere than quad {}",
+                                      name, bricks[quad]->number, quad + 1));
+    stresses[quad] = stresses_of(mesh, static_cast<int>(quad), brick, poisson);
+  }
+  return stresses;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,157 @@
+/// The format: CalculiX CrunchiX/GraphiX manuals, "Result Format". Fields have fixed widths: numbers may
+/// touch each other.
+
+#include "mesher/io/frd_reader.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+
+namespace quadrille {
+
+namespace {
+
+class FrdReader {
+ public:
+  FrdReader(std::string_view bytes, std::string name) : rest_(bytes), name_(std::move(name)) {}
+
+  FrdResult read() {
+    while (next_line()) {
+      const std::string_view key = field(0, 6);
+      if (key == "    2C") read_nodes();
+      if (key == "    3C") read_elements();
+      if (key == "  100C") read_block();
+    }
+    if (result_.points.empty()) throw bad("holds no nodes: is it a .frd file?");
+    if (result_.elements.empty()) throw bad("holds no elements");
+    if (result_.displacements.empty()) throw bad("holds no displacements: ask for U with *NODE FILE");
+    std::sort(result_.elements.begin(), result_.elements.end(),
+              [](const auto& a, const auto& b) { return a.number < b.number; });
+    return std::move(result_);
+  }
+
+ private:
+  Error bad(const std::string& what) const { return failure(name_, fmt::format("{} {}", name_, what)); }
+  Error bad_line(const std::string& what) const {
+    return failure(name_, fmt::format("{}: line {}: {}", name_, number_, what));
+  }
+
+  bool next_line() {
+    if (rest_.empty()) return false;
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    line_ = rest_.substr(0, end);
+    if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    ++number_;
+    return true;
+  }
+
+  std::string_view field(std::size_t start, std::size_t width) const {
+    return start < line_.size() ? line_.substr(start, width) : std::string_view();
+  }
+
+  template <class Number>
+  Number number(std::size_t start, std::size_t width) const {
+    std::string_view text = field(start, width);
+    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+    while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    Number value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size())
+      throw bad_line(fmt::format("'{}' is no number", text));
+    return value;
+  }
+
+  /// Where values start in the lines of the block that the present line begins: 13 or 8.
+  std::size_t begin_block() {
+    std::string_view header = line_;
+    while (!header.empty() && header.back() == ' ') header.remove_suffix(1);
+    const char format = header.empty() ? ' ' : header.back();
+    if (format == '2' || format == '3')
+      throw bad("is binary: CalculiX writes text unless *NODE OUTPUT or *EL OUTPUT asks for more");
+    return format == '0' ? 8 : 13;
+  }
+
+  bool next_of_block() {
+    if (!next_line()) throw bad("ends in the middle of a block");
+    return field(0, 3) != " -3";
+  }
+
+  Vector3 vector(std::size_t start) const {
+    const Vector3 v(number<double>(start, 12), number<double>(start + 12, 12),
+                    number<double>(start + 24, 12));
+    if (!v.allFinite()) throw bad_line("a value is not finite");
+    return v;
+  }
+
+  void read_nodes() {
+    const std::size_t start = begin_block();
+    while (next_of_block()) {
+      if (field(0, 3) != " -1") throw bad_line("a node was expected");
+      if (!indices_.emplace(number<int>(3, start - 3), static_cast<int>(result_.points.size())).second)
+        throw bad_line(fmt::format("node {} comes twice", number<int>(3, start - 3)));
+      result_.points.push_back(vector(start));
+    }
+  }
+
+  int index_of(int node) const {
+    const auto it = indices_.find(node);
+    if (it == indices_.end()) throw bad_line(fmt::format("there is no node {}", node));
+    return it->second;
+  }
+
+  void read_elements() {
+    const std::size_t start = begin_block(), width = start - 3;
+    while (next_of_block()) {
+      if (field(0, 3) == " -1") {
+        result_.elements.push_back({number<int>(3, width), number<int>(start, 5), {}});
+      } else if (field(0, 3) == " -2" && !result_.elements.empty()) {
+        for (std::size_t at = 3; at < line_.size(); at += width)
+          result_.elements.back().nodes.push_back(index_of(number<int>(at, width)));
+      } else {
+        throw bad_line("an element was expected");
+      }
+    }
+  }
+
+  /// Values at nodes: the displacements of the last step stay.
+  void read_block() {
+    const std::size_t start = begin_block();
+    bool wanted = false;
+    std::vector<Vector3> values;
+    while (next_of_block()) {
+      const std::string_view key = field(0, 3);
+      if (key == " -4") wanted = field(5, 8).substr(0, 4) == "DISP";
+      if (!wanted || key != " -1") continue;
+      if (values.empty()) values.assign(result_.points.size(), Vector3::Constant(missing));
+      values[index_of(number<int>(3, start - 3))] = vector(start);
+    }
+    if (values.empty()) return;
+    for (const Vector3& value : values) {
+      if (std::isnan(value.x())) throw bad("lacks the displacements of some nodes");
+    }
+    result_.displacements = std::move(values);
+  }
+
+  static constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  std::string_view rest_, line_;
+  std::string name_;
+  std::size_t number_ = 0;
+  std::unordered_map<int, int> indices_;
+  FrdResult result_;
+};
+
+}  // namespace
+
+FrdResult read_frd(std::string_view bytes, const std::string& name) {
+  return FrdReader(bytes, name).read();
+}
+
+}  // namespace quadrille

@@ -1,0 +1,254 @@
+/// Errors of stresses by patch recovery, from displacements as CalculiX writes them, and the sizes that
+/// follow.
+
+#include "mesher/adapt/adapt.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <numeric>
+#include <string>
+
+#include "geometry/base/error.hpp"
+#include "mesher/adapt/error_estimate.hpp"
+#include "mesher/adapt/shell_stress.hpp"
+#include "mesher/io/frd_reader.hpp"
+
+namespace quadrille {
+namespace {
+
+using Place = std::function<Vector3(double, double)>;
+
+/// n x n quads over the unit square, put into space.
+ShellMesh grid(int n, const Place& place) {
+  ShellMesh mesh;
+  mesh.order = 2;
+  for (int k = 0; k < (n + 1) * (n + 1); ++k)
+    mesh.points.push_back(place(1.0 * (k % (n + 1)) / n, 1.0 * (k / (n + 1)) / n));
+  for (int k = 0; k < n * n; ++k) {
+    const int a = k / n * (n + 1) + k % n;
+    mesh.quads.push_back({a, a + 1, a + n + 2, a + n + 1});
+  }
+  return mesh;
+}
+
+Vector3 flat(double x, double y) {
+  return {10 * x, 10 * y, 0};
+}
+
+/// The .frd file of a mesh as bricks of eight nodes, 0.2 thick, that move.
+std::string frd(const ShellMesh& mesh, const std::function<Vector3(const Vector3&)>& moved) {
+  std::string nodes, elements, values;
+  int number = 0;
+  for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
+    const auto& corners = mesh.quads[quad];
+    const Vector3 normal = (mesh.points[corners[2]] - mesh.points[corners[0]])
+                               .cross(mesh.points[corners[3]] - mesh.points[corners[1]])
+                               .normalized();
+    elements += fmt::format(" -1{:10}{:5}{:5}{:5}\n -2", quad + 1, 1, 0, 1);
+    for (int k = 0; k < 8; ++k) {
+      const Vector3 p = mesh.points[corners[k % 4]] + (k < 4 ? -0.1 : 0.1) * normal, u = moved(p);
+      elements += fmt::format("{:10}", ++number);
+      nodes += fmt::format(" -1{:10}{:12.5E}{:12.5E}{:12.5E}\n", number, p.x(), p.y(), p.z());
+      values += fmt::format(" -1{:10}{:12.5E}{:12.5E}{:12.5E}\n", number, u.x(), u.y(), u.z());
+    }
+    elements += "\n";
+  }
+  return fmt::format("    1C\n    2C{:30}{:37}\n{} -3\n    3C{:30}{:37}\n{} -3\n", number, 1, nodes,
+                     mesh.quads.size(), 1, elements) +
+         fmt::format(
+             "  100CL  101 1.000000000{:12}{:22}{:5}{:10}{:2}\n -4  DISP        4    1\n -5  D1          1   "
+             " 2    "
+             "1    0\n{} -3\n 9999\n",
+             number, 0, 1, 1, 1, values);
+}
+
+std::vector<std::array<ShellStress, 4>> stresses_of(const ShellMesh& mesh,
+                                                    const std::function<Vector3(const Vector3&)>& moved,
+                                                    double poisson) {
+  return shell_stresses(mesh, read_frd(frd(mesh, moved), "t.frd"), poisson, "t.frd");
+}
+
+TEST(ShellStress, IsHookesInThePlaneAndInBending) {
+  const ShellMesh mesh = grid(2, [](double x, double y) { return Vector3(10 * x + y, 9 * y + x, 0); });
+  const auto stretched = stresses_of(
+      mesh, [](const Vector3& p) { return Vector3(1e-3 * p.x(), 0, 0); }, 0.3);
+  for (const auto& quad : stretched) {
+    for (const ShellStress& stress : quad) {
+      EXPECT_NEAR(stress.membrane[0], 1e-3 / 0.91, 1e-6);
+      EXPECT_NEAR(stress.membrane[1], 0.3e-3 / 0.91, 1e-6);
+      EXPECT_NEAR(stress.membrane[3], 0, 1e-6);
+      EXPECT_LT(stress.bending.norm(), 1e-6);
+      EXPECT_NEAR(stress.thickness, 0.2, 1e-6);
+    }
+  }
+  // Fibers stretch by their height times 0.02: at the top, 0.1 up, by 2e-3.
+  const auto bent = stresses_of(
+      mesh, [](const Vector3& p) { return Vector3(0.02 * p.z() * p.x(), 0, 0); }, 0.3);
+  double area = 0;
+  for (const auto& quad : bent) {
+    for (const ShellStress& stress : quad) {
+      area += stress.area;
+      EXPECT_LT(stress.membrane.norm(), 1e-6);
+      EXPECT_NEAR(stress.bending[0], 2e-3 / 0.91, 2e-6);
+      EXPECT_NEAR(stress.bending[1], 0.3 * 2e-3 / 0.91, 2e-6);
+    }
+  }
+  EXPECT_NEAR(area, 89, 1e-3);
+}
+
+TEST(ShellStress, TurnsWithQuadsThatSolversTurnOver) {
+  const ShellMesh mesh = grid(3, flat);
+  ShellMesh turned = mesh;
+  for (auto& [a, b, c, d] : turned.quads) std::swap(b, d);
+  const auto moved = [](const Vector3& p) { return Vector3(0.02 * p.z() * p.x() * p.y(), 0, 0); };
+  const FrdResult result = read_frd(frd(turned, moved), "t.frd");
+  const auto same = shell_stresses(mesh, result, 0, "t.frd"), straight = stresses_of(mesh, moved, 0);
+  for (std::size_t quad = 0; quad < same.size(); ++quad) {
+    for (int k = 0; k < 4; ++k) {
+      EXPECT_LT((same[quad][k].point - straight[quad][k].point).norm(), 1e-5);
+      EXPECT_LT((same[quad][k].bending - straight[quad][k].bending).norm(), 1e-5);
+    }
+  }
+}
+
+/// Stresses that are given by place.
+std::vector<std::array<ShellStress, 4>> given(const ShellMesh& mesh,
+                                              const std::function<double(int quad, const Vector3&)>& value) {
+  auto stresses = stresses_of(
+      mesh, [](const Vector3& p) { return Vector3(p.x(), 0, 0); }, 0.3);
+  for (std::size_t quad = 0; quad < stresses.size(); ++quad) {
+    for (ShellStress& stress : stresses[quad]) {
+      stress.membrane.setZero();
+      stress.bending.setZero();
+      stress.membrane[0] = stress.bending[3] = value(static_cast<int>(quad), stress.point);
+    }
+  }
+  return stresses;
+}
+
+TEST(ErrorEstimate, IsNoneForStressesThatArePolynomials) {
+  const ShellMesh mesh = grid(6, flat);
+  const auto smooth =
+      given(mesh, [](int, const Vector3& p) { return 1 + p.x() * p.y() - 0.3 * p.x() * p.x(); });
+  EXPECT_LT(estimate_error(mesh, smooth, 0.3).relative(), 1e-6);
+}
+
+TEST(ErrorEstimate, IsWhereStressesJump) {
+  const ShellMesh mesh = grid(8, flat);
+  const auto jumping =
+      given(mesh, [](int quad, const Vector3&) { return quad == 0 || quad == 9 ? 2.0 : 1.0; });
+  const ErrorEstimate estimate = estimate_error(mesh, jumping, 0.3);
+  EXPECT_GT(estimate.relative(), 0.05);
+  double near = 0;
+  for (std::size_t quad = 0; quad < estimate.squares.size(); ++quad) {
+    if (quad % 8 < 4 && quad / 8 < 4) near += estimate.squares[quad];
+  }
+  EXPECT_GT(near, 0.999 * estimate.sum());
+}
+
+TEST(ErrorEstimate, FoldsAreNoErrors) {
+  const auto bent = [](double x, double y) {
+    return x <= 0.5 ? Vector3(10 * x, 10 * y, 0) : Vector3(5, 10 * y, 10 * x - 5);
+  };
+  const ShellMesh mesh = grid(6, bent);
+  const auto two = given(mesh, [](int quad, const Vector3&) { return quad % 6 < 3 ? 1.0 : -2.0; });
+  EXPECT_LT(estimate_error(mesh, two, 0.3).relative(), 1e-6);
+  const ShellMesh straight = grid(6, flat);
+  EXPECT_GT(estimate_error(straight, two, 0.3).relative(), 0.1);
+}
+
+TEST(ErrorEstimate, SizesSpreadItEvenly) {
+  const ShellMesh mesh = grid(10, flat);  // quads of side 1
+  ErrorEstimate estimate;
+  estimate.squares.assign(100, 1e-4);
+  estimate.all = 1;  // 9.95 %
+  for (const double wanted : {0.0995, 0.0995 / 4}) {
+    const auto sizes = sizes_for(mesh, estimate, {wanted, 0});
+    for (const double size : sizes) EXPECT_NEAR(size, std::sqrt(wanted / 0.0995), 0.01);
+  }
+  // Second order: the square of a quad's error goes with the sixth power of its new size, over as many.
+  estimate.squares[7] = 64e-4;
+  const auto sizes = sizes_for(mesh, estimate, {0, 400});
+  EXPECT_NEAR(sizes[7] / sizes[8], 0.5, 1e-6);
+  EXPECT_NEAR(count_for(mesh, sizes), 400, 1);
+}
+
+TEST(FrdReader, SaysWhatIsWrong) {
+  const ShellMesh mesh = grid(2, flat);
+  const std::string good = frd(mesh, [](const Vector3& p) { return p; });
+  EXPECT_EQ(read_frd(good, "t.frd").elements.size(), 4u);
+  const auto refused = [](const std::string& text, const std::string& part) {
+    try {
+      read_frd(text, "t.frd");
+      ADD_FAILURE() << "no error that says " << part;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("t.frd"), std::string::npos) << error.what();
+    }
+  };
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos);
+    return text.replace(at, from.size(), to);
+  };
+  refused("", "no nodes");
+  refused("solid nonsense\n", "no nodes");
+  refused(good.substr(0, good.find("    3C") - 4), "middle of a block");
+  refused(good.substr(0, good.find("    3C") - 20), "t.frd");
+  refused(good.substr(0, good.find("  100C")), "no displacements");
+  refused(with("DISP", "TEMP"), "no displacements");
+  refused(with("1.00000E+01", "        nan"), "not finite");
+  refused(with("1.00000E+01", "1.0000xE+01"), "no number");
+  refused(with(" -1         2 ", " -1         1 "), "twice");
+  refused(with("\n -2         1", "\n -2        99"), "no node 99");
+  std::string binary = good;
+  binary[binary.find('\n', binary.find("    2C")) - 1] = '2';
+  refused(binary, "binary");
+}
+
+TEST(Adapt, WritesSizesAndRefusesWhatDoesNotFit) {
+  const auto folder = std::filesystem::temp_directory_path();
+  const auto result = folder / "quadrille_adapt_test.frd", sizes = folder / "quadrille_adapt_test.vdb";
+  const ShellMesh mesh = grid(6, flat);
+  const auto moved = [](const Vector3& p) { return Vector3(std::exp(0.3 * p.x()), 0, 0); };
+  std::ofstream(result) << frd(mesh, moved);
+  ExecutionContext context;
+  AdaptOptions options;
+  const AdaptResult done = adapt(mesh, result, sizes, options, context);
+  EXPECT_GT(done.error, 0.001);
+  EXPECT_LT(done.error, 0.5);
+  EXPECT_LT(done.least, done.largest);
+  EXPECT_TRUE(std::filesystem::exists(sizes));
+  const auto refused = [&](const ShellMesh& other, const AdaptOptions& asked, Error::Kind kind) {
+    try {
+      adapt(other, result, sizes, asked, context);
+      ADD_FAILURE();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), kind) << error.what();
+    }
+  };
+  refused(grid(5, flat), options, Error::Kind::failure);
+  refused(grid(6, [](double x, double y) { return Vector3(10 * x, 10 * y, 50); }), options,
+          Error::Kind::failure);
+  for (const double error : {0.0, -1.0, 1.0, std::nan("")}) {
+    AdaptOptions wrong;
+    wrong.error = error;
+    refused(mesh, wrong, Error::Kind::usage);
+  }
+  AdaptOptions wrong;
+  wrong.poisson = 0.5;
+  refused(mesh, wrong, Error::Kind::usage);
+  std::ofstream(result) << frd(mesh, [](const Vector3&) { return Vector3(1, 2, 3); });
+  refused(mesh, options, Error::Kind::failure);
+  std::filesystem::remove(result);
+  std::filesystem::remove(sizes);
+}
+
+}  // namespace
+}  // namespace quadrille
