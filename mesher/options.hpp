@@ -52,6 +52,7 @@ struct MeshOptions {
   double merge_tiny = 0;
   /// Mesh all edges and slivers below half the least size, where they would be let go (ShellMesh::let_go).
   bool keep_features = false;
+  int rings = 1;         ///< of quads round each hole without corners, at most
   bool partial = false;  ///< deliver what could be meshed when a face fails, instead of throwing
   std::filesystem::path write_size_field;  ///< .vdb to write the sizing field to; empty = none
   bool force = false;                      ///< go on where the mesh would pass 50 million elements

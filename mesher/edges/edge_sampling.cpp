@@ -13,6 +13,7 @@
 #include "mesher/edges/edge_counts.hpp"
 #include "mesher/edges/face_sides.hpp"
 #include "mesher/edges/facing_sides.hpp"
+#include "mesher/edges/hole_blocks.hpp"
 #include "mesher/edges/narrow_faces.hpp"
 #include "mesher/edges/strip_counts.hpp"
 
@@ -119,7 +120,8 @@ class EdgeSampler {
     const std::vector<FaceSides> found = find_face_sides(shape_, used_, plan_.tiny, wishes_.wanted);
     result_.sides = found;
     EdgeCounts chosen = choose_counts(wishes_, plan_.tiny, result_.sides);
-    if (refine_along_strips(shape_, result_.sides, chosen, tables_, wishes_)) {
+    const bool refined = refine_along_strips(shape_, result_.sides, chosen, tables_, wishes_);
+    if (fit_holes_to_grids(shape_, result_.sides, chosen, tables_, wishes_) || refined) {
       result_.sides = found;
       chosen = choose_counts(wishes_, plan_.tiny, result_.sides);
     }

@@ -32,9 +32,11 @@ class SideFinder {
   FaceSides find(const CadFace& face) const {
     FaceSides sides;
     std::vector<Walk> walks;
-    if (face.wires.size() <= 2 && face.inner_vertices.empty()) walks = usable_walks(face);
+    if (face.inner_vertices.empty()) walks = usable_walks(face);
     if (walks.size() == 1) take_corners(walks[0], sides);
     if (walks.size() == 2) take_ring(walks[0], walks[1], sides);
+    if (walks.size() >= 2 && sides.facing.empty()) take_holes(walks, sides);
+    if (sides.outline == FaceSides::Outline::holed) return sides;
     if (sides.facing.empty()) take_rest(face, sides);
     return sides;
   }
@@ -112,12 +114,34 @@ class SideFinder {
     for (int c = 0; c < 2; ++c) add_pairs(four[c], turned(four[c + 2]), sides);
   }
 
+  static bool is_smooth(const Walk& walk) {
+    return std::all_of(walk.turnings.begin(), walk.turnings.end(),
+                       [](double turning) { return std::abs(turning) <= smooth_turning; });
+  }
+
+  /// Four corners outside, none at the holes.
+  void take_holes(const std::vector<Walk>& walks, FaceSides& sides) const {
+    const auto outer =
+        std::find_if(walks.begin(), walks.end(), [](const Walk& walk) { return !is_smooth(walk); });
+    if (outer == walks.end()) return;
+    for (auto walk = walks.begin(); walk != walks.end(); ++walk) {
+      if (walk != outer && !is_smooth(*walk)) return;
+    }
+    FaceSides found;
+    take_corners(*outer, found);
+    if (found.outline != FaceSides::Outline::four) return;
+    sides = std::move(found);
+    sides.outline = FaceSides::Outline::holed;
+    sides.outer = static_cast<int>(outer - walks.begin());
+    for (auto walk = walks.begin(); walk != walks.end(); ++walk) {
+      if (walk == outer) continue;
+      for (const SideEdge& edge : walk->edges) sides.rest.push_back(edge.edge);
+    }
+  }
+
   /// Two loops without corners, from their vertices that are nearest to each other.
   void take_ring(const Walk& first, const Walk& second, FaceSides& sides) const {
-    const auto is_smooth = [](double turning) { return std::abs(turning) <= smooth_turning; };
-    for (const Walk* walk : {&first, &second}) {
-      if (!std::all_of(walk->turnings.begin(), walk->turnings.end(), is_smooth)) return;
-    }
+    if (!is_smooth(first) || !is_smooth(second)) return;
     std::size_t a = 0, b = 0;
     double nearest = std::numeric_limits<double>::infinity();
     const Side back = turned(second.edges);

@@ -27,12 +27,14 @@ struct FaceSides {
     other,
     four,  ///< one loop with four corners
     odd,   ///< one loop with three or five corners
-    ring   ///< two loops without corners
+    ring,  ///< two loops without corners
+    holed  ///< one loop with four corners, and holes without
   };
   Outline outline = Outline::other;
   std::vector<FacingPair> facing;  ///< as many segments on both sides of each
   std::vector<int> rest;           ///< edges (from 0) whose counts have an even sum
-  /// (four, odd) the coedges of the wire that the sides start with
+  int outer = 0;                   ///< the wire with the corners
+  /// (four, odd, holed) the coedges of that wire that the sides start with
   std::vector<int> starts;
 };
 

@@ -351,6 +351,34 @@ FaceBoundary face_boundary(const CadShape& shape, int face, const CadFace& cad_f
   return boundary;
 }
 
+FaceBoundary halved(FaceBoundary boundary) {
+  if (boundary.stride == 1) return boundary;
+  boundary.stride = 1;
+  std::vector<int> shift(boundary.segments.size() + 1, 0);
+  std::vector<FaceBoundary::Segment> segments;
+  for (std::size_t i = 0; i < boundary.segments.size(); ++i) {
+    const FaceBoundary::Segment& whole = boundary.segments[i];
+    shift[i] = static_cast<int>(segments.size());
+    segments.push_back(whole);
+    if (whole.degenerate || whole.middle_node == -1) continue;
+    const int middle = boundary.size();
+    boundary.uv.push_back(whole.middle_uv);
+    boundary.points.push_back(whole.middle_point);
+    boundary.nodes.push_back(whole.middle_node);
+    boundary.angles.push_back(M_PI);
+    segments.push_back(whole);
+    FaceBoundary::Segment &first = segments[segments.size() - 2], &second = segments.back();
+    first.b = second.a = middle;
+    first.to = second.from = 0.5 * (whole.from + whole.to);
+    first.middle_node = second.middle_node = -1;
+  }
+  for (auto& wire : boundary.first_segments) {
+    for (int& first : wire) first = first < 0 ? first : shift[first];
+  }
+  boundary.segments = std::move(segments);
+  return boundary;
+}
+
 TrimmedDomain enclosed_domain(const FaceBoundary& boundary) {
   std::vector<TrimmedDomain::Segment> segments;
   segments.reserve(boundary.segments.size());

@@ -52,6 +52,10 @@ inline FaceBoundary face_boundary(const CadShape& shape, int face, const FaceSur
   return face_boundary(shape, face, shape.faces[face], surface, nodes);
 }
 
+/// The same boundary with two segments for each one: for elements of the final size. Those of a stride of 1
+/// it leaves as they are.
+FaceBoundary halved(FaceBoundary boundary);
+
 /// The domain in the parameter plane that the boundary encloses.
 TrimmedDomain enclosed_domain(const FaceBoundary& boundary);
 

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
+#include "mesher/edges/hole_blocks.hpp"
 #include "mesher/mesh/quality.hpp"
 
 namespace quadrille {
@@ -42,6 +44,12 @@ class GridMaker {
       case Outline::odd:
         if (!make_odd()) return std::nullopt;
         break;
+      case Outline::holed:
+        // Nodes are to move before the grid can be judged.
+        if (!make_holed() || !follows_sizes()) return std::nullopt;
+        drop_unused();
+        turn_to_left();
+        return std::move(grid_);
       case Outline::other:
         return std::nullopt;
     }
@@ -76,14 +84,14 @@ class GridMaker {
     return static_cast<int>(count) == boundary_count_;
   }
 
-  /// The sides of the only loop, from corner to corner.
+  /// The sides of the outer loop, from corner to corner.
   std::vector<Line> cut_loop() const {
-    const Line& loop = loops_.front();
+    const Line& loop = loops_[sides_.outer];
     const int n = static_cast<int>(loop.size());
     std::vector<Line> lines;
     std::vector<int> corners;
     for (const int start : sides_.starts) {
-      const int segment = boundary_.first_segments[0][start];
+      const int segment = boundary_.first_segments[sides_.outer][start];
       const auto it = std::find(loop.begin(), loop.end(), segment < 0 ? -1 : boundary_.segments[segment].a);
       if (it == loop.end()) return {};
       corners.push_back(static_cast<int>(it - loop.begin()));
@@ -111,23 +119,7 @@ class GridMaker {
     if (loops_.size() != 2 || loops_[0].size() != loops_[1].size()) return false;
     Line outer = loops_[0], inner = turned(loops_[1]);
     const int n = static_cast<int>(outer.size());
-    const auto way = [&](int shift) {
-      double sum = 0;
-      for (int i = 0; i < n; i += std::max(1, n / 32))
-        sum += (grid_.points[outer[i]] - grid_.points[inner[(i + shift) % n]]).norm();
-      return sum;
-    };
-    int best = 0;
-    double shortest = std::numeric_limits<double>::infinity();
-    for (int shift = 0; shift < n; ++shift) {
-      check_();
-      const double sum = way(shift);
-      if (sum < shortest) {
-        shortest = sum;
-        best = shift;
-      }
-    }
-    std::rotate(inner.begin(), inner.begin() + best, inner.end());
+    std::rotate(inner.begin(), inner.begin() + nearest_shift(outer, inner).first, inner.end());
     const int mid = n / 2;
     const std::vector<double> shares = rows_between(outer[mid], inner[mid]);
     std::vector<Line> rows{outer};
@@ -136,12 +128,7 @@ class GridMaker {
       for (int i = 0; i < n; ++i) row.push_back(add_between(outer[i], inner[i], shares[k]));
     }
     rows.push_back(inner);
-    for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
-      for (int i = 0; i < n; ++i) {
-        const int next = (i + 1) % n;
-        grid_.quads.push_back({rows[k][i], rows[k][next], rows[k + 1][next], rows[k + 1][i]});
-      }
-    }
+    add_rows(rows);
     return true;
   }
 
@@ -227,6 +214,19 @@ class GridMaker {
 
   /// A grid between four lines, each in the direction of its coordinate.
   void fill(const Line& bottom, const Line& right, const Line& top, const Line& left) {
+    const std::vector<Line> rows = rows_inside(bottom, right, top, left);
+    for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
+      for (std::size_t i = 0; i + 1 < bottom.size(); ++i) add_cell(rows, i, j);
+    }
+  }
+
+  void add_cell(const std::vector<Line>& rows, std::size_t i, std::size_t j) {
+    check_();
+    grid_.quads.push_back({rows[j][i], rows[j][i + 1], rows[j + 1][i + 1], rows[j + 1][i]});
+  }
+
+  /// The points of a grid between four lines, row by row, with the lines.
+  std::vector<Line> rows_inside(const Line& bottom, const Line& right, const Line& top, const Line& left) {
     const std::size_t m = bottom.size() - 1, n = left.size() - 1;
     const std::vector<double> b = shares_of(bottom), t = shares_of(top), l = shares_of(left),
                               r = shares_of(right);
@@ -248,29 +248,192 @@ class GridMaker {
       row.push_back(right[j]);
     }
     rows.push_back(top);
-    for (std::size_t j = 0; j < n; ++j) {
-      for (std::size_t i = 0; i < m; ++i) {
+    return rows;
+  }
+
+  /// A grid, in which a block of cells gives way to each hole, with rows of quads between the two.
+  bool make_holed() {
+    const std::vector<Line> sides = cut_loop();
+    if (sides.size() != 4 ||
+        static_cast<int>(loops_.size()) != static_cast<int>(boundary_.first_segments.size()))
+      return false;
+    if (sides[0].size() != sides[2].size() || sides[1].size() != sides[3].size()) return false;
+    const std::vector<Line> rows = rows_inside(sides[0], sides[1], turned(sides[2]), turned(sides[3]));
+    const int columns = static_cast<int>(sides[0].size()) - 1,
+              row_count = static_cast<int>(sides[1].size()) - 1;
+    if (columns < 3 || row_count < 3) return false;
+    std::vector<HoleBlock> blocks;
+    std::vector<char> covered(static_cast<std::size_t>(columns) * row_count, 0);
+    for (std::size_t i = 0; i < loops_.size(); ++i) {
+      if (static_cast<int>(i) == sides_.outer) continue;
+      const std::vector<Vector2> places = places_in(rows, loops_[i]);
+      const auto block = block_round(places);
+      if (!block) return false;
+      blocks.push_back(*block);
+      if (!keep_apart(blocks, columns, row_count)) return false;
+      for (int j = block->row; j < block->row + block->rows; ++j)
+        std::fill_n(covered.begin() + static_cast<long>(j) * columns + block->column, block->columns, 1);
+      join_hole(outline_of(rows, *block), loops_[i], places);
+    }
+    for (int j = 0; j < row_count; ++j) {
+      for (int i = 0; i < columns; ++i) {
+        if (!covered[static_cast<std::size_t>(j) * columns + i]) add_cell(rows, i, j);
+      }
+    }
+    return true;
+  }
+
+  /// Where points of a line lie in a grid, in cells.
+  std::vector<Vector2> places_in(const std::vector<Line>& rows, const Line& line) {
+    const int n = static_cast<int>(rows.size()) - 1, m = static_cast<int>(rows[0].size()) - 1;
+    std::vector<Vector2> places;
+    int i = m / 2, j = n / 2;
+    for (const int point : line) {
+      Vector2 place(i, j);
+      for (int step = 0; step < 2 * (m + n); ++step) {
         check_();
-        grid_.quads.push_back({rows[j][i], rows[j][i + 1], rows[j + 1][i + 1], rows[j + 1][i]});
+        const auto at = [&](int column, int row) -> const Vector3& {
+          return grid_.points[rows[row][column]];
+        };
+        const Vector3 along = 0.5 * (at(i + 1, j) - at(i - 1, j)), up = 0.5 * (at(i, j + 1) - at(i, j - 1)),
+                      way = grid_.points[point] - at(i, j);
+        const double aa = along.squaredNorm(), uu = up.squaredNorm(), au = along.dot(up),
+                     det = aa * uu - au * au;
+        const double x = (uu * way.dot(along) - au * way.dot(up)) / det,
+                     y = (aa * way.dot(up) - au * way.dot(along)) / det;
+        place = Vector2(i + x, j + y);
+        if (!place.allFinite()) break;
+        const int next_i = std::clamp(i + std::clamp(static_cast<int>(std::lround(x)), -m, m), 1, m - 1),
+                  next_j = std::clamp(j + std::clamp(static_cast<int>(std::lround(y)), -n, n), 1, n - 1);
+        if (next_i == i && next_j == j) break;
+        i = next_i;
+        j = next_j;
+      }
+      places.push_back(place);
+    }
+    return places;
+  }
+
+  static std::optional<HoleBlock> block_round(const std::vector<Vector2>& places) {
+    HolePlace place{places.front(), places.front()};
+    for (const Vector2& p : places) {
+      place.low = place.low.cwiseMin(p);
+      place.high = place.high.cwiseMax(p);
+    }
+    if (!place.low.allFinite() || !place.high.allFinite()) return std::nullopt;
+    return block_of(place, static_cast<int>(places.size()));
+  }
+
+  /// Counter-clockwise in cells.
+  static Line outline_of(const std::vector<Line>& rows, const HoleBlock& block) {
+    const int left = block.column, right = left + block.columns, low = block.row, high = low + block.rows;
+    Line line;
+    for (int i = left; i < right; ++i) line.push_back(rows[low][i]);
+    for (int j = low; j < high; ++j) line.push_back(rows[j][right]);
+    for (int i = right; i > left; --i) line.push_back(rows[high][i]);
+    for (int j = high; j > low; --j) line.push_back(rows[j][left]);
+    return line;
+  }
+
+  /// Rows of quads between the outline of a block and a hole with as many nodes.
+  void join_hole(const Line& outline, Line hole, const std::vector<Vector2>& places) {
+    double area = 0;
+    const std::size_t n = hole.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const Vector2 &p = places[k], &q = places[(k + 1) % n];
+      area += p.x() * q.y() - p.y() * q.x();
+    }
+    if (area < 0) hole = turned(hole);
+    const auto [shift, way] = nearest_shift(outline, hole);
+    std::rotate(hole.begin(), hole.begin() + shift, hole.end());
+    double length = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      length += 0.5 * (grid_.points[outline[(k + 1) % n]] - grid_.points[outline[k]]).norm() +
+                0.5 * (grid_.points[hole[(k + 1) % n]] - grid_.points[hole[k]]).norm();
+    }
+    const int rings = std::max(1, static_cast<int>(std::lround(way / length)));
+    grid_.rings = grid_.rings == 0 ? rings : std::min(grid_.rings, rings);
+    std::vector<Line> lines{outline};
+    for (int ring = 1; ring < rings; ++ring) {
+      Line& line = lines.emplace_back();
+      for (std::size_t k = 0; k < n; ++k)
+        line.push_back(add_between(outline[k], hole[k], static_cast<double>(ring) / rings));
+    }
+    lines.push_back(hole);
+    add_rows(lines);
+  }
+
+  /// Quads between closed lines.
+  void add_rows(const std::vector<Line>& lines) {
+    const std::size_t n = lines.front().size();
+    for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
+      for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t next = (i + 1) % n;
+        grid_.quads.push_back({lines[k][i], lines[k][next], lines[k + 1][next], lines[k + 1][i]});
       }
     }
   }
 
-  /// No cell is folded, in space or in the parameter plane.
-  bool is_good() {
+  /// By how much a closed line is to be turned so that its points are nearest to those of another, and the
+  /// sum of the ways then, about.
+  std::pair<int, double> nearest_shift(const Line& outer, const Line& inner) {
+    const int n = static_cast<int>(outer.size()), step = std::max(1, n / 32);
+    int best = 0;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (int shift = 0; shift < n; ++shift) {
+      check_();
+      double sum = 0;
+      for (int i = 0; i < n; i += step)
+        sum += (grid_.points[outer[i]] - grid_.points[inner[(i + shift) % n]]).norm() * step;
+      if (sum < shortest) {
+        shortest = sum;
+        best = shift;
+      }
+    }
+    return {best, shortest};
+  }
+
+  /// Points inside that no quad has.
+  void drop_unused() {
+    std::vector<int> number(grid_.uv.size(), -1);
+    for (const auto& quad : grid_.quads) {
+      for (const int point : quad) number[point] = 0;
+    }
+    int kept = 0;
+    for (int i = 0; i < static_cast<int>(number.size()); ++i) {
+      if (i >= boundary_count_ && number[i] < 0) continue;
+      grid_.uv[kept] = grid_.uv[i];
+      grid_.points[kept] = grid_.points[i];
+      number[i] = kept++;
+    }
+    grid_.uv.resize(kept);
+    grid_.points.resize(kept);
+    for (auto& quad : grid_.quads) {
+      for (int& point : quad) point = number[point];
+    }
+  }
+
+  double cross(int a, int b, int c) const {
+    const Vector2 p = grid_.uv[b] - grid_.uv[a], q = grid_.uv[c] - grid_.uv[a];
+    return p.x() * q.y() - p.y() * q.x();
+  }
+
+  /// A wire may run the wrong way round.
+  void turn_to_left() {
     double area = 0;
-    const auto cross = [&](int a, int b, int c) {
-      const Vector2 p = grid_.uv[b] - grid_.uv[a], q = grid_.uv[c] - grid_.uv[a];
-      return p.x() * q.y() - p.y() * q.x();
-    };
     for (const auto& [a, b, c, d] : grid_.quads) {
       check_();
       area += cross(a, b, c) + cross(a, c, d);
     }
-    for (auto& quad : grid_.quads) {
+    if (area >= 0) return;
+    for (auto& quad : grid_.quads) std::swap(quad[1], quad[3]);
+  }
+
+  /// No cell is folded, in space or in the parameter plane.
+  bool is_good() {
+    turn_to_left();
+    for (const auto& [a, b, c, d] : grid_.quads) {
       check_();
-      if (area < 0) std::swap(quad[1], quad[3]);  // a wire that runs the wrong way round
-      const auto& [a, b, c, d] = quad;
       const auto& p = grid_.points;
       if (quad_scaled_jacobian(p[a], p[b], p[c], p[d]) < least_jacobian) return false;
       if (!(cross(a, b, d) > 0) || !(cross(c, d, b) > 0)) return false;

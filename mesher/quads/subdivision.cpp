@@ -15,7 +15,7 @@ class Subdivider {
   Subdivider(const FaceQuads& coarse, const FaceSurface& surface, const ExecutionContext& context)
       : coarse_(coarse), surface_(surface), check_(context, 256) {}
 
-  FaceQuads run(const std::vector<FaceBoundary::Segment>& segments, const std::vector<Vector3>& node_points) {
+  FaceQuads run(const std::vector<FaceBoundary::Segment>& segments) {
     const int fixed = static_cast<int>(coarse_.nodes.size());
     const auto& old = coarse_.surface_mesh;
     const int count = static_cast<int>(old.mesh.points.size());
@@ -23,7 +23,7 @@ class Subdivider {
     for (int i = 0; i < fixed; ++i) copy_point(i);
     fine_.nodes = coarse_.nodes;
     middles_.reserve(2 * old.mesh.quads.size() + segments.size());
-    for (const auto& segment : segments) add_boundary_middle(segment, node_points);
+    for (const auto& segment : segments) add_boundary_middle(segment);
     for (int i = fixed; i < count; ++i) copy_point(i);
     for (const auto& quad : old.mesh.quads) split(quad);
     for (const auto& triangle : old.mesh.triangles) split(triangle);
@@ -47,9 +47,9 @@ class Subdivider {
         add_point(old.mesh.points[i], old.parameters[i], old.normals[i], old.fixed[i], coarse_.pole[i]);
   }
 
-  void add_boundary_middle(const FaceBoundary::Segment& segment, const std::vector<Vector3>& node_points) {
-    const int point = add_point(node_points[segment.middle_node], segment.middle_uv,
-                                surface_.normal(segment.middle_uv), true, false);
+  void add_boundary_middle(const FaceBoundary::Segment& segment) {
+    const int point =
+        add_point(segment.middle_point, segment.middle_uv, surface_.normal(segment.middle_uv), true, false);
     fine_.nodes.push_back(segment.middle_node);
     middles_.emplace(side_key(segment.a, segment.b), point);
   }
@@ -150,29 +150,27 @@ class Subdivider {
 /// The middles of sides: the edges' own nodes on boundary sides, elsewhere halfway.
 class SideMiddles {
  public:
-  SideMiddles(const std::vector<Vector3>& points, const std::vector<FaceBoundary::Segment>& segments,
-              const std::vector<Vector3>& node_points)
-      : points_(points), node_points_(node_points) {
-    nodes_.reserve(segments.size());
+  SideMiddles(const std::vector<Vector3>& points, const std::vector<FaceBoundary::Segment>& segments)
+      : points_(points) {
+    middles_.reserve(segments.size());
     on_boundary_.assign(points.size(), 0);
     for (const auto& segment : segments) {
-      nodes_.emplace(side_key(segment.a, segment.b), segment.middle_node);
+      middles_.emplace(side_key(segment.a, segment.b), segment.middle_point);
       on_boundary_[segment.a] = on_boundary_[segment.b] = 1;
     }
   }
 
   Vector3 between(int a, int b) const {
     if (on_boundary_[a] && on_boundary_[b]) {
-      const auto node = nodes_.find(side_key(a, b));
-      if (node != nodes_.end()) return node_points_[node->second];
+      const auto middle = middles_.find(side_key(a, b));
+      if (middle != middles_.end()) return middle->second;
     }
     return 0.5 * (points_[a] + points_[b]);
   }
 
  private:
   const std::vector<Vector3>& points_;
-  const std::vector<Vector3>& node_points_;
-  std::unordered_map<std::uint64_t, int> nodes_;
+  std::unordered_map<std::uint64_t, Vector3> middles_;
   std::vector<char> on_boundary_;
 };
 
@@ -198,11 +196,10 @@ double worst_part(const std::vector<Vector3>& points, const std::array<int, n>& 
 }  // namespace
 
 void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
-                    const std::vector<FaceBoundary::Segment>& segments,
-                    const std::vector<Vector3>& node_points, const ExecutionContext& context) {
+                    const std::vector<FaceBoundary::Segment>& segments, const ExecutionContext& context) {
   SparseCheck check(context);
   constexpr double bad = 0.3, gain = 0.1, flat = 1e-6;
-  const SideMiddles middles(mesh.points, segments, node_points);
+  const SideMiddles middles(mesh.points, segments);
   std::erase_if(mesh.quads, [&](const std::array<int, 4>& quad) {
     check();
     const auto [a, b, c, d] = quad;
@@ -225,9 +222,8 @@ void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
 }
 
 FaceQuads subdivide(const FaceQuads& coarse, const std::vector<FaceBoundary::Segment>& segments,
-                    const std::vector<Vector3>& node_points, const FaceSurface& surface,
-                    const ExecutionContext& context) {
-  return Subdivider(coarse, surface, context).run(segments, node_points);
+                    const FaceSurface& surface, const ExecutionContext& context) {
+  return Subdivider(coarse, surface, context).run(segments);
 }
 
 }  // namespace quadrille

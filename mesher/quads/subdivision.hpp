@@ -12,7 +12,7 @@ namespace quadrille {
 struct FaceQuads {
   SurfaceMesh surface_mesh;  ///< fixed points first
   std::vector<char> pole;    ///< (n) 1 = uv is one of many
-  std::vector<int> nodes;    ///< (fixed points) index into BoundaryNodes::points
+  std::vector<int> nodes;    ///< (fixed points) index into BoundaryNodes::points; those of HoleRings::inside
 };
 
 /// Cuts those quads into two triangles whose four parts would be worse than the six parts of the triangles:
@@ -20,14 +20,12 @@ struct FaceQuads {
 /// Parts have the edges' own nodes on boundary sides. \param normals (points) unit normals of the surface.
 /// \param segments as for subdivide().
 void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
-                    const std::vector<FaceBoundary::Segment>& segments,
-                    const std::vector<Vector3>& node_points, const ExecutionContext& context = {});
+                    const std::vector<FaceBoundary::Segment>& segments, const ExecutionContext& context = {});
 
 /// Splits each quad into four and each triangle into three quads. New points on boundary sides are the edges'
 /// own nodes, others are put on the surface. \param segments the boundary sides, which carry the nodes in
 /// their middle.
 FaceQuads subdivide(const FaceQuads& coarse, const std::vector<FaceBoundary::Segment>& segments,
-                    const std::vector<Vector3>& node_points, const FaceSurface& surface,
-                    const ExecutionContext& context = {});
+                    const FaceSurface& surface, const ExecutionContext& context = {});
 
 }  // namespace quadrille

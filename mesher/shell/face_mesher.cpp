@@ -13,11 +13,15 @@
 #include "mesher/faces/boundary_crossings.hpp"
 #include "mesher/faces/face_grid.hpp"
 #include "mesher/faces/face_triangulation.hpp"
+#include "mesher/faces/hole_rings.hpp"
 #include "mesher/faces/point_placement.hpp"
 #include "mesher/mesh/criteria.hpp"
+#include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/pairing/recombine.hpp"
+#include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/improve.hpp"
+#include "mesher/quads/ring_quads.hpp"
 #include "mesher/quads/subdivision.hpp"
 #include "mesher/shell/boundary_sides.hpp"
 
@@ -55,14 +59,15 @@ class FaceMesher {
         size_at_(field, face) {}
 
   FaceMesh run() {
-    if (!recipe_.mapped) return mesh_freely();
+    if (!recipe_.mapped) return mesh_without_grid();
     auto grid = mesh_as_grid();
-    if (!grid) return mesh_freely();
+    if (!grid) return mesh_without_grid();
     if (is_squeezed(*grid)) {
       try {
-        FaceMesh free = mesh_freely();
+        FaceMesh free = mesh_without_grid();
         if (2 * outside_limits(free) < outside_limits(*grid)) return free;
-      } catch (const FaceProblem&) {  // the grid has none
+      } catch (const FaceProblem&) {
+        context_.check();  // the grid has none
       }
     }
     return std::move(*grid);
@@ -90,24 +95,73 @@ class FaceMesher {
     return 2 * quads > rows * static_cast<double>(grid.nodes.size()) && outside_limits(grid) > much * quads;
   }
 
-  FaceMesh mesh_freely() {
-    FaceTriangulation triangulation = triangulate();
-    FaceQuads quads = recombine_face(triangulation);
+  FaceMesh mesh_without_grid() {
+    if (options_.rings > 0 && recipe_.clean_up) {
+      const HoleRings rings = place_rings(chart_.boundary, surface_, domain_, options_.rings);
+      if (!rings.holes.empty()) {
+        try {
+          return mesh_inside(rings);
+        } catch (const FaceProblem&) {
+          context_.check();  // without rings then
+        }
+      }
+    }
+    return finish(mesh_freely(chart_.boundary, domain_));
+  }
+
+  FaceMesh mesh_inside(const HoleRings& rings) {
+    FaceQuads quads = mesh_freely(rings.inside, enclosed_domain(rings.inside));
+    add_ring_quads(quads, rings, surface_);
+    improve(quads, false);
+    return finish(std::move(quads));
+  }
+
+  /// Where the parts of quads of twice the size are poor, as in faces of few, elements of the final size may
+  /// be better.
+  FaceQuads mesh_freely(const FaceBoundary& boundary, const TrimmedDomain& domain) {
+    constexpr std::size_t few = 200;
+    constexpr double poor = 0.1, gain = 0.6;
+    FaceQuads quads = mesh_once(boundary, domain);
+    const std::size_t count = quads.surface_mesh.mesh.quads.size();
+    if (boundary.stride != 2 || !recipe_.clean_up || count > few) return quads;
+    const double bad = badness(quads.surface_mesh.mesh);
+    if (bad < poor * static_cast<double>(count)) return quads;
+    try {
+      FaceQuads direct = mesh_once(halved(boundary), domain);
+      if (badness(direct.surface_mesh.mesh) < gain * bad) return direct;
+    } catch (const FaceProblem&) {
+      context_.check();  // the others then
+    }
+    return quads;
+  }
+
+  /// How far the quads are beyond the limits of industry, all in all; one counts up to `most`.
+  static double badness(const QuadMesh& mesh) {
+    constexpr double fine = 0.5, most = 10;
+    double sum = 0;
+    const auto& p = mesh.points;
+    for (const auto& [a, b, c, d] : mesh.quads)
+      sum += std::clamp(measure_objective(p[a], p[b], p[c], p[d]).value - fine, 0.0, most);
+    return sum;
+  }
+
+  FaceQuads mesh_once(const FaceBoundary& boundary, const TrimmedDomain& domain) {
+    FaceTriangulation triangulation = triangulate(boundary, domain);
+    FaceQuads quads = recombine_face(triangulation, boundary.stride);
     improve(quads, recipe_.clean_up);
-    if (chart_.boundary.stride == 2) {
-      cut_flat_quads(quads.surface_mesh.mesh, quads.surface_mesh.normals, triangulation.segments,
-                     nodes_.points, context_);
-      quads = subdivide(quads, triangulation.segments, nodes_.points, surface_, context_);
+    if (boundary.stride == 2) {
+      cut_flat_quads(quads.surface_mesh.mesh, quads.surface_mesh.normals, triangulation.segments, context_);
+      quads = subdivide(quads, triangulation.segments, surface_, context_);
       improve(quads, false);
     }
-    return finish(std::move(quads));
+    return quads;
   }
 
   std::optional<FaceMesh> mesh_as_grid() {
     const StageTimer timer(context_, Stage::triangulate);
     auto grid = make_grid(chart_.boundary, nodes_.sides[face_], surface_, size_at_, context_);
     context_.check();
-    if (!grid) return std::nullopt;
+    if (!grid || (grid->rings > 0 && grid->rings < options_.rings)) return std::nullopt;
     FaceQuads quads;
     quads.nodes = std::move(grid->nodes);
     auto& mesh = quads.surface_mesh;
@@ -116,22 +170,37 @@ class FaceMesher {
     mesh.parameters = std::move(grid->uv);
     quads.pole.assign(mesh.parameters.size(), 0);
     context_.check();
+    if (nodes_.sides[face_].outline == FaceSides::Outline::holed && !settle(quads)) return std::nullopt;
     FaceMesh result = finish(std::move(quads));
     result.grid = true;
     return result;
   }
 
-  FaceTriangulation triangulate() {
+  /// Moves the nodes of a grid round holes; whether its quads are well shaped then.
+  bool settle(FaceQuads& quads) {
+    constexpr int rounds = 6;
+    constexpr double least_jacobian = 0.5;
+    SurfaceMesh& mesh = quads.surface_mesh;
+    for (const Vector2& uv : mesh.parameters) mesh.normals.push_back(surface_.normal(uv));
+    mesh.fixed.assign(mesh.parameters.size(), 0);
+    std::fill_n(mesh.fixed.begin(), quads.nodes.size(), 1);
+    for (int round = 0; round < rounds; ++round) improve(quads, false);
+    const auto& p = mesh.mesh.points;
+    return std::all_of(mesh.mesh.quads.begin(), mesh.mesh.quads.end(), [&](const std::array<int, 4>& q) {
+      return folded_scaled_jacobian(p[q[0]], p[q[1]], p[q[2]], p[q[3]], mesh.normals[q[0]]) > least_jacobian;
+    });
+  }
+
+  FaceTriangulation triangulate(const FaceBoundary& boundary, const TrimmedDomain& domain) {
     const StageTimer timer(context_, Stage::triangulate);
     PlacementOptions placement;
-    placement.scale = static_cast<double>(chart_.boundary.stride) / recipe_.fineness;
+    placement.scale = static_cast<double>(boundary.stride) / recipe_.fineness;
     placement.refusal = recipe_.refusal;
     for (int tries = 1;; ++tries, placement.scale *= denser) {
-      PlacedPoints placed = place_points(chart_.boundary, surface_, domain_, size_at_, placement, context_);
+      PlacedPoints placed = place_points(boundary, surface_, domain, size_at_, placement, context_);
       context_.check();
       const bool empty = placed.uv.empty();
-      FaceTriangulation result =
-          triangulate_face(face_ + 1, chart_.boundary, std::move(placed), surface_, context_);
+      FaceTriangulation result = triangulate_face(face_ + 1, boundary, std::move(placed), surface_, context_);
       if (!empty || tries == most_tries || !turns_sharply(result)) return result;
     }
   }
@@ -147,7 +216,7 @@ class FaceMesher {
     });
   }
 
-  FaceQuads recombine_face(const FaceTriangulation& triangulation) {
+  FaceQuads recombine_face(const FaceTriangulation& triangulation, int stride) {
     FaceQuads quads;
     quads.surface_mesh.mesh = recombine(triangulation.mesh, options_.recombine, context_);
     quads.surface_mesh.parameters = triangulation.uv;
@@ -158,7 +227,7 @@ class FaceMesher {
     quads.surface_mesh.boundary_angles.resize(triangulation.uv.size(), 0);
     quads.nodes = triangulation.nodes;
     quads.pole = triangulation.pole;
-    if (chart_.boundary.stride == 1 && !quads.surface_mesh.mesh.triangles.empty()) {
+    if (stride == 1 && !quads.surface_mesh.mesh.triangles.empty()) {
       throw FaceProblem(
           Cause::odd_boundary, face_ + 1,
           fmt::format("Face{} has an odd boundary that cannot be made even: `strategy` subdivide meshes it",

@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <gp_Pnt.hxx>
+
 #include <algorithm>
+#include <memory>
 #include <set>
 
 #include "geometry/cad/cad_shape.hpp"
@@ -167,7 +172,7 @@ TEST(CutFlatQuads, CutsAQuadWithAStraightCornerAlone) {
   QuadMesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {4, 0, 0}, {4, 2, 0}, {2, 2, 0}};
   mesh.quads = {{0, 1, 2, 3}, {2, 4, 5, 6}};
-  cut_flat_quads(mesh, std::vector<Vector3>(mesh.points.size(), Vector3::UnitZ()), {}, {});
+  cut_flat_quads(mesh, std::vector<Vector3>(mesh.points.size(), Vector3::UnitZ()), {});
   ASSERT_EQ(mesh.quads.size(), 1U);
   EXPECT_EQ(mesh.quads[0], (std::array<int, 4>{2, 4, 5, 6}));
   ASSERT_EQ(mesh.triangles.size(), 2U);
@@ -186,12 +191,14 @@ TEST(CutFlatQuads, SeesTheCurvesOfTheBoundary) {
   left.a = 0;
   left.b = right.a = 1;
   right.b = 2;
-  left.middle_node = 0;
-  right.middle_node = 1;
   const std::vector<Vector3> normals(4, Vector3::UnitZ());
-  cut_flat_quads(mesh, normals, {left, right}, {{1, -0.3, 0}, {3, -0.3, 0}});
+  left.middle_point = {1, -0.3, 0};
+  right.middle_point = {3, -0.3, 0};
+  cut_flat_quads(mesh, normals, {left, right});
   EXPECT_EQ(mesh.quads.size(), 1U);
-  cut_flat_quads(mesh, normals, {left, right}, {{1, -0.75, 0}, {3, -0.75, 0}});
+  left.middle_point = {1, -0.75, 0};
+  right.middle_point = {3, -0.75, 0};
+  cut_flat_quads(mesh, normals, {left, right});
   EXPECT_EQ(mesh.triangles.size(), 2U);
 }
 
@@ -200,11 +207,59 @@ TEST(CutFlatQuads, CutsTheMitreOfANarrowFrameInside) {
   QuadMesh mesh;
   mesh.points = {{0, 0, 0}, {4, 0, 0}, {0.1, 0.1, 0}, {0, 4, 0}};
   mesh.quads = {{0, 1, 2, 3}};
-  cut_flat_quads(mesh, std::vector<Vector3>(mesh.points.size(), Vector3::UnitZ()), {}, {});
+  cut_flat_quads(mesh, std::vector<Vector3>(mesh.points.size(), Vector3::UnitZ()), {});
   ASSERT_EQ(mesh.triangles.size(), 2U);
   for (const auto& t : mesh.triangles) {
     EXPECT_TRUE(std::find(t.begin(), t.end(), 0) != t.end() && std::find(t.begin(), t.end(), 2) != t.end());
   }
+}
+
+TEST(FaceBoundary, IsHalvedAtTheNodesBetween) {
+  for_each_face([](Prepared& prepared, int, const FaceSurface&, const FaceBoundary& boundary) {
+    const FaceBoundary half = halved(boundary);
+    if (boundary.stride == 1) {
+      EXPECT_EQ(half.size(), boundary.size());
+      return;
+    }
+    const auto with_length = [](const FaceBoundary& of) {
+      return std::count_if(of.segments.begin(), of.segments.end(),
+                           [](const FaceBoundary::Segment& s) { return !s.degenerate; });
+    };
+    EXPECT_EQ(half.stride, 1);
+    EXPECT_EQ(with_length(half), 2 * with_length(boundary));
+    EXPECT_EQ(half.size(), boundary.size() + with_length(boundary));
+    std::vector<int> leaving(half.size(), 0), arriving(half.size(), 0);
+    for (const auto& segment : half.segments) {
+      EXPECT_EQ(segment.middle_node, -1);
+      ++leaving[segment.a];
+      ++arriving[segment.b];
+    }
+    EXPECT_EQ(leaving, arriving);
+    for (int i = 0; i < half.size(); ++i) EXPECT_EQ(half.points[i], prepared.nodes.points[half.nodes[i]]);
+    for (std::size_t wire = 0; wire < half.first_segments.size(); ++wire) {
+      for (std::size_t k = 0; k < half.first_segments[wire].size(); ++k) {
+        const int first = boundary.first_segments[wire][k], now = half.first_segments[wire][k];
+        ASSERT_EQ(first < 0, now < 0);
+        if (first >= 0) {
+          EXPECT_EQ(half.segments[now].a, boundary.segments[first].a);
+        }
+      }
+    }
+  });
+}
+
+/// Cut into four, elements of twice the size leave 23 quads of this wedge outside the limits.
+TEST(FaceMesher, TakesElementsOfTheFinalSizeWherePartsOfLargerOnesArePoor) {
+  const TopoDS_Shape wedge =
+      BRepBuilderAPI_MakeFace(
+          BRepBuilderAPI_MakePolygon(gp_Pnt(0, 0, 0), gp_Pnt(40, 0, 0), gp_Pnt(40, 8, 0), true).Wire())
+          .Face();
+  MeshOptions options;
+  options.sizing.size = 4;
+  ExecutionContext context(1);
+  const ShellMesh shell = mesh(CadModel(std::make_shared<CadShape>(wedge, "wedge")), options, context);
+  EXPECT_EQ(joined(validate(shell)), "");
+  EXPECT_LE(check_criteria(shell).failing, 6);
 }
 
 }  // namespace

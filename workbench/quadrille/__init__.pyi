@@ -109,6 +109,7 @@ def mesh(
     bias: Optional[_Entries] = None,
     bias_both: Optional[_Entries] = None,
     merge_tiny: Optional[float] = None,
+    rings: Optional[int] = None,
     partial: Optional[bool] = None,
     keep_features: Optional[bool] = None,
     force: Optional[bool] = None,

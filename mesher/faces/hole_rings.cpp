@@ -1,0 +1,266 @@
+#include "mesher/faces/hole_rings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace quadrille {
+
+namespace {
+
+/// Width of a ring over the length of the loop's segments.
+constexpr double usual_width = 0.8, least_width = 0.45;
+/// What is left of a gap beside the rings: two rows of the same width.
+constexpr int rows_beside = 2;
+/// How much the width may change along the loop, over the way there.
+constexpr double steepest = 0.25;
+/// A loop turns by less than this at each vertex (radians), and has so many segments.
+constexpr double largest_turn = 0.6;
+constexpr std::size_t fewest_segments = 6;
+/// Segments of a line round a hole over those of the line before.
+constexpr double shortest_segment = 0.5, longest_segment = 2.3;
+
+double distance(const Vector3& p, const Vector3& a, const Vector3& b) {
+  const Vector3 along = b - a;
+  const double t = (p - a).dot(along) / std::max(along.squaredNorm(), std::numeric_limits<double>::min());
+  return (a + std::clamp(t, 0.0, 1.0) * along - p).norm();
+}
+
+/// The sides of all loops, sorted along an axis.
+class Sides {
+ public:
+  struct Side {
+    Vector3 a, b;
+    int loop;
+  };
+
+  explicit Sides(std::vector<Side> sides) : sides_(std::move(sides)) {
+    Vector3 low = sides_.front().a, high = low;
+    for (const Side& side : sides_) {
+      low = low.cwiseMin(side.a);
+      high = high.cwiseMax(side.a);
+      longest_ = std::max(longest_, (side.b - side.a).norm());
+    }
+    (high - low).maxCoeff(&axis_);
+    std::sort(sides_.begin(), sides_.end(),
+              [this](const Side& a, const Side& b) { return a.a[axis_] < b.a[axis_]; });
+  }
+
+  /// Visits those that may lie within `reach` of p.
+  template <class Visit>
+  void near(const Vector3& p, double reach, Visit&& visit) const {
+    const double from = p[axis_] - reach - longest_, to = p[axis_] + reach + longest_;
+    auto it = std::lower_bound(sides_.begin(), sides_.end(), from,
+                               [this](const Side& side, double x) { return side.a[axis_] < x; });
+    for (; it != sides_.end() && it->a[axis_] <= to; ++it) visit(*it);
+  }
+
+ private:
+  std::vector<Side> sides_;
+  double longest_ = 0;
+  int axis_ = 0;
+};
+
+class RingPlacer {
+ public:
+  RingPlacer(const FaceBoundary& boundary, const FaceSurface& surface, const TrimmedDomain& domain)
+      : boundary_(boundary), surface_(surface), domain_(domain) {}
+
+  HoleRings run(int rings) {
+    find_loops();
+    if (loops_.size() < 2 || std::none_of(loops_.begin(), loops_.end(), is_hole)) return {};
+    const Sides sides(all_sides());
+    for (std::size_t i = 0; i < loops_.size(); ++i) {
+      const Loop& loop = loops_[i];
+      if (!is_hole(loop)) continue;
+      HoleRings::Hole hole;
+      hole.lines.push_back(loop.nodes);
+      for (int count = rings; count > 0 && hole.lines.size() < 2; --count) {
+        const double side = side_of(loop);
+        const std::vector<double> widths =
+            side == 0 ? std::vector<double>{} : find_widths(i, count, side, sides);
+        for (int k = 0; k < count && !widths.empty() && add_line(hole, widths, side); ++k) continue;
+        if (static_cast<int>(hole.lines.size()) < count + 1) hole.lines.resize(1);
+      }
+      if (hole.lines.size() > 1) keep(loop, std::move(hole));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  struct Loop {
+    std::vector<int> segments;
+    std::vector<HoleRings::Node> nodes;  // of the final mesh
+    bool regular = true, smooth = true;
+    bool outermost = false;
+  };
+
+  static bool is_hole(const Loop& loop) {
+    return loop.regular && loop.smooth && !loop.outermost && loop.nodes.size() >= fewest_segments;
+  }
+
+  void find_loops() {
+    std::vector<int> uses(boundary_.uv.size(), 0);
+    int end = -1;
+    for (std::size_t i = 0; i < boundary_.segments.size(); ++i) {
+      const auto& segment = boundary_.segments[i];
+      if (segment.a != end) loops_.emplace_back();
+      Loop& loop = loops_.back();
+      loop.segments.push_back(static_cast<int>(i));
+      loop.regular = loop.regular && !segment.degenerate && !segment.internal;
+      loop.smooth = loop.smooth && std::abs(boundary_.angles[segment.a] - M_PI) < largest_turn;
+      loop.nodes.push_back({boundary_.uv[segment.a], boundary_.points[segment.a]});
+      if (segment.middle_node >= 0) loop.nodes.push_back({segment.middle_uv, segment.middle_point});
+      ++uses[segment.a];
+      end = segment.b == boundary_.segments[loop.segments.front()].a ? -1 : segment.b;
+    }
+    double largest = 0;
+    Loop* outermost = nullptr;
+    for (Loop& loop : loops_) {
+      loop.regular = loop.regular && boundary_.segments[loop.segments.back()].b ==
+                                         boundary_.segments[loop.segments.front()].a;
+      for (const int i : loop.segments) loop.regular = loop.regular && uses[boundary_.segments[i].a] == 1;
+      const double area = area_of(loop);
+      if (area > largest || outermost == nullptr) outermost = &loop;
+      largest = std::max(largest, area);
+    }
+    if (outermost != nullptr) outermost->outermost = true;
+  }
+
+  static double area_of(const Loop& loop) {
+    double sum = 0;
+    for (std::size_t i = 0; i < loop.nodes.size(); ++i) {
+      const Vector2 &p = loop.nodes[i].uv, &q = loop.nodes[(i + 1) % loop.nodes.size()].uv;
+      sum += p.x() * q.y() - p.y() * q.x();
+    }
+    return std::abs(sum);
+  }
+
+  std::vector<Sides::Side> all_sides() const {
+    std::vector<Sides::Side> sides;
+    for (std::size_t i = 0; i < loops_.size(); ++i) {
+      const auto& nodes = loops_[i].nodes;
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        sides.push_back({nodes[k].point, nodes[(k + 1) % nodes.size()].point, static_cast<int>(i)});
+    }
+    return sides;
+  }
+
+  /// Unit tangent to the surface, to the left of a line for side 1, to its right for -1.
+  Vector3 across(const std::vector<HoleRings::Node>& line, std::size_t i, double side) const {
+    const std::size_t n = line.size();
+    const Vector3 along = line[(i + 1) % n].point - line[(i + n - 1) % n].point;
+    return side * surface_.normal(line[i].uv).cross(along).normalized();
+  }
+
+  static double spacing(const std::vector<HoleRings::Node>& line, std::size_t i) {
+    const std::size_t n = line.size();
+    return 0.5 * ((line[(i + 1) % n].point - line[i].point).norm() +
+                  (line[(i + n - 1) % n].point - line[i].point).norm());
+  }
+
+  /// On which side of the loop the face lies; 0 where that is not clear.
+  double side_of(const Loop& loop) const {
+    for (const double side : {1.0, -1.0}) {
+      Vector2 uv = loop.nodes[0].uv;
+      surface_.move(uv, loop.nodes[0].point + 0.3 * spacing(loop.nodes, 0) * across(loop.nodes, 0, side));
+      if (domain_.inside(uv)) return side;
+    }
+    return 0;
+  }
+
+  /// The width of each of `count` rings at the nodes of a loop; empty where there is no room.
+  std::vector<double> find_widths(std::size_t index, int count, double side, const Sides& sides) const {
+    const auto& line = loops_[index].nodes;
+    const std::size_t n = line.size();
+    std::vector<double> widths(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vector3& p = line[i].point;
+      const Vector3 outward = across(line, i, side);
+      const double wanted = usual_width * spacing(line, i);
+      widths[i] = wanted;
+      sides.near(p, wanted * (2 * count + rows_beside), [&](const Sides::Side& other) {
+        const bool own = other.loop == static_cast<int>(index);
+        if (own &&
+            (0.5 * (other.a + other.b) - p).dot(outward) < 0.5 * (0.5 * (other.a + other.b) - p).norm())
+          return;
+        const bool ringed = is_hole(loops_[other.loop]);
+        widths[i] =
+            std::min(widths[i], distance(p, other.a, other.b) / ((ringed ? 2 : 1) * count + rows_beside));
+      });
+    }
+    for (std::size_t k = 1; k < 4 * n; ++k) {  // there and back, twice round for each
+      const std::size_t i = k < 2 * n ? k % n : n - 1 - k % n,
+                        before = k < 2 * n ? (i + n - 1) % n : (i + 1) % n;
+      widths[i] =
+          std::min(widths[i], widths[before] + steepest * (line[i].point - line[before].point).norm());
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!(widths[i] > least_width * spacing(line, i))) return {};
+    }
+    return widths;
+  }
+
+  /// The next line round a hole; false where it would leave the face or be no ring.
+  bool add_line(HoleRings::Hole& hole, const std::vector<double>& widths, double side) const {
+    const auto& last = hole.lines.back();
+    const std::size_t n = last.size();
+    std::vector<HoleRings::Node> line(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      line[i].uv = last[i].uv;
+      line[i].point = surface_.move(line[i].uv, last[i].point + widths[i] * across(last, i, side)).point;
+      if (!line[i].point.allFinite() || !domain_.inside(line[i].uv)) return false;
+      const double width = (line[i].point - last[i].point).norm();
+      if (!(width > 0.8 * widths[i]) || !(width < 1.2 * widths[i])) return false;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vector3 before = last[(i + 1) % n].point - last[i].point,
+                    now = line[(i + 1) % n].point - line[i].point;
+      const double ratio = now.dot(before) / before.squaredNorm();
+      if (!(ratio > shortest_segment) || !(ratio < longest_segment)) return false;
+    }
+    hole.lines.push_back(std::move(line));
+    return true;
+  }
+
+  void keep(const Loop& loop, HoleRings::Hole hole) {
+    FaceBoundary& inside = result_.inside;
+    if (result_.holes.empty()) inside = boundary_;
+    hole.first = next_;
+    const auto& line = hole.lines.back();
+    int k = 0;
+    for (const int i : loop.segments) {
+      auto& segment = inside.segments[i];
+      hole.nodes.push_back(boundary_.nodes[segment.a]);
+      inside.nodes[segment.a] = HoleRings::node(next_ + k);
+      inside.uv[segment.a] = line[k].uv;
+      inside.points[segment.a] = line[k].point;
+      inside.angles[segment.a] = M_PI;
+      ++k;
+      if (segment.middle_node < 0) continue;
+      hole.nodes.push_back(segment.middle_node);
+      segment.middle_node = HoleRings::node(next_ + k);
+      segment.middle_uv = line[k].uv;
+      segment.middle_point = line[k].point;
+      ++k;
+    }
+    next_ += k;
+    result_.holes.push_back(std::move(hole));
+  }
+
+  const FaceBoundary& boundary_;
+  const FaceSurface& surface_;
+  const TrimmedDomain& domain_;
+  std::vector<Loop> loops_;
+  HoleRings result_;
+  int next_ = 0;
+};
+
+}  // namespace
+
+HoleRings place_rings(const FaceBoundary& boundary, const FaceSurface& surface, const TrimmedDomain& domain,
+                      int rings) {
+  return RingPlacer(boundary, surface, domain).run(rings);
+}
+
+}  // namespace quadrille

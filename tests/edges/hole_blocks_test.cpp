@@ -1,0 +1,55 @@
+/// Which cells of a grid give way to a hole.
+
+#include "mesher/edges/hole_blocks.hpp"
+
+#include <gtest/gtest.h>
+
+namespace quadrille {
+namespace {
+
+HolePlace hole_at(double x, double y, double width, double height) {
+  return {{x - width / 2, y - height / 2}, {x + width / 2, y + height / 2}};
+}
+
+TEST(HoleBlocks, AreAboutACellLargerThanTheHole) {
+  const auto block = block_of(hole_at(8.5, 6.5, 4.1, 3.9), 0);
+  ASSERT_TRUE(block);
+  EXPECT_EQ(block->columns, 5);
+  EXPECT_EQ(block->rows, 5);
+  EXPECT_EQ(block->column, 6);
+  EXPECT_EQ(block->row, 4);
+  EXPECT_EQ(block->around(), 20);
+}
+
+TEST(HoleBlocks, HaveTheirMiddleNearTheHoles) {
+  const auto slot = block_of(hole_at(9, 6.5, 4.5, 1.4), 0);
+  ASSERT_TRUE(slot);
+  EXPECT_EQ(slot->columns, 6);  // 5 cells would lie half a cell aside
+  EXPECT_EQ(slot->column, 6);
+  EXPECT_EQ(slot->rows, 3);
+  EXPECT_EQ(slot->row, 5);
+}
+
+TEST(HoleBlocks, TakeTheNodesThatThereAre) {
+  const HolePlace hole = hole_at(8.5, 6.5, 4.1, 3.9);
+  EXPECT_FALSE(block_of(hole, 21));
+  EXPECT_FALSE(block_of(hole, 12));  // smaller than the hole
+  EXPECT_FALSE(block_of(hole, 40));  // far larger
+  const auto block = block_of(hole, 24);
+  ASSERT_TRUE(block);
+  EXPECT_EQ(block->around(), 24);
+  EXPECT_FALSE(block_of(hole_at(20, 20, 12, 12), 0));
+}
+
+TEST(HoleBlocks, KeepARowBetweenThem) {
+  const HoleBlock one{2, 2, 3, 3};
+  EXPECT_TRUE(keep_apart({one}, 10, 10));
+  EXPECT_FALSE(keep_apart({one}, 5, 10));
+  EXPECT_FALSE(keep_apart({{0, 2, 3, 3}}, 10, 10));
+  EXPECT_TRUE(keep_apart({one, {6, 2, 2, 3}}, 10, 10));
+  EXPECT_FALSE(keep_apart({one, {5, 4, 2, 3}}, 10, 10));
+  EXPECT_TRUE(keep_apart({one, {3, 6, 2, 3}}, 10, 10));
+}
+
+}  // namespace
+}  // namespace quadrille
