@@ -384,7 +384,8 @@ void bind_functions(py::module_& module) {
         return PythonMesh(read_mesh(path));
       },
       py::arg("path"),
-      "Reads a surface mesh: Gmsh .msh (2.2, 4.1) or Abaqus and CalculiX .inp. Raises quadrille.Error.");
+      "Reads a surface mesh: .msh, .inp, .unv, .bdf, .stl, .obj, .ply, .vtk, .vtu or .vtp. Raises "
+      "quadrille.Error.");
   bind_recombine(module);
   module.def(
       "suggested_size",

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "mesher/quads/triangulated_surface.hpp"
+#include "mesher/shell/from_triangles.hpp"
 #include "workbench/python_mesh.hpp"
 
 namespace py = pybind11;
@@ -152,6 +153,14 @@ py::array triangle_face_ids(const py::object& self) {
   return view<int>(faces.data(), {static_cast<py::ssize_t>(faces.size())}, self);
 }
 
+/// (name, dimension, number, entities) of each.
+py::list groups_of(const py::object& self) {
+  py::list groups;
+  for (const ShellMesh::Group& group : mesh_of(self).mesh.groups)
+    groups.append(py::make_tuple(group.name, group.dimension, group.number, group.entities));
+  return groups;
+}
+
 /// What pickle keeps: the arguments of the constructor, and what became of the faces.
 py::tuple state_of(const py::object& self) {
   py::list faces;
@@ -161,7 +170,7 @@ py::tuple state_of(const py::object& self) {
                                 face.off_geometry_max));
   return py::make_tuple(self.attr("points"), self.attr("quads"), self.attr("triangles"),
                         self.attr("face_ids"), self.attr("triangle_face_ids"), self.attr("segments"),
-                        self.attr("corners"), faces, mesh_of(self).mesh.thicknesses);
+                        self.attr("corners"), faces, mesh_of(self).mesh.thicknesses, groups_of(self));
 }
 
 PythonMesh from_state(const py::tuple& state) {
@@ -175,6 +184,11 @@ PythonMesh from_state(const py::tuple& state) {
                                  q_min, seconds, off, off_max});
   }
   result.mesh.thicknesses = state[8].cast<std::vector<double>>();
+  for (const py::handle entry : state[9]) {
+    auto [name, dimension, number, entities] =
+        entry.cast<std::tuple<std::string, int, int, std::vector<int>>>();
+    result.mesh.groups.push_back({std::move(name), dimension, number, std::move(entities)});
+  }
   return result;
 }
 
@@ -225,6 +239,26 @@ PythonMesh recombine_arrays(const py::object& points, const py::object& triangle
   return PythonMesh(std::move(result));
 }
 
+PythonMesh recombined(const PythonMesh& mesh, double feature_angle, const std::optional<double>& merge,
+                      bool improve, int threads) {
+  if (!(feature_angle >= 0 && feature_angle <= 180))
+    throw usage_error("feature_angle", "`feature_angle` must be from 0 to 180 degrees");
+  if (merge && !(*merge >= 0)) throw usage_error("merge", "`merge` must not be negative");
+  std::vector<std::string> notes;
+  PythonMesh result = [&] {
+    const py::gil_scoped_release release;
+    ExecutionContext context(threads);
+    FromTrianglesOptions options;
+    options.feature_angle = feature_angle;
+    options.merge = merge.value_or(-1);
+    options.improve = improve;
+    options.recombine.method = improve ? Method::quality : Method::paper;
+    return PythonMesh(quads_from_triangles(mesh.mesh, options, notes, context));
+  }();
+  for (const std::string& note : notes) py::module_::import("warnings").attr("warn")(note);
+  return result;
+}
+
 }  // namespace
 
 void bind_arrays(py::class_<PythonMesh>& mesh) {
@@ -253,6 +287,17 @@ void bind_arrays(py::class_<PythonMesh>& mesh) {
       .def_property_readonly(
           "corners", [](const py::object& self) { return table<int>(mesh_of(self).mesh.corners, self); },
           "(c, 2) int32: node, CAD vertex.")
+      .def_property_readonly("groups", &groups_of,
+                             "Of a mesh that was read from a file with names: a list of (name, dimension, "
+                             "number, entities): the\n"
+                             "faces (dimension 2), edges (1) or vertices (0) that belong to it.")
+      .def("recombined", &recombined, py::kw_only(), py::arg("feature_angle") = 40.0,
+           py::arg("merge") = py::none(), py::arg("improve") = true, py::arg("threads") = 0,
+           "A Mesh of quads in place of the triangles; quads are cut in two first. feature_angle: degrees "
+           "between normals\n"
+           "from which on a side stays, 0 = none; merge: make one of nodes at most so far apart, mm. Groups, "
+           "segments and\n"
+           "corners are kept. What was mended or lost is warned of. Raises quadrille.Error.")
       .def("_repr_html_", &html_of)
       .def(py::pickle(&state_of, &from_state));
 }

@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <fstream>
 #include <numeric>
-#include <set>
+#include <tuple>
+#include <type_traits>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/free_memory.hpp"
+#include "geometry/base/isolated_work.hpp"
 #include "mesher/io/mesh_builder.hpp"
 #include "mesher/io/modules.hpp"
 #include "mesher/io/readers.hpp"
@@ -66,6 +70,52 @@ void unite_points(ImportedMesh& mesh, MeshBuilder& builder) {
         fmt::format("{} triangles with two corners on one place are left out", count - mesh.elements.size()));
 }
 
+template <class Record>
+void put(const std::vector<Record>& records, std::ostream& out) {
+  static_assert(std::is_trivially_copyable_v<Record> || std::is_same_v<Record, Vector3>);
+  const std::size_t count = records.size();
+  out.write(reinterpret_cast<const char*>(&count), sizeof count);
+  out.write(reinterpret_cast<const char*>(records.data()),
+            static_cast<std::streamsize>(count * sizeof(Record)));
+}
+
+template <class Record>
+void get(std::vector<Record>& records, std::istream& in) {
+  std::size_t count = 0;
+  in.read(reinterpret_cast<char*>(&count), sizeof count);
+  records.resize(count);
+  in.read(reinterpret_cast<char*>(records.data()), static_cast<std::streamsize>(count * sizeof(Record)));
+}
+
+/// In a child process: VTK's readers crash on many a damaged file.
+ImportedMesh read_isolated(const std::string& name, const std::string& ending) {
+  IsolatedWork options;
+  options.subject = name;
+  options.crashed = fmt::format("{}: reading this file crashed: it may be damaged", name);
+  // Counts in a damaged file may ask for more than it holds, of which VTK goes through every one.
+  std::error_code ignored;
+  const std::uintmax_t bytes = std::filesystem::file_size(name, ignored);
+  options.time_limit = 20 + (ignored ? 0 : static_cast<double>(bytes) / 1e6);
+  options.too_long =
+      fmt::format("{}: reading it takes longer than {:g} s: it may be damaged", name, options.time_limit);
+  if (const double most = free_memory(); std::isfinite(most)) options.memory = static_cast<std::size_t>(most);
+  const auto work = [&](std::ostream& out) {
+    try {
+      const ImportedMesh mesh = vtk_mesh(name, ending);
+      put(mesh.points, out);
+      put(mesh.elements, out);
+    } catch (const Error& error) {
+      throw failure(name, fmt::format("{}: {}", name, error.what()));
+    }
+  };
+  ImportedMesh mesh;
+  run_isolated(options, work, [&](std::istream& in) {
+    get(mesh.points, in);
+    get(mesh.elements, in);
+  });
+  return mesh;
+}
+
 }  // namespace
 
 ShellMesh read_by_vtk(const std::filesystem::path& path, std::vector<std::string>* notes) {
@@ -73,12 +123,7 @@ ShellMesh read_by_vtk(const std::filesystem::path& path, std::vector<std::string
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return std::tolower(c); });
-  ImportedMesh mesh;
-  try {
-    mesh = vtk_mesh(name, ending);
-  } catch (const Error& error) {
-    throw failure(name, fmt::format("{}: {}", name, error.what()));
-  }
+  ImportedMesh mesh = read_isolated(name, ending);
   MeshBuilder builder(name);
   if (ending == ".stl" || ending == ".obj") unite_points(mesh, builder);
   for (std::size_t i = 0; i < mesh.points.size(); ++i)

@@ -203,6 +203,27 @@ TEST(Readers, StlObjAndPlyShareTheirNodes) {
   EXPECT_EQ(read_mesh(folder / "a.ply").triangles.size(), 2U);
 }
 
+/// What VTK's readers crash on is a sentence all the same.
+TEST(Readers, DamagedPlyIsASentence) {
+  const TemporaryFolder folder;
+  test::write_text(
+      folder / "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 99999\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n");
+  test::write_text(
+      folder / "b.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n");
+  for (const char* name : {"a.ply", "b.ply"}) {
+    try {
+      read_mesh(folder / name);
+      ADD_FAILURE() << name << ": nothing was refused";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  }
+}
+
 struct Damaged {
   std::string file, text, says;
 };

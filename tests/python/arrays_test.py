@@ -101,6 +101,23 @@ class ArraysTest(unittest.TestCase):
         with self.assertRaisesRegex(quadrille.Error, "no triangles"):
             quadrille.recombine(points, np.empty((0, 3), int))
 
+    def test_recombined_keeps_groups(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "two.inp"
+            path.write_text("*NODE\n1,0,0\n2,1,0\n3,2,0\n4,0,1\n5,1,1\n6,2,1\n*ELEMENT,TYPE=S3,ELSET=Left\n1,1,2,5\n"
+                            "2,1,4,5\n*ELEMENT,TYPE=S3,ELSET=Right\n3,2,3,6\n4,2,6,5\n")
+            with self.assertWarnsRegex(UserWarning, "1 triangles were turned"):
+                mesh = quadrille.read_mesh(path).recombined()
+        self.assertEqual(len(mesh.quads), 2)
+        self.assertEqual([group[:3] for group in mesh.groups], [("Left", 2, 0), ("Right", 2, 0)])
+        self.assertEqual(pickle.loads(pickle.dumps(mesh)).groups, mesh.groups)
+        left = mesh.points[mesh.quads[mesh.face_ids == mesh.groups[0][3][0]]]
+        self.assertLessEqual(left[..., 0].max(), 1)
+        for wrong in ({"feature_angle": 200}, {"feature_angle": -1}, {"merge": -1.0}):
+            with self.assertRaises(quadrille.Error) as raised:
+                mesh.recombined(**wrong)
+            self.assertEqual(raised.exception.kind, "usage")
+
     def test_faces_by_numpy_numbers(self):
         mesh = quadrille.mesh(self.model, size=8, faces=np.array([1, 3]))
         self.assertEqual(set(mesh.face_ids), {1, 3})

@@ -35,6 +35,7 @@ class Mesh:
     segments: NDArray[int32]
     corners: NDArray[int32]
     faces: List[Dict[str, Any]]
+    groups: List[Tuple[str, int, int, List[int]]]
     def __init__(
         self,
         points: ArrayLike,
@@ -58,6 +59,9 @@ class Mesh:
         groups: Optional[Sequence[str]] = None,
     ) -> None: ...
     def picture(self, path: _Path, *, width: int = 1600, height: int = 1200) -> None: ...
+    def recombined(
+        self, *, feature_angle: float = 40.0, merge: Optional[float] = None, improve: bool = True, threads: int = 0
+    ) -> Mesh: ...
     def _repr_html_(self) -> str: ...
 
 class MidSurface:
