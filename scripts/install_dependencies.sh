@@ -31,8 +31,8 @@ packages=(
   patchelf dpkg-dev lintian doxygen mkdocs
 )
 # What needs these is left out where a release of Debian does not have them (Debian 13 has no CalculiX). LEMON tells
-# bench/paper the best pairing that there is.
-optional=(calculix-ccx calculix-cgx liblemon-dev)
+# bench/paper the best pairing that there is, python3-distributed runs python3 -m quadrille.batch.
+optional=(calculix-ccx calculix-cgx liblemon-dev python3-distributed)
 
 if [[ "${1:-}" == --list ]]; then
   printf '%s\n' "${packages[@]}" "${optional[@]}"

@@ -1,0 +1,351 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes all CAD files of a folder, on all cores or on a cluster.
+
+    python3 -m quadrille.batch FOLDER -o OUT [--workers 4] [--scheduler tcp://host:8786] [--size 2 ...]
+
+Each part is meshed by a run of the `quadrille` command of its own, whose failure or crash ends nothing else; Dask hands the
+parts out (Debian: python3-distributed). OUT gets each part's mesh, picture and record; a later run with the same options
+meshes only what is new or has changed, and what a lost worker or a full disk has stopped. OUT/report.csv and OUT/report.html
+tell of all parts.
+"""
+
+import argparse
+import csv
+import html
+import json
+import logging
+import os
+import sys
+import time
+import warnings
+from pathlib import Path
+from typing import Any, Dict, Iterable, List, NamedTuple, Optional
+
+from .command import VERSION, MeshJob, check_version, find_command
+from .errors import Error
+from .settings import SETTINGS
+
+ENDINGS = (".step", ".stp", ".iges", ".igs", ".brep")
+FORMATS = ("msh", "inp", "unv", "med", "vtu", "vtk", "bdf")
+#: Seconds for a part, unless --time-limit says otherwise.
+TIME_LIMIT = 300
+#: The columns of the report.
+COLUMNS = ("part", "status", "quads", "q_mean", "q_min", "outside_percent", "seconds", "reason")
+#: A worker that dies takes its part along; it is tried once more on another.
+_TRIES = 2
+
+
+class Task(NamedTuple):
+    """One part to mesh."""
+
+    part: str  #: path in the folder
+    model: str
+    mesh: str
+    picture: Optional[str]
+    record: str
+    key: str  #: of the file and the options
+    arguments: List[str]  #: options of `quadrille mesh`
+
+
+class _Arguments:
+    """Options as they are, in the place of settings."""
+
+    def __init__(self, arguments: List[str]) -> None:
+        self._arguments = arguments
+
+    def arguments(self) -> List[str]:
+        """The options."""
+        return list(self._arguments)
+
+
+def mesh_part(task: Task, command: Optional[str]) -> Dict[str, Any]:
+    """Meshes a part in a child process, and writes its record, whatever comes of it."""
+    start = time.monotonic()
+    record: Dict[str, Any] = {"part": task.part, "key": task.key, "status": "failed", "reason": ""}
+    try:
+        for path in filter(None, (task.mesh, task.picture)):
+            Path(path).parent.mkdir(parents=True, exist_ok=True)
+        job = MeshJob(task.model, [task.mesh], _Arguments(task.arguments), command, task.picture)
+        report = job.start().wait()
+        record.update(_measures(report), status="meshed", mesh=task.mesh, picture=task.picture)
+    except Error as error:
+        record["reason"] = str(error)
+    except OSError as error:
+        record.update(reason=f"{error.filename}: {error.strerror}", retry=True)
+    record["seconds"] = round(time.monotonic() - start, 3)
+    write_record(task.record, record)
+    return record
+
+
+def _measures(report: Dict[str, Any]) -> Dict[str, Any]:
+    quality = report["quality"]
+    return {"quads": report["counts"]["quads"], "q_mean": quality["q_mean"], "q_min": quality["q_min"],
+            "outside_percent": report["criteria"]["failing_percent"]}
+
+
+def write_record(path: str, record: Dict[str, Any]) -> None:
+    """The record appears whole or not at all."""
+    target = Path(path)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    scratch = target.with_suffix(f".{os.getpid()}.part")
+    scratch.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    scratch.replace(target)
+
+
+def parts_of(folder: Path) -> List[Path]:
+    """The CAD files in a folder and below, in the order of their names."""
+    if not folder.is_dir():
+        raise Error(f"{folder}: is no folder", "usage", str(folder))
+    found = sorted(path for path in folder.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file())
+    if not found:
+        raise Error(f"{folder}: holds no CAD files ({', '.join(ENDINGS)})", "usage", str(folder))
+    return found
+
+
+def tasks_of(options: argparse.Namespace) -> List[Task]:
+    """What there is to mesh. Files whose names differ only in their endings get meshes of their own."""
+    folder, out = Path(options.folder).resolve(), Path(options.output).resolve()
+    arguments = setting_arguments(options)
+    tasks = []
+    for model in parts_of(folder):
+        part = model.relative_to(folder)
+        state = model.stat()
+        key = json.dumps([VERSION, state.st_mtime_ns, state.st_size, arguments, options.format, not options.no_pictures])
+        picture = None if options.no_pictures else str(out / "pictures" / f"{part}.png")
+        tasks.append(Task(str(part), str(model), str(out / "meshes" / f"{part}.{options.format}"), picture,
+                          str(out / "records" / f"{part}.json"), key, arguments))
+    return tasks
+
+
+def setting_arguments(options: argparse.Namespace) -> List[str]:
+    """The options of `quadrille mesh` that were given."""
+    arguments: List[str] = []
+    for setting in SETTINGS:
+        value = getattr(options, setting["name"], None)
+        if value is True:
+            arguments.append(setting["option"])
+        elif value:
+            for text in value if isinstance(value, list) else [value]:
+                arguments += [setting["option"], text]
+    if getattr(options, "time_limit", None) is None:
+        arguments += ["--time-limit", str(TIME_LIMIT)]
+    return arguments
+
+
+def done_before(task: Task) -> Optional[Dict[str, Any]]:
+    """The record of an earlier run with the same file and options, if its outputs are still there."""
+    try:
+        record = json.loads(Path(task.record).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    if not isinstance(record, dict) or record.get("key") != task.key or record.get("retry"):
+        return None
+    if record.get("status") == "meshed" and not all(
+            Path(path).is_file() for path in (record.get("mesh"), record.get("picture")) if path):
+        return None
+    return record
+
+
+def _client(options: argparse.Namespace):
+    """Dask's client, of a scheduler that is there or of a cluster of this machine's cores."""
+    try:
+        import distributed
+    except ImportError as error:
+        raise Error("Dask is not installed: apt install python3-distributed", "failure", "distributed") from error
+    warnings.filterwarnings("ignore", category=DeprecationWarning, module="tornado")  # that it comes with
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    if options.scheduler:
+        try:
+            return distributed.Client(options.scheduler, timeout=options.scheduler_timeout)
+        except (OSError, TimeoutError, ValueError, TypeError) as error:
+            raise Error(f"{options.scheduler}: no Dask scheduler answers there", "failure", options.scheduler) from error
+    cluster = distributed.LocalCluster(n_workers=options.workers, threads_per_worker=1, dashboard_address=None,
+                                       memory_limit=0, silence_logs=logging.CRITICAL)
+    return distributed.Client(cluster)
+
+
+class _Bar:
+    """Progress on stderr: a line that is drawn again on a terminal, a line for each tenth elsewhere."""
+
+    def __init__(self, count: int, quiet: bool) -> None:
+        self._count, self._quiet, self._start = count, quiet, time.monotonic()
+        self._done = self._failed = 0
+        self._terminal = sys.stderr.isatty()
+        self._tenth = -1
+
+    def step(self, record: Dict[str, Any]) -> None:
+        """One part more."""
+        self._done += 1
+        self._failed += record["status"] != "meshed"
+        tenth = 10 * self._done // self._count
+        if self._quiet or (not self._terminal and tenth == self._tenth):
+            return
+        self._tenth = tenth
+        left = (time.monotonic() - self._start) / self._done * (self._count - self._done)
+        text = f"{self._done} of {self._count} parts, {self._failed} failed, {left:.0f} s left"
+        if self._terminal:
+            width = 30 * self._done // self._count
+            end = "\n" if self._done == self._count else ""
+            print(f"\r[{'#' * width}{'.' * (30 - width)}] {text}   ", end=end, file=sys.stderr, flush=True)
+        else:
+            print(f"progress: {text}", file=sys.stderr, flush=True)
+
+
+def run_tasks(tasks: List[Task], options: argparse.Namespace) -> List[Dict[str, Any]]:
+    """Meshes the parts that have no record yet; the records of all, in the order of the tasks."""
+    records = {task.part: done_before(task) for task in tasks}
+    left = [task for task in tasks if records[task.part] is None]
+    if left:
+        command = None
+        if not options.scheduler:  # elsewhere each machine finds its own
+            command = find_command(options.command)
+            check_version(command)
+        # A worker has one core.
+        with_threads = [task if "--threads" in task.arguments else
+                        task._replace(arguments=[*task.arguments, "--threads", "1"]) for task in left]
+        client = _client(options)
+        try:
+            records.update(_collect(client, with_threads, command, _Bar(len(left), options.quiet)))
+        finally:
+            client.close()
+            if client.cluster is not None:
+                client.cluster.close()
+    return [record for record in (records[task.part] for task in tasks) if record is not None]
+
+
+def _collect(client, tasks: List[Task], command: Optional[str], bar: _Bar) -> Dict[str, Dict[str, Any]]:
+    from distributed import as_completed
+
+    futures = {client.submit(mesh_part, task, command, pure=False, retries=_TRIES - 1): task for task in tasks}
+    records = {}
+    for future in as_completed(futures):
+        task = futures[future]
+        if future.status == "finished":
+            record = future.result()
+        else:  # the worker died, or could not run the job
+            record = {"part": task.part, "key": task.key, "status": "failed", "seconds": None, "retry": True,
+                      "reason": f"the worker was lost ({future.exception()!r})"}
+            write_record(task.record, record)
+        future.release()
+        records[task.part] = record
+        bar.step(record)
+    return records
+
+
+def write_csv(path: Path, records: Iterable[Dict[str, Any]]) -> None:
+    """A line for each part."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, COLUMNS, extrasaction="ignore", restval="")
+        writer.writeheader()
+        writer.writerows(records)
+
+
+_PAGE = """<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>
+body {{ font: 14px sans-serif; margin: 2em; }} table {{ border-collapse: collapse; }}
+td, th {{ border-bottom: 1px solid #ccc; padding: 4px 10px; text-align: right; vertical-align: middle; }}
+td:first-child, td:nth-child(2), td:last-child, th {{ text-align: left; }} th {{ cursor: pointer; position: sticky; top: 0;
+background: #eee; }} img {{ width: 160px; display: block; }} .failed {{ background: #fdd; }}
+</style></head><body><h1>{title}</h1><p>{summary}</p><table><thead><tr>{head}</tr></thead><tbody>
+{rows}
+</tbody></table><script>
+document.querySelectorAll("th").forEach((th, column) => th.onclick = () => {{
+  const body = document.querySelector("tbody"), sign = th.dataset.sign = -(th.dataset.sign || -1);
+  const value = row => {{ const text = row.cells[column].dataset.value, number = parseFloat(text);
+    return text !== "" && !isNaN(text) ? number : text; }};
+  [...body.rows].sort((a, b) => {{ const x = value(a), y = value(b);
+    return sign * (typeof x === typeof y ? (x < y ? -1 : x > y) : typeof x === "number" ? -1 : 1); }})
+    .forEach(row => body.appendChild(row));
+}});
+</script></body></html>
+"""
+
+
+def write_page(path: Path, records: List[Dict[str, Any]], title: str) -> None:
+    """A table with pictures; a click on a column's name sorts by it."""
+    rows = []
+    for record in records:
+        picture = record.get("picture")
+        cells = []
+        for column in COLUMNS:
+            value = record.get(column)
+            text = "" if value is None else f"{value:.3g}" if isinstance(value, float) else str(value)
+            shown = html.escape(text)
+            if column == "part" and picture:
+                link = html.escape(os.path.relpath(picture, path.parent).replace(os.sep, "/"), quote=True)
+                shown = f'<a href="{link}"><img src="{link}" loading="lazy" alt=""></a>{shown}'
+            cells.append(f'<td data-value="{html.escape("" if value is None else str(value), quote=True)}">{shown}</td>')
+        rows.append(f'<tr class="{record["status"]}">{"".join(cells)}</tr>')
+    page = _PAGE.format(title=html.escape(title), summary=html.escape(summary_of(records)), rows="\n".join(rows),
+                        head="".join(f"<th>{column.replace('_', ' ')}</th>" for column in COLUMNS))
+    path.write_text(page, encoding="utf-8")
+
+
+def summary_of(records: List[Dict[str, Any]]) -> str:
+    """One sentence on all parts."""
+    meshed = [record for record in records if record["status"] == "meshed"]
+    seconds = sum(record.get("seconds") or 0 for record in records)
+    return (f"{len(meshed)} of {len(records)} parts meshed, {sum(record['quads'] for record in meshed)} quads, "
+            f"{seconds:.1f} s of work.")
+
+
+def parser() -> argparse.ArgumentParser:
+    """Options of this module, and those of `quadrille mesh` from the table of settings."""
+    result = argparse.ArgumentParser(prog="python3 -m quadrille.batch", description=__doc__.split("\n", 1)[0],
+                                     allow_abbrev=False)
+    result.add_argument("folder", metavar="FOLDER", help="CAD files, in folders below it too")
+    result.add_argument("-o", "--output", metavar="OUT", required=True, help="folder for meshes, pictures and the report")
+    result.add_argument("--format", choices=FORMATS, default="msh", help="of the meshes (default msh)")
+    result.add_argument("--workers", type=_positive, default=os.cpu_count(), help="parts at a time (default: one a core)")
+    result.add_argument("--scheduler", metavar="ADDRESS", help="Dask scheduler to use, such as tcp://host:8786; its workers "
+                        "must see the same folders, and import quadrille")
+    result.add_argument("--scheduler-timeout", type=float, default=10, help="seconds to wait for it (default 10)")
+    result.add_argument("--no-pictures", action="store_true", help="draw none")
+    result.add_argument("--command", metavar="PATH", help="the quadrille command")
+    result.add_argument("--quiet", action="store_true", help="no progress")
+    group = result.add_argument_group("options of quadrille mesh")
+    for setting in SETTINGS:
+        kind = {"action": "store_true"} if setting["kind"] == "flag" else {}
+        if setting["kind"] == "entries":
+            kind = {"action": "append"}
+        group.add_argument(setting["option"], dest=setting["name"], default=None,
+                           help=setting["help"].replace("%", "%%"), **kind)
+    return result
+
+
+def _positive(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"must be 1 or more, not {number}")
+    return number
+
+
+def run(arguments: Optional[List[str]] = None) -> int:
+    """The command; its exit code: 0 all meshed, 1 some or all not, 2 bad use."""
+    options = parser().parse_args(arguments)
+    try:
+        tasks = tasks_of(options)
+        out = Path(options.output)
+        out.mkdir(parents=True, exist_ok=True)
+        records = run_tasks(tasks, options)
+        write_csv(out / "report.csv", records)
+        write_page(out / "report.html", records, f"Quadrille: {Path(options.folder).resolve().name}")
+    except Error as error:
+        print(f"quadrille.batch: {error}", file=sys.stderr)
+        return 2 if error.kind == "usage" else 1
+    except OSError as error:
+        print(f"quadrille.batch: {error.filename}: {error.strerror}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("quadrille.batch: stopped; the same command goes on from here", file=sys.stderr)
+        return 130
+    if not options.quiet:
+        print(summary_of(records))
+    return 0 if all(record["status"] == "meshed" for record in records) else 1
+
+
+if __name__ == "__main__":
+    # The workers know this file by its name.
+    from quadrille import batch
+
+    sys.exit(batch.run())
