@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "geometry/base/atomic_file.hpp"
 #include "geometry/base/isolated_work.hpp"
 #include "geometry/base/threads.hpp"
 #include "mesher/command/command.hpp"
@@ -14,6 +16,7 @@
 #include "mesher/io/report.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/area_check.hpp"
+#include "mesher/shell/size_fidelity.hpp"
 
 namespace quadrille::command {
 
@@ -143,8 +146,16 @@ void tell_quality(const ShellMesh& result, const CadModel& model, const std::opt
     summary = quality(result);
     for (std::string& warning : area_differences(model, result)) warnings.push_back(std::move(warning));
   });
-  if (!arguments.report.empty())
-    write_report(result, summary, context, arguments.input, arguments.report, warnings);
+  if (!arguments.report.empty()) {
+    nlohmann::json report = make_report(result, summary, context, arguments.input, warnings);
+    on_threads(arguments.settings.threads, [&] {
+      ExecutionContext more;
+      report["sizes"] = size_fidelity(result, model, arguments.settings.mesh.sizing, more).json();
+    });
+    // File names need not be UTF-8, JSON must.
+    constexpr auto replace = nlohmann::json::error_handler_t::replace;
+    write_file(arguments.report, report.dump(2, ' ', false, replace) + "\n");
+  }
   if (arguments.quiet) return;
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
   print(quality_table(summary));

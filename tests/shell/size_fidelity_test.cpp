@@ -1,0 +1,51 @@
+/// Sides of elements against the sizes that were wanted.
+
+#include "mesher/shell/size_fidelity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "mesher/quadrille.hpp"
+#include "tests/support/sample_models.hpp"
+
+namespace quadrille {
+namespace {
+
+TEST(SizeFidelity, CountsEachSideOnceAgainstTheSizeThere) {
+  const CadModel box = CadModel::read(sample_model("box").path());
+  MeshOptions options;
+  options.sizing.size = 1;  // which divides all sides
+  ExecutionContext context;
+  const ShellMesh mesh = quadrille::mesh(box, options, context);
+  const SizeFidelity exact = size_fidelity(mesh, box, options.sizing, context);
+  EXPECT_EQ(exact.sides, static_cast<int>(2 * mesh.quads.size()));  // of a closed mesh
+  EXPECT_NEAR(exact.median, 1, 1e-6);
+  EXPECT_DOUBLE_EQ(exact.within_percent, 100);
+  options.sizing.size = 4;  // of another mesh
+  const SizeFidelity fine = size_fidelity(mesh, box, options.sizing, context);
+  EXPECT_NEAR(fine.median, 0.25, 1e-6);
+  EXPECT_DOUBLE_EQ(fine.within_percent, 0);
+  const auto json = fine.json();
+  int count = 0;
+  for (const auto& bin : json["histogram"]) count += bin["count"].get<int>();
+  EXPECT_EQ(count, fine.sides);
+  EXPECT_EQ(json["histogram"].front()["count"], fine.sides);
+}
+
+TEST(SizeFidelity, GradedMeshesKeepTheirSizes) {
+  const CadModel bracket = CadModel::read(sample_model("bracket").path());
+  MeshOptions options;
+  options.sizing.size = bracket.diagonal() / 60;
+  options.sizing.face_sizes[1] = options.sizing.size / 4;
+  ExecutionContext context;
+  const SizeFidelity found =
+      size_fidelity(quadrille::mesh(bracket, options, context), bracket, options.sizing, context);
+  EXPECT_NEAR(found.median, 1, 0.15);
+  EXPECT_GT(found.within_percent, 85);
+}
+
+}  // namespace
+}  // namespace quadrille
