@@ -188,12 +188,21 @@ def plot(rows, path):
     figure.savefig(path, dpi=90)
 
 
+def uniform_error(rows, quads):
+    """What uniform meshes of so many quads have, between those that were solved."""
+    uniform = [row for row in rows if row["kind"] == "uniform"]
+    return float(np.exp(np.interp(np.log(quads), np.log([row["quads"] for row in uniform]),
+                                  np.log([row["estimate"] for row in uniform]))))
+
+
 def main():
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("--case", choices=CASES, action="append")
     parser.add_argument("--out", default="study.json")
     parser.add_argument("--plot", help="draw the errors into this .png")
+    parser.add_argument("--check", action="store_true",
+                        help="fail unless the last adapted mesh has less than half the error of a uniform one")
     arguments = parser.parse_args()
     if not shutil.which("ccx"):
         print("CalculiX (ccx) is not installed: nothing is solved")
@@ -202,6 +211,10 @@ def main():
     Path(arguments.out).write_text(json.dumps(rows, indent=1) + "\n")
     if arguments.plot:
         plot(rows, arguments.plot)
+    for name, found in rows.items():
+        last = found[-1]
+        if arguments.check and not last["estimate"] < 0.5 * uniform_error(found, last["quads"]):
+            sys.exit(f"{name}: {last['quads']} adapted quads have an error of {last['estimate']:.3g}")
 
 
 if __name__ == "__main__":
