@@ -19,72 +19,74 @@ constexpr double largest_hole = 8;
 /// Segments at a hole over those of the sides, by the sizing field: beyond, sizes change too much.
 constexpr double least_ratio = 0.8, largest_ratio = 1.5;
 
-/// How far a block of so many cells would have its middle from that of the hole.
-double off_center(double low, double high, int cells) {
-  const double start = 0.5 * (low + high) - 0.5 * cells;
-  return std::abs(start - std::round(start));
-}
-
 bool has_room(double extent, int cells) {
   return cells >= extent + least_beside && cells <= extent + most_beside;
 }
 
-/// Cells across the hole in one direction.
-int cells_across(double low, double high) {
+/// Cells across a hole in one direction, and how far that is from what is best.
+struct Across {
+  int cells = 0;
+  double cost = 0;
+};
+
+Across across(double low, double high, bool even) {
+  constexpr double off_the_vertex = 0.8, no_room = 10;
   const double wanted = high - low + wanted_beside;
-  const int few = static_cast<int>(std::floor(wanted)), many = few + 1;
-  const auto cost = [&](int cells) {
-    return std::abs(cells - wanted) + off_center(low, high, cells) + (has_room(high - low, cells) ? 0 : 10);
-  };
-  return cost(few) < cost(many) ? few : many;
+  Across best{0, std::numeric_limits<double>::infinity()};
+  for (int cells = static_cast<int>(std::floor(wanted)) - 1; cells <= wanted + 2; ++cells) {
+    const double start = 0.5 * (low + high) - 0.5 * cells, off_center = std::abs(start - std::round(start));
+    const double cost = std::abs(cells - wanted) + off_center +
+                        (even && cells % 2 != 0 ? off_the_vertex : 0) +
+                        (has_room(high - low, cells) ? 0 : no_room);
+    if (cost < best.cost - 1e-6) best = {cells, cost};
+  }
+  return best;
 }
+
+/// Where a block starts that has its middle in that of the hole; towards the middle of the grid where two
+/// places are as good, so that mirrored holes have mirrored blocks.
+int start_of(double low, double high, int cells, int of) {
+  const double middle = 0.5 * (low + high), bias = middle < 0.5 * of ? 1e-3 : -1e-3;
+  return static_cast<int>(std::lround(middle - 0.5 * cells + bias));
+}
+
+/// What the wires of a face want.
+struct Fit {
+  std::vector<int> around;      // segments of the final mesh, by wire; 0 for the outer one
+  std::array<double, 2> sides;  // times as many as they have along the facing sides
+};
 
 class HoleFitter {
  public:
   HoleFitter(const CadShape& shape, const EdgeCounts& chosen, const std::vector<CountTable>& tables)
       : shape_(shape), chosen_(chosen), tables_(tables) {}
 
-  /// Segments round each hole (of the final mesh), by wire, 0 for the outer one; empty where the face is to
-  /// be left alone.
-  std::vector<int> counts(const CadFace& face, const FaceSides& sides) const {
-    const int columns = count_of(sides, 0), rows = count_of(sides, 1);
-    if (columns < 3 || rows < 3 || sides.starts.size() != 4) return {};
-    const Vector2 scale = FaceSurface(face).mean_scale();
-    std::array<Vector2, 4> corners;
+  std::optional<Fit> fit(const CadFace& face, const FaceSides& sides) const {
+    const GridSize now{count_of(sides, 0), count_of(sides, 1)};
+    if (now.columns < 3 || now.rows < 3 || sides.starts.size() != 4) return std::nullopt;
     const auto& outline = face.wires[sides.outer].coedges;
     double length = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Coedge& start = outline[sides.starts[k]];
-      const CadEdge& edge = shape_.edges[start.edge - 1];
-      corners[k] = parametric_point(start, start.forward ? edge.first : edge.last).cwiseProduct(scale);
-    }
     for (const Coedge& coedge : outline) length += shape_.edges[coedge.edge - 1].length;
-    const double side = length / (2 * (columns + rows));
-    const Vector2 along = 0.5 * (corners[1] - corners[0] + corners[2] - corners[3]),
-                  up = 0.5 * (corners[3] - corners[0] + corners[2] - corners[1]);
-    const double area = along.x() * up.y() - along.y() * up.x();
-    if (!(std::abs(area) > 0)) return {};
-    std::vector<int> result;
-    std::vector<HoleBlock> blocks;
+    const double side = length / (2 * (now.columns + now.rows));
     for (std::size_t wire = 0; wire < face.wires.size(); ++wire) {
-      result.push_back(0);
-      if (static_cast<int>(wire) == sides.outer) continue;
-      if (!has_size_of(face.wires[wire], side)) return {};
-      HolePlace place{Vector2::Constant(std::numeric_limits<double>::infinity()),
-                      Vector2::Constant(-std::numeric_limits<double>::infinity())};
-      for (const Vector2& uv : points_along(face.wires[wire])) {
-        const Vector2 p = uv.cwiseProduct(scale) - corners[0];
-        const Vector2 cell(columns * (p.x() * up.y() - p.y() * up.x()) / area,
-                           rows * (along.x() * p.y() - along.y() * p.x()) / area);
-        place.low = place.low.cwiseMin(cell);
-        place.high = place.high.cwiseMax(cell);
-      }
-      const auto block = block_of(place, 0);
-      if (!block) return {};
-      blocks.push_back(*block);
-      result.back() = block->around();
+      if (static_cast<int>(wire) != sides.outer && !has_size_of(face.wires[wire], side)) return std::nullopt;
     }
-    if (!keep_apart(blocks, columns, rows)) return {};
+    const std::vector<HolePlace> shares = places(face, sides);
+    if (shares.empty()) return std::nullopt;
+    const GridSize grid{best_count(shares, 0, now.columns), best_count(shares, 1, now.rows)};
+    Fit result{{},
+               {static_cast<double>(grid.columns) / now.columns, static_cast<double>(grid.rows) / now.rows}};
+    std::vector<HoleBlock> blocks;
+    for (const HolePlace& share : shares) {
+      if (static_cast<int>(result.around.size()) == sides.outer) result.around.push_back(0);
+      const Vector2 scale(grid.columns, grid.rows);
+      const auto block =
+          block_of({share.low.cwiseProduct(scale), share.high.cwiseProduct(scale), share.even}, 0, grid);
+      if (!block) return std::nullopt;
+      blocks.push_back(*block);
+      result.around.push_back(block->around());
+    }
+    if (!keep_apart(blocks, grid)) return std::nullopt;
     return result;
   }
 
@@ -96,6 +98,62 @@ class HoleFitter {
     int sum = 0;
     for (const SideEdge& edge : sides.facing[which].first) sum += chosen_.counts[edge.edge];
     return sum;
+  }
+
+  /// The holes as shares of the way between facing sides; empty where the outline has no area.
+  std::vector<HolePlace> places(const CadFace& face, const FaceSides& sides) const {
+    const Vector2 scale = FaceSurface(face).mean_scale();
+    std::array<Vector2, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k)
+      corners[k] = start_of(face.wires[sides.outer].coedges[sides.starts[k]]).cwiseProduct(scale);
+    const Vector2 along = 0.5 * (corners[1] - corners[0] + corners[2] - corners[3]),
+                  up = 0.5 * (corners[3] - corners[0] + corners[2] - corners[1]);
+    const double area = along.x() * up.y() - along.y() * up.x();
+    if (!(std::abs(area) > 0)) return {};
+    const auto share_of = [&](const Vector2& uv) {
+      const Vector2 p = uv.cwiseProduct(scale) - corners[0];
+      return Vector2((p.x() * up.y() - p.y() * up.x()) / area,
+                     (along.x() * p.y() - along.y() * p.x()) / area);
+    };
+    std::vector<HolePlace> result;
+    for (std::size_t wire = 0; wire < face.wires.size(); ++wire) {
+      if (static_cast<int>(wire) == sides.outer) continue;
+      HolePlace place{Vector2::Constant(std::numeric_limits<double>::infinity()),
+                      Vector2::Constant(-std::numeric_limits<double>::infinity())};
+      for (const Vector2& uv : points_along(face.wires[wire])) place.include(share_of(uv));
+      const Vector2 middle = 0.5 * (place.low + place.high);
+      constexpr double straight = 0.05;  // of the hole's size
+      for (const Coedge& coedge : face.wires[wire].coedges) {
+        const Vector2 off = (share_of(start_of(coedge)) - middle).cwiseQuotient(place.high - place.low);
+        place.even |= off.cwiseAbs().minCoeff() < straight;
+      }
+      result.push_back(place);
+    }
+    return result;
+  }
+
+  Vector2 start_of(const Coedge& coedge) const {
+    const CadEdge& edge = shape_.edges[coedge.edge - 1];
+    return parametric_point(coedge, coedge.forward ? edge.first : edge.last);
+  }
+
+  /// The count near one that suits the holes best. \param axis 0: of columns, 1: of rows
+  int best_count(const std::vector<HolePlace>& shares, int axis, int now) const {
+    constexpr double of_change = 2;
+    constexpr int reach = 2;
+    int best = now;
+    double least = std::numeric_limits<double>::infinity();
+    for (int count = std::max(3, now - reach); count <= now + reach; count += reach) {
+      double cost = of_change * std::abs(std::log(static_cast<double>(count) / now));
+      for (const HolePlace& share : shares) {
+        cost += across(share.low[axis] * count, share.high[axis] * count, share.even).cost /
+                static_cast<double>(shares.size());
+      }
+      if (cost >= least) continue;
+      least = cost;
+      best = count;
+    }
+    return best;
   }
 
   bool has_size_of(const CadWire& wire, double side) const {
@@ -126,12 +184,12 @@ class HoleFitter {
 
 }  // namespace
 
-std::optional<HoleBlock> block_of(const HolePlace& hole, int nodes) {
+std::optional<HoleBlock> block_of(const HolePlace& hole, int nodes, const GridSize& grid) {
   const Vector2 extent = hole.high - hole.low;
   if (nodes % 2 != 0 || !(extent.maxCoeff() < largest_hole)) return std::nullopt;
   HoleBlock block;
-  block.columns = cells_across(hole.low.x(), hole.high.x());
-  block.rows = cells_across(hole.low.y(), hole.high.y());
+  block.columns = across(hole.low.x(), hole.high.x(), hole.even).cells;
+  block.rows = across(hole.low.y(), hole.high.y(), hole.even).cells;
   if (nodes > 0) {
     // As much too many or too few each way.
     const int excess = nodes / 2 - block.columns - block.rows;
@@ -139,18 +197,19 @@ std::optional<HoleBlock> block_of(const HolePlace& hole, int nodes) {
     block.rows = nodes / 2 - block.columns;
   }
   if (!has_room(extent.x(), block.columns) || !has_room(extent.y(), block.rows)) return std::nullopt;
-  block.column = static_cast<int>(std::lround(0.5 * (hole.low.x() + hole.high.x() - block.columns)));
-  block.row = static_cast<int>(std::lround(0.5 * (hole.low.y() + hole.high.y() - block.rows)));
+  block.column = start_of(hole.low.x(), hole.high.x(), block.columns, grid.columns);
+  block.row = start_of(hole.low.y(), hole.high.y(), block.rows, grid.rows);
   return block;
 }
 
-bool keep_apart(const std::vector<HoleBlock>& blocks, int columns, int rows) {
+bool keep_apart(const std::vector<HoleBlock>& blocks, const GridSize& grid) {
   const auto apart = [](int a, int a_count, int b, int b_count) {
     return a + a_count < b || b + b_count < a;
   };
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const HoleBlock& one = blocks[i];
-    if (one.column < 1 || one.row < 1 || one.column + one.columns >= columns || one.row + one.rows >= rows)
+    if (one.column < 1 || one.row < 1 || one.column + one.columns >= grid.columns ||
+        one.row + one.rows >= grid.rows)
       return false;
     for (std::size_t k = 0; k < i; ++k) {
       const HoleBlock& other = blocks[k];
@@ -169,17 +228,24 @@ bool fit_holes_to_grids(const CadShape& shape, const std::vector<FaceSides>& sid
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (sides[i].outline != FaceSides::Outline::holed) continue;
     const CadFace& face = shape.faces[i];
-    const std::vector<int> counts = fitter.counts(face, sides[i]);
-    for (std::size_t wire = 0; wire < counts.size(); ++wire) {
-      if (counts[wire] == 0) continue;
+    const auto fit = fitter.fit(face, sides[i]);
+    if (!fit) continue;
+    const auto want = [&](int edge, double segments) {
+      any |= std::abs(wishes.wanted[edge] * wishes.stride - segments) > 0.5;
+      wishes.wanted[edge] = segments / wishes.stride;
+    };
+    for (const std::size_t k : {0, 1}) {
+      if (fit->sides[k] == 1) continue;
+      for (const Side* side : {&sides[i].facing[k].first, &sides[i].facing[k].second}) {
+        for (const SideEdge& edge : *side) want(edge.edge, fit->sides[k] * chosen.counts[edge.edge]);
+      }
+    }
+    for (std::size_t wire = 0; wire < fit->around.size(); ++wire) {
       double length = 0;
       for (const Coedge& coedge : face.wires[wire].coedges) length += shape.edges[coedge.edge - 1].length;
       for (const Coedge& coedge : face.wires[wire].coedges) {
         const int edge = coedge.edge - 1;
-        const double share = shape.edges[edge].length / length;
-        double& wanted = wishes.wanted[edge];
-        any |= std::abs(wanted * wishes.stride - share * counts[wire]) > 0.5;
-        wanted = share * counts[wire] / wishes.stride;
+        if (fit->around[wire] > 0) want(edge, shape.edges[edge].length / length * fit->around[wire]);
       }
     }
   }

@@ -267,10 +267,10 @@ class GridMaker {
     for (std::size_t i = 0; i < loops_.size(); ++i) {
       if (static_cast<int>(i) == sides_.outer) continue;
       const std::vector<Vector2> places = places_in(rows, loops_[i]);
-      const auto block = block_round(places);
+      const auto block = block_round(places, {columns, row_count});
       if (!block) return false;
       blocks.push_back(*block);
-      if (!keep_apart(blocks, columns, row_count)) return false;
+      if (!keep_apart(blocks, {columns, row_count})) return false;
       for (int j = block->row; j < block->row + block->rows; ++j)
         std::fill_n(covered.begin() + static_cast<long>(j) * columns + block->column, block->columns, 1);
       join_hole(outline_of(rows, *block), loops_[i], places);
@@ -314,14 +314,16 @@ class GridMaker {
     return places;
   }
 
-  static std::optional<HoleBlock> block_round(const std::vector<Vector2>& places) {
+  static std::optional<HoleBlock> block_round(const std::vector<Vector2>& places, const GridSize& grid) {
     HolePlace place{places.front(), places.front()};
-    for (const Vector2& p : places) {
-      place.low = place.low.cwiseMin(p);
-      place.high = place.high.cwiseMax(p);
-    }
+    for (const Vector2& p : places) place.include(p);
     if (!place.low.allFinite() || !place.high.allFinite()) return std::nullopt;
-    return block_of(place, static_cast<int>(places.size()));
+    // Edges start with their vertices, and so do loops.
+    const Vector2 off =
+        (places.front() - 0.5 * (place.low + place.high)).cwiseQuotient(place.high - place.low);
+    constexpr double straight = 0.05;
+    place.even = off.cwiseAbs().minCoeff() < straight;
+    return block_of(place, static_cast<int>(places.size()), grid);
   }
 
   /// Counter-clockwise in cells.
