@@ -9,10 +9,12 @@
 #include <fstream>
 #include <optional>
 
+#include "geometry/base/module_loader.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/face_gaps.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/sizing/spatial_sizes.hpp"
+#include "geometry/sizing/vdb_module.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/quadrille.hpp"
@@ -236,6 +238,46 @@ TEST(SizeSources, GridsOfOthersHaveAScaleAndAUnit) {
   EXPECT_NEAR(size_with(1, 1, 2), 0.2, 0.01);
   EXPECT_NEAR(size_with(3, 1, 2), 0.6, 0.03);
   EXPECT_NEAR(size_with(1, 2, 4), 0.4, 0.02);
+  std::filesystem::remove(path);
+}
+
+TEST(SizeSources, RefuseGridsThatMakeNoSense) {
+  const CadModel box = sample("box");
+  const auto path = std::filesystem::temp_directory_path() / "quadrille_bad_grid_test.vdb";
+  const Module module("quadrille_vdb");
+  const auto refused = [&](const std::vector<float>& values, int place, double unit,
+                           const std::string& part) {
+    VdbField field{{}, 2, 0.3};
+    field.levels.push_back({"size", 1.0, {}, values});
+    for (std::size_t i = 0; i < values.size(); ++i)
+      field.levels[0].coordinates.push_back({place + static_cast<int>(i), place, place});
+    std::string bytes;
+    ASSERT_EQ(module.function<VdbFileFunction>("_file")(field, bytes), "");
+    std::ofstream(path, std::ios::binary) << bytes;
+    SizingOptions options;
+    options.size = 2;
+    options.size_field = path;
+    options.size_field_unit = unit;
+    ExecutionContext context;
+    if (part.empty()) {
+      EXPECT_NO_THROW(SizingField::build(box, options, context));
+      return;
+    }
+    try {
+      SizingField::build(box, options, context);
+      ADD_FAILURE() << "no error that says " << part;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  };
+  refused({1, 1, 1}, 3, 1, "");
+  refused({}, 3, 1, "no active voxel");
+  refused({1, 0}, 3, 1, "the size 0 at");
+  refused({1, -2}, 3, 1, "the size -2 at");
+  refused({1, std::nanf("")}, 3, 1, "nan");
+  refused({1, INFINITY}, 3, 1, "inf");
+  refused({1, 1}, 900, 1, "beside the model");
+  refused({1, 1}, 3, 1000, "beside the model");
   std::filesystem::remove(path);
 }
 
