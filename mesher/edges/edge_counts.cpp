@@ -228,7 +228,8 @@ class CountChooser {
       for (const int edge : sides.rest) is_between_grids_[chords_.of(edge)] = 0;
       // One node more at the base of a wedge or the end of a strip would make elements far shorter than they
       // are wide.
-      if (sides.rest.empty() || (!sides.facing.empty() && wishes_.stride == 2)) continue;
+      const bool may_be_odd = !sides.facing.empty() && sides.outline != FaceSides::Outline::holed;
+      if (sides.rest.empty() || (may_be_odd && wishes_.stride == 2)) continue;
       const int node = add_node(static_cast<int>(face), BalanceProblem::Rule::even);
       for (const int edge : sides.rest) add_term(edge, node, 1);
     }
