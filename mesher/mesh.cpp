@@ -185,7 +185,9 @@ class Job {
   /// Faces that are grids need no room between their sides. Throws FaceProblem.
   void widen_gaps(int face, const FaceChart& chart) {
     int& looks = records_[face].looks_at_gaps;
-    if (looks == FaceRecord::most_looks || nodes_.sides[face].outline != FaceSides::Outline::other) return;
+    const auto outline = nodes_.sides[face].outline;
+    const bool is_grid = outline != FaceSides::Outline::other && outline != FaceSides::Outline::holed;
+    if (looks == FaceRecord::most_looks || is_grid) return;
     auto problem = crowding_problem(face + 1, chart.boundary, *chart.surface);
     looks = problem ? looks + 1 : FaceRecord::most_looks;
     if (problem) throw FaceProblem(std::move(*problem));
