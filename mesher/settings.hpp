@@ -37,13 +37,13 @@ struct QUADRILLE_API Setting {
   enum class Use { read, mesh, write };
   /// Entries of a form that the help tells: read from and written to the sizing options.
   struct EntryList {
-    void (*set)(SizingOptions&, const std::vector<std::string>&);
-    std::vector<std::string> (*get)(const SizingOptions&);
+    void (*set)(SizingOptions&, const std::vector<std::string>&);  ///< throws Error (usage) on bad entries
+    std::vector<std::string> (*get)(const SizingOptions&);         ///< as set() takes them
   };
   /// The same for one text.
   struct Text {
-    void (*set)(SizingOptions&, const std::string&);
-    std::string (*get)(const SizingOptions&);
+    void (*set)(SizingOptions&, const std::string&);  ///< throws Error (usage) on a bad text
+    std::string (*get)(const SizingOptions&);         ///< as set() takes it
   };
   /// Where its value is kept, which tells what it takes: a number, a whole number, yes or no, a word of
   /// `choices` (Strategy, MshVersion, Gradation), a file, faces, sizes on faces, edges and vertices, several

@@ -31,19 +31,20 @@ struct Budget {
 
 /// How far a segment may be from the curve or surface that it stands for; both 0 = any distance.
 struct ChordError {
-  double length = 0;
-  double share = 0;  ///< of the global size
+  double length = 0;  ///< millimeters
+  double share = 0;   ///< of the global size
 };
 
 /// A size in a part of space, and how it changes around it.
 struct SizeRegion {
+  /// Of the part of space.
   enum class Shape { box, sphere, cylinder, half_space };
-  Shape shape = Shape::box;
-  Vector3 a{0, 0, 0};  ///< lowest corner; center; start of the axis; a point of the border
-  Vector3 b{0, 0, 0};  ///< highest corner; unused; end of the axis; the way in from the border
-  double radius = 0;
-  double size = 0;
-  double transition = 0;  ///< length outside over which sizes reach the global one; 0 = as growth has it
+  Shape shape = Shape::box;  ///< which of these
+  Vector3 a{0, 0, 0};        ///< lowest corner; center; start of the axis; a point of the border
+  Vector3 b{0, 0, 0};        ///< highest corner; unused; end of the axis; the way in from the border
+  double radius = 0;         ///< of a sphere or cylinder
+  double size = 0;           ///< inside
+  double transition = 0;     ///< length outside over which sizes reach the global one; 0 = as growth has it
 
   /// From the region; 0 inside.
   double distance(const Vector3& point) const;
@@ -60,7 +61,7 @@ struct EdgeSpacing {
 struct SizeLayers {
   double first = 0;  ///< at the face, edge or vertex itself
   double ratio = 1;  ///< of each layer's height to that of the one before
-  int count = 0;
+  int count = 0;     ///< layers
 
   double last() const;  ///< the size where the layers end
 };
@@ -68,7 +69,10 @@ struct SizeLayers {
 /// CAD faces, edges and vertices by number.
 template <class Value>
 struct ByElement {
-  std::map<int, Value> faces, edges, vertices;
+  std::map<int, Value> faces;     ///< by CAD face, from 1
+  std::map<int, Value> edges;     ///< by CAD edge
+  std::map<int, Value> vertices;  ///< by CAD vertex
+  /// Whether there is none of either.
   bool empty() const { return faces.empty() && edges.empty() && vertices.empty(); }
 };
 
