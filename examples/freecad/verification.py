@@ -258,7 +258,7 @@ class PinchedCylinder:
 class GradedPinchedCylinder(PinchedCylinder):
     """The same with a tenth of the size at the forces, growing from there."""
 
-    sizes, size = (80, 60, 40, 30), 40
+    sizes, size = (80, 60, 40, 30), 30
     refined, share = ((0.0, 300.0, 0.0), (0.0, -300.0, 0.0)), 0.1
 
 
