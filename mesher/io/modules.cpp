@@ -37,8 +37,8 @@ std::string vtu_file(const OutputMesh& mesh, const std::vector<double>& qualitie
 
 std::string vtk_picture(const ShellMesh& mesh, int width, int height) {
   std::string bytes;
-  check(picture_module().function<PictureFunction>("_draw")(mesh, quad_qualities(mesh), width, height,
-                                                              bytes));
+  check(
+      picture_module().function<PictureFunction>("_draw")(mesh, quad_qualities(mesh), width, height, bytes));
   return bytes;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-/// The modules libquadrille_vtk.so, libquadrille_picture.so and libquadrille_med.so, which hold all that needs
-/// VTK, VTK with OpenGL and X11, and libmed. They
-/// are opened on demand, since loading those libraries costs more time than meshing a small part.
+/// The modules libquadrille_vtk.so, libquadrille_picture.so and libquadrille_med.so, which hold all that
+/// needs VTK, VTK with OpenGL and X11, and libmed. They are opened on demand, since loading those libraries
+/// costs more time than meshing a small part.
 
 #include <string>
 #include <vector>
@@ -23,7 +23,7 @@ struct ImportedMesh {
 using VtkFileFunction = std::string(const OutputMesh& mesh, const std::vector<double>& qualities,
                                     std::string& bytes);
 using PictureFunction = std::string(const ShellMesh& mesh, const std::vector<double>& qualities, int width,
-                                       int height, std::string& bytes);
+                                    int height, std::string& bytes);
 using VtkReadFunction = std::string(const std::string& path, const std::string& ending, ImportedMesh& mesh);
 using MedFileFunction = std::string(const OutputMesh& mesh, const std::string& name,
                                     const std::string& description, std::string& bytes);
