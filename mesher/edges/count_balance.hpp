@@ -13,7 +13,7 @@ struct BalanceProblem {
     double wanted = 0;
     double weight = 1;  ///< of the deviation
     int least = 1;
-    int value = 1;       ///< in: where to start from, not below `least`; out: the solution
+    int value = 1;  ///< in: where to start from, not below `least`; out: the solution
     std::vector<std::pair<int, int>> terms;  ///< node and coefficient
     bool fixed = false;                      ///< `value` stays as it is
   };

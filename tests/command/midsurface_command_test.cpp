@@ -85,7 +85,8 @@ TEST_F(MidsurfaceCommand, RefusesUnknownFormats) {
 }
 
 TEST_F(MidsurfaceCommand, MeshesThinSolidsWithASectionForEachThickness) {
-  const auto result = quadrille_says("mesh thin.brep --thin --size 10 --keep-features -o m.inp -o m.unv -o m.med --quiet");
+  const auto result =
+      quadrille_says("mesh thin.brep --thin --size 10 --keep-features -o m.inp -o m.unv -o m.med --quiet");
   ASSERT_EQ(result.exit_code, 0) << result.out;
   const std::string deck = text("m.inp");
   // The face that joins the steps has the smaller thickness.
