@@ -295,6 +295,54 @@
         <source>{}: the part that it meshes is gone.</source>
         <translation>{}: das Teil, das es vernetzt, ist weg.</translation>
     </message>
+    <message>
+        <source>Get the mesher</source>
+        <translation>Netzgenerator holen</translation>
+    </message>
+    <message>
+        <source>Use the one on PATH</source>
+        <translation>Den aus PATH nehmen</translation>
+    </message>
+    <message>
+        <source>There is no command quadrille on PATH</source>
+        <translation>In PATH gibt es keinen Befehl quadrille</translation>
+    </message>
+    <message>
+        <source>Take a bundle&apos;s file ...</source>
+        <translation>Datei eines Pakets nehmen …</translation>
+    </message>
+    <message>
+        <source>Download</source>
+        <translation>Herunterladen</translation>
+    </message>
+    <message>
+        <source>A bundle is unpacked into {}, tried, and named in the preferences. Nothing else is changed.</source>
+        <translation>Ein Paket wird nach {} entpackt, ausprobiert und in den Einstellungen eingetragen. Sonst wird nichts geändert.</translation>
+    </message>
+    <message>
+        <source>Install it</source>
+        <translation>Installieren</translation>
+    </message>
+    <message>
+        <source>A bundle of Quadrille</source>
+        <translation>Ein Paket von Quadrille</translation>
+    </message>
+    <message>
+        <source>downloading {}</source>
+        <translation>lädt {}</translation>
+    </message>
+    <message>
+        <source>unpacking {}</source>
+        <translation>entpackt {}</translation>
+    </message>
+    <message>
+        <source>{} has the SHA-256
+{}
+Compare it with the one beside the file where it was published. Installing unpacks it into {} and runs it.</source>
+        <translation>{} hat die SHA-256
+{}
+Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Installieren wird sie nach {} entpackt und ausgeführt.</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>
@@ -453,6 +501,82 @@
     <message>
         <source>subdivide</source>
         <translation>unterteilen</translation>
+    </message>
+    <message>
+        <source>Across gaps</source>
+        <translation>In Engstellen</translation>
+    </message>
+    <message>
+        <source>Chord error</source>
+        <translation>Sehnenfehler</translation>
+    </message>
+    <message>
+        <source>Elements across a gap inside a face, between its loops and rims; 0 = any number</source>
+        <translation>Elemente quer über eine Engstelle einer Fläche, zwischen ihren Rändern; 0 = beliebig viele</translation>
+    </message>
+    <message>
+        <source>File (.csv) of lines x,y,z,size: points that ask for a size</source>
+        <translation>Datei (.csv) mit Zeilen x,y,z,Größe: Punkte, die eine Größe verlangen</translation>
+    </message>
+    <message>
+        <source>How far a segment may be from its curve or surface: a length in mm such as 0.05, or a share of the size such as 2%; empty = any</source>
+        <translation>Wie weit ein Segment von seiner Kurve oder Fläche abweichen darf: eine Länge in mm wie 0.05 oder ein Anteil der Größe wie 2%; leer = beliebig</translation>
+    </message>
+    <message>
+        <source>How many segments edges get, such as Edge4=20; those that run along them get as many; empty = by size</source>
+        <translation>Wie viele Segmente Kanten bekommen, etwa Edge4=20; die ihnen gegenüberliegen, bekommen ebenso viele; leer = nach Größe</translation>
+    </message>
+    <message>
+        <source>Length of each segment of an edge over that of the one before, such as Edge4=1.2; empty = none</source>
+        <translation>Länge jedes Segments einer Kante im Verhältnis zum vorigen, etwa Edge4=1.2; leer = keines</translation>
+    </message>
+    <message>
+        <source>Millimeters to a unit of length in the grid, of its places and its sizes</source>
+        <translation>Millimeter je Längeneinheit des Gitters, für Orte und Größen</translation>
+    </message>
+    <message>
+        <source>Rings</source>
+        <translation>Ringe</translation>
+    </message>
+    <message>
+        <source>Rings of quads round each hole without corners, where there is room for them; 0 = none</source>
+        <translation>Ringe von Vierecken um jedes Loch ohne Ecken, wo Platz dafür ist; 0 = keine</translation>
+    </message>
+    <message>
+        <source>Sizes by distance from a face, edge or vertex, as heights of layers grow: first height, ratio and number, such as Edge4=0.1,1.2,6; empty = none</source>
+        <translation>Größen nach dem Abstand von Fläche, Kante oder Ecke, wie Schichthöhen wachsen: erste Höhe, Verhältnis und Anzahl, etwa Edge4=0.1,1.2,6; leer = keine</translation>
+    </message>
+    <message>
+        <source>Sizes in space: box:x,y,z,x,y,z=SIZE, sphere:x,y,z,r=SIZE, cylinder:x,y,z,x,y,z,r=SIZE, halfspace:x,y,z,nx,ny,nz=SIZE (where the direction points to), in mm; SIZE,LENGTH: the size around grows to the global one over that length; empty = none</source>
+        <translation>Größen im Raum: box:x,y,z,x,y,z=GRÖSSE, sphere:x,y,z,r=GRÖSSE, cylinder:x,y,z,x,y,z,r=GRÖSSE, halfspace:x,y,z,nx,ny,nz=GRÖSSE (wohin die Richtung zeigt), in mm; GRÖSSE,LÄNGE: ringsum wächst die Größe über diese Länge zur globalen; leer = keine</translation>
+    </message>
+    <message>
+        <source>Surface: sizes grow along faces and over their edges, not across gaps and through walls; space: through air too</source>
+        <translation>surface: Größen wachsen entlang der Flächen und über ihre Kanten, nicht über Spalte und durch Wände; space: auch durch die Luft</translation>
+    </message>
+    <message>
+        <source>The same from both ends of an edge to its middle; empty = none</source>
+        <translation>Dasselbe von beiden Enden einer Kante zur Mitte; leer = keines</translation>
+    </message>
+    <message>
+        <source>The sizes in the grid times this</source>
+        <translation>Die Größen des Gitters mal diesem Wert</translation>
+    </message>
+    <message>
+        <source>any</source>
+        <translation>beliebig</translation>
+    </message>
+    <message>
+        <source>by size</source>
+        <translation>nach Größe</translation>
+    </message>
+    <message>
+        <source>space</source>
+        <translation>Raum</translation>
+    </message>
+    <message>
+        <source>surface</source>
+        <translation>Fläche</translation>
     </message>
 </context>
 <context>

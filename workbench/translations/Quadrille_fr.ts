@@ -295,6 +295,54 @@
         <source>{}: the part that it meshes is gone.</source>
         <translation>{} : la pièce maillée n'existe plus.</translation>
     </message>
+    <message>
+        <source>Get the mesher</source>
+        <translation>Obtenir le mailleur</translation>
+    </message>
+    <message>
+        <source>Use the one on PATH</source>
+        <translation>Prendre celui du PATH</translation>
+    </message>
+    <message>
+        <source>There is no command quadrille on PATH</source>
+        <translation>Il n’y a pas de commande quadrille dans le PATH</translation>
+    </message>
+    <message>
+        <source>Take a bundle&apos;s file ...</source>
+        <translation>Prendre le fichier d’une archive…</translation>
+    </message>
+    <message>
+        <source>Download</source>
+        <translation>Télécharger</translation>
+    </message>
+    <message>
+        <source>A bundle is unpacked into {}, tried, and named in the preferences. Nothing else is changed.</source>
+        <translation>Une archive est extraite dans {}, essayée, puis indiquée dans les préférences. Rien d’autre n’est modifié.</translation>
+    </message>
+    <message>
+        <source>Install it</source>
+        <translation>Installer</translation>
+    </message>
+    <message>
+        <source>A bundle of Quadrille</source>
+        <translation>Une archive de Quadrille</translation>
+    </message>
+    <message>
+        <source>downloading {}</source>
+        <translation>téléchargement de {}</translation>
+    </message>
+    <message>
+        <source>unpacking {}</source>
+        <translation>extraction de {}</translation>
+    </message>
+    <message>
+        <source>{} has the SHA-256
+{}
+Compare it with the one beside the file where it was published. Installing unpacks it into {} and runs it.</source>
+        <translation>{} a la SHA-256
+{}
+Comparez-la avec celle publiée à côté du fichier. L’installation l’extrait dans {} et l’exécute.</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>
@@ -453,6 +501,82 @@
     <message>
         <source>subdivide</source>
         <translation>subdiviser</translation>
+    </message>
+    <message>
+        <source>Across gaps</source>
+        <translation>Dans les passages étroits</translation>
+    </message>
+    <message>
+        <source>Chord error</source>
+        <translation>Erreur de corde</translation>
+    </message>
+    <message>
+        <source>Elements across a gap inside a face, between its loops and rims; 0 = any number</source>
+        <translation>Éléments en travers d’un passage étroit d’une face, entre ses bords ; 0 = n’importe combien</translation>
+    </message>
+    <message>
+        <source>File (.csv) of lines x,y,z,size: points that ask for a size</source>
+        <translation>Fichier (.csv) de lignes x,y,z,taille : points qui demandent une taille</translation>
+    </message>
+    <message>
+        <source>How far a segment may be from its curve or surface: a length in mm such as 0.05, or a share of the size such as 2%; empty = any</source>
+        <translation>Écart admis entre un segment et sa courbe ou surface : une longueur en mm comme 0.05, ou une part de la taille comme 2% ; vide = quelconque</translation>
+    </message>
+    <message>
+        <source>How many segments edges get, such as Edge4=20; those that run along them get as many; empty = by size</source>
+        <translation>Nombre de segments des arêtes, par exemple Edge4=20 ; celles qui leur font face en reçoivent autant ; vide = selon la taille</translation>
+    </message>
+    <message>
+        <source>Length of each segment of an edge over that of the one before, such as Edge4=1.2; empty = none</source>
+        <translation>Rapport de la longueur de chaque segment d’une arête au précédent, par exemple Edge4=1.2 ; vide = aucun</translation>
+    </message>
+    <message>
+        <source>Millimeters to a unit of length in the grid, of its places and its sizes</source>
+        <translation>Millimètres par unité de longueur de la grille, pour les lieux et les tailles</translation>
+    </message>
+    <message>
+        <source>Rings</source>
+        <translation>Anneaux</translation>
+    </message>
+    <message>
+        <source>Rings of quads round each hole without corners, where there is room for them; 0 = none</source>
+        <translation>Anneaux de quadrangles autour de chaque trou sans coin, là où il y a de la place ; 0 = aucun</translation>
+    </message>
+    <message>
+        <source>Sizes by distance from a face, edge or vertex, as heights of layers grow: first height, ratio and number, such as Edge4=0.1,1.2,6; empty = none</source>
+        <translation>Tailles selon la distance à une face, une arête ou un sommet, comme croissent des couches : première hauteur, rapport et nombre, par exemple Edge4=0.1,1.2,6 ; vide = aucune</translation>
+    </message>
+    <message>
+        <source>Sizes in space: box:x,y,z,x,y,z=SIZE, sphere:x,y,z,r=SIZE, cylinder:x,y,z,x,y,z,r=SIZE, halfspace:x,y,z,nx,ny,nz=SIZE (where the direction points to), in mm; SIZE,LENGTH: the size around grows to the global one over that length; empty = none</source>
+        <translation>Tailles dans l’espace : box:x,y,z,x,y,z=TAILLE, sphere:x,y,z,r=TAILLE, cylinder:x,y,z,x,y,z,r=TAILLE, halfspace:x,y,z,nx,ny,nz=TAILLE (du côté de la direction), en mm ; TAILLE,LONGUEUR : autour, la taille croît jusqu’à la taille globale sur cette longueur ; vide = aucune</translation>
+    </message>
+    <message>
+        <source>Surface: sizes grow along faces and over their edges, not across gaps and through walls; space: through air too</source>
+        <translation>surface : les tailles croissent le long des faces et par leurs arêtes, ni en travers des vides ni à travers les parois ; space : à travers l’air aussi</translation>
+    </message>
+    <message>
+        <source>The same from both ends of an edge to its middle; empty = none</source>
+        <translation>De même des deux bouts d’une arête vers son milieu ; vide = aucun</translation>
+    </message>
+    <message>
+        <source>The sizes in the grid times this</source>
+        <translation>Les tailles de la grille multipliées par cette valeur</translation>
+    </message>
+    <message>
+        <source>any</source>
+        <translation>quelconque</translation>
+    </message>
+    <message>
+        <source>by size</source>
+        <translation>selon la taille</translation>
+    </message>
+    <message>
+        <source>space</source>
+        <translation>espace</translation>
+    </message>
+    <message>
+        <source>surface</source>
+        <translation>surface</translation>
     </message>
 </context>
 <context>

@@ -34,7 +34,9 @@ class SettingWidget:
             return box
         if self._kind == "App::PropertyBool":
             return QtGui.QCheckBox()
-        if self._kind == "App::PropertyStringList":
+        # Entries have commas of their own.
+        self._between = ";" if setting["kind"] == "entries" else ","
+        if self._kind in ("App::PropertyStringList", "App::PropertyString", "App::PropertyFile"):
             line = QtGui.QLineEdit()
             line.setPlaceholderText(translate("QuadrilleSettings", setting["otherwise"]))
             return line
@@ -61,7 +63,9 @@ class SettingWidget:
         if self._kind == "App::PropertyBool":
             return self.widget.isChecked()
         if self._kind == "App::PropertyStringList":
-            return [name.strip() for name in self.widget.text().split(",") if name.strip()]
+            return [name.strip() for name in self.widget.text().split(self._between) if name.strip()]
+        if self._kind in ("App::PropertyString", "App::PropertyFile"):
+            return self.widget.text().strip()
         return self.widget.value()
 
     def show(self, value: Any) -> None:
@@ -74,7 +78,9 @@ class SettingWidget:
         elif self._kind == "App::PropertyBool":
             self.widget.setChecked(value)
         elif self._kind == "App::PropertyStringList":
-            self.widget.setText(", ".join(value))
+            self.widget.setText(f"{self._between} ".join(value))
+        elif self._kind in ("App::PropertyString", "App::PropertyFile"):
+            self.widget.setText(value)
         else:
             self.widget.setValue(value)
         self._shown = (value, self._raw())
