@@ -202,24 +202,9 @@ class FaceMesher {
     PlacementOptions placement;
     placement.scale = static_cast<double>(boundary.stride) / recipe_.fineness;
     placement.refusal = recipe_.refusal;
-    for (int tries = 1;; ++tries, placement.scale *= denser) {
-      PlacedPoints placed = place_points(boundary, surface_, domain, size_at_, placement, context_);
-      context_.check();
-      const bool empty = placed.uv.empty();
-      FaceTriangulation result = triangulate_face(face_ + 1, boundary, std::move(placed), surface_, context_);
-      if (!empty || tries == most_tries || !turns_sharply(result)) return result;
-    }
-  }
-
-  /// Elements so large that no point has room between the edges may miss most of a ball.
-  static constexpr int most_tries = 4;
-  static constexpr double denser = 0.8;
-
-  static bool turns_sharply(const FaceTriangulation& face) {
-    const auto& n = face.normals;
-    return std::any_of(face.mesh.triangles.begin(), face.mesh.triangles.end(), [&](const auto& t) {
-      return n[t[0]].dot(n[t[1]]) < 0 || n[t[1]].dot(n[t[2]]) < 0 || n[t[2]].dot(n[t[0]]) < 0;
-    });
+    PlacedPoints placed = place_points(boundary, surface_, domain, size_at_, placement, context_);
+    context_.check();
+    return triangulate_face(face_ + 1, boundary, std::move(placed), surface_, context_);
   }
 
   FaceQuads recombine_face(const FaceTriangulation& triangulation, int stride) {

@@ -54,7 +54,6 @@ TEST(BoundarySides, TellTwoSheetsOverOneEdge) {
 TEST(BoundarySides, TellASideRunTwiceInOneDirection) {
   std::vector<std::pair<int, int>> turned = outline;
   turned.push_back({0, 1});
-  turned.push_back({0, 1});
   EXPECT_EQ(check(turned, {two_quads[0], two_quads[1], {0, 1, 7, 6}}), Side({0, 1}));
 }
 
