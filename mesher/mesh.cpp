@@ -417,7 +417,9 @@ ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionConte
       budget.check(*field);
     }
     if (!options.write_size_field.empty()) field->write(options.write_size_field);
-    return job.run(*field);
+    ShellMesh result = job.run(*field);
+    if (options.inspect) options.inspect(result, *field);
+    return result;
   });
 }
 

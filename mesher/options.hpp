@@ -2,6 +2,7 @@
 /// The options of a whole run: those of each stage, and what concerns them all.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,9 @@ struct WriteOptions {
   int threads = 0;    ///< that make the text of .msh, .inp, .unv, .bdf and .vtk; 0 = all cores
 };
 
+class SizingField;
+struct ShellMesh;
+
 /// How a model is meshed.
 struct MeshOptions {
   SizingOptions sizing;                     ///< lengths of elements
@@ -55,9 +59,11 @@ struct MeshOptions {
   int rings = 1;         ///< of quads round each hole without corners, at most
   bool partial = false;  ///< deliver what could be meshed when a face fails, instead of throwing
   std::filesystem::path write_size_field;  ///< .vdb to write the sizing field to; empty = none
-  bool force = false;                      ///< go on where the mesh would pass 50 million elements
-  RecombineOptions recombine;              ///< how triangles are paired
-  ImproveOptions improve;                  ///< how quads are improved
+  /// Called once with the mesh and the sizes that it was made with, which end with the call; empty = nothing.
+  std::function<void(const ShellMesh&, const SizingField&)> inspect;
+  bool force = false;          ///< go on where the mesh would pass 50 million elements
+  RecombineOptions recombine;  ///< how triangles are paired
+  ImproveOptions improve;      ///< how quads are improved
 };
 
 }  // namespace quadrille

@@ -65,15 +65,6 @@ class Cylinder(verification.PinchedCylinder):
     start, goals = 60, (0.2, 0.1, 0.07, 0.05)
     uniform = (60, 40, 25, 18, 12)
 
-    def problem(self, mesh):
-        problem = Problem(3e6, 0.3, 3.0)
-        for end in (-self.half, self.half):
-            problem.fix(mesh.where(lambda p, end=end: p[:, 2] - end), 1, 2)
-        top, bottom = mesh.at(0, self.radius, 0), mesh.at(0, -self.radius, 0)
-        problem.fix(np.array([top, bottom]), 3)
-        problem.load({top: (0, -1, 0), bottom: (0, 1, 0)})
-        return problem
-
 
 CASES = {"le1": Membrane, "hole": Hole, "corner": Corner, "cylinder": Cylinder}
 

@@ -244,14 +244,21 @@ class PinchedCylinder:
             faces += [edge.extrude(Vector(0, 0, side * self.half)) for side in (-1, 1)]
         return joined(faces)
 
-    def answer(self, mesh):
+    def pinched(self, mesh):
+        return mesh.at(0, self.radius, 0), mesh.at(0, -self.radius, 0)
+
+    def problem(self, mesh):
         problem = Problem(3e6, 0.3, 3.0)
         for end in (-self.half, self.half):
             problem.fix(mesh.where(lambda p, end=end: p[:, 2] - end), 1, 2)
-        top, bottom = mesh.at(0, self.radius, 0), mesh.at(0, -self.radius, 0)
+        top, bottom = self.pinched(mesh)
         problem.fix(np.array([top, bottom]), 3)
         problem.load({top: (0, -1, 0), bottom: (0, 1, 0)})
-        found = displacements(solve(mesh, problem)[0], len(mesh.points))
+        return problem
+
+    def answer(self, mesh):
+        top, bottom = self.pinched(mesh)
+        found = displacements(solve(mesh, self.problem(mesh))[0], len(mesh.points))
         return (found[bottom, 1] - found[top, 1]) / 2
 
 

@@ -136,7 +136,8 @@ void warn_off_geometry(const ShellMesh& mesh, std::vector<std::string>& warnings
 
 /// The table on stdout, warnings on stderr and the report, as far as they are wanted.
 void tell_quality(const ShellMesh& result, const CadModel& model, const std::optional<MidSurface>& middle,
-                  const MeshArguments& arguments, ExecutionContext& context) {
+                  const std::optional<SizeFidelity>& sizes, const MeshArguments& arguments,
+                  ExecutionContext& context) {
   if (arguments.quiet && arguments.report.empty()) return;
   QualitySummary summary;
   std::vector<std::string> warnings = model.problems();
@@ -148,10 +149,7 @@ void tell_quality(const ShellMesh& result, const CadModel& model, const std::opt
   });
   if (!arguments.report.empty()) {
     nlohmann::json report = make_report(result, summary, context, arguments.input, warnings);
-    on_threads(arguments.settings.threads, [&] {
-      ExecutionContext more;
-      report["sizes"] = size_fidelity(result, model, arguments.settings.mesh.sizing, more).json();
-    });
+    if (sizes) report["sizes"] = sizes->json();
     // File names need not be UTF-8, JSON must.
     constexpr auto replace = nlohmann::json::error_handler_t::replace;
     write_file(arguments.report, report.dump(2, ' ', false, replace) + "\n");
@@ -188,11 +186,16 @@ void run(const MeshArguments& arguments) {
   MeshOptions options = settings.mesh;
   options.order = order_of(arguments);
   options.write_size_field = arguments.write_size_field;
+  std::optional<SizeFidelity> sizes;
+  if (!arguments.report.empty())
+    options.inspect = [&](const ShellMesh& made, const SizingField& field) {
+      sizes = size_fidelity(made, field);
+    };
   const ShellMesh result = middle ? mesh(*middle, options, context) : mesh(model, options, context);
   context.check();
   write_outputs(result, arguments, context, cancel);
   list_left_out(result);
-  tell_quality(result, model, middle, arguments, context);
+  tell_quality(result, model, middle, sizes, arguments, context);
   // Last: what fails can be looked at then.
   if (arguments.limits.given())
     arguments.limits.hold(arguments.outputs.front(), check_criteria(result, limits));

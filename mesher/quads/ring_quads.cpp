@@ -42,22 +42,13 @@ class RingJoiner {
 
  private:
   int add(const HoleRings::Node& node, bool fixed) {
-    return add(node.point, node.uv, surface_.normal(node.uv), fixed, false);
-  }
-
-  int add(const Vector3& point, const Vector2& uv, const Vector3& normal, bool fixed, bool pole) {
-    auto& mesh = whole_.surface_mesh;
-    mesh.mesh.points.push_back(point);
-    mesh.parameters.push_back(uv);
-    mesh.normals.push_back(normal);
-    mesh.fixed.push_back(fixed);
-    whole_.pole.push_back(pole);
-    return static_cast<int>(whole_.pole.size()) - 1;
+    return whole_.add(node.point, node.uv, surface_.normal(node.uv), fixed, false);
   }
 
   void copy(int i, bool fixed) {
     const auto& old = inside_.surface_mesh;
-    renumbered_[i] = add(old.mesh.points[i], old.parameters[i], old.normals[i], fixed, inside_.pole[i]);
+    renumbered_[i] =
+        whole_.add(old.mesh.points[i], old.parameters[i], old.normals[i], fixed, inside_.pole[i]);
   }
 
   /// Points by the number of the node in HoleRings.

@@ -31,25 +31,15 @@ class Subdivider {
   }
 
  private:
-  int add_point(const Vector3& point, const Vector2& uv, const Vector3& normal, bool fixed, bool pole) {
-    auto& mesh = fine_.surface_mesh;
-    mesh.mesh.points.push_back(point);
-    mesh.parameters.push_back(uv);
-    mesh.normals.push_back(normal);
-    mesh.fixed.push_back(fixed);
-    fine_.pole.push_back(pole);
-    return static_cast<int>(mesh.mesh.points.size()) - 1;
-  }
-
   void copy_point(int i) {
     const auto& old = coarse_.surface_mesh;
     renumbered_[i] =
-        add_point(old.mesh.points[i], old.parameters[i], old.normals[i], old.fixed[i], coarse_.pole[i]);
+        fine_.add(old.mesh.points[i], old.parameters[i], old.normals[i], old.fixed[i], coarse_.pole[i]);
   }
 
   void add_boundary_middle(const FaceBoundary::Segment& segment) {
     const int point =
-        add_point(segment.middle_point, segment.middle_uv, surface_.normal(segment.middle_uv), true, false);
+        fine_.add(segment.middle_point, segment.middle_uv, surface_.normal(segment.middle_uv), true, false);
     fine_.nodes.push_back(segment.middle_node);
     middles_.emplace(side_key(segment.a, segment.b), point);
   }
@@ -69,7 +59,7 @@ class Subdivider {
     }
     uv = regular > 0 ? Vector2(uv / regular) : old.parameters[corners[0]];
     const SurfacePoint at = surface_.move(uv, target);
-    return add_point(at.point, uv, surface_.normal(at, uv), false, false);
+    return fine_.add(at.point, uv, surface_.normal(at, uv), false, false);
   }
 
   /// The surface point near the mean of the middles of an element's sides. At curved boundaries that lies
@@ -84,7 +74,7 @@ class Subdivider {
       uv += fine.parameters[i] / static_cast<double>(n);
     }
     const SurfacePoint at = surface_.move(uv, target);
-    return add_point(at.point, uv, surface_.normal(at, uv), false, false);
+    return fine_.add(at.point, uv, surface_.normal(at, uv), false, false);
   }
 
   /// Between two boundaries that bend alike (a narrow ring, the tip of a wedge) the center lies where a Coons
@@ -194,6 +184,15 @@ double worst_part(const std::vector<Vector3>& points, const std::array<int, n>& 
 }
 
 }  // namespace
+
+int FaceQuads::add(const Vector3& point, const Vector2& uv, const Vector3& normal, bool fixed, bool is_pole) {
+  surface_mesh.mesh.points.push_back(point);
+  surface_mesh.parameters.push_back(uv);
+  surface_mesh.normals.push_back(normal);
+  surface_mesh.fixed.push_back(fixed);
+  pole.push_back(is_pole);
+  return static_cast<int>(pole.size()) - 1;
+}
 
 void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
                     const std::vector<FaceBoundary::Segment>& segments, const ExecutionContext& context) {

@@ -13,6 +13,9 @@ struct FaceQuads {
   SurfaceMesh surface_mesh;  ///< fixed points first
   std::vector<char> pole;    ///< (n) 1 = uv is one of many
   std::vector<int> nodes;    ///< (fixed points) index into BoundaryNodes::points; those of HoleRings::inside
+
+  /// \return the index of the new point.
+  int add(const Vector3& point, const Vector2& uv, const Vector3& normal, bool fixed, bool is_pole);
 };
 
 /// Cuts those quads into two triangles whose four parts would be worse than the six parts of the triangles:

@@ -62,10 +62,12 @@ class FaceMesher {
     if (!recipe_.mapped) return mesh_without_grid();
     auto grid = mesh_as_grid();
     if (!grid) return mesh_without_grid();
-    if (is_squeezed(*grid)) {
+    constexpr double much = 0.05;
+    const double outside = has_rows(*grid) ? share_outside(*grid) : 0;
+    if (outside > much) {  // the nodes that one side has for its neighbors' sake squeeze the rows
       try {
         FaceMesh free = mesh_without_grid();
-        if (2 * share_outside(free) < share_outside(*grid)) return free;
+        if (2 * share_outside(free) < outside) return free;
       } catch (const FaceProblem&) {
         context_.check();  // the grid has none
       }
@@ -94,11 +96,9 @@ class FaceMesher {
     return static_cast<double>(outside) / std::max(1, measured);
   }
 
-  /// Whether the nodes that one side has for its neighbors' sake crowd a grid of several rows.
-  static bool is_squeezed(const FaceMesh& grid) {
-    constexpr double much = 0.05, rows = 3;
-    return 2 * static_cast<double>(grid.quads.size()) > rows * static_cast<double>(grid.nodes.size()) &&
-           share_outside(grid) > much;
+  /// Whether a grid has three rows or more.
+  static bool has_rows(const FaceMesh& grid) {
+    return 2 * static_cast<double>(grid.quads.size()) > 3 * static_cast<double>(grid.nodes.size());
   }
 
   FaceMesh mesh_without_grid() {

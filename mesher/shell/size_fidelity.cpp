@@ -7,9 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "geometry/cad/cad_shape.hpp"
-#include "geometry/sizing/sizing_field.hpp"
-
 namespace quadrille {
 
 namespace {
@@ -17,18 +14,6 @@ namespace {
 constexpr int bins_a_factor = 4;        // of two
 constexpr double histogram_low = 0.25;  // to its inverse
 constexpr int bins = 4 * bins_a_factor;
-
-UnsizedFeatures let_go(const ShellMesh& mesh, const CadShape& shape) {
-  UnsizedFeatures unsized{std::vector<char>(shape.edges.size(), 0), std::vector<char>(shape.faces.size(), 0)};
-  for (const ShellMesh::LetGo& feature : mesh.let_go) {
-    if (feature.kind != ShellMesh::LetGo::Kind::edge) continue;
-    for (std::size_t i = 0; i < shape.edges.size(); ++i)
-      unsized.edges[i] |= shape.edges[i].number == feature.number;
-  }
-  for (const ShellMesh::Face& face : mesh.faces)
-    unsized.faces[face.face - 1] = face.status == FaceStatus::merged;
-  return unsized;
-}
 
 SizeFidelity summary(std::vector<double> ratios) {
   SizeFidelity result;
@@ -59,12 +44,7 @@ nlohmann::ordered_json SizeFidelity::json() const {
           {"low", low},     {"high", high},     {"histogram", bars}};
 }
 
-SizeFidelity size_fidelity(const ShellMesh& mesh, const CadModel& model, const SizingOptions& options,
-                           ExecutionContext& context) {
-  const CadShape& shape = model.shape();
-  SizingOptions any = options;
-  any.budget = Budget::unlimited();  // it was held before
-  const SizingField field = SizingField::build(model, any, context, let_go(mesh, shape));
+SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field) {
   std::vector<std::pair<std::pair<int, int>, int>> sides;  // nodes, face
   for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
     for (int k = 0; k < 4; ++k) {

@@ -4,9 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "geometry/base/execution_context.hpp"
-#include "geometry/cad/cad_model.hpp"
-#include "geometry/sizing/sizing_options.hpp"
+#include "geometry/sizing/sizing_field.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
@@ -26,9 +24,8 @@ struct SizeFidelity {
   nlohmann::ordered_json json() const;
 };
 
-/// Each side once. Builds the sizing field again, without what the mesh has let go. Time: that of the field
-/// and a look-up a side.
-SizeFidelity size_fidelity(const ShellMesh& mesh, const CadModel& model, const SizingOptions& options,
-                           ExecutionContext& context);
+/// Each side once. \param field what the mesh was made with, see MeshOptions::inspect. Time: that of sorting
+/// the sides, and a look-up each.
+SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field);
 
 }  // namespace quadrille

@@ -20,12 +20,12 @@ TEST(SizeFidelity, CountsEachSideOnceAgainstTheSizeThere) {
   options.sizing.size = 1;  // which divides all sides
   ExecutionContext context;
   const ShellMesh mesh = quadrille::mesh(box, options, context);
-  const SizeFidelity exact = size_fidelity(mesh, box, options.sizing, context);
+  const SizeFidelity exact = size_fidelity(mesh, SizingField::build(box, options.sizing, context));
   EXPECT_EQ(exact.sides, static_cast<int>(2 * mesh.quads.size()));  // of a closed mesh
   EXPECT_NEAR(exact.median, 1, 1e-6);
   EXPECT_DOUBLE_EQ(exact.within_percent, 100);
   options.sizing.size = 4;  // of another mesh
-  const SizeFidelity fine = size_fidelity(mesh, box, options.sizing, context);
+  const SizeFidelity fine = size_fidelity(mesh, SizingField::build(box, options.sizing, context));
   EXPECT_NEAR(fine.median, 0.25, 1e-6);
   EXPECT_DOUBLE_EQ(fine.within_percent, 0);
   const auto json = fine.json();
@@ -41,8 +41,11 @@ TEST(SizeFidelity, GradedMeshesKeepTheirSizes) {
   options.sizing.size = bracket.diagonal() / 60;
   options.sizing.face_sizes[1] = options.sizing.size / 4;
   ExecutionContext context;
-  const SizeFidelity found =
-      size_fidelity(quadrille::mesh(bracket, options, context), bracket, options.sizing, context);
+  SizeFidelity found;
+  options.inspect = [&](const ShellMesh& mesh, const SizingField& field) {
+    found = size_fidelity(mesh, field);
+  };
+  quadrille::mesh(bracket, options, context);
   EXPECT_NEAR(found.median, 1, 0.15);
   EXPECT_GT(found.within_percent, 85);
 }
