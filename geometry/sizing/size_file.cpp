@@ -2,19 +2,46 @@
 
 #include <algorithm>
 #include <cmath>
+#include <istream>
+#include <iterator>
 #include <limits>
+#include <ostream>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/isolated_work.hpp"
 #include "geometry/base/module_loader.hpp"
 #include "geometry/sizing/size_cascade.hpp"
 #include "geometry/sizing/sizing_options.hpp"
 #include "geometry/sizing/vdb_module.hpp"
 
 namespace quadrille {
+
+namespace {
+
+/// What OpenVDB makes of the field. It starts threads as it is loaded and ends the program where it cannot:
+/// so in a child process.
+std::string file_of(const VdbField& field, const std::string& name) {
+  IsolatedWork options;
+  options.subject = name;
+  options.crashed = fmt::format(
+      "{}: OpenVDB crashed while it wrote the sizes: this process may not make threads, perhaps, or has no "
+      "memory for them",
+      name);
+  std::string bytes;
+  const auto work = [&](std::ostream& out) {
+    const std::string problem = Module("quadrille_vdb").function<VdbFileFunction>("_file")(field, bytes);
+    if (!problem.empty()) throw failure(name, fmt::format("{}: {}", name, problem));
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  };
+  run_isolated(options, work, [&](std::istream& in) { bytes = {std::istreambuf_iterator<char>(in), {}}; });
+  return bytes;
+}
+
+}  // namespace
 
 void write_cascade(const SizeCascade& cascade, const std::filesystem::path& path) {
   const CascadeFrame& frame = cascade.frame();
@@ -32,11 +59,7 @@ void write_cascade(const SizeCascade& cascade, const std::filesystem::path& path
     level.coordinates.push_back({c.x(), c.y(), c.z()});
     level.values.push_back(value);
   });
-  static const Module module("quadrille_vdb");
-  std::string bytes;
-  const std::string problem = module.function<VdbFileFunction>("_file")(field, bytes);
-  if (!problem.empty()) throw failure(path.string(), fmt::format("{}: {}", path.string(), problem));
-  write_file(path, bytes);
+  write_file(path, file_of(field, path.string()));
 }
 
 void write_sizes(const std::vector<SizePoint>& points, double growth, const std::filesystem::path& path,

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/isolated_work.hpp"
 #include "geometry/base/module_loader.hpp"
 #include "geometry/cad/cad_shape.hpp"
-#include "geometry/cad/isolated_reading.hpp"
 #include "geometry/sizing/vdb_module.hpp"
 
 namespace quadrille {
@@ -126,20 +126,28 @@ SpatialSizes::SpatialSizes(const CadModel& model, const SizingOptions& options, 
 
 void SpatialSizes::open_external(const CadModel& model, const SizingOptions& options,
                                  ExecutionContext& context) {
-  static const Module module("quadrille_vdb");
   const std::string path = options.size_field.string();
   ExternalSizes sizes;
   const auto open = [&] {
+    static const Module module("quadrille_vdb");
     const std::string problem = module.function<VdbOpenFunction>("_open")(path, sizes);
     if (!problem.empty()) throw failure(path, problem);
-    return TopoDS_Shape();
   };
-  // OpenVDB believes whatever lengths a damaged file gives: tried apart, where it may crash or want no end
-  // of memory.
+  // OpenVDB believes whatever lengths a damaged file gives, and ends the program where it cannot make threads
+  // as it is loaded: tried apart, where it may crash or want no end of memory.
   constexpr std::size_t room = std::size_t{1} << 30, room_each_byte = 20;
   std::error_code unknown;
   const std::uintmax_t bytes = std::filesystem::file_size(options.size_field, unknown);
-  read_isolated(path, open, &context, 0, room + (unknown ? 0 : room_each_byte * bytes));
+  IsolatedWork trial;
+  trial.subject = path;
+  trial.crashed = fmt::format(
+      "{}: reading this file crashed: it may be damaged, or this process may not make threads or has no "
+      "memory for them",
+      path);
+  trial.memory = room + (unknown ? 0 : room_each_byte * bytes);
+  trial.context = &context;
+  run_isolated(
+      trial, [&](std::ostream&) { open(); }, [](std::istream&) {});
   open();
   const double unit = options.size_field_unit, scale = unit * options.size_field_scale;
   const Vector3 low = unit * sizes.low, high = unit * sizes.high;

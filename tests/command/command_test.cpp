@@ -458,6 +458,26 @@ TEST(Command, NamesThePictureThatCannotBeDrawn) {
 #endif
 }
 
+/// OpenVDB ends the program where it cannot make its threads.
+TEST(Command, DoesNotBlameTheModelWhereOpenVdbCannotRun) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  const TemporaryFolder folder;
+  int refused = 0;
+  for (int megabytes = 90; megabytes <= 240; megabytes += 15) {
+    const auto result = test::run(fmt::format(
+        "cd {} && ulimit -v {}000 && {} mesh {} -o a.msh --size 20 --write-size-field a.vdb --quiet "
+        "--threads 1 2>&1",
+        folder.path().string(), megabytes, program, box));
+    if (result.exit_code == 0) continue;
+    ++refused;
+    EXPECT_EQ(result.exit_code, 1) << megabytes << ": " << result.out;
+    EXPECT_EQ(result.out.find("it may be damaged"), std::string::npos) << megabytes << ": " << result.out;
+    EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+  }
+  EXPECT_GT(refused, 0);
+#endif
+}
+
 TEST(Command, SuggestsSizesThatGiveWhatTheyPromise) {
   for (const std::string& model : {box, bracket}) {
     const TemporaryFolder folder;
