@@ -1,7 +1,12 @@
 # What `cmake --install` puts where. Each component is a package of its own; see docs/install.md.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS quadrille RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
+# The command lies among its modules, which it looks for where it lies; in bin there is a link to it.
+install(TARGETS quadrille RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/quadrille COMPONENT command)
+file(RELATIVE_PATH command ${CMAKE_INSTALL_FULL_BINDIR} ${MODULES_FOLDER}/quadrille)
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/link)
+file(CREATE_LINK ${command} ${PROJECT_BINARY_DIR}/link/quadrille SYMBOLIC)
+install(FILES ${PROJECT_BINARY_DIR}/link/quadrille DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
 install(TARGETS ${MODULES} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/quadrille COMPONENT library)
 
 # The library: what mesher/quadrille.hpp and mesher/settings.hpp include, and nothing else.

@@ -34,7 +34,7 @@ def contents(bundle: Path) -> dict:
     for path in sorted(package.rglob("*")):
         if path.is_file() and "__pycache__" not in path.parts and path.name != "command_path":
             files[f"quadrille/{path.relative_to(package)}"] = (path.read_bytes(), False)
-    for path in [bundle / "bin" / "quadrille", *sorted((bundle / "lib" / "quadrille").glob("*.so"))]:
+    for path in sorted((bundle / "lib" / "quadrille").iterdir()):
         files[f"quadrille/{path.name}"] = (path.read_bytes(), path.name == "quadrille")
     for name, (data, program) in list(files.items()):
         if data[:4] == b"\x7fELF":

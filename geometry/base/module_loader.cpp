@@ -41,7 +41,7 @@ std::vector<std::filesystem::path> module_folders(const std::filesystem::path& o
   if (const char* named = ::secure_getenv("QUADRILLE_MODULES"); named != nullptr && named[0] == '/')
     return {named};
   // Beside the program or library in the build tree and in bundles; installed, beneath the library's folder.
-  return {own, own / "quadrille", own / QUADRILLE_MODULES_FROM_COMMAND, QUADRILLE_MODULES_FOLDER};
+  return {own, own / "quadrille", QUADRILLE_MODULES_FOLDER};
 }
 
 void* open_library(const std::string& name) {

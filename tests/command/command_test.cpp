@@ -339,6 +339,17 @@ TEST(Command, OpensNoModuleOfTheCurrentFolder) {
   }
 }
 
+/// Nor of folders above its own, such as the `lib` beside a `bin`.
+TEST(Command, OpensNoModuleOfFoldersAboveItsOwn) {
+  const TemporaryFolder folder;
+  const auto result = test::run(fmt::format(
+      "cd {} && mkdir bin && cp {}/quadrille bin && for place in . lib lib/quadrille lib/$(uname "
+      "-m)-linux-gnu/quadrille; do "
+      "mkdir -p $place && echo planted >$place/libquadrille_step.so; done; bin/quadrille info {} 2>&1",
+      folder.path().string(), QUADRILLE_BINARY_DIR, bracket));
+  EXPECT_EQ(result.out.find("cannot be loaded"), std::string::npos) << result.out;
+}
+
 /// A model of trouble as a file.
 std::string trouble_file(const TemporaryFolder& folder, const std::string& name) {
   for (const TroubleModel& trouble : trouble_models()) {
