@@ -12,15 +12,15 @@
 #include "geometry/base/threads.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/sizing_field.hpp"
-#include "mesher/edges/edge_sampling.hpp"
+#include "mesher/boundary.hpp"
 #include "mesher/settings.hpp"
 
 namespace quadrille {
 
 namespace {
 
-/// The rows of quads of a face with four sides, the fewer of both ways; 0 for other faces.
-int fewest_rows(const CadFace& face, const FaceSides& sides, const BoundaryNodes& nodes) {
+/// The quads of a face whose four sides have as many segments as those they face; 0 for other faces.
+double grid_quads(const CadFace& face, const FaceSides& sides, const BoundaryNodes& nodes) {
   if (sides.outline != FaceSides::Outline::four || sides.starts.size() != 4 || face.wires.size() != 1)
     return 0;
   const auto& coedges = face.wires.front().coedges;
@@ -33,7 +33,38 @@ int fewest_rows(const CadFace& face, const FaceSides& sides, const BoundaryNodes
     } while (static_cast<int>(i) != sides.starts[(side + 1) % counts.size()]);
   }
   const bool is_grid = counts[0] == counts[2] && counts[1] == counts[3];
-  return is_grid ? std::min(counts[0], counts[1]) : 0;
+  return is_grid ? static_cast<double>(counts[0]) * counts[1] : 0;
+}
+
+/// The quads of a face that is meshed freely. \param inside the integral of 1 / size^2 over it.
+double free_quads(const CadFace& face, double area, double inside, double growth,
+                  const BoundaryNodes& nodes) {
+  int border = 0;
+  double length = 0;
+  const auto for_each_segment = [&](const auto& act) {
+    for (const CadWire& wire : face.wires) {
+      for (const Coedge& coedge : wire.coedges) {
+        const auto& at = nodes.edges[coedge.edge - 1].nodes;
+        for (std::size_t i = 1; i < at.size(); ++i)
+          act((nodes.points[at[i]] - nodes.points[at[i - 1]]).norm());
+      }
+    }
+  };
+  for_each_segment([&](double side) {
+    ++border;
+    length += side;
+  });
+  // Quads grow inwards from short sides at the border, up to the size wanted: the integral of
+  // side / (side + growth x)^2 as far as that takes or the face is deep, in place of side / size^2.
+  const double depth = length > 0 ? area / length : 0, size = std::sqrt(area / inside);
+  double shorter = 0;
+  for_each_segment([&](double side) {
+    if (!(side < size)) return;
+    const double reach = std::min(depth, (size - side) / growth);
+    shorter += reach / (side + growth * reach) - reach * side / (size * size);
+  });
+  // The narrowest strip has two rows of quads, with ends of two sides each.
+  return std::max({4.0, border - 4.0, inside + shorter});
 }
 
 }  // namespace
@@ -49,24 +80,19 @@ double QuadEstimate::quads(const MeshOptions& options) {
   const CadShape& shape = model_.shape();
   try {
     return on_threads(context_.threads(), [&] {
-      const SizingField field = SizingField::build(model_, options.sizing, context_);
-      SamplingPlan plan(shape);
-      plan.prescribed = prescribed_edges(shape, options.sizing, field.size_max());
-      const BoundaryNodes nodes = sample_edges(shape, field, stride(options.strategy),
-                                               std::vector<char>(shape.faces.size(), 1), plan, context_);
+      const SettledBoundary boundary = settle_boundary(model_, options, context_);
       double count = 0;
       for (std::size_t face = 0; face < shape.faces.size(); ++face) {
-        SizingField::Sampler size_at(field, static_cast<int>(face));
-        double inside = 0, border = 0;
-        for (const FaceSample& sample : samples_[face])
+        SizingField::Sampler size_at(boundary.field, static_cast<int>(face));
+        const double in_grid = grid_quads(shape.faces[face], boundary.nodes.sides[face], boundary.nodes);
+        double area = 0, inside = 0;
+        for (const FaceSample& sample : samples_[face]) {
+          area += sample.area;
           inside += sample.area / std::pow(size_at(sample.point), 2);
-        for (const CadWire& wire : shape.faces[face].wires) {
-          for (const Coedge& coedge : wire.coedges)
-            border += std::max(0, nodes.edges[coedge.edge - 1].segments());
         }
-        // The narrowest strip has two rows of quads, with ends of two sides each; but a grid may have one.
-        const int rows = fewest_rows(shape.faces[face], nodes.sides[face], nodes);
-        count += rows == 1 ? std::max(1.0, 0.5 * border - 1) : std::max({4.0, border - 4, inside});
+        count += in_grid > 0
+                     ? in_grid
+                     : free_quads(shape.faces[face], area, inside, options.sizing.growth, boundary.nodes);
       }
       return count;
     });

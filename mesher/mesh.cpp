@@ -19,6 +19,7 @@
 #include "geometry/sizing/element_count.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/surfaces/stray_edges.hpp"
+#include "mesher/boundary.hpp"
 #include "mesher/edges/edge_sampling.hpp"
 #include "mesher/edges/let_go.hpp"
 #include "mesher/faces/boundary_crossings.hpp"
@@ -41,11 +42,11 @@ std::vector<char> faces_used(const CadModel& model, const std::vector<int>& face
 
 class Job {
  public:
-  /// \param size the global target size.
-  Job(const CadModel& model, const MeshOptions& options, double size, ExecutionContext& context)
-      : shape_(model.shape()),
+  Job(const CadModel& model, const MeshOptions& options, ExecutionContext& context)
+      : model_(model),
+        shape_(model.shape()),
         options_(options),
-        size_(size),
+        size_(size_limits(model, options.sizing).largest),
         context_(context),
         edges_{SamplingPlan(shape_), std::vector<Collapse>(shape_.edges.size(), Collapse::no)},
         used_(faces_used(model, options.faces)),
@@ -55,12 +56,28 @@ class Job {
         records_(shape_.faces.size()),
         asked_(used_),
         let_go_(shape_, asked_, reach_of_let_go(model, options)) {
-    edges_.plan.prescribed = prescribed_edges(shape_, options.sizing, size);
+    edges_.plan.prescribed = prescribed_edges(shape_, options.sizing, size_);
     leave_out_tiny();
   }
 
-  /// What is let go asks for no sizes.
-  UnsizedFeatures unsized() const { return {let_go_.edges(), edges_.plan.tiny.merged_faces}; }
+  /// What is let go asks for no sizes. Throws Error (usage) where the sizes pass their budget.
+  SizingField build_field() {
+    const StageTimer timer(context_, Stage::size);
+    SizingOptions sizing = options_.sizing;
+    sizing.budget.bytes_an_element = Budget::bytes_an_element_of_order(options_.order);
+    if (options_.force) sizing.budget = Budget::unlimited();
+    const ElementBudget budget(model_, sizing, asked_, context_);
+    SizingField field =
+        SizingField::build(model_, sizing, context_, {let_go_.edges(), edges_.plan.tiny.merged_faces});
+    budget.check(field);
+    return field;
+  }
+
+  /// Samples the edges until no boundary of a face crosses itself that can be mended.
+  BoundaryNodes boundary(const SizingField& field) {
+    settle(field, false);
+    return std::move(nodes_);
+  }
 
   ShellMesh run(const SizingField& field) {
     mesh_in_rounds(field);
@@ -99,16 +116,21 @@ class Job {
     }
   }
 
-  /// Each round finds the charts first: faces are meshed once no boundary crosses itself that can be mended.
-  void mesh_in_rounds(const SizingField& field) {
-    int charted = 0, meshed = 0;
-    for (bool changed = true; changed && meshed < FaceRecord::most_attempts;) {
-      if (meshed > 0 && !may_go_on()) return;
+  /// \param again whether faces were meshed before. \return false if there is no time left for that.
+  bool settle(const SizingField& field, bool again) {
+    do {
+      if (again && !may_go_on()) return false;
       sample(field);
       find_charts();
-      if (charted++ < most_chart_rounds && treat()) continue;
+    } while (chart_rounds_++ < most_chart_rounds && treat());
+    return true;
+  }
+
+  void mesh_in_rounds(const SizingField& field) {
+    int meshed = 0;
+    for (bool changed = true; changed && meshed < FaceRecord::most_attempts; ++meshed) {
+      if (!settle(field, meshed > 0)) return;
       mesh_faces(field);
-      ++meshed;
       changed = treat();
     }
   }
@@ -382,12 +404,14 @@ class Job {
     return result;
   }
 
+  const CadModel& model_;
   const CadShape& shape_;
   const MeshOptions& options_;
-  double size_;
+  double size_;  ///< the global target size
   ExecutionContext& context_;
   EdgeTreatment edges_;
   std::vector<char> used_;
+  int chart_rounds_ = 0;
   BoundaryNodes nodes_;
   std::vector<std::optional<FaceChart>> charts_;  ///< of the faces to be meshed next
   std::vector<std::optional<FaceMesh>> meshes_;
@@ -403,24 +427,22 @@ ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionConte
   check({options, {}}, model);
   for (const StrayEdge& stray : stray_edges(model.shape(), faces_used(model, options.faces)))
     throw failure(fmt::format("Edge{}", stray.edge), stray.sentence() + "; `faces` can leave its faces out");
-  const double size = size_limits(model, options.sizing).largest;
-  SizingOptions sizing = options.sizing;
-  sizing.budget.bytes_an_element = Budget::bytes_an_element_of_order(options.order);
-  if (options.force) sizing.budget = Budget::unlimited();
-  Job job(model, options, size, context);
+  Job job(model, options, context);
   return on_threads(context.threads(), [&] {
-    std::optional<SizingField> field;
-    {
-      const StageTimer timer(context, Stage::size);
-      const ElementBudget budget(model, sizing, faces_used(model, options.faces), context);
-      field = SizingField::build(model, sizing, context, job.unsized());
-      budget.check(*field);
-    }
-    if (!options.write_size_field.empty()) field->write(options.write_size_field);
-    ShellMesh result = job.run(*field);
-    if (options.inspect) options.inspect(result, *field);
+    const SizingField field = job.build_field();
+    if (!options.write_size_field.empty()) field.write(options.write_size_field);
+    ShellMesh result = job.run(field);
+    if (options.inspect) options.inspect(result, field);
     return result;
   });
+}
+
+SettledBoundary settle_boundary(const CadModel& model, const MeshOptions& options,
+                                ExecutionContext& context) {
+  Job job(model, options, context);
+  SizingField field = job.build_field();
+  BoundaryNodes nodes = job.boundary(field);
+  return {std::move(field), std::move(nodes)};
 }
 
 ShellMesh mesh(const MidSurface& middle, const MeshOptions& options, ExecutionContext& context) {

@@ -9,9 +9,7 @@
 
 namespace quadrille {
 
-namespace {
-
-/// How many of so many threads there can be at once. oneTBB ends the program where one cannot be made.
+// oneTBB ends the program where a thread cannot be made: so it is tried.
 int makeable_threads(int wanted) {
   std::promise<void> end;
   const std::shared_future<void> ended = end.get_future().share();
@@ -26,8 +24,6 @@ int makeable_threads(int wanted) {
   for (std::thread& other : others) other.join();
   return static_cast<int>(others.size()) + 1;
 }
-
-}  // namespace
 
 int usable_threads(int wanted) {
   if (wanted == 1) return 1;

@@ -12,6 +12,9 @@ namespace quadrille {
 /// or than the system lets this process make (a limit on processes or memory), and one at least.
 int usable_threads(int wanted);
 
+/// How many of so many threads, this one among them, the system lets this process have at once now.
+int makeable_threads(int wanted);
+
 /// Calls `work` where oneTBB's loops use so many threads, or as many as there can be; 0 = all cores.
 template <class Work>
 auto on_threads(int threads, Work&& work) {

@@ -14,6 +14,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/isolated_work.hpp"
 #include "geometry/base/module_loader.hpp"
+#include "geometry/base/threads.hpp"
 #include "geometry/sizing/size_cascade.hpp"
 #include "geometry/sizing/sizing_options.hpp"
 #include "geometry/sizing/vdb_module.hpp"
@@ -22,18 +23,16 @@ namespace quadrille {
 
 namespace {
 
-/// What OpenVDB makes of the field. It starts threads as it is loaded and ends the program where it cannot:
-/// so in a child process.
+/// What OpenVDB makes of the field.
 std::string file_of(const VdbField& field, const std::string& name) {
   IsolatedWork options;
   options.subject = name;
-  options.crashed = fmt::format(
-      "{}: OpenVDB crashed while it wrote the sizes: this process may not make threads, perhaps, or has no "
-      "memory for them",
-      name);
+  options.crashed = options.too_long = fmt::format(
+      "{}: OpenVDB crashed while it wrote the sizes, for want of memory or threads perhaps", name);
+  options.time_limit = longest_with_vdb;
   std::string bytes;
   const auto work = [&](std::ostream& out) {
-    const std::string problem = Module("quadrille_vdb").function<VdbFileFunction>("_file")(field, bytes);
+    const std::string problem = vdb_module().function<VdbFileFunction>("_file")(field, bytes);
     if (!problem.empty()) throw failure(name, fmt::format("{}: {}", name, problem));
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   };
@@ -42,6 +41,19 @@ std::string file_of(const VdbField& field, const std::string& name) {
 }
 
 }  // namespace
+
+const Module& vdb_module() {
+  static const Module module = [] {
+    constexpr int threads = 6;  // it starts four
+    if (makeable_threads(threads) < threads)
+      throw failure(
+          "OpenVDB",
+          "OpenVDB, which reads and writes sizes, starts threads, and this process may not make them "
+          "or has no memory for them");
+    return Module("quadrille_vdb");
+  }();
+  return module;
+}
 
 void write_cascade(const SizeCascade& cascade, const std::filesystem::path& path) {
   const CascadeFrame& frame = cascade.frame();

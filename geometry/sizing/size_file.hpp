@@ -9,6 +9,7 @@
 
 namespace quadrille {
 
+class Module;
 class SizeCascade;
 
 /// A point that asks for a size.
@@ -16,6 +17,13 @@ struct SizePoint {
   Vector3 point;
   double size;
 };
+
+/// OpenVDB, to be asked for in a child process first: as it is loaded it starts threads, and ends the program
+/// or never ends itself where it cannot. Throws Error (failure) where there is no room for them.
+const Module& vdb_module();
+
+/// Seconds that a child process may take with OpenVDB.
+inline constexpr double longest_with_vdb = 300;
 
 /// Writes the voxels: `size` (coarsest), `size_1`, ... with metadata unit, growth, size_max, version. Throws
 /// Error (failure) where the file cannot be written.

@@ -129,21 +129,19 @@ void SpatialSizes::open_external(const CadModel& model, const SizingOptions& opt
   const std::string path = options.size_field.string();
   ExternalSizes sizes;
   const auto open = [&] {
-    static const Module module("quadrille_vdb");
-    const std::string problem = module.function<VdbOpenFunction>("_open")(path, sizes);
+    const std::string problem = vdb_module().function<VdbOpenFunction>("_open")(path, sizes);
     if (!problem.empty()) throw failure(path, problem);
   };
-  // OpenVDB believes whatever lengths a damaged file gives, and ends the program where it cannot make threads
-  // as it is loaded: tried apart, where it may crash or want no end of memory.
+  // OpenVDB believes whatever lengths a damaged file gives: tried apart, where it may crash or want no end
+  // of memory.
   constexpr std::size_t room = std::size_t{1} << 30, room_each_byte = 20;
   std::error_code unknown;
   const std::uintmax_t bytes = std::filesystem::file_size(options.size_field, unknown);
   IsolatedWork trial;
   trial.subject = path;
-  trial.crashed = fmt::format(
-      "{}: reading this file crashed: it may be damaged, or this process may not make threads or has no "
-      "memory for them",
-      path);
+  trial.crashed = trial.too_long = fmt::format(
+      "{}: reading this file crashed: it may be damaged, or there is too little memory here", path);
+  trial.time_limit = longest_with_vdb;
   trial.memory = room + (unknown ? 0 : room_each_byte * bytes);
   trial.context = &context;
   run_isolated(
