@@ -29,6 +29,7 @@
 
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/cad/seams.hpp"
+#include "mesher/estimate.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/area_check.hpp"
 #include "tests/models/trouble_models.hpp"
@@ -184,14 +185,16 @@ TEST(Robustness, RefinesOnlyWhereSegmentsCross) {
 }
 
 /// A square plate with two holes of radius 10, `gap` apart.
-CadModel plate_with_two_holes(double gap) {
-  const TopoDS_Shape plate = BRepPrimAPI_MakeBox({-40, -40, 0}, 80, 80, 5).Shape();
-  TopoDS_Shape result = plate;
-  for (const double side : {-1.0, 1.0}) {
-    const gp_Ax2 axis({side * (10 + gap / 2), 0, -1}, gp::DZ());
+/// Holes of radius 10 with a gap between each and the next.
+CadModel plate_with_holes(int columns, int rows, double gap) {
+  const double pitch = 20 + gap;
+  TopoDS_Shape result =
+      BRepPrimAPI_MakeBox({-30, -30, 0}, pitch * columns + 40, pitch * rows + 40, 5).Shape();
+  for (int i = 0; i < columns * rows; ++i) {
+    const gp_Ax2 axis({pitch * (i % columns), pitch * (i / columns), -1}, gp::DZ());
     result = BRepAlgoAPI_Cut(result, BRepPrimAPI_MakeCylinder(axis, 10, 7).Shape()).Shape();
   }
-  return CadModel(std::make_shared<CadShape>(result, "plate_with_two_holes"));
+  return CadModel(std::make_shared<CadShape>(result, "plate_with_holes"));
 }
 
 TEST(Robustness, MakesRoomInGapsBeforeMeshing) {
@@ -200,7 +203,7 @@ TEST(Robustness, MakesRoomInGapsBeforeMeshing) {
   options.sizing.elements_per_circle = 0;
   for (const double gap : {0.3, 6.0}) {
     ExecutionContext context(1);
-    const ShellMesh mesh = quadrille::mesh(plate_with_two_holes(gap), options, context);
+    const ShellMesh mesh = quadrille::mesh(plate_with_holes(2, 1, gap), options, context);
     EXPECT_EQ(joined(validate(mesh, true)), "") << gap;
     int narrow = 0;
     for (const auto& face : mesh.faces) {
@@ -209,6 +212,18 @@ TEST(Robustness, MakesRoomInGapsBeforeMeshing) {
       EXPECT_LE(face.attempts, 1) << gap << " Face" << face.face;
     }
     EXPECT_EQ(narrow, gap < 1 ? 2 : 0) << gap;
+  }
+}
+
+TEST(Robustness, CountsTheQuadsInGapsBeforeMeshing) {
+  MeshOptions options;
+  options.sizing.size = 20;
+  for (const double gap : {0.3, 1.0, 6.0}) {
+    ExecutionContext context(1);
+    const CadModel plate = plate_with_holes(4, 3, gap);
+    const auto quads = static_cast<double>(quadrille::mesh(plate, options, context).quads.size());
+    const double estimate = QuadEstimate(plate, context).quads(options);
+    EXPECT_LT(std::max(estimate / quads, quads / estimate), 1.5) << gap << ": " << estimate << ", " << quads;
   }
 }
 
