@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,9 +14,12 @@
 #include <ext/stdio_filebuf.h>
 #include <fstream>
 #include <istream>
-#include <iterator>
 #include <new>
 #include <ostream>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -27,8 +29,9 @@ namespace quadrille {
 
 namespace {
 
-/// The first byte of what a child hands over, written last: a child that crashes leaves nothing.
-enum Answer : char { nothing = 0, result_follows = 'R', failure_follows = 'F', usage_follows = 'U' };
+/// What a child has handed over, told at the end: one that crashes does not come so far.
+enum Answer : char { result = 'R', failure_sentence = 'F', usage_sentence = 'U' };
+constexpr std::string_view end_of_answer = "\nquadrille has answered: ";
 
 class Descriptor {
  public:
@@ -98,49 +101,52 @@ void limit_memory(std::size_t bytes) {
   ::setrlimit(RLIMIT_AS, &limit);
 }
 
-/// What the child writes after the first byte, and that byte.
 Answer answer(const std::string& subject, const std::function<void(std::ostream&)>& work, std::ostream& out) {
   try {
     work(out);
-    return result_follows;
+    return result;
   } catch (const Error& error) {
     out << error.what();
-    return error.kind() == Error::Kind::usage ? usage_follows : failure_follows;
+    return error.kind() == Error::Kind::usage ? usage_sentence : failure_sentence;
   } catch (const std::bad_alloc&) {
     out << subject << ": is too large for the memory of this machine";
   } catch (const std::exception& problem) {
     out << subject << ": " << problem.what();
   }
-  return failure_follows;
+  return failure_sentence;
 }
 
 [[noreturn]] void work_as_child(const IsolatedWork& options, const std::function<void(std::ostream&)>& work,
-                                int result) {
+                                int pipe) {
   become_worker();
   if (options.memory > 0) limit_memory(options.memory);
-  bool written = false;
-  Answer first = nothing;
-  {
-    __gnu_cxx::stdio_filebuf<char> buffer(::dup(result), std::ios::out | std::ios::binary);
-    std::ostream out(&buffer);
-    out.put(nothing);
-    first = answer(options.subject, work, out);
-    out.flush();
-    written = out.good();
-  }
-  if (written && ::pwrite(result, &first, 1, 0) != 1) ::_exit(1);
+  __gnu_cxx::stdio_filebuf<char> buffer(pipe, std::ios::out | std::ios::binary);
+  std::ostream out(&buffer);
+  const Answer given = answer(options.subject, work, out);
+  out << end_of_answer << static_cast<char>(given);
+  out.flush();
   ::_exit(0);
 }
 
-void wait_for(Child& child, int alive, const IsolatedWork& options) {
+/// All that the child writes, until it ends.
+std::string listen(Child& child, int pipe, const IsolatedWork& options) {
   constexpr int interval = 20;  // milliseconds
+  std::vector<char> chunk(1 << 16);
+  std::string bytes;
   const auto start = std::chrono::steady_clock::now();
-  while (!child.ended()) {
+  for (bool ended = false;;) {
     struct pollfd watched {
-      alive, POLLIN, 0
+      pipe, POLLIN, 0
     };
-    // The child holds the other end, so that this returns as soon as it ends.
-    ::poll(&watched, 1, interval);
+    if (::poll(&watched, 1, ended ? 0 : interval) > 0) {
+      const ssize_t count = ::read(pipe, chunk.data(), chunk.size());
+      if (count == 0) return bytes;
+      if (count > 0) bytes.append(chunk.data(), count);
+    } else if (ended) {
+      return bytes;
+    } else {
+      ended = child.ended();
+    }
     if (options.context != nullptr) options.context->report(options.stage, 0);
     const std::chrono::duration<double> past = std::chrono::steady_clock::now() - start;
     if (options.time_limit > 0 && past.count() > options.time_limit)
@@ -148,16 +154,18 @@ void wait_for(Child& child, int alive, const IsolatedWork& options) {
   }
 }
 
-void take_result(const IsolatedWork& options, int result, const std::function<void(std::istream&)>& take) {
-  ::lseek(result, 0, SEEK_SET);
-  __gnu_cxx::stdio_filebuf<char> buffer(::dup(result), std::ios::in | std::ios::binary);
-  std::istream in(&buffer);
-  const int first = in.get();
-  if (first == result_follows) return take(in);
-  const std::string sentence{std::istreambuf_iterator<char>(in), {}};
-  if (first == failure_follows) throw failure(options.subject, sentence);
-  if (first == usage_follows) throw usage_error(options.subject, sentence);
-  throw failure(options.subject, options.crashed);
+void take_result(const IsolatedWork& options, std::string bytes,
+                 const std::function<void(std::istream&)>& take) {
+  const std::size_t length = end_of_answer.size() + 1;
+  const std::string_view all = bytes;
+  if (all.size() < length || !all.substr(all.size() - length).starts_with(end_of_answer))
+    throw failure(options.subject, options.crashed);
+  const char given = bytes.back();
+  bytes.resize(bytes.size() - length);
+  if (given == failure_sentence) throw failure(options.subject, bytes);
+  if (given == usage_sentence) throw usage_error(options.subject, bytes);
+  std::istringstream in(std::move(bytes));
+  take(in);
 }
 
 }  // namespace
@@ -165,18 +173,16 @@ void take_result(const IsolatedWork& options, int result, const std::function<vo
 void run_isolated(const IsolatedWork& options, const std::function<void(std::ostream&)>& work,
                   const std::function<void(std::istream&)>& take) {
   if (options.context != nullptr) options.context->check();
-  const Descriptor result(::memfd_create("quadrille", MFD_CLOEXEC));
   std::array<int, 2> ends{-1, -1};
-  if (result < 0 || ::pipe2(ends.data(), O_CLOEXEC) != 0) throw no_process(options.subject);
-  const Descriptor alive(ends[0]);
-  Descriptor held(ends[1]);
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw no_process(options.subject);
+  const Descriptor heard(ends[0]);
+  Descriptor told(ends[1]);
   const pid_t id = ::fork();
   if (id < 0) throw no_process(options.subject);
-  if (id == 0) work_as_child(options, work, result);
+  if (id == 0) work_as_child(options, work, told);
   Child child(id);
-  held.close();
-  wait_for(child, alive, options);
-  take_result(options, result, take);
+  told.close();
+  take_result(options, listen(child, heard, options), take);
 }
 
 }  // namespace quadrille
