@@ -190,7 +190,9 @@ CadModel read_model(bool isolated, const Settings& settings, Read read) {
   }
 }
 
-PythonMesh mesh_model(const CadModel& model, const py::object& progress, const py::kwargs& arguments) {
+/// \param Model CadModel or MidSurface.
+template <class Model>
+PythonMesh mesh_model(const Model& model, const py::object& progress, const py::kwargs& arguments) {
   const Settings settings = settings_of(arguments, Setting::Use::mesh, "mesh");
   ProgressCall call(progress);
   ExecutionContext context(settings.threads, std::ref(call));
@@ -319,9 +321,10 @@ py::dict face_dict(const MiddleFace& face) {
   return result;
 }
 
-MidSurface midsurface_of(const CadModel& model, bool partial) {
+MidSurface midsurface_of(const CadModel& model, bool partial, bool join) {
   MidSurfaceOptions options;
   options.partial = partial;
+  options.join = join;
   ExecutionContext context;
   return midsurface(model, options, context);
 }
@@ -339,6 +342,14 @@ void bind_midsurface(py::module_& module) {
           },
           "By face number minus 1: dicts of area, thickness (mean, _min and _max), solid, solid_faces and "
           "step.")
+      .def_property_readonly(
+          "rims",
+          [](const MidSurface& self) {
+            py::list result;
+            for (const MiddleRim& rim : self.rims) result.append(py::make_tuple(rim.edge, rim.solid_faces));
+            return result;
+          },
+          "The free edges: (edge number, solid faces that it lies on).")
       .def_readonly("volume", &MidSurface::volume, "Of the solids, in mm^3.")
       .def_readonly("shell_volume", &MidSurface::shell_volume, "Sum of area times thickness, in mm^3.")
       .def_readonly("parts", &MidSurface::parts, "Connected parts.")
@@ -349,9 +360,10 @@ void bind_midsurface(py::module_& module) {
            "Writes the faces as .brep or .step, or what is known of them as .json.");
   module.def(
       "midsurface", &midsurface_of, py::arg("model"), py::kw_only(), py::arg("partial") = false,
-      py::call_guard<py::gil_scoped_release>(),
+      py::arg("join") = false, py::call_guard<py::gil_scoped_release>(),
       "The middle surface of each solid of a model. partial: give what could be paired where a solid is "
-      "thin in\nplaces only, instead of raising quadrille.Error.");
+      "thin in\nplaces only, instead of raising quadrille.Error. join: take solids that touch for one part, "
+      "as if welded.");
 }
 
 void bind_functions(py::module_& module) {
@@ -398,7 +410,10 @@ void bind_functions(py::module_& module) {
   module.def(
       "settings", [] { return py::module_::import("json").attr("loads")(settings_table().dump()); },
       "The table of settings: a list of dicts, as `quadrille settings --json` gives it.");
-  module.def("mesh", &mesh_model, py::arg("model"), py::kw_only(), py::arg("progress") = py::none(),
+  module.def("mesh", &mesh_model<MidSurface>, py::arg("model"), py::kw_only(),
+             py::arg("progress") = py::none(),
+             "Meshes a MidSurface; the mesh that is written then knows the thickness of each face.");
+  module.def("mesh", &mesh_model<CadModel>, py::arg("model"), py::kw_only(), py::arg("progress") = py::none(),
              ("Meshes a model's faces with quads only.\n\n" + settings_help(Setting::Use::mesh) +
               "progress: called with the stage's name and the fraction of all the work done; returning False "
               "cancels, "

@@ -11,6 +11,7 @@
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Iterator.hxx>
 #include <TopoDS_Shell.hxx>
 #include <algorithm>
 
@@ -117,6 +118,44 @@ void add_steps(const BOPAlgo_Builder& fuse, const std::vector<Wall>& walls, cons
     }
   }
   faces.insert(faces.end(), strips.begin(), strips.end());
+}
+
+/// The face without some of its edges, which lie inside it. \return null where there are none of them.
+TopoDS_Face without_edges(const TopoDS_Face& face, const TopTools_MapOfShape& edges) {
+  const BRep_Builder builder;
+  TopoDS_Shape result = face.EmptyCopied();
+  bool changed = false;
+  for (TopoDS_Iterator wires(face); wires.More(); wires.Next()) {
+    TopoDS_Shape wire = wires.Value().EmptyCopied();
+    bool cut = false, empty = true;
+    for (TopoDS_Iterator it(wires.Value()); it.More(); it.Next()) {
+      const bool left_out = edges.Contains(it.Value());
+      cut = cut || left_out;
+      empty = empty && left_out;
+      if (!left_out) builder.Add(wire, it.Value());
+    }
+    changed = changed || cut;
+    if (!empty) builder.Add(result, cut ? wire : wires.Value());
+  }
+  return changed ? TopoDS::Face(result) : TopoDS_Face();
+}
+
+/// Where pieces that hang over have left their traces: edges inside one face that no other face uses.
+void drop_traces(std::vector<JoinedFace>& faces) {
+  const EdgeUses uses(faces);
+  TopTools_MapOfShape traces;
+  for (int i = 0; i < uses.count(); ++i) {
+    const auto& around = uses.uses(i);
+    const bool inside = std::all_of(around.begin(), around.end(), [&](const EdgeUses::Use& use) {
+      return use.face == around.front().face && use.orientation == TopAbs_INTERNAL;
+    });
+    if (inside) traces.Add(uses.edge(i));
+  }
+  if (traces.IsEmpty()) return;
+  for (JoinedFace& face : faces) {
+    const TopoDS_Face clean = without_edges(face.face, traces);
+    if (!clean.IsNull()) face.face = clean;
+  }
 }
 
 /// The faces of one wall, joined over edges that no other wall uses.
@@ -244,6 +283,7 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
   if (fuse.HasErrors()) throw failure("", "the middle surfaces could not be joined where they meet");
   std::vector<JoinedFace> faces = covered_images(fuse, skin, walls, pieces);
   add_steps(fuse, walls, ends, faces);
+  drop_traces(faces);
   faces = merged_faces(skin, walls, faces);
   orient_alike(faces);
   return faces;

@@ -1,16 +1,13 @@
 #include "geometry/midsurface/midsurface.hpp"
 
 #include <BRepAdaptor_Curve.hxx>
-#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
-#include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepGProp.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
-#include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -21,6 +18,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <map>
+#include <memory>
 #include <set>
 
 #include <fmt/format.h>
@@ -30,6 +29,7 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/midsurface/joining.hpp"
 #include "geometry/midsurface/skin.hpp"
+#include "geometry/midsurface/solids.hpp"
 #include "geometry/midsurface/wall_pieces.hpp"
 #include "geometry/midsurface/walls.hpp"
 
@@ -118,8 +118,9 @@ Error not_thin(const std::string& name, const MidSurfaceOptions& options) {
                              name, options.thickest));
 }
 
+/// \param told is told the fraction that is done.
 SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const MidSurfaceOptions& options,
-                            const ExecutionContext& context) {
+                            const ExecutionContext& context, const std::function<void(double)>& told) {
   SolidMiddle result;
   result.volume = volume_of(skin.solid());
   const std::vector<int> surfaces = surface_numbers(skin);
@@ -130,10 +131,10 @@ SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const Mid
   fences.insert(fences.end(), ends.begin(), ends.end());
   std::vector<std::vector<TopoDS_Face>> pieces(result.walls.size());
   for (std::size_t wall = 0; wall < pieces.size(); ++wall) {
-    context.check();
+    told(0.5 + 0.4 * static_cast<double>(wall) / static_cast<double>(pieces.size()));
     pieces[wall] = wall_pieces(skin, result.walls, static_cast<int>(wall), fences);
   }
-  context.check();
+  told(0.9);
   result.faces = join_walls(skin, result.walls, ends, pieces);
   if (thick_share(result, ends, options.thickest) > 0.5) throw not_thin(name, options);
   return result;
@@ -208,7 +209,13 @@ bool in_other_wall(const Skin& skin, const SolidMiddle& middle, int own, const g
   return false;
 }
 
-/// Checks the free edges against the skin, and names the faces that no wall accounts for.
+void sort_unique(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+/// Checks the free edges against the skin, tells where they lie, and names the faces that no wall accounts
+/// for.
 void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_IndexedMapOfShape& edge_numbers,
                 MidSurface& result) {
   double thinnest = skin.size();
@@ -232,13 +239,21 @@ void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_Inde
     const BRepAdaptor_Curve curve(edge);
     const double length = curve.LastParameter() - curve.FirstParameter();
     bool stray = false;
+    std::map<int, int> rims;  // how many of the points lie on a face
     for (const double share : {0.5, 0.2, 0.8}) {
       const gp_Pnt point = curve.Value(curve.FirstParameter() + share * length);
       const auto on = skin_at(skin, point, tolerance);
       accounted.insert(on.begin(), on.end());
+      for (const int face : on) ++rims[face];
       stray = stray || (on.empty() && !in_other_wall(skin, middle, walls.Find(around(i).First()), point));
     }
     if (stray) result.stray_edges.push_back(edge_numbers.FindIndex(edge));
+    MiddleRim rim{edge_numbers.FindIndex(edge), {}};
+    for (const auto& [face, points] : rims) {
+      if (points == 3) rim.solid_faces.push_back(skin.faces()[face].number());
+    }
+    sort_unique(rim.solid_faces);
+    if (!rim.solid_faces.empty()) result.rims.push_back(rim);
   }
   for (std::size_t i = 0; i < skin.faces().size(); ++i) {
     if (accounted.count(static_cast<int>(i)) == 0) result.unpaired.push_back(skin.faces()[i].number());
@@ -305,45 +320,74 @@ void describe_faces(const std::vector<SolidMiddle>& middles, const std::deque<Sk
       for (const int index : coverage.faces) {
         face.solid_faces.push_back(skins[solid].faces()[index].number());
       }
-      std::sort(face.solid_faces.begin(), face.solid_faces.end());
+      sort_unique(face.solid_faces);  // joining cuts faces
       if (!face.step) result.shell_volume += face.area * face.thickness;
     }
     result.volume += middle.volume;
     check_rims(skins[solid], middle, edge_numbers, result);
   }
+  std::sort(result.rims.begin(), result.rims.end(),
+            [](const MiddleRim& a, const MiddleRim& b) { return a.edge < b.edge; });
+  sort_unique(result.unpaired);
 }
 
-/// The solids of the shape, with the material inside and triangles to sample from.
-std::deque<Skin> skins_of(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape numbers, solids;
-  TopExp::MapShapes(shape, TopAbs_FACE, numbers);
-  TopExp::MapShapes(shape, TopAbs_SOLID, solids);
-  std::deque<Skin> result;
-  for (int i = 1; i <= solids.Extent(); ++i) {
-    TopoDS_Solid solid = TopoDS::Solid(solids(i));
-    BRepClass3d_SolidClassifier classifier(solid);
-    classifier.PerformInfinitePoint(Precision::Confusion());
-    if (classifier.State() == TopAbs_IN) solid.Reverse();
-    Bnd_Box box;
-    BRepBndLib::Add(solid, box, Standard_False);
-    triangulate(solid, 1e-3 * std::sqrt(box.SquareExtent()));
-    result.emplace_back(solid, numbers);
+/// What thicknesses are asked of, long after the surface was made.
+struct ThicknessSource {
+  struct Face {
+    const Skin* skin = nullptr;
+    Wall wall;
+    double thinnest = 0, thickest = 0, mean = 0;
+    bool varies = false;
+  };
+  std::shared_ptr<const std::deque<Skin>> skins;
+  std::vector<Face> faces;  ///< by face number minus 1
+
+  double at(int face, const Vector3& point) const {
+    const Face& own = faces.at(face - 1);
+    if (!own.varies) return own.mean;
+    const double t = thickness_round(own.wall, *own.skin, gp_Pnt(point.x(), point.y(), point.z()));
+    return std::clamp(t, own.thinnest, own.thickest);
   }
-  return result;
+};
+
+std::shared_ptr<const ThicknessSource> thickness_source(const std::vector<SolidMiddle>& middles,
+                                                        std::shared_ptr<const std::deque<Skin>> skins,
+                                                        const MidSurface& result) {
+  TopTools_IndexedMapOfShape numbers;
+  TopExp::MapShapes(result.model.shape().shape, TopAbs_FACE, numbers);
+  auto source = std::make_shared<ThicknessSource>();
+  source->skins = std::move(skins);
+  source->faces.resize(result.faces.size());
+  for (std::size_t solid = 0; solid < middles.size(); ++solid) {
+    for (const JoinedFace& joined : middles[solid].faces) {
+      const int index = numbers.FindIndex(joined.face) - 1;
+      const MiddleFace& face = result.faces[index];
+      source->faces[index] = {&(*source->skins)[solid],
+                              middles[solid].walls[joined.wall],
+                              face.thinnest,
+                              face.thickest,
+                              face.thickness,
+                              varies(face)};
+    }
+  }
+  return source;
 }
 
 MidSurface make(const CadModel& model, const MidSurfaceOptions& options, ExecutionContext& context) {
   const std::string& name = model.shape().name;
   const TopoDS_Shape shape = BRepBuilderAPI_Copy(model.shape().shape).Shape();
-  const std::deque<Skin> skins = skins_of(shape);
+  const auto kept_skins = std::make_shared<const std::deque<Skin>>(skins_of(shape, options.join));
+  const std::deque<Skin>& skins = *kept_skins;
   if (skins.empty())
     throw failure(name, fmt::format("{} holds no solid, which a middle surface needs", name));
   std::vector<SolidMiddle> middles;
   std::vector<JoinedFace> all;
   for (const Skin& skin : skins) {
-    context.report(Stage::midsurface,
-                   static_cast<double>(middles.size()) / static_cast<double>(skins.size()));
-    middles.push_back(middle_of_solid(skin, name, options, context));
+    const auto told = [&, done = static_cast<double>(middles.size())](double fraction) {
+      context.report(Stage::midsurface, (done + fraction) / static_cast<double>(skins.size()));
+    };
+    told(0);
+    middles.push_back(middle_of_solid(skin, name, options, context, told));
     all.insert(all.end(), middles.back().faces.begin(), middles.back().faces.end());
   }
   if (all.empty()) throw not_thin(name, options);
@@ -352,6 +396,8 @@ MidSurface make(const CadModel& model, const MidSurfaceOptions& options, Executi
   const std::vector<int> part = connected_parts(all);
   result.parts = 1 + *std::max_element(part.begin(), part.end());
   describe_faces(middles, skins, result);
+  const auto thickness = thickness_source(middles, kept_skins, result);
+  result.thickness_at = [thickness](int face, const Vector3& point) { return thickness->at(face, point); };
   result.problems = find_problems(result, name);
   if (!options.partial && !result.problems.empty())
     throw failure(name, result.problems.front() + "; `partial` gives what could be paired");

@@ -167,11 +167,11 @@ std::optional<RayFace::Hit> RayFace::polished(const gp_Lin& line, gp_Pnt2d uv, d
   return std::nullopt;
 }
 
-Skin::Skin(const TopoDS_Solid& solid, const TopTools_IndexedMapOfShape& numbers) : solid_(solid) {
+Skin::Skin(const TopoDS_Solid& solid, const TopTools_DataMapOfShapeInteger& numbers) : solid_(solid) {
   TopExp::MapShapes(solid, TopAbs_FACE, map_);
   faces_.reserve(map_.Extent());
   for (int i = 1; i <= map_.Extent(); ++i) {
-    faces_.emplace_back(TopoDS::Face(map_(i)), numbers.FindIndex(map_(i)));
+    faces_.emplace_back(TopoDS::Face(map_(i)), numbers.Find(map_(i)));
   }
   Bnd_Box box;
   for (const SkinFace& face : faces_) box.Add(face.box());

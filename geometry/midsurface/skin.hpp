@@ -6,6 +6,7 @@
 #include <BRepTopAdaptor_FClass2d.hxx>
 #include <Bnd_Box.hxx>
 #include <ShapeAnalysis_Surface.hxx>
+#include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Solid.hxx>
@@ -99,8 +100,8 @@ class Skin {
     double distance = 0;
   };
 
-  /// \param solid with triangulated faces, material inside. \param numbers face numbers in the model.
-  Skin(const TopoDS_Solid& solid, const TopTools_IndexedMapOfShape& numbers);
+  /// \param solid with triangulated faces, material inside. \param numbers of its faces in the model, from 1.
+  Skin(const TopoDS_Solid& solid, const TopTools_DataMapOfShapeInteger& numbers);
   Skin(const Skin&) = delete;
   Skin& operator=(const Skin&) = delete;
 

@@ -102,13 +102,8 @@ TopoDS_Compound near_faces(const Skin& skin, const Wall& wall, const TopoDS_Face
 void widen_to_corners(const TopoDS_Face& face, const Wall& wall, const Skin& skin, Coverage& coverage) {
   for (TopExp_Explorer it(face, TopAbs_VERTEX); it.More(); it.Next()) {
     const gp_Pnt corner = BRep_Tool::Pnt(TopoDS::Vertex(it.Current()));
-    const auto position = position_in(wall, skin, corner);
-    if (wall.fitted && !position) continue;
-    double t = position ? position->thickness() : 0;
-    for (int side = 0; side < 2 && !position; ++side) {
-      const SkinFace& skin_face = skin.faces()[wall.sides[side].front()];
-      t += skin_face.point(skin_face.closest(corner)).Distance(corner);
-    }
+    if (wall.fitted && !position_in(wall, skin, corner)) continue;
+    const double t = thickness_round(wall, skin, corner);
     coverage.thinnest = std::min(coverage.thinnest, t);
     coverage.thickest = std::max(coverage.thickest, t);
   }

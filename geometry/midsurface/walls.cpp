@@ -246,6 +246,21 @@ std::optional<WallPosition> position_in(const Wall& wall, const Skin& skin, cons
   return result;
 }
 
+double thickness_round(const Wall& wall, const Skin& skin, const gp_Pnt& point) {
+  if (const auto position = position_in(wall, skin, point)) return position->thickness();
+  double result = 0;
+  for (const auto& side : wall.sides) {
+    double nearest = -1;
+    for (const int index : side) {
+      const SkinFace& face = skin.faces()[index];
+      const double distance = face.point(face.closest(point)).Distance(point);
+      if (nearest < 0 || distance < nearest) nearest = distance;
+    }
+    result += nearest;
+  }
+  return result;
+}
+
 std::vector<int> both_sides(const Wall& wall) {
   std::vector<int> faces = wall.sides[0];
   faces.insert(faces.end(), wall.sides[1].begin(), wall.sides[1].end());

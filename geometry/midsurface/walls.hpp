@@ -45,6 +45,9 @@ std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
 /// and the point between them.
 std::optional<WallPosition> position_in(const Wall& wall, const Skin& skin, const gp_Pnt& point);
 
+/// How far apart the surfaces of the sides are round the point, beyond the faces' ends too.
+double thickness_round(const Wall& wall, const Skin& skin, const gp_Pnt& point);
+
 /// All faces of a wall.
 std::vector<int> both_sides(const Wall& wall);
 

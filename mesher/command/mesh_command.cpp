@@ -27,7 +27,7 @@ struct MeshArguments : GivenSettings {
   std::vector<std::filesystem::path> outputs;
   std::filesystem::path write_size_field, report, picture;
   LimitsOption limits;
-  bool thin = false, quiet = false, end_with_input = false;
+  bool thin = false, join = false, quiet = false, end_with_input = false;
 };
 
 /// The mesh's order: what is asked for, or second where a solver reads one of the files.
@@ -72,6 +72,7 @@ std::optional<MidSurface> middle_of(const CadModel& model, const MeshArguments& 
   if (!arguments.thin) return std::nullopt;
   MidSurfaceOptions options;
   options.partial = arguments.settings.mesh.partial;
+  options.join = arguments.join;
   return midsurface(model, options, context);
 }
 
@@ -167,8 +168,10 @@ void run(const MeshArguments& arguments) {
   ExecutionContext context(settings.threads, [&](std::string_view stage, double fraction) {
     return display.show(stage, fraction);
   });
-  context.expect(
-      {Stage::read, Stage::size, Stage::sample, Stage::mesh, Stage::slide, Stage::assemble, Stage::write});
+  std::vector<Stage> stages{Stage::read,  Stage::size,     Stage::sample, Stage::mesh,
+                            Stage::slide, Stage::assemble, Stage::write};
+  if (arguments.thin) stages.insert(stages.begin() + 1, Stage::midsurface);
+  context.expect(stages);
   report_crashes(arguments.input, "reading");
   // With `partial` what is done when the time is over is still put together and written.
   const bool partial = settings.mesh.partial && settings.time_limit > 0;
@@ -220,6 +223,9 @@ void add_mesh_command(CLI::App& app) {
   command->add_option("--picture", arguments->picture, "draw the mesh into a .png");
   command->add_flag("--thin", arguments->thin,
                     "mesh the middle surface of thin solids, with a group for each thickness");
+  command
+      ->add_flag("--join", arguments->join, "with --thin: take solids that touch for one part, as if welded")
+      ->needs("--thin");
   command->add_flag("--end-with-input", arguments->end_with_input,
                     "end the work when standard input closes, for programs that start this one");
   command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");

@@ -21,17 +21,18 @@ std::string describe(const MidSurface& middle) {
   for (std::size_t i = 0; i < middle.faces.size(); ++i) {
     const MiddleFace& face = middle.faces[i];
     std::string thickness = fmt::format("{:.6g}", face.thickness);
-    if (face.thickest > face.thinnest * 1.001)
-      thickness = fmt::format("{:.4g}..{:.4g}", face.thinnest, face.thickest);
+    if (varies(face)) thickness = fmt::format("{:.4g}..{:.4g}", face.thinnest, face.thickest);
     text += fmt::format("Face{:<4} {:>12.6g} {:>12} ", i + 1, face.area, thickness);
     if (face.step) text += " a step between";
     for (const int number : face.solid_faces) text += fmt::format(" Face{}", number);
     if (face.fitted) text += fmt::format(", fitted within {:.2g}", face.off);
     text += "\n";
   }
-  text += fmt::format("area x thickness {:.6g} mm3, {:.2f} % of the volume; {} part(s), {} free edges\n",
-                      middle.shell_volume, 100 * middle.shell_volume / middle.volume, middle.parts,
-                      middle.free_edges);
+  text += fmt::format(
+      "area x thickness {:.6g} mm3, {:.2f} % of the volume; {} part(s) of {} solid(s), "
+      "{} free edges\n",
+      middle.shell_volume, 100 * middle.shell_volume / middle.volume, middle.parts, middle.solids,
+      middle.free_edges);
   if (!middle.unpaired.empty()) {
     text += "neither side nor rim of a wall:";
     for (const int number : middle.unpaired) text += fmt::format(" Face{}", number);
@@ -82,6 +83,7 @@ void add_midsurface_command(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_flag("--partial", arguments->options.partial,
                     "write what could be paired where the solid is thin in places only");
+  command->add_flag("--join", arguments->options.join, "take solids that touch for one part, as if welded");
   command->add_flag("--quiet", arguments->quiet, "no progress, no table");
   command->callback([arguments] { run(*arguments); });
 }

@@ -68,7 +68,11 @@ nlohmann::json describe(const MidSurface& middle) {
                      {"fitted", face.fitted},
                      {"off", face.off}});
   }
+  nlohmann::json rims = nlohmann::json::array();
+  for (const MiddleRim& rim : middle.rims)
+    rims.push_back({{"name", fmt::format("Edge{}", rim.edge)}, {"solid_faces", rim.solid_faces}});
   return {{"faces", faces},
+          {"rims", rims},
           {"volume", middle.volume},
           {"area_times_thickness", middle.shell_volume},
           {"solids", middle.solids},

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <BRepTools.hxx>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "geometry/cad/cad_model.hpp"
 #include "mesher/io/io.hpp"
@@ -18,13 +21,16 @@ namespace {
 
 using test::TemporaryFolder;
 
-/// A folder with thin.brep (a sheet of 3 and 2 mm), block.brep and both.brep (a plate on a block).
+/// A folder with thin.brep (a sheet of 3 and 2 mm), taper.brep (one of 4 to 2 mm), frame.brep (three profiles
+/// that touch), block.brep and both.brep (a plate on a block).
 class MidsurfaceCommand : public testing::Test {
  protected:
   void SetUp() override {
     for (const ThinModel& model : thin_models()) {
       if (model.name == "stepped_sheet") write(model.make(), "thin.brep");
+      if (model.name == "tapering_web") write(model.make(), "taper.brep");
     }
+    write(welded_frame(), "frame.brep");
     write(thick_block(), "block.brep");
     write(plate_on_block(), "both.brep");
   }
@@ -100,6 +106,16 @@ TEST_F(MidsurfaceCommand, MeshesThinSolidsWithASectionForEachThickness) {
   EXPECT_PRED2(contains, text("m.med"), "Thickness2");
   EXPECT_EQ(quadrille_says("mesh block.brep --thin -o b.inp").exit_code, 1);
   EXPECT_FALSE(exists("b.inp"));
+}
+
+TEST_F(MidsurfaceCommand, JoinsSolidsThatTouch) {
+  ASSERT_EQ(quadrille_says("midsurface frame.brep -o apart.json --quiet").exit_code, 0);
+  ASSERT_EQ(quadrille_says("midsurface frame.brep --join -o joined.json --quiet").exit_code, 0);
+  EXPECT_EQ(nlohmann::json::parse(text("apart.json"))["parts"], 3);
+  EXPECT_EQ(nlohmann::json::parse(text("joined.json"))["parts"], 1);
+  const auto told = quadrille_says("mesh frame.brep --thin --join --size 10 -o m.inp");
+  EXPECT_EQ(told.exit_code, 0) << told.out;
+  EXPECT_EQ(quadrille_says("mesh frame.brep --join --size 10 -o m.inp").exit_code, 2);
 }
 
 }  // namespace

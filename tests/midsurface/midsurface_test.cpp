@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <map>
 #include <numeric>
 #include <set>
 #include <sstream>
@@ -34,10 +35,11 @@ CadModel model_of(const TopoDS_Shape& shape, const std::string& name = "part") {
   return CadModel(std::make_shared<CadShape>(shape, name));
 }
 
-MidSurface middle_of(const TopoDS_Shape& shape, bool partial = false) {
+MidSurface middle_of(const TopoDS_Shape& shape, bool partial = false, bool join = false) {
   ExecutionContext context;
   MidSurfaceOptions options;
   options.partial = partial;
+  options.join = join;
   return midsurface(model_of(shape), options, context);
 }
 
@@ -177,6 +179,70 @@ TEST(MidSurface, TellsTheRangeOfAThicknessThatVaries) {
     EXPECT_NEAR(middle.faces[0].thinnest, 2, 1e-2);
     EXPECT_NEAR(middle.faces[0].thickest, 4, 1e-2);
   }
+}
+
+/// The thin model of that name.
+TopoDS_Shape thin_model(const std::string& name) {
+  for (const ThinModel& model : thin_models()) {
+    if (model.name == name) return model.make();
+  }
+  throw std::invalid_argument(name);
+}
+
+TEST(MidSurface, JoinsSolidsThatTouchWhereThatIsWanted) {
+  const TopoDS_Shape frame = welded_frame();
+  const MidSurface apart = middle_of(frame);
+  EXPECT_EQ(apart.solids, 3);
+  EXPECT_EQ(apart.parts, 3);
+  const MidSurface joined = middle_of(frame, false, true);
+  EXPECT_TRUE(joined.problems.empty());
+  EXPECT_EQ(joined.solids, 1);
+  EXPECT_EQ(joined.parts, 1);
+  // The beam ends at the middle of the columns' walls.
+  EXPECT_NEAR(area_of(joined), 2 * 4 * 37 * 200 + 4 * 28 * 163, 1e-3);
+  EXPECT_NEAR(joined.shell_volume / joined.volume, 1, 0.02);
+  const int solid_faces = model_of(frame).face_count();
+  for (const MiddleFace& face : joined.faces) {
+    EXPECT_NEAR(face.thickness, face.thickness > 2.5 ? 3 : 2, 1e-9);
+    EXPECT_GE(face.solid_faces.size(), 2U);
+    EXPECT_GE(face.solid_faces.front(), 1);
+    EXPECT_LE(face.solid_faces.back(), solid_faces);
+  }
+  MeshOptions options;
+  options.sizing.size = 10;
+  ExecutionContext context;
+  const ShellMesh result = mesh(joined, options, context);
+  EXPECT_TRUE(validate(result).empty());
+}
+
+TEST(MidSurface, TellsHowFarItIs) {
+  std::vector<double> told;
+  ExecutionContext context(1, [&](std::string_view stage, double fraction) {
+    EXPECT_EQ(stage, "midsurface");
+    told.push_back(fraction);
+    return true;
+  });
+  context.expect({Stage::midsurface});
+  midsurface(model_of(welded_frame()), {}, context);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_GT(std::set<double>(told.begin(), told.end()).size(), 9U);  // some in each of three solids
+  EXPECT_GT(told.back(), 0.9);
+}
+
+TEST(MidSurface, TellsWhichFacesOfTheSolidFreeEdgesLieOn) {
+  const TopoDS_Shape solid = thin_model("i_beam");
+  const MidSurface middle = middle_of(solid);
+  // Five edges at each end of the beam, and the four long ones of the flanges.
+  EXPECT_EQ(static_cast<int>(middle.rims.size()), middle.free_edges);
+  std::map<int, int> edges_on;
+  for (const MiddleRim& rim : middle.rims) {
+    ASSERT_EQ(rim.solid_faces.size(), 1U);
+    ++edges_on[rim.solid_faces[0]];
+  }
+  std::vector<int> counts;
+  for (const auto& [face, count] : edges_on) counts.push_back(count);
+  std::sort(counts.begin(), counts.end());
+  EXPECT_EQ(counts, (std::vector<int>{1, 1, 1, 1, 5, 5}));
 }
 
 TEST(MidSurface, TellsWhatIsFittedAndHowFarItIsOff) {

@@ -12,6 +12,7 @@
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRep_Builder.hxx>
 #include <GC_MakeArcOfCircle.hxx>
 #include <GeomAPI_Interpolate.hxx>
 #include <Geom_BSplineCurve.hxx>
@@ -20,6 +21,7 @@
 #include <TColgp_HArray1OfPnt.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Wire.hxx>
 #include <cmath>
 #include <gp_Ax2.hxx>
@@ -289,11 +291,24 @@ TopoDS_Shape profile(const std::vector<Outline>& outlines, double length) {
 }
 
 std::vector<CantileverModel> cantilevers() {
+  const Outline hat{{0, 0},  {20, 0, R},     {20, 30 - t, r}, {60, 30 - t, r}, {60, 0, R},     {80, 0},
+                    {80, t}, {60 + t, t, r}, {60 + t, 30, R}, {20 - t, 30, R}, {20 - t, t, r}, {0, t}};
+  const Outline zed{{0, 0},   {30, 0, R},      {30, 40 - t, r}, {60, 40 - t},
+                    {60, 40}, {30 - t, 40, R}, {30 - t, t, r},  {0, t}};
   return {{"i_beam_with_fillets", {i_outline(60, 100, 4, 6, 5)}, 600},
+          {"h_beam", {i_outline(100, 100, 5, 7, 0)}, 600},
+          {"t_beam_with_fillets",
+           {{{0, 0}, {60, 0}, {60, 4}, {32, 4, 4}, {32, 60}, {28, 60}, {28, 4, 4}, {0, 4}}},
+           500},
+          {"box_beam_with_fillets", {rectangle(0, 0, 60, 80), rectangle(3, 4, 54, 72, 4)}, 600},
           {"square_tube", {rectangle(0, 0, 50, 50, 6), rectangle(3, 3, 44, 44, 3)}, 500},
+          {"round_tube", {rectangle(0, 0, 50, 50, 25), rectangle(3, 3, 44, 44, 22)}, 500},
           {"channel_with_bends",
            {{{0, 0, 5}, {60, 0, 5}, {60, 40}, {58, 40}, {58, 2, 3}, {2, 2, 3}, {2, 40}, {0, 40}}},
-           500}};
+           500},
+          {"l_section", {{{0, 0, R}, {40, 0}, {40, t}, {t, t, r}, {t, 60}, {0, 60}}}, 500},
+          {"z_section", {zed}, 500},
+          {"hat_section", {hat}, 500}};
 }
 
 TopoDS_Shape ribbed_plate(int ribs) {
@@ -308,6 +323,16 @@ TopoDS_Shape ribbed_plate(int ribs) {
 
 TopoDS_Shape thick_block() {
   return box(0, 0, 0, 30, 20, 10);
+}
+
+TopoDS_Shape welded_frame() {
+  TopoDS_Compound result;
+  const BRep_Builder builder;
+  builder.MakeCompound(result);
+  for (const double x : {-20.0, 180.0})
+    builder.Add(result, cut(box(x, 0, 0, 40, 40, 200), {box(x + 3, 3, -1, 34, 34, 202)}));
+  builder.Add(result, cut(box(20, 5, 130, 160, 30, 30), {box(19, 7, 132, 162, 26, 26)}));
+  return result;
 }
 
 TopoDS_Shape plate_on_block() {

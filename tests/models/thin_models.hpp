@@ -25,7 +25,7 @@ struct ThinModel {
 /// Each can be turned into its middle surface.
 const std::vector<ThinModel>& thin_models();
 
-/// A section for a cantilever of `length` along z, symmetric about a plane x = const.
+/// A section for a cantilever of `length` along z.
 struct CantileverModel {
   std::string name;
   std::vector<std::vector<Corner2d>> outlines;
@@ -38,6 +38,10 @@ TopoDS_Shape thick_block();
 
 /// A plate that stands on a block: thin in places only.
 TopoDS_Shape plate_on_block();
+
+/// Three box profiles that touch, a solid each: two columns of 40 x 40 x 3, 200 mm high, and between them,
+/// 160 mm long, a beam of 30 x 30 x 2.
+TopoDS_Shape welded_frame();
 
 /// A plate with many ribs: 200 faces and more.
 TopoDS_Shape ribbed_plate(int ribs_each_way);

@@ -2,6 +2,7 @@
 
 import gc
 import os
+import pickle
 import random
 import re
 import sys
@@ -48,8 +49,16 @@ class PackageTest(unittest.TestCase):
         middle = quadrille.midsurface(quadrille.read(MODELS / "bracket.step"), partial=True)
         self.assertTrue(middle.problems or abs(middle.shell_volume / middle.volume - 1) < 0.05)
         self.assertTrue(all(face["thickness"] > 0 and len(face["solid_faces"]) >= 2 for face in middle.faces))
+        self.assertTrue(0 < len(middle.rims) <= middle.free_edges)
+        self.assertTrue(all(edge > 0 and faces for edge, faces in middle.rims))
         mesh = quadrille.mesh(middle.model, size=4)
         self.assertEqual(set(mesh.face_ids), set(range(1, len(middle.faces) + 1)))
+        thick = quadrille.mesh(middle, size=4)  # the same, and it knows how thick
+        np.testing.assert_array_equal(thick.points, mesh.points)
+        with tempfile.TemporaryDirectory() as folder:
+            for made, sections in ((mesh, False), (pickle.loads(pickle.dumps(thick)), True)):
+                made.write(Path(folder) / "thin.inp")
+                self.assertEqual("*SHELL SECTION" in (Path(folder) / "thin.inp").read_text(), sections)
 
     def test_arrays(self):
         mesh = self.mesh

@@ -67,6 +67,7 @@ class Mesh:
 class MidSurface:
     model: Model
     faces: List[Dict[str, Any]]
+    rims: List[Tuple[int, List[int]]]
     volume: float
     shell_volume: float
     parts: int
@@ -88,7 +89,7 @@ def read_brep(
 ) -> Model: ...
 def read_mesh(path: _Path) -> Mesh: ...
 def mesh(
-    model: Model,
+    model: Union[Model, MidSurface],
     *,
     progress: Optional[_Progress] = None,
     size: Optional[float] = None,
@@ -120,7 +121,7 @@ def mesh(
     time_limit: Optional[float] = None,
     threads: Optional[int] = None,
 ) -> Mesh: ...
-def midsurface(model: Model, *, partial: bool = False) -> MidSurface: ...
+def midsurface(model: Model, *, partial: bool = False, join: bool = False) -> MidSurface: ...
 def recombine(
     points: ArrayLike, triangles: ArrayLike, *, tags: Optional[ArrayLike] = None, improve: bool = True, threads: int = 0
 ) -> Mesh: ...
