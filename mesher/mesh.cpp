@@ -445,9 +445,34 @@ SettledBoundary settle_boundary(const CadModel& model, const MeshOptions& option
   return {std::move(field), std::move(nodes)};
 }
 
+namespace {
+
+std::vector<int> nodes_of_face(const ShellMesh& mesh, int face) {
+  std::vector<int> nodes;
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
+    if (mesh.quad_faces[i] != face) continue;
+    nodes.insert(nodes.end(), mesh.quads[i].begin(), mesh.quads[i].end());
+    if (mesh.order == 2) nodes.insert(nodes.end(), mesh.midsides[i].begin(), mesh.midsides[i].end());
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+}  // namespace
+
 ShellMesh mesh(const MidSurface& middle, const MeshOptions& options, ExecutionContext& context) {
   ShellMesh result = mesh(middle.model, options, context);
-  for (const MiddleFace& face : middle.faces) result.thicknesses.push_back(face.thickness);
+  for (const MiddleFace& face : middle.faces) {
+    result.thicknesses.push_back(face.thickness);
+    if (!varies(face) || !middle.thickness_at) continue;
+    const int number = static_cast<int>(result.thicknesses.size());
+    ShellMesh::VaryingThickness varying{
+        number, face.thinnest, face.thickest, nodes_of_face(result, number), {}};
+    for (const int node : varying.nodes)
+      varying.thicknesses.push_back(middle.thickness_at(number, result.points[node]));
+    if (!varying.nodes.empty()) result.varying_thicknesses.push_back(std::move(varying));
+  }
   return result;
 }
 

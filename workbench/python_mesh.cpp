@@ -163,6 +163,10 @@ py::list groups_of(const py::object& self) {
 
 /// What pickle keeps: the arguments of the constructor, and what became of the faces.
 py::tuple state_of(const py::object& self) {
+  py::list varying;
+  for (const ShellMesh::VaryingThickness& entry : mesh_of(self).mesh.varying_thicknesses)
+    varying.append(
+        py::make_tuple(entry.face, entry.thinnest, entry.thickest, entry.nodes, entry.thicknesses));
   py::list faces;
   for (const ShellMesh::Face& face : mesh_of(self).mesh.faces)
     faces.append(py::make_tuple(face.face, static_cast<int>(face.status), face.note, face.work, face.share,
@@ -170,7 +174,8 @@ py::tuple state_of(const py::object& self) {
                                 face.off_geometry_max));
   return py::make_tuple(self.attr("points"), self.attr("quads"), self.attr("triangles"),
                         self.attr("face_ids"), self.attr("triangle_face_ids"), self.attr("segments"),
-                        self.attr("corners"), faces, mesh_of(self).mesh.thicknesses, groups_of(self));
+                        self.attr("corners"), faces, mesh_of(self).mesh.thicknesses, groups_of(self),
+                        varying);
 }
 
 PythonMesh from_state(const py::tuple& state) {
@@ -188,6 +193,12 @@ PythonMesh from_state(const py::tuple& state) {
     auto [name, dimension, number, entities] =
         entry.cast<std::tuple<std::string, int, int, std::vector<int>>>();
     result.mesh.groups.push_back({std::move(name), dimension, number, std::move(entities)});
+  }
+  for (const py::handle entry : state[10]) {
+    auto [face, thinnest, thickest, nodes, thicknesses] =
+        entry.cast<std::tuple<int, double, double, std::vector<int>, std::vector<double>>>();
+    result.mesh.varying_thicknesses.push_back(
+        {face, thinnest, thickest, std::move(nodes), std::move(thicknesses)});
   }
   return result;
 }

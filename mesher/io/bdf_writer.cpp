@@ -14,13 +14,12 @@ namespace quadrille {
 
 namespace {
 
-/// The number in at most 16 columns, the widest field of the format, with as many digits as fit.
-std::string_view field16(double value, char (&text)[40]) {
-  constexpr int columns = 16;
+/// The number in at most so many columns, with as many digits as fit.
+std::string_view field_of(double value, int columns, char (&text)[40]) {
   char* end = std::to_chars(text, text + sizeof text, value).ptr;
   // A real number must have a point, which to_chars leaves out where it can.
   const auto lacks_point = [&] { return std::find(text, end, '.') == end; };
-  for (int digits = columns - 1; end - text > columns - (lacks_point() ? 1 : 0); --digits)
+  for (int digits = columns - 1; digits > 0 && end - text > columns - (lacks_point() ? 1 : 0); --digits)
     end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
   if (lacks_point()) {
     char* place = std::find(text, end, 'e');
@@ -38,9 +37,9 @@ void write_field(std::string_view text, std::size_t columns, TextWriter& out) {
   for (std::size_t i = text.size(); i < columns; ++i) out << ' ';
   out << text;
 }
-void write_real(double value, TextWriter& out) {
+void write_real(double value, TextWriter& out, std::size_t columns = wide) {
   char text[40];
-  write_field(field16(value, text), wide, out);
+  write_field(field_of(value, static_cast<int>(columns), text), columns, out);
 }
 
 /// "SET 3 = 1 THRU 7, 9": consecutive numbers are joined, lines stay under 72 columns.
@@ -77,6 +76,12 @@ void write_sets(const OutputMesh& mesh, TextWriter& out) {
   for (const int dimension : {1, 0})
     for (const NamedGroup& group : mesh.groups(dimension))
       write_set(++set, group.name, "grids", mesh.node_numbers(dimension, group), out);
+  for (const ThicknessGroup& group : mesh.thicknesses()) {
+    std::vector<int> numbers = group.members;
+    for (int& number : numbers) ++number;
+    std::sort(numbers.begin(), numbers.end());
+    write_set(++set, group.name, "elements", numbers, out);
+  }
 }
 
 const char* card(const ElementNodes& element) {
@@ -89,23 +94,15 @@ int property(const OutputMesh& mesh, int face) {
   return face > 0 ? face : mesh.cad_face_count() + 1;
 }
 
-/// A property for each face, of material 1 and of the shell's thickness where that is known: whoever includes
-/// the file defines the material, and the other thicknesses.
+/// A property for each face, of material 1 and of the shell's mean thickness where that is known: whoever
+/// includes the file defines the material, and the other thicknesses.
 void write_properties(const OutputMesh& mesh, TextWriter& out) {
   for (const CadGroup& group : mesh.faces()) {
     out << "PSHELL  ";
     out.padded(property(mesh, group.number), narrow);
-    const ThicknessGroup* thickness = nullptr;
-    for (const ThicknessGroup& candidate : mesh.thicknesses()) {
-      if (std::binary_search(candidate.faces.begin(), candidate.faces.end(), group.number))
-        thickness = &candidate;
-    }
-    if (thickness != nullptr) {
+    if (const double thickness = mesh.face_thickness(group.number); thickness > 0) {
       out.padded(1, narrow);
-      const std::string& text = thickness->thickness;
-      const std::size_t exponent = std::min(text.find('e'), text.size());
-      const bool lacks_point = text.find('.') == std::string::npos;
-      write_field(text.substr(0, exponent) + (lacks_point ? "." : "") + text.substr(exponent), narrow, out);
+      write_real(thickness, out, narrow);
     }
     out << '\n';
   }
@@ -119,6 +116,13 @@ void write_element(const OutputMesh& mesh, int shell, TextWriter& out) {
   for (int k = 0; k < element.count; ++k) {
     if (k == 6) out << "\n+       ";
     out.padded(mesh.number(element.nodes[k]), narrow);
+  }
+  const std::array<double, 4> thicknesses = mesh.corner_thicknesses(shell);
+  const auto [thinnest, thickest] = std::minmax_element(thicknesses.begin(), thicknesses.end());
+  if (mesh.is_quad(shell) && *thinnest < *thickest) {
+    // On the second line, of CQUAD4 behind two blank fields.
+    if (element.count == 4) out << "\n+                       ";
+    for (const double thickness : thicknesses) write_real(thickness, out, narrow);
   }
   out << '\n';
 }

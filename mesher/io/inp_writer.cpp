@@ -6,6 +6,8 @@
 #include <set>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "mesher/io/segment_sides.hpp"
 #include "mesher/io/writers.hpp"
 
@@ -136,13 +138,18 @@ void write_node_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& 
     }
 }
 
-/// A set and a section for each thickness. Whoever includes the file defines the material before.
+/// A set and a section for each thickness; where it varies the nodes tell it. Whoever includes the file
+/// defines the material before.
 void write_sections(const OutputMesh& mesh, TextWriter& out) {
   for (const ThicknessGroup& group : mesh.thicknesses()) {
     out << "*ELSET, ELSET=" << group.name << '\n';
     for (const int face : group.faces) out << "Face" << face << '\n';
-    out << "*SHELL SECTION, ELSET=" << group.name << ", MATERIAL=Material\n" << group.thickness << '\n';
+    out << "*SHELL SECTION, ELSET=" << group.name << ", MATERIAL=Material"
+        << (group.varies ? ", NODAL THICKNESS\n" : "\n") << group.thickness << '\n';
   }
+  const auto nodes = mesh.node_thicknesses();
+  if (!nodes.empty()) out << "*NODAL THICKNESS\n";
+  for (const auto& [node, thickness] : nodes) out << node << ", " << fmt::format("{:.6g}\n", thickness);
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ void write_element_blocks(const OutputMesh& mesh, const std::vector<Entities>& a
 }  // namespace
 
 void write_msh4(const OutputMesh& mesh, TextWriter& out) {
-  const PhysicalNumbers physical(mesh);
+  const PhysicalNumbers physical(mesh, true);
   const EntityBoundaries boundaries = entity_boundaries(mesh);
   std::vector<Entities> all{make_entities(0, mesh.vertices(), {}),
                             make_entities(1, mesh.edges(), boundaries.edges),

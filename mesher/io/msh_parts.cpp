@@ -32,7 +32,7 @@ int msh_element_type(const ElementNodes& element, int dimension) {
   }
 }
 
-PhysicalNumbers::PhysicalNumbers(const OutputMesh& mesh) {
+PhysicalNumbers::PhysicalNumbers(const OutputMesh& mesh, bool thicknesses) {
   const int first[] = {mesh.cad_face_count() + largest_number(mesh.edges()), mesh.cad_face_count(), 0};
   int last = 0;
   for (int dimension = 0; dimension < 3; ++dimension)
@@ -45,6 +45,14 @@ PhysicalNumbers::PhysicalNumbers(const OutputMesh& mesh) {
       numbers_[dimension].push_back(number);
       for (const int entity : group.entities) of_entities_[dimension][entity].push_back(number);
     }
+  }
+  last = std::max(last, first[0] + largest_number(mesh.vertices()));
+  for (const ThicknessGroup& group : mesh.thicknesses()) {
+    if (!thicknesses) break;
+    of_thicknesses_.push_back(++last);
+    for (const int face : group.faces) of_entities_[2][face].push_back(last);
+  }
+  for (const int dimension : {2, 1, 0}) {
     for (auto& [entity, numbers] : of_entities_[dimension]) std::sort(numbers.begin(), numbers.end());
   }
 }
@@ -61,6 +69,8 @@ void write_physical_names(const OutputMesh& mesh, const PhysicalNumbers& physica
       for (std::size_t i = 0; i < groups.size(); ++i)
         if (groups[i].has_name) visit(dimension, physical.of_group(dimension, i), groups[i].name);
     }
+    for (std::size_t i = 0; i < physical.of_thicknesses().size(); ++i)
+      visit(2, physical.of_thicknesses()[i], mesh.thicknesses()[i].name);
   };
   std::size_t count = 0;
   each([&](int, int, const std::string&) { ++count; });

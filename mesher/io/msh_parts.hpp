@@ -14,18 +14,23 @@ int msh_element_type(const ElementNodes& element, int dimension);
 
 /// Numbers of physical groups: those that the mesh was read with. Else a face's is its CAD number; edges
 /// follow after the last face of the model, and vertices after the last edge: several programs take groups of
-/// one number for one group, whatever their dimensions.
+/// one number for one group, whatever their dimensions. Thicknesses come last.
 class PhysicalNumbers {
  public:
-  explicit PhysicalNumbers(const OutputMesh& mesh);
+  /// \param thicknesses whether they are groups too: in version 2.2 an element that is in two groups is
+  /// there twice, which few programs take.
+  PhysicalNumbers(const OutputMesh& mesh, bool thicknesses);
   /// \param group its place in OutputMesh::groups(dimension).
   int of_group(int dimension, std::size_t group) const { return numbers_[dimension][group]; }
+  /// Of each of OutputMesh::thicknesses(), where they are groups.
+  const std::vector<int>& of_thicknesses() const { return of_thicknesses_; }
   /// Of the groups that a CAD face (dimension 2), edge (1) or vertex (0) belongs to, ascending.
   std::span<const int> of_entity(int dimension, int cad) const;
 
  private:
   std::vector<int> numbers_[3];                               ///< by dimension and group
   std::unordered_map<int, std::vector<int>> of_entities_[3];  ///< by dimension and CAD number
+  std::vector<int> of_thicknesses_;
 };
 
 /// The section $PhysicalNames: Face3, Edge7, Vertex2. Nothing where there are no names.

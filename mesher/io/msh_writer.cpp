@@ -53,7 +53,7 @@ class ElementLines {
 }  // namespace
 
 void write_msh2(const OutputMesh& mesh, TextWriter& out) {
-  const PhysicalNumbers physical(mesh);
+  const PhysicalNumbers physical(mesh, false);
   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
   write_physical_names(mesh, physical, out);
   out << "$Nodes\n" << mesh.nodes().size() << '\n';

@@ -117,13 +117,59 @@ void OutputMesh::group_by_thickness() {
   for (const CadGroup& face : faces_) {
     if (face.number < 1 || face.number > static_cast<int>(mesh_.thicknesses.size())) continue;
     const std::string thickness = fmt::format("{:.6g}", mesh_.thicknesses[face.number - 1]);
+    const ShellMesh::VaryingThickness* varying = varying_on(face.number);
+    const std::string name =
+        varying != nullptr ? fmt::format("Thickness{:.4g}to{:.4g}", varying->thinnest, varying->thickest)
+                           : "Thickness" + thickness;
     auto group = std::find_if(thicknesses_.begin(), thicknesses_.end(),
-                              [&](const ThicknessGroup& other) { return other.thickness == thickness; });
+                              [&](const ThicknessGroup& other) { return other.name == name; });
     if (group == thicknesses_.end())
-      group = thicknesses_.insert(thicknesses_.end(), {"Thickness" + thickness, thickness, {}, {}});
+      group = thicknesses_.insert(thicknesses_.end(), {name, thickness, varying != nullptr, {}, {}});
     group->faces.push_back(face.number);
     group->members.insert(group->members.end(), face.members.begin(), face.members.end());
   }
+}
+
+const ShellMesh::VaryingThickness* OutputMesh::varying_on(int face) const {
+  const auto& varying = mesh_.varying_thicknesses;
+  const auto found = std::lower_bound(varying.begin(), varying.end(), face,
+                                      [](const auto& entry, int number) { return entry.face < number; });
+  return found != varying.end() && found->face == face ? &*found : nullptr;
+}
+
+double OutputMesh::face_thickness(int face) const {
+  const bool known = face >= 1 && face <= static_cast<int>(mesh_.thicknesses.size());
+  return known ? mesh_.thicknesses[face - 1] : 0;
+}
+
+std::array<double, 4> OutputMesh::corner_thicknesses(int shell) const {
+  std::array<double, 4> result{};
+  result.fill(face_thickness(face(shell)));
+  const ShellMesh::VaryingThickness* varying = varying_on(face(shell));
+  if (varying == nullptr || !is_quad(shell)) return result;
+  for (int k = 0; k < 4; ++k) {
+    const int node = mesh_.quads[shell][k];
+    const auto found = std::lower_bound(varying->nodes.begin(), varying->nodes.end(), node);
+    if (found != varying->nodes.end() && *found == node)
+      result[k] = varying->thicknesses[found - varying->nodes.begin()];
+  }
+  return result;
+}
+
+std::vector<std::pair<int, double>> OutputMesh::node_thicknesses() const {
+  std::vector<std::pair<int, double>> all, result;
+  for (const ShellMesh::VaryingThickness& varying : mesh_.varying_thicknesses) {
+    for (std::size_t i = 0; i < varying.nodes.size(); ++i)
+      all.emplace_back(number(varying.nodes[i]), varying.thicknesses[i]);
+  }
+  std::sort(all.begin(), all.end());
+  for (std::size_t first = 0, last = 0; first < all.size(); first = last) {
+    double sum = 0;
+    for (last = first; last < all.size() && all[last].first == all[first].first; ++last)
+      sum += all[last].second;
+    result.emplace_back(all[first].first, sum / static_cast<double>(last - first));
+  }
+  return result;
 }
 
 void OutputMesh::use(int node, const char* what, std::size_t index) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesher/mesh/mesh_types.hpp"
@@ -34,10 +35,12 @@ struct NamedGroup {
   std::vector<int> entities;  ///< CAD numbers, ascending
 };
 
-/// The faces that are shells of one thickness, to the six digits that the name tells.
+/// The faces that are shells of one thickness, or of one range of thicknesses, to the digits that the
+/// name tells.
 struct ThicknessGroup {
-  std::string name;          ///< "Thickness2.5"
-  std::string thickness;     ///< "2.5"
+  std::string name;          ///< "Thickness2.5", "Thickness2to4"
+  std::string thickness;     ///< "2.5"; the mean where it varies
+  bool varies = false;       ///< over each of the faces
   std::vector<int> faces;    ///< CAD faces with elements, ascending
   std::vector<int> members;  ///< indices of their shell elements
 };
@@ -87,6 +90,14 @@ class OutputMesh {
   /// By thickness, in the order of their first faces; empty where no thickness is known.
   const std::vector<ThicknessGroup>& thicknesses() const { return thicknesses_; }
 
+  /// Of the shell on a CAD face, the mean where it varies; 0 where not known.
+  double face_thickness(int face) const;
+  /// At the corners of a shell element; 0 where not known.
+  std::array<double, 4> corner_thicknesses(int shell) const;
+  /// File numbers of the nodes of faces whose thickness varies, ascending, and the thickness there: the mean
+  /// of such faces that share the node.
+  std::vector<std::pair<int, double>> node_thicknesses() const;
+
   /// What has a name: shell elements (dimension 2), segments (1), corners (0).
   const std::vector<NamedGroup>& groups(int dimension) const { return named_[dimension]; }
   /// Whether the groups are those of a file that the mesh was read from.
@@ -100,6 +111,7 @@ class OutputMesh {
   void number_nodes();
   void add_middles();
   void group_by_thickness();
+  const ShellMesh::VaryingThickness* varying_on(int face) const;
   void name_groups(int dimension);
   const std::vector<CadGroup>& entities(int dimension) const {
     return dimension == 2 ? faces_ : dimension == 1 ? edges_ : vertices_;
@@ -115,5 +127,11 @@ class OutputMesh {
   std::array<std::vector<NamedGroup>, 3> named_;
   std::vector<ThicknessGroup> thicknesses_;
 };
+
+/// Over a shell element; 0 where not known.
+inline double mean_thickness(const OutputMesh& mesh, int shell) {
+  const std::array<double, 4> corners = mesh.corner_thicknesses(shell);
+  return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+}
 
 }  // namespace quadrille

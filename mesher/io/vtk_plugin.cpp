@@ -43,6 +43,7 @@ class GridMaker {
     constexpr const char* names[] = {"vertex", "edge", "face"};
     for (int dimension = 0; dimension < 3; ++dimension) cad_[dimension]->SetName(names[dimension]);
     q_->SetName("q");
+    thickness_->SetName("thickness");
   }
 
   vtkNew<vtkUnstructuredGrid> make(const std::vector<double>& qualities) {
@@ -50,6 +51,7 @@ class GridMaker {
       const ElementNodes nodes = mesh_.shell_nodes(i);
       add(nodes, cell_type(nodes.count), 2, mesh_.face(i));
       q_->InsertNextValue(mesh_.is_quad(i) ? qualities[i] : 0);
+      thickness_->InsertNextValue(mean_thickness(mesh_, i));
     }
     // Lines and points have no q: drawn by it, they have the color of "not a number".
     for (int i = 0; i < mesh_.segment_count(); ++i) {
@@ -66,6 +68,8 @@ class GridMaker {
     grid->SetCells(types_, cells_);
     for (const int dimension : {2, 1, 0}) grid->GetCellData()->AddArray(cad_[dimension]);
     grid->GetCellData()->AddArray(q_);
+    while (thickness_->GetNumberOfValues() < grid->GetNumberOfCells()) thickness_->InsertNextValue(0);
+    if (!mesh_.thicknesses().empty()) grid->GetCellData()->AddArray(thickness_);
     return grid;
   }
 
@@ -91,7 +95,7 @@ class GridMaker {
   vtkNew<vtkCellArray> cells_;
   vtkNew<vtkUnsignedCharArray> types_;
   vtkNew<vtkIntArray> cad_[3];  ///< by dimension: the number of the CAD entity, 0 for other cells
-  vtkNew<vtkDoubleArray> q_;
+  vtkNew<vtkDoubleArray> q_, thickness_;
 };
 
 std::string vtu_bytes(vtkUnstructuredGrid* grid) {

@@ -59,6 +59,9 @@ void write_vtk(const OutputMesh& mesh, const WriteOptions& options, const std::v
   out << "SCALARS q double 1\nLOOKUP_TABLE default\n";
   write_lines(mesh, out,
               [&](int shell, TextWriter& to) { to << (mesh.is_quad(shell) ? qualities[shell] : 0.0); });
+  if (mesh.thicknesses().empty()) return;
+  out << "SCALARS thickness double 1\nLOOKUP_TABLE default\n";
+  write_lines(mesh, out, [&](int shell, TextWriter& to) { to << mean_thickness(mesh, shell); });
 }
 
 }  // namespace quadrille

@@ -98,6 +98,15 @@ struct ShellMesh {
     std::vector<int> entities;  ///< ascending: the faces, edges or vertices that make it up
   };
 
+  /// How thick the shell on a CAD face is where that is not the same all over.
+  struct VaryingThickness {
+    int face = 0;                     ///< CAD face, from 1
+    double thinnest = 0;              ///< millimeters
+    double thickest = 0;              ///< millimeters
+    std::vector<int> nodes;           ///< of the face's elements, ascending
+    std::vector<double> thicknesses;  ///< at those nodes, millimeters
+  };
+
   int order = 1;                          ///< 1: four-node quads; 2: eight-node (serendipity) quads
   std::vector<Vector3> points;            ///< (n) all nodes, corner nodes first, then midside nodes
   std::vector<std::array<int, 4>> quads;  ///< (m) corner nodes, counter-clockwise seen from outside
@@ -116,6 +125,8 @@ struct ShellMesh {
   std::vector<Group> groups;
   /// Of the shell on each CAD face, by face number minus 1, in millimeters; empty where not known.
   std::vector<double> thicknesses;
+  /// Of the faces whose thickness varies, ascending; `thicknesses` has the mean of such a face.
+  std::vector<VaryingThickness> varying_thicknesses;
 };
 
 }  // namespace quadrille

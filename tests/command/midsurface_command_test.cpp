@@ -108,6 +108,64 @@ TEST_F(MidsurfaceCommand, MeshesThinSolidsWithASectionForEachThickness) {
   EXPECT_FALSE(exists("b.inp"));
 }
 
+TEST_F(MidsurfaceCommand, PutsThicknessesIntoEachFormat) {
+  const auto result = quadrille_says(
+      "mesh thin.brep --thin --size 10 --keep-features --msh-version 4.1 -o m.msh -o m.bdf -o m.vtk -o m.vtu "
+      "--quiet");
+  ASSERT_EQ(result.exit_code, 0) << result.out;
+  EXPECT_PRED2(contains, text("m.msh"), "\"Thickness3\"\n");
+  EXPECT_PRED2(contains, text("m.msh"), "\"Thickness2\"\n");
+  std::vector<std::string> groups;
+  for (const ShellMesh::Group& group : read_mesh(path("m.msh")).groups) {
+    if (group.name.rfind("Thickness", 0) == 0)
+      groups.push_back(fmt::format("{} on {} faces", group.name, group.entities.size()));
+  }
+  EXPECT_EQ(groups, (std::vector<std::string>{"Thickness3 on 1 faces", "Thickness2 on 2 faces"}));
+  EXPECT_PRED2(contains, text("m.bdf"), "$ Thickness2: elements\nSET ");
+  EXPECT_PRED2(contains, text("m.bdf"), "PSHELL         1       1      3.\n");
+  EXPECT_PRED2(contains, text("m.vtk"), "SCALARS thickness double 1\nLOOKUP_TABLE default\n3");
+  EXPECT_PRED2(contains, text("m.vtu"), "Name=\"thickness\"");
+}
+
+/// The force at the end of a cantilever of length L and width b, whose thickness goes evenly from h to h / 2,
+/// bends it by F L^3 / (E I) * 8 (ln 2 - 5 / 8), I = b h^3 / 12 of the thick end.
+TEST_F(MidsurfaceCommand, WritesThicknessesThatVaryForCalculix) {
+  if (!test::has_program("ccx")) GTEST_SKIP() << "NOT TESTED: ccx is not installed";
+  ASSERT_EQ(quadrille_says("mesh taper.brep --thin --size 5 -o m.inp -o m.bdf --quiet").exit_code, 0);
+  const std::string deck = text("m.inp");
+  EXPECT_PRED2(contains, deck, "ELSET=Thickness2to3.999, MATERIAL=Material, NODAL THICKNESS\n");
+  EXPECT_PRED2(contains, deck, "\n*NODAL THICKNESS\n1, ");
+  std::vector<int> held, moved;
+  const ShellMesh mesh = read_mesh(path("m.inp"));
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    if (mesh.points[i].x() < 1e-6) held.push_back(static_cast<int>(i) + 1);
+    if (mesh.points[i].x() > 100 - 1e-6) moved.push_back(static_cast<int>(i) + 1);
+  }
+  ASSERT_GT(moved.size(), 10U);
+  std::string model = "*NSET, NSET=Held\n" + fmt::format("{}\n", fmt::join(held, ",\n"));
+  model += "*NSET, NSET=Moved\n" + fmt::format("{}\n", fmt::join(moved, ",\n"));
+  model = "*INCLUDE, INPUT=m.inp\n" + model + "*BOUNDARY\nHeld, 1, 6\n";
+  model += fmt::format("*STEP\n*STATIC\n*CLOAD\nMoved, 2, {}\n", 100.0 / static_cast<double>(moved.size()));
+  model += "*NODE PRINT, NSET=Moved\nU\n*END STEP\n";
+  test::write_text(path("taper.inp"), "*MATERIAL, NAME=Material\n*ELASTIC\n210000, 0\n" + model);
+  const auto solved =
+      test::run(fmt::format("cd {} && timeout 120 ccx taper 2>&1", path("taper.inp").parent_path().string()));
+  EXPECT_FALSE(contains(solved.out, "ERROR")) << solved.out;
+  std::istringstream result(text("taper.dat"));
+  std::string line;
+  double sum = 0, count = 0;
+  while (std::getline(result, line)) {
+    double node = 0, u = 0, v = 0, w = 0;
+    if (!(std::istringstream(line) >> node >> u >> v >> w)) continue;
+    sum += v;
+    count += 1;
+  }
+  ASSERT_EQ(count, static_cast<double>(moved.size()));
+  const double second_moment = 60 * 64 / 12.0;
+  const double expected = 100 * 1e6 / (210000 * second_moment) * 8 * (std::log(2) - 0.625);
+  EXPECT_NEAR(sum / count / expected, 1, 0.01);
+}
+
 TEST_F(MidsurfaceCommand, JoinsSolidsThatTouch) {
   ASSERT_EQ(quadrille_says("midsurface frame.brep -o apart.json --quiet").exit_code, 0);
   ASSERT_EQ(quadrille_says("midsurface frame.brep --join -o joined.json --quiet").exit_code, 0);

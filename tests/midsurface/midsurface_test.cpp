@@ -189,6 +189,31 @@ TopoDS_Shape thin_model(const std::string& name) {
   throw std::invalid_argument(name);
 }
 
+TEST(MidSurface, TellsTheThicknessAtEachNodeWhereItVaries) {
+  const TopoDS_Shape solid = thin_model("tapering_web");
+  const TopoDS_Shape skin = shells_of(solid);
+  const MidSurface middle = middle_of(solid);
+  MeshOptions options;
+  options.sizing.size = 10;
+  options.order = 2;
+  ExecutionContext context;
+  const ShellMesh result = mesh(middle, options, context);
+  ASSERT_EQ(result.varying_thicknesses.size(), 1U);
+  const ShellMesh::VaryingThickness& varying = result.varying_thicknesses[0];
+  EXPECT_EQ(varying.nodes.size(), result.points.size());
+  ASSERT_EQ(varying.thicknesses.size(), varying.nodes.size());
+  // Of the wall's two sides, which are at an angle, the point half way has feet on both.
+  const double lean = std::cos(0.5 * std::atan(0.02));
+  for (std::size_t i = 0; i < varying.nodes.size(); ++i) {
+    const Vector3& node = result.points[varying.nodes[i]];
+    if (node.x() < 5 || node.x() > 95 || node.z() < 5 || node.z() > 55) continue;  // rims are nearer
+    const gp_Pnt point(node.x(), node.y(), node.z());
+    const BRepExtrema_DistShapeShape nearest(BRepBuilderAPI_MakeVertex(point).Vertex(), skin);
+    EXPECT_NEAR(varying.thicknesses[i], 2 * lean * nearest.Value(), 1e-6);
+  }
+  EXPECT_TRUE(mesh(middle_of(thin_model("i_beam")), options, context).varying_thicknesses.empty());
+}
+
 TEST(MidSurface, JoinsSolidsThatTouchWhereThatIsWanted) {
   const TopoDS_Shape frame = welded_frame();
   const MidSurface apart = middle_of(frame);
