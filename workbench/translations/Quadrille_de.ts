@@ -343,6 +343,26 @@ Compare it with the one beside the file where it was published. Installing unpac
 {}
 Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Installieren wird sie nach {} entpackt und ausgeführt.</translation>
     </message>
+    <message>
+        <source>select one thin part, or several that touch</source>
+        <translation>ein dünnes Teil wählen, oder mehrere, die sich berühren</translation>
+    </message>
+    <message>
+        <source>{}. Take what could be paired?</source>
+        <translation>{}. Nehmen, was gepaart werden konnte?</translation>
+    </message>
+    <message>
+        <source>{} are on {}. Put them on its middle surface?</source>
+        <translation>{} liegen auf {}. Auf dessen Mittelfläche übertragen?</translation>
+    </message>
+    <message>
+        <source>{} looks like a thin solid, of about {} mm: its skin is a hollow box, and shell stresses on it mean nothing.</source>
+        <translation>{} sieht aus wie ein dünner Körper von etwa {} mm: Seine Haut ist ein hohler Kasten, und Schalenspannungen darauf besagen nichts.</translation>
+    </message>
+    <message>
+        <source>Make its middle surface</source>
+        <translation>Mittelfläche erzeugen</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>
@@ -645,6 +665,17 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>Mesh the selected part with quads; several parts are joined where they touch</source>
         <translation>Das gewählte Teil mit Vierecken vernetzen; mehrere Teile werden verbunden, wo sie sich berühren</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Middle</name>
+    <message>
+        <source>Middle surface</source>
+        <translation>Mittelfläche</translation>
+    </message>
+    <message>
+        <source>Turn a thin part into the surface in its middle, with its thickness in the active analysis; several parts are joined where they touch</source>
+        <translation>Aus einem dünnen Teil die Fläche in seiner Mitte machen, mit ihrer Dicke in der aktiven Analyse; mehrere Teile werden verbunden, wo sie sich berühren</translation>
     </message>
 </context>
 <context>

@@ -343,6 +343,26 @@ Compare it with the one beside the file where it was published. Installing unpac
 {}
 Comparez-la avec celle publiée à côté du fichier. L’installation l’extrait dans {} et l’exécute.</translation>
     </message>
+    <message>
+        <source>select one thin part, or several that touch</source>
+        <translation>sélectionnez une pièce mince, ou plusieurs qui se touchent</translation>
+    </message>
+    <message>
+        <source>{}. Take what could be paired?</source>
+        <translation>{}. Prendre ce qui a pu être apparié ?</translation>
+    </message>
+    <message>
+        <source>{} are on {}. Put them on its middle surface?</source>
+        <translation>{} portent sur {}. Les reporter sur sa surface moyenne ?</translation>
+    </message>
+    <message>
+        <source>{} looks like a thin solid, of about {} mm: its skin is a hollow box, and shell stresses on it mean nothing.</source>
+        <translation>{} ressemble à un solide mince d’environ {} mm : sa peau est une boîte creuse, et des contraintes de coque y sont dépourvues de sens.</translation>
+    </message>
+    <message>
+        <source>Make its middle surface</source>
+        <translation>Créer sa surface moyenne</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>
@@ -645,6 +665,17 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>Mesh the selected part with quads; several parts are joined where they touch</source>
         <translation>Mailler la pièce sélectionnée en quadrangles ; plusieurs pièces sont jointes où elles se touchent</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Middle</name>
+    <message>
+        <source>Middle surface</source>
+        <translation>Surface moyenne</translation>
+    </message>
+    <message>
+        <source>Turn a thin part into the surface in its middle, with its thickness in the active analysis; several parts are joined where they touch</source>
+        <translation>Remplacer une pièce mince par la surface en son milieu, avec son épaisseur dans l’analyse active ; plusieurs pièces sont jointes là où elles se touchent</translation>
     </message>
 </context>
 <context>

@@ -11,13 +11,13 @@ from PySide import QtGui
 import quadrille_commands
 
 from .. import freecad as core
-from .. import picks
+from .. import middle, picks
 from ..errors import Error
 from ..state import is_quad_mesh
 from . import QT_TRANSLATE_NOOP, do, icon, links_text, overlays, path_of, preferences, tell, transaction, translate
 from .length_field import LengthField
 
-TOOLBAR = ["Quadrille_Mesh", "Quadrille_Refine", "Quadrille_Quality", "Quadrille_Normals", "Quadrille_Flip",
+TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Refine", "Quadrille_Quality", "Quadrille_Normals", "Quadrille_Flip",
            "Quadrille_Export"]
 #: What the mesher writes, for the file dialog.
 FORMATS = {
@@ -147,6 +147,59 @@ class MeshCommand(_Command):
         if self._made:
             self._edit.ViewObject.Proxy.made_by = self.step
         FreeCADGui.getDocument(self._edit.Document.Name).setEdit(self._edit.Name)
+
+
+class MiddleCommand(_Command):
+    """Middle surface."""
+
+    name = "Quadrille_Middle"
+    text = QT_TRANSLATE_NOOP("Quadrille_Middle", "Middle surface")
+    tip = QT_TRANSLATE_NOOP(
+        "Quadrille_Middle", "Turn a thin part into the surface in its middle, with its thickness in the active analysis; several "
+        "parts are joined where they touch")
+    pixmap = "quadrille_middle"
+    accelerator = "Q, I"
+    step = "Create middle surface"
+
+    def run(self) -> None:
+        document = FreeCAD.ActiveDocument
+        selected = picks.parts_of(picked(document))
+        if not selected:
+            raise Error(translate("Quadrille", "select one thin part, or several that touch"), "usage")
+        analysis = active_analysis(document)
+        options = {}
+        part = selected[0]
+        if len(selected) > 1:
+            do("import quadrille.freecad")
+            do(f"quadrille.freecad.fragments([{', '.join(map(path_of, selected))}])")
+            part = document.Objects[-1]
+            options["join"] = True
+        try:
+            middle.prepare(part, **options)
+        except Error as error:
+            if not middle.is_partly_thin(error) or not self.ask(
+                    translate("Quadrille", "{}. Take what could be paired?").format(error)):
+                raise
+            options["partial"] = True
+            middle.prepare(part, **options)
+        if analysis is not None:
+            loads = middle.referring_to(part, analysis)
+            if loads and self.ask(translate("Quadrille", "{} are on {}. Put them on its middle surface?").format(
+                    ", ".join(member.Label for member in loads), part.Label)):
+                options["move_loads"] = True
+        into = f", analysis={path_of(analysis)}" if analysis is not None else ""
+        others = "".join(f", {name}={value!r}" for name, value in options.items())
+        do("import quadrille.middle")
+        do(f"quadrille.middle.make_middle({path_of(part)}{into}{others})")
+        made = [obj for obj in document.Objects if middle.is_middle(obj)][-1]
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(made)
+
+    @staticmethod
+    def ask(question: str) -> bool:
+        """Yes or no, from a box."""
+        buttons = QtGui.QMessageBox.Yes | QtGui.QMessageBox.No
+        return QtGui.QMessageBox.question(FreeCADGui.getMainWindow(), "Quadrille", question, buttons) == QtGui.QMessageBox.Yes
 
 
 class RefineCommand(_Command):
@@ -279,7 +332,7 @@ class ExportCommand(_Command):
 
 
 #: The commands by the names that FreeCAD knows them by.
-COMMANDS = {command.name: command for command in (MeshCommand, RefineCommand, QualityCommand, NormalsCommand, FlipCommand,
+COMMANDS = {command.name: command for command in (MiddleCommand, MeshCommand, RefineCommand, QualityCommand, NormalsCommand, FlipCommand,
                                                   ExportCommand)}
 
 

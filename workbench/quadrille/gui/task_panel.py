@@ -21,6 +21,7 @@ from .quality_view import QualityWidget
 from .refinement_list import RefinementList
 from .session import Session
 from .setting_widgets import setting_widgets
+from .thin_hint import thin_hint
 
 _POLL_MILLISECONDS = 50
 #: Properties that are always in sight; the others are under "More settings".
@@ -107,6 +108,9 @@ class MeshPanel:
         if is_missing():
             choice = MesherChoice(lambda _command: choice.hide())
             layout.addWidget(choice)
+        hint = thin_hint(self.mesh.Shape, self.reject)
+        if hint is not None:
+            layout.addWidget(hint)
         layout.addLayout(basic)
         layout.addWidget(_beside(self.mesh_button, self.stop_button))
         layout.addWidget(self.bar)

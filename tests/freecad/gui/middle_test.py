@@ -1,0 +1,129 @@
+"""The command Middle surface in FreeCAD's window: from a solid to a shell analysis, loads moved, the panel's hint.
+
+    scripts/freecad_gui tests/freecad/gui/middle_test.py [FOLDER FOR SCREENSHOTS]
+"""
+
+import sys
+from pathlib import Path
+from unittest import mock
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import FemGui
+import FreeCADGui
+import ObjectsFem
+import Part
+
+from case import GuiCase, picture, run
+from driver import Boxes, close_panel, find, process, trigger, wait_for, window
+from quadrille import middle
+from quadrille.gui.commands import MiddleCommand
+
+
+class MiddleTest(GuiCase):
+    """Each test has a document of its own."""
+
+    def part(self, shape, name="Sheet"):
+        part = self.document.addObject("Part::Feature", name)
+        part.Shape = shape
+        self.show()
+        return part
+
+    def sheet(self):
+        """A plate of 80 x 50 x 2 mm with a rib of 3 mm."""
+        return self.part(Part.makeBox(80, 50, 2).fuse(Part.makeBox(3, 50, 22)).removeSplitter())
+
+    def surfaces(self):
+        return [obj for obj in self.document.Objects if middle.is_middle(obj)]
+
+    def make(self, *parts, answer=True):
+        """Selects parts, triggers the command; gives the questions that it asked."""
+        FreeCADGui.Selection.clearSelection()
+        for part in parts:
+            FreeCADGui.Selection.addSelection(part)
+        questions = []
+        ask = staticmethod(lambda question: questions.append(question) or answer)
+        with mock.patch.object(MiddleCommand, "ask", ask), Boxes() as boxes:
+            trigger("Quadrille_Middle")
+        self.assertEqual(boxes.texts, [])
+        self.assertEqual(len(self.surfaces()), 1)
+        return questions
+
+    def test_from_a_solid_to_a_shell_analysis(self):
+        part = self.sheet()
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        FemGui.setActiveAnalysis(analysis)
+        fixed = ObjectsFem.makeConstraintFixed(self.document, "Fixed")
+        fixed.References = [(part, ("Face1",))]
+        analysis.addObject(fixed)
+        self.document.recompute()
+        questions = self.make(part)
+        self.assertEqual(len(questions), 1)
+        self.assertIn("Fixed", questions[0])
+        surface, = self.surfaces()
+        self.assertFalse(part.ViewObject.Visibility)
+        self.assertEqual(fixed.References[0][0], surface)
+        self.assertEqual(sorted(round(obj.Thickness.getValueAs("mm").Value, 6) for obj in middle.thickness_objects(surface)),
+                         [2, 3])
+        self.assertTrue(all(obj in analysis.Group for obj in middle.thickness_objects(surface)))
+        picture("middle_surface")
+        self.document.undo()
+        self.assertEqual(self.surfaces(), [])
+        self.assertEqual(fixed.References[0][0], part)
+        self.document.redo()
+        self.assertEqual(len(self.surfaces()), 1)
+
+    def test_loads_stay_where_that_is_wanted(self):
+        part = self.sheet()
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        FemGui.setActiveAnalysis(analysis)
+        fixed = ObjectsFem.makeConstraintFixed(self.document, "Fixed")
+        fixed.References = [(part, ("Face1",))]
+        analysis.addObject(fixed)
+        self.assertEqual(len(self.make(part, answer=False)), 1)
+        self.assertEqual(fixed.References[0][0], part)
+
+    def test_the_panel_offers_it(self):
+        part = self.sheet()
+        self.open_panel(part)
+        hint = find("QuadrilleThinHint")
+        self.assertIn("looks like a thin solid", hint.text())
+        picture("thin_hint")
+        hint.linkActivated.emit("middle")
+        wait_for(self.surfaces, 20, "the middle surface")
+        process(0.3)
+        self.assertFalse(FreeCADGui.Control.activeDialog())
+        self.assertEqual([obj.Name for obj in self.document.Objects if hasattr(obj, "FemMesh")], [])
+        self.open_panel(self.surfaces()[0])
+        self.press_mesh()
+        close_panel()
+        self.open_panel(self.part(Part.makeBox(10, 10, 10), "Block"))
+        self.assertEqual(window().findChildren(type(hint), "QuadrilleThinHint"), [])
+
+    def test_what_is_wrong_is_told(self):
+        self.assertIn("select one thin part", self.message("Quadrille_Middle"))
+        block = self.part(Part.makeBox(10, 10, 10))
+        FreeCADGui.Selection.addSelection(block)
+        self.assertIn("is not a thin solid", self.message("Quadrille_Middle"))
+
+    def test_thin_in_places_asks(self):
+        part = self.part(Part.makeBox(40, 40, 40).fuse(Part.makeBox(3, 40, 100)).removeSplitter())
+        questions = self.make(part)
+        self.assertEqual(len(questions), 1)
+        self.assertIn("thin in places only", questions[0])
+        self.assertTrue(self.surfaces()[0].Problems[0].startswith("Sheet is thin in places only"))
+
+    def test_several_parts_are_joined(self):
+        post = self.part(Part.makeBox(3, 40, 60), "Post")
+        arm = self.part(Part.makeBox(60, 40, 2), "Arm")
+        arm.Placement.Base.x, arm.Placement.Base.z = 3, 30
+        self.document.recompute()
+        self.make(post, arm)
+        surface, = self.surfaces()
+        self.assertTrue(surface.Join)
+        self.assertAlmostEqual(surface.Shape.Area, 40 * 60 + 40 * 61.5, 6)
+        shared = [edge for edge in surface.Shape.Edges if len(surface.Shape.ancestorsOfType(edge, Part.Face)) > 2]
+        self.assertEqual(len(shared), 1)
+
+
+run(MiddleTest)

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How a middle surface appears in the tree. Documents name MiddleViewProvider: do not move it."""
+
+from . import icon
+
+
+class MiddleViewProvider:
+    """The view provider of our middle surfaces."""
+
+    def __init__(self, vobj) -> None:
+        vobj.Proxy = self
+
+    def attach(self, vobj) -> None:
+        """FreeCAD calls this when the object gets its view."""
+        self.Object = vobj.Object
+
+    def getIcon(self) -> str:
+        """The command's icon."""
+        return icon("quadrille_middle")
+
+    def dumps(self):
+        """Nothing to save."""
+        return None
+
+    def loads(self, _state) -> None:
+        """Nothing to restore."""
+
+    __getstate__ = dumps
+    __setstate__ = loads

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the panel says of a part that looks like a thin solid: its skin can be meshed, its middle surface makes a shell."""
+
+from typing import Callable, Optional
+
+import FreeCADGui
+from PySide import QtCore, QtGui
+
+from ..middle import looks_thin
+from . import translate
+
+
+def thin_hint(part, close: Callable[[], object]) -> Optional[QtGui.QLabel]:
+    """A line with a link that closes the panel and runs the command Middle surface; None where the part is not thin."""
+    thickness = looks_thin(part.Shape)
+    if thickness is None:
+        return None
+    text = translate(
+        "Quadrille", "{} looks like a thin solid, of about {} mm: its skin is a hollow box, and shell stresses on it mean nothing."
+    ).format(part.Label, f"{thickness:.2g}")
+    offer = translate("Quadrille", "Make its middle surface")
+    label = QtGui.QLabel(f'{text} <a href="middle">{offer}</a>')
+    label.setObjectName("QuadrilleThinHint")
+    label.setWordWrap(True)
+
+    def make(_link: str) -> None:
+        close()
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(part)
+        QtCore.QTimer.singleShot(0, lambda: FreeCADGui.runCommand("Quadrille_Middle"))  # when the panel is gone
+
+    label.linkActivated.connect(make)
+    return label

@@ -1,0 +1,389 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The middle surface of a thin part as a document object: its faces with their thickness, for a shell analysis.
+
+    import quadrille.middle
+    middle = quadrille.middle.make_middle(App.ActiveDocument.Body, analysis=App.ActiveDocument.Analysis)
+    mesh = quadrille.freecad.mesh_object(middle, size=3.0, analysis=App.ActiveDocument.Analysis)
+
+The surface is computed anew with its part, by the `quadrille` command in a child process; the thickness objects that it
+made in an analysis follow it. Runs inside FreeCAD."""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+from typing import Dict, List, NamedTuple, Optional, Sequence, Set, Tuple
+
+import FreeCAD
+import Part
+
+from . import state
+from .command import child_environment, on_host, scratch_folder
+from .errors import Error
+from .jobs import find_mesher
+
+#: The type of the Python side of our middle surfaces.
+TYPE = "Part::QuadrilleMiddleSurface"
+#: A thickness object of ours has this property: the name of its middle surface.
+_MARK = "MiddleSurface"
+#: A shell is thin when its thickness is under this share of the width; the mesher's own limit is a fifth of each wall.
+_THIN = 0.12
+_SECONDS = 600
+#: How a sentence goes on where a part is thin in places only.
+_PARTIAL = "Partial gives"
+
+
+class _Result(NamedTuple):
+    shape: "Part.Shape"
+    told: Dict  #: the command's .json file
+
+
+def make_middle(part, analysis=None, partial: bool = False, join: bool = False, name: str = "MiddleSurface",
+                move_loads: bool = False):
+    """Adds the middle surface of a thin part to its document.
+
+    Args:
+        part: a document object with a solid, or several.
+        analysis: a FEM analysis to make thickness objects in.
+        partial: take what could be paired where the part is thin in places only.
+        join: take solids that touch for one, as if welded.
+        move_loads: put the analysis' loads and supports that are on the part's faces on the middle surface, see
+            move_references().
+
+    Returns:
+        a Part::FeaturePython whose shape has the middle faces, and whose `Source` links to the part.
+
+    Raises:
+        Error: with one sentence, the document unchanged.
+    """
+    if analysis is not None and not analysis.isDerivedFrom("Fem::FemAnalysis"):
+        raise Error(f"{analysis.Label}: is not a FEM analysis", "usage", analysis.Name)
+    result = _prepared.pop(_key(part, partial, join), None) or _compute(part, partial, join)
+    middle = part.Document.addObject("Part::FeaturePython", name)
+    MiddleSurface(middle)
+    middle.Label = f"{part.Label} middle"
+    middle.Source, middle.Partial, middle.Join = part, partial, join
+    _store(middle, result)
+    middle.purgeTouched()  # or it is computed once more
+    if FreeCAD.GuiUp:
+        from .gui.middle_view import MiddleViewProvider
+
+        MiddleViewProvider(middle.ViewObject)
+        part.ViewObject.hide()
+    if analysis is not None:
+        add_thicknesses(middle, analysis)
+        for sentence in move_references(middle, analysis) if move_loads else ():
+            FreeCAD.Console.PrintWarning(f"{sentence}\n")
+    return middle
+
+
+def prepare(part, partial: bool = False, join: bool = False) -> None:
+    """Computes what the make_middle() that follows at once takes: what is wrong is raised before the document changes."""
+    _prepared.clear()
+    _prepared[_key(part, partial, join)] = _compute(part, partial, join)
+
+
+def is_partly_thin(error: Error) -> bool:
+    """Whether `partial` would give something where this error was raised."""
+    return _PARTIAL in str(error)
+
+
+def is_middle(obj) -> bool:
+    """True for the middle surfaces of this addon."""
+    return getattr(getattr(obj, "Proxy", None), "Type", "") == TYPE
+
+
+def looks_thin(shape) -> Optional[float]:
+    """About how thick a shape's walls are, in mm, when its solids look thin; else None. Quick, and no more than a hint."""
+    if shape.isNull() or not shape.Solids:
+        return None
+    thickness = 2 * shape.Volume / max(shape.Area, 1e-300)
+    box = shape.BoundBox
+    width = sorted((box.XLength, box.YLength, box.ZLength))[1]
+    return thickness if thickness < _THIN * width else None
+
+
+# The thickness objects
+
+def add_thicknesses(middle, analysis) -> List:
+    """Makes a thickness object in an analysis for each thickness of a middle surface; takes those away that it had."""
+    import ObjectsFem
+
+    for old in thickness_objects(middle):
+        middle.Document.removeObject(old.Name)
+    made = []
+    for thickness, faces in _faces_by_thickness(middle):
+        obj = ObjectsFem.makeElementGeometry2D(middle.Document, thickness, "Thickness")
+        obj.addProperty("App::PropertyString", _MARK, "Quadrille", "The middle surface that it belongs to")
+        setattr(obj, _MARK, middle.Name)
+        obj.setEditorMode(_MARK, 1)
+        obj.Label = f"{middle.Label}: {thickness:.6g} mm"
+        obj.References = [(middle, tuple(faces))]
+        analysis.addObject(obj)
+        made.append(obj)
+    return made
+
+
+def thickness_objects(middle) -> List:
+    """The thickness objects that were made for a middle surface."""
+    return [obj for obj in middle.Document.Objects if getattr(obj, _MARK, None) == middle.Name]
+
+
+def _faces_by_thickness(middle) -> List[Tuple[float, List[str]]]:
+    groups: Dict[str, List[str]] = {}
+    for number, thickness in enumerate(middle.Thicknesses, 1):
+        groups.setdefault(f"{thickness:.6g}", []).append(f"Face{number}")
+    return sorted((float(thickness), faces) for thickness, faces in groups.items())
+
+
+def _update_thicknesses(middle) -> None:
+    """Brings the thickness objects up to date with the surface, where it has any."""
+    present = thickness_objects(middle)
+    if not present:
+        return
+    wanted = _faces_by_thickness(middle)
+    now = sorted((float(obj.Thickness.getValueAs("mm")), [str(name) for _, names in obj.References for name in names])
+                 for obj in present)
+    if now == wanted:
+        return
+    analyses = [parent for obj in present for parent in obj.InList if parent.isDerivedFrom("Fem::FemAnalysis")]
+    if len(present) == len(wanted):
+        for obj, (thickness, faces) in zip(sorted(present, key=lambda obj: obj.Thickness.Value), wanted):
+            obj.Thickness = f"{thickness!r} mm"
+            obj.References = [(middle, tuple(faces))]
+            obj.Label = f"{middle.Label}: {thickness:.6g} mm"
+    elif analyses:
+        add_thicknesses(middle, analyses[0])
+
+
+# Loads and supports
+
+def counterparts(middle, name: str) -> List[str]:
+    """What of a middle surface stands for a face or solid of its part: the middle faces that lie between it and another
+    face, or, for a rim, the free edges that lie on it. Empty when there is nothing."""
+    if name.startswith("Solid"):
+        return [f"Face{i}" for i in range(1, len(middle.Thicknesses) + 1)]
+    faces = [f"Face{i}" for i, between in enumerate(middle.Between, 1) if name in between.split(",")]
+    if faces:
+        return faces
+    rims = (entry.split(":") for entry in middle.Rims)
+    return [edge for edge, on in rims if name in on.split(",")]
+
+
+def referring_to(part, analysis) -> List:
+    """The members of an analysis that refer to a part, or to faces, edges or vertices of it."""
+    return [member for member in analysis.Group if hasattr(member, "References")
+            and any(target == part for target, _ in _pairs(member.References))]
+
+
+def move_references(middle, analysis) -> List[str]:
+    """Puts loads, supports and the like that are on a thin part's faces on its middle surface.
+
+    A pressure keeps its direction. What has no counterpart, such as a load on an edge of the part, stays as it is.
+
+    Returns:
+        what could not be moved, a sentence each.
+    """
+    left = []
+    for member in referring_to(middle.Source, analysis):
+        references: List[Tuple[object, str]] = []
+        missing = []
+        for target, name in _pairs(member.References):
+            if target != middle.Source:
+                references.append((target, name))
+                continue
+            found = counterparts(middle, name)
+            references += [(middle, element) for element in found]
+            if not found:
+                missing.append(name)
+        turned = _turned(member, middle)
+        if missing:
+            left.append(f"{member.Label}: {', '.join(missing)} of {middle.Source.Label} has no counterpart on {middle.Label}")
+        elif turned is None:
+            left.append(f"{member.Label}: presses on the middle surface from both sides: make a pressure for each side")
+        else:
+            member.References = list(dict.fromkeys(references))
+            if turned:
+                member.Reversed = not member.Reversed
+    return left
+
+
+def _pairs(references) -> List[Tuple[object, str]]:
+    return [(target, name) for target, names in references for name in ((names,) if isinstance(names, str) else names)]
+
+
+def _turned(member, middle) -> Optional[bool]:
+    """Whether a pressure has to be reversed on the middle surface, where its normals run the other way; None where they
+    do so on some of the faces only. Other members: False."""
+    if not member.isDerivedFrom("Fem::ConstraintPressure"):
+        return False
+    part, shell = middle.Source.Shape, middle.Shape
+    turned: Set[bool] = set()
+    for target, name in _pairs(member.References):
+        if target != middle.Source or not name.startswith("Face"):
+            continue
+        outer = part.getElement(name)
+        for other in counterparts(middle, name):
+            if other.startswith("Face"):
+                face = shell.getElement(other)
+                at = face.valueAt(*_inside(face))
+                normal = face.normalAt(*face.Surface.parameter(at))
+                turned.add(normal.dot(outer.normalAt(*outer.Surface.parameter(at))) < 0)
+    return None if len(turned) > 1 else bool(turned and turned.pop())
+
+
+def _inside(face) -> Tuple[float, float]:
+    """Parameters of a point of a face."""
+    low_u, high_u, low_v, high_v = face.ParameterRange
+    for count in (2, 5, 12, 30):
+        for i in range(1, count):
+            for j in range(1, count):
+                u, v = low_u + (high_u - low_u) * i / count, low_v + (high_v - low_v) * j / count
+                if face.isPartOfDomain(u, v):
+                    return u, v
+    return 0.5 * (low_u + high_u), 0.5 * (low_v + high_v)
+
+
+# The surface
+
+_prepared: Dict[Tuple[str, str, bool, bool], _Result] = {}
+
+
+def _key(part, partial: bool, join: bool) -> Tuple[str, str, bool, bool]:
+    return (part.Document.Name, part.Name, partial, join)
+
+
+def _compute(part, partial: bool, join: bool) -> _Result:
+    """Runs the command; raises Error with its sentence."""
+    shape, label = state.shape_of(part), part.Label
+    if not shape.Solids:
+        raise Error(f"{label}: has no solid, which a middle surface needs", "usage", part.Name)
+    command = find_mesher()
+    with scratch_folder() as folder:
+        model, surface, told = (os.path.join(folder, file) for file in ("part.brep", "middle.brep", "middle.json"))
+        shape.exportBrep(model)
+        arguments = [command, "midsurface", model, "-o", surface, "-o", told, "--quiet"]
+        arguments += ["--partial"] * partial + ["--join"] * join
+        try:
+            done = subprocess.run(on_host(arguments), stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                                  errors="replace", timeout=_SECONDS, env=child_environment(), check=False)
+        except subprocess.TimeoutExpired as error:
+            raise Error(f"{label}: its middle surface was not found within {_SECONDS} seconds", "failure") from error
+        except OSError as error:
+            raise Error(f"{command}: cannot be started: {error.strerror}", "failure", command) from error
+        if done.returncode != 0:
+            lines = done.stderr.strip().splitlines() or [f"the mesher ended with exit code {done.returncode}"]
+            sentence = lines[-1][len("quadrille: "):] if lines[-1].startswith("quadrille: ") else lines[-1]
+            raise Error(_of_part(sentence, model, label), "failure")
+        middle = Part.Shape()
+        middle.importBrep(surface)
+        result = _Result(middle, json.loads(Path(told).read_text(encoding="utf-8")))
+        result.told["problems"] = [_of_part(problem, model, label) for problem in result.told["problems"]]
+        return result
+
+
+def _of_part(sentence: str, model: str, label: str) -> str:
+    """What the command says of its file, said of the part."""
+    return sentence.replace(model, label).replace(os.path.basename(model), label).replace("--partial gives", _PARTIAL)
+
+
+def _store(obj, result: _Result) -> None:
+    faces = result.told["faces"]
+    obj.Shape = result.shape
+    obj.Thicknesses = [face["thickness"] for face in faces]
+    obj.Thinnest = [face["thickness_min"] for face in faces]
+    obj.Thickest = [face["thickness_max"] for face in faces]
+    obj.Between = [_names(face["solid_faces"]) for face in faces]
+    obj.Rims = [f"{rim['name']}:{_names(rim['solid_faces'])}" for rim in result.told["rims"]]
+    obj.VolumeShare = result.told["area_times_thickness"] / max(result.told["volume"], 1e-300)
+    obj.Problems = result.told["problems"]
+    for sentence in obj.Problems:
+        FreeCAD.Console.PrintWarning(f"{obj.Label}: {sentence}\n")
+
+
+def _names(faces: Sequence[int]) -> str:
+    return ",".join(f"Face{number}" for number in faces)
+
+
+class MiddleSurface:
+    """The Python side of a middle surface. Documents name this class: do not move it."""
+
+    Type = TYPE
+
+    def __init__(self, obj) -> None:
+        obj.Proxy = self
+        self.add_properties(obj)
+        _watch()
+
+    @staticmethod
+    def add_properties(obj) -> None:
+        """Adds what is missing, so that documents of older versions gain new properties."""
+        for kind, name, group, text in (
+            ("App::PropertyLink", "Source", "Middle surface", "The thin part"),
+            ("App::PropertyBool", "Partial", "Middle surface", "Take what could be paired where the part is thin in places only"),
+            ("App::PropertyBool", "Join", "Middle surface", "Take solids that touch for one, as if welded"),
+            ("App::PropertyFloatList", "Thicknesses", "Result", "Mean thickness of each face, mm"),
+            ("App::PropertyFloatList", "Thinnest", "Result", "Least thickness of each face, mm"),
+            ("App::PropertyFloatList", "Thickest", "Result", "Largest thickness of each face, mm"),
+            ("App::PropertyStringList", "Between", "Result", "The faces of the part that each face lies between"),
+            ("App::PropertyStringList", "Rims", "Result", "The faces of the part that free edges lie on"),
+            ("App::PropertyFloat", "VolumeShare", "Result", "Sum of area times thickness over the volume of the part"),
+            ("App::PropertyStringList", "Problems", "Result", "What of the part has no middle surface"),
+        ):
+            if name not in obj.PropertiesList:
+                obj.addProperty(kind, name, group, text)
+                if group == "Result":
+                    obj.setEditorMode(name, 1)
+
+    def execute(self, obj) -> None:
+        """FreeCAD calls this when the part or a property has changed."""
+        if obj.Source is None:
+            raise RuntimeError(f"{obj.Label}: the part is gone")
+        try:
+            _store(obj, _compute(obj.Source, obj.Partial, obj.Join))
+        except Error as error:
+            raise RuntimeError(str(error)) from error  # FreeCAD marks the object, and tells the sentence
+        _recomputed.add((obj.Document.Name, obj.Name))
+
+    def onDocumentRestored(self, obj) -> None:
+        """FreeCAD calls this after a document was read."""
+        self.add_properties(obj)
+        _watch()
+
+    # The state is all in the document's properties; 0.20 calls the second pair, 1.0 the first.
+    def dumps(self):
+        """Nothing to save."""
+        return None
+
+    def loads(self, _state) -> None:
+        """Nothing to restore."""
+
+    __getstate__ = dumps
+    __setstate__ = loads
+
+
+#: The middle surfaces that were computed anew, by the names of document and object.
+_recomputed: Set[Tuple[str, str]] = set()
+
+
+class _Watcher:
+    """Thickness objects are not touched while FreeCAD recomputes, but after that."""
+
+    def slotRecomputedDocument(self, document) -> None:
+        """FreeCAD calls this when a document has been recomputed."""
+        names = sorted(name for where, name in _recomputed if where == document.Name)
+        for name in names:
+            _recomputed.discard((document.Name, name))
+            middle = document.getObject(name)
+            if middle is not None:
+                _update_thicknesses(middle)
+
+
+_watcher: Optional[_Watcher] = None
+
+
+def _watch() -> None:
+    global _watcher
+    if _watcher is None:
+        _watcher = _Watcher()
+        FreeCAD.addDocumentObserver(_watcher)
