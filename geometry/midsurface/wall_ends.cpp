@@ -110,18 +110,27 @@ bool runs_through(const Wall& wall, const Skin& skin, const gp_Pnt& point, const
   return std::abs(gp_Dir(gp_Vec(position->feet[0], position->feet[1])).Dot(across)) > nearly_parallel;
 }
 
-/// The wall that begins where this one ends at the edge; -1 if there is none.
-int next_wall(const Skin& skin, const std::vector<Wall>& walls, int wall, const FaceEdge& edge) {
+/// The wall that begins where another one ends at an edge.
+struct NextWall {
+  int wall = -1;    ///< -1 = none
+  double away = 0;  ///< how far from the edge it was met: behind the riser of a step that leans or is rounded
+};
+
+constexpr double close_by = 0.05;  // over the thickness
+
+NextWall next_wall(const Skin& skin, const std::vector<Wall>& walls, int wall, const FaceEdge& edge) {
   const double t = walls[wall].thickness;
-  for (const double share : {0.5, 0.25, 0.75}) {
-    const double at = edge.first() + share * (edge.last() - edge.first());
-    const gp_Pnt beyond = edge.inside(at, 0.5 * t).Translated(0.05 * t * edge.away(at));
-    for (int other = 0; other < static_cast<int>(walls.size()); ++other) {
-      if (other == wall) continue;
-      if (runs_through(walls[other], skin, beyond, edge.outward(at))) return other;
+  for (const double away : {close_by, 0.3, 0.6, 1.0}) {
+    for (const double share : {0.5, 0.25, 0.75}) {
+      const double at = edge.first() + share * (edge.last() - edge.first());
+      const gp_Pnt beyond = edge.inside(at, 0.5 * t).Translated(away * t * edge.away(at));
+      for (int other = 0; other < static_cast<int>(walls.size()); ++other) {
+        if (other == wall) continue;
+        if (runs_through(walls[other], skin, beyond, edge.outward(at))) return {other, away * t};
+      }
     }
   }
-  return -1;
+  return {};
 }
 
 /// How deep below the edge the middle of a wall lies, a little before the edge (`step` negative) or behind
@@ -146,16 +155,18 @@ double thickest_of(const std::vector<Wall>& walls) {
   return result;
 }
 
-WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, int next, const FaceEdge& edge) {
+WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, const NextWall& next,
+                 const FaceEdge& edge) {
   const double t = walls[wall].thickness;
   const double own = depth_at(skin, walls[wall], edge, -1e-3 * t, 0.5 * t);
-  const double other = depth_at(skin, walls[next], edge, 1e-3 * t, 0.5 * t);
+  const double step_over = next.away > close_by * t ? next.away : 1e-3 * t;
+  const double other = depth_at(skin, walls[next.wall], edge, step_over, 0.5 * t);
   const bool step = std::abs(own - other) > 1e-2 * t;
   const double high = std::min(own, other) - 0.1 * t, low = std::max(own, other) + 0.1 * t;
   // A rib across the bend interrupts the edge, not the wall: the fence runs on through the rib.
   const double longer = step ? 0 : thickest_of(walls);
   const Handle(Geom_Surface) across = GeomFill::Surface(moved(edge, high, longer), moved(edge, low, longer));
-  return {wall, next, BRepBuilderAPI_MakeFace(across, Precision::Confusion()).Face(), step};
+  return {wall, next.wall, BRepBuilderAPI_MakeFace(across, Precision::Confusion()).Face(), step};
 }
 
 /// Whether a point lies near one of the others; if not, it becomes one of them.
@@ -271,6 +282,12 @@ void add_rim_ends(const Skin& skin, int wall, double t, const std::vector<FaceEd
   }
 }
 
+/// Of two walls at a step whether the fence stands at the end of the first: the thicker one.
+bool stands_on(const std::vector<Wall>& walls, int wall, int next) {
+  const double t = walls[wall].thickness, other = walls[next].thickness;
+  return t > other || (t == other && wall < next);
+}
+
 }  // namespace
 
 std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,
@@ -284,11 +301,15 @@ std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& w
       const SkinFace& face = skin.faces()[index];
       for (const TopoDS_Edge& edge : borders.of_face(face)) {
         const FaceEdge face_edge(face, edge);
-        const int next = next_wall(skin, walls, wall, face_edge);
+        const NextWall next = next_wall(skin, walls, wall, face_edge);
         const gp_Pnt center = face_edge.inside(0.5 * (face_edge.first() + face_edge.last()), 0.5 * t);
         // A bend has an edge on either side of the wall: one fence does for both.
-        if (next < 0 || is_near(center, 0.01 * t, centers)) continue;
+        if (next.wall < 0 || is_near(center, 0.01 * t, centers)) continue;
+        const bool riser = next.away > close_by * t;
+        if (riser && !stands_on(walls, wall, next.wall)) continue;
         ends.push_back(make_end(skin, walls, wall, next, face_edge));
+        // Behind a riser the other wall runs on below it, to the same fence.
+        if (riser) ends.push_back({next.wall, wall, ends.back().fence, ends.back().step});
       }
     }
   }

@@ -175,6 +175,30 @@ TopoDS_Shape stepped_sheet() {
   return cut(box(0, 0, 0, 100, 50, 3), {box(50, -1, 2, 51, 52, 2)});
 }
 
+/// The same where the step leans by 45 degrees, and where it is rounded at its foot and at its head.
+TopoDS_Shape leaning_step() {
+  return profile({{{0, 0}, {100, 0}, {100, 2}, {51, 2}, {50, 3}, {0, 3}}}, 50);
+}
+TopoDS_Shape rounded_step() {
+  return profile({{{0, 0}, {100, 0}, {100, 2}, {51, 2, 0.4}, {50.5, 3, 0.4}, {0, 3}}}, 50);
+}
+
+/// A pocket as milled: with draft, and round corners.
+TopoDS_Shape milled_pocket() {
+  BRepOffsetAPI_ThruSections pocket(Standard_True, Standard_True);
+  for (const double z : {2.0, 4.0}) {
+    const double wider = 0.2 * (z - 2);
+    gp_Trsf lift;
+    lift.SetTranslation(gp_Vec(0, 0, z));
+    pocket.AddWire(TopoDS::Wire(
+        BRepBuilderAPI_Transform(
+            rounded(rectangle(30 - wider, 20 - wider, 40 + 2 * wider, 20 + 2 * wider, 8 + wider)), lift)
+            .Shape()));
+  }
+  pocket.Build();
+  return cut(box(0, 0, 0, 100, 60, 4), {pocket.Shape()});
+}
+
 /// A pocket inside, half as deep as the sheet is thick.
 TopoDS_Shape pocket_sheet() {
   return cut(box(0, 0, 0, 100, 60, 4), {box(30, 20, 2, 40, 20, 3)});
@@ -381,6 +405,9 @@ const std::vector<ThinModel>& thin_models() {
       {"ribbed_plate", [] { return ribbed_plate(2); }, 200 * 200 + 4 * 200 * 23.5, {2, 3}, 0.02, 1},
       {"short_rib", short_rib, 100 * 60 + 50 * 18.5, {2, 3}, 0.02, 2},
       {"stepped_sheet", stepped_sheet, 100 * 50 + 0.5 * 50, {2, 3}, 0.01, 1},
+      {"leaning_step", leaning_step, 100 * 50 + 0.5 * 50, {2, 3}, 0.01, 1},
+      {"rounded_step", rounded_step, 0, {2, 3}, 0.01, 1},
+      {"milled_pocket", milled_pocket, 0, {2, 4}, 0.01, 1},
       {"pocket_sheet", pocket_sheet, 100 * 60 + 120, {2, 4}, 0.01, 1},
       {"tapering_web", tapering_web, 60 * 100 / std::cos(0.5 * std::atan(0.02)), {3}, 0.01, 1},
       {"tank", tank, 80 * 2 * M_PI * 30 + 4 * M_PI * 900, {2}, 0.01, 0},
