@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Large displacements (Sze, Liu and Lo 2004, Finite Elements in Analysis and Design 40, 1551-1569)."""
+
+import math
+
+import numpy as np
+import Part
+from FreeCAD import Vector
+
+from .shapes import joined
+from .solver import Problem, displacements, solve, work
+
+
+class EndShear:
+    """A strip, clamped and sheared by 2 at its end, which it raises by half its length."""
+
+    reference, sizes, size, tolerance = 4.933, (0.5, 0.33, 0.25, 0.2), 0.5, 1.0
+    length, width = 10.0, 1.0
+
+    def shape(self):
+        return Part.makePlane(self.length, self.width)
+
+    def answer(self, mesh):
+        problem = Problem(1.2e6, 0.0, 0.1)
+        problem.fix(mesh.where(lambda p: p[:, 0]), 1, 2, 3, 4, 5, 6)
+        end = mesh.where(lambda p: p[:, 0] - self.length)
+        loads = mesh.edge_load(end, lambda point, normal: (0, 0, 1 / self.width))
+        problem.load({node: 2 * force for node, force in loads.items()})
+        problem.increments = (0.1, 1e-5, 0.2)
+        return work(loads, displacements(solve(mesh, problem)[0], len(mesh.points)))
+
+
+class SlitAnnulus:
+    """A ring of sheet, slit: one lip is clamped, the other lifted by a line of force; the rise of its outer end under
+    a tenth of the paper's largest load. The lips are a hundredth of a degree apart, so that they can be told
+    from each other."""
+
+    reference, sizes, size, tolerance = 5.876, (2.0, 1.6, 1.33, 1.0), 1.33, 1.0
+    inner, outer, gap = 6.0, 10.0, 0.01
+    force = 0.8 / 10
+
+    def shape(self):
+        faces = []
+        for quarter in range(4):
+            line = Part.makeLine(Vector(self.inner, 0, 0), Vector(self.outer, 0, 0))
+            line.rotate(Vector(), Vector(0, 0, 1), quarter * (360 - self.gap) / 4)
+            faces.append(line.revolve(Vector(), Vector(0, 0, 1), (360 - self.gap) / 4))
+        return joined(faces)
+
+    def answer(self, mesh):
+        problem = Problem(21e6, 0.0, 0.03)
+        angle = -math.radians(self.gap)
+        clamped = mesh.where(lambda p: p[:, 1] + 1e3 * (p[:, 0] < 0))
+        lifted = mesh.where(lambda p: p[:, 1] * math.cos(angle) - p[:, 0] * math.sin(angle) + 1e3 * (p[:, 0] < 0))
+        problem.fix(clamped, 1, 2, 3, 4, 5, 6)
+        problem.load(mesh.edge_load(lifted, lambda point, normal: (0, 0, self.force)))
+        problem.increments = (0.1, 1e-6, 1)
+        found = displacements(solve(mesh, problem)[0], len(mesh.points))
+        return found[mesh.at(self.outer * math.cos(angle), self.outer * math.sin(angle), 0), 2]
