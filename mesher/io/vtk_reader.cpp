@@ -60,10 +60,9 @@ void unite_points(ImportedMesh& mesh, MeshBuilder& builder) {
   std::erase_if(mesh.elements, [&](FileElement& element) {
     const auto end = element.nodes.begin() + element.node_count;
     for (auto node = element.nodes.begin(); node != end; ++node) *node = first[*node - 1] + 1;
-    std::array<std::int64_t, 8> sorted = element.nodes;
-    std::sort(sorted.begin(), sorted.begin() + element.node_count);
-    return std::adjacent_find(sorted.begin(), sorted.begin() + element.node_count) !=
-           sorted.begin() + element.node_count;
+    for (auto node = element.nodes.begin(); node != end; ++node)
+      if (std::find(node + 1, end, *node) != end) return true;
+    return false;
   });
   if (mesh.elements.size() < count)
     builder.note(
