@@ -212,7 +212,8 @@ class AddonTest(unittest.TestCase):
         fixed = analysis.addObject(ObjectsFem.makeConstraintFixed(self.document, "Fixed"))[0]
         fixed.References = [(part, "Edge1")]
         force = analysis.addObject(ObjectsFem.makeConstraintForce(self.document, "Force"))[0]
-        force.References, force.Force, force.Direction = [(part, "Edge3")], 100.0, (part, ["Edge2"])
+        force.References, force.Direction = [(part, "Edge3")], (part, ["Edge2"])
+        force.Force = "100 N" if hasattr(force.Force, "Unit") else 100.0  # a quantity from FreeCAD 0.21 on
         solver = analysis.addObject(ObjectsFem.makeSolverCalculix(self.document, "Solver"))[0]
         for order in (1, 2):
             with self.subTest(order=order), tempfile.TemporaryDirectory() as folder:

@@ -206,6 +206,9 @@ class OldDocumentTest(unittest.TestCase):
         document.recompute(None, True)
         self.assertEqual([mesh.Status for mesh in (whole, part, stale)],
                          [state.UP_TO_DATE, state.UP_TO_DATE, state.SETTINGS_CHANGED])
+        # FreeCAD 0.20 does not ask them again in a recompute.
+        self.assertEqual([state.judge(mesh)[0] for mesh in (whole, part, stale)],
+                         [state.UP_TO_DATE, state.UP_TO_DATE, state.SETTINGS_CHANGED])
 
     def test_it_is_meshed_again(self):
         for mesh in (self.document.Part, self.document.Stale):

@@ -106,6 +106,12 @@ def settings_key(mesh, wanted: Wanted, found: Dict[links.Key, str]) -> str:
     return json.dumps(settings, sort_keys=True, default=list)
 
 
+def same_settings(one: str, other: str) -> bool:
+    """Compares two keys. A setting that the older version of the two did not know had what is now its default."""
+    defaults = {setting["name"]: setting["default"] for setting in SETTINGS if setting["default"] is not None}
+    return {**defaults, **json.loads(one or "{}")} == {**defaults, **json.loads(other or "{}")}
+
+
 def judge(mesh) -> Tuple[str, str]:
     """The status of a mesh object, and the sentence that says why."""
     if mesh.Shape is None:
@@ -121,7 +127,7 @@ def judge(mesh) -> Tuple[str, str]:
     try:
         if not shapes.same_fingerprint(list(mesh.MeshedShape), shapes.fingerprint(shape_of(mesh.Shape))):
             return PART_CHANGED, PART_CHANGED
-        changed = settings_key(mesh, wanted_of(mesh), found) != mesh.MeshedSettings
+        changed = not same_settings(settings_key(mesh, wanted_of(mesh), found), mesh.MeshedSettings)
     except Error as error:
         return SENSELESS, str(error)
     return (SETTINGS_CHANGED, SETTINGS_CHANGED) if changed else (UP_TO_DATE, UP_TO_DATE)
