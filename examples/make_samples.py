@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the sample CAD models in examples/models/.
+"""Makes the sample CAD models in examples/models/, and the tutorial's part in examples/freecad/.
 
     freecadcmd examples/make_samples.py < /dev/null
 
@@ -165,17 +165,29 @@ def tube_with_hole():
     return tube.cut(drill).Faces[0]
 
 
-def write(name, shape, ending):
-    """Checks a shape and writes it to the folder of models."""
+def sheet_bracket():
+    """The middle surface of an L of sheet: two bolt holes in its foot, one for a pin in its wall."""
+    foot = Part.makePlane(50, 40).cut(
+        Part.makeShell([Part.Face(Part.Wire(Part.makeCircle(4, Vector(15, y, 0)))) for y in (10, 30)]))
+    bend = Part.Arc(Vector(50, 0, 0), Vector(50 + 6 * math.sin(math.pi / 4), 0, 6 - 6 * math.cos(math.pi / 4)),
+                    Vector(56, 0, 6)).toShape().extrude(Vector(0, 40, 0))
+    wall = Part.makeLine(Vector(56, 0, 6), Vector(56, 0, 46)).extrude(Vector(0, 40, 0))
+    wall = wall.cut(Part.Face(Part.Wire(Part.makeCircle(6, Vector(56, 20, 30), X))))
+    return Part.makeShell(foot.Faces[0].generalFuse([bend.Faces[0], wall.Faces[0]])[0].Faces)
+
+
+def write(name, shape, ending, folder=MODELS):
+    """Checks a shape and writes it to a folder."""
     if not shape.isValid() or not shape.Faces:
         raise RuntimeError(f"{name} is not a valid shape")
-    path = MODELS / (name + ending)
+    path = folder / (name + ending)
     if ending == ".step":
         shape.exportStep(str(path))
         text = path.read_text()
         # The same bytes each time: without the date and the versions.
         text = re.sub(r"FILE_NAME\(.*?\);", f"FILE_NAME('{name}','2026-01-01T00:00:00',(''),(''),'','','');", text,
                       count=1, flags=re.S)
+        text = re.sub(r"'Open CASCADE STEP translator [^']*'", f"'{name}'", text)
         path.write_text(text)
     else:
         shape.exportBrep(str(path))
@@ -187,6 +199,7 @@ def main():
     """Makes all models."""
     MODELS.mkdir(exist_ok=True)
     write("bracket", bracket(), ".step")
+    write("sheet_bracket", sheet_bracket(), ".step", Path(__file__).resolve().parent / "freecad")
     for make in (box, cylinder, cone, sphere, torus, disc, plate_with_holes, bezier_patch, wing, t_junction,
                  two_solids, tube_with_hole):
         write(make.__name__, make(), ".brep")

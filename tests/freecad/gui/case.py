@@ -29,6 +29,17 @@ def type_size(dialog, size):
     dialog.findChild(QtGui.QLineEdit, "QuadrilleRefineSize").setText(f"{size!r} mm")
 
 
+def type_into(name, text):
+    """Types into a box for lengths, and leaves it."""
+    line = find(name)
+    line.setFocus()
+    line.selectAll()
+    line.insert(text)
+    process(0.1)
+    find("QuadrilleLog").setFocus()
+    process(0.1)
+
+
 class GuiCase(unittest.TestCase):
     """Each test has a document of its own."""
 

@@ -238,7 +238,6 @@ class GuiTest(GuiCase):
         result.Mesh.ViewObject.show()
         result.Mesh.ViewObject.setNodeColorByScalars(list(result.NodeNumbers), list(result.vonMises))
         self.show()
-        picture("stresses")
 
     # In the FEM workbench
 

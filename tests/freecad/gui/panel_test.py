@@ -19,7 +19,7 @@ import Part
 from PySide import QtCore, QtGui
 
 import quadrille.freecad
-from case import GuiCase, picture, run
+from case import GuiCase, picture, run, type_into
 from driver import Boxes, close_panel, find, process, trigger, wait_for, window
 from quadrille import links, quality, state
 from quadrille.gui import commands, overlays, preferences
@@ -28,17 +28,6 @@ from quadrille.settings import SETTINGS
 from quadrille.state import is_quad_mesh
 
 CANCEL = QtGui.QDialogButtonBox.Cancel
-
-
-def type_into(name, text):
-    """Types into a box for lengths, and leaves it."""
-    line = find(name)
-    line.setFocus()
-    line.selectAll()
-    line.insert(text)
-    process(0.1)
-    find("QuadrilleLog").setFocus()
-    process(0.1)
 
 
 class PanelTest(GuiCase):
@@ -290,7 +279,9 @@ class PanelTest(GuiCase):
         type_into("QuadrilleRefinedSize0", "0.5 mm")
         self.press_mesh()
         close_panel()
-        FreeCADGui.runCommand("Std_MacroStopRecord")
+        # FreeCAD 1.0 stops with the command that starts.
+        stop = {"Std_MacroStopRecord", "Std_DlgMacroRecord"} & set(FreeCADGui.listCommands())
+        FreeCADGui.runCommand(max(stop))
         recorded = (Path(FreeCAD.getUserMacroDir(True)) / "recorded.FCMacro").read_text()
         self.assertEqual(recorded.count("quadrille.freecad.remesh("), 1)
         quads, name = mesh.FemMesh.FaceCount, self.document.Name
