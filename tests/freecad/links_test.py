@@ -7,6 +7,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 from unittest import mock
 
 sys.path.insert(0, os.environ["QUADRILLE_PYTHON"])
@@ -18,7 +19,7 @@ from FreeCAD import Vector
 
 import quadrille
 import quadrille.freecad as core
-from quadrille import links, quality, shapes, solvers, state
+from quadrille import links, picks, quality, shapes, solvers, state
 
 DATA = Path(__file__).resolve().parent / "data"
 
@@ -109,6 +110,14 @@ class LinksTest(unittest.TestCase):
         mesh.Faces = [(self.part, ("Face6",))]
         core.remesh(mesh)
         self.assertEqual(faces_of(mesh), {"Face6"})
+
+    def test_picks_are_known_with_and_without_their_history(self):
+        """FreeCAD 1.0 names what is picked by its history too."""
+        picked = SimpleNamespace(Object=self.part, SubElementNames=("Face3", ";#1c:2;:H8dc,E.Edge5", "Body.Pad.;#16:2;:G,F.Face2",
+                                                                    "Body.Pad.", "Body.Pad.Vertex1"))
+        self.assertEqual([name for _, name in picks.picks_of([picked])],
+                         ["Face3", "Edge5", "Body.Pad.Face2", "Body.Pad.", "Body.Pad.Vertex1"])
+        self.assertEqual(picks.elements_of(self.part, picks.picks_of([picked])[:2]), ["Face3", "Edge5"])
 
     def test_two_faces_that_have_changed_places_are_asked_for(self):
         self.edit(self.renumbered(Part.makeBox(20, 20, 20), range(6)))

@@ -6,6 +6,7 @@ A click on a PartDesign Body picks the feature on top of it, and names its faces
 the outermost object inward: the first one with a shape of its own is the part, so that a Body stays the part when
 features are added to it."""
 
+import re
 from typing import Iterable, List, Sequence, Tuple
 
 from . import shapes
@@ -17,7 +18,12 @@ Pick = Tuple[object, str]
 
 def picks_of(selection) -> List[Pick]:
     """The picks of a selection that FreeCADGui.Selection.getSelectionEx(document, 0) gave."""
-    return [(entry.Object, name) for entry in selection for name in (entry.SubElementNames or ("",))]
+    return [(entry.Object, _plain(name)) for entry in selection for name in (entry.SubElementNames or ("",))]
+
+
+def _plain(name: str) -> str:
+    """Without what FreeCAD 1.0 calls an element by its history: `Pocket.;#16:2;:H8dc,F.Face3` is `Pocket.Face3`."""
+    return re.sub(r"(^|\.);.*\.", r"\1", name)
 
 
 def part_of(pick: Pick):

@@ -108,8 +108,13 @@ class TutorialTest(GuiCase):
         """Step 1."""
         FreeCAD.closeDocument(self.document.Name)
         FreeCADGui.activateWorkbench("PartWorkbench")
-        with Boxes(lambda box: box.selectFile(str(ROOT / self.values(1)[0]))) as boxes:
+        def answer(box):
+            if isinstance(box, QtGui.QFileDialog):
+                box.selectFile(str(ROOT / self.values(1)[0]))
+
+        with Boxes(answer) as boxes:
             self.choose(1)
+            wait_for(lambda: FreeCAD.ActiveDocument is not None and FreeCAD.ActiveDocument.Objects, 30, "the part")
         self.assertEqual(boxes.texts, [])
         self.document = FreeCAD.ActiveDocument
         self.assertEqual(len(self.document.Objects), 1)
