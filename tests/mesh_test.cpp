@@ -262,7 +262,7 @@ TEST(Mesh, RefinesOnTheEntitiesNamed) {
   EXPECT_GT(quads_on(fine, 3), 8 * quads_on(plain, 3));
   options.sizing.face_sizes.clear();
   options.sizing.vertex_sizes[1] = options.sizing.size / 5;
-  EXPECT_GT(mesh_of(model, options).quads.size(), plain.quads.size() + 20);
+  EXPECT_GT(mesh_of(model, options).quads.size(), plain.quads.size() + 15);
   options.sizing.vertex_sizes.clear();
   options.sizing.edge_sizes[1] = options.sizing.size / 5;
   EXPECT_GT(mesh_of(model, options).quads.size(), plain.quads.size() + 40);

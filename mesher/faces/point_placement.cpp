@@ -99,6 +99,11 @@ class PointGrid {
 /// Damaged files have faces without end.
 constexpr std::size_t most_points = 20'000'000;
 
+/// Segments of the boundary are shorter or longer than the sizing field wants where edges share their counts
+/// with others. Points begin with the size of the segments, within these shares of the field's, and come
+/// nearer to the field's with each step: this share of the difference is left.
+constexpr double least_ratio = 0.4, most_ratio = 1.2, ratio_decay = 0.7;
+
 /// A point of the front.
 struct FrontPoint {
   Vector2 uv;
@@ -106,6 +111,7 @@ struct FrontPoint {
   Vector3 normal;
   Vector3 direction;  // unit, tangent: one of the four of the cross
   double size = 0;
+  double ratio = 1;  // to what the sizing field wants there
   bool proposes = false;
 };
 
@@ -164,6 +170,7 @@ class Placer {
       point.size = options_.scale * size_at_(boundary_.points[i]);
       front_.push_back(point);
     }
+    follow_segments();
     for (const auto& segment : boundary_.segments) {
       if (segment.degenerate) {
         pole[segment.a] = pole[segment.b] = 1;
@@ -183,6 +190,23 @@ class Placer {
       grid_index_.push_back(i);
     }
     add_blockers();
+  }
+
+  /// The points of the boundary get the size of their segments, which the sizing field wants as long as at
+  /// their ends in the mean.
+  void follow_segments() {
+    std::vector<double> ratio(boundary_.size(), 0);
+    std::vector<int> count(boundary_.size(), 0);
+    for (const auto& segment : boundary_.segments) {
+      if (segment.degenerate) continue;
+      const double length = (boundary_.points[segment.b] - boundary_.points[segment.a]).norm();
+      const double own = 2 * length / (front_[segment.a].size + front_[segment.b].size);
+      for (const int i : {segment.a, segment.b}) ratio[i] += (own - ratio[i]) / ++count[i];
+    }
+    for (int i = 0; i < boundary_.size(); ++i) {
+      if (count[i] > 0) front_[i].ratio = std::clamp(ratio[i], least_ratio, most_ratio);
+      front_[i].size *= front_[i].ratio;
+    }
   }
 
   /// Long boundary segments refuse points near their middle too.
@@ -214,7 +238,8 @@ class Placer {
     FrontPoint to;
     double length = from.size;
     if (!step(from, direction, length, to)) return;
-    const double size = options_.scale * size_at_(to.at.point);
+    to.ratio = 1 + (from.ratio - 1) * ratio_decay;
+    const double size = to.ratio * options_.scale * size_at_(to.at.point);
     const double wanted = 0.5 * (from.size + size);
     if (std::abs(wanted - length) > 0.05 * length) {
       length = wanted;

