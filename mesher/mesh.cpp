@@ -166,17 +166,23 @@ class Job {
   /// Keeps the meshes of the faces whose boundary stays as it was, with the new numbers of its nodes.
   void keep_meshes(const BoundaryNodes& nodes) {
     if (nodes_.edges.empty()) return;
-    std::vector<int> renumbered(nodes_.points.size(), -1);
+    constexpr int none = -1, several = -2;
+    std::vector<int> renumbered(nodes_.points.size(), none);
+    // What was one node may be several: the ends of an edge that is kept now and was let go before.
+    const auto renumber = [&](int before, int now) {
+      if (before < 0 || now < 0) return;
+      int& number = renumbered[before];
+      number = number == none || number == now ? now : several;
+    };
     std::vector<char> same(nodes.edges.size());
     for (std::size_t i = 0; i < same.size(); ++i) {
       const auto &before = nodes_.edges[i], &now = nodes.edges[i];
       same[i] = before.parameters == now.parameters;
       if (!same[i]) continue;
-      for (std::size_t k = 0; k < now.nodes.size(); ++k) renumbered[before.nodes[k]] = now.nodes[k];
+      for (std::size_t k = 0; k < now.nodes.size(); ++k) renumber(before.nodes[k], now.nodes[k]);
     }
-    for (std::size_t i = 0; i < nodes.vertex_nodes.size(); ++i) {
-      if (nodes_.vertex_nodes[i] >= 0) renumbered[nodes_.vertex_nodes[i]] = nodes.vertex_nodes[i];
-    }
+    for (std::size_t i = 0; i < nodes.vertex_nodes.size(); ++i)
+      renumber(nodes_.vertex_nodes[i], nodes.vertex_nodes[i]);
     for (std::size_t face = 0; face < meshes_.size(); ++face) {
       if (!meshes_[face]) continue;
       bool keep = used_[face];
