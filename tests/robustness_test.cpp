@@ -218,7 +218,7 @@ TEST(Robustness, MakesRoomInGapsBeforeMeshing) {
 TEST(Robustness, CountsTheQuadsInGapsBeforeMeshing) {
   MeshOptions options;
   options.sizing.size = 20;
-  for (const double gap : {0.3, 1.0, 6.0}) {
+  for (const double gap : {0.3, 2.0, 6.0}) {
     ExecutionContext context(1);
     const CadModel plate = plate_with_holes(4, 3, gap);
     const auto quads = static_cast<double>(quadrille::mesh(plate, options, context).quads.size());
