@@ -22,6 +22,7 @@ ROOMS = [
     "mesher/size_entries.cpp",
     "mesher/settings.hpp",
     "mesher/settings.cpp",
+    "mesher/boundary.hpp",
     "mesher/estimate.hpp",
     "mesher/estimate.cpp",
     "mesher/shell",
