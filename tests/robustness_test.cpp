@@ -30,6 +30,7 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/cad/seams.hpp"
 #include "mesher/estimate.hpp"
+#include "mesher/mesh/criteria.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/area_check.hpp"
 #include "tests/models/trouble_models.hpp"
@@ -215,10 +216,26 @@ TEST(Robustness, MakesRoomInGapsBeforeMeshing) {
   }
 }
 
+/// Between holes nodes face each other, and quads go from one hole to the next: at the first attempt, without
+/// finer elements, and most of them within the limits.
+TEST(Robustness, CrossesLigamentsInOneRow) {
+  MeshOptions options;
+  options.sizing.size = 20;
+  for (const double gap : {0.5, 1.0, 1.1, 1.4, 2.0}) {
+    ExecutionContext context(1);
+    const ShellMesh mesh = quadrille::mesh(plate_with_holes(4, 3, gap), options, context);
+    EXPECT_EQ(joined(validate(mesh, true)), "") << gap;
+    for (const auto& face : mesh.faces) EXPECT_LE(face.attempts, 1) << gap << " Face" << face.face;
+    EXPECT_LT(mesh.quads.size(), 2000u) << gap;
+    const CriteriaSummary summary = check_criteria(mesh);
+    EXPECT_LT(static_cast<std::size_t>(summary.failing), mesh.quads.size() / 10) << gap;
+  }
+}
+
 TEST(Robustness, CountsTheQuadsInGapsBeforeMeshing) {
   MeshOptions options;
   options.sizing.size = 20;
-  for (const double gap : {0.3, 2.0, 6.0}) {
+  for (const double gap : {0.3, 1.0, 2.0, 6.0}) {
     ExecutionContext context(1);
     const CadModel plate = plate_with_holes(4, 3, gap);
     const auto quads = static_cast<double>(quadrille::mesh(plate, options, context).quads.size());

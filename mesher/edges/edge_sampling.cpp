@@ -13,6 +13,7 @@
 #include "mesher/edges/edge_counts.hpp"
 #include "mesher/edges/face_sides.hpp"
 #include "mesher/edges/facing_sides.hpp"
+#include "mesher/edges/gap_nodes.hpp"
 #include "mesher/edges/hole_blocks.hpp"
 #include "mesher/edges/narrow_faces.hpp"
 #include "mesher/edges/strip_counts.hpp"
@@ -136,6 +137,7 @@ class EdgeSampler {
       if (counts_[i] > 0) place_nodes(i, check);
     }
     align_narrow_faces(shape_, used_, find_split_strips(shape_, used_, wishes_.wanted), result_);
+    align_gaps(shape_, used_, plan_.unaligned, result_);
     borrow_nodes();
     return std::move(result_);
   }
@@ -301,6 +303,7 @@ class EdgeSampler {
 SamplingPlan::SamplingPlan(const CadShape& shape)
     : factor(shape.edges.size(), 1),
       bare(shape.edges.size(), 0),
+      unaligned(shape.faces.size(), 0),
       tiny(find_tiny_features(shape, std::vector<char>(shape.faces.size(), 1),
                               std::vector<Collapse>(shape.edges.size(), Collapse::no), 0)) {}
 

@@ -45,6 +45,7 @@ struct SamplingPlan {
   std::vector<int> factor;                       ///< (edges) on the number of segments
   std::vector<EdgeStretch> finer;
   std::vector<char> bare;  ///< (edges) 1 = by length alone, though the curve turns: it may have loops in it
+  std::vector<char> unaligned;  ///< (faces) 1 = nodes need not face each other across gaps in it
   TinyFeatures tiny;
   std::vector<std::optional<PrescribedEdge>> prescribed;  ///< (edges) that users divide; may be empty
 };

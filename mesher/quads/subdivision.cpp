@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/side_key.hpp"
@@ -218,6 +219,55 @@ void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
     mesh.triangles.insert(mesh.triangles.end(), parts.begin(), parts.end());
     return true;
   });
+}
+
+void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
+                     const std::vector<FaceBoundary::Segment>& segments) {
+  constexpr double narrow = 0.7, good = 0.3;
+  const auto& p = mesh.points;
+  std::unordered_set<std::uint64_t> boundary;
+  for (const auto& segment : segments) boundary.insert(side_key(segment.a, segment.b));
+  const auto on_boundary = [&](int a, int b) { return boundary.contains(side_key(a, b)); };
+  struct Corner {
+    int triangle, k;  ///< the side from corner k
+  };
+  std::unordered_map<std::uint64_t, Corner> open;  // inner sides of triangles at the boundary
+  struct Pair {
+    double worst;
+    int first, second;
+  };
+  std::vector<Pair> pairs;
+  const SideMiddles middles(p, segments);
+  const auto try_pair = [&](const Corner& here, const Corner& there) {
+    const auto &t = mesh.triangles[here.triangle], &u = mesh.triangles[there.triangle];
+    const std::array quad{t[here.k], u[(there.k + 2) % 3], t[(here.k + 1) % 3], t[(here.k + 2) % 3]};
+    for (int k = 0; k < 2; ++k) {
+      const int a = quad[k], b = quad[k + 1], c = quad[k + 2], d = quad[(k + 3) % 4];
+      if (!on_boundary(a, b) || !on_boundary(c, d)) continue;
+      const double shorter = std::min((p[b] - p[a]).norm(), (p[d] - p[c]).norm());
+      const double one = (p[c] - p[b]).norm(), other = (p[a] - p[d]).norm();
+      if (!(std::min(one, other) < narrow * shorter && std::max(one, other) < shorter)) continue;
+      const double worst = worst_part(p, quad, middles, normals[a] + normals[b] + normals[c] + normals[d]);
+      if (worst > good) pairs.push_back({worst, here.triangle, there.triangle});
+    }
+  };
+  for (int i = 0; i < static_cast<int>(mesh.triangles.size()); ++i) {
+    const auto& t = mesh.triangles[i];
+    if (!on_boundary(t[0], t[1]) && !on_boundary(t[1], t[2]) && !on_boundary(t[2], t[0])) continue;
+    for (int k = 0; k < 3; ++k) {
+      const auto [at, is_new] = open.try_emplace(side_key(t[k], t[(k + 1) % 3]), Corner{i, k});
+      if (!is_new) try_pair(at->second, {i, k});
+    }
+  }
+  if (pairs.empty()) return;
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.worst > b.worst; });
+  mesh.tags.assign(mesh.triangles.size(), 0);
+  int tag = 0;
+  for (const Pair& pair : pairs) {
+    int &first = mesh.tags[pair.first], &second = mesh.tags[pair.second];
+    if (first == 0 && second == 0) first = second = ++tag;
+  }
 }
 
 FaceQuads subdivide(const FaceQuads& coarse, const std::vector<FaceBoundary::Segment>& segments,

@@ -153,6 +153,8 @@ class FaceMesher {
 
   FaceQuads mesh_once(const FaceBoundary& boundary, const TrimmedDomain& domain) {
     FaceTriangulation triangulation = triangulate(boundary, domain);
+    if (boundary.stride == 2)
+      tie_across_gaps(triangulation.mesh, triangulation.normals, triangulation.segments);
     FaceQuads quads = recombine_face(triangulation, boundary.stride);
     improve(quads, recipe_.clean_up);
     if (boundary.stride == 2) {
@@ -210,6 +212,8 @@ class FaceMesher {
   FaceQuads recombine_face(const FaceTriangulation& triangulation, int stride) {
     FaceQuads quads;
     quads.surface_mesh.mesh = recombine(triangulation.mesh, options_.recombine, context_);
+    quads.surface_mesh.mesh.quad_tags.clear();
+    quads.surface_mesh.mesh.triangle_tags.clear();
     quads.surface_mesh.parameters = triangulation.uv;
     quads.surface_mesh.normals = triangulation.normals;
     quads.surface_mesh.fixed.assign(triangulation.uv.size(), 0);

@@ -126,8 +126,17 @@ struct Row {
   Remedy apply;
 };
 
+bool nodes_where_they_were(Case& patient) {
+  char& unaligned = patient.edges.plan.unaligned[patient.face];
+  if (unaligned != 0) return false;
+  unaligned = 1;
+  return true;
+}
+
 /// For each cause its remedies, the one that asks for least first.
 constexpr std::array table{
+    Row{any_of({Cause::coarse_segments, Cause::looped_edge, Cause::crossing_curves}),
+        "nodes not moved to face each other", 1, nodes_where_they_were},
     Row{any_of({Cause::narrow_gaps}), "finer segments there", FaceRecord::most_looks, finer_there},
     Row{any_of({Cause::coarse_segments}), "finer segments there", 4, finer_there},
     Row{any_of({Cause::looped_edge}), "nodes along the chord of that edge", 1, along_chord},
