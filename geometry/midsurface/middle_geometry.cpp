@@ -1,5 +1,6 @@
 #include "geometry/midsurface/middle_geometry.hpp"
 
+#include <Adaptor3d_Curve.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom_ConicalSurface.hxx>
 #include <Geom_CylindricalSurface.hxx>
@@ -7,12 +8,14 @@
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_ToroidalSurface.hxx>
 #include <cmath>
+#include <gp_Circ.hxx>
 #include <gp_Cone.hxx>
 #include <gp_Cylinder.hxx>
 #include <gp_Lin.hxx>
 #include <gp_Pln.hxx>
 #include <gp_Sphere.hxx>
 #include <gp_Torus.hxx>
+#include <optional>
 
 namespace quadrille {
 
@@ -110,6 +113,33 @@ Handle(Geom_Surface) between_cones(const gp_Cone& a, const gp_Cone& b) {
   return new Geom_ConicalSurface(moved, a.SemiAngle(), 0);
 }
 
+/// The torus that a surface is, or that turning a circle round an axis in its plane makes of it.
+std::optional<gp_Torus> torus_of(const BRepAdaptor_Surface& surface, double size) {
+  if (surface.GetType() == GeomAbs_Torus) return surface.Torus();
+  if (surface.GetType() != GeomAbs_SurfaceOfRevolution) return std::nullopt;
+  const Handle(Adaptor3d_Curve) curve = surface.BasisCurve();
+  if (curve->GetType() != GeomAbs_Circle) return std::nullopt;
+  const gp_Circ circle = curve->Circle();
+  const gp_Lin axis(surface.AxeOfRevolution());
+  const double height = gp_Vec(axis.Location(), circle.Location()).Dot(gp_Vec(axis.Direction()));
+  const gp_Pnt center = axis.Location().Translated(height * gp_Vec(axis.Direction()));
+  const double major = center.Distance(circle.Location());
+  const bool in_plane =
+      std::abs(circle.Axis().Direction().Dot(axis.Direction())) < same_direction &&
+      std::abs(gp_Vec(center, circle.Location()).Dot(gp_Vec(circle.Axis().Direction()))) < same_length * size;
+  if (!in_plane || major < same_length * size) return std::nullopt;
+  const gp_Ax3 frame(center, axis.Direction(), gp_Dir(gp_Vec(center, circle.Location())));
+  return gp_Torus(frame, major, circle.Radius());
+}
+
+Handle(Geom_Surface) between_tori(const gp_Torus& a, const gp_Torus& b, double size) {
+  const double near = same_length * size;
+  if (!same_axis(a.Axis(), b.Axis(), size) || a.Location().Distance(b.Location()) > near ||
+      std::abs(a.MajorRadius() - b.MajorRadius()) > near)
+    return {};
+  return new Geom_ToroidalSurface(a.Position(), a.MajorRadius(), 0.5 * (a.MinorRadius() + b.MinorRadius()));
+}
+
 }  // namespace
 
 bool on_one_surface(const SkinFace& a, const SkinFace& b, double size) {
@@ -118,6 +148,8 @@ bool on_one_surface(const SkinFace& a, const SkinFace& b, double size) {
 
 Handle(Geom_Surface) middle_surface(const SkinFace& a, const SkinFace& b, double size) {
   const BRepAdaptor_Surface &s = a.surface(), &t = b.surface();
+  const auto torus = torus_of(s, size), other = torus_of(t, size);
+  if (torus && other) return between_tori(*torus, *other, size);
   if (s.GetType() != t.GetType()) return {};
   const double near = same_length * size;
   switch (s.GetType()) {
@@ -134,13 +166,6 @@ Handle(Geom_Surface) middle_surface(const SkinFace& a, const SkinFace& b, double
       if (s.Sphere().Location().Distance(t.Sphere().Location()) > near) return {};
       return new Geom_SphericalSurface(s.Sphere().Position(),
                                        0.5 * (s.Sphere().Radius() + t.Sphere().Radius()));
-    case GeomAbs_Torus:
-      if (!same_axis(s.Torus().Axis(), t.Torus().Axis(), size) ||
-          s.Torus().Location().Distance(t.Torus().Location()) > near ||
-          std::abs(s.Torus().MajorRadius() - t.Torus().MajorRadius()) > near)
-        return {};
-      return new Geom_ToroidalSurface(s.Torus().Position(), s.Torus().MajorRadius(),
-                                      0.5 * (s.Torus().MinorRadius() + t.Torus().MinorRadius()));
     default:
       return {};
   }

@@ -19,7 +19,10 @@
 #include <cmath>
 #include <gp_Ax3.hxx>
 #include <gp_Circ.hxx>
+#include <gp_Cone.hxx>
+#include <gp_Cylinder.hxx>
 #include <gp_Pln.hxx>
+#include <optional>
 
 #include "geometry/midsurface/wall_pieces.hpp"
 
@@ -103,6 +106,42 @@ Handle(Geom_Curve) moved(const FaceEdge& edge, double depth, double longer) {
   return interpolated(edge, depth);
 }
 
+/// The circle that a curve is an arc of.
+std::optional<gp_Circ> circle_of(const Handle(Geom_Curve) & curve) {
+  const auto arc = Handle(Geom_TrimmedCurve)::DownCast(curve);
+  const auto circle = arc.IsNull() ? Handle(Geom_Circle)() : Handle(Geom_Circle)::DownCast(arc->BasisCurve());
+  return circle.IsNull() ? std::nullopt : std::optional(circle->Circ());
+}
+
+/// The cone between two arcs round one axis, which OpenCASCADE intersects far sooner than what it makes of
+/// two curves itself. Null where they are no such arcs.
+TopoDS_Face cone_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
+  const auto first = circle_of(a), second = circle_of(b);
+  if (!first || !second) return {};
+  const gp_Vec up(first->Axis().Direction());
+  const gp_Vec along(first->Location(), second->Location());
+  const double height = along.Dot(up), wider = second->Radius() - first->Radius();
+  const double near = 1e-7 * first->Radius();
+  if (along.Crossed(up).Magnitude() > near || std::abs(height) < 1e-3 * std::abs(wider)) return {};
+  const double low = a->FirstParameter(), high = a->LastParameter(), angle = std::atan(wider / height);
+  const double v = height / std::cos(angle);
+  const gp_Ax3 frame(first->Position());
+  if (std::abs(wider) < near)
+    return BRepBuilderAPI_MakeFace(gp_Cylinder(frame, first->Radius()), low, high, std::min(0.0, height),
+                                   std::max(0.0, height))
+        .Face();
+  return BRepBuilderAPI_MakeFace(gp_Cone(frame, angle, first->Radius()), low, high, std::min(0.0, v),
+                                 std::max(0.0, v))
+      .Face();
+}
+
+/// What lies between two curves.
+TopoDS_Face face_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
+  const TopoDS_Face cone = cone_between(a, b);
+  if (!cone.IsNull()) return cone;
+  return BRepBuilderAPI_MakeFace(GeomFill::Surface(a, b), Precision::Confusion()).Face();
+}
+
 /// Whether the wall is there at a point, running nearly along the plane across the direction.
 bool runs_through(const Wall& wall, const Skin& skin, const gp_Pnt& point, const gp_Dir& across) {
   const auto position = position_in(wall, skin, point);
@@ -165,8 +204,7 @@ WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, con
   const double high = std::min(own, other) - 0.1 * t, low = std::max(own, other) + 0.1 * t;
   // A rib across the bend interrupts the edge, not the wall: the fence runs on through the rib.
   const double longer = step ? 0 : thickest_of(walls);
-  const Handle(Geom_Surface) across = GeomFill::Surface(moved(edge, high, longer), moved(edge, low, longer));
-  return {wall, next.wall, BRepBuilderAPI_MakeFace(across, Precision::Confusion()).Face(), step};
+  return {wall, next.wall, face_between(moved(edge, high, longer), moved(edge, low, longer)), step};
 }
 
 /// Whether a point lies near one of the others; if not, it becomes one of them.

@@ -7,7 +7,9 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <IntCurvesFace_ShapeIntersector.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <algorithm>
@@ -238,6 +240,26 @@ TEST(MidSurface, JoinsSolidsThatTouchWhereThatIsWanted) {
   ExecutionContext context;
   const ShellMesh result = mesh(joined, options, context);
   EXPECT_TRUE(validate(result).empty());
+}
+
+/// What is turned round an axis is a torus and the like to the program: faces keep their numbers, and have
+/// exact middles.
+TEST(MidSurface, KnowsTurnedFaces) {
+  const TopoDS_Shape solid = thin_model("beaded_disc");
+  const CadModel model = model_of(solid);
+  TopTools_IndexedMapOfShape solid_faces, middle_faces;
+  TopExp::MapShapes(model.shape().shape, TopAbs_FACE, solid_faces);
+  const MidSurface middle = middle_of(solid);
+  TopExp::MapShapes(middle.model.shape().shape, TopAbs_FACE, middle_faces);
+  ASSERT_EQ(middle_faces.Extent(), static_cast<int>(middle.faces.size()));
+  for (int i = 1; i <= middle_faces.Extent(); ++i) {
+    EXPECT_FALSE(middle.faces[i - 1].fitted);
+    EXPECT_EQ(middle.faces[i - 1].solid_faces.size(), 2U);
+    for (const int face : middle.faces[i - 1].solid_faces) {
+      const BRepExtrema_DistShapeShape apart(middle_faces(i), solid_faces(face));
+      EXPECT_NEAR(apart.Value(), 0.5 * middle.faces[i - 1].thickness, 1e-3);
+    }
+  }
 }
 
 TEST(MidSurface, TellsHowFarItIs) {
