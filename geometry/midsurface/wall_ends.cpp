@@ -12,6 +12,7 @@
 #include <TColgp_HArray1OfPnt.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
@@ -23,6 +24,7 @@
 #include <gp_Cylinder.hxx>
 #include <gp_Pln.hxx>
 #include <optional>
+#include <utility>
 
 #include "geometry/midsurface/wall_pieces.hpp"
 
@@ -285,40 +287,90 @@ bool runs_on(const FaceEdge& edge, double thickness, Material& material) {
   return material.holds(edge.inside(at, 0.5 * thickness).Translated(0.05 * thickness * edge.away(at)));
 }
 
-/// A rectangle across the wall, from the vertex along the way that the wall runs on.
-TopoDS_Face rim_fence(const Skin& skin, const EdgeEnd& end, double thickness) {
-  const double t = thickness;
-  const gp_Vec away = end.edge->away(end.at);
-  const gp_Pnt start = end.edge->inside(end.at, 0.5 * t).Translated(0.05 * t * away);
-  const auto hit = skin.first_hit(start, gp_Dir(away));
-  const double length = hit ? hit->distance + 0.1 * t : 2 * t;
-  const gp_Pnt high = end.edge->inside(end.at, 0.2 * t), low = end.edge->inside(end.at, 0.8 * t);
-  const gp_Dir across(gp_Vec(high, low));
-  const gp_Ax3 frame(high, across.Crossed(gp_Dir(away)), across);
-  return BRepBuilderAPI_MakeFace(gp_Pln(frame), 0, high.Distance(low), 0, length).Face();
-}
-
-/// The fences at the vertices of one face where an edge that the wall runs on past meets its rim.
-void add_rim_ends(const Skin& skin, int wall, double t, const std::vector<FaceEdge>& edges,
-                  Material& material, std::vector<gp_Pnt>& centers, std::vector<WallEnd>& ends) {
-  for (const FaceEdge& edge : edges) {
-    if (edge.closed() || !runs_on(edge, t, material)) continue;
-    for (const double at : {edge.first(), edge.last()}) {
-      const std::vector<EdgeEnd> around = ends_at(edge.curve().Value(at), edges);
-      const auto own = std::find_if(around.begin(), around.end(),
-                                    [&](const EdgeEnd& end) { return end.edge == &edge && end.at == at; });
-      const bool at_rim = own != around.end() && around.size() == 2 &&
-                          std::any_of(around.begin(), around.end(), [&](const EdgeEnd& end) {
-                            return end.edge != &edge && !runs_on(*end.edge, t, material);
-                          });
-      if (!at_rim) continue;
-      const gp_Pnt center = edge.inside(at, 0.5 * t);
-      const gp_Vec aside = 0.05 * t * (edge.away(at) + own->outward_along);
-      if (!material.holds(center.Translated(aside)) || is_near(center, 0.01 * t, centers)) continue;
-      ends.push_back({wall, wall, rim_fence(skin, *own, t), false});
+/// The edges of a solid by their ends.
+class EdgeEnds {
+ public:
+  explicit EdgeEnds(const TopoDS_Solid& solid) {
+    TopTools_IndexedMapOfShape edges;
+    TopExp::MapShapes(solid, TopAbs_EDGE, edges);
+    for (int i = 1; i <= edges.Extent(); ++i) {
+      const TopoDS_Edge& edge = TopoDS::Edge(edges(i));
+      if (BRep_Tool::Degenerated(edge)) continue;
+      const BRepAdaptor_Curve curve(edge);
+      for (const bool last : {false, true}) {
+        gp_Pnt at;
+        gp_Vec along;
+        curve.D1(last ? curve.LastParameter() : curve.FirstParameter(), at, along);
+        if (along.Magnitude() < Precision::Confusion()) continue;
+        ends_.emplace_back(at, gp_Dir(last ? along.Reversed() : along));
+      }
     }
   }
-}
+
+  /// The direction in which an edge leaves a point most nearly along a wanted one; that itself where there is
+  /// none within 45 degrees.
+  gp_Dir leaving(const gp_Pnt& point, const gp_Dir& wanted) const {
+    gp_Dir best = wanted;
+    double most = nearly_parallel;
+    for (const auto& [at, along] : ends_) {
+      if (at.Distance(point) > 1e-4 || along.Dot(wanted) < most) continue;
+      most = along.Dot(wanted);
+      best = along;
+    }
+    return best;
+  }
+
+ private:
+  std::vector<std::pair<gp_Pnt, gp_Dir>> ends_;
+};
+
+/// Finds where a wall that runs into others has a rim that stops short of them.
+class RimEnds {
+ public:
+  explicit RimEnds(const Skin& skin) : skin_(skin), edges_(skin.solid()), material_(skin) {}
+
+  /// The fences at the vertices of one face where an edge that the wall runs on past meets its rim. \param
+  /// t thickness of the wall. \param centers of the fences that it has already, with those that are added.
+  void add(int wall, double t, const std::vector<FaceEdge>& edges, std::vector<gp_Pnt>& centers,
+           std::vector<WallEnd>& ends) {
+    for (const FaceEdge& edge : edges) {
+      if (edge.closed() || !runs_on(edge, t, material_)) continue;
+      for (const double at : {edge.first(), edge.last()}) {
+        const std::vector<EdgeEnd> around = ends_at(edge.curve().Value(at), edges);
+        const auto own = std::find_if(around.begin(), around.end(),
+                                      [&](const EdgeEnd& end) { return end.edge == &edge && end.at == at; });
+        const bool at_rim = own != around.end() && around.size() == 2 &&
+                            std::any_of(around.begin(), around.end(), [&](const EdgeEnd& end) {
+                              return end.edge != &edge && !runs_on(*end.edge, t, material_);
+                            });
+        if (!at_rim) continue;
+        const gp_Pnt center = edge.inside(at, 0.5 * t);
+        const gp_Vec aside = 0.05 * t * (edge.away(at) + own->outward_along);
+        if (!material_.holds(center.Translated(aside)) || is_near(center, 0.01 * t, centers)) continue;
+        ends.push_back({wall, wall, fence(*own, t), false});
+      }
+    }
+  }
+
+ private:
+  /// A rectangle across the wall, from the vertex along the way that the wall runs on. It holds the edge that
+  /// leads from the vertex to the other side: where the side leans, its normal would miss that edge, and with
+  /// it the end of the rim.
+  TopoDS_Face fence(const EdgeEnd& end, double t) const {
+    const gp_Vec away = end.edge->away(end.at);
+    const gp_Pnt start = end.edge->inside(end.at, 0.5 * t).Translated(0.05 * t * away);
+    const auto hit = skin_.first_hit(start, gp_Dir(away));
+    const double length = hit ? hit->distance + 0.1 * t : 2 * t;
+    const gp_Pnt vertex = end.edge->curve().Value(end.at);
+    const gp_Dir across = edges_.leaving(vertex, end.edge->outward(end.at).Reversed());
+    const gp_Ax3 frame(vertex.Translated(0.2 * t * gp_Vec(across)), across.Crossed(gp_Dir(away)), across);
+    return BRepBuilderAPI_MakeFace(gp_Pln(frame), 0, 0.6 * t, 0, length).Face();
+  }
+
+  const Skin& skin_;
+  EdgeEnds edges_;
+  Material material_;
+};
 
 /// Of two walls at a step whether the fence stands at the end of the first: the thicker one.
 bool stands_on(const std::vector<Wall>& walls, int wall, int next) {
@@ -357,7 +409,7 @@ std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& w
 std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& walls,
                                    const std::vector<int>& surfaces) {
   const Borders borders(skin, surfaces);
-  Material material(skin);
+  RimEnds rims(skin);
   std::vector<WallEnd> ends;
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
     std::vector<gp_Pnt> centers;
@@ -365,7 +417,7 @@ std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& wa
       const SkinFace& face = skin.faces()[index];
       std::vector<FaceEdge> edges;
       for (const TopoDS_Edge& edge : borders.of_face(face)) edges.emplace_back(face, edge);
-      add_rim_ends(skin, wall, walls[wall].thickness, edges, material, centers, ends);
+      rims.add(wall, walls[wall].thickness, edges, centers, ends);
     }
   }
   return ends;

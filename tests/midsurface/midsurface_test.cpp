@@ -191,6 +191,17 @@ TopoDS_Shape thin_model(const std::string& name) {
   throw std::invalid_argument(name);
 }
 
+/// A rib that thickens toward the lid does not go on below its rim inside the walls that it runs into.
+TEST(MidSurface, EndsDraftedRibsAtTheirRims) {
+  int ribs = 0;
+  for (const MiddleFace& face : middle_of(thin_model("housing")).faces) {
+    if (!varies(face) || face.fitted) continue;
+    ++ribs;
+    EXPECT_NEAR(face.thinnest, 1.2, 1e-3);
+  }
+  EXPECT_EQ(ribs, 3);
+}
+
 TEST(MidSurface, TellsTheThicknessAtEachNodeWhereItVaries) {
   const TopoDS_Shape solid = thin_model("tapering_web");
   const TopoDS_Shape skin = shells_of(solid);

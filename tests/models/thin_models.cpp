@@ -1,5 +1,6 @@
 #include "tests/models/thin_models.hpp"
 
+#include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
@@ -8,10 +9,12 @@
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeWedge.hxx>
 #include <BRep_Builder.hxx>
 #include <GC_MakeArcOfCircle.hxx>
 #include <GeomAPI_Interpolate.hxx>
@@ -206,6 +209,33 @@ TopoDS_Shape pocket_sheet() {
 
 TopoDS_Shape tapering_web() {
   return profile({{{0, 0}, {100, 0}, {100, 2}, {0, 4}}}, 60);
+}
+
+/// A box whose sides lean in by so much a height of 1; they lean out where that is negative.
+TopoDS_Shape drafted(double x, double y, double z, double dx, double dy, double dz, double in_x,
+                     double in_y) {
+  const gp_Ax2 frame(gp_Pnt(x, y + dy, z), gp::DY().Reversed(), gp::DX());
+  const double cx = in_x * dz, cy = in_y * dz;
+  return BRepPrimAPI_MakeWedge(frame, dx, dz, dy, cx, cy, dx - cx, dy - cy).Shape();
+}
+
+/// A plastic housing of 2 mm, open below, with draft on all walls, two ribs that cross and thicken toward the
+/// lid, and a boss for a screw.
+TopoDS_Shape housing() {
+  const double draft = std::tan(2 * M_PI / 180);
+  const auto tub = [&](double off, double low, double high) {
+    const double in = off + draft * low;
+    return drafted(in, in, low, 100 - 2 * in, 60 - 2 * in, high - low, draft, draft);
+  };
+  const auto rib = [&](double x, double y, double z, double dx, double dy) {
+    const double out = -0.2 / 18.5;
+    const TopoDS_Shape whole = drafted(x, y, z, dx, dy, 28.5 - z, dx < 2 ? out : 0, dy < 2 ? out : 0);
+    return BRepAlgoAPI_Common(whole, tub(0.8, 0, 28.5)).Shape();
+  };
+  const TopoDS_Shape boss = BRepPrimAPI_MakeCone(gp_Ax2(gp_Pnt(70, 15, 10), gp::DZ()), 4, 4.4, 18.5).Shape();
+  const TopoDS_Shape walls = cut(tub(0, 0, 30), {tub(2, -1, 28)});
+  return cut(fuse({walls, rib(39.4, 0.8, 10, 1.2, 58.4), rib(0.8, 29.4, 16, 98.4, 1.2), boss}),
+             {drill(70, 15, 10, gp::DZ(), 2.5, 18)});
 }
 
 /// A cylinder with half-spheres as heads.
@@ -410,6 +440,7 @@ const std::vector<ThinModel>& thin_models() {
       {"milled_pocket", milled_pocket, 0, {2, 4}, 0.01, 1},
       {"pocket_sheet", pocket_sheet, 100 * 60 + 120, {2, 4}, 0.01, 1},
       {"tapering_web", tapering_web, 60 * 100 / std::cos(0.5 * std::atan(0.02)), {3}, 0.01, 1},
+      {"housing", housing, 0, {1.3, 1.4, 1.7, 2}, 0.02, 4},
       {"tank", tank, 80 * 2 * M_PI * 30 + 4 * M_PI * 900, {2}, 0.01, 0},
       {"nozzle", nozzle, 0, {2, 3}, 0.03, 3},
       {"joggle", joggle, 60 * (80 + 20 * M_SQRT2 - 4 * 4 * std::tan(M_PI / 8) + M_PI * 2), {2}, 0.01, 1},
