@@ -228,9 +228,12 @@ std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
 
 std::optional<WallPosition> position_in(const Wall& wall, const Skin& skin, const gp_Pnt& point) {
   WallPosition result;
+  const Bnd_Box at(point, point);
+  const double reach = 2.11 * wall.thickness;  // a foot further off is refused below
   for (int side = 0; side < 2; ++side) {
     bool found = false;
     for (const int face : wall.sides[side]) {
+      if (skin.faces()[face].box().Distance(at) > reach) continue;
       const auto foot = skin.faces()[face].foot(point);
       if (!foot || (found && foot->Distance(point) >= result.feet[side].Distance(point))) continue;
       result.feet[side] = *foot;
