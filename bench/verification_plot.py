@@ -27,7 +27,8 @@ def main():
     """Plot and table."""
     rows = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
     cases = [case for case in dict.fromkeys(row["case"] for row in rows) if case not in LEFT_OUT]
-    figure, axes = plt.subplots(3, 4, figsize=(14, 9.6), constrained_layout=True)
+    rows_of_plots = len(cases) // 5 + 1  # one place is the legend's
+    figure, axes = plt.subplots(rows_of_plots, 5, figsize=(15, 3 * rows_of_plots), constrained_layout=True)
     for axis, case in zip(axes.flat, cases):
         for mesher, (label, color, marker) in STYLES.items():
             found = sorted((row["elements"], max(error(row), 1e-3 if row["reference"] else 0)) for row in rows

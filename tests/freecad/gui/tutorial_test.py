@@ -12,7 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import FreeCAD
 import FreeCADGui
-from PySide import QtGui
+from PySide import QtCore, QtGui
 
 from case import ROOT, GuiCase, picture, run, type_into
 from driver import Boxes, find, process, wait_for, window
@@ -21,7 +21,8 @@ from quadrille.state import is_quad_mesh
 
 def read_steps():
     """The numbered steps of the section, as plain lines."""
-    text = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8").split("## In FreeCAD, to stresses")[1].split("\n## ")[0]
+    text = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
+    text = text.split("## In FreeCAD, to stresses")[1].split("\n## ")[0]
     text = re.sub(r"!\[.*?\]\(.*?\)", "", text.split("A script clicks")[0])
     found = re.split(r"^(\d+)\. ", text, flags=re.MULTILINE)[1:]
     return {int(number): " ".join(step.split()) for number, step in zip(found[::2], found[1::2])}
@@ -41,7 +42,7 @@ def entry(path):
     return found
 
 
-def tree_combo():
+def task_dock():
     """The dock in which task panels open."""
     return next(dock for dock in window().findChildren(QtGui.QDockWidget) if dock.isVisible()
                 and dock.findChildren(QtGui.QDialogButtonBox))
@@ -66,7 +67,7 @@ class TutorialTest(GuiCase):
     def press(self, step, text):
         """Presses a button that a step names."""
         self.assertIn(f"**{text}**", STEPS[step])
-        buttons = [button for button in tree_combo().findChildren(QtGui.QAbstractButton)
+        buttons = [button for button in task_dock().findChildren(QtGui.QAbstractButton)
                    if button.isVisible() and button.text().replace("&", "") == text]
         self.assertEqual(len(buttons), 1, f"step {step}: {text}")
         self.assertTrue(buttons[0].isEnabled(), f"step {step}: {text}")
@@ -82,7 +83,7 @@ class TutorialTest(GuiCase):
 
     def fill_in(self, widget, text):
         """Writes into a field of FreeCAD's that can be seen."""
-        found = [field for field in tree_combo().findChildren(QtGui.QWidget, widget) if field.isVisible()]
+        found = [field for field in task_dock().findChildren(QtGui.QWidget, widget) if field.isVisible()]
         self.assertEqual(len(found), 1, widget)
         line = found[0] if isinstance(found[0], QtGui.QLineEdit) else found[0].findChild(QtGui.QLineEdit)
         line.setText(text)
@@ -132,9 +133,7 @@ class TutorialTest(GuiCase):
             solvers = [obj for obj in self.document.Objects if obj.isDerivedFrom("Fem::FemSolverObject")]
         self.assertEqual(len(solvers), 1)
         self.choose(3)
-        cards = next(box for box in tree_combo().findChildren(QtGui.QComboBox) if box.isVisible() and box.findText("CalculiX-Steel") >= 0)
-        cards.setCurrentIndex(cards.findText("CalculiX-Steel"))
-        cards.activated[int].emit(cards.currentIndex())
+        self.choose_card(re.findall(r"card \*([^*]+)\*", STEPS[3])[0])
         self.press(3, "OK")
         self.choose(4)
         self.fill_in("if_thickness", self.values(4)[0])
@@ -148,7 +147,7 @@ class TutorialTest(GuiCase):
         self.press(5, "OK")
         self.choose(6)
         bare, unit = self.values(6)
-        shown = tree_combo().findChild(QtGui.QAbstractSpinBox, "spinForce").text()
+        shown = task_dock().findChild(QtGui.QAbstractSpinBox, "spinForce").text()
         self.fill_in("spinForce", unit if "N" in shown else bare)
         self.press(6, "Add")
         self.click(part, *self.rims(part, 6))
@@ -159,6 +158,25 @@ class TutorialTest(GuiCase):
         picture("tutorial_6")
         self.press(6, "OK")
         return solvers[0]
+
+    def choose_card(self, card):
+        """In the panel for materials: a list in 0.20, a tree behind an arrow in 1.0."""
+        for box in task_dock().findChildren(QtGui.QComboBox):
+            if box.findText(card) >= 0:
+                box.setCurrentIndex(box.findText(card))
+                box.activated[int].emit(box.currentIndex())
+                return
+        buttons = task_dock().findChildren(QtGui.QPushButton)
+        arrow = next(button for button in buttons if button.isVisible() and not button.text())
+        arrow.click()
+        process(0.5)
+        tree = next(tree for tree in task_dock().findChildren(QtGui.QTreeView) if tree.isVisible())
+        model = tree.model()
+        found = model.match(model.index(0, 0), QtCore.Qt.DisplayRole, card, 1,
+                            QtCore.Qt.MatchStartsWith | QtCore.Qt.MatchRecursive)
+        self.assertEqual(len(found), 1, card)
+        tree.setCurrentIndex(found[0])
+        process(0.5)
 
     def mesh(self, part):
         """Steps 7 to 9; returns the mesh object."""
@@ -205,7 +223,7 @@ class TutorialTest(GuiCase):
         FreeCADGui.activeDocument().setEdit(result.Name)
         process(0.5)
         named = re.findall(r"choose \*([^*]+)\*", STEPS[11])[0]
-        buttons = [button for button in tree_combo().findChildren(QtGui.QRadioButton)
+        buttons = [button for button in task_dock().findChildren(QtGui.QRadioButton)
                    if button.isVisible() and button.text().lower() == named.lower()]
         self.assertEqual(len(buttons), 1, named)
         buttons[0].click()
