@@ -66,10 +66,10 @@ def add_support(document, analysis, name, references, axes):
     support = ObjectsFem.makeConstraintDisplacement(document, name)
     support.References = references
     for axis in "xyz":
-        setattr(support, f"{axis}Fix", axis in axes)
-        setattr(support, f"{axis}Free", axis not in axes)
-        setattr(support, f"rot{axis}Fix", False)
-        setattr(support, f"rot{axis}Free", True)
+        for name, held in ((axis, axis in axes), (f"rot{axis}", False)):
+            setattr(support, f"{name}Free", not held)
+            if hasattr(support, f"{name}Fix"):  # FreeCAD 1.0 has one of the two
+                setattr(support, f"{name}Fix", held)
     analysis.addObject(support)
 
 
@@ -84,6 +84,7 @@ def make_analysis(document, roof, size):
     solver.ThermoMechSteadyState = False
     solver.IterationsControlParameterTimeUse = False
     solver.SplitInputWriter = False
+    solver.BeamShellResultOutput3D = False  # results at the nodes of the mesh
     analysis.addObject(solver)
     material = ObjectsFem.makeMaterialSolid(document, "Material")
     material.Material = {"Name": "Roof", "YoungsModulus": f"{YOUNG} MPa", "PoissonRatio": "0"}
