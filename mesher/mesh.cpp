@@ -283,7 +283,9 @@ class Job {
             error.subject() == ExecutionContext::work_subject)
           problems_[face] = share_problem(face, error);
         else
-          problems_[face].emplace(Cause::no_mesh, face + 1, error.what());
+          problems_[face].emplace(
+              Cause::no_mesh, face + 1,
+              error.subject().empty() ? fmt::format("Face{}: {}", face + 1, error.what()) : error.what());
       } catch (const std::bad_alloc&) {
         throw;  // not the face's fault
       } catch (const std::exception& problem) {

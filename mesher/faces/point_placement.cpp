@@ -142,9 +142,8 @@ class Placer {
     for (std::size_t i = 0; i < front_.size(); ++i) {
       if (i % 256 == 0) {
         context_.check();
-        if (front_.size() > most_points) {
-          throw failure("", fmt::format("a face would take more than {} points at this size", most_points));
-        }
+        if (front_.size() > most_points)
+          throw failure("", fmt::format("it would take more than {} points at this size", most_points));
       }
       if (front_[i].proposes) propose_neighbors(i);
     }
@@ -217,8 +216,13 @@ class Placer {
       const Vector3& b = boundary_.points[segment.b];
       const double length = (b - a).norm(), size = front_[segment.a].size;
       if (length < 1.1 * size) continue;
-      const int pieces = static_cast<int>(std::ceil(length / (0.6 * size)));
-      for (int k = 1; k < pieces; ++k) {
+      const double pieces = std::ceil(length / (0.6 * size));
+      if (!(pieces + static_cast<double>(blockers_.size()) < static_cast<double>(most_points)))
+        throw failure("",
+                      fmt::format("a segment of its boundary is {:.4g} long where sizes are {:.4g}: the file "
+                                  "may be damaged",
+                                  length, size));
+      for (int k = 1; k < static_cast<int>(pieces); ++k) {
         grid_.insert(a + (b - a) * k / pieces, size);
         grid_index_.push_back(-1 - static_cast<int>(blockers_.size()));
         blockers_.push_back(boundary_.uv[segment.a] +

@@ -358,6 +358,20 @@ std::string trouble_file(const TemporaryFolder& folder, const std::string& name)
   return name + ".brep";
 }
 
+/// A line without a direction, one end of which is two billion millimeters away.
+TEST(Command, RefusesALineWithoutDirectionAtOnce) {
+  const TemporaryFolder folder;
+  const std::string file = trouble_file(folder, "looped_edge");
+  const auto result = test::run(
+      fmt::format("cd {0} && sed -i 's/^1 20 0 0 0 1 0 *$/1 20 0 0 0 0 0 /; s/^20 20 0$/20 20 -2147483648/' "
+                  "{1} && grep -q '^20 20 -2' {1} && "
+                  "timeout 60 {2} mesh {1} -o a.msh --elements-per-diagonal 15 --time-limit 20 --quiet 2>&1",
+                  folder.path().string(), file, program));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+  EXPECT_EQ(result.out.find("time limit"), std::string::npos) << result.out;
+}
+
 TEST(Command, TellsWhatLeavesTheGeometry) {
   const TemporaryFolder folder;
   const std::string ellipsoid = trouble_file(folder, "ellipsoid");
