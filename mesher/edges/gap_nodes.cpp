@@ -37,7 +37,8 @@ class GapNodes {
     for (std::size_t face = 0; face < shape_.faces.size(); ++face) {
       const auto outline = nodes_.sides[face].outline;
       const bool free = outline == FaceSides::Outline::other || outline == FaceSides::Outline::holed;
-      if (used_[face] && !unaligned[face] && free) find_pairs(static_cast<int>(face));
+      if (used_[face] && !unaligned[face] && free && shape_.faces[face].wires.size() > 1)
+        find_pairs(static_cast<int>(face));
     }
     std::stable_sort(pairs_.begin(), pairs_.end(),
                      [](const Pair& a, const Pair& b) { return a.distance < b.distance; });

@@ -225,6 +225,14 @@ void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
                      const std::vector<FaceBoundary::Segment>& segments) {
   constexpr double narrow = 0.7, good = 0.3;
   const auto& p = mesh.points;
+  int count = 0;
+  for (const auto& segment : segments) count = std::max({count, segment.a + 1, segment.b + 1});
+  std::vector<int> between;  // triangles all corners of which lie on the boundary
+  for (int i = 0; i < static_cast<int>(mesh.triangles.size()); ++i) {
+    const auto& t = mesh.triangles[i];
+    if (t[0] < count && t[1] < count && t[2] < count) between.push_back(i);
+  }
+  if (between.size() < 2) return;
   std::unordered_set<std::uint64_t> boundary;
   for (const auto& segment : segments) boundary.insert(side_key(segment.a, segment.b));
   const auto on_boundary = [&](int a, int b) { return boundary.contains(side_key(a, b)); };
@@ -251,7 +259,7 @@ void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
       if (worst > good) pairs.push_back({worst, here.triangle, there.triangle});
     }
   };
-  for (int i = 0; i < static_cast<int>(mesh.triangles.size()); ++i) {
+  for (const int i : between) {
     const auto& t = mesh.triangles[i];
     if (!on_boundary(t[0], t[1]) && !on_boundary(t[1], t[2]) && !on_boundary(t[2], t[0])) continue;
     for (int k = 0; k < 3; ++k) {
