@@ -14,8 +14,6 @@ namespace quadrille {
 
 namespace {
 
-constexpr double near_by = 0.7;  ///< of a segment
-
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
 
 /// A segment of the mesh that is recombined.
@@ -89,7 +87,7 @@ class GapNodes {
   Vector3 point(const BoundaryNodes::Edge& edge, int i) const { return nodes_.points[edge.nodes[i]]; }
 
   static Box box_about(const Segment& segment, int number) {
-    const double reach = 0.5 * near_by * segment.length();
+    const double reach = 0.5 * widest_gap * segment.length();
     const Vector3 low = segment.a.cwiseMin(segment.b).array() - reach;
     const Vector3 high = segment.a.cwiseMax(segment.b).array() + reach;
     std::array<double, 3> from{low.x(), low.y(), low.z()}, to{high.x(), high.y(), high.z()};
@@ -110,7 +108,7 @@ class GapNodes {
     const double share = share_along(across, at);
     if (!(share >= 0 && share <= 1)) return;
     const double distance = (at - across.a - share * (across.b - across.a)).norm();
-    if (distance < near_by * across.length())
+    if (distance < widest_gap * across.length())
       pairs_.push_back({distance, edge, place, across.edge, across.first});
   }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <unordered_map>
-#include <unordered_set>
 
+#include "mesher/edges/gap_nodes.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/side_key.hpp"
 
@@ -151,17 +151,23 @@ class SideMiddles {
     }
   }
 
+  /// \return true where a boundary segment lies between two points.
+  bool on_boundary(int a, int b) const { return find(a, b) != middles_.end(); }
+
   Vector3 between(int a, int b) const {
-    if (on_boundary_[a] && on_boundary_[b]) {
-      const auto middle = middles_.find(side_key(a, b));
-      if (middle != middles_.end()) return middle->second;
-    }
-    return 0.5 * (points_[a] + points_[b]);
+    const auto middle = find(a, b);
+    return middle != middles_.end() ? middle->second : Vector3(0.5 * (points_[a] + points_[b]));
   }
 
  private:
+  using Middles = std::unordered_map<std::uint64_t, Vector3>;
+
+  Middles::const_iterator find(int a, int b) const {
+    return on_boundary_[a] && on_boundary_[b] ? middles_.find(side_key(a, b)) : middles_.end();
+  }
+
   const std::vector<Vector3>& points_;
-  std::unordered_map<std::uint64_t, Vector3> middles_;
+  Middles middles_;
   std::vector<char> on_boundary_;
 };
 
@@ -221,21 +227,20 @@ void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
   });
 }
 
-void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
-                     const std::vector<FaceBoundary::Segment>& segments) {
-  constexpr double narrow = 0.7, good = 0.3;
+void tie_across_gaps(FaceTriangulation& triangulation) {
+  constexpr double good = 0.3;
+  TriangleMesh& mesh = triangulation.mesh;
+  const std::vector<Vector3>& normals = triangulation.normals;
   const auto& p = mesh.points;
-  int count = 0;
-  for (const auto& segment : segments) count = std::max({count, segment.a + 1, segment.b + 1});
+  const int count = triangulation.boundary_count;
   std::vector<int> between;  // triangles all corners of which lie on the boundary
   for (int i = 0; i < static_cast<int>(mesh.triangles.size()); ++i) {
     const auto& t = mesh.triangles[i];
     if (t[0] < count && t[1] < count && t[2] < count) between.push_back(i);
   }
   if (between.size() < 2) return;
-  std::unordered_set<std::uint64_t> boundary;
-  for (const auto& segment : segments) boundary.insert(side_key(segment.a, segment.b));
-  const auto on_boundary = [&](int a, int b) { return boundary.contains(side_key(a, b)); };
+  const SideMiddles middles(p, triangulation.segments);
+  const auto on_boundary = [&](int a, int b) { return middles.on_boundary(a, b); };
   struct Corner {
     int triangle, k;  ///< the side from corner k
   };
@@ -245,7 +250,6 @@ void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
     int first, second;
   };
   std::vector<Pair> pairs;
-  const SideMiddles middles(p, segments);
   const auto try_pair = [&](const Corner& here, const Corner& there) {
     const auto &t = mesh.triangles[here.triangle], &u = mesh.triangles[there.triangle];
     const std::array quad{t[here.k], u[(there.k + 2) % 3], t[(here.k + 1) % 3], t[(here.k + 2) % 3]};
@@ -254,7 +258,7 @@ void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
       if (!on_boundary(a, b) || !on_boundary(c, d)) continue;
       const double shorter = std::min((p[b] - p[a]).norm(), (p[d] - p[c]).norm());
       const double one = (p[c] - p[b]).norm(), other = (p[a] - p[d]).norm();
-      if (!(std::min(one, other) < narrow * shorter && std::max(one, other) < shorter)) continue;
+      if (!(std::min(one, other) < widest_gap * shorter && std::max(one, other) < shorter)) continue;
       const double worst = worst_part(p, quad, middles, normals[a] + normals[b] + normals[c] + normals[d]);
       if (worst > good) pairs.push_back({worst, here.triangle, there.triangle});
     }

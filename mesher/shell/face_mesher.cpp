@@ -153,8 +153,7 @@ class FaceMesher {
 
   FaceQuads mesh_once(const FaceBoundary& boundary, const TrimmedDomain& domain) {
     FaceTriangulation triangulation = triangulate(boundary, domain);
-    if (boundary.stride == 2)
-      tie_across_gaps(triangulation.mesh, triangulation.normals, triangulation.segments);
+    if (boundary.stride == 2) tie_across_gaps(triangulation);
     FaceQuads quads = recombine_face(triangulation, boundary.stride);
     improve(quads, recipe_.clean_up);
     if (boundary.stride == 2) {

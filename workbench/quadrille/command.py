@@ -300,11 +300,14 @@ class MeshJob:
     def _error(self, code: int) -> Error:
         if code < 0:
             return Error(f"the mesher was killed by signal {-code}", "failure", self._arguments[0])
-        sentence = self.messages[-1] if self.messages else f"the mesher ended with exit code {code}"
-        prefix = "quadrille: "
-        if sentence.startswith(prefix):
-            sentence = sentence[len(prefix):]
-        return Error(sentence, _KINDS.get(code, "failure"))
+        return Error(sentence_of(self.messages, code), _KINDS.get(code, "failure"))
+
+
+def sentence_of(lines: List[str], code: int) -> str:
+    """What the command said last on stderr, without its name, or that it ended with an exit code."""
+    prefix = "quadrille: "
+    sentence = lines[-1] if lines else f"the mesher ended with exit code {code}"
+    return sentence[len(prefix):] if sentence.startswith(prefix) else sentence
 
 
 def child_environment() -> Dict[str, str]:

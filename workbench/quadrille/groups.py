@@ -6,11 +6,11 @@ nodes by geometry, slowly. The mesh holds a group for each face, edge and vertex
 constraints are made at any time, without a search, also when a constraint is added or changed after meshing.
 Runs inside FreeCAD."""
 
-from typing import Dict, Iterable, List, Optional, Set, Tuple
+from typing import Dict, Iterable, List, Set, Tuple
 
 import FreeCAD
 
-from . import links, shapes, solvers, undo
+from . import links, observers, shapes, solvers, undo
 from .errors import Error
 
 _KINDS = {"Face": "Face", "Edge": "Edge", "Vertex": "Node"}
@@ -214,12 +214,6 @@ def _is_ours(obj) -> bool:
             and "MeshToken" in obj.PropertiesList)
 
 
-_watcher: Optional[_Watcher] = None
-
-
 def watch() -> None:
     """Starts to watch documents, once."""
-    global _watcher
-    if _watcher is None:
-        _watcher = _Watcher()
-        FreeCAD.addDocumentObserver(_watcher)
+    observers.watch(_Watcher)

@@ -17,8 +17,8 @@ from typing import Dict, List, NamedTuple, Optional, Sequence, Set, Tuple
 import FreeCAD
 import Part
 
-from . import state
-from .command import child_environment, on_host, scratch_folder
+from . import observers, state
+from .command import child_environment, on_host, scratch_folder, sentence_of
 from .errors import Error
 from .jobs import find_mesher
 
@@ -272,8 +272,7 @@ def _compute(part, partial: bool, join: bool) -> _Result:
         except OSError as error:
             raise Error(f"{command}: cannot be started: {error.strerror}", "failure", command) from error
         if done.returncode != 0:
-            lines = done.stderr.strip().splitlines() or [f"the mesher ended with exit code {done.returncode}"]
-            sentence = lines[-1][len("quadrille: "):] if lines[-1].startswith("quadrille: ") else lines[-1]
+            sentence = sentence_of(done.stderr.strip().splitlines(), done.returncode)
             raise Error(_of_part(sentence, model, label), "failure")
         middle = Part.Shape()
         middle.importBrep(surface)
@@ -313,7 +312,7 @@ class MiddleSurface:
     def __init__(self, obj) -> None:
         obj.Proxy = self
         self.add_properties(obj)
-        _watch()
+        observers.watch(_Watcher)
 
     @staticmethod
     def add_properties(obj) -> None:
@@ -348,7 +347,7 @@ class MiddleSurface:
     def onDocumentRestored(self, obj) -> None:
         """FreeCAD calls this after a document was read."""
         self.add_properties(obj)
-        _watch()
+        observers.watch(_Watcher)
 
     # The state is all in the document's properties; 0.20 calls the second pair, 1.0 the first.
     def dumps(self):
@@ -377,13 +376,3 @@ class _Watcher:
             middle = document.getObject(name)
             if middle is not None:
                 _update_thicknesses(middle)
-
-
-_watcher: Optional[_Watcher] = None
-
-
-def _watch() -> None:
-    global _watcher
-    if _watcher is None:
-        _watcher = _Watcher()
-        FreeCAD.addDocumentObserver(_watcher)

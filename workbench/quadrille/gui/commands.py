@@ -66,6 +66,21 @@ def active_analysis(document):
     return analysis if analysis is not None and analysis.Document == document else None
 
 
+def _one_part(parts: list):
+    """The part, or several as one: their fragments, joined where they touch."""
+    if len(parts) == 1:
+        return parts[0]
+    do("import quadrille.freecad")
+    do(f"quadrille.freecad.fragments([{', '.join(map(path_of, parts))}])")
+    return parts[0].Document.Objects[-1]
+
+
+def _arguments(values: dict, analysis) -> str:
+    """What follows the first argument of a call that a macro records."""
+    into = f", analysis={path_of(analysis)}" if analysis is not None else ""
+    return "".join(f", {name}={value!r}" for name, value in values.items()) + into
+
+
 class _Command:
     """A command: run() does the work; an Error becomes one message; whatever goes wrong, the transaction is taken back."""
 
@@ -130,15 +145,10 @@ class MeshCommand(_Command):
             core.check_part(part, analysis)
         core.find_mesher()
         do("import quadrille.freecad")
-        part = selected[0]
-        if len(selected) > 1:
-            do(f"quadrille.freecad.fragments([{', '.join(map(path_of, selected))}])")
-            part = document.Objects[-1]
-        into = f", analysis={path_of(analysis)}" if analysis is not None else ""
+        part = _one_part(selected)
         chosen = preferences.settings()
         size = core.suggested_size(part, preferences.suggested_quads(), chosen.get("elements_per_circle", 12))
-        others = "".join(f", {name}={value!r}" for name, value in chosen.items())
-        do(f"quadrille.freecad.make_mesh({path_of(part)}, size={size!r}{others}{into})")
+        do(f"quadrille.freecad.make_mesh({path_of(part)}{_arguments({'size': size, **chosen}, analysis)})")
         self._edit, self._made = [obj for obj in document.Objects if is_quad_mesh(obj)][-1], True
 
     def afterwards(self) -> None:
@@ -167,13 +177,8 @@ class MiddleCommand(_Command):
         if not selected:
             raise Error(translate("Quadrille", "select one thin part, or several that touch"), "usage")
         analysis = active_analysis(document)
-        options = {}
-        part = selected[0]
-        if len(selected) > 1:
-            do("import quadrille.freecad")
-            do(f"quadrille.freecad.fragments([{', '.join(map(path_of, selected))}])")
-            part = document.Objects[-1]
-            options["join"] = True
+        options = {"join": True} if len(selected) > 1 else {}
+        part = _one_part(selected)
         try:
             middle.prepare(part, **options)
         except Error as error:
@@ -187,10 +192,8 @@ class MiddleCommand(_Command):
             if loads and self.ask(translate("Quadrille", "{} are on {}. Put them on its middle surface?").format(
                     ", ".join(member.Label for member in loads), part.Label)):
                 options["move_loads"] = True
-        into = f", analysis={path_of(analysis)}" if analysis is not None else ""
-        others = "".join(f", {name}={value!r}" for name, value in options.items())
         do("import quadrille.middle")
-        do(f"quadrille.middle.make_middle({path_of(part)}{into}{others})")
+        do(f"quadrille.middle.make_middle({path_of(part)}{_arguments(options, analysis)})")
         made = [obj for obj in document.Objects if middle.is_middle(obj)][-1]
         FreeCADGui.Selection.clearSelection()
         FreeCADGui.Selection.addSelection(made)
