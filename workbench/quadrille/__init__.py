@@ -31,11 +31,18 @@ def __getattr__(name: str):
     try:
         from . import _quadrille
     except ImportError as error:
-        raise ImportError(
-            f"quadrille.{name} needs the compiled module quadrille._quadrille ({error}); "
-            "build it with ./run.sh and put build/python on sys.path"
-        ) from error
+        raise ImportError(f"quadrille.{name} needs the compiled module quadrille._quadrille: {_why_missing(error)}") from error
     return getattr(_quadrille, name)
+
+
+def _why_missing(error: ImportError) -> str:
+    """Why the compiled module cannot be loaded, and what to do."""
+    from pathlib import Path
+
+    others = sorted(path.name for path in Path(__file__).parent.glob("_quadrille.*"))
+    if others:
+        return f"{', '.join(others)} cannot be loaded here ({error}); use the Python that it was made for, or the command"
+    return f"{error}; build it with ./run.sh and put build/python on sys.path"
 
 
 def __dir__() -> list:
