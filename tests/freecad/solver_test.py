@@ -1,6 +1,7 @@
 """Known answers through FreeCAD's two CalculiX solver objects: thicknesses and materials of their own on each face, forces
 on edges and faces, pressure. A strip of two faces, 40 by 10, held at one end; Poisson's ratio is 0."""
 
+import importlib.util
 import os
 import shutil
 import sys
@@ -38,7 +39,10 @@ def solve_standard(document, analysis, folder):
 
 
 def solve_framework(document, analysis, folder):
-    """FreeCAD's other one, of the solver framework."""
+    """FreeCAD's other one: of the solver framework, or, from 1.1 on, with tools of its own."""
+    if importlib.util.find_spec("femsolver.calculix.calculixtools"):
+        solve_with_tools(document, analysis, folder)
+        return
     from femsolver import run
 
     make = getattr(ObjectsFem, "makeSolverCalculiX", None) or ObjectsFem.makeSolverCalculix
@@ -49,6 +53,22 @@ def solve_framework(document, analysis, folder):
     machine.join()
     if machine.failed:
         raise AssertionError(machine.report.errors)
+
+
+def solve_with_tools(document, analysis, folder):
+    """As FreeCAD 1.1 does, whose results are a pipeline: they are read again as the result object that older ones make."""
+    from feminout import importCcxFrdResults
+    from femsolver.calculix.calculixtools import CalculiXTools
+
+    solver = analysis.addObject(ObjectsFem.makeSolverCalculiX(document, "Solver"))[0]
+    solver.WorkingDirectory = folder
+    tool = CalculiXTools(solver)
+    tool.prepare()
+    process = tool.compute()
+    process.waitForFinished(-1)
+    if process.exitCode() != 0:
+        raise AssertionError(bytes(process.readAllStandardOutput()).decode())
+    importCcxFrdResults.importFrd(os.path.join(folder, f"{tool.input_deck}.frd"), analysis)
 
 
 @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed")

@@ -13,7 +13,7 @@ list is made a set, and where there is no volume, all faces belong to none.
 Meshes without such groups, and mesh objects that are not ours, give the same as before. Runs inside FreeCAD."""
 
 import functools
-import importlib
+import importlib.util
 import os
 from pathlib import Path
 from typing import Callable, List, Optional, Tuple
@@ -35,7 +35,8 @@ def wrap_solvers(complaint: Complaint) -> None:
     if _complaint is not None:
         return
     _complaint = complaint
-    for module, name, wrapper in WRAPPED:
+    present = [entry for entry in NEWER if importlib.util.find_spec(entry[0]) is not None]
+    for module, name, wrapper in (*present, *WRAPPED):
         _wrap(module, name, wrapper)
 
 
@@ -57,6 +58,7 @@ def _wrap(module: str, name: str, wrapper) -> None:
 _LOST = {
     "_checked_in_framework": "solvers of the framework do not refuse a mesh that is out of date",
     "_checked_by_ccxtools": "CalculiX does not refuse a mesh that is out of date",
+    "_prepared": "CalculiX does not refuse a mesh that is out of date",
     "_announced": "scripts are not told that a mesh is out of date",
     "_of_shells": "large meshes take long to write for solvers",
     "_noting_objects": "several materials or thicknesses take long to write for solvers",
@@ -71,14 +73,13 @@ _LOST = {
 
 def _checked_in_framework(function):
     """For solver objects of the framework: CalculiX, Elmer, Mystran, Z88."""
-    mesh_of_analysis = importlib.import_module("femtools.membertools").get_mesh_to_solve  # before it is wrapped
+    problem_of = _problems()
 
     @functools.wraps(function)
     def check_mesh_exists(self):
         if not function(self):
             return False
-        mesh, _ = mesh_of_analysis(self.analysis)
-        problem = _complaint(mesh) if mesh is not None else ""
+        problem = problem_of(self.analysis)
         if not problem:
             return True
         self.report.error(problem)
@@ -86,6 +87,32 @@ def _checked_in_framework(function):
         return False
 
     return check_mesh_exists
+
+
+def _problems() -> Callable[[object], str]:
+    """What tells why the mesh of an analysis must not be solved with; empty where it may. To be made before
+    get_mesh_to_solve is wrapped, which would tell it once more."""
+    mesh_of_analysis = importlib.import_module("femtools.membertools").get_mesh_to_solve
+
+    def problem_of(analysis) -> str:
+        mesh, _ = mesh_of_analysis(analysis)
+        return _complaint(mesh) if mesh is not None else ""
+
+    return problem_of
+
+
+def _prepared(function):
+    """For the CalculiX solver object of FreeCAD 1.1, which drops what the check says."""
+    problem_of = _problems()
+
+    @functools.wraps(function)
+    def prepare(self):
+        problem = problem_of(self.analysis)
+        if problem:
+            raise RuntimeError(problem)
+        function(self)
+
+    return prepare
 
 
 def _checked_by_ccxtools(function):
@@ -225,6 +252,8 @@ def hint_at_surfaces(result, analysis) -> None:
             return
 
 
+#: The same, of FreeCAD 1.1 and later: left out where there is no such module.
+NEWER = (("femsolver.calculix.calculixtools", "CalculiXTools.prepare", _prepared),)
 #: FreeCAD's functions that are wrapped: module, name, and what wraps it.
 WRAPPED = (
     ("femsolver.run", "Check.check_mesh_exists", _checked_in_framework),
