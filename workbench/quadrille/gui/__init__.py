@@ -31,6 +31,18 @@ def tell(text: str, title: str = "Quadrille") -> None:
     QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), title, text)
 
 
+def standard_buttons(*names: str):
+    """Buttons of a task panel by their names in Qt: FreeCAD takes a number with PySide2, flags with PySide6, where flags are
+    no numbers."""
+    flags = QtGui.QDialogButtonBox.NoButton
+    for name in names:
+        flags |= getattr(QtGui.QDialogButtonBox, name)
+    try:
+        return int(flags)
+    except TypeError:
+        return flags
+
+
 def do(text: str) -> None:
     """Runs a line of Python so that macros record it."""
     FreeCADGui.doCommand(text)

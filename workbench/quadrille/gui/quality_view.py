@@ -8,7 +8,7 @@ import numpy as np
 from PySide import QtCore, QtGui
 
 from .. import quality
-from . import QT_TRANSLATE_NOOP, icon, overlays, translate
+from . import QT_TRANSLATE_NOOP, icon, overlays, standard_buttons, translate
 
 WORST = 20
 BINS = 20
@@ -268,9 +268,9 @@ class QualityPanel:
         self.form.setWindowIcon(QtGui.QIcon(icon("quadrille_quality")))
         self.quality.color.setChecked(True)
 
-    def getStandardButtons(self) -> int:
+    def getStandardButtons(self):
         """Close alone."""
-        return int(QtGui.QDialogButtonBox.Close)
+        return standard_buttons("Close")
 
     def reject(self) -> bool:
         """Close."""

@@ -15,7 +15,7 @@ from PySide import QtCore, QtGui
 from .. import freecad as core
 from .. import groups, links, old_documents, picks, shapes, solvers, state
 from ..errors import Error
-from . import do, icon, links_text, path_of, preferences, tell, translate
+from . import do, icon, links_text, path_of, preferences, standard_buttons, tell, translate
 from .mesher_choice import MesherChoice, is_missing
 from .quality_view import QualityWidget
 from .refinement_list import RefinementList
@@ -311,9 +311,9 @@ class MeshPanel:
 
     # The panel's own life
 
-    def getStandardButtons(self) -> int:
+    def getStandardButtons(self):
         """OK and Cancel; Mesh and Stop are in the panel."""
-        return int(QtGui.QDialogButtonBox.Ok) | int(QtGui.QDialogButtonBox.Cancel)
+        return standard_buttons("Ok", "Cancel")
 
     def accept(self) -> bool:
         """OK: keeps mesh and settings, ends the mesher."""
