@@ -25,6 +25,7 @@
 #include "mesher/mesh/quality.hpp"
 #include "mesher/options.hpp"
 #include "mesher/pairing/recombine.hpp"
+#include "mesher/remesh/remesh.hpp"
 #include "mesher/shell/from_triangles.hpp"
 #include "mesher/shell/validate.hpp"
 

@@ -26,6 +26,7 @@ ROOMS = [
     "mesher/estimate.hpp",
     "mesher/estimate.cpp",
     "mesher/shell",
+    "mesher/remesh",
     "mesher/io",
     "mesher/adapt",
     "mesher/quadrille.hpp",

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
+#include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille::command {
 
@@ -20,7 +21,12 @@ void add_info_command(CLI::App& app);
 void add_quality_command(CLI::App& app);
 void add_midsurface_command(CLI::App& app);
 void add_adapt_command(CLI::App& app);
+void add_remesh_command(CLI::App& app);
 void add_settings_command(CLI::App& app);
+
+/// Draws a mesh into a .png, in a child process: the renderer ends the program where memory or threads run
+/// out. Throws Error (failure).
+void draw(const ShellMesh& mesh, const std::filesystem::path& path, ExecutionContext& context);
 
 /// Writes to stdout at once. Throws Error (failure) when it is closed or full.
 void print(std::string_view text);

@@ -30,16 +30,9 @@ struct MeshArguments : GivenSettings {
   bool thin = false, join = false, quiet = false, end_with_input = false;
 };
 
-/// The mesh's order: what is asked for, or second where a solver reads one of the files.
-int order_of(const MeshArguments& arguments) {
-  if (arguments.given.count("order") > 0) return arguments.settings.mesh.order;
-  if (arguments.settings.write.quad_nodes == 9) return 2;
-  return std::any_of(arguments.outputs.begin(), arguments.outputs.end(), is_solver_format) ? 2 : 1;
-}
-
 void check_files(const MeshArguments& arguments) {
   const int quad_nodes = arguments.settings.write.quad_nodes;
-  if (quad_nodes == 9 && order_of(arguments) == 1)
+  if (quad_nodes == 9 && order_of(arguments, arguments.outputs) == 1)
     throw usage_error("nodes", "`nodes` 9 is for quads of second order: leave out `order` 1");
   for (const std::filesystem::path& output : arguments.outputs) {
     check_format(output, quad_nodes);
@@ -74,29 +67,6 @@ std::optional<MidSurface> middle_of(const CadModel& model, const MeshArguments& 
   options.partial = arguments.settings.mesh.partial;
   options.join = arguments.join;
   return midsurface(model, options, context);
-}
-
-/// Draws in a child process: the renderer ends the program where memory or threads run out.
-void draw(const ShellMesh& mesh, const std::filesystem::path& path, ExecutionContext& context) {
-  IsolatedWork options;
-  options.subject = path.string();
-  options.crashed = fmt::format(
-      "{}: the picture cannot be drawn: the renderer crashed, for want of memory or threads "
-      "perhaps",
-      path.string());
-  options.context = &context;
-  options.stage = Stage::write;
-  const auto work = [&](std::ostream&) {
-    try {
-      write_picture(mesh, path);
-    } catch (const std::exception& problem) {
-      const std::string sentence = problem.what();
-      if (sentence.rfind(path.string(), 0) == 0) throw;  // the file, not the renderer
-      throw failure(path.string(),
-                    fmt::format("{}: the picture cannot be drawn ({})", path.string(), sentence));
-    }
-  };
-  run_isolated(options, work, [](std::istream&) {});
 }
 
 void write_outputs(const ShellMesh& mesh, const MeshArguments& arguments, ExecutionContext& context,
@@ -187,7 +157,7 @@ void run(const MeshArguments& arguments) {
   context.check();
   check(settings, model);
   MeshOptions options = settings.mesh;
-  options.order = order_of(arguments);
+  options.order = order_of(arguments, arguments.outputs);
   options.write_size_field = arguments.write_size_field;
   std::optional<SizeFidelity> sizes;
   if (!arguments.report.empty())
