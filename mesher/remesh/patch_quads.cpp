@@ -1,10 +1,11 @@
 #include "mesher/remesh/patch_quads.hpp"
 
 #include <algorithm>
+#include <map>
 #include <unordered_map>
 
 #include "mesher/faces/face_boundary.hpp"
-#include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/side_key.hpp"
 #include "mesher/pairing/recombine.hpp"
 #include "mesher/quads/improve.hpp"
@@ -14,10 +15,35 @@ namespace quadrille {
 
 namespace {
 
+/// One face of the surface. Points are found by the tree of boxes: a walk from triangle to triangle ends
+/// where long and narrow ones lie side by side, as those of cylinders in files of CAD systems do.
+class PatchOfSurface : public SmoothingSurface {
+ public:
+  PatchOfSurface(const PatchSurface& on, int patch) : on_(on), patch_(patch) {}
+
+  Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const override {
+    const Vector3 walked = on_.surface.move(uv, target, normal);
+    const SurfaceLocator::Place found = on_.locator.nearest(patch_, target);
+    constexpr double closer = 1 - 1e-9;
+    if ((found.point - target).norm() >= closer * (walked - target).norm()) return walked;
+    Vector2 place(found.triangle, 0);
+    Vector3 there;
+    on_.surface.move(place, found.point, there);
+    if (there.dot(normal) <= 0) return walked;  // another sheet
+    uv = place;
+    normal = there;
+    return found.point;
+  }
+
+ private:
+  const PatchSurface on_;
+  int patch_;
+};
+
 class PatchMesher {
  public:
   PatchMesher(PatchTriangles triangles, const PatchSurface& on, ExecutionContext& context)
-      : triangles_(std::move(triangles)), on_(on), context_(context) {
+      : triangles_(std::move(triangles)), on_(on), surface_(on, triangles_.patch), context_(context) {
     for (const PatchTriangles::Side& side : triangles_.sides) {
       FaceBoundary::Segment& segment = segments_.emplace_back();
       segment.a = side.a;
@@ -44,6 +70,7 @@ class PatchMesher {
     const StageTimer timer(context_, Stage::improve);
     smooth(fine_, surface(), improvement, report, context_);
     PatchQuads result;
+    result.off_surface = unfold();
     result.patch = triangles_.patch;
     result.points = std::move(fine_.mesh.points);
     result.places = std::move(fine_.parameters);
@@ -53,7 +80,7 @@ class PatchMesher {
   }
 
  private:
-  const SmoothingSurface& surface() const { return on_.surface; }
+  const SmoothingSurface& surface() const { return surface_; }
 
   void place_points() {
     const std::vector<Vector3>& points = triangles_.mesh.points;
@@ -67,6 +94,77 @@ class PatchMesher {
       coarse_.normals.push_back(normal);
       coarse_.fixed.push_back(v < boundary);
       coarse_.boundary_angles.push_back(v < boundary ? triangles_.angles[v] : 0);
+    }
+  }
+
+  /// Takes nodes of quads that are turned over off the surface: to the middle of their neighbors first, then
+  /// to wherever the worst quad round them is best. \return how many.
+  int unfold() {
+    constexpr int rounds = 20;
+    std::vector<Vector3>& p = fine_.mesh.points;
+    std::map<int, std::vector<int>> round_node;  // quads
+    std::vector<char> moved(p.size(), 0);
+    const auto shape = [&](int quad) {
+      const auto& [a, b, c, d] = fine_.mesh.quads[quad];
+      return quad_scaled_jacobian(p[a], p[b], p[c], p[d]);
+    };
+    for (int round = 0; round < rounds; ++round) {
+      context_.check();
+      round_node.clear();
+      for (int quad = 0; quad < static_cast<int>(fine_.mesh.quads.size()); ++quad) {
+        if (shape(quad) > 0) continue;
+        for (const int v : fine_.mesh.quads[quad])
+          if (!fine_.fixed[v]) round_node[v];
+      }
+      if (round_node.empty()) break;
+      for (int quad = 0; quad < static_cast<int>(fine_.mesh.quads.size()); ++quad)
+        for (const int v : fine_.mesh.quads[quad])
+          if (const auto found = round_node.find(v); found != round_node.end()) found->second.push_back(quad);
+      for (const auto& [v, quads] : round_node) {
+        if (round == 0)
+          p[v] = middle_of_neighbors(v, quads);
+        else
+          search(v, quads, shape);
+        moved[v] = 1;
+      }
+    }
+    return static_cast<int>(std::count(moved.begin(), moved.end(), 1));
+  }
+
+  Vector3 middle_of_neighbors(int v, const std::vector<int>& quads) const {
+    Vector3 sum = Vector3::Zero();
+    for (const int quad : quads) {
+      const auto& corners = fine_.mesh.quads[quad];
+      for (int k = 0; k < 4; ++k)
+        if (corners[k] == v)
+          sum += fine_.mesh.points[corners[(k + 1) % 4]] + fine_.mesh.points[corners[(k + 3) % 4]];
+    }
+    return sum / (2.0 * static_cast<double>(quads.size()));
+  }
+
+  /// Steps along the axes, shorter and shorter, to where the worst quad is best.
+  template <class Shape>
+  void search(int v, const std::vector<int>& quads, const Shape& shape) {
+    std::vector<Vector3>& p = fine_.mesh.points;
+    double step = 0;
+    for (const int quad : quads)
+      for (const int other : fine_.mesh.quads[quad]) step = std::max(step, 0.5 * (p[other] - p[v]).norm());
+    const auto worst = [&] {
+      double least = 1;
+      for (const int quad : quads) least = std::min(least, shape(quad));
+      return least;
+    };
+    double best = worst();
+    constexpr int halvings = 6;
+    for (int k = 0; k < halvings; ++k, step *= 0.5) {
+      for (int axis = 0; axis < 6; ++axis) {
+        const Vector3 before = p[v];
+        p[v] += (axis < 3 ? step : -step) * Vector3::Unit(axis % 3);
+        if (const double now = worst(); now > best)
+          best = now;
+        else
+          p[v] = before;
+      }
     }
   }
 
@@ -121,7 +219,8 @@ class PatchMesher {
   }
 
   PatchTriangles triangles_;
-  const PatchSurface& on_;
+  const PatchSurface on_;
+  const PatchOfSurface surface_;
   ExecutionContext& context_;
   std::vector<FaceBoundary::Segment> segments_;
   SurfaceMesh coarse_, fine_;

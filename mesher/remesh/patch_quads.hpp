@@ -31,6 +31,7 @@ struct PatchTriangles {
 struct PatchQuads {
   int patch = 0;                          ///< of the surface, from 0
   std::vector<Vector3> points;            ///< on the surface
+  int off_surface = 0;                    ///< how many are not, since quads would be turned over
   std::vector<Vector2> places;            ///< (points) as SmoothingSurface::move() takes them
   std::vector<int> nodes;                 ///< (points) node of the whole; -1 = of this face alone
   std::vector<std::array<int, 4>> quads;  ///< the way round that the triangles have

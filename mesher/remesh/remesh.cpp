@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -150,8 +151,17 @@ class Remesher {
 
   ShellMesh run(RemeshFidelity* fidelity) {
     find_faces();
-    make_triangles();
-    make_quads();
+    find_targets();
+    // Where quads stay inverted the surface wants smaller ones.
+    constexpr int most_attempts = 4;
+    for (int attempt = 1;; ++attempt) {
+      make_triangles();
+      make_quads();
+      const std::vector<Vector3> inverted = inverted_places();
+      if (inverted.empty() || attempt == most_attempts) break;
+      refine_near(inverted);
+    }
+    tell_off_surface();
     ShellMesh mesh = assemble();
     const StageTimer timer(context_, Stage::assemble);
     if (options_.order == 2) place_midsides(mesh);
@@ -207,20 +217,68 @@ class Remesher {
     return result;
   }
 
-  void make_triangles() {
-    const StageTimer timer(context_, Stage::triangulate);
+  void find_targets() {
     // Pieces far smaller than the elements are closed bodies of a few at least.
     constexpr double least_across = 4;
     const std::vector<double> across = diagonals(surface_);
-    std::vector<double> by_point(surface_.mesh.points.size(), 2 * options_.size), by_curve;
+    targets_.assign(surface_.mesh.points.size(), 2 * options_.size);
     for (std::size_t t = 0; t < surface_.pieces.size(); ++t)
       for (const int v : surface_.mesh.triangles[t])
-        by_point[v] = std::min(2 * options_.size, across[surface_.pieces[t]] / least_across);
-    for (const FeatureCurve& curve : network_.curves) by_curve.push_back(by_point[curve.points.front()]);
+        targets_[v] = std::min(2 * options_.size, across[surface_.pieces[t]] / least_across);
+  }
+
+  void make_triangles() {
+    const StageTimer timer(context_, Stage::triangulate);
+    std::vector<double> by_curve;
+    for (const FeatureCurve& curve : network_.curves) {
+      double& least = by_curve.emplace_back(targets_[curve.points.front()]);
+      for (const int v : curve.points) least = std::min(least, targets_[v]);
+    }
     TriangleMesh untagged = surface_.mesh;
     untagged.tags.clear();
     triangles_ = remesh_triangles(untagged, network_, place_on_curves(network_, by_curve), *locator_,
-                                  by_point, context_);
+                                  targets_, context_);
+  }
+
+  /// Nodes of quads that are turned over.
+  std::vector<Vector3> inverted_places() const {
+    std::vector<Vector3> places;
+    for (const PatchQuads& patch : quads_)
+      for (const auto& [a, b, c, d] : patch.quads)
+        if (const auto& p = patch.points; quad_scaled_jacobian(p[a], p[b], p[c], p[d]) <= 0)
+          places.push_back(p[a]);
+    return places;
+  }
+
+  void refine_near(const std::vector<Vector3>& places) {
+    constexpr double smaller = 0.6, reach = 3;
+    constexpr std::size_t most_places = 1000;
+    const std::size_t step = 1 + places.size() / most_places;
+    std::vector<char> near(targets_.size(), 0);
+    for (std::size_t k = 0; k < places.size(); k += step) {
+      int nearest = -1;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t v = 0; v < near.size(); ++v) {
+        const double distance = (surface_.mesh.points[v] - places[k]).norm();
+        if (distance < reach * options_.size) near[v] = 1;
+        if (distance >= least) continue;
+        least = distance;
+        nearest = static_cast<int>(v);
+      }
+      near[nearest] = 1;
+      context_.check();
+    }
+    for (std::size_t v = 0; v < near.size(); ++v)
+      if (near[v]) targets_[v] *= smaller;
+  }
+
+  void tell_off_surface() {
+    int off = 0;
+    for (const PatchQuads& patch : quads_) off += patch.off_surface;
+    if (off == 0) return;
+    notes_.push_back(fmt::format(
+        "{} nodes lie off the surface, where it bends too tightly for the size and quads would be inverted",
+        off));
   }
 
   /// The surface cut along its curves, for points to move on.
@@ -236,7 +294,9 @@ class Remesher {
 
   void make_quads() {
     const StageTimer timer(context_, Stage::mesh);
-    reference_.emplace(cut_reference());
+    if (!reference_) reference_.emplace(cut_reference());
+    middle_places_.clear();
+    quads_.clear();
     std::vector<std::array<int, 2>> sides;
     for (const auto& side : triangles_.sides) sides.push_back(side.points);
     const CutSurface cut = cut_surface(triangles_.mesh, 0, std::move(sides));
@@ -490,6 +550,7 @@ class Remesher {
   std::map<int, int> patch_of_face_;
   std::optional<SurfaceLocator> locator_;
   std::optional<TriangulatedSurface> reference_;
+  std::vector<double> targets_;  // by point of the surface
   RemeshedTriangles triangles_;
   std::vector<Vector3> middle_places_;  // by side
   std::vector<PatchQuads> quads_;

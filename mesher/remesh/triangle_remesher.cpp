@@ -39,6 +39,9 @@ struct Span {
   Vertex first;  ///< where the stretch is at its low end
 };
 
+/// Sides between these shares of the size stay. In the mean they come out so that two triangles are as large
+/// as a square of the size.
+constexpr double longest_share = 1.57, shortest_share = 0.94;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class TriangleRemesher {
@@ -94,6 +97,7 @@ class TriangleRemesher {
     hold_ = mesh_.add_property_map<Vertex, char>("v:hold", free_point).first;
     size_ = mesh_.add_property_map<Vertex, double>("v:size", 0).first;
     target_ = mesh_.add_property_map<Vertex, double>("v:target", 0).first;
+    node_size_ = mesh_.add_property_map<Vertex, double>("v:node_size", infinity).first;
     cap_ = mesh_.add_property_map<Vertex, double>("v:cap", infinity).first;
     corner_ = mesh_.add_property_map<Vertex, int>("v:corner", -1).first;
     mesh_.reserve(static_cast<Mesh::size_type>(surface_.points.size()),
@@ -134,17 +138,23 @@ class TriangleRemesher {
     const double near = 1e-6 * curve.length() / static_cast<double>(nodes.size());
     std::size_t k = 0;
     Vertex start(curve.points[0]);
+    const auto tell = [&](Vertex v, double size) { node_size_[v] = std::min(node_size_[v], size); };
+    tell(start, nodes[1]);
+    tell(Vertex(curve.points.back()), nodes.back() - nodes[nodes.size() - 2]);
     for (std::size_t n = 1; n + 1 < nodes.size(); ++n) {
-      const double s = nodes[n];
+      const double s = nodes[n], size = 0.5 * (nodes[n + 1] - nodes[n - 1]);
       while (curve.along[k + 1] <= s - near) start = Vertex(curve.points[++k]);
       if (std::abs(curve.along[k + 1] - s) < near) {
         start = Vertex(curve.points[++k]);
         hold_[start] = held;
+        tell(start, size);
       } else if (std::abs(curve.along[k] - s) < near && k > 0) {
         hold_[Vertex(curve.points[k])] = held;
+        tell(Vertex(curve.points[k]), size);
       } else {
         const Halfedge h = mesh_.halfedge(start, Vertex(curve.points[k + 1]));
         start = split(h, curve.at(s), s);
+        tell(start, size);
       }
     }
   }
@@ -159,6 +169,7 @@ class TriangleRemesher {
     cap_[v] = std::min(cap_[mesh_.source(added)], cap_[mesh_.target(h)]);
     target_[v] = target_[mesh_.source(added)];
     corner_[v] = -1;
+    node_size_[v] = infinity;
     hold_[v] = free_point;
     span_[mesh_.edge(added)] = span_[mesh_.edge(h)] = {};
     if (span.curve >= 0) {
@@ -203,23 +214,10 @@ class TriangleRemesher {
     using Entry = std::pair<double, Vertex>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     for (const Vertex v : mesh_.vertices()) {
-      double size = std::min(target_[v], cap_[v]);
-      if (hold_[v] == held) {
-        double sum = 0;
-        int count = 0;
-        for (const Halfedge h : mesh_.halfedges_around_target(mesh_.halfedge(v))) {
-          const Span& span = span_[mesh_.edge(h)];
-          if (span.curve < 0) continue;
-          sum += span.high - span.low;
-          ++count;
-        }
-        // Sides between points that pass are not the last ones.
-        if (count > 0 && settled_) size = std::min(size, sum / count);
-      }
+      const double size = std::min({target_[v], cap_[v], node_size_[v]});
       size_[v] = size;
       if (size < target_[v]) queue.emplace(size, v);
     }
-    settled_ = true;
     while (!queue.empty()) {
       check_();
       const auto [size, v] = queue.top();
@@ -240,29 +238,64 @@ class TriangleRemesher {
   }
 
   void split_long() {
-    constexpr double long_share = 4.0 / 3;
     constexpr int rounds = 40;  // each halves
     std::vector<std::pair<double, Edge>> edges;
     for (int round = 0; round < rounds; ++round) {
       edges.clear();
       for (const Edge e : mesh_.edges()) {
         const double ratio = length(e) / size_at(e);
-        if (ratio > long_share && !may_not_split(e)) edges.emplace_back(-ratio, e);
+        if (ratio > longest_share && !may_not_split(e)) edges.emplace_back(-ratio, e);
       }
       if (edges.empty()) return;
       std::sort(edges.begin(), edges.end());
+      bool any = false;
       for (const auto& [ratio, e] : edges) {
         check_();
         const Span span = span_[e];
         const double middle = 0.5 * (span.low + span.high);
         const Halfedge h = mesh_.halfedge(e);
         const Vector3 half = 0.5 * (at(mesh_.source(h)) + at(mesh_.target(h)));
-        const Vector3 place = span.curve >= 0 ? network_.curves[span.curve].at(middle)
-                                              : locator_.nearest(patch_beside(e), half).point;
+        Vector3 place = half;
+        if (span.curve >= 0) {
+          place = network_.curves[span.curve].at(middle);
+        } else {
+          // Farther away is another sheet of the surface.
+          const Vector3 there = locator_.nearest(patch_beside(e), half).point;
+          if ((there - half).norm() < 0.4 * length(e) && may_split_at(h, there)) place = there;
+        }
+        if (!may_split_near(h, place)) continue;
         split(h, place, middle);
+        any = true;
       }
-      flip();
+      if (!any) return;
+      flip(2);
     }
+  }
+
+  /// Whether no corner beside an edge is where the edge would be split, as in triangles that are all but a
+  /// line.
+  bool may_split_near(Halfedge h, const Vector3& place) const {
+    constexpr double near_share = 0.1;
+    for (const Halfedge side : {h, mesh_.opposite(h)})
+      if (!mesh_.is_border(side) &&
+          (at(opposite_corner(side)) - place).norm() < near_share * length(mesh_.edge(h)))
+        return false;
+    return true;
+  }
+
+  /// Whether the parts of the faces beside an edge look the way that the faces do.
+  bool may_split_at(Halfedge h, const Vector3& place) const {
+    constexpr double least_cosine = 0.5;
+    const Vector3 a = at(mesh_.source(h)), b = at(mesh_.target(h));
+    for (const Halfedge side : {h, mesh_.opposite(h)}) {
+      if (mesh_.is_border(side)) continue;
+      const Vector3 third = at(opposite_corner(side)), normal = area(mesh_.face(side));
+      const Vector3 &from = side == h ? a : b, &to = side == h ? b : a;
+      for (const Vector3& part :
+           {Vector3((place - from).cross(third - from)), Vector3((to - place).cross(third - place))})
+        if (!(part.dot(normal) > least_cosine * part.norm() * normal.norm())) return false;
+    }
+    return true;
   }
 
   /// Sides of curves are as long as their nodes are apart, but where folds ask for more.
@@ -272,13 +305,12 @@ class TriangleRemesher {
   }
 
   void collapse_short() {
-    constexpr double short_share = 4.0 / 5;
     std::vector<std::pair<double, Edge>> edges;
     for (const Edge e : mesh_.edges()) {
       const bool passes =
           on_curve(e) && (hold_[mesh_.vertex(e, 0)] == passing || hold_[mesh_.vertex(e, 1)] == passing);
       const double ratio = length(e) / size_at(e);
-      if (passes || ratio < short_share) edges.emplace_back(ratio, e);
+      if (passes || ratio < shortest_share) edges.emplace_back(ratio, e);
     }
     std::sort(edges.begin(), edges.end());
     for (const auto& [ratio, e] : edges) {
@@ -287,7 +319,7 @@ class TriangleRemesher {
       const Halfedge h = mesh_.halfedge(e), back = mesh_.opposite(h);
       const bool passes =
           on_curve(e) && (hold_[mesh_.source(h)] == passing || hold_[mesh_.target(h)] == passing);
-      if (!passes && !(length(e) < short_share * size_at(e))) continue;
+      if (!passes && !(length(e) < shortest_share * size_at(e))) continue;
       // The one that is held least goes.
       const bool forward = hold_[mesh_.source(h)] <= hold_[mesh_.target(h)];
       if (!collapse(forward ? h : back) && hold_[mesh_.source(h)] == hold_[mesh_.target(h)])
@@ -341,7 +373,9 @@ class TriangleRemesher {
   /// Whether no face round a point turns over, or gets sides that are too long, where the point is moved.
   /// \param onto the point that it is moved onto, whose faces go. \param long_sides they do not matter.
   bool may_move(Vertex v, const Vector3& place, std::optional<Vertex> onto, bool long_sides) const {
-    constexpr double long_share = 4.0 / 3, least_cosine = 0.2, least_shape = 0.02;
+    // Wide triangles would leave the surface where it bends.
+    const double least_cosine = onto && !long_sides ? 0.7 : 0.2;
+    constexpr double least_shape = 0.02;
     std::vector<std::pair<int, Vector3>> normals;  // of the patches round the point
     const auto normal_of = [&](int patch) -> Vector3& {
       for (auto& [known, normal] : normals)
@@ -353,27 +387,28 @@ class TriangleRemesher {
     for (const Halfedge h : mesh_.halfedges_around_target(mesh_.halfedge(v))) {
       const Vertex other = mesh_.source(h);
       if (onto && other != *onto && !long_sides &&
-          (at(other) - place).norm() > long_share * 0.5 * (size_[other] + size_[*onto]))
+          (at(other) - place).norm() > longest_share * 0.5 * (size_[other] + size_[*onto]))
         return false;
       if (mesh_.is_border(h)) continue;
       const Vertex third = opposite_corner(h);
       if (onto && (other == *onto || third == *onto)) continue;
       const Vector3 a = at(other), b = at(third);
-      const Vector3 now = (place - a).cross(b - a);
+      const Vector3 now = (place - a).cross(b - a), before = area(mesh_.face(h));
       const Vector3& normal = normal_of(patch_[mesh_.face(h)]);
-      if (!(now.dot(normal) > least_cosine * now.norm() * normal.norm())) return false;
+      const auto cosine = [&](const Vector3& of) {
+        const double norms = of.norm() * normal.norm();
+        return norms > 0 ? of.dot(normal) / norms : 0;
+      };
+      // What is folded or flat already need not get better.
+      if (cosine(now) < std::min(least_cosine, cosine(before) - 1e-9)) return false;
       const double longest =
           std::max({(place - a).squaredNorm(), (b - a).squaredNorm(), (place - b).squaredNorm()});
-      if (!long_sides && now.norm() < least_shape * longest && now.norm() < area(mesh_.face(h)).norm())
-        return false;
+      if (!long_sides && now.norm() < least_shape * longest && now.norm() < before.norm()) return false;
     }
     return true;
   }
 
-  /// Whether a point has an angle that Delaunay's criterion is against: the two angles opposite a side sum up
-  /// to more than 180 degrees.
-  void flip() {
-    constexpr int rounds = 10;
+  void flip(int rounds = 10) {
     for (int round = 0; round < rounds; ++round) {
       int flips = 0;
       for (const Edge e : mesh_.edges()) {
@@ -388,19 +423,20 @@ class TriangleRemesher {
         CGAL::Euler::flip_edge(h, mesh_);
         ++flips;
       }
-      if (flips == 0) return;
+      if (flips * 1000 < static_cast<int>(mesh_.number_of_edges())) return;
     }
   }
 
+  /// Delaunay's criterion: the angles opposite the side ab sum up to more than 180 degrees, that is, the sum
+  /// of their cotangents is negative.
   static bool wants_flip(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
-    const auto angle = [](const Vector3& corner, const Vector3& p, const Vector3& q) {
-      const Vector3 u = p - corner, v = q - corner;
-      return std::atan2(u.cross(v).norm(), u.dot(v));
-    };
-    if (angle(c, a, b) + angle(d, a, b) < std::numbers::pi + 1e-6) return false;
+    const Vector3 ca = a - c, cb = b - c, da = a - d, db = b - d;
+    const double at_c = ca.cross(cb).norm(), at_d = da.cross(db).norm();
+    constexpr double certain = 1e-6;
+    if (ca.dot(cb) * at_d + da.dot(db) * at_c >= -certain * at_c * at_d) return false;
     const Vector3 first = (b - a).cross(c - a), second = (d - a).cross(b - a), normal = first + second;
     const Vector3 now = (d - a).cross(c - a), then = (c - b).cross(d - b);
-    constexpr double least_cosine = 0.3;
+    constexpr double least_cosine = 0.5;
     return now.dot(normal) > least_cosine * now.norm() * normal.norm() &&
            then.dot(normal) > least_cosine * then.norm() * normal.norm();
   }
@@ -468,9 +504,8 @@ class TriangleRemesher {
   Mesh::Property_map<Face, int> patch_;
   Mesh::Property_map<Edge, Span> span_;
   Mesh::Property_map<Vertex, char> hold_;
-  Mesh::Property_map<Vertex, double> size_, cap_, target_;
+  Mesh::Property_map<Vertex, double> size_, cap_, target_, node_size_;
   Mesh::Property_map<Vertex, int> corner_;
-  bool settled_ = false;
 };
 
 }  // namespace
