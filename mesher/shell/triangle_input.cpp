@@ -33,6 +33,12 @@ std::array<std::array<int, 3>, 2> halves(const std::array<int, 4>& quad, const s
   return {{{a, b, d}, {b, c, d}}};
 }
 
+void check_finite(const std::vector<Vector3>& points) {
+  for (std::size_t v = 0; v < points.size(); ++v)
+    if (!points[v].allFinite())
+      throw failure(fmt::format("point {}", v), fmt::format("point {} has no finite position", v));
+}
+
 void check_places(const std::vector<Vector3>& points) {
   const std::vector<int> first = coincident_points(points, 0);
   for (int v = 0; v < static_cast<int>(points.size()); ++v) {
@@ -75,6 +81,7 @@ void order(TriangleInput& input, const ExecutionContext& context) {
 
 TriangleInput triangle_input(const ShellMesh& input, double merge, std::vector<std::string>& notes,
                              const ExecutionContext& context) {
+  check_finite(input.points);
   TriangleInput work;
   work.mesh.points = input.points;
   if (merge >= 0) {

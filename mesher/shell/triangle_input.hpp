@@ -19,8 +19,8 @@ struct TriangleInput {
 
 /// Merges nodes, cuts quads in two, turns triangles, and puts large meshes into an order that caches like.
 /// \param merge as FromTrianglesOptions::merge. \param notes takes a sentence for each thing that was mended.
-/// Throws Error (failure) naming the element at fault: two nodes on one place, no area, one side only, a
-/// triangle twice. O(n log n).
+/// Throws Error (failure) naming the element at fault: no finite position, two nodes on one place, no area,
+/// one side only, a triangle twice. O(n log n).
 TriangleInput triangle_input(const ShellMesh& input, double merge, std::vector<std::string>& notes,
                              const ExecutionContext& context);
 

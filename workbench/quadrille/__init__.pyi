@@ -62,6 +62,8 @@ class Mesh:
     def recombined(
         self, *, feature_angle: float = 40.0, merge: Optional[float] = None, improve: bool = True, threads: int = 0
     ) -> Mesh: ...
+    @property
+    def fidelity(self) -> Optional[Dict[str, Any]]: ...
     def _repr_html_(self) -> str: ...
 
 class MidSurface:
@@ -124,6 +126,18 @@ def mesh(
 def midsurface(model: Model, *, partial: bool = False, join: bool = False) -> MidSurface: ...
 def recombine(
     points: ArrayLike, triangles: ArrayLike, *, tags: Optional[ArrayLike] = None, improve: bool = True, threads: int = 0
+) -> Mesh: ...
+def remesh(
+    surface: Mesh,
+    *,
+    size: float,
+    feature_angle: float = 40.0,
+    merge: Optional[float] = None,
+    order: int = 1,
+    progress: Optional[_Progress] = None,
+    force: Optional[bool] = None,
+    time_limit: Optional[float] = None,
+    threads: Optional[int] = None,
 ) -> Mesh: ...
 def suggested_size(model: Model, quads: int = 5000) -> float: ...
 def settings() -> List[Dict[str, Any]]: ...
