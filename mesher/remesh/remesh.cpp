@@ -218,13 +218,37 @@ class Remesher {
   }
 
   void find_targets() {
-    // Pieces far smaller than the elements are closed bodies of a few at least.
-    constexpr double least_across = 4;
-    const std::vector<double> across = diagonals(surface_);
     targets_.assign(surface_.mesh.points.size(), 2 * options_.size);
+    const std::vector<double> most = longest_sides();
     for (std::size_t t = 0; t < surface_.pieces.size(); ++t)
       for (const int v : surface_.mesh.triangles[t])
-        targets_[v] = std::min(2 * options_.size, across[surface_.pieces[t]] / least_across);
+        targets_[v] = std::min(targets_[v], most[surface_.pieces[t]]);
+  }
+
+  /// How long sides of triangles may be on each piece for it to keep its shape: bodies that are far smaller
+  /// than the elements have a few, and those without curves, such as rings and spheres, some five round where
+  /// they are as thick as in the mean. The thickness is twice the volume over the area.
+  std::vector<double> longest_sides() const {
+    constexpr double least_across = 4, of_thickness = 1.2;
+    std::vector<double> most = diagonals(surface_);
+    for (double& length : most) length /= least_across;
+    std::vector<char> has_curve(most.size(), 0), on_curve(surface_.mesh.points.size(), 0);
+    for (const FeatureCurve& curve : network_.curves)
+      for (const int v : curve.points) on_curve[v] = 1;
+    std::vector<double> area(most.size(), 0), volume(most.size(), 0);
+    const auto& p = surface_.mesh.points;
+    for (std::size_t t = 0; t < surface_.pieces.size(); ++t) {
+      const int piece = surface_.pieces[t];
+      const auto& [a, b, c] = surface_.mesh.triangles[t];
+      const Vector3 twice = (p[b] - p[a]).cross(p[c] - p[a]);
+      area[piece] += 0.5 * twice.norm();
+      volume[piece] += twice.dot(p[a] - p[0]) / 6;
+      has_curve[piece] |= on_curve[a] | on_curve[b] | on_curve[c];
+    }
+    for (std::size_t piece = 0; piece < most.size(); ++piece)
+      if (!has_curve[piece])
+        most[piece] = std::min(most[piece], of_thickness * 2 * std::abs(volume[piece]) / area[piece]);
+    return most;
   }
 
   void make_triangles() {
