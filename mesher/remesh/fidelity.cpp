@@ -54,6 +54,7 @@ double volume_of(const TriangleMesh& mesh) {
 
 bool is_closed(const TriangleMesh& mesh) {
   std::vector<std::uint64_t> sides;
+  sides.reserve(3 * mesh.triangles.size());
   for (const auto& t : mesh.triangles)
     for (int i = 0; i < 3; ++i) sides.push_back(side_key(t[i], t[(i + 1) % 3]));
   std::sort(sides.begin(), sides.end());
@@ -88,6 +89,7 @@ RemeshFidelity measure_fidelity(const TriangleMesh& surface, const std::vector<i
     face_of_patch.resize(count, 0);
     face_of_patch[patch] = face;
   }
+  by_patch.reserve(fans.tags.size());
   for (const int face : fans.tags) by_patch.push_back(patch_of_face.at(face));
   const SurfaceLocator made(fans, by_patch, count);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)

@@ -22,7 +22,7 @@ class PatchOfSurface : public SmoothingSurface {
   PatchOfSurface(const PatchSurface& on, int patch) : on_(on), patch_(patch) {}
 
   Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const override {
-    const Vector3 walked = on_.surface.move(uv, target, normal);
+    Vector3 walked = on_.surface.move(uv, target, normal);
     const SurfaceLocator::Place found = on_.locator.nearest(patch_, target);
     constexpr double closer = 1 - 1e-9;
     if ((found.point - target).norm() >= closer * (walked - target).norm()) return walked;

@@ -39,6 +39,7 @@ struct SurfaceLocator::Tree {
 
 SurfaceLocator::SurfaceLocator(const TriangleMesh& surface, const std::vector<int>& patches,
                                int patch_count) {
+  trees_.reserve(patch_count);
   for (int patch = 0; patch < patch_count; ++patch) trees_.push_back(std::make_unique<Tree>());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     Tree& tree = *trees_[patches[t]];
