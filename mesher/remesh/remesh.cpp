@@ -181,6 +181,9 @@ class Remesher {
     const StageTimer timer(context_, Stage::sample);
     context_.report(Stage::sample, 0);
     TriangleInput triangles = triangle_input(input_, options_.merge, notes_, context_);
+    if (input_.order == 2)
+      notes_.push_back(
+          "the mesh is of second order: the surface is taken to be flat between its corner nodes");
     surface_ = oriented_surface(std::move(triangles.mesh), notes_);
     check_budget(surface_, options_);
     context_.check();
