@@ -245,6 +245,39 @@ TEST(Remesh, SizesBeyondASmoothSurfaceGiveSmallerElements) {
   EXPECT_EQ(euler_characteristic(mesh), 0);
 }
 
+TEST(Remesh, ACanKeepsItsRoundRims) {
+  // 5 in radius, 12 high, 120 triangles along each rim, which are far shorter than the elements.
+  constexpr int n = 120;
+  std::vector<Vector3> points;
+  std::vector<std::array<int, 3>> triangles;
+  for (int k = 0; k < n; ++k) {
+    const double angle = 2 * std::numbers::pi * k / n;
+    for (const double z : {0.0, 12.0}) points.emplace_back(5 * std::cos(angle), 5 * std::sin(angle), z);
+    const int a = 2 * k, b = 2 * ((k + 1) % n);
+    triangles.insert(triangles.end(),
+                     {{a, b, b + 1}, {a, b + 1, a + 1}, {b, a, 2 * n}, {a + 1, b + 1, 2 * n + 1}});
+  }
+  points.emplace_back(0, 0, 0);
+  points.emplace_back(0, 0, 12);
+  RemeshFidelity fidelity;
+  const ShellMesh mesh = remeshed(surface_of(points, triangles), with_size(1.2), &fidelity);
+  EXPECT_EQ(check_and_count_rim(mesh), 0);
+  EXPECT_EQ(euler_characteristic(mesh), 2);
+  EXPECT_EQ(mesh.faces.size(), 3u);
+  EXPECT_TRUE(mesh.corners.empty());
+  std::map<int, int> segments;
+  for (const ShellMesh::Segment& segment : mesh.segments) {
+    ++segments[segment.edge];
+    const Vector3 &a = mesh.points[segment.nodes[0]], &b = mesh.points[segment.nodes[1]];
+    EXPECT_EQ(a.z(), b.z());
+    EXPECT_NEAR(a.head<2>().norm(), 5, 5 * (1 - std::cos(std::numbers::pi / n)) + 1e-9);
+    EXPECT_NEAR((a - b).norm(), 10 * std::numbers::pi / 28, 0.1);
+  }
+  ASSERT_EQ(segments.size(), 2u);
+  for (const auto& [edge, count] : segments) EXPECT_EQ(count, 28) << "Edge" << edge;
+  EXPECT_NEAR(fidelity.mesh_volume, fidelity.surface_volume, 0.02 * fidelity.surface_volume);
+}
+
 TEST(Remesh, AnOpenPlateKeepsItsRims) {
   RemeshFidelity fidelity;
   const ShellMesh mesh = remeshed(plate_with_hole(), with_size(0.7), &fidelity);
