@@ -431,10 +431,19 @@ class Job {
 
 }  // namespace
 
-ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
+namespace {
+
+/// Throws Error: usage for options that make no sense, failure for edges far out of the model.
+void check_input(const CadModel& model, const MeshOptions& options) {
   check({options, {}}, model);
   for (const StrayEdge& stray : stray_edges(model.shape(), faces_used(model, options.faces)))
     throw failure(fmt::format("Edge{}", stray.edge), stray.sentence() + "; `faces` can leave its faces out");
+}
+
+}  // namespace
+
+ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
+  check_input(model, options);
   Job job(model, options, context);
   return on_threads(context.threads(), [&] {
     const SizingField field = job.build_field();
@@ -443,6 +452,11 @@ ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionConte
     if (options.inspect) options.inspect(result, field);
     return result;
   });
+}
+
+SizingField wanted_sizes(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
+  check_input(model, options);
+  return Job(model, options, context).build_field();
 }
 
 SettledBoundary settle_boundary(const CadModel& model, const MeshOptions& options,

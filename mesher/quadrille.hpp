@@ -27,6 +27,7 @@
 #include "mesher/pairing/recombine.hpp"
 #include "mesher/shell/from_triangles.hpp"
 #include "mesher/shell/validate.hpp"
+#include "mesher/size_map.hpp"
 
 namespace quadrille {
 

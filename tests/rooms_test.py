@@ -25,6 +25,8 @@ ROOMS = [
     "mesher/boundary.hpp",
     "mesher/estimate.hpp",
     "mesher/estimate.cpp",
+    "mesher/size_map.hpp",
+    "mesher/size_map.cpp",
     "mesher/shell",
     "mesher/io",
     "mesher/adapt",

@@ -14,6 +14,7 @@
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/isolated_work.hpp"
 #include "geometry/base/printable.hpp"
 #include "geometry/cad/isolated_reading.hpp"
 #include "mesher/command/setting_options.hpp"
@@ -59,6 +60,29 @@ void require_ending(const std::filesystem::path& path, std::string_view ending, 
     throw usage_error(std::string(option),
                       fmt::format("{}: the file name must end in {}, not {}", option, ending, path.string()));
   require_writable(path);
+}
+
+void draw_apart(const std::filesystem::path& path, ExecutionContext& context,
+                const std::function<void()>& draw) {
+  IsolatedWork options;
+  options.subject = path.string();
+  options.crashed = fmt::format(
+      "{}: the picture cannot be drawn: the renderer crashed, for want of memory or threads "
+      "perhaps",
+      path.string());
+  options.context = &context;
+  options.stage = Stage::write;
+  const auto work = [&](std::ostream&) {
+    try {
+      draw();
+    } catch (const std::exception& problem) {
+      const std::string sentence = problem.what();
+      if (sentence.rfind(path.string(), 0) == 0) throw;  // the file, not the renderer
+      throw failure(path.string(),
+                    fmt::format("{}: the picture cannot be drawn ({})", path.string(), sentence));
+    }
+  };
+  run_isolated(options, work, [](std::istream&) {});
 }
 
 namespace {

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "geometry/base/atomic_file.hpp"
-#include "geometry/base/isolated_work.hpp"
 #include "geometry/base/threads.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/limits_option.hpp"
@@ -76,29 +75,6 @@ std::optional<MidSurface> middle_of(const CadModel& model, const MeshArguments& 
   return midsurface(model, options, context);
 }
 
-/// Draws in a child process: the renderer ends the program where memory or threads run out.
-void draw(const ShellMesh& mesh, const std::filesystem::path& path, ExecutionContext& context) {
-  IsolatedWork options;
-  options.subject = path.string();
-  options.crashed = fmt::format(
-      "{}: the picture cannot be drawn: the renderer crashed, for want of memory or threads "
-      "perhaps",
-      path.string());
-  options.context = &context;
-  options.stage = Stage::write;
-  const auto work = [&](std::ostream&) {
-    try {
-      write_picture(mesh, path);
-    } catch (const std::exception& problem) {
-      const std::string sentence = problem.what();
-      if (sentence.rfind(path.string(), 0) == 0) throw;  // the file, not the renderer
-      throw failure(path.string(),
-                    fmt::format("{}: the picture cannot be drawn ({})", path.string(), sentence));
-    }
-  };
-  run_isolated(options, work, [](std::istream&) {});
-}
-
 void write_outputs(const ShellMesh& mesh, const MeshArguments& arguments, ExecutionContext& context,
                    CancelOnSignal& cancel) {
   const StageTimer timer(context, Stage::write);
@@ -111,7 +87,8 @@ void write_outputs(const ShellMesh& mesh, const MeshArguments& arguments, Execut
     write_mesh(mesh, arguments.outputs[i], options);
     cancel.wrote(arguments.outputs[i]);
   }
-  if (!arguments.picture.empty()) draw(mesh, arguments.picture, context);
+  if (!arguments.picture.empty())
+    draw_apart(arguments.picture, context, [&] { write_picture(mesh, arguments.picture); });
 }
 
 /// One line for each face that --partial goes without.

@@ -48,6 +48,7 @@ void add_commands(CLI::App& app) {
   add_quality_command(app);
   add_midsurface_command(app);
   add_adapt_command(app);
+  add_sizes_command(app);
   add_settings_command(app);
 }
 
