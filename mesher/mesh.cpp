@@ -21,6 +21,7 @@
 #include "geometry/surfaces/stray_edges.hpp"
 #include "mesher/boundary.hpp"
 #include "mesher/edges/edge_sampling.hpp"
+#include "mesher/edges/grid_rows.hpp"
 #include "mesher/edges/let_go.hpp"
 #include "mesher/faces/boundary_crossings.hpp"
 #include "mesher/quadrille.hpp"
@@ -58,6 +59,7 @@ class Job {
         let_go_(shape_, asked_, reach_of_let_go(model, options)) {
     edges_.plan.prescribed = prescribed_edges(shape_, options.sizing, size_);
     leave_out_tiny();
+    find_rows();
   }
 
   /// What is let go asks for no sizes. Throws Error (usage) where the sizes pass their budget.
@@ -68,7 +70,8 @@ class Job {
     if (options_.force) sizing.budget = Budget::unlimited();
     const ElementBudget budget(model_, sizing, asked_, context_);
     SizingField field =
-        SizingField::build(model_, sizing, context_, {let_go_.edges(), edges_.plan.tiny.merged_faces});
+        SizingField::build(model_, sizing, context_,
+                           {let_go_.edges(), edges_.plan.tiny.merged_faces, rows_.divided, rows_.layered});
     budget.check(field);
     return field;
   }
@@ -139,6 +142,18 @@ class Job {
   /// rounds' sampling to end in.
   bool may_go_on() const {
     return !options_.partial || context_.seconds_left() > 0.1 * context_.time_limit();
+  }
+
+  /// What users divide, and layers, as far as grids can carry them.
+  void find_rows() {
+    const SizingOptions& sizing = options_.sizing;
+    if (sizing.spacings.empty() && sizing.layers.edges.empty()) return;
+    std::vector<double> wanted;
+    for (const CadEdge& edge : shape_.edges)
+      wanted.push_back(edge.length / (size_ * stride(options_.strategy)));
+    const auto sides = find_face_sides(shape_, used_, edges_.plan.tiny, wanted);
+    rows_ = find_grid_rows(shape_, sides, std::move(edges_.plan.prescribed), sizing, size_);
+    edges_.plan.prescribed = rows_.prescribed;
   }
 
   void leave_out_tiny() {
@@ -419,6 +434,7 @@ class Job {
   ExecutionContext& context_;
   EdgeTreatment edges_;
   std::vector<char> used_;
+  GridRows rows_;
   int chart_rounds_ = 0;
   BoundaryNodes nodes_;
   std::vector<std::optional<FaceChart>> charts_;  ///< of the faces to be meshed next

@@ -97,7 +97,7 @@ void SizeSources::edge(int index, const Sink& sink) const {
   context_.check();
   const CadEdge& edge = shape_.edges[index];
   if (edge.degenerate || edge.faces.empty() || edge.length <= 0) return;
-  if (prescribed_[index]) prescribed_edge(edge, *prescribed_[index], sink);
+  if (prescribed_[index] && !unsized_.is_divided(index)) prescribed_edge(edge, *prescribed_[index], sink);
   if (unsized_.edge(index) && !options_.edge_sizes.contains(edge.number)) return;
   const EdgeCurve curve(edge);
   double cap = cap_of(edge);
