@@ -101,13 +101,13 @@ TEST(WallRays, TellTheThicknessOfCurvedWalls) {
 
 TEST(WallRays, KnowNoWallsWhereThereAreNone) {
   // Skins at 60 degrees to each other.
-  const CadModel wedge = model_of(BRepPrimAPI_MakeWedge(10, 10 * std::sqrt(0.75), 10, 5).Shape());
+  const CadModel wedge = model_of(BRepPrimAPI_MakeWedge(10, 10 * std::sqrt(0.75), 10, 5, 0, 5, 10).Shape());
   const WallRays in_wedge(wedge.shape(), 1, {});
   int slanted = 0;
   look(wedge, [&](int, const Vector3& p, const Vector3& inward) {
     if (std::abs(inward.z()) > 0.5) return;
-    const auto thickness = in_wedge.thickness(p, inward, 8);
-    slanted += !thickness;
+    EXPECT_FALSE(in_wedge.thickness(p, inward, 8)) << p.transpose();
+    ++slanted;
   });
   EXPECT_GT(slanted, 100);
   const CadModel block = model_of(BRepPrimAPI_MakeBox(30, 20, 10).Shape());
