@@ -32,7 +32,9 @@ struct UnsizedFeatures {
   std::vector<char> layered;                      ///< (edges) 1 = not by its layers
   /// Whether an edge, from 0, is one of them.
   bool edge(std::size_t index) const { return index < edges.size() && edges[index] != 0; }
+  /// Whether how users divide an edge, from 0, asks for no sizes.
   bool is_divided(std::size_t index) const { return index < divided.size() && divided[index] != 0; }
+  /// Whether the layers of an edge, from 0, ask for no sizes.
   bool is_layered(std::size_t index) const { return index < layered.size() && layered[index] != 0; }
   /// Whether a face, from 0, is one of them.
   bool face(std::size_t index) const { return index < faces.size() && faces[index] != 0; }
