@@ -27,8 +27,10 @@
 #include "mesher/settings.hpp"
 #include "mesher/shell/assembly.hpp"
 #include "mesher/shell/face_mesher.hpp"
+#include "mesher/shell/mirror_images.hpp"
 #include "mesher/shell/node_sliding.hpp"
 #include "mesher/shell/remedies.hpp"
+#include "mesher/shell/symmetry.hpp"
 
 namespace quadrille {
 
@@ -429,20 +431,55 @@ class Job {
   LetGo let_go_;
 };
 
+ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
+  Job job(model, options, context);
+  const SizingField field = job.build_field();
+  if (!options.write_size_field.empty()) field.write(options.write_size_field);
+  ShellMesh result = job.run(field);
+  note_off_geometry(result);
+  if (options.inspect) options.inspect(result, field);
+  return result;
+}
+
+/// Nothing where the part cannot be meshed, or gives no whole. \param note is told why.
+std::optional<ShellMesh> mesh_part(const CadModel& model, const SymmetricJob& symmetric,
+                                   ExecutionContext& context, std::string& note) {
+  try {
+    Job job(symmetric.part->model, symmetric.options, context);
+    const SizingField field = job.build_field();
+    const ShellMesh part = job.run(field);
+    std::optional<ShellMesh> result = with_mirror_images(part, *symmetric.part, model.shape());
+    if (!result) note = "features let go at the planes keep the mesh from ending there";
+    if (result) note_off_geometry(*result);
+    if (result && symmetric.options.inspect) symmetric.options.inspect(part, field);
+    return result;
+  } catch (const Error& error) {
+    if (error.kind() != Error::Kind::failure || error.subject() == ExecutionContext::time_subject) throw;
+    note = "the part on one side of the planes could not be meshed";
+  }
+  return std::nullopt;
+}
+
+ShellMesh mesh_by_symmetry(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
+  std::optional<ShellMesh> result;
+  std::string note;
+  if (options.symmetry) {
+    const SymmetricJob symmetric = find_symmetry(model, options, context);
+    note = symmetric.note;
+    if (symmetric.part) result = mesh_part(model, symmetric, context, note);
+  }
+  if (!result) result = mesh_whole(model, options, context);
+  result->symmetry.note = note;
+  return std::move(*result);
+}
+
 }  // namespace
 
 ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
   check({options, {}}, model);
   for (const StrayEdge& stray : stray_edges(model.shape(), faces_used(model, options.faces)))
     throw failure(fmt::format("Edge{}", stray.edge), stray.sentence() + "; `faces` can leave its faces out");
-  Job job(model, options, context);
-  return on_threads(context.threads(), [&] {
-    const SizingField field = job.build_field();
-    if (!options.write_size_field.empty()) field.write(options.write_size_field);
-    ShellMesh result = job.run(field);
-    if (options.inspect) options.inspect(result, field);
-    return result;
-  });
+  return on_threads(context.threads(), [&] { return mesh_by_symmetry(model, options, context); });
 }
 
 SettledBoundary settle_boundary(const CadModel& model, const MeshOptions& options,

@@ -10,6 +10,7 @@ ROOMS = [
     "geometry/base",
     "geometry/cad",
     "geometry/surfaces",
+    "geometry/symmetry",
     "geometry/midsurface",
     "geometry/sizing",
     "mesher/mesh",
