@@ -435,7 +435,7 @@ std::string MirrorPlane::name() const {
   for (int i = 0; i < 3; ++i) {
     if (normal == Vector3::Unit(i)) return fmt::format("{} = {:.6g}", "xyz"[i], offset);
   }
-  const Vector3 foot = offset * normal;
+  const Vector3 foot = offset * normal + Vector3::Zero();  // no "-0"
   return fmt::format("normal ({:.6g}, {:.6g}, {:.6g}) through ({:.6g}, {:.6g}, {:.6g})", normal.x(),
                      normal.y(), normal.z(), foot.x(), foot.y(), foot.z());
 }
