@@ -464,7 +464,10 @@ ShellMesh mesh_by_symmetry(const CadModel& model, const MeshOptions& options, Ex
   std::optional<ShellMesh> result;
   std::string note;
   if (options.symmetry) {
-    const SymmetricJob symmetric = find_symmetry(model, options, context);
+    const SymmetricJob symmetric = [&] {
+      const StageTimer timer(context, Stage::size);
+      return find_symmetry(model, options, context);
+    }();
     note = symmetric.note;
     if (symmetric.part) result = mesh_part(model, symmetric, context, note);
   }

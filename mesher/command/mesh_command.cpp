@@ -1,6 +1,7 @@
 /// quadrille mesh IN -o OUT: a CAD model in, an all-quad shell mesh out.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -143,6 +144,7 @@ void tell_quality(const ShellMesh& result, const CadModel& model, const std::opt
   QualitySummary summary;
   std::vector<std::string> warnings = model.problems();
   warn_off_geometry(result, warnings);
+  if (!result.symmetry.note.empty()) warnings.push_back("symmetry: " + result.symmetry.note);
   if (middle) warnings.insert(warnings.end(), middle->problems.begin(), middle->problems.end());
   on_threads(arguments.settings.threads, [&] {
     summary = quality(result);
@@ -158,6 +160,8 @@ void tell_quality(const ShellMesh& result, const CadModel& model, const std::opt
   if (arguments.quiet) return;
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
   print(quality_table(summary));
+  if (!result.symmetry.planes.empty())
+    print(fmt::format("symmetric in {}\n", fmt::join(result.symmetry.planes, ", ")));
 }
 
 void run(const MeshArguments& arguments) {

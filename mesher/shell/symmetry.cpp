@@ -96,6 +96,7 @@ SymmetricJob find_symmetry(const CadModel& model, const MeshOptions& options,
     return true;
   });
   job.note = left_out;
+  if (planes.empty() && left_out.empty()) job.note = "the model has no mirror plane";
   if (planes.empty()) return job;
   job.part = cut_at_planes(model, std::move(planes), context);
   if (!job.part) {

@@ -115,6 +115,7 @@ def mesh(
     bias_both: Optional[_Entries] = None,
     merge_tiny: Optional[float] = None,
     rings: Optional[int] = None,
+    symmetry: Optional[bool] = None,
     partial: Optional[bool] = None,
     keep_features: Optional[bool] = None,
     force: Optional[bool] = None,

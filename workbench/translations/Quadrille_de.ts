@@ -563,6 +563,14 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Ringe von Vierecken um jedes Loch ohne Ecken, wo Platz dafür ist; 0 = keine</translation>
     </message>
     <message>
+        <source>Symmetry</source>
+        <translation>Symmetrie</translation>
+    </message>
+    <message>
+        <source>Where the model has mirror planes, mesh one side of them and copy it, with nodes on the planes</source>
+        <translation>Wo das Modell Spiegelebenen hat, eine Seite davon vernetzen und spiegeln, mit Knoten auf den Ebenen</translation>
+    </message>
+    <message>
         <source>Sizes by distance from a face, edge or vertex, as heights of layers grow: first height, ratio and number, such as Edge4=0.1,1.2,6; empty = none</source>
         <translation>Größen nach dem Abstand von Fläche, Kante oder Ecke, wie Schichthöhen wachsen: erste Höhe, Verhältnis und Anzahl, etwa Edge4=0.1,1.2,6; leer = keine</translation>
     </message>

@@ -563,6 +563,14 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Anneaux de quadrangles autour de chaque trou sans coin, là où il y a de la place ; 0 = aucun</translation>
     </message>
     <message>
+        <source>Symmetry</source>
+        <translation>Symétrie</translation>
+    </message>
+    <message>
+        <source>Where the model has mirror planes, mesh one side of them and copy it, with nodes on the planes</source>
+        <translation>Là où le modèle a des plans de symétrie, mailler un côté et le copier en miroir, avec des nœuds sur les plans</translation>
+    </message>
+    <message>
         <source>Sizes by distance from a face, edge or vertex, as heights of layers grow: first height, ratio and number, such as Edge4=0.1,1.2,6; empty = none</source>
         <translation>Tailles selon la distance à une face, une arête ou un sommet, comme croissent des couches : première hauteur, rapport et nombre, par exemple Edge4=0.1,1.2,6 ; vide = aucune</translation>
     </message>
