@@ -143,8 +143,8 @@ class Search {
       for (int j = 0; j < 3; ++j) inertia(i, j) = matrix(i + 1, j + 1);
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia);
-    const Vector3 moments = solver.eigenvalues();
-    const Eigen::Matrix3d axes = solver.eigenvectors();
+    const Vector3& moments = solver.eigenvalues();
+    const Eigen::Matrix3d& axes = solver.eigenvectors();
     const auto equal = [&](int a, int b) { return std::abs(moments[a] - moments[b]) < 1e-3 * moments[2]; };
     std::vector<Vector3> result;
     const bool low = equal(0, 1), high = equal(1, 2);

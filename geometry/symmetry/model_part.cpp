@@ -327,65 +327,27 @@ class Cutter {
 
   /// What each of the part's faces, edges and vertices is in an image of the part.
   ModelPart::Image named(const CadShape& part, unsigned image, const ModelPart& result) {
-    TopTools_IndexedMapOfShape faces, edges, vertices;
-    TopExp::MapShapes(compound_, TopAbs_FACE, faces);
-    TopExp::MapShapes(compound_, TopAbs_EDGE, edges);
-    TopExp::MapShapes(compound_, TopAbs_VERTEX, vertices);
     ModelPart::Image names;
     names.faces.assign(part.faces.size(), 0);
     names.turned.assign(part.faces.size(), 0);
     names.edges.assign(part.edges.size(), 0);
     names.vertices.assign(part.vertices.size(), 0);
+    TopTools_IndexedMapOfShape faces;
+    TopExp::MapShapes(compound_, TopAbs_FACE, faces);
     for (const auto& [piece, source] : kept_) {
       const int index = faces.FindIndex(piece) - 1;
       names.faces[index] = images_[image].faces[source] + 1;
       names.turned[index] = images_[image].turned[source];
     }
-    const auto name = [&](const TopoDS_Shape& source, int component, int number,
-                          const TopTools_IndexedMapOfShape& map, std::vector<int>& of) {
-      if (number < 0) return;
-      for (const TopoDS_Shape& piece : pieces_of(source, component)) {
-        const int index = map.FindIndex(piece) - 1;
-        if (index >= 0) of[index] = number + 1;
-      }
-    };
-    for (const Imprint& tool : imprinted_) {
-      const bool is_edge = tool.copy.ShapeType() == TopAbs_EDGE;
-      // An image of the model's own that is there again in this image.
-      const MirrorPlane& there = images_[image ^ tool.image];
-      const int number = is_edge ? there.edges[tool.source] : there.vertices[tool.source];
-      name(tool.copy, tool.component, number, is_edge ? edges : vertices,
-           is_edge ? names.edges : names.vertices);
-      if (!is_edge) continue;
-      const CadEdge& edge = shape_.edges[tool.source];
-      TopoDS_Vertex first, last;
-      TopExp::Vertices(TopoDS::Edge(tool.copy), first, last);
-      for (const auto& [end, vertex] :
-           {std::pair(first, edge.first_vertex), std::pair(last, edge.last_vertex)}) {
-        if (!end.IsNull() && vertex > 0)
-          name(end, tool.component, there.vertices[vertex - 1], vertices, names.vertices);
-      }
-    }
-    for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
-      const CadEdge& edge = shape_.edges[i];
-      if (!edge.faces.empty())
-        name(edge.edge, component_of_[edge.faces.front() - 1], images_[image].edges[i], edges, names.edges);
-    }
-    for (const Vertex& vertex : vertices_) {
-      if (vertex.number > 0)
-        name(vertex.shape, component_of_[vertex.face], images_[image].vertices[vertex.number - 1], vertices,
-             names.vertices);
-    }
+    name_edges_and_vertices(image, names);
     // What lies in the planes is its own image, a seam too.
-    if (image != 0) {
-      for (std::size_t i = 0; i < names.edges.size(); ++i) {
-        if (names.edges[i] == 0)
-          names.edges[i] = of_lower(result, image, i, result.edges_in, &ModelPart::Image::edges);
-      }
-      for (std::size_t i = 0; i < names.vertices.size(); ++i) {
-        if (names.vertices[i] == 0)
-          names.vertices[i] = of_lower(result, image, i, result.vertices_in, &ModelPart::Image::vertices);
-      }
+    for (std::size_t i = 0; i < names.edges.size(); ++i) {
+      if (names.edges[i] == 0)
+        names.edges[i] = of_lower(result, image, i, result.edges_in, &ModelPart::Image::edges);
+    }
+    for (std::size_t i = 0; i < names.vertices.size(); ++i) {
+      if (names.vertices[i] == 0)
+        names.vertices[i] = of_lower(result, image, i, result.vertices_in, &ModelPart::Image::vertices);
     }
     names.against.assign(part.edges.size(), 0);
     for (std::size_t i = 0; i < names.edges.size(); ++i) {
@@ -393,6 +355,42 @@ class Cutter {
       names.against[i] = runs_against(part.edges[i], result, image, shape_.edges[names.edges[i] - 1]);
     }
     return names;
+  }
+
+  /// By what became of them in the cutting.
+  void name_edges_and_vertices(unsigned image, ModelPart::Image& names) {
+    TopTools_IndexedMapOfShape edges, vertices;
+    TopExp::MapShapes(compound_, TopAbs_EDGE, edges);
+    TopExp::MapShapes(compound_, TopAbs_VERTEX, vertices);
+    const auto name = [&](const TopoDS_Shape& source, int component, int number) {
+      if (number < 0 || source.IsNull()) return;
+      const bool is_edge = source.ShapeType() == TopAbs_EDGE;
+      for (const TopoDS_Shape& piece : pieces_of(source, component)) {
+        const int index = (is_edge ? edges : vertices).FindIndex(piece) - 1;
+        if (index >= 0) (is_edge ? names.edges : names.vertices)[index] = number + 1;
+      }
+    };
+    for (const Imprint& tool : imprinted_) {
+      // An image of the model's own that is there again in this image.
+      const MirrorPlane& there = images_[image ^ tool.image];
+      const bool is_edge = tool.copy.ShapeType() == TopAbs_EDGE;
+      name(tool.copy, tool.component, (is_edge ? there.edges : there.vertices)[tool.source]);
+      if (!is_edge) continue;
+      const CadEdge& edge = shape_.edges[tool.source];
+      TopoDS_Vertex first, last;
+      TopExp::Vertices(TopoDS::Edge(tool.copy), first, last);
+      if (edge.first_vertex > 0) name(first, tool.component, there.vertices[edge.first_vertex - 1]);
+      if (edge.last_vertex > 0) name(last, tool.component, there.vertices[edge.last_vertex - 1]);
+    }
+    for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
+      const CadEdge& edge = shape_.edges[i];
+      if (!edge.faces.empty())
+        name(edge.edge, component_of_[edge.faces.front() - 1], images_[image].edges[i]);
+    }
+    for (const Vertex& vertex : vertices_) {
+      if (vertex.number > 0)
+        name(vertex.shape, component_of_[vertex.face], images_[image].vertices[vertex.number - 1]);
+    }
   }
 
   static bool runs_against(const CadEdge& edge, const ModelPart& result, unsigned image,
