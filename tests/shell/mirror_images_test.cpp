@@ -21,6 +21,7 @@
 
 #include "geometry/symmetry/mirror_planes.hpp"
 #include "mesher/quadrille.hpp"
+#include "tests/models/trouble_models.hpp"
 #include "tests/support/sample_models.hpp"
 
 namespace quadrille {
@@ -315,6 +316,23 @@ TEST(MirrorImages, PartsThatTouchStayApart) {
     const int box = mesh.quad_faces[i] <= 6 ? 1 : 2;
     for (const int node : mesh.quads[i]) EXPECT_EQ(box_of.emplace(node, box).first->second, box);
   }
+}
+
+TEST(MirrorImages, TroubleModels) {
+  int found = 0;
+  for (const TroubleModel& trouble : trouble_models()) {
+    SCOPED_TRACE(trouble.name);
+    const CadModel model = model_of(trouble.make());
+    const double diagonal = trouble.diagonal > 0 ? trouble.diagonal : model.diagonal();
+    MeshOptions plain = symmetric(diagonal / 20);
+    plain.symmetry = false;
+    const ShellMesh mesh = mesh_of(model, symmetric(diagonal / 20)), other = mesh_of(model, plain);
+    EXPECT_EQ(joined(but_coincidence(validate(mesh, trouble.closed))),
+              joined(but_coincidence(validate(other, trouble.closed))));
+    EXPECT_EQ(entities(mesh), entities(other));
+    found += mesh.symmetry.planes.empty() ? 0 : 1;
+  }
+  EXPECT_GE(found, 3);
 }
 
 /// Of real parts; the folder lies beside the project.
