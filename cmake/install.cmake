@@ -17,8 +17,8 @@ set(PUBLIC_HEADERS
   mesher/estimate.hpp mesher/io/io.hpp mesher/io/limits_reader.hpp mesher/io/midsurface_writer.hpp
   mesher/mesh/criteria.hpp mesher/mesh/mesh_types.hpp mesher/mesh/quality.hpp mesher/options.hpp
   mesher/pairing/recombine.hpp mesher/pairing/recombine_options.hpp mesher/quadrille.hpp
-  mesher/quads/improve_options.hpp mesher/settings.hpp mesher/shell/from_triangles.hpp
-  mesher/shell/validate.hpp)
+  mesher/quads/improve_options.hpp mesher/remesh/remesh.hpp mesher/settings.hpp mesher/shell/from_triangles.hpp
+  mesher/shell/validate.hpp mesher/size_map.hpp)
 foreach(header ${PUBLIC_HEADERS})
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/quadrille/${folder} COMPONENT development)

@@ -14,6 +14,10 @@ struct SettledBoundary {
   BoundaryNodes nodes;
 };
 
+/// The sizes that mesh() works with: features that it lets go ask for none. To be called within on_threads().
+/// Throws Error as mesh() for sizes that make no sense or are too many.
+SizingField wanted_sizes(const CadModel& model, const MeshOptions& options, ExecutionContext& context);
+
 /// The sizes that mesh() would work with, and the nodes on the edges that it would begin to mesh faces
 /// between: with features let go, and more nodes where wires cross or come close. To be called within
 /// on_threads(). Throws Error as mesh() for sizes that make no sense or are too many.

@@ -21,14 +21,17 @@
 #include "geometry/surfaces/stray_edges.hpp"
 #include "mesher/boundary.hpp"
 #include "mesher/edges/edge_sampling.hpp"
+#include "mesher/edges/grid_rows.hpp"
 #include "mesher/edges/let_go.hpp"
 #include "mesher/faces/boundary_crossings.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/settings.hpp"
 #include "mesher/shell/assembly.hpp"
 #include "mesher/shell/face_mesher.hpp"
+#include "mesher/shell/mirror_images.hpp"
 #include "mesher/shell/node_sliding.hpp"
 #include "mesher/shell/remedies.hpp"
+#include "mesher/shell/symmetry.hpp"
 
 namespace quadrille {
 
@@ -58,6 +61,7 @@ class Job {
         let_go_(shape_, asked_, reach_of_let_go(model, options)) {
     edges_.plan.prescribed = prescribed_edges(shape_, options.sizing, size_);
     leave_out_tiny();
+    find_rows();
   }
 
   /// What is let go asks for no sizes. Throws Error (usage) where the sizes pass their budget.
@@ -68,7 +72,8 @@ class Job {
     if (options_.force) sizing.budget = Budget::unlimited();
     const ElementBudget budget(model_, sizing, asked_, context_);
     SizingField field =
-        SizingField::build(model_, sizing, context_, {let_go_.edges(), edges_.plan.tiny.merged_faces});
+        SizingField::build(model_, sizing, context_,
+                           {let_go_.edges(), edges_.plan.tiny.merged_faces, rows_.divided, rows_.layered});
     budget.check(field);
     return field;
   }
@@ -139,6 +144,18 @@ class Job {
   /// rounds' sampling to end in.
   bool may_go_on() const {
     return !options_.partial || context_.seconds_left() > 0.1 * context_.time_limit();
+  }
+
+  /// What users divide, and layers, as far as grids can carry them.
+  void find_rows() {
+    const SizingOptions& sizing = options_.sizing;
+    if (sizing.spacings.empty() && sizing.layers.edges.empty()) return;
+    std::vector<double> wanted;
+    for (const CadEdge& edge : shape_.edges)
+      wanted.push_back(edge.length / (size_ * stride(options_.strategy)));
+    const auto sides = find_face_sides(shape_, used_, edges_.plan.tiny, wanted);
+    rows_ = find_grid_rows(shape_, sides, std::move(edges_.plan.prescribed), sizing, size_);
+    edges_.plan.prescribed = rows_.prescribed;
   }
 
   void leave_out_tiny() {
@@ -419,6 +436,7 @@ class Job {
   ExecutionContext& context_;
   EdgeTreatment edges_;
   std::vector<char> used_;
+  GridRows rows_;
   int chart_rounds_ = 0;
   BoundaryNodes nodes_;
   std::vector<std::optional<FaceChart>> charts_;  ///< of the faces to be meshed next
@@ -429,20 +447,68 @@ class Job {
   LetGo let_go_;
 };
 
-}  // namespace
+ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
+  Job job(model, options, context);
+  const SizingField field = job.build_field();
+  if (!options.write_size_field.empty()) field.write(options.write_size_field);
+  ShellMesh result = job.run(field);
+  note_off_geometry(result);
+  if (options.inspect) options.inspect(result, field);
+  return result;
+}
 
-ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
+/// Nothing where the part cannot be meshed, or gives no whole. \param note is told why.
+std::optional<ShellMesh> mesh_part(const CadModel& model, const SymmetricJob& symmetric,
+                                   ExecutionContext& context, std::string& note) {
+  try {
+    Job job(symmetric.part->model, symmetric.options, context);
+    const SizingField field = job.build_field();
+    const ShellMesh part = job.run(field);
+    std::optional<ShellMesh> result = with_mirror_images(part, *symmetric.part, model.shape());
+    if (!result) note = "features let go at the planes keep the mesh from ending there";
+    if (result) note_off_geometry(*result);
+    if (result && symmetric.options.inspect) symmetric.options.inspect(part, field);
+    return result;
+  } catch (const Error& error) {
+    if (error.kind() != Error::Kind::failure || error.subject() == ExecutionContext::time_subject) throw;
+    note = "the part on one side of the planes could not be meshed";
+  }
+  return std::nullopt;
+}
+
+ShellMesh mesh_by_symmetry(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
+  std::optional<ShellMesh> result;
+  std::string note;
+  if (options.symmetry) {
+    const SymmetricJob symmetric = [&] {
+      const StageTimer timer(context, Stage::size);
+      return find_symmetry(model, options, context);
+    }();
+    note = symmetric.note;
+    if (symmetric.part) result = mesh_part(model, symmetric, context, note);
+  }
+  if (!result) result = mesh_whole(model, options, context);
+  result->symmetry.note = note;
+  return std::move(*result);
+}
+
+/// Throws Error: usage for options that make no sense, failure for edges far out of the model.
+void check_input(const CadModel& model, const MeshOptions& options) {
   check({options, {}}, model);
   for (const StrayEdge& stray : stray_edges(model.shape(), faces_used(model, options.faces)))
     throw failure(fmt::format("Edge{}", stray.edge), stray.sentence() + "; `faces` can leave its faces out");
-  Job job(model, options, context);
-  return on_threads(context.threads(), [&] {
-    const SizingField field = job.build_field();
-    if (!options.write_size_field.empty()) field.write(options.write_size_field);
-    ShellMesh result = job.run(field);
-    if (options.inspect) options.inspect(result, field);
-    return result;
-  });
+}
+
+}  // namespace
+
+ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
+  check_input(model, options);
+  return on_threads(context.threads(), [&] { return mesh_by_symmetry(model, options, context); });
+}
+
+SizingField wanted_sizes(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
+  check_input(model, options);
+  return Job(model, options, context).build_field();
 }
 
 SettledBoundary settle_boundary(const CadModel& model, const MeshOptions& options,

@@ -56,10 +56,12 @@ struct MeshOptions {
   double merge_tiny = 0;
   /// Mesh all edges and slivers below half the least size, where they would be let go (ShellMesh::let_go).
   bool keep_features = false;
-  int rings = 1;         ///< of quads round each hole without corners, at most
-  bool partial = false;  ///< deliver what could be meshed when a face fails, instead of throwing
+  int rings = 1;          ///< of quads round each hole without corners, at most
+  bool symmetry = false;  ///< mesh one side of the model's mirror planes and copy its mirror images
+  bool partial = false;   ///< deliver what could be meshed when a face fails, instead of throwing
   std::filesystem::path write_size_field;  ///< .vdb to write the sizing field to; empty = none
-  /// Called once with the mesh and the sizes that it was made with, which end with the call; empty = nothing.
+  /// Called once with the mesh and the sizes that it was made with, which end with the call; with `symmetry`
+  /// those of the part that was meshed. Empty = nothing.
   std::function<void(const ShellMesh&, const SizingField&)> inspect;
   bool force = false;          ///< go on where the mesh would pass 50 million elements
   RecombineOptions recombine;  ///< how triangles are paired

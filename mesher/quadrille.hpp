@@ -25,8 +25,10 @@
 #include "mesher/mesh/quality.hpp"
 #include "mesher/options.hpp"
 #include "mesher/pairing/recombine.hpp"
+#include "mesher/remesh/remesh.hpp"
 #include "mesher/shell/from_triangles.hpp"
 #include "mesher/shell/validate.hpp"
+#include "mesher/size_map.hpp"
 
 namespace quadrille {
 

@@ -208,6 +208,12 @@ std::vector<Setting> make_table() {
       {"proximity", "proximity", "Proximity", "Across gaps", mesh, none, 0, 1000, false, none,
        "elements across a gap inside a face, between its loops and rims; 0 = any number",
        [](Settings& v) -> double& { return v.mesh.sizing.proximity; }},
+      {"proximity_walls", "proximity-walls", "ProximityWalls", "Across walls", mesh, none, 0, 1000, false,
+       none,
+       "elements through the thickness of a wall: sizes on its skins are its thickness over this at most; 0 "
+       "= "
+       "any number",
+       [](Settings& v) -> double& { return v.mesh.sizing.proximity_walls; }},
       {"order", "order", "ElementOrder", "Order", mesh, none, 1, 2, false,
        "2 where a solver reads the mesh: in FreeCAD and in .inp, .unv, .med and .bdf files; else 1",
        "1: four-node quads; 2: eight-node quads, better for shells",
@@ -264,6 +270,9 @@ std::vector<Setting> make_table() {
       {"rings", "rings", "Rings", "Rings", mesh, none, 0, 100, false, none,
        "rings of quads round each hole without corners, where there is room for them; 0 = none",
        [](Settings& v) -> int& { return v.mesh.rings; }},
+      {"symmetry", "symmetry", "Symmetry", "Symmetry", mesh, none, 0, 0, false, none,
+       "where the model has mirror planes, mesh one side of them and copy it, with nodes on the planes",
+       [](Settings& v) -> bool& { return v.mesh.symmetry; }},
       {"partial", "partial", "Partial", "Partial", mesh, none, 0, 0, false, none,
        "keep what could be meshed when a face fails", [](Settings& v) -> bool& { return v.mesh.partial; }},
       {"force", "force", "Force", none, mesh, none, 0, 0, false, none,

@@ -206,6 +206,41 @@ PythonMesh mesh_model(const Model& model, const py::object& progress, const py::
   }
 }
 
+PythonMesh remesh_surface(const PythonMesh& surface, double size, double feature_angle,
+                          const std::optional<double>& merge, int order, const py::object& progress,
+                          const py::kwargs& arguments) {
+  if (merge && !(*merge >= 0)) throw usage_error("merge", "`merge` must not be negative");
+  for (const auto& [key, value] : arguments) {
+    const std::string name = key.cast<std::string>();
+    if (name != "force" && name != "time_limit" && name != "threads")
+      throw py::type_error(fmt::format("remesh() got an unexpected keyword argument '{}'", name));
+  }
+  const Settings settings = settings_of(arguments, Setting::Use::mesh, "remesh");
+  ProgressCall call(progress);
+  ExecutionContext context(settings.threads, std::ref(call));
+  context.expect({Stage::sample, Stage::triangulate, Stage::mesh, Stage::assemble});
+  if (settings.time_limit > 0) context.limit_time(settings.time_limit);
+  RemeshOptions options;
+  options.size = size;
+  options.feature_angle = feature_angle;
+  options.merge = merge.value_or(-1);
+  options.order = order;
+  options.force = settings.mesh.force;
+  std::vector<std::string> notes;
+  RemeshFidelity fidelity;
+  std::optional<PythonMesh> result;
+  try {
+    const py::gil_scoped_release release;
+    result.emplace(remesh(surface.mesh, options, &fidelity, notes, context));
+  } catch (const Error&) {
+    call.rethrow();
+    throw;
+  }
+  result->fidelity = fidelity;
+  for (const std::string& note : notes) py::module_::import("warnings").attr("warn")(note);
+  return std::move(*result);
+}
+
 const char* kind_name(Error::Kind kind) {
   switch (kind) {
     case Error::Kind::usage:
@@ -399,6 +434,18 @@ void bind_functions(py::module_& module) {
       "Reads a surface mesh: .msh, .inp, .unv, .bdf, .stl, .obj, .ply, .vtk, .vtu or .vtp. Raises "
       "quadrille.Error.");
   bind_recombine(module);
+  module.def(
+      "remesh", &remesh_surface, py::arg("surface"), py::kw_only(), py::arg("size"),
+      py::arg("feature_angle") = 40.0, py::arg("merge") = py::none(), py::arg("order") = 1,
+      py::arg("progress") = py::none(),
+      "A triangulated surface, a Mesh such as read_mesh() gives, meshed anew with quads only.\n\n"
+      "size: length of elements, mm; feature_angle: degrees between normals from which on neighbors are of "
+      "two "
+      "faces,\n0 = shape makes no faces; merge: make one of nodes at most so far apart, mm; order: 1 or 2; "
+      "force, time_limit,\nthreads, progress as mesh() has them. Groups of faces and edges are kept; how far "
+      "the "
+      "mesh is from the surface\nis in its fidelity. What was mended or lost is warned of. Raises "
+      "quadrille.Error.");
   module.def(
       "suggested_size",
       [](const CadModel& model, int quads) {

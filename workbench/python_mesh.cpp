@@ -250,6 +250,20 @@ PythonMesh recombine_arrays(const py::object& points, const py::object& triangle
   return PythonMesh(std::move(result));
 }
 
+py::object fidelity_of(const PythonMesh& mesh) {
+  if (!mesh.fidelity) return py::none();
+  const auto distance = [](const RemeshFidelity::Distance& d) {
+    return py::dict(py::arg("distance") = d.length,
+                    py::arg("at") = py::make_tuple(d.at.x(), d.at.y(), d.at.z()), py::arg("face") = d.face);
+  };
+  const RemeshFidelity& fidelity = *mesh.fidelity;
+  return py::dict(py::arg("mesh_from_surface") = distance(fidelity.of_mesh),
+                  py::arg("surface_from_mesh") = distance(fidelity.of_surface),
+                  py::arg("surface_area") = fidelity.surface_area, py::arg("mesh_area") = fidelity.mesh_area,
+                  py::arg("surface_volume") = fidelity.surface_volume,
+                  py::arg("mesh_volume") = fidelity.mesh_volume);
+}
+
 PythonMesh recombined(const PythonMesh& mesh, double feature_angle, const std::optional<double>& merge,
                       bool improve, int threads) {
   if (!(feature_angle >= 0 && feature_angle <= 180))
@@ -309,6 +323,13 @@ void bind_arrays(py::class_<PythonMesh>& mesh) {
            "from which on a side stays, 0 = none; merge: make one of nodes at most so far apart, mm. Groups, "
            "segments and\n"
            "corners are kept. What was mended or lost is warned of. Raises quadrille.Error.")
+      .def_property_readonly("fidelity", &fidelity_of,
+                             "Of a mesh that remesh() made: a dict of mesh_from_surface and "
+                             "surface_from_mesh (dicts of distance "
+                             "in mm,\n"
+                             "at, face), surface_area, mesh_area in mm2, surface_volume, mesh_volume in mm3 "
+                             "(0 where it is open). "
+                             "Else None;\nit is not pickled.")
       .def("_repr_html_", &html_of)
       .def(py::pickle(&state_of, &from_state));
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace quadrille {
 struct PythonMesh {
   ShellMesh mesh;
   std::vector<std::array<int, 8>> quads8;  ///< corners and midsides side by side, at second order
+  std::optional<RemeshFidelity> fidelity;  ///< of meshes that remesh() made
 
   explicit PythonMesh(ShellMesh made) : mesh(std::move(made)) {
     if (mesh.order != 2) return;

@@ -25,6 +25,23 @@ constexpr int max_depth = 40;
 /// Cells of a face along each parameter before any is halved.
 constexpr int fewest_cells = 4, most_cells = 400;
 
+/// A face's parameter plane in equal cells.
+struct Cells {
+  int nu, nv;
+  Vector2 low, cell;
+  /// Of the k-th, row by row.
+  Vector2 middle(int k) const { return low + Vector2((k % nu + 0.5) * cell.x(), (k / nu + 0.5) * cell.y()); }
+};
+
+/// Cells about as long as `spacing`.
+Cells cells_of(const CadFace& face, const FaceSurface& surface, double spacing) {
+  const Vector2 low(face.u_min, face.v_min), extent(face.u_max - face.u_min, face.v_max - face.v_min);
+  const Vector2 lengths = extent.cwiseProduct(surface.mean_scale()) / spacing;
+  const int nu = std::clamp(static_cast<int>(std::ceil(lengths.x())), fewest_cells, most_cells);
+  const int nv = std::clamp(static_cast<int>(std::ceil(lengths.y())), fewest_cells, most_cells);
+  return {nu, nv, low, {extent.x() / nu, extent.y() / nv}};
+}
+
 }  // namespace
 
 SizeSources::SizeSources(const CadShape& shape, const SizingOptions& options, const SizeLimits& limits,
@@ -36,13 +53,16 @@ SizeSources::SizeSources(const CadShape& shape, const SizingOptions& options, co
       unsized_(unsized),
       spatial_(spatial),
       context_(context),
-      prescribed_(prescribed_edges(shape, options, limits.largest)) {}
+      prescribed_(prescribed_edges(shape, options, limits.largest)) {
+  if (options.proximity_walls > 0) rays_.emplace(shape, options.proximity_walls * limits.least, context);
+}
 
 /// The size asked for on an edge by itself and by its length.
 double SizeSources::cap_of(const CadEdge& edge) const {
   double cap = limits_.largest;
   if (const auto it = options_.edge_sizes.find(edge.number); it != options_.edge_sizes.end())
     cap = it->second;
+  if (!options_.short_edges) return cap;
   // A short edge is one element: its surroundings are refined towards it.
   return std::min(cap, std::max(edge.length, limits_.least));
 }
@@ -77,7 +97,7 @@ void SizeSources::edge(int index, const Sink& sink) const {
   context_.check();
   const CadEdge& edge = shape_.edges[index];
   if (edge.degenerate || edge.faces.empty() || edge.length <= 0) return;
-  if (prescribed_[index]) prescribed_edge(edge, *prescribed_[index], sink);
+  if (prescribed_[index] && !unsized_.is_divided(index)) prescribed_edge(edge, *prescribed_[index], sink);
   if (unsized_.edge(index) && !options_.edge_sizes.contains(edge.number)) return;
   const EdgeCurve curve(edge);
   double cap = cap_of(edge);
@@ -149,17 +169,13 @@ void SizeSources::face(int index, const Sink& sink) const {
   const CadFace& face = shape_.faces[index];
   if (unsized_.face(index) && !options_.face_sizes.contains(index + 1)) return;
   if (options_.proximity > 0) gaps(index, sink);
+  if (rays_) walls(index, sink);
   const FaceSurface surface(face);
   double cap = limits_.largest;
   if (const auto it = options_.face_sizes.find(index + 1); it != options_.face_sizes.end()) cap = it->second;
   const bool curved = !surface.planar() && has_curvature_sizes(options_);
   if (!curved && cap >= limits_.largest && spatial_.empty()) return;
   const TrimmedDomain domain = coarse_domain(shape_, face);
-  const Vector2 low(face.u_min, face.v_min), extent(face.u_max - face.u_min, face.v_max - face.v_min);
-  const Vector2 lengths = extent.cwiseProduct(surface.mean_scale()) / spatial_.spacing();
-  const int nu = std::clamp(static_cast<int>(std::ceil(lengths.x())), fewest_cells, most_cells);
-  const int nv = std::clamp(static_cast<int>(std::ceil(lengths.y())), fewest_cells, most_cells);
-  const Vector2 cell(extent.x() / nu, extent.y() / nv);
   SparseCheck check(context_, 256);
   const auto sample = [&](const Vector2& middle, const Vector2& part) {
     check();
@@ -172,12 +188,8 @@ void SizeSources::face(int index, const Sink& sink) const {
     if (size < limits_.largest && domain.inside(middle)) sink(at.point, size);
     return CellSample{hint, part.x() * at.du.norm(), part.y() * at.dv.norm()};
   };
-  for (int j = 0; j < nv; ++j) {
-    for (int i = 0; i < nu; ++i) {
-      const Vector2 middle = low + Vector2((i + 0.5) * cell.x(), (j + 0.5) * cell.y());
-      split_cell(sample, middle, cell, 0);
-    }
-  }
+  const Cells cells = cells_of(face, surface, spatial_.spacing());
+  for (int k = 0; k < cells.nu * cells.nv; ++k) split_cell(sample, cells.middle(k), cells.cell, 0);
 }
 
 void SizeSources::uniform_edge(const CadEdge& edge, double spacing, const PointSink& sink) const {
@@ -221,6 +233,27 @@ void SizeSources::gaps(int index, const Sink& sink) const {
     const int steps = static_cast<int>(std::ceil(gap.width() / size));
     for (int k = 0; k <= steps; ++k) sink(gap.from + k * (gap.to - gap.from) / steps, size);
   }
+}
+
+/// So many elements through the thickness of each wall.
+void SizeSources::walls(int index, const Sink& sink) const {
+  const double n = options_.proximity_walls;
+  const CadFace& face = shape_.faces[index];
+  const FaceSurface surface(face);
+  const TrimmedDomain domain = coarse_domain(shape_, face);
+  const double inward = face.reversed ? 1 : -1;
+  SparseCheck check(context_, 64);
+  const auto sample = [&](const Vector2& middle, const Vector2& part) {
+    check();
+    const SurfacePoint at = surface.evaluate(middle);
+    const auto thickness =
+        rays_->thickness(at.point, inward * surface.normal(at, middle), n * limits_.largest);
+    const double size = thickness ? std::max(*thickness / n, limits_.least) : limits_.largest;
+    if (size < limits_.largest && domain.inside(middle)) sink(at.point, size);
+    return CellSample{size, part.x() * at.du.norm(), part.y() * at.dv.norm()};
+  };
+  const Cells cells = cells_of(face, surface, limits_.largest);
+  for (int k = 0; k < cells.nu * cells.nv; ++k) split_cell(sample, cells.middle(k), cells.cell, 0);
 }
 
 /// Samples the middle of a cell of the parameter plane, and its parts where the size is below the cell's.

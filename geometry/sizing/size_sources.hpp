@@ -11,6 +11,7 @@
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/sizing/sizing_options.hpp"
 #include "geometry/sizing/spatial_sizes.hpp"
+#include "geometry/sizing/wall_rays.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 
 namespace quadrille {
@@ -49,6 +50,7 @@ class SizeSources {
   };
 
   void gaps(int index, const Sink& sink) const;
+  void walls(int index, const Sink& sink) const;
   double size_of(double curvature) const { return size_of_curvature(options_, limits_, curvature); }
   double cap_of(const CadEdge& edge) const;
   Error too_many_segments(std::size_t edge, double segments) const;
@@ -68,6 +70,7 @@ class SizeSources {
   const SpatialSizes& spatial_;
   const ExecutionContext& context_;
   std::vector<std::optional<PrescribedEdge>> prescribed_;  // (edges)
+  std::optional<WallRays> rays_;                           // where walls ask for sizes
 };
 
 }  // namespace quadrille

@@ -56,6 +56,7 @@ class Builder {
       : shape_(model.shape()),
         options_(options),
         limits_{field.frame.size_max, field.size_min},
+        unsized_(unsized),
         field_(field),
         context_(context),
         blocks_(options.budget.blocks),
@@ -176,7 +177,7 @@ class Builder {
     for (const auto& [number, own] : layers.edges) {
       FaceCascades cascades = empty_cascades();
       for (const CadEdge& edge : shape_.edges) {
-        if (edge.number != number) continue;
+        if (edge.number != number || unsized_.is_layered(&edge - shape_.edges.data())) continue;
         sources_.uniform_edge(edge, own.first, [&](const Vector3& p) {
           for (const int i : field_.cascades_of(edge.faces)) add_layer(*cascades[i], p, own);
         });
@@ -217,6 +218,7 @@ class Builder {
   const CadShape& shape_;
   const SizingOptions& options_;
   SizeLimits limits_;
+  const UnsizedFeatures& unsized_;
   SizingField::Impl& field_;
   ExecutionContext& context_;
   BlockCount blocks_;

@@ -25,11 +25,17 @@ SizeLimits size_limits(const CadModel& model, const SizingOptions& options);  //
 /// The size that a curvature (1 / length) asks for, within the limits.
 double size_of_curvature(const SizingOptions& options, const SizeLimits& limits, double curvature);
 
-/// What is too small for the mesh and so asks for no sizes of its own. Empty = nothing.
+/// What asks for no sizes of its own: too small for the mesh, or kept by rows of flat quads. Empty = nothing.
 struct UnsizedFeatures {
   std::vector<char> edges /**< by edge */, faces; /**< by face */
+  std::vector<char> divided;                      ///< (edges) 1 = not by how users divide it
+  std::vector<char> layered;                      ///< (edges) 1 = not by its layers
   /// Whether an edge, from 0, is one of them.
   bool edge(std::size_t index) const { return index < edges.size() && edges[index] != 0; }
+  /// Whether how users divide an edge, from 0, asks for no sizes.
+  bool is_divided(std::size_t index) const { return index < divided.size() && divided[index] != 0; }
+  /// Whether the layers of an edge, from 0, ask for no sizes.
+  bool is_layered(std::size_t index) const { return index < layered.size() && layered[index] != 0; }
   /// Whether a face, from 0, is one of them.
   bool face(std::size_t index) const { return index < faces.size() && faces[index] != 0; }
 };

@@ -100,8 +100,9 @@ std::vector<SizePoint> read_size_points(const std::filesystem::path& path) {
     const std::vector<double> values = numbers_of(line);
     if (values.empty() && number == 1) continue;  // the names of the columns
     if (values.size() != 4) throw refused(number, "is not x,y,z,size");
-    if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }) ||
-        !(values[3] > 0))
+    if (!std::all_of(values.begin(), values.end() - 1, [](double value) { return std::isfinite(value); }))
+      throw refused(number, "has a place that is no finite number");
+    if (!std::isfinite(values[3]) || !(values[3] > 0))
       throw refused(number, fmt::format("asks for the size {:g}: sizes are positive numbers", values[3]));
     points.push_back({{values[0], values[1], values[2]}, values[3]});
   }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <string>
 
@@ -13,7 +11,7 @@
 #include "geometry/sizing/size_file.hpp"
 #include "mesher/adapt/error_estimate.hpp"
 #include "mesher/adapt/shell_stress.hpp"
-#include "mesher/io/frd_reader.hpp"
+#include "mesher/io/result_reader.hpp"
 
 namespace quadrille {
 
@@ -36,14 +34,8 @@ void check(const ShellMesh& mesh, const AdaptOptions& options) {
     throw usage_error("size_min", "the least size must be at most the largest");
 }
 
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw failure(path.string(), fmt::format("{} cannot be read", path.string()));
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 /// Whether points move by different ways.
-bool deforms(const FrdResult& result) {
+bool deforms(const SolverResult& result) {
   constexpr double rounding = 1e-9;
   const Vector3& first = result.displacements.front();
   return std::any_of(result.displacements.begin(), result.displacements.end(), [&](const Vector3& moved) {
@@ -71,7 +63,7 @@ AdaptResult adapt(const ShellMesh& mesh, const std::filesystem::path& solution,
                   ExecutionContext& context) {
   check(mesh, options);
   const std::string name = solution.string();
-  const FrdResult result = read_frd(bytes_of(solution), name);
+  const SolverResult result = read_result(solution);
   if (!deforms(result)) throw failure(name, fmt::format("{} holds no stresses: nothing is deformed", name));
   const auto stresses = shell_stresses(mesh, result, options.poisson, name);
   const ErrorEstimate estimate = estimate_error(mesh, stresses, options.poisson);

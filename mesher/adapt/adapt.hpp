@@ -26,9 +26,10 @@ struct AdaptResult {
 };
 
 /// Estimates the error of a solution by patch recovery, and writes the sizes that spread it evenly as a .vdb
-/// file for `size_field`. \param mesh that was solved \param solution .frd of CalculiX: its displacements, in
-/// the bricks that it makes of shells and plane elements. One material is assumed. Throws Error: failure for
-/// results that cannot be read or do not fit the mesh, usage for options out of their limits.
+/// file for `size_field`. \param mesh that was solved \param solution .frd of CalculiX, or .vtu: its
+/// displacements, in the bricks that it makes of shells and plane elements. One material is assumed. Throws
+/// Error: failure for results that cannot be read or do not fit the mesh, usage for options out of their
+/// limits.
 QUADRILLE_API AdaptResult adapt(const ShellMesh& mesh, const std::filesystem::path& solution,
                                 const std::filesystem::path& sizes, const AdaptOptions& options,
                                 ExecutionContext& context);

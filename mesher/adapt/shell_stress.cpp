@@ -13,8 +13,6 @@ namespace quadrille {
 
 namespace {
 
-constexpr int eight_nodes = 1, twenty_nodes = 4;  // types of the .frd format
-
 /// Nodes of a brick in the order of the .frd format: corners of bottom and top, then sides of the bottom,
 /// upright, of the top.
 constexpr double places[20][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1},  {-1, 1, -1}, {-1, -1, 1},
@@ -37,7 +35,7 @@ double shape(const Vector3& at, int node, int nodes) {
 /// A brick of CalculiX's.
 class Brick {
  public:
-  Brick(const FrdResult& result, const FrdResult::Element& element)
+  Brick(const SolverResult& result, const SolverResult::Element& element)
       : result_(result), nodes_(element.nodes), n_(static_cast<int>(nodes_.size())) {}
 
   /// Of the middle between bottom and top.
@@ -84,7 +82,7 @@ class Brick {
   }
 
  private:
-  const FrdResult& result_;
+  const SolverResult& result_;
   const std::vector<int>& nodes_;
   int n_;
 };
@@ -149,12 +147,12 @@ double energy(const Tensor& membrane, const Tensor& bending, double area, double
   return area * thickness * (density(membrane) + density(bending) / 3);
 }
 
-std::vector<std::array<ShellStress, 4>> shell_stresses(const ShellMesh& mesh, const FrdResult& result,
+std::vector<std::array<ShellStress, 4>> shell_stresses(const ShellMesh& mesh, const SolverResult& result,
                                                        double poisson, const std::string& name) {
-  std::vector<const FrdResult::Element*> bricks;
-  for (const FrdResult::Element& element : result.elements) {
-    const bool fits = (element.type == eight_nodes && element.nodes.size() == 8) ||
-                      (element.type == twenty_nodes && element.nodes.size() == 20);
+  std::vector<const SolverResult::Element*> bricks;
+  for (const SolverResult::Element& element : result.elements) {
+    const bool fits = (element.type == SolverResult::Element::eight_nodes && element.nodes.size() == 8) ||
+                      (element.type == SolverResult::Element::twenty_nodes && element.nodes.size() == 20);
     if (!fits)
       throw failure(
           name, fmt::format("{}: element {} is no brick of 8 or 20 nodes: results are wanted as bricks, by "

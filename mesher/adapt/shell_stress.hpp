@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geometry/base/vector.hpp"
-#include "mesher/io/frd_reader.hpp"
+#include "mesher/io/result_reader.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
@@ -29,7 +29,7 @@ double energy(const Tensor& membrane, const Tensor& bending, double area, double
 /// shell and plane elements, of eight or twenty nodes, numbered as those; the quads of the mesh are found
 /// among them by number or, if that does not fit, in their order. Throws Error (failure) where the two do not
 /// belong together.
-std::vector<std::array<ShellStress, 4>> shell_stresses(const ShellMesh& mesh, const FrdResult& result,
+std::vector<std::array<ShellStress, 4>> shell_stresses(const ShellMesh& mesh, const SolverResult& result,
                                                        double poisson, const std::string& name);
 
 }  // namespace quadrille

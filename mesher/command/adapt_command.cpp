@@ -57,7 +57,9 @@ void add_adapt_command(CLI::App& app) {
   auto arguments = std::make_shared<AdaptArguments>();
   AdaptOptions& options = arguments->options;
   command->add_option("MESH", arguments->mesh, "mesh that was solved: .inp or .msh")->required();
-  command->add_option("RESULT", arguments->result, "what CalculiX found: .frd with U, of shells as bricks")
+  command
+      ->add_option("RESULT", arguments->result,
+                   "what CalculiX found: .frd, or .vtu, with U, of shells as bricks")
       ->required();
   command->add_option("-o,--output", arguments->output, "sizes as OpenVDB grids (.vdb), for --size-field")
       ->required();

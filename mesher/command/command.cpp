@@ -14,6 +14,7 @@
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/isolated_work.hpp"
 #include "geometry/base/printable.hpp"
 #include "geometry/cad/isolated_reading.hpp"
 #include "mesher/command/setting_options.hpp"
@@ -61,6 +62,29 @@ void require_ending(const std::filesystem::path& path, std::string_view ending, 
   require_writable(path);
 }
 
+void draw_apart(const std::filesystem::path& path, ExecutionContext& context,
+                const std::function<void()>& draw) {
+  IsolatedWork options;
+  options.subject = path.string();
+  options.crashed = fmt::format(
+      "{}: the picture cannot be drawn: the renderer crashed, for want of memory or threads "
+      "perhaps",
+      path.string());
+  options.context = &context;
+  options.stage = Stage::write;
+  const auto work = [&](std::ostream&) {
+    try {
+      draw();
+    } catch (const std::exception& problem) {
+      const std::string sentence = problem.what();
+      if (sentence.rfind(path.string(), 0) == 0) throw;  // the file, not the renderer
+      throw failure(path.string(),
+                    fmt::format("{}: the picture cannot be drawn ({})", path.string(), sentence));
+    }
+  };
+  run_isolated(options, work, [](std::istream&) {});
+}
+
 namespace {
 
 bool is_regular(const std::filesystem::path& path) {
@@ -91,6 +115,21 @@ void require_different_files(const std::vector<NamedFile>& files) {
                                               argument, second.string(), before, first.string()));
     }
   }
+}
+
+void require_usable(const ModelFiles& files) {
+  for (const std::filesystem::path& output : files.outputs) require_writable(output);
+  if (!files.report.empty()) require_writable(files.report);
+  if (!files.picture.empty()) require_ending(files.picture, ".png", "--picture");
+  if (!files.write_size_field.empty()) require_ending(files.write_size_field, ".vdb", "--write-size-field");
+  if (!files.size_field.empty()) require_readable(files.size_field);
+  require_readable(files.input);
+  std::vector<NamedFile> named{{"IN", files.input}, {"--size-field", files.size_field}};
+  for (const std::filesystem::path& output : files.outputs) named.push_back({"-o", output});
+  named.insert(named.end(), {{"--report", files.report},
+                             {"--picture", files.picture},
+                             {"--write-size-field", files.write_size_field}});
+  require_different_files(named);
 }
 
 ProgressDisplay::ProgressDisplay(bool quiet)

@@ -4,11 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
+#include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille::command {
 
@@ -20,6 +22,8 @@ void add_info_command(CLI::App& app);
 void add_quality_command(CLI::App& app);
 void add_midsurface_command(CLI::App& app);
 void add_adapt_command(CLI::App& app);
+void add_remesh_command(CLI::App& app);
+void add_sizes_command(CLI::App& app);
 void add_settings_command(CLI::App& app);
 
 /// Writes to stdout at once. Throws Error (failure) when it is closed or full.
@@ -44,6 +48,22 @@ struct NamedFile {
 /// Throws Error (usage) unless all files that have a name are different ones, links followed: what is written
 /// must replace neither what is read nor what was written before. Devices and pipes may come twice.
 void require_different_files(const std::vector<NamedFile>& files);
+
+/// The files of a run on a model: what is read, and what is written where it has a name.
+struct ModelFiles {
+  const std::filesystem::path& input;
+  const std::vector<std::filesystem::path>& outputs;
+  const std::filesystem::path &size_field, &report, &picture, &write_size_field;
+};
+
+/// Throws Error (usage) unless what is read can be, what is written can be, with the endings that it takes,
+/// and all are different files. The outputs' endings are the command's own affair.
+void require_usable(const ModelFiles& files);
+
+/// Draws a picture in a child process: the renderer ends the program where memory or threads run out. Throws
+/// Error (failure) that names the file.
+void draw_apart(const std::filesystem::path& path, ExecutionContext& context,
+                const std::function<void()>& draw);
 
 /// From now on a crash, of the CAD library on a damaged file above all, ends the process with one line on
 /// stderr that names the file, and exit code 1; unfinished files are removed. \param work "reading" or what

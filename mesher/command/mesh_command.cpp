@@ -1,13 +1,13 @@
 /// quadrille mesh IN -o OUT: a CAD model in, an all-quad shell mesh out.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "geometry/base/atomic_file.hpp"
-#include "geometry/base/isolated_work.hpp"
 #include "geometry/base/threads.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/limits_option.hpp"
@@ -30,34 +30,13 @@ struct MeshArguments : GivenSettings {
   bool thin = false, join = false, quiet = false, end_with_input = false;
 };
 
-/// The mesh's order: what is asked for, or second where a solver reads one of the files.
-int order_of(const MeshArguments& arguments) {
-  if (arguments.given.count("order") > 0) return arguments.settings.mesh.order;
-  if (arguments.settings.write.quad_nodes == 9) return 2;
-  return std::any_of(arguments.outputs.begin(), arguments.outputs.end(), is_solver_format) ? 2 : 1;
-}
-
 void check_files(const MeshArguments& arguments) {
   const int quad_nodes = arguments.settings.write.quad_nodes;
-  if (quad_nodes == 9 && order_of(arguments) == 1)
+  if (quad_nodes == 9 && order_of(arguments, arguments.outputs) == 1)
     throw usage_error("nodes", "`nodes` 9 is for quads of second order: leave out `order` 1");
-  for (const std::filesystem::path& output : arguments.outputs) {
-    check_format(output, quad_nodes);
-    require_writable(output);
-  }
-  if (!arguments.report.empty()) require_writable(arguments.report);
-  if (!arguments.write_size_field.empty())
-    require_ending(arguments.write_size_field, ".vdb", "--write-size-field");
-  if (!arguments.picture.empty()) require_ending(arguments.picture, ".png", "--picture");
-  const std::filesystem::path& size_field = arguments.settings.mesh.sizing.size_field;
-  if (!size_field.empty()) require_readable(size_field);
-  require_readable(arguments.input);
-  std::vector<NamedFile> files{{"IN", arguments.input}, {"--size-field", size_field}};
-  for (const std::filesystem::path& output : arguments.outputs) files.push_back({"-o", output});
-  files.insert(files.end(), {{"--report", arguments.report},
-                             {"--picture", arguments.picture},
-                             {"--write-size-field", arguments.write_size_field}});
-  require_different_files(files);
+  for (const std::filesystem::path& output : arguments.outputs) check_format(output, quad_nodes);
+  require_usable({arguments.input, arguments.outputs, arguments.settings.mesh.sizing.size_field,
+                  arguments.report, arguments.picture, arguments.write_size_field});
 }
 
 CadModel read_model(const MeshArguments& arguments, ExecutionContext& context) {
@@ -76,29 +55,6 @@ std::optional<MidSurface> middle_of(const CadModel& model, const MeshArguments& 
   return midsurface(model, options, context);
 }
 
-/// Draws in a child process: the renderer ends the program where memory or threads run out.
-void draw(const ShellMesh& mesh, const std::filesystem::path& path, ExecutionContext& context) {
-  IsolatedWork options;
-  options.subject = path.string();
-  options.crashed = fmt::format(
-      "{}: the picture cannot be drawn: the renderer crashed, for want of memory or threads "
-      "perhaps",
-      path.string());
-  options.context = &context;
-  options.stage = Stage::write;
-  const auto work = [&](std::ostream&) {
-    try {
-      write_picture(mesh, path);
-    } catch (const std::exception& problem) {
-      const std::string sentence = problem.what();
-      if (sentence.rfind(path.string(), 0) == 0) throw;  // the file, not the renderer
-      throw failure(path.string(),
-                    fmt::format("{}: the picture cannot be drawn ({})", path.string(), sentence));
-    }
-  };
-  run_isolated(options, work, [](std::istream&) {});
-}
-
 void write_outputs(const ShellMesh& mesh, const MeshArguments& arguments, ExecutionContext& context,
                    CancelOnSignal& cancel) {
   const StageTimer timer(context, Stage::write);
@@ -111,7 +67,8 @@ void write_outputs(const ShellMesh& mesh, const MeshArguments& arguments, Execut
     write_mesh(mesh, arguments.outputs[i], options);
     cancel.wrote(arguments.outputs[i]);
   }
-  if (!arguments.picture.empty()) draw(mesh, arguments.picture, context);
+  if (!arguments.picture.empty())
+    draw_apart(arguments.picture, context, [&] { write_picture(mesh, arguments.picture); });
 }
 
 /// One line for each face that --partial goes without.
@@ -143,6 +100,7 @@ void tell_quality(const ShellMesh& result, const CadModel& model, const std::opt
   QualitySummary summary;
   std::vector<std::string> warnings = model.problems();
   warn_off_geometry(result, warnings);
+  if (!result.symmetry.note.empty()) warnings.push_back("symmetry: " + result.symmetry.note);
   if (middle) warnings.insert(warnings.end(), middle->problems.begin(), middle->problems.end());
   on_threads(arguments.settings.threads, [&] {
     summary = quality(result);
@@ -158,6 +116,8 @@ void tell_quality(const ShellMesh& result, const CadModel& model, const std::opt
   if (arguments.quiet) return;
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
   print(quality_table(summary));
+  if (!result.symmetry.planes.empty())
+    print(fmt::format("symmetric in {}\n", fmt::join(result.symmetry.planes, ", ")));
 }
 
 void run(const MeshArguments& arguments) {
@@ -187,7 +147,7 @@ void run(const MeshArguments& arguments) {
   context.check();
   check(settings, model);
   MeshOptions options = settings.mesh;
-  options.order = order_of(arguments);
+  options.order = order_of(arguments, arguments.outputs);
   options.write_size_field = arguments.write_size_field;
   std::optional<SizeFidelity> sizes;
   if (!arguments.report.empty())

@@ -10,6 +10,7 @@
 #include "mesher/command/command.hpp"
 #include "mesher/command/print_quality.hpp"
 #include "mesher/command/setting_options.hpp"
+#include "mesher/command/surface_input.hpp"
 #include "mesher/io/report.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/from_triangles.hpp"
@@ -36,25 +37,6 @@ void check(const RecombineArguments& arguments) {
       {{"TRI", arguments.input}, {"-o", arguments.output}, {"--report", arguments.report}});
 }
 
-/// Faces of .msh files come from a CAD model: a fold inside one is a coarse curve. In all else sets and parts
-/// tell nothing about the shape.
-double feature_angle(const RecombineArguments& arguments, const ShellMesh& input) {
-  if (arguments.feature_angle) return *arguments.feature_angle;
-  constexpr double usual = 40;
-  const std::vector<int>& faces = input.triangle_faces.empty() ? input.quad_faces : input.triangle_faces;
-  const bool several =
-      std::any_of(faces.begin(), faces.end(), [&](int face) { return face != faces.front(); });
-  return arguments.input.extension() == ".msh" && several ? 0 : usual;
-}
-
-/// An error in a mesh with the name of its file.
-Error named(const Error& error, const ShellMesh& input, const std::string& name) {
-  const char* counted = input.quads.empty()
-                            ? "triangles and points counted from 0, as they come in the file"
-                            : "points counted from 0, triangles too, and after them two for each quad";
-  return failure(name, fmt::format("{}: {} ({})", name, with_options(error.what()), counted));
-}
-
 void run(const RecombineArguments& arguments) {
   check(arguments);
   const std::string name = arguments.input.string();
@@ -72,7 +54,7 @@ void run(const RecombineArguments& arguments) {
   }
   FromTrianglesOptions options;
   options.merge = arguments.merge.value_or(-1);
-  options.feature_angle = feature_angle(arguments, input);
+  options.feature_angle = arguments.feature_angle.value_or(usual_feature_angle(arguments.input, input));
   options.improve = !arguments.no_improve;
   options.recombine.method = arguments.no_improve ? Method::paper : Method::quality;
   options.recombine.seed = arguments.seed;
@@ -83,7 +65,7 @@ void run(const RecombineArguments& arguments) {
       return quads_from_triangles(input, options, notes, context);
     } catch (const Error& error) {
       if (error.kind() != Error::Kind::failure) throw;
-      throw named(error, input, name);
+      throw named_by_file(error, input, name);
     }
   }();
   {

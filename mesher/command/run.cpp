@@ -44,10 +44,12 @@ void add_commands(CLI::App& app) {
   app.set_version_flag("--version", "quadrille " + version());
   add_mesh_command(app);
   add_recombine_command(app);
+  add_remesh_command(app);
   add_info_command(app);
   add_quality_command(app);
   add_midsurface_command(app);
   add_adapt_command(app);
+  add_sizes_command(app);
   add_settings_command(app);
 }
 

@@ -1,8 +1,11 @@
 #include "mesher/command/setting_options.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "mesher/io/io.hpp"
 
 namespace quadrille::command {
 
@@ -52,6 +55,12 @@ void add_settings(CLI::App& command, GivenSettings& target, const std::set<std::
   for (const Setting& setting : all_settings()) {
     if (names.empty() || names.count(setting.name) > 0) add_setting(command, setting, target);
   }
+}
+
+int order_of(const GivenSettings& given, const std::vector<std::filesystem::path>& outputs) {
+  if (given.given.count("order") > 0) return given.settings.mesh.order;
+  if (given.settings.write.quad_nodes == 9) return 2;
+  return std::any_of(outputs.begin(), outputs.end(), is_solver_format) ? 2 : 1;
 }
 
 std::string with_options(std::string sentence) {

@@ -1,7 +1,7 @@
 /// The format: CalculiX CrunchiX/GraphiX manuals, "Result Format". Fields have fixed widths: numbers may
 /// touch each other.
 
-#include "mesher/io/frd_reader.hpp"
+#include "mesher/io/result_reader.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -21,7 +21,7 @@ class FrdReader {
  public:
   FrdReader(std::string_view bytes, std::string name) : rest_(bytes), name_(std::move(name)) {}
 
-  FrdResult read() {
+  SolverResult read() {
     while (next_line()) {
       const std::string_view key = field(0, 6);
       if (key == "    2C") read_nodes();
@@ -145,12 +145,12 @@ class FrdReader {
   std::string name_;
   std::size_t number_ = 0;
   std::unordered_map<int, int> indices_;
-  FrdResult result_;
+  SolverResult result_;
 };
 
 }  // namespace
 
-FrdResult read_frd(std::string_view bytes, const std::string& name) {
+SolverResult read_frd(std::string_view bytes, const std::string& name) {
   return FrdReader(bytes, name).read();
 }
 

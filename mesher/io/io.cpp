@@ -116,6 +116,14 @@ void write_picture(const ShellMesh& mesh, const std::filesystem::path& path, int
   write_file(path, vtk_picture(mesh, width, height));
 }
 
+void write_sizes_vtu(const SizeMap& map, const std::filesystem::path& path) {
+  write_file(path, vtu_sizes(map));
+}
+
+void write_size_picture(const SizeMap& map, const std::filesystem::path& path, int width, int height) {
+  write_file(path, size_picture(map, width, height));
+}
+
 bool is_readable_format(const std::filesystem::path& path) {
   constexpr std::string_view known[] = {".msh", ".inp", ".unv", ".bdf", ".nas", ".dat",
                                         ".stl", ".obj", ".ply", ".vtk", ".vtu", ".vtp"};

@@ -10,6 +10,7 @@
 #include "mesher/mesh/criteria.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 #include "mesher/options.hpp"
+#include "mesher/size_map.hpp"
 
 namespace quadrille {
 
@@ -50,5 +51,15 @@ QUADRILLE_API std::string quality_json(const ShellMesh& mesh, const CriteriaLimi
 /// Throws Error (failure) when the picture cannot be drawn.
 QUADRILLE_API void write_picture(const ShellMesh& mesh, const std::filesystem::path& path, int width = 1600,
                                  int height = 1200);
+
+/// Writes the sizes as .vtu: triangles with the arrays size and source at points and face in cells, lines on
+/// CAD edges with the array edge, and the names of the sources in the field data `sources`. The file appears
+/// whole or not at all. Throws Error (failure) when it cannot be written.
+QUADRILLE_API void write_sizes_vtu(const SizeMap& map, const std::filesystem::path& path);
+
+/// Draws the sizes, colored by their logarithm, and beside them which source rules where, into a PNG. Works
+/// without a screen. Throws Error (failure) when the picture cannot be drawn.
+QUADRILLE_API void write_size_picture(const SizeMap& map, const std::filesystem::path& path, int width = 1800,
+                                      int height = 1000);
 
 }  // namespace quadrille

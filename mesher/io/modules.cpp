@@ -42,10 +42,28 @@ std::string vtk_picture(const ShellMesh& mesh, int width, int height) {
   return bytes;
 }
 
+std::string vtu_sizes(const SizeMap& map) {
+  std::string bytes;
+  check(vtk_module().function<VtkSizesFunction>("_sizes")(map, bytes));
+  return bytes;
+}
+
+std::string size_picture(const SizeMap& map, int width, int height) {
+  std::string bytes;
+  check(picture_module().function<SizePictureFunction>("_sizes")(map, width, height, bytes));
+  return bytes;
+}
+
 ImportedMesh vtk_mesh(const std::string& path, const std::string& ending) {
   ImportedMesh mesh;
   check(vtk_module().function<VtkReadFunction>("_read")(path, ending, mesh));
   return mesh;
+}
+
+SolverResult vtk_result(const std::string& path) {
+  SolverResult result;
+  check(vtk_module().function<VtkResultFunction>("_result")(path, result));
+  return result;
 }
 
 std::string med_file(const OutputMesh& mesh, const std::string& name, const std::string& description) {

@@ -8,7 +8,9 @@
 
 #include "mesher/io/mesh_builder.hpp"
 #include "mesher/io/output_mesh.hpp"
+#include "mesher/io/result_reader.hpp"
 #include "mesher/mesh/mesh_types.hpp"
+#include "mesher/size_map.hpp"
 
 namespace quadrille {
 
@@ -24,6 +26,9 @@ using VtkFileFunction = std::string(const OutputMesh& mesh, const std::vector<do
                                     std::string& bytes);
 using PictureFunction = std::string(const ShellMesh& mesh, const std::vector<double>& qualities, int width,
                                     int height, std::string& bytes);
+using VtkSizesFunction = std::string(const SizeMap& map, std::string& bytes);
+using SizePictureFunction = std::string(const SizeMap& map, int width, int height, std::string& bytes);
+using VtkResultFunction = std::string(const std::string& path, SolverResult& result);
 using VtkReadFunction = std::string(const std::string& path, const std::string& ending, ImportedMesh& mesh);
 using MedFileFunction = std::string(const OutputMesh& mesh, const std::string& name,
                                     const std::string& description, std::string& bytes);
@@ -35,9 +40,16 @@ std::string vtu_file(const OutputMesh& mesh, const std::vector<double>& qualitie
 /// The bytes of a PNG of the mesh. Throws Error (failure).
 std::string vtk_picture(const ShellMesh& mesh, int width, int height);
 
+/// The bytes of a .vtu file and of a PNG of sizes. Throw Error (failure).
+std::string vtu_sizes(const SizeMap& map);
+std::string size_picture(const SizeMap& map, int width, int height);
+
 /// What a file holds. \param ending .stl, .obj, .ply, .vtk, .vtu or .vtp. Throws Error (failure) that does
 /// not name the file.
 ImportedMesh vtk_mesh(const std::string& path, const std::string& ending);
+
+/// What a solver found, from a .vtu file. Throws Error (failure) that does not name the file.
+SolverResult vtk_result(const std::string& path);
 
 /// The bytes of a .med file.
 /// \param name of the mesh in the file; FreeCAD reads only a mesh that is named as its file, without the

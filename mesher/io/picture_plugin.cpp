@@ -1,48 +1,31 @@
 /// The module libquadrille_picture.so: pictures by VTK, which need OpenGL and an X display. See modules.hpp.
 
 #include <vtkActor.h>
-#include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkImageData.h>
 #include <vtkIntArray.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
-#include <vtkScalarBarActor.h>
-#include <vtkTextProperty.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <exception>
-#include <limits>
 
 #include "mesher/io/module_export.hpp"
 #include "mesher/io/modules.hpp"
+#include "mesher/io/picture_scene.hpp"
+#include "mesher/io/size_picture.hpp"
 #include "mesher/io/x_display.hpp"
 
 namespace quadrille {
 
 namespace {
-
-vtkNew<vtkPoints> make_points(const ShellMesh& mesh) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
-  for (std::size_t i = 0; i < mesh.points.size(); ++i)
-    points->SetPoint(static_cast<vtkIdType>(i), mesh.points[i].data());
-  return points;
-}
 
 /// Face and q of each polygon, quads before triangles. A triangle has no q.
 void add_cell_data(const ShellMesh& mesh, const std::vector<double>& qualities, vtkCellData* data) {
@@ -60,13 +43,6 @@ void add_cell_data(const ShellMesh& mesh, const std::vector<double>& qualities, 
   }
   data->AddArray(faces);
   data->AddArray(q);
-}
-
-template <std::size_t N>
-void add_cell(vtkCellArray* cells, const std::array<int, N>& nodes) {
-  std::array<vtkIdType, N> ids;
-  std::copy(nodes.begin(), nodes.end(), ids.begin());
-  cells->InsertNextCell(static_cast<vtkIdType>(N), ids.data());
 }
 
 /// Red (bad) over yellow to blue (good): told apart by the color-blind too.
@@ -87,6 +63,8 @@ vtkNew<vtkLookupTable> color_map() {
   }
   return table;
 }
+
+constexpr double picture_share = 0.9;  // of the width; the color bar has the rest
 
 vtkNew<vtkActor> surface_actor(const ShellMesh& mesh, const std::vector<double>& qualities, vtkPoints* points,
                                vtkLookupTable* colors) {
@@ -129,101 +107,6 @@ std::vector<std::array<int, 2>> unique_sides(const ShellMesh& mesh) {
   return sides;
 }
 
-vtkNew<vtkActor> line_actor(const std::vector<std::array<int, 2>>& lines, vtkPoints* points, double width,
-                            double opacity) {
-  vtkNew<vtkCellArray> cells;
-  for (const auto& line : lines) add_cell(cells, line);
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetLines(cells);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
-  mapper->ScalarVisibilityOff();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(0.12, 0.14, 0.18);
-  actor->GetProperty()->SetLineWidth(static_cast<float>(width));
-  actor->GetProperty()->SetOpacity(opacity);
-  actor->GetProperty()->LightingOff();
-  return actor;
-}
-
-vtkNew<vtkScalarBarActor> color_bar(vtkLookupTable* colors, int height) {
-  vtkNew<vtkScalarBarActor> bar;
-  bar->SetLookupTable(colors);
-  bar->SetTitle("q");
-  bar->SetNumberOfLabels(6);
-  bar->SetLabelFormat("%.1f");
-  bar->SetPosition(0.1, 0.2);
-  bar->SetWidth(0.6);
-  bar->SetHeight(0.6);
-  bar->SetMaximumNumberOfColors(256);
-  bar->SetVerticalTitleSeparation(height / 100);
-  bar->UnconstrainedFontSizeOn();
-  for (vtkTextProperty* text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()}) {
-    text->SetColor(0.1, 0.1, 0.1);
-    text->SetFontSize(std::max(10, height / 50));
-    text->SetFontFamilyToArial();
-    text->ItalicOff();
-    text->BoldOff();
-    text->ShadowOff();
-  }
-  return bar;
-}
-
-/// How the mesh is looked at: along the cube's diagonal; flat meshes along their normal.
-struct View {
-  Vector3 center, from, up;        // from: unit vector towards the eye
-  double half_width, half_height;  // of the mesh in the picture
-};
-
-View make_view(const ShellMesh& mesh) {
-  Vector3 low = mesh.points.front(), high = low;
-  for (const Vector3& point : mesh.points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  const Vector3 extent = high - low;
-  int flat = 0;
-  extent.minCoeff(&flat);
-  View view{0.5 * (low + high), {1, -1.2, 0.9}, {0, 0, 1}, 0, 0};
-  if (extent[flat] < 1e-6 * extent.norm()) {
-    view.from = flat == 1 ? Vector3(0, -1, 0) : Vector3::Unit(flat);
-    if (flat == 2) view.up = {0, 1, 0};
-  }
-  view.from.normalize();
-  const Vector3 right = view.up.cross(view.from).normalized(), above = view.from.cross(right);
-  Vector2 least = Vector2::Constant(std::numeric_limits<double>::max()), most = -least;
-  for (const Vector3& point : mesh.points) {
-    const Vector2 place((point - view.center).dot(right), (point - view.center).dot(above));
-    least = least.cwiseMin(place);
-    most = most.cwiseMax(place);
-  }
-  const Vector2 middle = 0.5 * (least + most);
-  view.center += middle.x() * right + middle.y() * above;
-  view.half_width = 0.5 * (most - least).x();
-  view.half_height = 0.5 * (most - least).y();
-  return view;
-}
-
-constexpr double picture_share = 0.9;  // of the width; the color bar has the rest
-
-/// Half the height of the picture in the mesh's unit, with a margin around the mesh.
-double parallel_scale(const View& view, int width, int height) {
-  return 1.06 * std::max(view.half_height, view.half_width * height / (picture_share * width));
-}
-
-void aim_camera(const View& view, double scale, double depth, vtkRenderer* renderer) {
-  vtkCamera* camera = renderer->GetActiveCamera();
-  const Vector3 position = view.center + depth * view.from;
-  camera->ParallelProjectionOn();
-  camera->SetFocalPoint(view.center.data());
-  camera->SetPosition(position.data());
-  camera->SetViewUp(view.up.data());
-  camera->SetParallelScale(scale);
-  renderer->ResetCameraClippingRange();
-}
-
 double median_length(const ShellMesh& mesh, const std::vector<std::array<int, 2>>& sides) {
   std::vector<double> lengths;
   for (const auto& side : sides) lengths.push_back((mesh.points[side[0]] - mesh.points[side[1]]).norm());
@@ -235,7 +118,7 @@ double median_length(const ShellMesh& mesh, const std::vector<std::array<int, 2>
 /// \param pixel size of a pixel in the mesh's unit.
 void add_actors(const ShellMesh& mesh, const std::vector<double>& qualities, double pixel, double line_width,
                 vtkLookupTable* colors, vtkRenderer* renderer) {
-  const vtkNew<vtkPoints> points = make_points(mesh);
+  const vtkNew<vtkPoints> points = make_points(mesh.points);
   const auto sides = unique_sides(mesh);
   // Sides closer than a few pixels would paint the picture black.
   const double opacity = std::clamp(median_length(mesh, sides) / (12 * pixel * line_width), 0.04, 0.85);
@@ -246,58 +129,17 @@ void add_actors(const ShellMesh& mesh, const std::vector<double>& qualities, dou
   renderer->AddActor(line_actor(features, points, 2.4 * line_width, 1));
 }
 
-/// Half the size, each pixel the mean of four: smooth lines without the driver's help.
-vtkNew<vtkImageData> halved(vtkImageData* image) {
-  const int* size = image->GetDimensions();
-  vtkNew<vtkImageData> result;
-  result->SetDimensions(size[0] / 2, size[1] / 2, 1);
-  result->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  const auto* from = static_cast<const unsigned char*>(image->GetScalarPointer());
-  auto* to = static_cast<unsigned char*>(result->GetScalarPointer());
-  const std::ptrdiff_t row = 3 * static_cast<std::ptrdiff_t>(size[0]);
-  for (int y = 0; y < size[1] / 2; ++y)
-    for (int x = 0; x < size[0] / 2; ++x)
-      for (int channel = 0; channel < 3; ++channel) {
-        const unsigned char* corner = from + 2 * y * row + 6 * x + channel;
-        *to++ = static_cast<unsigned char>((corner[0] + corner[3] + corner[row] + corner[row + 3] + 2) / 4);
-      }
-  return result;
-}
-
-std::string png_bytes(vtkImageData* image) {
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(image);
-  writer->WriteToMemoryOn();
-  writer->Write();
-  vtkUnsignedCharArray* bytes = writer->GetResult();
-  if (bytes == nullptr || bytes->GetNumberOfValues() == 0) return {};
-  return {reinterpret_cast<const char*>(bytes->GetPointer(0)),
-          static_cast<std::size_t>(bytes->GetNumberOfValues())};
-}
-
 std::string draw(const ShellMesh& mesh, const std::vector<double>& qualities, int width, int height) {
-  const View view = make_view(mesh);
-  const double scale = parallel_scale(view, width, height);
+  const View view = make_view(mesh.points);
   const vtkNew<vtkLookupTable> colors = color_map();
   vtkNew<vtkRenderer> scene, legend;
   scene->SetViewport(0, 0, picture_share, 1);
   legend->SetViewport(picture_share, 0, 1, 1);
-  for (vtkRenderer* renderer : {scene.Get(), legend.Get()}) renderer->SetBackground(1, 1, 1);
+  const double scale = parallel_scale(view, picture_share * width / height);
   add_actors(mesh, qualities, scale / height, std::max(1.0, height / 600.0), colors, scene);
-  legend->AddActor2D(color_bar(colors, 2 * height));
-  aim_camera(view, scale, 4 * (view.half_width + view.half_height), scene);
-  vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(0);
-  window->SetSize(2 * width, 2 * height);
-  window->AddRenderer(scene);
-  window->AddRenderer(legend);
-  window->Render();
-  vtkNew<vtkWindowToImageFilter> image;
-  image->SetInput(window);
-  image->ReadFrontBufferOff();
-  image->Update();
-  return png_bytes(halved(image->GetOutput()));
+  legend->AddActor2D(color_bar(colors, {"q", "%.1f", 6}, 2 * height));
+  aim_camera(view, scale, scene);
+  return rendered({scene, legend}, width, height);
 }
 
 }  // namespace
@@ -314,6 +156,16 @@ QUADRILLE_EXPORT std::string quadrille_picture_draw(const quadrille::ShellMesh& 
   const quadrille::XDisplay display;
   if (!display.usable()) return display.problem();
   bytes = quadrille::draw(mesh, qualities, width, height);
+  return bytes.empty() ? "VTK could not draw the picture" : "";
+} catch (const std::exception& error) {
+  return error.what();
+}
+
+QUADRILLE_EXPORT std::string quadrille_picture_sizes(const quadrille::SizeMap& map, int width, int height,
+                                                     std::string& bytes) try {
+  const quadrille::XDisplay display;
+  if (!display.usable()) return display.problem();
+  bytes = quadrille::draw_sizes(map, width, height);
   return bytes.empty() ? "VTK could not draw the picture" : "";
 } catch (const std::exception& error) {
   return error.what();

@@ -134,6 +134,7 @@ json make_report(const ShellMesh& mesh, const QualitySummary& summary, const Exe
           {"faces", faces_to_json(mesh)},
           {"off_geometry", off_geometry_to_json(mesh)},
           {"let_go", let_go_to_json(mesh)},
+          {"symmetry", {{"planes", mesh.symmetry.planes}, {"note", mesh.symmetry.note}}},
           {"warnings", warnings},
           {"versions",
            {{"quadrille", QUADRILLE_VERSION},

@@ -14,7 +14,8 @@ namespace quadrille {
 /// irregular_percent, histogram, ...), criteria (how many quads fail the usual limits, by criterion and face,
 /// and the worst), seconds by stage, cpu_seconds and peak_bytes of the process, faces (name, status, quads,
 /// q_min, note, off_geometry: how many of its midside nodes are, and how far), off_geometry (node, distance)
-/// of all of them, warnings, versions of the libraries.
+/// of all of them, let_go, symmetry (the mirror planes used, and why not more), warnings, versions of the
+/// libraries.
 nlohmann::json make_report(const ShellMesh& mesh, const QualitySummary& summary,
                            const ExecutionContext& context, const std::filesystem::path& input,
                            const std::vector<std::string>& warnings = {});

@@ -11,6 +11,7 @@
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkPLYReader.h>
+#include <vtkPointData.h>
 #include <vtkSTLReader.h>
 #include <vtkSmartPointer.h>
 #include <vtkXMLPolyDataReader.h>
@@ -169,6 +170,45 @@ class CellImport {
   vtkDataArray* arrays_[3];
 };
 
+/// Displacements by the names that solvers and converters give them.
+std::vector<Vector3> displacements_of(vtkDataSet* mesh) {
+  vtkDataArray* array = nullptr;
+  for (const char* name : {"U", "DISP", "Displacement", "displacement"})
+    if (array == nullptr) array = mesh->GetPointData()->GetArray(name);
+  if (array == nullptr)
+    throw failure("",
+                  "there are no displacements: the point array U, DISP, Displacement or displacement is "
+                  "wanted");
+  if (array->GetNumberOfComponents() != 3)
+    throw failure("", fmt::format("the array {} has {} components, not 3", array->GetName(),
+                                  array->GetNumberOfComponents()));
+  std::vector<Vector3> result(static_cast<std::size_t>(array->GetNumberOfTuples()));
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    array->GetTuple(static_cast<vtkIdType>(i), result[i].data());
+    if (!result[i].allFinite())
+      throw failure("", fmt::format("the displacement of point {} (counted from 0) is not finite", i));
+  }
+  return result;
+}
+
+/// A cell as .frd files have it: there the upright sides come before those of the top.
+SolverResult::Element brick_of(vtkDataSet* mesh, vtkIdType cell) {
+  using Element = SolverResult::Element;
+  const int type = mesh->GetCellType(cell);
+  vtkNew<vtkIdList> nodes;
+  mesh->GetCellPoints(cell, nodes);
+  Element element;
+  element.number = static_cast<int>(cell) + 1;
+  element.type = type == VTK_HEXAHEDRON             ? Element::eight_nodes
+                 : type == VTK_QUADRATIC_HEXAHEDRON ? Element::twenty_nodes
+                                                    : 0;
+  for (vtkIdType i = 0; i < nodes->GetNumberOfIds(); ++i)
+    element.nodes.push_back(static_cast<int>(nodes->GetId(i)));
+  if (element.type == Element::twenty_nodes)
+    std::rotate(element.nodes.begin() + 12, element.nodes.begin() + 16, element.nodes.end());
+  return element;
+}
+
 }  // namespace
 
 }  // namespace quadrille
@@ -183,6 +223,22 @@ QUADRILLE_EXPORT std::string quadrille_vtk_read(const std::string& path, const s
   quadrille::CellImport cells(read, mesh);
   mesh.elements.reserve(read->GetNumberOfCells());
   for (vtkIdType cell = 0; cell < read->GetNumberOfCells(); ++cell) cells.add(cell);
+  return {};
+} catch (const std::exception& error) {
+  return error.what();
+}
+
+QUADRILLE_EXPORT std::string quadrille_vtk_result(const std::string& path,
+                                                  quadrille::SolverResult& result) try {
+  vtkObject::GlobalWarningDisplayOff();
+  const vtkSmartPointer<vtkDataSet> read = quadrille::read_data_set(path, ".vtu");
+  result.points.resize(read->GetNumberOfPoints());
+  for (std::size_t i = 0; i < result.points.size(); ++i)
+    read->GetPoint(static_cast<vtkIdType>(i), result.points[i].data());
+  if (read->GetNumberOfCells() == 0) return "there are no elements in it";
+  for (vtkIdType cell = 0; cell < read->GetNumberOfCells(); ++cell)
+    result.elements.push_back(quadrille::brick_of(read, cell));
+  result.displacements = quadrille::displacements_of(read);
   return {};
 } catch (const std::exception& error) {
   return error.what();

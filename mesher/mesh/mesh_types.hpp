@@ -90,6 +90,12 @@ struct ShellMesh {
     int to = 0;                 ///< the edge or vertex whose nodes stand for it
   };
 
+  /// The planes in which the mesh is its own mirror image.
+  struct Symmetry {
+    std::vector<std::string> planes;  ///< "x = 12.5"; empty = meshed as a whole
+    std::string note;                 ///< why planes of the model were not used; empty if nothing to say
+  };
+
   /// What goes by a name, or by a number of its own, in the file that the mesh was read from.
   struct Group {
     std::string name;           ///< empty = it has a number alone
@@ -119,6 +125,7 @@ struct ShellMesh {
   std::vector<Corner> corners;                ///< the nodes on CAD vertices
   std::vector<OffGeometry> off_geometry;      ///< ascending by node; empty but in coarse second-order meshes
   std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; faces say it themselves
+  Symmetry symmetry;                          ///< by MeshOptions::symmetry
   std::vector<Face> faces;                    ///< one entry a CAD face; empty in meshes read from files
   /// Of meshes read from files that name any, in their order. Groups may share entities: those are as small
   /// as it takes. Empty: files have a group Face3, Edge7, Vertex2 for each entity.

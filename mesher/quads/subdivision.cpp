@@ -227,19 +227,19 @@ void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
   });
 }
 
-void tie_across_gaps(FaceTriangulation& triangulation) {
+void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
+                     const std::vector<FaceBoundary::Segment>& segments) {
   constexpr double good = 0.3;
-  TriangleMesh& mesh = triangulation.mesh;
-  const std::vector<Vector3>& normals = triangulation.normals;
   const auto& p = mesh.points;
-  const int count = triangulation.boundary_count;
+  int count = 0;
+  for (const auto& segment : segments) count = std::max({count, segment.a + 1, segment.b + 1});
   std::vector<int> between;  // triangles all corners of which lie on the boundary
   for (int i = 0; i < static_cast<int>(mesh.triangles.size()); ++i) {
     const auto& t = mesh.triangles[i];
     if (t[0] < count && t[1] < count && t[2] < count) between.push_back(i);
   }
   if (between.size() < 2) return;
-  const SideMiddles middles(p, triangulation.segments);
+  const SideMiddles middles(p, segments);
   const auto on_boundary = [&](int a, int b) { return middles.on_boundary(a, b); };
   struct Corner {
     int triangle, k;  ///< the side from corner k

@@ -27,8 +27,10 @@ void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
 
 /// Ties triangles that make quads across a gap, from one boundary segment to another that is nearer than
 /// widest_gap segments, by tags of their own: other pairs there are sheared, or bent round a boundary node.
-/// Not where the parts of the quad would be poor.
-void tie_across_gaps(FaceTriangulation& triangulation);
+/// Not where the parts of the quad would be poor. \param normals,
+/// segments as for cut_flat_quads().
+void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
+                     const std::vector<FaceBoundary::Segment>& segments);
 
 /// Splits each quad into four and each triangle into three quads. New points on boundary sides are the edges'
 /// own nodes, others are put on the surface. \param segments the boundary sides, which carry the nodes in

@@ -45,12 +45,14 @@ TriangulatedSurface::Nearest TriangulatedSurface::nearest(int triangle, const Ve
   const double aa = ab.squaredNorm(), cc = ac.squaredNorm(), mixed = ab.dot(ac);
   const double along_b = ap.dot(ab), along_c = ap.dot(ac);
   const double area = aa * cc - mixed * mixed;
+  // Of triangles that are all but a line rounding errors leave no area that could be divided by.
+  const bool is_line = !(area > 1e-10 * aa * cc);
   Vector3 weights(1, 0, 0);
-  if (area > 0) {
+  if (!is_line) {
     const double v = (cc * along_b - mixed * along_c) / area, w = (aa * along_c - mixed * along_b) / area;
     weights = {1 - v - w, v, w};
   }
-  if (!(area > 0) || weights.minCoeff() < 0) {
+  if (is_line || weights.minCoeff() < 0) {
     double best = -1;
     for (int i = 0; i < 3; ++i) {
       const int j = next_index(i);

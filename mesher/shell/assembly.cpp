@@ -148,7 +148,8 @@ void make_second_order(const MeshedFaces& meshed, const ShellNumbering& numberin
                                   name, count));
 }
 
-/// Says on each face how many of its midside nodes are off the geometry, and how far.
+}  // namespace
+
 void note_off_geometry(ShellMesh& mesh) {
   if (mesh.off_geometry.empty()) return;
   std::vector<double> distance(mesh.points.size(), -1);
@@ -174,8 +175,6 @@ void note_off_geometry(ShellMesh& mesh) {
   }
 }
 
-}  // namespace
-
 ShellMesh assemble(const CadShape& shape, const BoundaryNodes& nodes,
                    const std::vector<std::optional<FaceMesh>>& faces, std::vector<ShellMesh::Face> statuses,
                    const MeshOptions& options, ExecutionContext& context) {
@@ -186,7 +185,6 @@ ShellMesh assemble(const CadShape& shape, const BoundaryNodes& nodes,
   ShellMesh mesh = assembler.run();
   if (options.order == 2) make_second_order(meshed, assembler.numbering(), mesh, context);
   mesh.faces = std::move(statuses);
-  note_off_geometry(mesh);
   return mesh;
 }
 

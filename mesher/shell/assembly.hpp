@@ -17,4 +17,7 @@ ShellMesh assemble(const CadShape& shape, const BoundaryNodes& nodes,
                    const std::vector<std::optional<FaceMesh>>& faces, std::vector<ShellMesh::Face> statuses,
                    const MeshOptions& options, ExecutionContext& context);
 
+/// Says on each face how many of its midside nodes are off the geometry, and how far.
+void note_off_geometry(ShellMesh& mesh);
+
 }  // namespace quadrille

@@ -10,6 +10,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/surfaces/face_surface.hpp"
+#include "mesher/edges/grid_rows.hpp"
 #include "mesher/faces/boundary_crossings.hpp"
 #include "mesher/faces/face_grid.hpp"
 #include "mesher/faces/face_triangulation.hpp"
@@ -62,6 +63,7 @@ class FaceMesher {
     if (!recipe_.mapped) return mesh_without_grid();
     auto grid = mesh_as_grid();
     if (!grid) return mesh_without_grid();
+    if (has_kept_edge(shape_.faces[face_], nodes_)) return std::move(*grid);  // flat rows are what is wanted
     constexpr double much = 0.05;
     const double outside = has_rows(*grid) ? share_outside(*grid) : 0;
     if (outside > much) {  // the nodes that one side has for its neighbors' sake squeeze the rows
@@ -153,7 +155,8 @@ class FaceMesher {
 
   FaceQuads mesh_once(const FaceBoundary& boundary, const TrimmedDomain& domain) {
     FaceTriangulation triangulation = triangulate(boundary, domain);
-    if (boundary.stride == 2) tie_across_gaps(triangulation);
+    if (boundary.stride == 2)
+      tie_across_gaps(triangulation.mesh, triangulation.normals, triangulation.segments);
     FaceQuads quads = recombine_face(triangulation, boundary.stride);
     improve(quads, recipe_.clean_up);
     if (boundary.stride == 2) {

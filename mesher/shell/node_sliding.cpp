@@ -12,6 +12,7 @@
 
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
+#include "mesher/edges/grid_rows.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 
@@ -351,9 +352,18 @@ class NodeSliding {
 
   // ---- inside faces ----
 
+  /// Grids beside an edge whose spacing users ask for keep their rows.
+  bool keeps_rows(int face) const {
+    using Outline = FaceSides::Outline;
+    const Outline outline = nodes_.sides[face].outline;
+    if (!states_[face].mesh->grid || (outline != Outline::four && outline != Outline::ring)) return false;
+    return has_kept_edge(shape_.faces[face], nodes_);
+  }
+
   void relax_face(FaceState& face) {
     face.moves = 0;
     const int index = static_cast<int>(&face - states_.data());
+    if (keeps_rows(index)) return;
     Buffers buffers;
     SparseCheck check(context_, 64);
     for (int node = static_cast<int>(face.mesh->nodes.size()); node < static_cast<int>(face.active.size());

@@ -16,7 +16,7 @@
 #include "geometry/base/error.hpp"
 #include "mesher/adapt/error_estimate.hpp"
 #include "mesher/adapt/shell_stress.hpp"
-#include "mesher/io/frd_reader.hpp"
+#include "mesher/io/result_reader.hpp"
 
 namespace quadrille {
 namespace {
@@ -106,7 +106,7 @@ TEST(ShellStress, TurnsWithQuadsThatSolversTurnOver) {
   ShellMesh turned = mesh;
   for (auto& [a, b, c, d] : turned.quads) std::swap(b, d);
   const auto moved = [](const Vector3& p) { return Vector3(0.02 * p.z() * p.x() * p.y(), 0, 0); };
-  const FrdResult result = read_frd(frd(turned, moved), "t.frd");
+  const SolverResult result = read_frd(frd(turned, moved), "t.frd");
   const auto same = shell_stresses(mesh, result, 0, "t.frd"), straight = stresses_of(mesh, moved, 0);
   for (std::size_t quad = 0; quad < same.size(); ++quad) {
     for (int k = 0; k < 4; ++k) {
@@ -114,6 +114,78 @@ TEST(ShellStress, TurnsWithQuadsThatSolversTurnOver) {
       EXPECT_LT((same[quad][k].bending - straight[quad][k].bending).norm(), 1e-5);
     }
   }
+}
+
+/// The same as .vtu.
+std::string vtu(const SolverResult& result, const char* name, bool quadratic) {
+  std::string points, moved, nodes, offsets, types;
+  for (const Vector3& p : result.points) points += fmt::format("{} {} {}\n", p.x(), p.y(), p.z());
+  for (const Vector3& u : result.displacements) moved += fmt::format("{} {} {}\n", u.x(), u.y(), u.z());
+  std::size_t end = 0;
+  for (const SolverResult::Element& element : result.elements) {
+    // VTK has the sides of the top before the upright ones.
+    for (std::size_t i = 0; i < element.nodes.size(); ++i)
+      nodes += fmt::format("{} ", element.nodes[i < 12 ? i : i < 16 ? i + 4 : i - 4]);
+    offsets += fmt::format("{} ", end += element.nodes.size());
+    types += quadratic ? "25 " : "12 ";
+  }
+  return fmt::format(
+      "<?xml version='1.0'?><VTKFile type='UnstructuredGrid' version='0.1' byte_order='LittleEndian'>"
+      "<UnstructuredGrid><Piece NumberOfPoints='{}' NumberOfCells='{}'>"
+      "<PointData><DataArray type='Float64' Name='{}' NumberOfComponents='3' format='ascii'>{}</DataArray>"
+      "</PointData><Points><DataArray type='Float64' NumberOfComponents='3' "
+      "format='ascii'>{}</DataArray></Points>"
+      "<Cells><DataArray type='Int64' Name='connectivity' format='ascii'>{}</DataArray>"
+      "<DataArray type='Int64' Name='offsets' format='ascii'>{}</DataArray>"
+      "<DataArray type='UInt8' Name='types' format='ascii'>{}</DataArray></Cells></Piece></UnstructuredGrid>"
+      "</VTKFile>",
+      result.points.size(), result.elements.size(), name, moved, points, nodes, offsets, types);
+}
+
+/// Bricks of twenty nodes on those of eight, with the middles of their sides.
+SolverResult with_middles(SolverResult result) {
+  constexpr int sides[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 5},
+                                {2, 6}, {3, 7}, {4, 5}, {5, 6}, {6, 7}, {7, 4}};
+  for (SolverResult::Element& element : result.elements) {
+    element.type = SolverResult::Element::twenty_nodes;
+    for (const auto& [a, b] : sides) {
+      const int one = element.nodes[a], other = element.nodes[b];
+      element.nodes.push_back(static_cast<int>(result.points.size()));
+      result.points.push_back(0.5 * (result.points[one] + result.points[other]));
+      result.displacements.push_back(0.5 * (result.displacements[one] + result.displacements[other]));
+    }
+  }
+  return result;
+}
+
+TEST(Adapt, ReadsVtuAsItReadsFrd) {
+  const ShellMesh mesh = grid(3, flat);
+  const auto moved = [](const Vector3& p) { return Vector3(0.02 * p.z() * p.x() * p.y(), 1e-3 * p.x(), 0); };
+  const SolverResult eight = read_frd(frd(mesh, moved), "t.frd");
+  const auto path = std::filesystem::temp_directory_path() / "quadrille_result_test.vtu";
+  for (const bool quadratic : {false, true}) {
+    const SolverResult result = quadratic ? with_middles(eight) : eight;
+    std::ofstream(path) << vtu(result, quadratic ? "Displacement" : "U", quadratic);
+    const auto expected = shell_stresses(mesh, result, 0.3, "t.frd");
+    const auto found = shell_stresses(mesh, read_result(path), 0.3, "t.vtu");
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t quad = 0; quad < found.size(); ++quad) {
+      for (int k = 0; k < 4; ++k) {
+        EXPECT_LT((found[quad][k].membrane - expected[quad][k].membrane).norm(), 1e-12);
+        EXPECT_LT((found[quad][k].bending - expected[quad][k].bending).norm(), 1e-12);
+        EXPECT_GT(found[quad][k].membrane.norm() + found[quad][k].bending.norm(), 1e-6);
+      }
+    }
+  }
+  std::ofstream(path) << vtu(eight, "Temperature", false);
+  try {
+    read_result(path);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("no displacements"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
+  }
+  std::filesystem::remove(path);
 }
 
 /// Stresses that are given by place.

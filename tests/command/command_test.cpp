@@ -140,25 +140,28 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"mesh IN OUT --report none/r.json", 2, "none does not exist"},
         Mistake{"mesh IN OUT --picture out.jpg", 2, ".png"},
         Mistake{"mesh IN OUT --write-size-field out.txt", 2, ".vdb"},
-        Mistake{"mesh IN OUT --picture none/out.png", 2, "none"}));
+        Mistake{"mesh IN OUT --picture none/out.png", 2, "none"},
+        Mistake{"mesh IN OUT --proximity-walls -1", 2, "--proximity-walls"},
+        Mistake{"sizes IN -o out.msh", 2, ".vtu or .json"}, Mistake{"sizes IN -o none/out.vtu", 2, "none"},
+        Mistake{"sizes IN --picture out.jpg", 2, ".png"},
+        Mistake{"sizes IN --size-on Face7=1", 2, "no Face7"},
+        Mistake{"sizes IN -o a.vtu -o a.vtu", 2, "same file"}));
 
-INSTANTIATE_TEST_SUITE_P(Input, Mistakes,
-                         testing::Values(Mistake{"mesh none.step OUT", 1, "none.step"},
-                                         Mistake{"mesh text.step OUT", 1, "text.step"},
-                                         Mistake{"mesh empty.step OUT", 1, "empty.step"},
-                                         Mistake{"mesh empty.brep OUT", 1, "empty.brep"},
-                                         Mistake{"mesh cut.brep OUT", 1, "cut.brep"},
-                                         Mistake{"mesh folder.msh OUT", 1, "folder"},
-                                         Mistake{"mesh broken.msh OUT", 2, "unknown ending"},
-                                         Mistake{"mesh IN OUT --size-field none.vdb", 1, "none.vdb"},
-                                         Mistake{"info none.step", 1, "none.step"},
-                                         Mistake{"info text.step", 1, "text.step"},
-                                         Mistake{"quality none.msh", 1, "none.msh"},
-                                         Mistake{"quality broken.msh", 1, "broken.msh"},
-                                         Mistake{"quality text.step", 1, "text.step"},
-                                         Mistake{"quality square.msh --limits none.json", 1, "none.json"},
-                                         Mistake{"quality square.msh --limits text.step", 1, "neither JSON"},
-                                         Mistake{"mesh IN OUT --size 1e-4", 2, "million"}));
+INSTANTIATE_TEST_SUITE_P(
+    Input, Mistakes,
+    testing::Values(
+        Mistake{"mesh none.step OUT", 1, "none.step"}, Mistake{"mesh text.step OUT", 1, "text.step"},
+        Mistake{"mesh empty.step OUT", 1, "empty.step"}, Mistake{"mesh empty.brep OUT", 1, "empty.brep"},
+        Mistake{"mesh cut.brep OUT", 1, "cut.brep"}, Mistake{"mesh folder.msh OUT", 1, "folder"},
+        Mistake{"mesh broken.msh OUT", 2, "unknown ending"},
+        Mistake{"mesh IN OUT --size-field none.vdb", 1, "none.vdb"},
+        Mistake{"info none.step", 1, "none.step"}, Mistake{"info text.step", 1, "text.step"},
+        Mistake{"sizes text.step -o out.vtu", 1, "text.step"},
+        Mistake{"sizes IN --size 1e-4 -o out.vtu", 2, "million"}, Mistake{"quality none.msh", 1, "none.msh"},
+        Mistake{"quality broken.msh", 1, "broken.msh"}, Mistake{"quality text.step", 1, "text.step"},
+        Mistake{"quality square.msh --limits none.json", 1, "none.json"},
+        Mistake{"quality square.msh --limits text.step", 1, "neither JSON"},
+        Mistake{"mesh IN OUT --size 1e-4", 2, "million"}));
 
 /// Refused before anything is spent: within 5 s of CPU, and 2 GB of memory beyond what libraries map.
 class TooMuch : public testing::TestWithParam<std::pair<const char*, const char*>> {};
@@ -253,6 +256,27 @@ TEST(Command, TakesTheThreadsThatThereAre) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(test::file_text(folder / "a.msh"), test::file_text(folder / "b.msh"));
+}
+
+/// What sizes tells is what mesh makes: the count, and .vtu files that other readers take.
+TEST(Command, ShowsSizes) {
+  const TemporaryFolder folder;
+  const std::string options = box + " --size 2 --size-on Face1=0.5 --quiet ";
+  const auto shown =
+      stdout_of(folder, "sizes " + options + "-o s.vtu -o s.json --picture s.png --report r.json");
+  EXPECT_EQ(shown.exit_code, 0);
+  EXPECT_EQ(shown.out, "");
+  const auto report = nlohmann::json::parse(test::file_text(folder / "r.json"));
+  const auto all = nlohmann::json::parse(test::file_text(folder / "s.json"));
+  EXPECT_EQ(all["quads"], report["quads"]);
+  EXPECT_EQ(all["points"].size(), all["point_sizes"].size());
+  EXPECT_EQ(all["sources"].back()["name"], "size-on");
+  EXPECT_NEAR(all["sources"].back()["size_min"].get<double>(), 0.5, 1e-3);
+  ASSERT_EQ(stdout_of(folder, "mesh " + options + "-o m.msh --report m.json").exit_code, 0);
+  const double made = nlohmann::json::parse(test::file_text(folder / "m.json"))["counts"]["quads"];
+  EXPECT_LT(std::abs(std::log(report["quads"].get<double>() / made)), std::log(1.5));
+  EXPECT_EQ(test::file_text(folder / "s.png").substr(1, 3), "PNG");
+  EXPECT_EQ(stdout_of(folder, "quality s.vtu").exit_code, 0);
 }
 
 TEST(Command, MeshesTheBox) {

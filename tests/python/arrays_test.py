@@ -101,6 +101,32 @@ class ArraysTest(unittest.TestCase):
         with self.assertRaisesRegex(quadrille.Error, "no triangles"):
             quadrille.recombine(points, np.empty((0, 3), int))
 
+    def test_remeshes_a_surface(self):
+        points, triangles = grid(12)
+        surface = quadrille.Mesh(10 * points, np.empty((0, 4), int), triangles=triangles)
+        mesh = quadrille.remesh(surface, size=1.0)
+        self.assertEqual(len(mesh.triangles), 0)
+        self.assertGreater(len(mesh.quads), 70)
+        self.assertLess(len(mesh.quads), 140)
+        self.assertAlmostEqual(mesh.fidelity["mesh_area"], 100, 9)
+        self.assertLess(mesh.fidelity["mesh_from_surface"]["distance"], 1e-9)
+        self.assertEqual(len(mesh.corners), 4)
+        self.assertIsNone(surface.fidelity)
+        self.assertEqual(quadrille.remesh(surface, size=1.0, order=2, threads=1).order, 2)
+        stages = []
+        quadrille.remesh(surface, size=1.0, progress=lambda stage, fraction: stages.append(stage))
+        self.assertIn("triangulate", stages)
+        for wrong in ({"size": 0}, {"size": 100}, {"size": 1, "order": 3}, {"size": 1, "merge": -1},
+                      {"size": 1, "feature_angle": 181}):
+            with self.assertRaises(quadrille.Error) as caught:
+                quadrille.remesh(surface, **wrong)
+            self.assertEqual(caught.exception.kind, "usage")
+        with self.assertRaises(TypeError):
+            quadrille.remesh(surface, size=1, growth=0.2)
+        with self.assertRaises(quadrille.Error) as caught:
+            quadrille.remesh(surface, size=0.05, progress=lambda stage, fraction: False)
+        self.assertEqual(caught.exception.kind, "cancelled")
+
     def test_recombined_keeps_groups(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "two.inp"

@@ -336,6 +336,13 @@ TEST(SizeSources, RefuseFilesThatMakeNoSense) {
     ExecutionContext context;
     EXPECT_THROW(SizingField::build(box, options, context), Error) << text;
   }
+  std::ofstream(path) << "1,2,nan,1\n";
+  try {
+    read_size_points(path);
+    FAIL();
+  } catch (const Error& problem) {
+    EXPECT_NE(std::string(problem.what()).find("line 1 has a place"), std::string::npos) << problem.what();
+  }
   std::filesystem::remove(path);
 }
 

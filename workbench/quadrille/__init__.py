@@ -19,7 +19,7 @@ The compiled part, `quadrille._quadrille`, is loaded when something of it is fir
 from .errors import Error
 
 __all__ = ["Error", "Mesh", "MidSurface", "Model", "__version__", "mesh", "midsurface", "read", "read_brep", "read_mesh",
-           "recombine", "settings", "suggested_size"]
+           "recombine", "remesh", "settings", "suggested_size"]
 
 _COMPILED = frozenset(__all__) - {"Error"}
 

@@ -62,6 +62,8 @@ class Mesh:
     def recombined(
         self, *, feature_angle: float = 40.0, merge: Optional[float] = None, improve: bool = True, threads: int = 0
     ) -> Mesh: ...
+    @property
+    def fidelity(self) -> Optional[Dict[str, Any]]: ...
     def _repr_html_(self) -> str: ...
 
 class MidSurface:
@@ -100,6 +102,7 @@ def mesh(
     gradation: Optional[str] = None,
     chord_error: Optional[str] = None,
     proximity: Optional[float] = None,
+    proximity_walls: Optional[float] = None,
     order: Optional[int] = None,
     strategy: Optional[str] = None,
     faces: Optional[Sequence[Union[str, SupportsIndex]]] = None,
@@ -115,6 +118,7 @@ def mesh(
     bias_both: Optional[_Entries] = None,
     merge_tiny: Optional[float] = None,
     rings: Optional[int] = None,
+    symmetry: Optional[bool] = None,
     partial: Optional[bool] = None,
     keep_features: Optional[bool] = None,
     force: Optional[bool] = None,
@@ -124,6 +128,18 @@ def mesh(
 def midsurface(model: Model, *, partial: bool = False, join: bool = False) -> MidSurface: ...
 def recombine(
     points: ArrayLike, triangles: ArrayLike, *, tags: Optional[ArrayLike] = None, improve: bool = True, threads: int = 0
+) -> Mesh: ...
+def remesh(
+    surface: Mesh,
+    *,
+    size: float,
+    feature_angle: float = 40.0,
+    merge: Optional[float] = None,
+    order: int = 1,
+    progress: Optional[_Progress] = None,
+    force: Optional[bool] = None,
+    time_limit: Optional[float] = None,
+    threads: Optional[int] = None,
 ) -> Mesh: ...
 def suggested_size(model: Model, quads: int = 5000) -> float: ...
 def settings() -> List[Dict[str, Any]]: ...

@@ -523,6 +523,14 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>unterteilen</translation>
     </message>
     <message>
+        <source>Across walls</source>
+        <translation>Durch Wände</translation>
+    </message>
+    <message>
+        <source>Elements through the thickness of a wall: sizes on its skins are its thickness over this at most; 0 = any number</source>
+        <translation>Elemente durch die Dicke einer Wand: Größen auf ihren Häuten sind höchstens ihre Dicke geteilt durch diese Zahl; 0 = beliebig viele</translation>
+    </message>
+    <message>
         <source>Across gaps</source>
         <translation>In Engstellen</translation>
     </message>
@@ -561,6 +569,14 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>Rings of quads round each hole without corners, where there is room for them; 0 = none</source>
         <translation>Ringe von Vierecken um jedes Loch ohne Ecken, wo Platz dafür ist; 0 = keine</translation>
+    </message>
+    <message>
+        <source>Symmetry</source>
+        <translation>Symmetrie</translation>
+    </message>
+    <message>
+        <source>Where the model has mirror planes, mesh one side of them and copy it, with nodes on the planes</source>
+        <translation>Wo das Modell Spiegelebenen hat, eine Seite davon vernetzen und spiegeln, mit Knoten auf den Ebenen</translation>
     </message>
     <message>
         <source>Sizes by distance from a face, edge or vertex, as heights of layers grow: first height, ratio and number, such as Edge4=0.1,1.2,6; empty = none</source>

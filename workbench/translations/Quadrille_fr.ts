@@ -523,6 +523,14 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>subdiviser</translation>
     </message>
     <message>
+        <source>Across walls</source>
+        <translation>À travers les parois</translation>
+    </message>
+    <message>
+        <source>Elements through the thickness of a wall: sizes on its skins are its thickness over this at most; 0 = any number</source>
+        <translation>Éléments dans l’épaisseur d’une paroi : les tailles sur ses peaux sont au plus son épaisseur divisée par ce nombre ; 0 = n’importe combien</translation>
+    </message>
+    <message>
         <source>Across gaps</source>
         <translation>Dans les passages étroits</translation>
     </message>
@@ -561,6 +569,14 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>Rings of quads round each hole without corners, where there is room for them; 0 = none</source>
         <translation>Anneaux de quadrangles autour de chaque trou sans coin, là où il y a de la place ; 0 = aucun</translation>
+    </message>
+    <message>
+        <source>Symmetry</source>
+        <translation>Symétrie</translation>
+    </message>
+    <message>
+        <source>Where the model has mirror planes, mesh one side of them and copy it, with nodes on the planes</source>
+        <translation>Là où le modèle a des plans de symétrie, mailler un côté et le copier en miroir, avec des nœuds sur les plans</translation>
     </message>
     <message>
         <source>Sizes by distance from a face, edge or vertex, as heights of layers grow: first height, ratio and number, such as Edge4=0.1,1.2,6; empty = none</source>

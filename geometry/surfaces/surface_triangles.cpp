@@ -1,0 +1,239 @@
+/// Based on: longest-side refinement (Rivara 1984), with all marked sides of a triangle divided at once.
+
+#include "geometry/surfaces/surface_triangles.hpp"
+
+#include <BRepBuilderAPI_Copy.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Poly_PolygonOnTriangulation.hxx>
+#include <Poly_Triangulation.hxx>
+#include <Standard_Failure.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+
+#include <algorithm>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+
+#include "geometry/cad/cad_shape.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// Radians between neighboring triangles of a curved face.
+constexpr double turn_of_triangle = 0.2;
+
+/// Adds a triangulated face. \return false if it has no triangles.
+bool add_face(const CadShape& shape, int index, const TopoDS_Face& face, SurfaceTriangles& surface) {
+  TopLoc_Location place;
+  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
+  if (mesh.IsNull() || mesh->NbTriangles() == 0) return false;
+  const int first = static_cast<int>(surface.points.size()) - 1;  // nodes are counted from 1
+  const CadFace& cad = shape.faces[index];
+  for (int i = 1; i <= mesh->NbNodes(); ++i) {
+    surface.points.push_back(to_vector(mesh->Node(i).Transformed(place.Transformation())));
+    surface.point_faces.push_back(index + 1);
+  }
+  for (int i = 1; i <= mesh->NbTriangles(); ++i) {
+    std::array<int, 3> nodes{};
+    mesh->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
+    if (cad.reversed) std::swap(nodes[1], nodes[2]);
+    surface.triangles.push_back({first + nodes[0], first + nodes[1], first + nodes[2]});
+    surface.faces.push_back(index + 1);
+  }
+  return true;
+}
+
+/// \param edge of the triangulated face. \param first index of the face's first point.
+void add_lines(const TopoDS_Edge& edge, const TopoDS_Face& face, SurfaceTriangles::Line line, int first,
+               SurfaceTriangles& surface) {
+  TopLoc_Location place;
+  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
+  const Handle(Poly_PolygonOnTriangulation) polygon = BRep_Tool::PolygonOnTriangulation(edge, mesh, place);
+  if (polygon.IsNull()) return;
+  for (int i = 2; i <= polygon->NbNodes(); ++i) {
+    line.points = {first + polygon->Node(i - 1) - 1, first + polygon->Node(i) - 1};
+    if (line.points[0] != line.points[1]) surface.lines.push_back(line);
+  }
+}
+
+/// Divides the sides of one round.
+class Round {
+ public:
+  Round(SurfaceTriangles& surface, const std::function<double(int, const Vector3&)>& longest)
+      : surface_(surface) {
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+      for (int k = 0; k < 3; ++k) {
+        const auto [a, b] = side(i, k);
+        if (middles_.contains(key(a, b))) continue;
+        const Vector3 middle = 0.5 * (surface.points[a] + surface.points[b]);
+        const int state = length(a, b) > longest(surface.faces[i], middle) ? to_divide : whole;
+        middles_.emplace(key(a, b), state);
+        any_ = any_ || state == to_divide;
+      }
+    }
+  }
+
+  bool any() const { return any_; }
+
+  void divide() {
+    close();
+    std::vector<std::array<int, 3>> triangles;
+    std::vector<int> faces;
+    for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
+      const std::size_t before = triangles.size();
+      cut(i, triangles);
+      faces.insert(faces.end(), triangles.size() - before, surface_.faces[i]);
+    }
+    std::vector<SurfaceTriangles::Line> lines;
+    for (const SurfaceTriangles::Line& line : surface_.lines) {
+      const auto found = middles_.find(key(line.points[0], line.points[1]));
+      if (found == middles_.end() || found->second < 0) {
+        lines.push_back(line);
+        continue;
+      }
+      lines.push_back({{line.points[0], found->second}, line.edge, line.face});
+      lines.push_back({{found->second, line.points[1]}, line.edge, line.face});
+    }
+    surface_.triangles = std::move(triangles);
+    surface_.faces = std::move(faces);
+    surface_.lines = std::move(lines);
+  }
+
+ private:
+  static constexpr int whole = -1, to_divide = -2;
+
+  static std::uint64_t key(int a, int b) {
+    return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
+  }
+  std::pair<int, int> side(std::size_t triangle, int k) const {
+    return {surface_.triangles[triangle][k], surface_.triangles[triangle][(k + 1) % 3]};
+  }
+  double length(int a, int b) const { return (surface_.points[a] - surface_.points[b]).norm(); }
+  int longest_side(std::size_t triangle) const {
+    int best = 0;
+    for (int k = 1; k < 3; ++k) {
+      const auto [a, b] = side(triangle, k);
+      const auto [c, d] = side(triangle, best);
+      if (length(a, b) > length(c, d)) best = k;
+    }
+    return best;
+  }
+
+  /// Where a side is divided, so is the longest of each triangle that it bounds: angles stay what they are.
+  void close() {
+    for (bool changed = true; changed;) {  // each pass marks a side or is the last
+      changed = false;
+      for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
+        bool divided = false;
+        for (int k = 0; k < 3; ++k) divided = divided || middle(i, k) == to_divide;
+        int& longest = middle(i, longest_side(i));
+        if (!divided || longest == to_divide) continue;
+        longest = to_divide;
+        changed = true;
+      }
+    }
+  }
+
+  int& middle(std::size_t triangle, int k) {
+    const auto [a, b] = side(triangle, k);
+    return middles_.at(key(a, b));
+  }
+
+  /// The point in the middle of a side to be divided; negative for the others.
+  int point_of(std::size_t triangle, int k) {
+    int& point = middle(triangle, k);
+    if (point != to_divide) return point;
+    const auto [a, b] = side(triangle, k);
+    point = static_cast<int>(surface_.points.size());
+    surface_.points.push_back(0.5 * (surface_.points[a] + surface_.points[b]));
+    surface_.point_faces.push_back(surface_.faces[triangle]);
+    return point;
+  }
+
+  void cut(std::size_t triangle, std::vector<std::array<int, 3>>& out) {
+    const int k = longest_side(triangle);
+    const auto& nodes = surface_.triangles[triangle];
+    // From the middle of the longest side to the corner across; each half may have one more side divided.
+    const int a = nodes[k], b = nodes[(k + 1) % 3], c = nodes[(k + 2) % 3];
+    const int ab = point_of(triangle, k);
+    if (ab < 0) {
+      out.push_back(nodes);
+      return;
+    }
+    const int bc = point_of(triangle, (k + 1) % 3), ca = point_of(triangle, (k + 2) % 3);
+    if (bc < 0) {
+      out.push_back({ab, b, c});
+    } else {
+      out.push_back({ab, b, bc});
+      out.push_back({ab, bc, c});
+    }
+    if (ca < 0) {
+      out.push_back({ab, c, a});
+    } else {
+      out.push_back({ab, c, ca});
+      out.push_back({ab, ca, a});
+    }
+  }
+
+  SurfaceTriangles& surface_;
+  std::unordered_map<std::uint64_t, int> middles_;  // by side: its middle's point, or a state
+  bool any_ = false;
+};
+
+}  // namespace
+
+SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, const std::vector<char>& used,
+                                     const ExecutionContext& context) {
+  SurfaceTriangles surface;
+  context.check();
+  TopoDS_Compound faces;
+  BRep_Builder builder;
+  builder.MakeCompound(faces);
+  for (std::size_t i = 0; i < shape.faces.size(); ++i) {
+    if (used[i]) builder.Add(faces, shape.faces[i].face);
+  }
+  // The model itself stays as it is: without triangles.
+  BRepBuilderAPI_Copy copy(faces, Standard_False);
+  try {
+    BRepMesh_IncrementalMesh(copy.Shape(), deflection, Standard_False, turn_of_triangle, Standard_False);
+  } catch (const Standard_Failure&) {
+    // The faces done by then are there.
+  }
+  context.check();
+  for (std::size_t i = 0; i < shape.faces.size(); ++i) {
+    if (!used[i]) continue;
+    const int number = static_cast<int>(i) + 1, first = static_cast<int>(surface.points.size());
+    const TopoDS_Face face = TopoDS::Face(copy.ModifiedShape(shape.faces[i].face));
+    if (!add_face(shape, static_cast<int>(i), face, surface)) {
+      surface.missing.push_back(number);
+      continue;
+    }
+    for (const CadWire& wire : shape.faces[i].wires) {
+      for (const Coedge& coedge : wire.coedges) {
+        const CadEdge& edge = shape.edges[coedge.edge - 1];
+        if (edge.degenerate) continue;
+        // Seams have a polygon on either side, by their orientation.
+        const TopoDS_Shape copied = copy.ModifiedShape(coedge.source).Oriented(coedge.source.Orientation());
+        add_lines(TopoDS::Edge(copied), face, {{-1, -1}, edge.number, number}, first, surface);
+      }
+    }
+  }
+  return surface;
+}
+
+void divide_sides(SurfaceTriangles& surface, const std::function<double(int face, const Vector3&)>& longest,
+                  std::size_t most, const ExecutionContext& context) {
+  constexpr int most_rounds = 40;
+  for (int round = 0; round < most_rounds && surface.triangles.size() < most; ++round) {
+    context.check();
+    Round next(surface, longest);
+    if (!next.any()) return;
+    next.divide();
+  }
+}
+
+}  // namespace quadrille

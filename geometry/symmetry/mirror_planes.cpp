@@ -1,0 +1,451 @@
+#include "geometry/symmetry/mirror_planes.hpp"
+
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepGProp.hxx>
+#include <BRepTopAdaptor_FClass2d.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <ShapeAnalysis_Curve.hxx>
+#include <ShapeAnalysis_Surface.hxx>
+#include <Standard_Failure.hxx>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "geometry/surfaces/edge_curve.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// What is compared first: a length and a place that mirror with the feature.
+struct Feature {
+  Vector3 center{0, 0, 0};
+  double length = 0;
+};
+
+/// Finds the features at a place.
+class Places {
+ public:
+  explicit Places(const std::vector<Feature>& features) : features_(features) {
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      if (features[i].length > 0) order_.push_back(static_cast<int>(i));
+    }
+    std::sort(order_.begin(), order_.end(), [&](int a, int b) { return key(a) < key(b); });
+  }
+
+  /// Those within a distance of the place, of that length within the same.
+  std::vector<int> at(const Feature& wanted, double reach) const {
+    const double low = direction_.dot(wanted.center) - reach;
+    auto it =
+        std::lower_bound(order_.begin(), order_.end(), low, [&](int i, double x) { return key(i) < x; });
+    std::vector<int> found;
+    for (; it != order_.end() && key(*it) <= low + 2 * reach; ++it) {
+      const Feature& feature = features_[*it];
+      if ((feature.center - wanted.center).norm() <= reach &&
+          std::abs(feature.length - wanted.length) <= 2 * reach)
+        found.push_back(*it);
+    }
+    return found;
+  }
+
+ private:
+  double key(int i) const { return direction_.dot(features_[i].center); }
+
+  const std::vector<Feature>& features_;
+  // None that a model is likely to be laid out along.
+  const Vector3 direction_ = Vector3(0.61, 0.53, 0.59).normalized();
+  std::vector<int> order_;
+};
+
+bool is_seam(const CadEdge& edge) {
+  return std::adjacent_find(edge.faces.begin(), edge.faces.end()) != edge.faces.end();
+}
+
+class Search {
+ public:
+  Search(const CadShape& shape, const ExecutionContext& context)
+      : shape_(shape), context_(context), faces_(shape.faces.size()), edges_(shape.edges.size()) {
+    for (std::size_t i = 0; i < edges_.size(); ++i) measure_edge(i);
+    for (std::size_t i = 0; i < faces_.size(); ++i) add_face(i);
+    for (const Vector3& vertex : shape.vertices) vertices_.push_back({vertex, 1});
+    edge_places_.emplace(edges_);
+    face_places_.emplace(faces_);
+    vertex_places_.emplace(vertices_);
+  }
+
+  std::vector<MirrorPlane> run() {
+    std::vector<MirrorPlane> found;
+    // A face without edges of its own has no feature to be compared by.
+    if (whole_.Mass() <= 0 ||
+        std::any_of(faces_.begin(), faces_.end(), [](const Feature& face) { return !(face.length > 0); }))
+      return found;
+    for (const Vector3& normal : candidates()) {
+      if (found.size() == 3) break;
+      const bool square = std::all_of(found.begin(), found.end(), [&](const MirrorPlane& plane) {
+        return std::abs(plane.normal.dot(normal)) < 1e-3;
+      });
+      if (!square) continue;
+      for (std::optional<MirrorPlane> plane : refined(normal)) {
+        if (!plane || !accept(*plane)) continue;
+        found.push_back(std::move(*plane));
+        break;
+      }
+    }
+    return found;
+  }
+
+ private:
+  void measure_edge(std::size_t index) {
+    context_.check();
+    const CadEdge& edge = shape_.edges[index];
+    if (edge.degenerate || edge.faces.empty() || is_seam(edge) || !(edge.length > 0)) return;
+    GProp_GProps properties;
+    BRepGProp::LinearProperties(edge.edge, properties);
+    edges_[index] = {to_vector(properties.CentreOfMass()), properties.Mass()};
+    whole_.Add(properties);
+  }
+
+  void add_face(std::size_t index) {
+    Feature& face = faces_[index];
+    for (const int edge : own_edges(static_cast<int>(index))) {
+      face.length += edges_[edge].length;
+      face.center += edges_[edge].length * edges_[edge].center;
+    }
+    if (face.length > 0) face.center /= face.length;
+  }
+
+  /// Of a face, each once, without seams and poles; from 0.
+  std::vector<int> own_edges(int face) const {
+    std::vector<int> result;
+    for (const CadWire& wire : shape_.faces[face].wires) {
+      for (const Coedge& coedge : wire.coedges) {
+        if (edges_[coedge.edge - 1].length > 0) result.push_back(coedge.edge - 1);
+      }
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+  std::vector<Vector3> candidates() const {
+    Eigen::Matrix3d inertia;
+    const gp_Mat matrix = whole_.MatrixOfInertia();
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) inertia(i, j) = matrix(i + 1, j + 1);
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia);
+    const Vector3& moments = solver.eigenvalues();
+    const Eigen::Matrix3d& axes = solver.eigenvectors();
+    const auto equal = [&](int a, int b) { return std::abs(moments[a] - moments[b]) < 1e-3 * moments[2]; };
+    std::vector<Vector3> result;
+    const bool low = equal(0, 1), high = equal(1, 2);
+    for (int i = 0; i < 3; ++i) {
+      const bool unique = !(low && i < 2) && !(high && i > 0);
+      if (unique) result.emplace_back(axes.col(i));
+    }
+    if (!low && !high) return result;
+    const Vector3 axis = low && high ? Vector3::Zero() : Vector3(low ? axes.col(2) : axes.col(0));
+    for (const Vector3& normal : ambiguous_normals()) {
+      const Vector3 across = normal - axis.dot(normal) * axis;
+      if (across.norm() > 0.5) result.push_back(across.normalized());
+    }
+    return result;
+  }
+
+  /// Along the coordinate axes, and between the edges of the length that the fewest have, or square to those.
+  std::vector<Vector3> ambiguous_normals() const {
+    std::vector<Vector3> result{Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
+    const Vector3 middle = to_vector(whole_.CentreOfMass());
+    const double near = 1e-6 * shape_.diagonal();
+    std::vector<int> order(edges_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::erase_if(order,
+                  [&](int i) { return (edges_[i].center - middle).norm() < 1e-3 * shape_.diagonal(); });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return edges_[a].length < edges_[b].length; });
+    std::size_t from = 0, count = 0;
+    for (std::size_t i = 0; i < order.size();) {
+      std::size_t end = i + 1;
+      while (end < order.size() && edges_[order[end]].length - edges_[order[end - 1]].length <= near) ++end;
+      if (edges_[order[i]].length > 0 && (count == 0 || end - i < count)) {
+        from = i;
+        count = end - i;
+      }
+      i = end;
+    }
+    constexpr std::size_t most = 24;
+    for (std::size_t i = from + 1; i < from + std::min(count, most); ++i) {
+      const Vector3 way = edges_[order[i]].center - edges_[order[from]].center;
+      if (way.norm() > near) result.push_back(way.normalized());
+    }
+    if (count > 0) {
+      const Vector3 out = (edges_[order[from]].center - middle).normalized();
+      for (int i = 0; i < 3; ++i) {
+        const Vector3 across = out.cross(Vector3::Unit(i));
+        if (across.norm() > 1e-3) result.push_back(across.normalized());
+      }
+    }
+    return result;
+  }
+
+  double tolerance(double own) const { return std::max(relative_tolerance * shape_.diagonal(), own); }
+
+  /// The plane that fits the edges and their images best, and before it that along a coordinate axis, if
+  /// there is one so near.
+  std::array<std::optional<MirrorPlane>, 2> refined(const Vector3& normal) const {
+    const Vector3 middle = to_vector(whole_.CentreOfMass());
+    MirrorPlane plane;
+    plane.normal = normal;
+    plane.offset = normal.dot(middle);
+    const double reach = 1e-3 * shape_.diagonal();
+    Eigen::Matrix3d across = Eigen::Matrix3d::Zero();
+    Vector3 halfway(0, 0, 0);
+    int pairs = 0;
+    for (const Feature& edge : edges_) {
+      if (!(edge.length > 0)) continue;
+      const auto found = edge_places_->at({plane.mirrored(edge.center), edge.length}, reach);
+      if (found.empty()) return {};
+      if (found.size() > 1) continue;
+      const Vector3& image = edges_[found.front()].center;
+      across += (edge.center - image) * (edge.center - image).transpose();
+      halfway += 0.5 * (edge.center + image);
+      ++pairs;
+    }
+    if (pairs == 0) return {plane, std::nullopt};
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(across);
+    if (solver.eigenvalues()[2] > reach * reach) {
+      const Vector3 best = solver.eigenvectors().col(2);
+      plane.normal = best.dot(normal) < 0 ? Vector3(-best) : best;
+    }
+    halfway /= pairs;
+    int largest = 0;
+    plane.normal.cwiseAbs().maxCoeff(&largest);
+    if (plane.normal[largest] < 0) plane.normal = -plane.normal;
+    plane.offset = plane.normal.dot(halfway);
+    if (std::abs(plane.offset) < 1e-9 * shape_.diagonal()) plane.offset = 0;
+    if (plane.normal[largest] < 1 - 1e-6) return {plane, std::nullopt};
+    MirrorPlane along = plane;
+    along.normal = Vector3::Unit(largest);
+    along.offset = halfway[largest];
+    if (std::abs(along.offset) < 1e-9 * shape_.diagonal()) along.offset = 0;
+    return {along, plane};
+  }
+
+  /// Completes it with what lies where; false if something has no image.
+  bool accept(MirrorPlane& plane) const {
+    std::vector<std::vector<int>> edge_images(edges_.size());
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const Feature& edge = edges_[i];
+      if (!(edge.length > 0)) continue;
+      context_.check();
+      const double reach = tolerance(2 * shape_.edges[i].tolerance);
+      for (const int image : edge_places_->at({plane.mirrored(edge.center), edge.length}, reach)) {
+        if (is_image(plane, static_cast<int>(i), image, reach)) edge_images[i].push_back(image);
+      }
+      if (edge_images[i].empty()) return false;
+    }
+    return match_faces(plane, edge_images) && match_edges(plane, edge_images) && match_vertices(plane);
+  }
+
+  /// Whether an edge's mirror image lies on another.
+  bool is_image(const MirrorPlane& plane, int edge, int image, double reach) const {
+    const CadEdge &a = shape_.edges[edge], &b = shape_.edges[image];
+    const EdgeCurve from(a), to(b);
+    const auto at = [](const CadEdge& e, double share) { return e.first + share * (e.last - e.first); };
+    if (a.closed() != b.closed()) return false;
+    const bool forward = (plane.mirrored(from.point(a.first)) - to.point(b.first)).norm() <= reach;
+    if (!a.closed()) {
+      const Vector3 &first = to.point(forward ? b.first : b.last),
+                    &last = to.point(forward ? b.last : b.first);
+      if ((plane.mirrored(from.point(a.first)) - first).norm() > reach ||
+          (plane.mirrored(from.point(a.last)) - last).norm() > reach)
+        return false;
+      if (from.straight() && to.straight()) return true;
+    }
+    const BRepAdaptor_Curve curve(b.edge);
+    const int samples = from.circular() && to.circular() ? 3 : std::min(4 + 2 * from.spans(), 64);
+    for (int i = 1; i <= samples; ++i) {
+      const double share = i / (samples + 1.0);
+      const Vector3 wanted = plane.mirrored(from.point(at(a, share)));
+      if ((to.point(at(b, forward ? share : 1 - share)) - wanted).norm() <= reach) continue;
+      gp_Pnt foot;
+      double parameter = 0;
+      const gp_Pnt point(wanted.x(), wanted.y(), wanted.z());
+      if (ShapeAnalysis_Curve().Project(curve, point, 0.1 * reach, foot, parameter, Standard_False) > reach)
+        return false;
+    }
+    return true;
+  }
+
+  bool match_faces(MirrorPlane& plane, const std::vector<std::vector<int>>& edge_images) const {
+    plane.faces.assign(faces_.size(), -1);
+    plane.turned.assign(faces_.size(), 0);
+    std::vector<char> taken(faces_.size(), 0);
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      if (plane.faces[i] >= 0) continue;
+      context_.check();
+      const int face = static_cast<int>(i);
+      // Lengths of a face add up, and so do their errors.
+      const double reach = 10 * tolerance(2 * shape_.faces[i].tolerance);
+      std::optional<std::pair<int, char>> best;
+      for (const int image : face_places_->at({plane.mirrored(faces_[i].center), faces_[i].length}, reach)) {
+        if (taken[image] || !has_edges(image, face, edge_images)) continue;
+        const auto turned = mirrors(plane, face, image);
+        if (turned && (!best || *turned < best->second)) best = {image, *turned};
+      }
+      if (!best) return false;
+      // A face in the plane itself has no half.
+      if (best->first == face && best->second != 0) return false;
+      for (const auto& [from, to] : {std::pair(face, best->first), std::pair(best->first, face)}) {
+        plane.faces[from] = to;
+        plane.turned[from] = best->second;
+        taken[to] = 1;
+      }
+    }
+    return true;
+  }
+
+  /// Whether the edges of a face have images among those of another, as many as it has.
+  bool has_edges(int image, int face, const std::vector<std::vector<int>>& edge_images) const {
+    const std::vector<int> edges = own_edges(face), others = own_edges(image);
+    return edges.size() == others.size() && std::all_of(edges.begin(), edges.end(), [&](int edge) {
+             return std::any_of(edge_images[edge].begin(), edge_images[edge].end(), [&](int other) {
+               return std::binary_search(others.begin(), others.end(), other);
+             });
+           });
+  }
+
+  /// Whether a face's mirror image lies on the surface of another, and whether it is turned over; nothing if
+  /// it does not.
+  std::optional<char> mirrors(const MirrorPlane& plane, int face, int image) const {
+    const CadFace &from = shape_.faces[face], &to = shape_.faces[image];
+    const FaceSurface surface(from), other(to);
+    if (surface.planar() != other.planar()) return std::nullopt;
+    const Handle(Geom_Surface) geometry = BRep_Tool::Surface(to.face);
+    ShapeAnalysis_Surface analysis(geometry);
+    const double reach = tolerance(2 * std::max(from.tolerance, to.tolerance));
+    std::optional<char> turned;
+    for (const Vector2& uv : inner_parameters(from)) {
+      const SurfacePoint at = surface.evaluate(uv);
+      const Vector3 wanted = plane.mirrored(at.point);
+      const gp_Pnt2d found = analysis.ValueOfUV(gp_Pnt(wanted.x(), wanted.y(), wanted.z()), 0.1 * reach);
+      const Vector2 foot(found.X(), found.Y());
+      const SurfacePoint there = other.evaluate(foot);
+      if ((there.point - wanted).norm() > reach) return std::nullopt;
+      const Vector3 normal = surface.normal(at, uv);
+      const Vector3 expected = normal - 2 * plane.normal.dot(normal) * plane.normal;
+      const bool same = (expected.dot(other.normal(there, foot)) > 0) == (from.reversed == to.reversed);
+      if (turned && (*turned == 0) != same) return std::nullopt;
+      turned = same ? 0 : 1;
+    }
+    return turned;
+  }
+
+  /// Some parameters inside a face, more of them where its surface is free-form.
+  static std::vector<Vector2> inner_parameters(const CadFace& face) {
+    const GeomAbs_SurfaceType type = BRepAdaptor_Surface(face.face, Standard_False).GetType();
+    const bool free_form = type == GeomAbs_BSplineSurface || type == GeomAbs_BezierSurface ||
+                           type == GeomAbs_OffsetSurface || type == GeomAbs_OtherSurface;
+    const std::size_t enough = type == GeomAbs_Plane ? 1 : free_form ? 40 : 4;
+    const BRepTopAdaptor_FClass2d inside(face.face, 1e-9);
+    std::vector<Vector2> result;
+    for (int grid = free_form ? 7 : 3; grid < 40 && result.size() < enough; grid = 2 * grid + 1) {
+      result.clear();
+      for (int i = 1; i <= grid; ++i) {
+        for (int j = 1; j <= grid && result.size() < 2 * enough; ++j) {
+          const Vector2 uv(face.u_min + (face.u_max - face.u_min) * i / (grid + 1.0),
+                           face.v_min + (face.v_max - face.v_min) * j / (grid + 1.0));
+          if (inside.Perform(gp_Pnt2d(uv.x(), uv.y())) == TopAbs_IN) result.push_back(uv);
+        }
+      }
+    }
+    return result;
+  }
+
+  /// Edges that lie on each other belong to different faces, which tell them apart.
+  bool match_edges(MirrorPlane& plane, const std::vector<std::vector<int>>& edge_images) const {
+    plane.edges.assign(edges_.size(), -1);
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      if (!(edges_[i].length > 0)) continue;
+      std::vector<int> wanted;
+      for (const int face : shape_.edges[i].faces) wanted.push_back(plane.faces[face - 1] + 1);
+      std::sort(wanted.begin(), wanted.end());
+      const auto found = std::find_if(edge_images[i].begin(), edge_images[i].end(),
+                                      [&](int image) { return shape_.edges[image].faces == wanted; });
+      if (found == edge_images[i].end()) return false;
+      plane.edges[i] = *found;
+    }
+    return true;
+  }
+
+  /// By the ends of edges; vertices on closed edges alone by their place.
+  bool match_vertices(MirrorPlane& plane) const {
+    plane.vertices.assign(vertices_.size(), -1);
+    std::vector<char> needed(vertices_.size(), 0);
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const CadEdge& edge = shape_.edges[i];
+      if (plane.edges[i] < 0 || edge.closed()) continue;
+      const CadEdge& image = shape_.edges[plane.edges[i]];
+      for (const int vertex : {edge.first_vertex, edge.last_vertex}) {
+        needed[vertex - 1] = 1;
+        for (const int other : {image.first_vertex, image.last_vertex}) {
+          if (lies_at(plane, vertex, other)) plane.vertices[vertex - 1] = other - 1;
+        }
+      }
+    }
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+      if (plane.vertices[i] < 0) {
+        const double reach = tolerance(2 * shape_.vertex_tolerances[i]);
+        const auto found = vertex_places_->at({plane.mirrored(vertices_[i].center), 1}, reach);
+        if (!found.empty()) plane.vertices[i] = found.front();
+      }
+      if (plane.vertices[i] < 0 && needed[i]) return false;
+    }
+    return true;
+  }
+
+  /// Vertices from 1.
+  bool lies_at(const MirrorPlane& plane, int vertex, int other) const {
+    const double own = shape_.vertex_tolerances[vertex - 1] + shape_.vertex_tolerances[other - 1];
+    return (plane.mirrored(shape_.vertices[vertex - 1]) - shape_.vertices[other - 1]).norm() <=
+           tolerance(own);
+  }
+
+  static constexpr double relative_tolerance = 1e-7;
+
+  const CadShape& shape_;
+  const ExecutionContext& context_;
+  GProp_GProps whole_;
+  std::vector<Feature> faces_, edges_, vertices_;  // length 0 = is not compared
+  std::optional<Places> edge_places_, face_places_, vertex_places_;
+};
+
+}  // namespace
+
+std::string MirrorPlane::name() const {
+  for (int i = 0; i < 3; ++i) {
+    if (normal == Vector3::Unit(i)) return fmt::format("{} = {:.6g}", "xyz"[i], offset);
+  }
+  const Vector3 foot = offset * normal + Vector3::Zero();  // no "-0"
+  return fmt::format("normal ({:.6g}, {:.6g}, {:.6g}) through ({:.6g}, {:.6g}, {:.6g})", normal.x(),
+                     normal.y(), normal.z(), foot.x(), foot.y(), foot.z());
+}
+
+std::vector<MirrorPlane> mirror_planes(const CadShape& shape, const ExecutionContext& context) {
+  try {
+    return Search(shape, context).run();
+  } catch (const Standard_Failure&) {
+    return {};  // what cannot be measured cannot be compared
+  }
+}
+
+}  // namespace quadrille

@@ -1,0 +1,176 @@
+/// quadrille remesh SURFACE -o OUT --size H: a triangulated surface in, an all-quad shell mesh out.
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "geometry/base/atomic_file.hpp"
+#include "geometry/base/threads.hpp"
+#include "mesher/command/command.hpp"
+#include "mesher/command/limits_option.hpp"
+#include "mesher/command/print_quality.hpp"
+#include "mesher/command/setting_options.hpp"
+#include "mesher/command/surface_input.hpp"
+#include "mesher/io/report.hpp"
+#include "mesher/quadrille.hpp"
+
+namespace quadrille::command {
+
+namespace {
+
+struct RemeshArguments : GivenSettings {
+  std::filesystem::path input;
+  std::vector<std::filesystem::path> outputs;
+  std::filesystem::path report, picture;
+  std::optional<double> merge, feature_angle;
+  LimitsOption limits;
+  bool quiet = false;
+};
+
+void check_files(const RemeshArguments& arguments) {
+  const int quad_nodes = arguments.settings.write.quad_nodes;
+  if (quad_nodes == 9 && order_of(arguments, arguments.outputs) == 1)
+    throw usage_error("nodes", "`nodes` 9 is for quads of second order: leave out `order` 1");
+  std::vector<NamedFile> files{{"SURFACE", arguments.input}};
+  for (const std::filesystem::path& output : arguments.outputs) {
+    check_format(output, quad_nodes);
+    require_writable(output);
+    files.push_back({"-o", output});
+  }
+  if (!arguments.report.empty()) require_writable(arguments.report);
+  if (!arguments.picture.empty()) require_ending(arguments.picture, ".png", "--picture");
+  require_readable(arguments.input);
+  files.insert(files.end(), {{"--report", arguments.report}, {"--picture", arguments.picture}});
+  require_different_files(files);
+}
+
+nlohmann::json fidelity_json(const RemeshFidelity& fidelity) {
+  const auto distance = [](const RemeshFidelity::Distance& d) {
+    return nlohmann::json{{"distance", d.length},
+                          {"at", {d.at.x(), d.at.y(), d.at.z()}},
+                          {"face", fmt::format("Face{}", d.face)}};
+  };
+  nlohmann::json result{{"mesh_from_surface", distance(fidelity.of_mesh)},
+                        {"surface_from_mesh", distance(fidelity.of_surface)},
+                        {"area", {{"surface", fidelity.surface_area}, {"mesh", fidelity.mesh_area}}}};
+  if (fidelity.surface_volume != 0)
+    result["volume"] = {{"surface", fidelity.surface_volume}, {"mesh", fidelity.mesh_volume}};
+  return result;
+}
+
+std::string fidelity_line(const RemeshFidelity& fidelity) {
+  const double percent = 100 * (fidelity.mesh_area / fidelity.surface_area - 1);
+  return fmt::format(
+      "surface: the mesh is up to {:.3g} off it (Face{}), it is up to {:.3g} off the mesh (Face{}), area "
+      "{:+.2g} %\n",
+      fidelity.of_mesh.length, fidelity.of_mesh.face, fidelity.of_surface.length, fidelity.of_surface.face,
+      percent);
+}
+
+void write_outputs(const ShellMesh& mesh, const RemeshArguments& arguments, ExecutionContext& context,
+                   CancelOnSignal& cancel) {
+  const StageTimer timer(context, Stage::write);
+  WriteOptions options = arguments.settings.write;
+  options.threads = arguments.settings.threads;
+  options.title = fmt::format("Quadrille {}: {}", version(), arguments.input.filename().string());
+  for (const std::filesystem::path& output : arguments.outputs) {
+    write_mesh(mesh, output, options);
+    cancel.wrote(output);
+  }
+  if (!arguments.picture.empty())
+    draw_apart(arguments.picture, context, [&] { write_picture(mesh, arguments.picture); });
+}
+
+void tell(const ShellMesh& mesh, const RemeshFidelity& fidelity, const std::vector<std::string>& notes,
+          const RemeshArguments& arguments, ExecutionContext& context) {
+  for (const std::string& note : notes) fmt::print(stderr, "{}: {}\n", arguments.input.string(), note);
+  if (arguments.quiet && arguments.report.empty()) return;
+  const QualitySummary summary = on_threads(arguments.settings.threads, [&] { return quality(mesh); });
+  if (!arguments.report.empty()) {
+    nlohmann::json report = make_report(mesh, summary, context, arguments.input, notes);
+    report["fidelity"] = fidelity_json(fidelity);
+    // File names need not be UTF-8, JSON must.
+    constexpr auto replace = nlohmann::json::error_handler_t::replace;
+    write_file(arguments.report, report.dump(2, ' ', false, replace) + "\n");
+  }
+  if (!arguments.quiet) print(quality_table(summary) + fidelity_line(fidelity));
+}
+
+void run(const RemeshArguments& arguments) {
+  check_files(arguments);
+  const CriteriaLimits limits = arguments.limits.limits();
+  ProgressDisplay display(arguments.quiet);
+  ExecutionContext context(arguments.settings.threads, [&](std::string_view stage, double fraction) {
+    return display.show(stage, fraction);
+  });
+  context.expect(
+      {Stage::read, Stage::sample, Stage::triangulate, Stage::mesh, Stage::assemble, Stage::write});
+  CancelOnSignal cancel(context, arguments.settings.time_limit);
+  std::vector<std::string> notes;
+  context.report(Stage::read, 0);
+  const ShellMesh input = [&] {
+    const StageTimer timer(context, Stage::read);
+    return read_mesh(arguments.input, &notes);
+  }();
+  RemeshOptions options;
+  options.size = arguments.settings.mesh.sizing.size;
+  options.order = order_of(arguments, arguments.outputs);
+  options.force = arguments.settings.mesh.force;
+  options.merge = arguments.merge.value_or(-1);
+  options.feature_angle = arguments.feature_angle.value_or(usual_feature_angle(arguments.input, input));
+  RemeshFidelity fidelity;
+  const ShellMesh mesh = [&] {
+    try {
+      return remesh(input, options, &fidelity, notes, context);
+    } catch (const Error& error) {
+      if (error.kind() != Error::Kind::failure || error.subject() == ExecutionContext::time_subject) throw;
+      throw named_by_file(error, input, arguments.input.string());
+    }
+  }();
+  write_outputs(mesh, arguments, context, cancel);
+  tell(mesh, fidelity, notes, arguments, context);
+  // Last: what fails can be looked at then.
+  if (arguments.limits.given())
+    arguments.limits.hold(arguments.outputs.front(), check_criteria(mesh, limits));
+}
+
+}  // namespace
+
+void add_remesh_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("remesh", "mesh a triangulated surface, such as a scan, anew with quads");
+  auto arguments = std::make_shared<RemeshArguments>();
+  command
+      ->add_option(
+          "SURFACE", arguments->input,
+          "triangles, or triangles and quads: .stl, .obj, .ply, .msh, .inp, .unv, .bdf, .vtk, .vtu or "
+          ".vtp")
+      ->required();
+  command
+      ->add_option("-o,--output", arguments->outputs,
+                   "mesh file: .msh, .inp, .unv, .med, .vtu, .vtk or .bdf; may be given more than once")
+      ->required()
+      ->allow_extra_args(false);
+  add_settings(*command, *arguments,
+               {"size", "order", "force", "time_limit", "threads", "msh_version", "nodes", "groups"});
+  command->get_option("--size")->required()->description("length of elements, in mm");
+  command
+      ->add_option(
+          "--feature-angle", arguments->feature_angle,
+          "degrees between the normals of neighbors from which on they are of two faces; 0 = shape makes "
+          "no faces (default 40, none in .msh files with several faces)")
+      ->check(CLI::Range(0.0, 180.0));
+  command
+      ->add_option("--merge", arguments->merge,
+                   "make one of nodes at most this far apart, millimeters; 0 = on one place")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--report", arguments->report,
+                      "write counts, quality, distances to the surface and times as JSON");
+  command->add_option("--picture", arguments->picture, "draw the mesh into a .png");
+  command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");
+  arguments->limits.add_to(*command);
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace quadrille::command

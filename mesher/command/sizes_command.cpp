@@ -1,0 +1,158 @@
+/// quadrille sizes IN: the sizes that a mesh would have, before it is made.
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "geometry/base/atomic_file.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/threads.hpp"
+#include "mesher/command/command.hpp"
+#include "mesher/command/setting_options.hpp"
+#include "mesher/quadrille.hpp"
+
+namespace quadrille::command {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+struct SizesArguments : GivenSettings {
+  std::filesystem::path input, picture, write_size_field, report;
+  std::vector<std::filesystem::path> outputs;
+  bool quiet = false, end_with_input = false;
+};
+
+void check_files(const SizesArguments& arguments) {
+  for (const std::filesystem::path& output : arguments.outputs) {
+    if (output.extension() != ".vtu" && output.extension() != ".json")
+      throw usage_error("-o",
+                        fmt::format("-o: the file name must end in .vtu or .json, not {}", output.string()));
+  }
+  require_usable({arguments.input, arguments.outputs, arguments.settings.mesh.sizing.size_field,
+                  arguments.report, arguments.picture, arguments.write_size_field});
+}
+
+json sources_of(const SizeMap& map) {
+  json sources = json::array();
+  for (const SizeMap::Source& source : map.sources)
+    sources.push_back({{"name", source.name},
+                       {"area", source.area},
+                       {"quads", source.quads},
+                       {"size_min", source.least},
+                       {"size_max", source.largest}});
+  return sources;
+}
+
+json summary_of(const SizeMap& map) {
+  return {{"quads", map.quads}, {"sources", sources_of(map)}, {"missing", map.missing}};
+}
+
+/// All of the map: for programs that draw it.
+json all_of(const SizeMap& map) {
+  json result = summary_of(map);
+  json points = json::array(), lines = json::array();
+  for (const Vector3& point : map.points) points.push_back({point.x(), point.y(), point.z()});
+  for (const SizeMap::Line& line : map.lines) lines.push_back(line.points);
+  result.update({{"points", std::move(points)},
+                 {"point_sizes", map.sizes},
+                 {"point_sources", map.rulers},
+                 {"triangles", map.triangles},
+                 {"triangle_faces", map.faces},
+                 {"lines", std::move(lines)}});
+  return result;
+}
+
+std::string table_of(const SizeMap& map) {
+  double area = 0;
+  for (const SizeMap::Source& source : map.sources) area += source.area;
+  std::string text = fmt::format("quads        about {:.0f}\n\n{:<16} {:>8} {:>12} {:>10} {:>10}\n",
+                                 map.quads, "source", "area", "quads", "from mm", "to mm");
+  for (const SizeMap::Source& source : map.sources) {
+    if (source.area == 0) {
+      text += fmt::format("{:<16} {:>8}\n", source.name, "nowhere");
+      continue;
+    }
+    text += fmt::format("{:<16} {:>6.1f} % {:>12.0f} {:>10.4g} {:>10.4g}\n", source.name,
+                        100 * source.area / area, source.quads, source.least, source.largest);
+  }
+  return text;
+}
+
+void write_outputs(const SizeMap& map, const SizesArguments& arguments, ExecutionContext& context,
+                   CancelOnSignal& cancel) {
+  const StageTimer timer(context, Stage::write);
+  for (const std::filesystem::path& output : arguments.outputs) {
+    context.report(Stage::write, 0);
+    if (output.extension() == ".vtu")
+      write_sizes_vtu(map, output);
+    else
+      write_file(output, all_of(map).dump() + "\n");
+    cancel.wrote(output);
+  }
+  if (!arguments.report.empty()) write_file(arguments.report, summary_of(map).dump(2) + "\n");
+  if (!arguments.picture.empty())
+    draw_apart(arguments.picture, context, [&] { write_size_picture(map, arguments.picture); });
+}
+
+void run(const SizesArguments& arguments) {
+  check_files(arguments);
+  const Settings& settings = arguments.settings;
+  ProgressDisplay display(arguments.quiet);
+  ExecutionContext context(settings.threads, [&](std::string_view stage, double fraction) {
+    return display.show(stage, fraction);
+  });
+  context.expect({Stage::read, Stage::size, Stage::write});
+  report_crashes(arguments.input, "reading");
+  CancelOnSignal cancel(context, settings.time_limit);
+  if (arguments.end_with_input) end_with_input();
+  cancel.reading(arguments.input, settings.read_time_limit);
+  CadModel model = CadModel::read(arguments.input);
+  if (settings.sew > 0) model = model.sewn(settings.sew);
+  cancel.reading_is_done();
+  report_crashes(arguments.input, "measuring");
+  context.check();
+  check(settings, model);
+  MeshOptions options = settings.mesh;
+  options.write_size_field = arguments.write_size_field;
+  const SizeMap map = size_map(model, options, context);
+  write_outputs(map, arguments, context, cancel);
+  for (const int face : map.missing)
+    fmt::print(stderr, "warning: Face{} is not shown: OpenCASCADE makes no triangles of it\n", face);
+  if (!arguments.quiet) print(table_of(map));
+}
+
+std::set<std::string_view> settings_of_meshing() {
+  std::set<std::string_view> names;
+  for (const Setting& setting : all_settings()) {
+    if (setting.use != Setting::Use::write) names.insert(setting.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+void add_sizes_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("sizes", "show the sizes that a mesh would have, and what asks for them");
+  auto arguments = std::make_shared<SizesArguments>();
+  command->add_option("IN", arguments->input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
+  command
+      ->add_option(
+          "-o,--output", arguments->outputs,
+          "the surface with sizes and what asks for them: .vtu or .json; may be given more than once")
+      ->allow_extra_args(false);
+  command->add_option("--picture", arguments->picture, "draw the sizes into a .png");
+  command->add_option("--write-size-field", arguments->write_size_field,
+                      "write the sizes as OpenVDB grids (.vdb)");
+  command->add_option("--report", arguments->report, "write what each source asks for as JSON");
+  add_settings(*command, *arguments, settings_of_meshing());
+  command->get_option("--elements-per-diagonal")->excludes("--size");
+  command->add_flag("--end-with-input", arguments->end_with_input,
+                    "end the work when standard input closes, for programs that start this one");
+  command->add_flag("--quiet", arguments->quiet, "no progress, no table");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace quadrille::command

@@ -1,0 +1,28 @@
+#include "mesher/command/surface_input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mesher/command/setting_options.hpp"
+
+namespace quadrille::command {
+
+double usual_feature_angle(const std::filesystem::path& file, const ShellMesh& mesh) {
+  constexpr double usual = 40;
+  const std::vector<int>& faces = mesh.triangle_faces.empty() ? mesh.quad_faces : mesh.triangle_faces;
+  const bool several =
+      std::any_of(faces.begin(), faces.end(), [&](int face) { return face != faces.front(); });
+  return file.extension() == ".msh" && several ? 0 : usual;
+}
+
+Error named_by_file(const Error& error, const ShellMesh& mesh, const std::string& file) {
+  const bool counts = error.subject().rfind("triangle ", 0) == 0 || error.subject().rfind("point ", 0) == 0;
+  if (!counts) return failure(file, fmt::format("{}: {}", file, with_options(error.what())));
+  const char* counted = mesh.quads.empty()
+                            ? "triangles and points counted from 0, as they come in the file"
+                            : "points counted from 0, triangles too, and after them two for each quad";
+  return failure(file, fmt::format("{}: {} ({})", file, with_options(error.what()), counted));
+}
+
+}  // namespace quadrille::command

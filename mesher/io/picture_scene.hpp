@@ -1,0 +1,59 @@
+#pragma once
+/// What pictures have in common: the view, lines, color bars, rendering. Part of libquadrille_picture.so.
+
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkRenderer.h>
+#include <vtkScalarBarActor.h>
+#include <vtkScalarsToColors.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "geometry/base/vector.hpp"
+
+namespace quadrille {
+
+vtkNew<vtkPoints> make_points(const std::vector<Vector3>& points);
+
+template <std::size_t N>
+void add_cell(vtkCellArray* cells, const std::array<int, N>& nodes) {
+  std::array<vtkIdType, N> ids;
+  std::copy(nodes.begin(), nodes.end(), ids.begin());
+  cells->InsertNextCell(static_cast<vtkIdType>(N), ids.data());
+}
+
+/// Dark lines between points. \param width pixels.
+vtkNew<vtkActor> line_actor(const std::vector<std::array<int, 2>>& lines, vtkPoints* points, double width,
+                            double opacity);
+
+struct BarTexts {
+  const char* title;
+  const char* format;  ///< of the labels' numbers, as printf has it
+  int labels;
+};
+
+/// \param height of the picture, pixels.
+vtkNew<vtkScalarBarActor> color_bar(vtkScalarsToColors* colors, const BarTexts& texts, int height);
+
+/// How things are looked at: along the cube's diagonal; flat ones along their normal.
+struct View {
+  Vector3 center, from, up;        ///< from: unit vector towards the eye
+  double half_width, half_height;  ///< of the things in the picture
+};
+
+View make_view(const std::vector<Vector3>& points);
+
+/// Half the height of a scene in the model's unit, with a margin. \param aspect its width over its height.
+double parallel_scale(const View& view, double aspect);
+
+void aim_camera(const View& view, double scale, vtkRenderer* renderer);
+
+/// The bytes of a PNG; empty where VTK cannot draw it. \param renderers with their viewports.
+std::string rendered(const std::vector<vtkRenderer*>& renderers, int width, int height);
+
+}  // namespace quadrille

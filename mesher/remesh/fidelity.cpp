@@ -1,0 +1,108 @@
+#include "mesher/remesh/fidelity.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "mesher/mesh/side_key.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// The mesh as triangles round the middle of each quad, through its midside nodes if it has any.
+TriangleMesh fans_of(const ShellMesh& mesh) {
+  TriangleMesh fans;
+  fans.points = mesh.points;
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    std::vector<int> loop;
+    Vector3 middle = Vector3::Zero();
+    for (int k = 0; k < 4; ++k) {
+      const int corner = mesh.quads[q][k];
+      loop.push_back(corner);
+      if (mesh.order == 1) {
+        middle += 0.25 * mesh.points[corner];
+        continue;
+      }
+      loop.push_back(mesh.midsides[q][k]);
+      // The shape functions of the eight-node element at its middle.
+      middle += 0.5 * mesh.points[loop.back()] - 0.25 * mesh.points[corner];
+    }
+    const int center = static_cast<int>(fans.points.size());
+    fans.points.push_back(middle);
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      fans.triangles.push_back({loop[k], loop[(k + 1) % loop.size()], center});
+      fans.tags.push_back(mesh.quad_faces[q]);
+    }
+  }
+  return fans;
+}
+
+double area_of(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += 0.5 * (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm();
+  return sum;
+}
+
+double volume_of(const TriangleMesh& mesh) {
+  const Vector3 origin = mesh.points[mesh.triangles.front()[0]];
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += (mesh.points[a] - origin).dot((mesh.points[b] - origin).cross(mesh.points[c] - origin));
+  return sum / 6;
+}
+
+bool is_closed(const TriangleMesh& mesh) {
+  std::vector<std::uint64_t> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (const auto& t : mesh.triangles)
+    for (int i = 0; i < 3; ++i) sides.push_back(side_key(t[i], t[(i + 1) % 3]));
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t k = 0; k < sides.size(); k += 2)
+    if (k + 1 == sides.size() || sides[k] != sides[k + 1]) return false;
+  return true;
+}
+
+void raise(RemeshFidelity::Distance& largest, double length, const Vector3& at, int face) {
+  if (length > largest.length) largest = {length, at, face};
+}
+
+}  // namespace
+
+RemeshFidelity measure_fidelity(const TriangleMesh& surface, const std::vector<int>& patches,
+                                const SurfaceLocator& locator, const ShellMesh& mesh,
+                                const std::map<int, int>& patch_of_face) {
+  RemeshFidelity result;
+  const TriangleMesh fans = fans_of(mesh);
+  for (std::size_t t = 0; t < fans.triangles.size(); ++t) {
+    const auto& [a, b, center] = fans.triangles[t];
+    const int patch = patch_of_face.at(fans.tags[t]);
+    for (const Vector3& p :
+         {fans.points[a], Vector3(0.5 * (fans.points[a] + fans.points[b])), fans.points[center]})
+      raise(result.of_mesh, (locator.nearest(patch, p).point - p).norm(), p, fans.tags[t]);
+  }
+  std::vector<int> by_patch;
+  int count = 0;
+  std::vector<int> face_of_patch;
+  for (const auto& [face, patch] : patch_of_face) {
+    count = std::max(count, patch + 1);
+    face_of_patch.resize(count, 0);
+    face_of_patch[patch] = face;
+  }
+  by_patch.reserve(fans.tags.size());
+  for (const int face : fans.tags) by_patch.push_back(patch_of_face.at(face));
+  const SurfaceLocator made(fans, by_patch, count);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    for (const int v : surface.triangles[t]) {
+      const Vector3& p = surface.points[v];
+      raise(result.of_surface, (made.nearest(patches[t], p).point - p).norm(), p, face_of_patch[patches[t]]);
+    }
+  result.mesh_area = area_of(fans);
+  if (is_closed(surface)) {
+    result.surface_volume = volume_of(surface);
+    result.mesh_volume = volume_of(fans);
+  }
+  return result;
+}
+
+}  // namespace quadrille

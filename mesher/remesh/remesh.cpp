@@ -1,0 +1,598 @@
+#include "mesher/remesh/remesh.hpp"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <unordered_map>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/free_memory.hpp"
+#include "geometry/base/threads.hpp"
+#include "geometry/sizing/sizing_options.hpp"
+#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/side_key.hpp"
+#include "mesher/mesh/side_twins.hpp"
+#include "mesher/mesh/surface_cut.hpp"
+#include "mesher/quads/triangulated_surface.hpp"
+#include "mesher/remesh/feature_network.hpp"
+#include "mesher/remesh/fidelity.hpp"
+#include "mesher/remesh/patch_quads.hpp"
+#include "mesher/remesh/surface_midsides.hpp"
+#include "mesher/remesh/triangle_remesher.hpp"
+#include "mesher/shell/triangle_input.hpp"
+
+namespace quadrille {
+
+namespace {
+
+void check(const RemeshOptions& options) {
+  if (!(options.size > 0) || !std::isfinite(options.size))
+    throw usage_error("size", fmt::format("`size` must be a positive number, not {:g}", options.size));
+  if (options.order != 1 && options.order != 2)
+    throw usage_error("order", fmt::format("`order` must be 1 or 2, not {}", options.order));
+  if (!(options.feature_angle >= 0 && options.feature_angle <= 180))
+    throw usage_error(
+        "feature_angle",
+        fmt::format("the feature angle must be from 0 to 180 degrees, not {:g}", options.feature_angle));
+}
+
+std::string text_of(const Vector3& p) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
+}
+
+/// Three triangles on a side have no inside and no outside between them.
+void check_manifold(const TriangleMesh& mesh) {
+  std::vector<std::uint64_t> keys;
+  keys.reserve(3 * mesh.triangles.size());
+  for (const auto& t : mesh.triangles)
+    for (int i = 0; i < 3; ++i) keys.push_back(side_key(t[i], t[next_index(i)]));
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t k = 0; k + 2 < keys.size(); ++k) {
+    if (keys[k] != keys[k + 2]) continue;
+    const auto count = std::count(keys.begin() + static_cast<long>(k), keys.end(), keys[k]);
+    const Vector3 &a = mesh.points[keys[k] >> 32], &b = mesh.points[keys[k] & 0xffffffff];
+    throw failure("",
+                  fmt::format("{} triangles meet at the side from {} to {}, where a surface has two at most: "
+                              "split the surface there",
+                              count, text_of(a), text_of(b)));
+  }
+}
+
+/// The surface that is meshed, in one piece or several.
+struct Surface {
+  TriangleMesh mesh;          ///< tags are the input's faces
+  std::vector<int> original;  ///< point -> the first of those that were one where the surface touches itself
+  std::vector<char> touches;  ///< (points) 1 = it does there
+  std::vector<int> pieces;    ///< (triangles) connected piece
+  int piece_count = 0;
+};
+
+Surface oriented_surface(TriangleMesh mesh, std::vector<std::string>& notes) {
+  const std::vector<int> faces = std::move(mesh.tags);
+  mesh.tags.clear();
+  check_manifold(mesh);
+  if (const int turned = orient_alike(mesh); turned > 0)
+    notes.push_back(fmt::format("{} triangles were turned to agree with those of neighboring faces", turned));
+  CutSurface cut = cut_surface(mesh, 0);
+  Surface surface{std::move(cut.mesh), std::move(cut.original), {}, {}, cut.pieces};
+  surface.pieces = std::move(surface.mesh.tags);
+  surface.mesh.tags = faces;
+  surface.touches.assign(surface.original.size(), 0);
+  for (std::size_t v = mesh.points.size(); v < surface.original.size(); ++v)
+    surface.touches[v] = surface.touches[surface.original[v]] = 1;
+  return surface;
+}
+
+double area_of(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += 0.5 * (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm();
+  return sum;
+}
+
+/// Diagonals of the pieces' bounding boxes.
+std::vector<double> diagonals(const Surface& surface) {
+  std::vector<Eigen::AlignedBox3d> boxes(surface.piece_count);
+  for (std::size_t t = 0; t < surface.pieces.size(); ++t)
+    for (const int v : surface.mesh.triangles[t]) boxes[surface.pieces[t]].extend(surface.mesh.points[v]);
+  std::vector<double> result;
+  result.reserve(boxes.size());
+  for (const auto& box : boxes) result.push_back(box.diagonal().norm());
+  return result;
+}
+
+void check_budget(const Surface& surface, const RemeshOptions& options) {
+  Eigen::AlignedBox3d box;
+  for (const auto& triangle : surface.mesh.triangles)
+    for (const int v : triangle) box.extend(surface.mesh.points[v]);
+  if (options.size > box.diagonal().norm())
+    throw usage_error("size", fmt::format("`size` is {:g}, larger than the surface, whose diagonal is {:.6g}",
+                                          options.size, box.diagonal().norm()));
+  if (options.force) return;
+  const Budget budget;
+  const double count = area_of(surface.mesh) / (options.size * options.size);
+  // As measured on a sphere of 164 000 quads; half of it goes to the distances.
+  const double bytes_an_element = options.order == 2 ? 3300 : 1800;
+  if (count > budget.elements)
+    throw usage_error("size",
+                      fmt::format("the size asked for gives about {:.3g} million elements, more than {:g} "
+                                  "million: `force` meshes all the same",
+                                  count / 1e6, budget.elements / 1e6));
+  if (const double free = free_memory(); count * bytes_an_element > free)
+    throw usage_error("size",
+                      fmt::format("the size asked for gives about {:.3g} million elements, which take "
+                                  "{:.2g} GB of memory, and {:.2g} GB are free: `force` meshes all the same",
+                                  count / 1e6, count * bytes_an_element / 1e9, free / 1e9));
+}
+
+/// The numbers that faces or edges have in the result: the first one with a number of the input keeps it.
+std::vector<int> numbers_of(const std::vector<int>& inputs) {
+  std::set<int> taken;
+  int last = 0;
+  for (const int number : inputs) last = std::max(last, number);
+  std::vector<int> result;
+  result.reserve(inputs.size());
+  for (const int number : inputs)
+    result.push_back(number > 0 && taken.insert(number).second ? number : ++last);
+  return result;
+}
+
+class Remesher {
+ public:
+  Remesher(const ShellMesh& input, const RemeshOptions& options, std::vector<std::string>& notes,
+           ExecutionContext& context)
+      : input_(input), options_(options), notes_(notes), context_(context) {}
+
+  ShellMesh run(RemeshFidelity* fidelity) {
+    find_faces();
+    find_targets();
+    // Where quads stay inverted the surface wants smaller ones.
+    constexpr int most_attempts = 4;
+    for (int attempt = 1;; ++attempt) {
+      make_triangles();
+      make_quads();
+      const std::vector<Vector3> inverted = inverted_places();
+      if (inverted.empty() || attempt == most_attempts) break;
+      refine_near(inverted);
+    }
+    tell_off_surface();
+    ShellMesh mesh = assemble();
+    const StageTimer timer(context_, Stage::assemble);
+    if (options_.order == 2) place_midsides(mesh);
+    if (fidelity != nullptr) {
+      *fidelity = measure_fidelity(surface_.mesh, network_.patches, *locator_, mesh, patch_of_face_);
+      fidelity->surface_area = area_of(surface_.mesh);
+    }
+    tell_faces(mesh);
+    keep_groups(mesh);
+    return mesh;
+  }
+
+ private:
+  void find_faces() {
+    const StageTimer timer(context_, Stage::sample);
+    context_.report(Stage::sample, 0);
+    TriangleInput triangles = triangle_input(input_, options_.merge, notes_, context_);
+    if (input_.order == 2)
+      notes_.push_back(
+          "the mesh is of second order: the surface is taken to be flat between its corner nodes");
+    surface_ = oriented_surface(std::move(triangles.mesh), notes_);
+    check_budget(surface_, options_);
+    context_.check();
+    FeatureRules rules;
+    rules.angle = options_.feature_angle;
+    rules.size = options_.size;
+    rules.fixed = surface_.touches;
+    rules.sides = given_sides(triangles.node);
+    network_ = find_features(surface_.mesh, rules);
+    context_.check();
+    std::vector<int> face_of_patch(network_.patch_count), edge_of_curve;
+    for (std::size_t t = 0; t < network_.patches.size(); ++t)
+      face_of_patch[network_.patches[t]] = surface_.mesh.tags[t];
+    for (const FeatureCurve& curve : network_.curves) edge_of_curve.push_back(curve.edge);
+    face_numbers_ = numbers_of(face_of_patch);
+    edge_numbers_ = numbers_of(edge_of_curve);
+    input_faces_ = std::move(face_of_patch);
+    for (int patch = 0; patch < network_.patch_count; ++patch) patch_of_face_[face_numbers_[patch]] = patch;
+    locator_.emplace(surface_.mesh, network_.patches, network_.patch_count);
+  }
+
+  std::map<std::pair<int, int>, int> given_sides(const std::vector<int>& node) const {
+    std::map<std::pair<int, int>, int> wanted, result;
+    for (const ShellMesh::Segment& segment : input_.segments) {
+      const int a = node[segment.nodes[0]], b = node[segment.nodes[1]];
+      if (a >= 0 && b >= 0 && a != b) wanted[std::minmax(a, b)] = segment.edge;
+    }
+    if (wanted.empty()) return result;
+    for (const auto& t : surface_.mesh.triangles) {
+      for (int i = 0; i < 3; ++i) {
+        const int a = t[i], b = t[next_index(i)];
+        const auto found = wanted.find(std::minmax(surface_.original[a], surface_.original[b]));
+        if (found != wanted.end()) result[std::minmax(a, b)] = found->second;
+      }
+    }
+    return result;
+  }
+
+  void find_targets() {
+    targets_.assign(surface_.mesh.points.size(), 2 * options_.size);
+    const std::vector<double> most = longest_sides();
+    for (std::size_t t = 0; t < surface_.pieces.size(); ++t)
+      for (const int v : surface_.mesh.triangles[t])
+        targets_[v] = std::min(targets_[v], most[surface_.pieces[t]]);
+  }
+
+  /// How long sides of triangles may be on each piece for it to keep its shape: bodies that are far smaller
+  /// than the elements have a few, and those without curves, such as rings and spheres, some five round where
+  /// they are as thick as in the mean. The thickness is twice the volume over the area.
+  std::vector<double> longest_sides() const {
+    constexpr double least_across = 4, of_thickness = 1.2;
+    std::vector<double> most = diagonals(surface_);
+    for (double& length : most) length /= least_across;
+    std::vector<char> has_curve(most.size(), 0), on_curve(surface_.mesh.points.size(), 0);
+    for (const FeatureCurve& curve : network_.curves)
+      for (const int v : curve.points) on_curve[v] = 1;
+    std::vector<double> area(most.size(), 0), volume(most.size(), 0);
+    const auto& p = surface_.mesh.points;
+    for (std::size_t t = 0; t < surface_.pieces.size(); ++t) {
+      const int piece = surface_.pieces[t];
+      const auto& [a, b, c] = surface_.mesh.triangles[t];
+      const Vector3 twice = (p[b] - p[a]).cross(p[c] - p[a]);
+      area[piece] += 0.5 * twice.norm();
+      volume[piece] += twice.dot(p[a] - p[0]) / 6;
+      has_curve[piece] |= on_curve[a] | on_curve[b] | on_curve[c];
+    }
+    for (std::size_t piece = 0; piece < most.size(); ++piece)
+      if (!has_curve[piece])
+        most[piece] = std::min(most[piece], of_thickness * 2 * std::abs(volume[piece]) / area[piece]);
+    return most;
+  }
+
+  void make_triangles() {
+    const StageTimer timer(context_, Stage::triangulate);
+    std::vector<double> by_curve;
+    for (const FeatureCurve& curve : network_.curves) {
+      double& least = by_curve.emplace_back(targets_[curve.points.front()]);
+      for (const int v : curve.points) least = std::min(least, targets_[v]);
+    }
+    TriangleMesh untagged = surface_.mesh;
+    untagged.tags.clear();
+    triangles_ = remesh_triangles(untagged, network_, place_on_curves(network_, by_curve), *locator_,
+                                  targets_, context_);
+  }
+
+  /// Nodes of quads that are turned over.
+  std::vector<Vector3> inverted_places() const {
+    std::vector<Vector3> places;
+    for (const PatchQuads& patch : quads_)
+      for (const auto& [a, b, c, d] : patch.quads)
+        if (const auto& p = patch.points; quad_scaled_jacobian(p[a], p[b], p[c], p[d]) <= 0)
+          places.push_back(p[a]);
+    return places;
+  }
+
+  void refine_near(const std::vector<Vector3>& places) {
+    constexpr double smaller = 0.6, reach = 3;
+    constexpr std::size_t most_places = 1000;
+    const std::size_t step = 1 + places.size() / most_places;
+    std::vector<char> near(targets_.size(), 0);
+    for (std::size_t k = 0; k < places.size(); k += step) {
+      int nearest = -1;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t v = 0; v < near.size(); ++v) {
+        const double distance = (surface_.mesh.points[v] - places[k]).norm();
+        if (distance < reach * options_.size) near[v] = 1;
+        if (distance >= least) continue;
+        least = distance;
+        nearest = static_cast<int>(v);
+      }
+      near[nearest] = 1;
+      context_.check();
+    }
+    for (std::size_t v = 0; v < near.size(); ++v)
+      if (near[v]) targets_[v] *= smaller;
+  }
+
+  void tell_off_surface() {
+    int off = 0;
+    for (const PatchQuads& patch : quads_) off += patch.off_surface;
+    if (off == 0) return;
+    notes_.push_back(fmt::format(
+        "{} nodes lie off the surface, where it bends too tightly for the size and quads would be inverted",
+        off));
+  }
+
+  /// The surface cut along its curves, for points to move on.
+  TriangulatedSurface cut_reference() const {
+    TriangleMesh mesh = surface_.mesh;
+    mesh.tags = network_.patches;
+    std::vector<std::array<int, 2>> sides;
+    for (const FeatureCurve& curve : network_.curves)
+      for (std::size_t k = 0; k + 1 < curve.points.size(); ++k)
+        sides.push_back({curve.points[k], curve.points[k + 1]});
+    return TriangulatedSurface(cut_surface(mesh, 0, std::move(sides)).mesh);
+  }
+
+  void make_quads() {
+    const StageTimer timer(context_, Stage::mesh);
+    if (!reference_) reference_.emplace(cut_reference());
+    middle_places_.clear();
+    quads_.clear();
+    std::vector<std::array<int, 2>> sides;
+    for (const auto& side : triangles_.sides) sides.push_back(side.points);
+    const CutSurface cut = cut_surface(triangles_.mesh, 0, std::move(sides));
+    std::vector<PatchTriangles> pieces = split_by_piece(cut);
+    quads_.resize(pieces.size());
+    std::atomic<int> done{0};
+    const PatchSurface on{*reference_, *locator_};
+    oneapi::tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t piece) {
+      quads_[piece] =
+          quads_on_patch(std::move(pieces[piece]), on, options_.recombine, options_.improve, context_);
+      context_.report(Stage::mesh, static_cast<double>(++done) / static_cast<double>(pieces.size()));
+    });
+  }
+
+  /// What belongs to each piece, its points numbered anew, those on the boundary first.
+  std::vector<PatchTriangles> split_by_piece(const CutSurface& cut) {
+    std::unordered_map<std::uint64_t, int> side_of;
+    for (std::size_t s = 0; s < triangles_.sides.size(); ++s)
+      side_of[side_key(triangles_.sides[s].points[0], triangles_.sides[s].points[1])] = static_cast<int>(s);
+    std::vector<std::array<char, 3>> inner(cut.mesh.triangles.size(), {0, 0, 0});
+    join_twins(cut.mesh, [&](Side a, Side b) {
+      inner[triangle_of(a)][index_of(a)] = inner[triangle_of(b)][index_of(b)] = 1;
+    });
+    std::vector<std::vector<int>> members(cut.pieces);
+    for (std::size_t t = 0; t < inner.size(); ++t) members[cut.mesh.tags[t]].push_back(static_cast<int>(t));
+    const AngleSums angles = sum_angles();
+    std::vector<int> local(cut.mesh.points.size(), -1);
+    std::vector<PatchTriangles> pieces(cut.pieces);
+    for (int p = 0; p < cut.pieces; ++p) {
+      PatchTriangles& piece = pieces[p];
+      piece.patch = triangles_.mesh.tags[members[p].front()];
+      const auto number = [&](int v) {
+        if (local[v] >= 0) return;
+        local[v] = static_cast<int>(piece.mesh.points.size());
+        piece.mesh.points.push_back(cut.mesh.points[v]);
+      };
+      std::vector<int> boundary;
+      for (const int t : members[p]) {
+        for (int i = 0; i < 3; ++i) {
+          if (inner[t][i]) continue;
+          const int a = cut.mesh.triangles[t][i], b = cut.mesh.triangles[t][next_index(i)];
+          for (const int v : {a, b}) {
+            if (local[v] >= 0) continue;
+            number(v);
+            boundary.push_back(v);
+          }
+          const int s = side_index(side_of, cut.original[a], cut.original[b], piece.patch);
+          piece.sides.push_back({local[a], local[b], middle_node(s), middle_places_[s]});
+        }
+      }
+      std::map<int, int> copies;
+      for (const int v : boundary) ++copies[cut.original[v]];
+      for (const int v : boundary) {
+        piece.nodes.push_back(cut.original[v]);
+        const int corner = triangles_.surface_corner[cut.original[v]];
+        const auto sum = angles.find({piece.patch, corner});
+        piece.angles.push_back(sum == angles.end() ? std::numbers::pi
+                                                   : sum->second / copies[cut.original[v]]);
+      }
+      for (const int t : members[p]) {
+        auto triangle = cut.mesh.triangles[t];
+        for (int& v : triangle) {
+          number(v);
+          v = local[v];
+        }
+        piece.mesh.triangles.push_back(triangle);
+      }
+      for (const int t : members[p])
+        for (const int v : cut.mesh.triangles[t]) local[v] = -1;
+    }
+    return pieces;
+  }
+
+  using AngleSums = std::map<std::pair<int, int>, double>;  // patch, corner of the surface
+
+  AngleSums sum_angles() const {
+    AngleSums sums;
+    for (std::size_t t = 0; t < surface_.mesh.triangles.size(); ++t) {
+      const auto& triangle = surface_.mesh.triangles[t];
+      for (int i = 0; i < 3; ++i) {
+        const int v = triangle[i];
+        if (!network_.corner[v]) continue;
+        const Vector3& p = surface_.mesh.points[v];
+        const Vector3 a = surface_.mesh.points[triangle[next_index(i)]] - p,
+                      b = surface_.mesh.points[triangle[previous_index(i)]] - p;
+        sums[{network_.patches[t], v}] += std::atan2(a.cross(b).norm(), a.dot(b));
+      }
+    }
+    return sums;
+  }
+
+  /// The side of a curve; one more where a cut went on beyond the curves.
+  int side_index(std::unordered_map<std::uint64_t, int>& side_of, int a, int b, int patch) {
+    const auto [found, is_new] =
+        side_of.try_emplace(side_key(a, b), static_cast<int>(triangles_.sides.size()));
+    if (is_new) triangles_.sides.push_back({{a, b}, -1, 0, 0});
+    while (middle_places_.size() < triangles_.sides.size()) {
+      const auto& side = triangles_.sides[middle_places_.size()];
+      const auto& points = triangles_.mesh.points;
+      middle_places_.push_back(
+          side.curve >= 0
+              ? network_.curves[side.curve].at(0.5 * (side.from + side.to))
+              : locator_->nearest(patch, 0.5 * (points[side.points[0]] + points[side.points[1]])).point);
+    }
+    return found->second;
+  }
+
+  int middle_node(int side) const { return static_cast<int>(triangles_.mesh.points.size()) + side; }
+
+  /// Nodes numbered: corners, then along the curves, then face by face.
+  ShellMesh assemble() {
+    const StageTimer timer(context_, Stage::assemble);
+    context_.report(Stage::assemble, 0);
+    ShellMesh mesh;
+    node_.assign(triangles_.mesh.points.size() + triangles_.sides.size(), -1);
+    std::vector<int> joined(surface_.original.size(), -1);  // corners where the surface touches itself
+    const auto add = [&](int node, const Vector3& place, int corner) {
+      if (node_[node] >= 0) return;
+      int& same = corner >= 0 ? joined[surface_.original[corner]] : node_[node];
+      if (same < 0) {
+        same = static_cast<int>(mesh.points.size());
+        mesh.points.push_back(place);
+        // Where a curve without corners begins is no corner.
+        if (corner >= 0 && network_.corner[corner])
+          mesh.corners.push_back({same, static_cast<int>(mesh.corners.size()) + 1});
+      }
+      node_[node] = same;
+    };
+    const auto& points = triangles_.mesh.points;
+    for (std::size_t v = 0; v < points.size(); ++v)
+      if (const int corner = triangles_.surface_corner[v]; corner >= 0)
+        add(static_cast<int>(v), points[v], corner);
+    for (std::size_t s = 0; s < triangles_.sides.size(); ++s) {
+      const auto& side = triangles_.sides[s];
+      const int middle = middle_node(static_cast<int>(s));
+      add(side.points[0], points[side.points[0]], -1);
+      add(middle, middle_places_[s], -1);
+      add(side.points[1], points[side.points[1]], -1);
+      if (side.curve < 0) continue;
+      const int edge = edge_numbers_[side.curve];
+      mesh.segments.push_back({{node_[side.points[0]], node_[middle]}, -1, edge});
+      mesh.segments.push_back({{node_[middle], node_[side.points[1]]}, -1, edge});
+    }
+    for (PatchQuads& patch : quads_) {
+      for (std::size_t v = 0; v < patch.points.size(); ++v) {
+        int& node = patch.nodes[v];
+        if (node >= 0) {
+          node = node_[node];
+        } else {
+          node = static_cast<int>(mesh.points.size());
+          mesh.points.push_back(patch.points[v]);
+        }
+      }
+      for (const auto& [a, b, c, d] : patch.quads) {
+        mesh.quads.push_back({patch.nodes[a], patch.nodes[b], patch.nodes[c], patch.nodes[d]});
+        mesh.quad_faces.push_back(face_numbers_[patch.patch]);
+      }
+    }
+    check_inverted(mesh);
+    return mesh;
+  }
+
+  void check_inverted(const ShellMesh& mesh) const {
+    int count = 0;
+    std::size_t first = 0;
+    for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+      const auto& [a, b, c, d] = mesh.quads[q];
+      const auto& p = mesh.points;
+      if (quad_scaled_jacobian(p[a], p[b], p[c], p[d]) > 0) continue;
+      if (count++ == 0) first = q;
+    }
+    if (count == 0) return;
+    const int face = mesh.quad_faces[first];
+    throw failure(
+        fmt::format("Face{}", face),
+        fmt::format("{} quads stay inverted at this size, the first on Face{} at {}: try a smaller `size`, "
+                    "or another feature angle",
+                    count, face, text_of(mesh.points[mesh.quads[first][0]])));
+  }
+
+  void place_midsides(ShellMesh& mesh) {
+    std::vector<CurveStretch> stretches;
+    for (std::size_t s = 0; s < triangles_.sides.size(); ++s) {
+      const auto& side = triangles_.sides[s];
+      if (side.curve < 0) continue;
+      const double middle = 0.5 * (side.from + side.to);
+      const FeatureCurve& curve = network_.curves[side.curve];
+      stretches.push_back({curve.at(0.5 * (side.from + middle))});
+      stretches.push_back({curve.at(0.5 * (middle + side.to))});
+    }
+    add_surface_midsides(mesh, quads_, stretches, *reference_, notes_);
+  }
+
+  void tell_faces(ShellMesh& mesh) const {
+    std::map<int, ShellMesh::Face> faces;
+    for (const int number : face_numbers_) {
+      faces[number].face = number;
+      faces[number].status = FaceStatus::meshed;
+      faces[number].q_min = 1;
+    }
+    for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+      const auto& [a, b, c, d] = mesh.quads[q];
+      const auto& p = mesh.points;
+      ShellMesh::Face& face = faces[mesh.quad_faces[q]];
+      ++face.quads;
+      face.q_min = std::min(face.q_min, quad_q(p[a], p[b], p[c], p[d]));
+    }
+    for (auto& [number, face] : faces) mesh.faces.push_back(face);
+  }
+
+  /// Groups of the input hold what they held; beside them each face, edge and vertex has its own.
+  void keep_groups(ShellMesh& mesh) const {
+    std::vector<std::string> lost;
+    for (const ShellMesh::Group& group : input_.groups) {
+      ShellMesh::Group kept{group.name, group.dimension, group.number, {}};
+      const auto take = [&](const auto& inputs, const std::vector<int>& numbers) {
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+          if (std::binary_search(group.entities.begin(), group.entities.end(), inputs(i)))
+            kept.entities.push_back(numbers[i]);
+      };
+      if (group.dimension == 2) take([&](std::size_t i) { return input_faces_[i]; }, face_numbers_);
+      if (group.dimension == 1) take([&](std::size_t i) { return network_.curves[i].edge; }, edge_numbers_);
+      std::sort(kept.entities.begin(), kept.entities.end());
+      if (kept.entities.empty())
+        lost.push_back(group.name.empty() ? fmt::format("{}", group.number) : group.name);
+      else
+        mesh.groups.push_back(std::move(kept));
+    }
+    if (!lost.empty())
+      notes_.push_back(fmt::format("groups that hold nodes, or nothing of the surface, are left out: {}",
+                                   fmt::join(lost, ", ")));
+    if (mesh.groups.empty()) return;
+    std::set<std::string> names;
+    for (const ShellMesh::Group& group : mesh.groups) names.insert(group.name);
+    const auto add = [&](const char* kind, int dimension, int number) {
+      const std::string name = fmt::format("{}{}", kind, number);
+      if (names.insert(name).second) mesh.groups.push_back({name, dimension, 0, {number}});
+    };
+    for (const int number : face_numbers_) add("Face", 2, number);
+    for (const int number : edge_numbers_) add("Edge", 1, number);
+    for (const ShellMesh::Corner& corner : mesh.corners) add("Vertex", 0, corner.vertex);
+  }
+
+  const ShellMesh& input_;
+  const RemeshOptions& options_;
+  std::vector<std::string>& notes_;
+  ExecutionContext& context_;
+  Surface surface_;
+  FeatureNetwork network_;
+  std::vector<int> face_numbers_, edge_numbers_, input_faces_;  // by patch, by curve, by patch
+  std::map<int, int> patch_of_face_;
+  std::optional<SurfaceLocator> locator_;
+  std::optional<TriangulatedSurface> reference_;
+  std::vector<double> targets_;  // by point of the surface
+  RemeshedTriangles triangles_;
+  std::vector<Vector3> middle_places_;  // by side
+  std::vector<PatchQuads> quads_;
+  std::vector<int> node_;  // of the result, by point of the triangles, then by side
+};
+
+}  // namespace
+
+ShellMesh remesh(const ShellMesh& input, const RemeshOptions& options, RemeshFidelity* fidelity,
+                 std::vector<std::string>& notes, ExecutionContext& context) {
+  check(options);
+  return on_threads(context.threads(),
+                    [&] { return Remesher(input, options, notes, context).run(fidelity); });
+}
+
+}  // namespace quadrille

@@ -1,0 +1,205 @@
+#include "mesher/size_map.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "geometry/base/threads.hpp"
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/sizing/sizing_field.hpp"
+#include "geometry/surfaces/surface_triangles.hpp"
+#include "mesher/boundary.hpp"
+#include "mesher/estimate.hpp"
+#include "mesher/settings.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// Sides of triangles are no longer than this share of the model, or so many sizes.
+constexpr double longest_share = 1 / 300.0, longest_sizes = 1.5;
+constexpr std::size_t most_triangles = 1000000;
+
+/// One kind of size: whether options have it, and how it is taken over into options that have none.
+struct Kind {
+  std::string_view name;
+  bool (*has)(const SizingOptions&);
+  void (*take)(SizingOptions& to, const SizingOptions& from);
+};
+
+using Options = SizingOptions;
+
+constexpr Kind kinds[] = {
+    {"curvature", [](const Options& o) { return o.elements_per_circle > 0; },
+     [](Options& to, const Options& from) { to.elements_per_circle = from.elements_per_circle; }},
+    {"chord-error", [](const Options& o) { return o.chord_error.length > 0 || o.chord_error.share > 0; },
+     [](Options& to, const Options& from) { to.chord_error = from.chord_error; }},
+    {"short edges", [](const Options& o) { return o.short_edges; },
+     [](Options& to, const Options& from) { to.short_edges = from.short_edges; }},
+    {"proximity", [](const Options& o) { return o.proximity > 0; },
+     [](Options& to, const Options& from) { to.proximity = from.proximity; }},
+    {"proximity-walls", [](const Options& o) { return o.proximity_walls > 0; },
+     [](Options& to, const Options& from) { to.proximity_walls = from.proximity_walls; }},
+    {"size-on",
+     [](const Options& o) {
+       return !o.face_sizes.empty() || !o.edge_sizes.empty() || !o.vertex_sizes.empty();
+     },
+     [](Options& to, const Options& from) {
+       to.face_sizes = from.face_sizes;
+       to.edge_sizes = from.edge_sizes;
+       to.vertex_sizes = from.vertex_sizes;
+     }},
+    {"size-in", [](const Options& o) { return !o.regions.empty(); },
+     [](Options& to, const Options& from) { to.regions = from.regions; }},
+    {"layers", [](const Options& o) { return !o.layers.empty(); },
+     [](Options& to, const Options& from) { to.layers = from.layers; }},
+    {"segments, bias", [](const Options& o) { return !o.spacings.empty(); },
+     [](Options& to, const Options& from) {
+       to.spacings = from.spacings;
+       to.edge_sizes = from.edge_sizes;  // which tell the number where there is a bias alone
+     }},
+    {"size-points", [](const Options& o) { return !o.size_points.empty(); },
+     [](Options& to, const Options& from) { to.size_points = from.size_points; }},
+    {"size-field", [](const Options& o) { return !o.size_field.empty(); },
+     [](Options& to, const Options& from) {
+       to.size_field = from.size_field;
+       to.size_field_scale = from.size_field_scale;
+       to.size_field_unit = from.size_field_unit;
+     }},
+};
+
+/// The same limits and gradation, and no source.
+SizingOptions without_sources(const SizingOptions& options, const SizeLimits& limits) {
+  SizingOptions none;
+  none.size = limits.largest;
+  none.size_min = limits.least;
+  none.growth = options.growth;
+  none.gradation = options.gradation;
+  none.budget = options.budget;
+  none.elements_per_circle = 0;
+  none.short_edges = false;
+  return none;
+}
+
+/// Looks sizes up at the points of a map.
+class Look {
+ public:
+  /// \param point_faces (points) from 1
+  Look(const SizeMap& map, const std::vector<int>& point_faces, std::size_t faces)
+      : map_(map), of_face_(faces) {
+    for (std::size_t i = 0; i < point_faces.size(); ++i)
+      of_face_[point_faces[i] - 1].push_back(static_cast<int>(i));
+  }
+
+  std::vector<double> sizes(const SizingField& field) const {
+    std::vector<double> result(map_.points.size(), 0);
+    oneapi::tbb::parallel_for(std::size_t{0}, of_face_.size(), [&](std::size_t face) {
+      if (of_face_[face].empty()) return;
+      SizingField::Sampler size_at(field, static_cast<int>(face));
+      for (const int i : of_face_[face]) result[i] = size_at(map_.points[i]);
+    });
+    return result;
+  }
+
+ private:
+  const SizeMap& map_;
+  std::vector<std::vector<int>> of_face_;  // points
+};
+
+/// Sums up what each source rules.
+void sum_up(SizeMap& map) {
+  for (SizeMap::Source& source : map.sources) source.least = std::numeric_limits<double>::infinity();
+  for (const auto& nodes : map.triangles) {
+    const Vector3 &a = map.points[nodes[0]], &b = map.points[nodes[1]], &c = map.points[nodes[2]];
+    const double area = (b - a).cross(c - a).norm() / 6;  // a third of it for each corner
+    for (const int node : nodes) {
+      SizeMap::Source& source = map.sources[map.rulers[node]];
+      const double size = map.sizes[node];
+      source.area += area;
+      source.quads += area / (size * size);
+      source.least = std::min(source.least, size);
+      source.largest = std::max(source.largest, size);
+    }
+  }
+  double sum = 0;
+  for (const SizeMap::Source& source : map.sources) sum += source.quads;
+  for (SizeMap::Source& source : map.sources) {
+    if (sum > 0) source.quads *= map.quads / sum;
+    if (source.area == 0) source.least = 0;
+  }
+}
+
+/// Notes at each point which source alone has the least size there.
+void find_rulers(const CadModel& model, const MeshOptions& options, const Look& look, SizeMap& map,
+                 ExecutionContext& context) {
+  const SizeLimits limits = size_limits(model, options.sizing);
+  // Interpolation makes sizes that are nowhere below the largest a little less.
+  constexpr double less = 0.999;
+  std::vector<double> least(map.points.size(), less * limits.largest);
+  map.sources.push_back({"size"});
+  map.rulers.assign(map.points.size(), 0);
+  for (const Kind& kind : kinds) {
+    if (!kind.has(options.sizing)) continue;
+    MeshOptions alone = options;
+    alone.sizing = without_sources(options.sizing, limits);
+    kind.take(alone.sizing, options.sizing);
+    const std::vector<double> sizes = look.sizes(wanted_sizes(model, alone, context));
+    const int number = static_cast<int>(map.sources.size());
+    map.sources.push_back({std::string(kind.name)});
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      if (sizes[i] >= least[i]) continue;
+      least[i] = sizes[i];
+      map.rulers[i] = number;
+    }
+  }
+}
+
+std::vector<char> used_faces(const CadModel& model, const std::vector<int>& faces) {
+  std::vector<char> used(model.face_count(), faces.empty());
+  for (const int face : faces) used[face - 1] = 1;
+  return used;
+}
+
+SurfaceTriangles triangles_for(const CadModel& model, const MeshOptions& options, const SizingField& field,
+                               const ExecutionContext& context) {
+  const double share = longest_share * model.diagonal();
+  const double deflection = std::min(0.1 * field.size_max(), share);
+  SurfaceTriangles surface =
+      triangulate_surface(model.shape(), deflection, used_faces(model, options.faces), context);
+  std::vector<std::unique_ptr<SizingField::Sampler>> samplers(model.face_count());
+  const auto longest = [&](int face, const Vector3& point) {
+    auto& size_at = samplers[face - 1];
+    if (!size_at) size_at = std::make_unique<SizingField::Sampler>(field, face - 1);
+    return std::max(longest_sizes * (*size_at)(point), share);
+  };
+  divide_sides(surface, longest, most_triangles, context);
+  return surface;
+}
+
+}  // namespace
+
+SizeMap size_map(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
+  SizeMap map;
+  QuadEstimate estimate(model, context);
+  map.quads = estimate.quads(options);
+  on_threads(context.threads(), [&] {
+    const SizingField field = wanted_sizes(model, options, context);
+    if (!options.write_size_field.empty()) field.write(options.write_size_field);
+    SurfaceTriangles surface = triangles_for(model, options, field, context);
+    map.points = std::move(surface.points);
+    map.triangles = std::move(surface.triangles);
+    map.faces = std::move(surface.faces);
+    map.missing = std::move(surface.missing);
+    for (const SurfaceTriangles::Line& line : surface.lines) map.lines.push_back({line.points, line.edge});
+    const Look look(map, surface.point_faces, static_cast<std::size_t>(model.face_count()));
+    map.sizes = look.sizes(field);
+    find_rulers(model, options, look, map, context);
+  });
+  sum_up(map);
+  return map;
+}
+
+}  // namespace quadrille

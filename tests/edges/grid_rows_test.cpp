@@ -1,0 +1,141 @@
+/// Rows of flat quads beside edges: layers and divisions that grids carry.
+
+#include "mesher/edges/grid_rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/surfaces/edge_curve.hpp"
+#include "mesher/quadrille.hpp"
+#include "tests/support/sample_models.hpp"
+
+namespace quadrille {
+namespace {
+
+ShellMesh mesh_of(const CadModel& model, const MeshOptions& options) {
+  ExecutionContext context;
+  return mesh(model, options, context);
+}
+
+int count_grids(const ShellMesh& mesh) {
+  return static_cast<int>(
+      std::count_if(mesh.faces.begin(), mesh.faces.end(),
+                    [](const ShellMesh::Face& face) { return face.note.find("grid") != std::string::npos; }));
+}
+
+/// The distances from an edge of a straight-sided face at which the nodes of its quads stand, ascending.
+std::vector<double> heights_on(const CadModel& model, const ShellMesh& mesh, int edge, int face) {
+  const CadEdge& cad = model.shape().edges[edge - 1];
+  const EdgeCurve curve(cad);
+  const Vector3 a = curve.point(cad.first), along = (curve.point(cad.last) - a).normalized();
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
+    if (mesh.quad_faces[i] != face) continue;
+    for (const int node : mesh.quads[i]) {
+      const Vector3 from = mesh.points[node] - a;
+      const double height = (from - from.dot(along) * along).norm();
+      const auto near = [&](double other) { return std::abs(other - height) < 1e-6; };
+      if (std::none_of(heights.begin(), heights.end(), near)) heights.push_back(height);
+    }
+  }
+  std::sort(heights.begin(), heights.end());
+  return heights;
+}
+
+/// On the two faces of an edge, rows of the heights asked for, all over the faces, and nothing finer along
+/// it.
+TEST(GridRows, LayersAreFlatRows) {
+  const CadModel box = CadModel::read(sample_model("box").path());  // 30 x 20 x 10
+  for (const Strategy strategy : {Strategy::subdivide, Strategy::direct}) {
+    for (const int edge : {1, 4, 7}) {
+      MeshOptions options;
+      options.strategy = strategy;
+      options.sizing.size = 2;
+      options.sizing.layers.edges[edge] = {0.1, 1.2, 6};
+      const ShellMesh mesh = mesh_of(box, options);
+      EXPECT_EQ(count_grids(mesh), 6);
+      for (const int face : box.shape().edges[edge - 1].faces) {
+        const std::vector<double> heights = heights_on(box, mesh, edge, face);
+        ASSERT_GT(heights.size(), 7u);
+        double height = 0;
+        for (int i = 0; i <= 6; ++i) {
+          EXPECT_NEAR(heights[i], height, 1e-6) << "layer " << i << " of Edge" << edge << " on Face" << face;
+          height += 0.1 * std::pow(1.2, i);
+        }
+        // Then they grow on, by no more than sizes may, up to the size.
+        for (std::size_t i = 7; i < heights.size(); ++i) {
+          EXPECT_LT(heights[i] - heights[i - 1], 1.5 * (heights[i - 1] - heights[i - 2]));
+          EXPECT_LT(heights[i] - heights[i - 1], 1.3 * options.sizing.size);
+        }
+      }
+      const double length = box.shape().edges[edge - 1].length;
+      const auto on_edge =
+          std::count_if(mesh.segments.begin(), mesh.segments.end(),
+                        [&](const ShellMesh::Segment& segment) { return segment.edge == edge; });
+      EXPECT_NEAR(static_cast<double>(on_edge), length / 2, 1 + 0.2 * length / 2);
+    }
+  }
+}
+
+TEST(GridRows, LayersFromBothSidesMeet) {
+  const CadModel box = CadModel::read(sample_model("box").path());
+  const CadShape& shape = box.shape();
+  const int face = shape.edges[0].faces.front();
+  const auto& coedges = shape.faces[face - 1].wires.front().coedges;
+  ASSERT_EQ(coedges.size(), 4u);
+  MeshOptions options;
+  options.sizing.size = 2;
+  options.sizing.layers.edges[coedges[0].edge] = {0.1, 1.2, 5};
+  options.sizing.layers.edges[coedges[2].edge] = {0.2, 1.5, 3};
+  const ShellMesh mesh = mesh_of(box, options);
+  const std::vector<double> one = heights_on(box, mesh, coedges[0].edge, face);
+  const std::vector<double> other = heights_on(box, mesh, coedges[2].edge, face);
+  ASSERT_GT(one.size(), 9u);
+  EXPECT_NEAR(one[1], 0.1, 1e-6);
+  EXPECT_NEAR(one[2], 0.22, 1e-6);
+  EXPECT_NEAR(other[1], 0.2, 1e-6);
+  EXPECT_NEAR(other[2], 0.5, 1e-6);
+}
+
+/// A division in grids alone leaves them grids, however uneven it is.
+TEST(GridRows, BiasKeepsGrids) {
+  const CadModel box = CadModel::read(sample_model("box").path());
+  MeshOptions options;
+  options.sizing.size = 2;
+  options.sizing.spacings[4] = {24, 1.2, 1};
+  const ShellMesh mesh = mesh_of(box, options);
+  EXPECT_EQ(count_grids(mesh), 6);
+  std::set<int> nodes;
+  double shortest = 1e9, longest = 0;
+  for (const ShellMesh::Segment& segment : mesh.segments) {
+    if (segment.edge != 4) continue;
+    const double length = (mesh.points[segment.nodes[0]] - mesh.points[segment.nodes[1]]).norm();
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
+    nodes.insert(segment.nodes.begin(), segment.nodes.end());
+  }
+  EXPECT_EQ(nodes.size(), 25u);
+  EXPECT_NEAR(longest / shortest, std::pow(1.2, 23), 1e-3 * std::pow(1.2, 23));
+}
+
+/// Where a face beside the edge is no grid, sizes are as small as layers are high, as before.
+TEST(GridRows, OtherFacesHaveSmallSizes) {
+  const CadModel disc = CadModel::read(sample_model("disc").path());
+  MeshOptions options;
+  options.sizing.size = disc.diagonal() / 15;
+  options.sizing.layers.edges[1] = {options.sizing.size / 5, 1.2, 4};
+  ASSERT_FALSE(disc.shape().edges[0].degenerate);
+  const ShellMesh mesh = mesh_of(disc, options);
+  const double length = disc.shape().edges[0].length;
+  const auto on_edge = std::count_if(mesh.segments.begin(), mesh.segments.end(),
+                                     [](const ShellMesh::Segment& segment) { return segment.edge == 1; });
+  EXPECT_GT(static_cast<double>(on_edge), 0.7 * length / (options.sizing.size / 5));
+}
+
+}  // namespace
+}  // namespace quadrille
