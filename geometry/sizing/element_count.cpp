@@ -114,6 +114,20 @@ double count_elements(const std::vector<std::vector<FaceSample>>& samples,
   return count;
 }
 
+void hold_elements(double count, const Budget& budget, double free) {
+  const double bytes = count * budget.bytes_an_element;
+  if (count > budget.elements)
+    throw usage_error("size",
+                      fmt::format("the sizes asked for give about {:.3g} million elements, more than {:g} "
+                                  "million: `force` meshes all the same",
+                                  count / 1e6, budget.elements / 1e6));
+  if (budget.bytes_an_element > 0 && bytes > free)
+    throw usage_error(
+        "size", fmt::format("the sizes asked for give about {:.3g} million elements, which take {:.2g} GB "
+                            "of memory, and {:.2g} GB are free: `force` meshes all the same",
+                            count / 1e6, bytes / 1e9, free / 1e9));
+}
+
 ElementBudget::ElementBudget(const CadModel& model, const SizingOptions& options,
                              const std::vector<char>& used, ExecutionContext& context)
     : budget_(options.budget), free_(budget_.bytes_an_element > 0 ? free_memory() : 0) {
@@ -125,34 +139,25 @@ ElementBudget::ElementBudget(const CadModel& model, const SizingOptions& options
       !may_pass_blocks(model.shape(), options))
     return;
   samples_ = sample_faces(model.shape(), used, context);
-  hold(count_elements(samples_, [&](int face, const FaceSample& sample) {
-    return std::min(size_on(options, limits, face), size_of_curvature(options, limits, sample.curvature));
-  }));
+  hold_elements(count_elements(samples_,
+                               [&](int face, const FaceSample& sample) {
+                                 return std::min(size_on(options, limits, face),
+                                                 size_of_curvature(options, limits, sample.curvature));
+                               }),
+                budget_, free_);
   hold_blocks(options, limits);
 }
 
 void ElementBudget::check(const SizingField& field) const {
   std::optional<SizingField::Sampler> size_at;
   int last = -1;
-  hold(count_elements(samples_, [&](int face, const FaceSample& sample) {
-    if (face != last) size_at.emplace(field, face);
-    last = face;
-    return (*size_at)(sample.point);
-  }));
-}
-
-void ElementBudget::hold(double count) const {
-  const double bytes = count * budget_.bytes_an_element;
-  if (count > budget_.elements)
-    throw usage_error("size",
-                      fmt::format("the sizes asked for give about {:.3g} million elements, more than {:g} "
-                                  "million: `force` meshes all the same",
-                                  count / 1e6, budget_.elements / 1e6));
-  if (budget_.bytes_an_element > 0 && bytes > free_)
-    throw usage_error(
-        "size", fmt::format("the sizes asked for give about {:.3g} million elements, which take {:.2g} GB "
-                            "of memory, and {:.2g} GB are free: `force` meshes all the same",
-                            count / 1e6, bytes / 1e9, free_ / 1e9));
+  hold_elements(count_elements(samples_,
+                               [&](int face, const FaceSample& sample) {
+                                 if (face != last) size_at.emplace(field, face);
+                                 last = face;
+                                 return (*size_at)(sample.point);
+                               }),
+                budget_, free_);
 }
 
 void ElementBudget::hold_blocks(const SizingOptions& options, const SizeLimits& limits) const {

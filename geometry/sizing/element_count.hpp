@@ -33,6 +33,10 @@ std::vector<std::vector<FaceSample>> sample_faces(const CadShape& shape, const s
 double count_elements(const std::vector<std::vector<FaceSample>>& samples,
                       const std::function<double(int face, const FaceSample&)>& size_at);
 
+/// Throws Error (usage), with the number, where so many elements pass the budget or the memory that is free.
+/// \param free bytes.
+void hold_elements(double count, const Budget& budget, double free);
+
 /// Holds a run to its budget, and its elements to the memory that is free. Where bounding boxes show that no
 /// size asked for can pass it, nothing is measured.
 class ElementBudget {
@@ -47,7 +51,6 @@ class ElementBudget {
   void check(const SizingField& field) const;
 
  private:
-  void hold(double count) const;
   void hold_blocks(const SizingOptions& options, const SizeLimits& limits) const;
 
   Budget budget_;

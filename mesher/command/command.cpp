@@ -18,6 +18,7 @@
 #include "geometry/base/printable.hpp"
 #include "geometry/cad/isolated_reading.hpp"
 #include "mesher/command/setting_options.hpp"
+#include "mesher/quadrille.hpp"
 
 namespace quadrille::command {
 
@@ -312,6 +313,21 @@ void report_crashes(const std::filesystem::path& file, std::string_view work) {
     ::sigaction(signal_number, &action, nullptr);
   }
 #endif
+}
+
+void write_outputs(const ShellMesh& mesh, const MeshFiles& files, const Settings& settings,
+                   ExecutionContext& context, CancelOnSignal& cancel) {
+  const StageTimer timer(context, Stage::write);
+  WriteOptions options = settings.write;
+  options.threads = settings.threads;
+  options.title = fmt::format("Quadrille {}: {}", version(), files.input.filename().string());
+  const double count = static_cast<double>(files.outputs.size());
+  for (std::size_t i = 0; i < files.outputs.size(); ++i) {
+    context.report(Stage::write, static_cast<double>(i) / count);
+    write_mesh(mesh, files.outputs[i], options);
+    cancel.wrote(files.outputs[i]);
+  }
+  if (!files.picture.empty()) draw_apart(files.picture, context, [&] { write_picture(mesh, files.picture); });
 }
 
 }  // namespace quadrille::command

@@ -11,6 +11,7 @@
 
 #include "geometry/base/execution_context.hpp"
 #include "mesher/mesh/mesh_types.hpp"
+#include "mesher/settings.hpp"
 
 namespace quadrille::command {
 
@@ -127,5 +128,16 @@ class CancelOnSignal {
 
 /// What a run that is ended has left: ", and nothing was written", or the files that were.
 std::string left_behind();
+
+/// What a mesh is made from and written to.
+struct MeshFiles {
+  const std::filesystem::path& input;
+  const std::vector<std::filesystem::path>& outputs;
+  const std::filesystem::path& picture;  ///< empty = none
+};
+
+/// Writes a mesh, with the command and the input's name as title, and draws it.
+void write_outputs(const ShellMesh& mesh, const MeshFiles& files, const Settings& settings,
+                   ExecutionContext& context, CancelOnSignal& cancel);
 
 }  // namespace quadrille::command

@@ -55,22 +55,6 @@ std::optional<MidSurface> middle_of(const CadModel& model, const MeshArguments& 
   return midsurface(model, options, context);
 }
 
-void write_outputs(const ShellMesh& mesh, const MeshArguments& arguments, ExecutionContext& context,
-                   CancelOnSignal& cancel) {
-  const StageTimer timer(context, Stage::write);
-  WriteOptions options = arguments.settings.write;
-  options.threads = arguments.settings.threads;
-  options.title = fmt::format("Quadrille {}: {}", version(), arguments.input.filename().string());
-  const double count = static_cast<double>(arguments.outputs.size());
-  for (std::size_t i = 0; i < arguments.outputs.size(); ++i) {
-    context.report(Stage::write, static_cast<double>(i) / count);
-    write_mesh(mesh, arguments.outputs[i], options);
-    cancel.wrote(arguments.outputs[i]);
-  }
-  if (!arguments.picture.empty())
-    draw_apart(arguments.picture, context, [&] { write_picture(mesh, arguments.picture); });
-}
-
 /// One line for each face that --partial goes without.
 void list_left_out(const ShellMesh& mesh) {
   for (const ShellMesh::Face& face : mesh.faces) {
@@ -156,7 +140,8 @@ void run(const MeshArguments& arguments) {
     };
   const ShellMesh result = middle ? mesh(*middle, options, context) : mesh(model, options, context);
   context.check();
-  write_outputs(result, arguments, context, cancel);
+  write_outputs(result, {arguments.input, arguments.outputs, arguments.picture}, arguments.settings, context,
+                cancel);
   list_left_out(result);
   tell_quality(result, model, middle, sizes, arguments, context);
   // Last: what fails can be looked at then.

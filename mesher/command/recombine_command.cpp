@@ -109,16 +109,8 @@ void add_recombine_command(CLI::App& app) {
           "--prefer", arguments->prefer,
           "what pairs are exchanged for: regular (points with four quads, default) or shape (mean q)")
       ->check(CLI::IsMember({"regular", "shape"}));
-  command
-      ->add_option(
-          "--feature-angle", arguments->feature_angle,
-          "degrees between the normals of neighbors from which on their side is an edge that stays; 0 = "
-          "none (default 40, none in .msh files with several faces)")
-      ->check(CLI::Range(0.0, 180.0));
-  command
-      ->add_option("--merge", arguments->merge,
-                   "make one of nodes at most this far apart, millimeters; 0 = on one place")
-      ->check(CLI::NonNegativeNumber);
+  add_surface_options(*command, arguments->feature_angle, arguments->merge,
+                      "their side is an edge that stays; 0 = none");
   command->add_option("--report", arguments->report, "write counts, quality and times as JSON");
   add_settings(*command, arguments->options, {"threads", "msh_version", "groups"});
   command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");

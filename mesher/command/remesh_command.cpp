@@ -68,20 +68,6 @@ std::string fidelity_line(const RemeshFidelity& fidelity) {
       percent);
 }
 
-void write_outputs(const ShellMesh& mesh, const RemeshArguments& arguments, ExecutionContext& context,
-                   CancelOnSignal& cancel) {
-  const StageTimer timer(context, Stage::write);
-  WriteOptions options = arguments.settings.write;
-  options.threads = arguments.settings.threads;
-  options.title = fmt::format("Quadrille {}: {}", version(), arguments.input.filename().string());
-  for (const std::filesystem::path& output : arguments.outputs) {
-    write_mesh(mesh, output, options);
-    cancel.wrote(output);
-  }
-  if (!arguments.picture.empty())
-    draw_apart(arguments.picture, context, [&] { write_picture(mesh, arguments.picture); });
-}
-
 void tell(const ShellMesh& mesh, const RemeshFidelity& fidelity, const std::vector<std::string>& notes,
           const RemeshArguments& arguments, ExecutionContext& context) {
   for (const std::string& note : notes) fmt::print(stderr, "{}: {}\n", arguments.input.string(), note);
@@ -128,7 +114,8 @@ void run(const RemeshArguments& arguments) {
       throw named_by_file(error, input, arguments.input.string());
     }
   }();
-  write_outputs(mesh, arguments, context, cancel);
+  write_outputs(mesh, {arguments.input, arguments.outputs, arguments.picture}, arguments.settings, context,
+                cancel);
   tell(mesh, fidelity, notes, arguments, context);
   // Last: what fails can be looked at then.
   if (arguments.limits.given())
@@ -155,16 +142,8 @@ void add_remesh_command(CLI::App& app) {
   add_settings(*command, *arguments,
                {"size", "order", "force", "time_limit", "threads", "msh_version", "nodes", "groups"});
   command->get_option("--size")->required()->description("length of elements, in mm");
-  command
-      ->add_option(
-          "--feature-angle", arguments->feature_angle,
-          "degrees between the normals of neighbors from which on they are of two faces; 0 = shape makes "
-          "no faces (default 40, none in .msh files with several faces)")
-      ->check(CLI::Range(0.0, 180.0));
-  command
-      ->add_option("--merge", arguments->merge,
-                   "make one of nodes at most this far apart, millimeters; 0 = on one place")
-      ->check(CLI::NonNegativeNumber);
+  add_surface_options(*command, arguments->feature_angle, arguments->merge,
+                      "they are of two faces; 0 = shape makes no faces");
   command->add_option("--report", arguments->report,
                       "write counts, quality, distances to the surface and times as JSON");
   command->add_option("--picture", arguments->picture, "draw the mesh into a .png");

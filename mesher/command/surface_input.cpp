@@ -16,6 +16,18 @@ double usual_feature_angle(const std::filesystem::path& file, const ShellMesh& m
   return file.extension() == ".msh" && several ? 0 : usual;
 }
 
+void add_surface_options(CLI::App& command, std::optional<double>& feature_angle,
+                         std::optional<double>& merge, const std::string& fold) {
+  command
+      .add_option("--feature-angle", feature_angle,
+                  "degrees between the normals of neighbors from which on " + fold +
+                      " (default 40, none in .msh files with several faces)")
+      ->check(CLI::Range(0.0, 180.0));
+  command
+      .add_option("--merge", merge, "make one of nodes at most this far apart, millimeters; 0 = on one place")
+      ->check(CLI::NonNegativeNumber);
+}
+
 Error named_by_file(const Error& error, const ShellMesh& mesh, const std::string& file) {
   const bool counts = error.subject().rfind("triangle ", 0) == 0 || error.subject().rfind("point ", 0) == 0;
   if (!counts) return failure(file, fmt::format("{}: {}", file, with_options(error.what())));

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 #include <queue>
+#include <set>
 
 #include "mesher/mesh/side_twins.hpp"
 
@@ -187,7 +188,7 @@ class FeatureFinder {
     }
     for (const bool from_corners : {true, false}) {
       for (const Side side : sides_) {
-        if (done_.count(side) > 0) continue;
+        if (done_.contains(side)) continue;
         const int start = network_.corner[from(side)] ? from(side) : to(side);
         if (from_corners && !network_.corner[start]) continue;
         add_chain(start, side);
@@ -199,14 +200,14 @@ class FeatureFinder {
     std::vector<int> chain{start};
     const int number = std::max(0, number_of(side));
     for (Side next = side; next >= 0;) {
-      done_.insert({next, 0});
+      done_.insert(next);
       const int v = from(next) == chain.back() ? to(next) : from(next);
       chain.push_back(v);
       const Side before = next;
       next = -1;
       if (network_.corner[v] || v == start) break;
       for (const Side other : sides_at_[v])
-        if (other != before && done_.count(other) == 0) next = other;
+        if (other != before && !done_.contains(other)) next = other;
     }
     split_at_turns(chain, number);
   }
@@ -267,7 +268,7 @@ class FeatureFinder {
   std::vector<std::array<char, 3>> marked_;
   std::vector<Side> sides_;
   std::vector<std::vector<Side>> sides_at_;  // by point
-  std::map<Side, int> done_;
+  std::set<Side> done_;
   FeatureNetwork network_;
 };
 

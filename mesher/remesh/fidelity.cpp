@@ -37,13 +37,6 @@ TriangleMesh fans_of(const ShellMesh& mesh) {
   return fans;
 }
 
-double area_of(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    sum += 0.5 * (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm();
-  return sum;
-}
-
 double volume_of(const TriangleMesh& mesh) {
   const Vector3 origin = mesh.points[mesh.triangles.front()[0]];
   double sum = 0;
@@ -68,6 +61,13 @@ void raise(RemeshFidelity::Distance& largest, double length, const Vector3& at, 
 }
 
 }  // namespace
+
+double area_of(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += 0.5 * (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm();
+  return sum;
+}
 
 RemeshFidelity measure_fidelity(const TriangleMesh& surface, const std::vector<int>& patches,
                                 const SurfaceLocator& locator, const ShellMesh& mesh,

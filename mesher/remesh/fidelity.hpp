@@ -10,6 +10,8 @@
 
 namespace quadrille {
 
+double area_of(const TriangleMesh& mesh);
+
 /// Distances both ways, and areas and volumes but the surface's area. \param patches (triangles of the
 /// surface). \param patch_of_face of the mesh. O(n log n).
 RemeshFidelity measure_fidelity(const TriangleMesh& surface, const std::vector<int>& patches,

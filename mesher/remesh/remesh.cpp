@@ -16,6 +16,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/free_memory.hpp"
 #include "geometry/base/threads.hpp"
+#include "geometry/sizing/element_count.hpp"
 #include "geometry/sizing/sizing_options.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/side_key.hpp"
@@ -91,13 +92,6 @@ Surface oriented_surface(TriangleMesh mesh, std::vector<std::string>& notes) {
   return surface;
 }
 
-double area_of(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    sum += 0.5 * (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm();
-  return sum;
-}
-
 /// Diagonals of the pieces' bounding boxes.
 std::vector<double> diagonals(const Surface& surface) {
   std::vector<Eigen::AlignedBox3d> boxes(surface.piece_count);
@@ -117,20 +111,11 @@ void check_budget(const Surface& surface, const RemeshOptions& options) {
     throw usage_error("size", fmt::format("`size` is {:g}, larger than the surface, whose diagonal is {:.6g}",
                                           options.size, box.diagonal().norm()));
   if (options.force) return;
-  const Budget budget;
-  const double count = area_of(surface.mesh) / (options.size * options.size);
+  Budget budget;
   // As measured on a sphere of 164 000 quads; half of it goes to the distances.
-  const double bytes_an_element = options.order == 2 ? 3300 : 1800;
-  if (count > budget.elements)
-    throw usage_error("size",
-                      fmt::format("the size asked for gives about {:.3g} million elements, more than {:g} "
-                                  "million: `force` meshes all the same",
-                                  count / 1e6, budget.elements / 1e6));
-  if (const double free = free_memory(); count * bytes_an_element > free)
-    throw usage_error("size",
-                      fmt::format("the size asked for gives about {:.3g} million elements, which take "
-                                  "{:.2g} GB of memory, and {:.2g} GB are free: `force` meshes all the same",
-                                  count / 1e6, count * bytes_an_element / 1e9, free / 1e9));
+  budget.bytes_an_element = options.order == 2 ? 3300 : 1800;
+  const double count = area_of(surface.mesh) / (options.size * options.size);
+  hold_elements(count, budget, free_memory());
 }
 
 /// The numbers that faces or edges have in the result: the first one with a number of the input keeps it.
