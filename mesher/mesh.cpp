@@ -59,6 +59,8 @@ class Job {
         records_(shape_.faces.size()),
         asked_(used_),
         let_go_(shape_, asked_, reach_of_let_go(model, options)) {
+    if (options_.strategy == Strategy::subdivide)
+      std::fill(edges_.plan.subdivided.begin(), edges_.plan.subdivided.end(), 1);
     edges_.plan.prescribed = prescribed_edges(shape_, options.sizing, size_);
     leave_out_tiny();
     find_rows();
@@ -245,7 +247,7 @@ class Job {
       const FaceChart chart = std::move(*charts_[face]);
       ExecutionContext share(context_);
       // A face that its neighbors' remedies alone have meshed again is not held to it.
-      if (record.attempts > 0 && problems_before_[face])
+      if (record.first_work > 0 && problems_before_[face])
         share.limit_work(std::max<std::int64_t>(1, record.share() - record.work));
       // The others are to have their turn.
       if (is_limited()) share.limit_time(0.5 * context_.seconds_left());
@@ -253,7 +255,8 @@ class Job {
       const auto count = [&] {
         record.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         record.work += share.work();
-        if (record.attempts++ == 0) record.first_work = share.work();
+        ++record.attempts;
+        if (record.first_work == 0) record.first_work = share.work();
       };
       try {
         meshes_[face] = mesh_face(shape_, face, chart, nodes_, field, options_, record.recipe, share);

@@ -220,7 +220,7 @@ std::vector<Setting> make_table() {
        [](Settings& v) -> int& { return v.mesh.order; }},
       {"strategy", "strategy", "Strategy", "Strategy", mesh, none, 0, 0, false, none,
        "subdivide: triangles at twice the size, paired, each quad cut in four; direct: triangles at the "
-       "size, paired",
+       "size, paired, but for faces where that fails",
        [](Settings& v) -> Strategy& { return v.mesh.strategy; }},
       {"faces", "faces", "Faces", "Faces", mesh, none, 0, 0, false, "all faces",
        "faces to mesh, such as Face1,Face7", [](Settings& v) -> std::vector<int>& { return v.mesh.faces; }},

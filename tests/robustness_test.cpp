@@ -33,6 +33,7 @@
 #include "mesher/mesh/criteria.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/area_check.hpp"
+#include "tests/models/thin_models.hpp"
 #include "tests/models/trouble_models.hpp"
 #include "tests/support/process.hpp"
 
@@ -230,6 +231,27 @@ TEST(Robustness, CrossesLigamentsInOneRow) {
     const CriteriaSummary summary = check_criteria(mesh);
     EXPECT_LT(static_cast<std::size_t>(summary.failing), mesh.quads.size() / 10) << gap;
   }
+}
+
+/// Where pairing at the final size leaves quads turned over, or a triangle: on even edges then, cut in four.
+TEST(Robustness, SubdividesFacesThatCannotBeMeshedDirectly) {
+  MeshOptions options;
+  options.strategy = Strategy::direct;
+  int subdivided = 0;
+  const auto count = [&](const CadModel& model, double divisions, bool closed) {
+    options.sizing.elements_per_diagonal = divisions;
+    ExecutionContext context(1);
+    const ShellMesh result = mesh(model, options, context);
+    EXPECT_EQ(joined(validate(result, closed)), "") << divisions;
+    EXPECT_EQ(static_cast<int>(std::set<int>(result.quad_faces.begin(), result.quad_faces.end()).size()),
+              model.face_count());
+    for (const auto& face : result.faces) subdivided += face.note.find("by subdivision") != std::string::npos;
+  };
+  const CadModel ribs(std::make_shared<CadShape>(ribbed_plate(6), "ribbed_plate"));
+  for (const double divisions : {3.1, 6.2, 9.5, 14.0}) count(ribs, divisions, true);
+  EXPECT_GE(subdivided, 4);
+  count(model_of(trouble_named("crack")), 6.2, false);
+  EXPECT_GE(subdivided, 5);
 }
 
 TEST(Robustness, CountsTheQuadsInGapsBeforeMeshing) {

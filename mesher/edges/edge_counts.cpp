@@ -188,18 +188,25 @@ class CountChooser {
     auto& variables = problem_.variables;
     variables.assign(n, {});
     std::vector<int> members(n, 0);
+    std::vector<char> even(n, 0);  // (chords)
     for (std::size_t i = 0; i < n; ++i) {
       if (wishes_.least[i] == 0) continue;
       const int chord = chords_.of(static_cast<int>(i));
       variables[chord].wanted += wishes_.wanted[i];
       variables[chord].least = std::max(variables[chord].least, wishes_.least[i]);
       ++members[chord];
+      if (!wishes_.even.empty()) even[chord] |= wishes_.even[i];
     }
     for (std::size_t i = 0; i < n; ++i) {
       if (members[i] == 0) continue;
       variables[i].wanted /= members[i];
       variables[i].weight = members[i];
       variables[i].value = std::max(variables[i].least, rounded(variables[i].wanted));
+      if (even[i] != 0 && fixed_[i] == 0) {
+        variables[i].fixed = true;
+        variables[i].value = 2 * rounded(0.5 * std::max(variables[i].wanted, 1.0 * variables[i].least));
+        variables[i].wanted = variables[i].value;
+      }
       if (fixed_[i] == 0) continue;
       variables[i].fixed = true;
       variables[i].wanted = 1.0 * fixed_[i] / wishes_.stride;

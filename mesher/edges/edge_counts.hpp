@@ -17,6 +17,7 @@ struct CountWishes {
   std::vector<int> least;           ///< (edges) fewest of those; 0 = edge not used
   std::vector<int> least_of_grids;  ///< (edges) fewest segments of the final mesh between grids
   std::vector<int> fixed;           ///< (edges) segments of the final mesh that users ask for; 0 = any number
+  std::vector<char> even;  ///< (edges) 1 = an even number of segments, with a stride of 1; may be empty
 };
 
 struct EdgeCounts {

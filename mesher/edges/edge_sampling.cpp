@@ -112,6 +112,8 @@ class EdgeSampler {
         n_(static_cast<int>(shape.edges.size())),
         used_edges_(find_used_edges(shape, used, plan.tiny)) {
     result_.stride = stride;
+    result_.subdivided = plan.subdivided;
+    if (stride == 2) std::fill(result_.subdivided.begin(), result_.subdivided.end(), 1);
     result_.vertex_nodes.assign(shape.vertices.size(), -1);
     result_.edges.resize(n_);
   }
@@ -152,6 +154,7 @@ class EdgeSampler {
     wishes_.least_of_grids.assign(n_, 0);
     wishes_.wanted.assign(n_, 0);
     wishes_.fixed.assign(n_, 0);
+    wishes_.even.assign(n_, 0);
     double segments = 0;
     for (int i = 0; i < n_; ++i) {
       if (i % 256 == 0) context_.report(Stage::sample, 0.5 * i / n_);
@@ -160,8 +163,11 @@ class EdgeSampler {
       if (edge.degenerate || edge.length <= 0 || !used_edges_[i] || plan_.tiny.collapsed_edges[i]) continue;
       SizingField::Sampler sampler(field_, edge);
       tables_[i] = tabulate(edge, sampler);
+      const bool even = result_.stride == 1 && edge.is_used(plan_.subdivided);
+      const int stride = result_.edges[i].stride = even ? 2 : result_.stride;
       for (const EdgeStretch& part : plan_.finer) {
-        if (part.edge == i + 1) tables_[i].make_finer(part.from, part.to, part.segments * result_.stride);
+        if (part.edge != i + 1) continue;
+        tables_[i].make_finer(part.from, part.to, part.segments * stride);
       }
       double& wanted = wishes_.wanted[i];
       wanted = tables_[i].total() / result_.stride;
@@ -175,7 +181,13 @@ class EdgeSampler {
           least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], result_.stride);
       // Straight edges between grids may do with one; curves keep their shape as well there as anywhere.
       wishes_.least_of_grids[i] = turning > 1e-3 ? result_.stride * wishes_.least[i] : 1;
-      if (is_prescribed(i)) fix_count(i, shared_ends[i], inner[i]);
+      if (is_prescribed(i)) {
+        fix_count(i, shared_ends[i], inner[i]);
+      } else if (even) {
+        wishes_.even[i] = 1;
+        wishes_.least[i] =
+            stride * least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride);
+      }
     }
   }
 
@@ -304,6 +316,7 @@ SamplingPlan::SamplingPlan(const CadShape& shape)
     : factor(shape.edges.size(), 1),
       bare(shape.edges.size(), 0),
       unaligned(shape.faces.size(), 0),
+      subdivided(shape.faces.size(), 0),
       tiny(find_tiny_features(shape, std::vector<char>(shape.faces.size(), 1),
                               std::vector<Collapse>(shape.edges.size(), Collapse::no), 0)) {}
 

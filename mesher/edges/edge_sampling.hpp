@@ -18,6 +18,7 @@ struct BoundaryNodes {
   struct Edge {
     std::vector<double> parameters;  ///< of each node, ascending, both ends included; empty = edge not used
     std::vector<int> nodes;          ///< indices into `points`; the ends are the vertices' nodes
+    int stride = 1;                  ///< segments to one of the mesh that is recombined
     bool borrowed = false;           ///< the nodes are those of another edge (TinyFeatures)
     bool kept = false;               ///< users ask for its spacing: its nodes stay where they are
     int segments() const { return static_cast<int>(nodes.size()) - 1; }
@@ -26,8 +27,9 @@ struct BoundaryNodes {
   std::vector<int> vertex_nodes;  ///< CAD vertex (from 1) minus 1 -> node, -1 = not used
   std::vector<Edge> edges;        ///< CAD edge (from 1) minus 1
   /// Segments of the final mesh to one segment of the mesh that is recombined: 2 with Strategy::subdivide,
-  /// else 1.
+  /// else 1, but for the faces that follow.
   int stride = 1;
+  std::vector<char> subdivided;  ///< (faces) 1 = recombined at twice the size, whatever the stride
   std::vector<FaceSides> sides;  ///< (faces) outlines whose facing sides have as many segments
   std::vector<int> odd_faces;  ///< faces whose count could not be made even; empty in all but odd topologies
 };
@@ -45,7 +47,8 @@ struct SamplingPlan {
   std::vector<int> factor;                       ///< (edges) on the number of segments
   std::vector<EdgeStretch> finer;
   std::vector<char> bare;  ///< (edges) 1 = by length alone, though the curve turns: it may have loops in it
-  std::vector<char> unaligned;  ///< (faces) 1 = nodes need not face each other across gaps in it
+  std::vector<char> unaligned;   ///< (faces) 1 = nodes need not face each other across gaps in it
+  std::vector<char> subdivided;  ///< (faces) 1 = its edges get even numbers: BoundaryNodes::subdivided
   TinyFeatures tiny;
   std::vector<std::optional<PrescribedEdge>> prescribed;  ///< (edges) that users divide; may be empty
 };

@@ -20,7 +20,7 @@ using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
 struct Segment {
   int edge;  ///< from 0
   int wire;
-  int first;  ///< place of its first node on the edge; the next is a stride on
+  int first, last;  ///< places of its nodes on the edge
   Vector3 a, b;
 
   double length() const { return (b - a).norm(); }
@@ -29,7 +29,7 @@ struct Segment {
 class GapNodes {
  public:
   GapNodes(const CadShape& shape, const std::vector<char>& used, BoundaryNodes& nodes)
-      : shape_(shape), used_(used), nodes_(nodes), stride_(nodes.stride), ties_(nodes.edges.size()) {}
+      : shape_(shape), used_(used), nodes_(nodes), ties_(nodes.edges.size()) {}
 
   void run(const std::vector<char>& unaligned) {
     for (std::size_t face = 0; face < shape_.faces.size(); ++face) {
@@ -67,9 +67,11 @@ class GapNodes {
       ++wires;
       for (const Coedge& coedge : wire.coedges) {
         const BoundaryNodes::Edge& edge = nodes_.edges[coedge.edge - 1];
-        if (edge.nodes.empty() || edge.segments() % stride_ != 0) continue;
-        for (int i = 0; i + stride_ <= edge.segments(); i += stride_)
-          segments.push_back({coedge.edge - 1, wires, i, point(edge, i), point(edge, i + stride_)});
+        const int stride = edge.stride;
+        if (edge.nodes.empty() || edge.segments() % stride != 0) continue;
+        for (int i = 0; i + stride <= edge.segments(); i += stride)
+          segments.push_back(
+              {coedge.edge - 1, wires, i, i + stride, point(edge, i), point(edge, i + stride)});
       }
     }
     std::vector<Box> boxes;
@@ -79,8 +81,8 @@ class GapNodes {
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
       const Segment &s = segments[a.info()], &t = segments[b.info()];
       if (s.wire == t.wire) return;
-      for (const int i : {s.first, s.first + stride_}) add_pair(s.edge, i, t);
-      for (const int i : {t.first, t.first + stride_}) add_pair(t.edge, i, s);
+      for (const int i : {s.first, s.last}) add_pair(s.edge, i, t);
+      for (const int i : {t.first, t.last}) add_pair(t.edge, i, s);
     });
   }
 
@@ -103,7 +105,7 @@ class GapNodes {
   void add_pair(int edge, int place, const Segment& across) {
     const BoundaryNodes::Edge &own = nodes_.edges[edge], &other = nodes_.edges[across.edge];
     const int node = own.nodes[place];
-    if (node == other.nodes[across.first] || node == other.nodes[across.first + stride_]) return;
+    if (node == other.nodes[across.first] || node == other.nodes[across.last]) return;
     const Vector3 at = nodes_.points[node];
     const double share = share_along(across, at);
     if (!(share >= 0 && share <= 1)) return;
@@ -116,8 +118,8 @@ class GapNodes {
     std::vector<Tie>& ties = ties_[edge];
     const BoundaryNodes::Edge& own = nodes_.edges[edge];
     if (!ties.empty()) return ties;
-    ties.resize(own.segments() / stride_ + 1);
-    for (std::size_t k = 0; k < ties.size(); ++k) ties[k].parameter = own.parameters[k * stride_];
+    ties.resize(own.segments() / own.stride + 1);
+    for (std::size_t k = 0; k < ties.size(); ++k) ties[k].parameter = own.parameters[k * own.stride];
     ties.front().settled = ties.back().settled = true;
     for (Tie& tie : ties) tie.settled |= own.kept || own.borrowed;
     return ties;
@@ -125,11 +127,12 @@ class GapNodes {
 
   void align(const Pair& pair) {
     std::vector<Tie>&own = ties(pair.edge), &others = ties(pair.other);
-    const int k = pair.place / stride_, i = pair.first / stride_;
+    const int k = pair.place / nodes_.edges[pair.edge].stride;
+    const int i = pair.first / nodes_.edges[pair.other].stride;
     const EdgeCurve curve(shape_.edges[pair.edge]), across(shape_.edges[pair.other]);
     const Vector3 at = curve.point(own[k].parameter);
     const double from = others[i].parameter, to = others[i + 1].parameter;
-    const double share = share_along({0, 0, 0, across.point(from), across.point(to)}, at);
+    const double share = share_along({0, 0, 0, 0, across.point(from), across.point(to)}, at);
     if (!(share >= 0 && share <= 1)) return;
     const int facing = share < 0.5 ? i : i + 1;
     if (!others[facing].settled) {
@@ -140,7 +143,7 @@ class GapNodes {
     const Vector3 fixed = across.point(others[facing].parameter);
     for (const int j : {k - 1, k}) {
       const double low = own[j].parameter, high = own[j + 1].parameter;
-      const double back = share_along({0, 0, 0, curve.point(low), curve.point(high)}, fixed);
+      const double back = share_along({0, 0, 0, 0, curve.point(low), curve.point(high)}, fixed);
       const bool near = j == k ? back >= 0 && back <= 0.5 : back >= 0.5 && back <= 1;
       if (near && place(own, k, low + back * (high - low))) return;
     }
@@ -163,7 +166,7 @@ class GapNodes {
     const std::vector<double> before = own.parameters;
     const int n = static_cast<int>(ties.size()) - 1;
     std::vector<double> shifts(n + 1, 0);
-    for (int k = 0; k <= n; ++k) shifts[k] = ties[k].parameter - before[k * stride_];
+    for (int k = 0; k <= n; ++k) shifts[k] = ties[k].parameter - before[k * own.stride];
     const auto is_fixed = [&](int k) { return k < 0 || k > n || ties[k].settled; };
     std::vector<double> result = shifts;
     for (int k = 1; k < n; ++k) {
@@ -174,12 +177,12 @@ class GapNodes {
       result[k] = (shifts[k - down] * up + shifts[k + up] * down) / (down + up);
     }
     if (std::all_of(result.begin(), result.end(), [](double shift) { return shift == 0; })) return;
-    for (int k = 0; k <= n; ++k) own.parameters[k * stride_] = before[k * stride_] + result[k];
+    for (int k = 0; k <= n; ++k) own.parameters[k * own.stride] = before[k * own.stride] + result[k];
     for (int i = 0; i < own.segments(); ++i) {
-      const int k = i - i % stride_;
+      const int k = i - i % own.stride;
       if (i == k) continue;
-      const double share = (before[i] - before[k]) / (before[k + stride_] - before[k]);
-      own.parameters[i] = own.parameters[k] + share * (own.parameters[k + stride_] - own.parameters[k]);
+      const double share = (before[i] - before[k]) / (before[k + own.stride] - before[k]);
+      own.parameters[i] = own.parameters[k] + share * (own.parameters[k + own.stride] - own.parameters[k]);
     }
     const EdgeCurve curve(shape_.edges[edge]);
     for (int i = 1; i < own.segments(); ++i) nodes_.points[own.nodes[i]] = curve.point(own.parameters[i]);
@@ -188,7 +191,6 @@ class GapNodes {
   const CadShape& shape_;
   const std::vector<char>& used_;
   BoundaryNodes& nodes_;
-  int stride_;
   std::vector<Pair> pairs_;
   std::vector<std::vector<Tie>> ties_;  ///< (edges) of their nodes of the mesh that is recombined
 };

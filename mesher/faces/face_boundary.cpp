@@ -21,12 +21,13 @@ constexpr int pole_segments = 6;
 class BoundaryWalker {
  public:
   BoundaryWalker(const CadShape& shape, const CadFace& face, const FaceSurface& surface,
-                 const BoundaryNodes& nodes)
-      : shape_(shape), face_(face), surface_(surface), scale_(surface.mean_scale()), nodes_(nodes) {}
+                 const BoundaryNodes& nodes, int stride)
+      : shape_(shape), face_(face), surface_(surface), scale_(surface.mean_scale()), nodes_(nodes) {
+    boundary_.stride = stride;
+  }
 
   FaceBoundary walk() {
     std::vector<int> starts;
-    boundary_.stride = nodes_.stride;
     for (const CadWire& wire : face_.wires) {
       for (const Coedge& coedge : wire.coedges) {
         if (nodes_.edges[coedge.edge - 1].segments() % 2 == 1) boundary_.stride = 1;
@@ -336,7 +337,8 @@ class BoundaryWalker {
 
 FaceBoundary face_boundary(const CadShape& shape, int face, const CadFace& cad_face,
                            const FaceSurface& surface, const BoundaryNodes& nodes) {
-  FaceBoundary boundary = BoundaryWalker(shape, cad_face, surface, nodes).walk();
+  const int stride = nodes.subdivided[face] != 0 ? 2 : 1;
+  FaceBoundary boundary = BoundaryWalker(shape, cad_face, surface, nodes, stride).walk();
   if (boundary.segments.empty()) {
     const std::string name = fmt::format("Face{}", face + 1);
     throw failure(name, fmt::format("{} has no usable boundary in its parameter plane", name));

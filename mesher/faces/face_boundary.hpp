@@ -31,7 +31,8 @@ struct FaceBoundary {
   std::vector<Segment> segments;
   /// (wires, coedges) the first of the segments of each coedge; -1 = it has none.
   std::vector<std::vector<int>> first_segments;
-  /// Segments of the final mesh to one here: BoundaryNodes::stride, but 1 where an edge has an odd number.
+  /// Segments of the final mesh to one here: 2 for faces that are subdivided, but 1 where an edge has an odd
+  /// number.
   int stride = 1;
 
   /// Whether two segments have a node in common, on a seam too.

@@ -1,6 +1,11 @@
 #include "mesher/io/modules.hpp"
 
+#include <istream>
+#include <iterator>
+#include <ostream>
+
 #include "geometry/base/error.hpp"
+#include "geometry/base/isolated_work.hpp"
 #include "geometry/base/module_loader.hpp"
 #include "mesher/mesh/quality.hpp"
 
@@ -67,8 +72,17 @@ SolverResult vtk_result(const std::string& path) {
 }
 
 std::string med_file(const OutputMesh& mesh, const std::string& name, const std::string& description) {
+  const auto write = med_module().function<MedFileFunction>("_file");
+  IsolatedWork options;
+  options.subject = name;
+  options.crashed = name + ".med: libmed crashed while it wrote the mesh, for want of memory perhaps";
   std::string bytes;
-  check(med_module().function<MedFileFunction>("_file")(mesh, name, description, bytes));
+  const auto work = [&](std::ostream& out) {
+    check(write(mesh, name, description, bytes));
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  };
+  // libmed prints lines of its own where it fails, and what a child prints is not seen.
+  run_isolated(options, work, [&](std::istream& in) { bytes = {std::istreambuf_iterator<char>(in), {}}; });
   return bytes;
 }
 

@@ -342,6 +342,7 @@ class FaceMesher {
 
   /// The segments that end at nodes, joined where they follow each other, and twice as many wanted.
   std::vector<EdgeStretch> stretches_at(const std::set<int>& touched) const {
+    const int stride = chart_.boundary.stride;
     std::vector<EdgeStretch> result;
     std::set<int> edges;
     for (const auto& segment : chart_.boundary.segments) {
@@ -350,10 +351,10 @@ class FaceMesher {
     for (const int number : edges) {
       const BoundaryNodes::Edge& edge = nodes_.edges[number - 1];
       int last = -1;  // segment that is in a stretch
-      for (int i = 0; i + nodes_.stride < static_cast<int>(edge.nodes.size()); i += nodes_.stride) {
-        if (!touched.contains(edge.nodes[i]) && !touched.contains(edge.nodes[i + nodes_.stride])) continue;
-        const double from = edge.parameters[i], to = edge.parameters[i + nodes_.stride];
-        if (last >= 0 && last + nodes_.stride == i) {
+      for (int i = 0; i + stride < static_cast<int>(edge.nodes.size()); i += stride) {
+        if (!touched.contains(edge.nodes[i]) && !touched.contains(edge.nodes[i + stride])) continue;
+        const double from = edge.parameters[i], to = edge.parameters[i + stride];
+        if (last >= 0 && last + stride == i) {
           result.back().to = to;
           result.back().segments += 4;
         } else {

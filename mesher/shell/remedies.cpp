@@ -16,6 +16,7 @@ struct Case {
   int face;
   const FaceProblem& problem;
   double size;
+  FaceRecord& record;
   FaceRecipe& recipe;
   EdgeTreatment& edges;
 };
@@ -119,6 +120,16 @@ constexpr unsigned any_of(std::initializer_list<Cause> causes) {
   return bits;
 }
 
+/// Where quads of the final size could not be had: Strategy::direct.
+bool by_subdivision(Case& patient) {
+  char& subdivided = patient.edges.plan.subdivided[patient.face];
+  if (subdivided != 0) return false;
+  subdivided = 1;
+  patient.record.looks_at_gaps = 0;
+  patient.record.first_work = 0;
+  return true;
+}
+
 struct Row {
   unsigned causes;
   const char* name;
@@ -135,6 +146,8 @@ bool nodes_where_they_were(Case& patient) {
 
 /// For each cause its remedies, the one that asks for least first.
 constexpr std::array table{
+    Row{any_of({Cause::inverted_inside, Cause::inverted_at_boundary, Cause::odd_boundary, Cause::no_mesh}),
+        "by subdivision", 1, by_subdivision},
     Row{any_of({Cause::coarse_segments, Cause::looped_edge, Cause::crossing_curves}),
         "nodes not moved to face each other", 1, nodes_where_they_were},
     Row{any_of({Cause::narrow_gaps}), "finer segments there", FaceRecord::most_looks, finer_there},
@@ -176,7 +189,7 @@ bool apply_remedy(const CadShape& shape, const FaceProblem& problem, double size
                   EdgeTreatment& edges) {
   if (record.attempts >= FaceRecord::most_attempts) return false;
   record.tried.resize(table.size(), 0);
-  Case patient{shape, problem.face() - 1, problem, size, record.recipe, edges};
+  Case patient{shape, problem.face() - 1, problem, size, record, record.recipe, edges};
   for (std::size_t row = 0; row < table.size(); ++row) {
     const bool fits = (table[row].causes >> static_cast<unsigned>(problem.cause()) & 1U) != 0;
     if (!fits || record.tried[row] == table[row].times || !table[row].apply(patient)) continue;

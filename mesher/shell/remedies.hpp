@@ -31,7 +31,7 @@ struct FaceRecord {
   int looks_at_gaps = 0;
   int attempts = 0;                       ///< times that it was meshed
   double seconds = 0;                     ///< that this took
-  std::int64_t first_work = 0, work = 0;  ///< of the first meshing, and of all
+  std::int64_t first_work = 0, work = 0;  ///< of the first meshing of its kind, and of all
   bool given_up = false;                  ///< no remedy is left
   std::vector<int> tried;                 ///< (rows of the table) how often
   std::vector<std::string> history;       ///< "cause: remedy", in the order in which they were found

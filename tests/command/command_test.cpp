@@ -363,6 +363,21 @@ TEST(Command, OpensNoModuleOfTheCurrentFolder) {
   }
 }
 
+/// libmed prints where it fails in lines of its own.
+TEST(Command, SaysOneSentenceWhereLibmedHasNoMemory) {
+  const TemporaryFolder folder;
+  int refused = 0;
+  for (int kilobytes = 80000; kilobytes <= 140000; kilobytes += 4000) {
+    const auto result =
+        test::run(fmt::format("cd {} && ulimit -v {} && {}/quadrille mesh {} -o a.med --size 1 --quiet 2>&1",
+                              folder.path().string(), kilobytes, QUADRILLE_BINARY_DIR, bracket));
+    refused += result.exit_code != 0;
+    EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), result.exit_code == 0 ? 0 : 1)
+        << kilobytes << ": " << result.out;
+  }
+  EXPECT_GT(refused, 0);
+}
+
 /// Nor of folders above its own, such as the `lib` beside a `bin`.
 TEST(Command, OpensNoModuleOfFoldersAboveItsOwn) {
   const TemporaryFolder folder;

@@ -475,8 +475,8 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Verfahren</translation>
     </message>
     <message>
-        <source>Subdivide: triangles at twice the size, paired, each quad cut in four; direct: triangles at the size, paired</source>
-        <translation>Unterteilen: Dreiecke doppelter Größe, gepaart, jedes Viereck in vier geteilt; direkt: Dreiecke in der Größe, gepaart</translation>
+        <source>Subdivide: triangles at twice the size, paired, each quad cut in four; direct: triangles at the size, paired, but for faces where that fails</source>
+        <translation>Unterteilen: Dreiecke doppelter Größe, gepaart, jedes Viereck in vier geteilt; direkt: Dreiecke in der Größe, gepaart, außer auf Flächen, wo das scheitert</translation>
     </message>
     <message>
         <source>Target edge length; 0 = a sixtieth of the model&apos;s diagonal</source>

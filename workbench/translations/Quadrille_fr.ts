@@ -475,8 +475,8 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Stratégie</translation>
     </message>
     <message>
-        <source>Subdivide: triangles at twice the size, paired, each quad cut in four; direct: triangles at the size, paired</source>
-        <translation>Subdiviser : triangles de taille double, appariés, chaque quadrangle coupé en quatre ; direct : triangles à la taille, appariés</translation>
+        <source>Subdivide: triangles at twice the size, paired, each quad cut in four; direct: triangles at the size, paired, but for faces where that fails</source>
+        <translation>Subdiviser : triangles de taille double, appariés, chaque quadrangle coupé en quatre ; direct : triangles à la taille, appariés, sauf sur les faces où cela échoue</translation>
     </message>
     <message>
         <source>Target edge length; 0 = a sixtieth of the model&apos;s diagonal</source>
