@@ -190,6 +190,56 @@ def problem_of_mesh(path):
     return "" if finite else "a node without a finite place"
 
 
+def triangles_of_mesh(path, disorder, rng):
+    """The places of a .msh 2.2 file, and its quads cut in two; a share of the triangles is turned over or missing."""
+    lines = iter(path.read_text().splitlines())
+    points, number_of, triangles = [], {}, []
+    for line in lines:
+        if line == "$Nodes":
+            for _ in range(int(next(lines))):
+                name, *place = next(lines).split()
+                number_of[name] = len(points)
+                points.append(tuple(map(float, place)))
+        elif line == "$Elements":
+            for _ in range(int(next(lines))):
+                _, kind, tags, *rest = next(lines).split()
+                if kind == "3":
+                    a, b, c, d = (number_of[node] for node in rest[int(tags) :])
+                    triangles += [(a, b, c), (a, c, d)]
+    kept = []
+    for triangle in triangles:
+        kind = rng.random() < disorder and rng.randrange(3)
+        if kind is False or kind < 2:
+            kept.append(triangle[::-1] if kind else triangle)
+    return points, kept
+
+
+def largest_extent(points):
+    return max(max(p[axis] for p in points) - min(p[axis] for p in points) for axis in range(3))
+
+
+def stl_of(points, triangles):
+    corners = "".join("outer loop\n" + "".join("vertex %.9g %.9g %.9g\n" % points[node] for node in triangle) +
+                      "endloop\n" for triangle in triangles)
+    return ("solid a\n" + corners.replace("outer", "facet normal 0 0 0\nouter").replace("endloop", "endloop\nendfacet") +
+            "endsolid a\n").encode()
+
+
+def obj_of(points, triangles):
+    return ("".join("v %.9g %.9g %.9g\n" % point for point in points) +
+            "".join("f %d %d %d\n" % tuple(node + 1 for node in triangle) for triangle in triangles)).encode()
+
+
+def ply_of(points, triangles):
+    return (f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\nproperty float z\n"
+            f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n" +
+            "".join("%.9g %.9g %.9g\n" % point for point in points) +
+            "".join("3 %d %d %d\n" % triangle for triangle in triangles)).encode()
+
+
+SURFACES = {"stl": stl_of, "obj": obj_of, "ply": ply_of}
+
+
 class Attack:
     """Makes run NUMBER of each class. A class is a method that gives the ends of its runs."""
 
@@ -255,6 +305,30 @@ class Attack:
         damaged = folder / ("damaged" + model.suffix)
         damaged.write_bytes(mutation(model.read_bytes(), rng))
         yield self.mesh(folder, damaged, "--elements-per-diagonal", 15, "--time-limit", TIME_LIMIT).end()
+
+    def surfaces(self, rng, folder):
+        """Meshes of triangles and quads, some with damage, meshed anew or paired."""
+        model = rng.choice(self.own + self.parts[:1])
+        self.mesh(folder, model, "--elements-per-diagonal", rng.choice([6, 12, 30]), "--time-limit", TIME_LIMIT)
+        if not (folder / "a.msh").exists():
+            return
+        triangles = triangles_of_mesh(folder / "a.msh", rng.random() < 0.3 and rng.choice([0.01, 0.1, 0.5]) or 0, rng)
+        os.unlink(folder / "a.msh")
+        ending = rng.choice(["stl", "obj", "ply"])
+        surface = folder / f"surface.{ending}"
+        surface.write_bytes(SURFACES[ending](*triangles))
+        if rng.random() < 0.4:
+            surface.write_bytes(rng.choice(mutate.MUTATIONS)(surface.read_bytes(), rng))
+        options = ["--feature-angle", rng.choice([0, 5, 40, 90, 180])] if rng.random() < 0.4 else []
+        if rng.random() < 0.2:
+            options += ["--merge", f"{10 ** rng.uniform(-9, 3):.3g}"]
+        if rng.random() < 0.3:
+            run = Run(["recombine", surface, "-o", "a.vtu", "--quiet", *options], folder, expected=("a.vtu",))
+        else:
+            size = f"{largest_extent(triangles[0]) / 10 ** rng.uniform(-1, 2.2):.4g}"
+            options += ["--size", rng.choice([size] * 9 + ["1e-9", "1e300"]), "--time-limit", TIME_LIMIT]
+            run = Run(["remesh", surface, "-o", "a.msh", "--quiet", *options], folder, expected=("a.msh",))
+        yield run.start(self.quadrille).end()
 
     def limits(self, rng, folder):
         """Little memory, short files, few threads, files and seconds."""
@@ -404,7 +478,7 @@ class Attack:
             yield "invalid", f"other bytes of .{ending} in another locale"
 
 
-CLASSES = {"options": 0.2, "sizes": 0.25, "mutations": 0.25, "limits": 0.12, "faults": 0.13, "languages": 0.05}
+CLASSES = {"options": 0.2, "sizes": 0.25, "mutations": 0.2, "surfaces": 0.05, "limits": 0.12, "faults": 0.13, "languages": 0.05}
 
 
 def can_mount():
