@@ -103,19 +103,13 @@ std::vector<double> diagonals(const Surface& surface) {
   return result;
 }
 
-void check_budget(const Surface& surface, const RemeshOptions& options) {
+void check_size(const Surface& surface, const RemeshOptions& options) {
   Eigen::AlignedBox3d box;
   for (const auto& triangle : surface.mesh.triangles)
     for (const int v : triangle) box.extend(surface.mesh.points[v]);
   if (options.size > box.diagonal().norm())
     throw usage_error("size", fmt::format("`size` is {:g}, larger than the surface, whose diagonal is {:.6g}",
                                           options.size, box.diagonal().norm()));
-  if (options.force) return;
-  Budget budget;
-  // As measured on a sphere of 164 000 quads; half of it goes to the distances.
-  budget.bytes_an_element = options.order == 2 ? 3300 : 1800;
-  const double count = area_of(surface.mesh) / (options.size * options.size);
-  hold_elements(count, budget, free_memory());
 }
 
 /// The numbers that faces or edges have in the result: the first one with a number of the input keeps it.
@@ -139,13 +133,16 @@ class Remesher {
   ShellMesh run(RemeshFidelity* fidelity) {
     find_faces();
     find_targets();
+    if (!options_.force) hold_budget();
     // Where quads stay inverted the surface wants smaller ones.
     constexpr int most_attempts = 4;
+    std::size_t before = std::numeric_limits<std::size_t>::max();
     for (int attempt = 1;; ++attempt) {
       make_triangles();
       make_quads();
       const std::vector<Vector3> inverted = inverted_places();
-      if (inverted.empty() || attempt == most_attempts) break;
+      if (inverted.empty() || inverted.size() >= before || attempt == most_attempts) break;
+      before = inverted.size();
       refine_near(inverted);
     }
     tell_off_surface();
@@ -170,7 +167,7 @@ class Remesher {
       notes_.push_back(
           "the mesh is of second order: the surface is taken to be flat between its corner nodes");
     surface_ = oriented_surface(std::move(triangles.mesh), notes_);
-    check_budget(surface_, options_);
+    check_size(surface_, options_);
     context_.check();
     FeatureRules rules;
     rules.angle = options_.feature_angle;
@@ -215,11 +212,25 @@ class Remesher {
         targets_[v] = std::min(targets_[v], most[surface_.pieces[t]]);
   }
 
+  void hold_budget() const {
+    Budget budget;
+    // As measured on a sphere of 164 000 quads; half of it goes to the distances.
+    budget.bytes_an_element = options_.order == 2 ? 3300 : 1800;
+    double count = 0;
+    for (const auto& [a, b, c] : surface_.mesh.triangles) {
+      const auto& p = surface_.mesh.points;
+      const double side = std::min({targets_[a], targets_[b], targets_[c]});
+      count += 0.5 * (p[b] - p[a]).cross(p[c] - p[a]).norm() / (0.25 * side * side);
+    }
+    hold_elements(count, budget, free_memory());
+  }
+
   /// How long sides of triangles may be on each piece for it to keep its shape: bodies that are far smaller
   /// than the elements have a few, and those without curves, such as rings and spheres, some five round where
-  /// they are as thick as in the mean. The thickness is twice the volume over the area.
+  /// they are as thick as in the mean, but for those of thin walls. The thickness is twice the volume over
+  /// the area.
   std::vector<double> longest_sides() const {
-    constexpr double least_across = 4, of_thickness = 1.2;
+    constexpr double least_across = 4, of_thickness = 1.2, least_of_size = 0.5;
     std::vector<double> most = diagonals(surface_);
     for (double& length : most) length /= least_across;
     std::vector<char> has_curve(most.size(), 0), on_curve(surface_.mesh.points.size(), 0);
@@ -237,7 +248,9 @@ class Remesher {
     }
     for (std::size_t piece = 0; piece < most.size(); ++piece)
       if (!has_curve[piece])
-        most[piece] = std::min(most[piece], of_thickness * 2 * std::abs(volume[piece]) / area[piece]);
+        most[piece] =
+            std::min(most[piece], std::max(least_of_size * options_.size,
+                                           of_thickness * 2 * std::abs(volume[piece]) / area[piece]));
     return most;
   }
 

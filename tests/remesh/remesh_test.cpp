@@ -469,6 +469,15 @@ TEST(Remesh, RefusesSizesThatMakeNoSenseBeforeItBegins) {
   expect_error(input, options, Kind::usage, "feature angle");
 }
 
+/// Bodies without curves get elements as small as they are thick, but not far below the size: a foil of which
+/// no edge is kept is refused before it takes long.
+TEST(Remesh, RefusesFoilsWhoseEdgesAreLetGo) {
+  RemeshOptions options = with_size(40);
+  options.feature_angle = 0;
+  options.merge = 0;
+  expect_error(box({100, 100, 1e-3}), options, Error::Kind::failure, "stay inverted");
+}
+
 TEST(Remesh, CanBeCancelledAndLimited) {
   const ShellMesh input = sphere(10, 40);
   for (const int stop_at : {2, 6, 12}) {
