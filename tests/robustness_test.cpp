@@ -140,7 +140,9 @@ TEST(Robustness, NamesTheCauseAndItsRemedy) {
   };
   EXPECT_EQ(note_of(meshed("disc"), 1), "");
   EXPECT_PRED2(has, note_of(meshed("looped_edge"), 1), "meets Edge2 (parameters ");
-  EXPECT_PRED2(has, note_of(meshed("wrong_curves"), 1), "parametric curves made anew");
+  const std::string note = note_of(meshed("wrong_curves"), 1);
+  EXPECT_PRED2(has, note, "parametric curves made anew");
+  EXPECT_FALSE(has(note, "seen from above")) << note;
   // What the boundary alone tells costs no meshing.
   for (const char* name : {"disc", "looped_edge", "wrong_curves", "other_parameters"})
     EXPECT_EQ(meshed(name).faces[0].attempts, 1) << name;
