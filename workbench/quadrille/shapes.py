@@ -23,9 +23,9 @@ class SizeEstimate:
     """
 
     def __init__(self, shape) -> None:
-        samples = _SAMPLES if len(shape.Faces) <= _MANY_FACES else _FEW_SAMPLES
-        self._diagonal = shape.BoundBox.DiagonalLength
         faces, edges = shape.Faces, shape.Edges
+        samples = _SAMPLES if len(faces) <= _MANY_FACES else _FEW_SAMPLES
+        self._diagonal = shape.BoundBox.DiagonalLength
         numbers: Dict[int, List[Tuple[object, int]]] = {}
         for index, edge in enumerate(edges):
             if not edge.Degenerated:
@@ -37,9 +37,7 @@ class SizeEstimate:
         lengths = np.array([0.0 if edge.Degenerated else edge.Length for edge in edges])
         sides = []  # face, edge, what the margin along it widens by, per length and distance
         for index, face in enumerate(faces):
-            outer = face.OuterWire
-            for wire in face.Wires:
-                widening = 0.0 if wire.isSame(outer) else 2 * math.pi / max(wire.Length, 1e-300)
+            for wire, widening in _wires(face):
                 sides += [(index, number, widening) for edge in wire.Edges
                           for same, number in numbers.get(edge.hashCode(), ()) if same.isSame(edge)]
         self._sides = _columns(sides, 3)
@@ -49,6 +47,11 @@ class SizeEstimate:
         np.maximum.at(self._edge_curvatures, self._column(self._sides, 1), typical)
         self._lengths = lengths
         self._reaches = self._reach()
+
+    @property
+    def area(self) -> float:
+        """Of all faces."""
+        return float(self._areas.sum())
 
     @staticmethod
     def _column(table, index: int):
@@ -125,6 +128,15 @@ def estimate_of(shape) -> SizeEstimate:
     if not _last_estimate or not _last_estimate[0][0].isSame(shape):
         _last_estimate[:] = [(shape, SizeEstimate(shape))]
     return _last_estimate[0][1]
+
+
+def _wires(face) -> List[Tuple[object, float]]:
+    """The wires of a face, and what a margin along each widens by: around a hole it gets longer. Of a face without holes the
+    face itself stands for its wire."""
+    if face.countElement("Wire") == 1:
+        return [(face, 0.0)]
+    outer = face.OuterWire
+    return [(wire, 0.0 if wire.isSame(outer) else 2 * math.pi / max(wire.Length, 1e-300)) for wire in face.Wires]
 
 
 def _columns(rows: Sequence[Tuple], width: int):
