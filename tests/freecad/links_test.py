@@ -93,8 +93,10 @@ class LinksTest(unittest.TestCase):
     def test_a_face_that_cannot_be_told_is_asked_for(self):
         mesh = core.mesh_object(self.part, size=5, faces=[6])
         before = mesh.FemMesh.FaceCount
-        self.edit(Part.makeBox(20, 20, 20).cut(Part.makeCylinder(3, 30, Vector(10, 10, 0))))  # through: the top is another
+        with mock.patch("FreeCAD.Console.PrintWarning") as told:
+            self.edit(Part.makeBox(20, 20, 20).cut(Part.makeCylinder(3, 30, Vector(10, 10, 0))))  # through: the top is another
         self.assertEqual(mesh.Status, state.LOST)
+        self.assertEqual([call.args[0].count(mesh.Label) for call in told.call_args_list], [1])  # names it, once
         for call in (lambda: core.remesh(mesh), lambda: core.export(mesh, "/tmp/never.inp"), lambda: core.flip(mesh, [1])):
             with self.assertRaises(quadrille.Error) as caught:
                 call()
