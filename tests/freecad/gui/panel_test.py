@@ -75,6 +75,8 @@ class PanelTest(GuiCase):
 
     def test_every_size_takes_units(self):
         mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "1e400 mm")
+        self.assertIn("is not a length", find("QuadrilleEstimate").text())
         self.select(self.document.Box, "Face1")
         find("QuadrilleRefinements").setChecked(True)
         find("QuadrilleMore").setChecked(True)
@@ -262,6 +264,26 @@ class PanelTest(GuiCase):
         self.assertNotEqual(mesh.Size.Value, 1.5)
         self.document.redo()
         self.assertEqual((mesh.FemMesh.FaceCount, mesh.Size.Value, len(mesh.MeshRegionList)), (quads, 1.5, 1))
+
+    def test_an_undo_shows_in_the_panel(self):
+        box = self.box()
+        mesh = self.open_panel(box)
+        before = find("QuadrilleSize").text()
+        type_into("QuadrilleSize", "1.5 mm")
+        self.press_mesh()
+        self.assertTrue(find("QuadrilleWorst").isVisible())
+        self.document.undo()
+        process(2)  # longer than the histogram takes to come
+        self.assertFalse(find("QuadrilleWorst").isVisible())
+        self.assertEqual(find("QuadrilleSize").text(), before)
+        self.document.redo()
+        process(0.5)
+        self.assertTrue(find("QuadrilleWorst").isVisible())
+        self.assertEqual(find("QuadrilleQualityTable").item(0, 1).text(), str(mesh.QuadCount))
+        self.document.undo()
+        process(0.5)
+        close_panel(CANCEL)
+        self.assertEqual(self.document.Objects, [box])
 
     def test_recorded_in_a_macro_that_replays(self):
         """With FreeCAD's own recorder."""

@@ -4,6 +4,8 @@
 FreeCAD's own boxes round to the decimals of the preferences, or to sixteenths of an inch, whenever they are shown: a panel
 with them changes sizes by opening."""
 
+import math
+
 import FreeCAD
 from PySide import QtCore, QtGui
 
@@ -70,6 +72,6 @@ def _parsed(text: str) -> float:
         value = quantity.Value
     else:
         raise Error(text, "usage")
-    if value < 0:
+    if not 0 <= value < math.inf:
         raise Error(text, "usage")
     return float(value)
