@@ -78,9 +78,12 @@ class SizeEstimate:
         faces: Sequence[str] = (),
         growth: float = 0.3,
     ) -> int:
-        """The number of quads to expect."""
+        """The number of quads to expect. Raises Error for sizes that make no sense on this shape."""
         smallest = size_min or size / 8
         sizes = sizes or {}
+        least = min([size, *sizes.values()])
+        if not least > 1e-9 * self._diagonal:
+            raise Error(f"a size of {least:.3g} mm is too small for a part of {self._diagonal:.3g} mm", "usage")
 
         def caps(kind: str, count: int):
             return np.array([min(size, sizes.get(f"{kind}{index}", size)) for index in range(1, count + 1)]) if sizes else \

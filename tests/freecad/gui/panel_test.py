@@ -77,6 +77,8 @@ class PanelTest(GuiCase):
         mesh = self.open_panel(self.box())
         type_into("QuadrilleSize", "1e400 mm")
         self.assertIn("is not a length", find("QuadrilleEstimate").text())
+        type_into("QuadrilleSize", "1e-300 mm")
+        self.assertIn("too small for a part of", find("QuadrilleEstimate").text())
         self.select(self.document.Box, "Face1")
         find("QuadrilleRefinements").setChecked(True)
         find("QuadrilleMore").setChecked(True)
@@ -86,6 +88,8 @@ class PanelTest(GuiCase):
         type_into("QuadrilleSizeMin", "0.05 cm")
         type_into("QuadrilleSew", "1 um")
         type_into("QuadrilleMergeTiny", "0.0123456 mm")
+        find("QuadrilleRefinedSize0").clear()  # as on the way to another size
+        self.assertIn("'' is not a length", find("QuadrilleEstimate").text())
         type_into("QuadrilleRefinedSize0", "1/16 in")
         close_panel()
         self.assertAlmostEqual(mesh.Size.Value, 3.175, 9)

@@ -61,6 +61,8 @@ class LengthField(QtGui.QLineEdit):
 
 def _parsed(text: str) -> float:
     """A length in millimeters; a bare number is in the unit that the user's schema has for lengths of about a millimeter."""
+    if not text.strip():  # of which FreeCAD makes 2e-308
+        raise Error(text, "usage")
     try:
         quantity = FreeCAD.Units.Quantity(text)
     except Exception as error:  # FreeCAD versions raise different ones
