@@ -27,21 +27,22 @@ class SizeEstimate:
         samples = _SAMPLES if len(faces) <= _MANY_FACES else _FEW_SAMPLES
         self._diagonal = shape.BoundBox.DiagonalLength
         numbers: Dict[int, List[Tuple[object, int]]] = {}
+        degenerated = [edge.Degenerated for edge in edges]
         for index, edge in enumerate(edges):
-            if not edge.Degenerated:
+            if not degenerated[index]:
                 numbers.setdefault(edge.hashCode(), []).append((edge, index))
         self._areas = np.array([face.Area for face in faces])
         pieces = [(index, *piece) for index, face in enumerate(faces)
                   for piece in _curvatures(face, self._areas[index], samples)]
         self._pieces = _columns(pieces, 3)  # face, area, curvature
-        lengths = np.array([0.0 if edge.Degenerated else edge.Length for edge in edges])
+        lengths = np.array([0.0 if point else edge.Length for edge, point in zip(edges, degenerated)])
         sides = []  # face, edge, what the margin along it widens by, per length and distance
         for index, face in enumerate(faces):
             for wire, widening in _wires(face):
                 sides += [(index, number, widening) for edge in wire.Edges
                           for same, number in numbers.get(edge.hashCode(), ()) if same.isSame(edge)]
         self._sides = _columns(sides, 3)
-        self._edge_curvatures = np.array([_curvature_of_edge(edge) for edge in edges])
+        self._edge_curvatures = np.array([0.0 if point else _curvature_of_edge(edge) for edge, point in zip(edges, degenerated)])
         # The neighbor is as fine as its curvature wants, up to the edge.
         typical = self._typical_curvatures()[self._column(self._sides, 0)]
         np.maximum.at(self._edge_curvatures, self._column(self._sides, 1), typical)
@@ -147,10 +148,11 @@ def _columns(rows: Sequence[Tuple], width: int):
 
 
 def _curvature_of_edge(edge) -> float:
-    if edge.Degenerated or isinstance(edge.Curve, Part.Line):
+    curve = edge.Curve
+    if isinstance(curve, Part.Line):
         return 0.0
-    if isinstance(edge.Curve, Part.Circle):
-        return 1 / edge.Curve.Radius
+    if isinstance(curve, Part.Circle):
+        return 1 / curve.Radius
     first, last = edge.ParameterRange
     curvature = 0.0
     for share in (0.1, 0.5, 0.9):

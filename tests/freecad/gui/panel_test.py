@@ -538,7 +538,8 @@ class PanelTest(GuiCase):
         find("QuadrilleSize")
         seconds = time.process_time() - started
         print(f"the panel of a part of {len(plate.Faces)} faces opens in {seconds:.3f} s", file=sys.stderr)
-        self.assertLess(seconds, 0.6)  # 0.3 s but for instrumented and busy machines
+        # 0.3 s but for instrumented and busy machines, and FreeCAD from 1.0 on, where a list of faces takes 40 times as long
+        self.assertLess(seconds, 0.6 if FreeCAD.Version()[0] == "0" else 1.2)
         process(0.3)
         close_panel(CANCEL)
 
