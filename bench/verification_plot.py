@@ -14,7 +14,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 STYLES = {"quadrille": ("Quadrille", "#1f5fa8", "o"), "gmsh-quads": ("Gmsh, quads", "#d1751b", "s"),
-          "gmsh-triangles": ("Gmsh, triangles", "#6b6b6b", "^")}
+          "gmsh-triangles": ("Gmsh, triangles", "#6b6b6b", "^"), "grid": ("structured grid", "#3a8f4e", "D")}
 LEFT_OUT = {"membrane-patch"}  # exact at every size: nothing to draw
 
 

@@ -10,7 +10,7 @@ from PySide import QtCore
 
 def run_script():
     """Runs the script as `__main__` and ends the process with its exit code."""
-    os.dup2(3, 1)
+    os.dup2(9, 1)
     sys.stdout = os.fdopen(1, "w", buffering=1, encoding="utf-8", errors="replace", closefd=False)
     sys.stderr = os.fdopen(2, "w", buffering=1, encoding="utf-8", errors="replace", closefd=False)
     arguments = os.environ["QUADRILLE_SCRIPT_ARGUMENTS"].split("\x1f")[:-1]

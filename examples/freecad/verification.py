@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Known answers of shell and plane problems, with meshes of Quadrille and of Gmsh, in CalculiX.
+"""Known answers of shell and plane problems, with meshes of Quadrille and of Gmsh and with structured grids, in CalculiX.
 
     scripts/freecad_python examples/freecad/verification.py                       # every case, checked
     scripts/freecad_python examples/freecad/verification.py --case hemisphere     # one case
+    scripts/freecad_python examples/freecad/verification.py --case modes --mesher grid
     scripts/freecad_python examples/freecad/verification.py --converge out.json   # all meshers, several sizes
 
 The CAD is made in FreeCAD, Quadrille's mesh is a FEM mesh object of second order, the loads are exact ones: points, or
@@ -31,14 +32,15 @@ from FreeCAD import Vector
 import quadrille.freecad
 from known_answers.beams import (CurvedBeamInPlane, CurvedBeamOutOfPlane, TJoint, TwistedBeamInPlane,
                                  TwistedBeamOutOfPlane, ZSection)
-from known_answers.large import EndShear, SlitAnnulus
+from known_answers.grid import grid
+from known_answers.large import EndShear, PulledCylinder, SlitAnnulus
 from known_answers.patches import BendingPatch, CutBendingPatch, MembranePatch, QuadrangleBendingPatch, SkewBendingPatch
 from known_answers.plates import Buckling, EllipticMembrane, Modes, PlateWithHole, SkewPlate
 from known_answers.shells import (ClosedHemisphere, CylinderModes, GradedPinchedCylinder, Hemisphere, Hook,
                                   PinchedCylinder)
 from known_answers.solver import Mesh, Problem, displacements, write_input
 
-MESHERS = ("quadrille", "gmsh-quads", "gmsh-triangles")
+MESHERS = ("quadrille", "gmsh-quads", "gmsh-triangles", "grid")
 CASES = {
     "pinched-cylinder": PinchedCylinder, "pinched-cylinder-graded": GradedPinchedCylinder, "hemisphere": Hemisphere,
     "nafems-le3": ClosedHemisphere, "raasch-hook": Hook, "cylinder-modes": CylinderModes,
@@ -46,7 +48,8 @@ CASES = {
     "curved-beam-in-plane": CurvedBeamInPlane, "curved-beam-out-of-plane": CurvedBeamOutOfPlane,
     "nafems-le5": ZSection, "t-joint": TJoint,
     "nafems-le1": EllipticMembrane, "nafems-le6": SkewPlate, "plate-with-hole": PlateWithHole, "modes": Modes,
-    "buckling": Buckling, "end-shear": EndShear, "slit-annulus": SlitAnnulus, "membrane-patch": MembranePatch,
+    "buckling": Buckling, "end-shear": EndShear, "slit-annulus": SlitAnnulus, "pulled-cylinder": PulledCylinder,
+    "membrane-patch": MembranePatch,
     "bending-patch-skew": SkewBendingPatch, "bending-patch-quadrangle": QuadrangleBendingPatch,
     "bending-patch": BendingPatch,
 }
@@ -90,13 +93,18 @@ def graded_script(model, size, refined, share, growth=0.3):
 
 
 def run(name, mesher, size):
-    """One answer; returns a dictionary for the table."""
+    """One answer; returns a dictionary for the table. Raises RuntimeError where there is no mesh, or no answer."""
     case = CASES[name]()
     document = FreeCAD.newDocument("Verification")
     try:
         part = document.addObject("Part::Feature", "Part")
         part.Shape = case.shape()
-        mesh = mesh_with(mesher, part, size, getattr(case, "refined", ()), getattr(case, "share", 1.0))
+        if mesher == "grid":
+            if hasattr(case, "refined"):
+                raise RuntimeError("a grid has one size")
+            mesh = grid(part.Shape, size, getattr(case, "corners", ()))
+        else:
+            mesh = mesh_with(mesher, part, size, getattr(case, "refined", ()), getattr(case, "share", 1.0))
     finally:
         FreeCAD.closeDocument(document.Name)
     started = time.monotonic()
@@ -138,7 +146,7 @@ def main():
     parser = argparse.ArgumentParser(description="Known answers, with Quadrille and CalculiX.")
     parser.add_argument("--case", choices=sorted(CASES), action="append")
     parser.add_argument("--converge", help="follow meshers over several sizes; their rows in this .json are made anew")
-    parser.add_argument("--mesher", choices=MESHERS, action="append", help="with --converge, not all of them")
+    parser.add_argument("--mesher", choices=MESHERS, action="append", help="with --converge not all of them, else not Quadrille")
     parser.add_argument("--shells", action="store_true", help="the bending patch tests with each kind of shell")
     parser.add_argument("--size", type=float, help="another size than the case's own")
     arguments = parser.parse_args()
@@ -151,9 +159,9 @@ def main():
     rows, wrong = [], []
     for name in arguments.case or CASES:
         case = CASES[name]
-        runs = [("quadrille", arguments.size or case.size)]
-        if arguments.converge:
-            runs = [(mesher, size) for mesher in arguments.mesher or MESHERS for size in case.sizes]
+        sizes = case.sizes if arguments.converge else (arguments.size or case.size,)
+        meshers = arguments.mesher or (MESHERS if arguments.converge else ("quadrille",))
+        runs = [(mesher, size) for mesher in meshers for size in sizes]
         for mesher, size in runs:
             try:
                 row = run(name, mesher, size)

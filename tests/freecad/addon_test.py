@@ -1,5 +1,6 @@
 """The workbench without a window: groups for solvers, mesh regions, flipped normals, stale meshes, export, estimate."""
 
+import io
 import os
 import shutil
 import stat
@@ -155,19 +156,51 @@ class AddonTest(unittest.TestCase):
             mesh = core.mesh_object(part, size=2, order=order, analysis=analysis)
             table, nodes = meshtools.get_femelement_faces_table(mesh.FemMesh), mesh.FemMesh.Nodes
             ours = meshtools.get_force_obj_face_nodeload_table(mesh.FemMesh, table, nodes, force)
-            with unittest.mock.patch.object(meshtools, "get_ref_facenodes_areas",
-                                            meshtools.get_ref_facenodes_areas.__wrapped__), \
-                    unittest.mock.patch.object(meshtools, "get_ref_facenodes_table",
-                                               meshtools.get_ref_facenodes_table.__wrapped__):
-                searched = meshtools.get_force_obj_face_nodeload_table(mesh.FemMesh, table, nodes, force)
+            searched = meshtools.get_force_obj_face_nodeload_table.__wrapped__(mesh.FemMesh, table, nodes, force)
             self.assertEqual([name for name, _ in ours], [name for name, _ in searched])
             for (_, one), (_, other) in zip(ours, searched):
                 self.assertEqual(set(one), set(other))
+                self.assertNotIn(max(other) + 1, one)
                 for node, load in other.items():
                     self.assertAlmostEqual(float(one[node]), float(load), 9)
+            (cards, loads), (their_cards, their_loads) = (self.written(force, rows) for rows in (ours, searched))
+            self.assertEqual(cards, their_cards)
+            self.assertEqual(set(loads), set(their_loads))
+            for key, load in their_loads.items():
+                self.assertAlmostEqual(loads[key], load, 9)
             with unittest.mock.patch.object(meshtools, "get_femelements_by_femnodes_std", side_effect=AssertionError):
                 meshtools.get_force_obj_face_nodeload_table(mesh.FemMesh, table, nodes, force)  # nothing is searched
             self.document.removeObject(mesh.Name)
+
+    @staticmethod
+    def written(force, table):
+        """What FreeCAD's writer makes of loads: cards, and the load of each node along each axis on each face."""
+        from femsolver.calculix import write_constraint_force
+
+        text = io.StringIO()
+        row = {"Object": types.SimpleNamespace(DirectionVector=FreeCAD.Vector(0.6, 0, -0.8)), "NodeLoadTable": table}
+        write_constraint_force.write_meshdata_constraint(text, row, force, None)
+        cards, loads = [], {}
+        for line in filter(None, text.getvalue().splitlines()):
+            if line.startswith("*"):
+                cards.append(line)
+                continue
+            node, axis, value = line.split(",")
+            loads[len(cards), int(node), int(axis)] = float(value)
+        return cards, loads
+
+    def test_elements_of_nodes_are_gathered_when_they_are_needed(self):
+        from femmesh import meshtools
+
+        mesh = core.mesh_object(self.box(), size=2)
+        elements, nodes = meshtools.get_femelement_faces_table(mesh.FemMesh), mesh.FemMesh.Nodes
+        calls = []
+        real = meshtools.get_femnodes_ele_table.__wrapped__
+        table = solvers._when_needed(lambda *given: calls.append(1) or real(*given))(nodes, elements)
+        self.assertTrue(table)
+        self.assertEqual((len(table), calls), (len(nodes), []))
+        self.assertEqual(dict(table), real(nodes, elements))
+        self.assertEqual(calls, [1])
 
     def test_thickness_and_material_per_face(self):
         from femtools import ccxtools

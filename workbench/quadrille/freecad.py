@@ -338,7 +338,8 @@ class MeshFeature:
         """FreeCAD calls this when the part or a setting has changed: says so, and leaves the mesh as it is."""
         sentence = state.update(obj)
         if sentence:
-            FreeCAD.Console.PrintWarning(f"{obj.Label}: {sentence}\n")
+            label = f"{obj.Label}: "  # errors that name the object have it
+            FreeCAD.Console.PrintWarning(f"{'' if sentence.startswith(label) else label}{sentence}\n")
 
     def onChanged(self, obj, name: str) -> None:
         """FreeCAD calls this after a property was set: named faces are remembered as they are."""

@@ -177,9 +177,12 @@ class _Watcher:
         """Tells once of each result of our meshes what it does not show."""
         if not any(_is_ours(member) for member in analysis.Group):
             return
-        for member in analysis.Group:
+        # FreeCAD 1.1's CalculiX gives a pipeline and no result object.
+        kinds = [[member for member in analysis.Group if member.isDerivedFrom(kind)]
+                 for kind in ("Fem::FemResultObject", "Fem::FemPostPipeline")]
+        for member in kinds[0] or kinds[1]:
             key = (analysis.Document.Uid, member.Name)
-            if member.isDerivedFrom("Fem::FemResultObject") and key not in self._told:
+            if key not in self._told:
                 self._told.add(key)
                 solvers.hint_at_surfaces(member, analysis)
 

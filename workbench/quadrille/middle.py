@@ -93,11 +93,12 @@ def is_middle(obj) -> bool:
     return getattr(getattr(obj, "Proxy", None), "Type", "") == TYPE
 
 
-def looks_thin(shape) -> Optional[float]:
-    """About how thick a shape's walls are, in mm, when its solids look thin; else None. Quick, and no more than a hint."""
+def looks_thin(shape, area: Optional[float] = None) -> Optional[float]:
+    """About how thick a shape's walls are, in mm, when its solids look thin; else None. Quick, and no more than a hint;
+    quicker where the area of its faces is known."""
     if shape.isNull() or not shape.Solids:
         return None
-    thickness = 2 * shape.Volume / max(shape.Area, 1e-300)
+    thickness = 2 * shape.Volume / max(shape.Area if area is None else area, 1e-300)
     box = shape.BoundBox
     width = sorted((box.XLength, box.YLength, box.ZLength))[1]
     return thickness if thickness < _THIN * width else None

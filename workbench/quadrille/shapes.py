@@ -23,32 +23,36 @@ class SizeEstimate:
     """
 
     def __init__(self, shape) -> None:
-        samples = _SAMPLES if len(shape.Faces) <= _MANY_FACES else _FEW_SAMPLES
-        self._diagonal = shape.BoundBox.DiagonalLength
         faces, edges = shape.Faces, shape.Edges
+        samples = _SAMPLES if len(faces) <= _MANY_FACES else _FEW_SAMPLES
+        self._diagonal = shape.BoundBox.DiagonalLength
         numbers: Dict[int, List[Tuple[object, int]]] = {}
+        degenerated = [edge.Degenerated for edge in edges]
         for index, edge in enumerate(edges):
-            if not edge.Degenerated:
+            if not degenerated[index]:
                 numbers.setdefault(edge.hashCode(), []).append((edge, index))
         self._areas = np.array([face.Area for face in faces])
         pieces = [(index, *piece) for index, face in enumerate(faces)
                   for piece in _curvatures(face, self._areas[index], samples)]
         self._pieces = _columns(pieces, 3)  # face, area, curvature
-        lengths = np.array([0.0 if edge.Degenerated else edge.Length for edge in edges])
+        lengths = np.array([0.0 if point else edge.Length for edge, point in zip(edges, degenerated)])
         sides = []  # face, edge, what the margin along it widens by, per length and distance
         for index, face in enumerate(faces):
-            outer = face.OuterWire
-            for wire in face.Wires:
-                widening = 0.0 if wire.isSame(outer) else 2 * math.pi / max(wire.Length, 1e-300)
+            for wire, widening in _wires(face):
                 sides += [(index, number, widening) for edge in wire.Edges
                           for same, number in numbers.get(edge.hashCode(), ()) if same.isSame(edge)]
         self._sides = _columns(sides, 3)
-        self._edge_curvatures = np.array([_curvature_of_edge(edge) for edge in edges])
+        self._edge_curvatures = np.array([0.0 if point else _curvature_of_edge(edge) for edge, point in zip(edges, degenerated)])
         # The neighbor is as fine as its curvature wants, up to the edge.
         typical = self._typical_curvatures()[self._column(self._sides, 0)]
         np.maximum.at(self._edge_curvatures, self._column(self._sides, 1), typical)
         self._lengths = lengths
         self._reaches = self._reach()
+
+    @property
+    def area(self) -> float:
+        """Of all faces."""
+        return float(self._areas.sum())
 
     @staticmethod
     def _column(table, index: int):
@@ -75,9 +79,12 @@ class SizeEstimate:
         faces: Sequence[str] = (),
         growth: float = 0.3,
     ) -> int:
-        """The number of quads to expect."""
+        """The number of quads to expect. Raises Error for sizes that make no sense on this shape."""
         smallest = size_min or size / 8
         sizes = sizes or {}
+        least = min([size, *sizes.values()])
+        if not least > 1e-9 * self._diagonal:
+            raise Error(f"a size of {least:.3g} mm is too small for a part of {self._diagonal:.3g} mm", "usage")
 
         def caps(kind: str, count: int):
             return np.array([min(size, sizes.get(f"{kind}{index}", size)) for index in range(1, count + 1)]) if sizes else \
@@ -127,15 +134,25 @@ def estimate_of(shape) -> SizeEstimate:
     return _last_estimate[0][1]
 
 
+def _wires(face) -> List[Tuple[object, float]]:
+    """The wires of a face, and what a margin along each widens by: around a hole it gets longer. Of a face without holes the
+    face itself stands for its wire."""
+    if face.countElement("Wire") == 1:
+        return [(face, 0.0)]
+    outer = face.OuterWire
+    return [(wire, 0.0 if wire.isSame(outer) else 2 * math.pi / max(wire.Length, 1e-300)) for wire in face.Wires]
+
+
 def _columns(rows: Sequence[Tuple], width: int):
     return np.array(rows, dtype=float).reshape(-1, width)
 
 
 def _curvature_of_edge(edge) -> float:
-    if edge.Degenerated or isinstance(edge.Curve, Part.Line):
+    curve = edge.Curve
+    if isinstance(curve, Part.Line):
         return 0.0
-    if isinstance(edge.Curve, Part.Circle):
-        return 1 / edge.Curve.Radius
+    if isinstance(curve, Part.Circle):
+        return 1 / curve.Radius
     first, last = edge.ParameterRange
     curvature = 0.0
     for share in (0.1, 0.5, 0.9):

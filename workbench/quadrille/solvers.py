@@ -15,6 +15,7 @@ Meshes without such groups, and mesh objects that are not ours, give the same as
 import functools
 import importlib.util
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Callable, List, Optional, Tuple
 
@@ -63,10 +64,10 @@ _LOST = {
     "_of_shells": "large meshes take long to write for solvers",
     "_noting_objects": "several materials or thicknesses take long to write for solvers",
     "_from_groups": "several materials or thicknesses take long to write for solvers",
+    "_when_needed": "large meshes take long to write for solvers",
     "_with_set": "several materials or thicknesses take long to write for solvers",
-    "noting_faces": "forces on faces take long to write for CalculiX",
-    "from_group": "forces on faces take long to write for CalculiX",
-    "by_numpy": "forces on faces take long to write for CalculiX",
+    "from_groups": "forces on faces take long to write for CalculiX",
+    "in_one_go": "forces on faces take long to write for CalculiX",
     "_followed": "the input for CalculiX has S8 and no offset of shells, whatever the mesh object says",
 }
 
@@ -190,6 +191,37 @@ def _with_set(function):
     return get_femelements_by_femnodes_std
 
 
+class _Later(Mapping):
+    """A table that is made when it is first looked into."""
+
+    def __init__(self, make: Callable[[], dict], length: int) -> None:
+        self._make, self._length = make, length
+
+    @functools.cached_property
+    def _table(self) -> dict:
+        return self._make()
+
+    def __getitem__(self, key):
+        return self._table[key]
+
+    def __iter__(self):
+        return iter(self._table)
+
+    def __len__(self):
+        return self._length
+
+
+def _when_needed(function):
+    """The same table of each node's elements, when it is needed: FreeCAD 1.1 makes it for each input, and a text of it for its
+    log, and looks into it where elements are searched by their nodes."""
+
+    @functools.wraps(function)
+    def get_femnodes_ele_table(femnodes_mesh, femelement_table):
+        return _Later(lambda: function(femnodes_mesh, femelement_table), len(femnodes_mesh))
+
+    return get_femnodes_ele_table
+
+
 # Elements and sections of shells
 
 
@@ -263,8 +295,8 @@ WRAPPED = (
     ("femmesh.meshtools", "get_femelement_sets", _noting_objects),
     ("femmesh.meshtools", "get_femelements_by_references", _from_groups),
     ("femmesh.meshtools", "get_femelements_by_femnodes_std", _with_set),
-    ("femmesh.meshtools", "get_force_obj_face_nodeload_table", forces.noting_faces),
-    ("femmesh.meshtools", "get_ref_facenodes_table", forces.from_group),
-    ("femmesh.meshtools", "get_ref_facenodes_areas", forces.by_numpy),
+    ("femmesh.meshtools", "get_femnodes_ele_table", _when_needed),
+    ("femmesh.meshtools", "get_force_obj_face_nodeload_table", forces.from_groups),
+    ("femsolver.calculix.write_constraint_force", "write_meshdata_constraint", forces.in_one_go),
     ("femsolver.calculix.writer", "FemInputWriterCcx.write_solver_input", _followed),
 )

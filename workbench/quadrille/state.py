@@ -61,10 +61,10 @@ def _length(region) -> float:
 def shape_of(doc_object):
     """The shape of a document object; raises Error when there is none that can be meshed."""
     shape = getattr(doc_object, "Shape", None)
-    if shape is None or not hasattr(shape, "Faces"):
+    if shape is None or not hasattr(shape, "countElement"):
         label = getattr(doc_object, "Label", doc_object)
         raise Error(f"{label}: has no shape to mesh", "usage", getattr(doc_object, "Name", ""))
-    if shape.isNull() or not shape.Faces:
+    if shape.isNull() or not shape.countElement("Face"):  # in FreeCAD 1.0 a list of many faces takes long
         raise Error(f"{doc_object.Label}: its shape has no faces to mesh", "usage", doc_object.Name)
     return shape
 

@@ -57,3 +57,34 @@ class SlitAnnulus:
         problem.increments = (0.1, 1e-6, 1)
         found = displacements(solve(mesh, problem)[0], len(mesh.points))
         return found[mesh.at(self.outer * math.cos(angle), self.outer * math.sin(angle), 0), 2]
+
+
+class PulledCylinder:
+    """An open cylinder, pulled apart by two forces on its middle; the displacement under one of them, at a tenth of the
+    paper's largest force."""
+
+    reference, sizes, size, tolerance = 1.707, (1.6, 1.3, 1.0, 0.8), 1.3, 2.5
+    radius, half = 4.953, 10.35 / 2
+    force = 40000 / 10
+
+    def shape(self):
+        r, s = self.radius, self.radius / math.sqrt(2)
+        faces = []
+        for quarter in range(4):
+            edge = Part.Arc(Vector(r, 0, 0), Vector(s, s, 0), Vector(0, r, 0)).toShape()
+            edge.rotate(Vector(), Vector(0, 0, 1), 90 * quarter)
+            faces += [edge.extrude(Vector(0, 0, side * self.half)) for side in (-1, 1)]
+        return joined(faces)
+
+    def answer(self, mesh):
+        problem = Problem(10.5e6, 0.3125, 0.094)
+        r = self.radius
+        top, bottom, right, left = (mesh.at(*point) for point in ((0, r, 0), (0, -r, 0), (r, 0, 0), (-r, 0, 0)))
+        # What symmetry keeps at zero holds the body: no force comes from these supports.
+        problem.fix(np.array([top, bottom]), 1)
+        problem.fix(np.array([right, left]), 2)
+        problem.fix(np.array([top, bottom, right, left]), 3)
+        problem.load({top: (0, self.force, 0), bottom: (0, -self.force, 0)})
+        problem.increments = (0.05, 1e-6, 0.2)
+        found = displacements(solve(mesh, problem)[0], len(mesh.points))
+        return (found[top, 1] - found[bottom, 1]) / 2

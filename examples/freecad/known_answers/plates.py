@@ -44,6 +44,7 @@ class PlateWithHole:
 
     reference, sizes, size, tolerance = 3.0, (0.6, 0.4, 0.25, 0.15, 0.1), 0.1, 1.0
     side = 4.0
+    corners = ((1, 0, 0), (4, 0, 0), (0, 4, 0), (0, 1, 0))
 
     def shape(self):
         square = Part.makePlane(self.side, self.side)

@@ -61,16 +61,16 @@ def find(name):
 
 
 def close_panel(button=None):
-    """Presses OK in the task panel (Close where there is no OK), or another button."""
+    """Presses OK in the task panel (Close where there is no OK), or another button; FreeCAD 1.1 slides the panel in."""
     wanted = [button] if button is not None else [QtGui.QDialogButtonBox.Ok, QtGui.QDialogButtonBox.Close]
-    for box in window().findChildren(QtGui.QDialogButtonBox):
-        for kind in wanted:
-            found = box.button(kind)
-            if found is not None and found.isVisible():
-                found.click()
-                process(0.2)
-                return
-    raise AssertionError("no such button")
+
+    def there():
+        found = [box.button(kind) for box in window().findChildren(QtGui.QDialogButtonBox) for kind in wanted]
+        return next((one for one in found if one is not None and one.isVisible()), None)
+
+    wait_for(there, 5, "the panel's button")
+    there().click()
+    process(0.2)
 
 
 class Boxes:

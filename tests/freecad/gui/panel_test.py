@@ -75,6 +75,10 @@ class PanelTest(GuiCase):
 
     def test_every_size_takes_units(self):
         mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "1e400 mm")
+        self.assertIn("is not a length", find("QuadrilleEstimate").text())
+        type_into("QuadrilleSize", "1e-300 mm")
+        self.assertIn("too small for a part of", find("QuadrilleEstimate").text())
         self.select(self.document.Box, "Face1")
         find("QuadrilleRefinements").setChecked(True)
         find("QuadrilleMore").setChecked(True)
@@ -84,6 +88,8 @@ class PanelTest(GuiCase):
         type_into("QuadrilleSizeMin", "0.05 cm")
         type_into("QuadrilleSew", "1 um")
         type_into("QuadrilleMergeTiny", "0.0123456 mm")
+        find("QuadrilleRefinedSize0").clear()  # as on the way to another size
+        self.assertIn("'' is not a length", find("QuadrilleEstimate").text())
         type_into("QuadrilleRefinedSize0", "1/16 in")
         close_panel()
         self.assertAlmostEqual(mesh.Size.Value, 3.175, 9)
@@ -262,6 +268,26 @@ class PanelTest(GuiCase):
         self.assertNotEqual(mesh.Size.Value, 1.5)
         self.document.redo()
         self.assertEqual((mesh.FemMesh.FaceCount, mesh.Size.Value, len(mesh.MeshRegionList)), (quads, 1.5, 1))
+
+    def test_an_undo_shows_in_the_panel(self):
+        box = self.box()
+        mesh = self.open_panel(box)
+        before = find("QuadrilleSize").text()
+        type_into("QuadrilleSize", "1.5 mm")
+        self.press_mesh()
+        self.assertTrue(find("QuadrilleWorst").isVisible())
+        self.document.undo()
+        process(2)  # longer than the histogram takes to come
+        self.assertFalse(find("QuadrilleWorst").isVisible())
+        self.assertEqual(find("QuadrilleSize").text(), before)
+        self.document.redo()
+        process(0.5)
+        self.assertTrue(find("QuadrilleWorst").isVisible())
+        self.assertEqual(find("QuadrilleQualityTable").item(0, 1).text(), str(mesh.QuadCount))
+        self.document.undo()
+        process(0.5)
+        close_panel(CANCEL)
+        self.assertEqual(self.document.Objects, [box])
 
     def test_recorded_in_a_macro_that_replays(self):
         """With FreeCAD's own recorder."""
@@ -512,7 +538,8 @@ class PanelTest(GuiCase):
         find("QuadrilleSize")
         seconds = time.process_time() - started
         print(f"the panel of a part of {len(plate.Faces)} faces opens in {seconds:.3f} s", file=sys.stderr)
-        self.assertLess(seconds, 0.6)  # 0.3 s but for instrumented and busy machines
+        # 0.3 s but for instrumented and busy machines, and FreeCAD from 1.0 on, where a list of faces takes 40 times as long
+        self.assertLess(seconds, 0.6 if FreeCAD.Version()[0] == "0" else 1.2)
         process(0.3)
         close_panel(CANCEL)
 

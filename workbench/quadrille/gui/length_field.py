@@ -4,6 +4,8 @@
 FreeCAD's own boxes round to the decimals of the preferences, or to sixteenths of an inch, whenever they are shown: a panel
 with them changes sizes by opening."""
 
+import math
+
 import FreeCAD
 from PySide import QtCore, QtGui
 
@@ -59,6 +61,8 @@ class LengthField(QtGui.QLineEdit):
 
 def _parsed(text: str) -> float:
     """A length in millimeters; a bare number is in the unit that the user's schema has for lengths of about a millimeter."""
+    if not text.strip():  # of which FreeCAD makes 2e-308
+        raise Error(text, "usage")
     try:
         quantity = FreeCAD.Units.Quantity(text)
     except Exception as error:  # FreeCAD versions raise different ones
@@ -70,6 +74,6 @@ def _parsed(text: str) -> float:
         value = quantity.Value
     else:
         raise Error(text, "usage")
-    if value < 0:
+    if not 0 <= value < math.inf:
         raise Error(text, "usage")
     return float(value)

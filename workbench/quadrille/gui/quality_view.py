@@ -129,6 +129,8 @@ class QualityWidget(QtGui.QWidget):
             measured = self.measured()
         except ReferenceError:  # the object or its document is gone
             return
+        if not measured.ids.size:  # the mesh has been undone
+            return
         self.histogram.setPixmap(histogram_pixmap(np.histogram(measured.q, bins=BINS, range=(0.0, 1.0))[0]))
         rows = []
         for name, (ideal, limit) in quality.CRITERIA.items():

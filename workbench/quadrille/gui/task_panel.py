@@ -380,6 +380,19 @@ class MeshPanel:
         if document.Name == self._document_name:
             self._abandon()
 
+    def slotUndoDocument(self, document) -> None:
+        """FreeCAD calls this after an undo."""
+        if document.Name == self._document_name:
+            QtCore.QTimer.singleShot(0, self._show_again)  # when others have brought the mesh back
+
+    slotRedoDocument = slotUndoDocument
+
+    def _show_again(self) -> None:
+        """The fields and the quality of what the document has now."""
+        if self._observing and self._job is None:
+            self._load()
+            self.quality.refresh()
+
     def slotDeletedObject(self, obj) -> None:
         """FreeCAD calls this before an object is deleted (or its making undone)."""
         if obj.Name == self._name and obj.Document.Name == self._document_name:

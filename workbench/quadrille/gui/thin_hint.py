@@ -7,12 +7,14 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from ..middle import looks_thin
+from ..shapes import estimate_of
 from . import translate
 
 
 def thin_hint(part, close: Callable[[], object]) -> Optional[QtGui.QLabel]:
     """A line with a link that closes the panel and runs the command Middle surface; None where the part is not thin."""
-    thickness = looks_thin(part.Shape)
+    shape = part.Shape
+    thickness = looks_thin(shape, estimate_of(shape).area)
     if thickness is None:
         return None
     text = translate(
