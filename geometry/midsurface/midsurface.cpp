@@ -32,6 +32,7 @@
 #include "geometry/midsurface/solids.hpp"
 #include "geometry/midsurface/wall_pieces.hpp"
 #include "geometry/midsurface/walls.hpp"
+#include "geometry/midsurface/widths.hpp"
 
 namespace quadrille {
 
@@ -43,12 +44,6 @@ struct SolidMiddle {
   std::vector<Wall> walls;
   double volume = 0;
 };
-
-double area_of(const TopoDS_Shape& shape) {
-  GProp_GProps properties;
-  BRepGProp::SurfaceProperties(shape, properties, 1e-6);
-  return std::abs(properties.Mass());
-}
 
 double volume_of(const TopoDS_Shape& shape) {
   GProp_GProps properties;
@@ -71,16 +66,31 @@ std::vector<int> bent_groups(std::size_t walls, const std::vector<WallEnd>& ends
   return group;
 }
 
-/// The shorter side of the rectangle of that area and perimeter.
-double width_of(double area, double perimeter) {
-  const double half = 0.25 * perimeter;
-  return half * half > area ? half - std::sqrt(half * half - area) : std::sqrt(area);
-}
+/// Of some faces that are connected.
+struct Extent {
+  double area = 0, volume = 0;
+  double perimeter = 0;  ///< without their holes
+};
 
-double length_of(const TopoDS_Shape& edge) {
-  GProp_GProps properties;
-  BRepGProp::LinearProperties(edge, properties);
-  return properties.Mass();
+/// \param part of each face; those of part `p` count.
+Extent extent_of(const std::vector<JoinedFace>& faces, const std::vector<int>& part, int p) {
+  TopTools_IndexedMapOfShape rims;
+  std::vector<int> uses;
+  Extent result;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (part[i] != p) continue;
+    const double area = area_of(faces[i].face);
+    result.area += area;
+    result.volume += area * faces[i].coverage.mean;
+    for (TopExp_Explorer it(BRepTools::OuterWire(faces[i].face), TopAbs_EDGE); it.More(); it.Next()) {
+      const int rim = rims.Add(it.Current());
+      uses.resize(rims.Extent());
+      ++uses[rim - 1];
+    }
+  }
+  for (int i = 1; i <= rims.Extent(); ++i)
+    result.perimeter += uses[i - 1] == 1 ? length_of(TopoDS::Edge(rims(i))) : 0;
+  return result;
 }
 
 /// Area of the faces that are thicker than `thickest` times their width, over the area of all.
@@ -88,24 +98,18 @@ double thick_share(const SolidMiddle& middle, const std::vector<WallEnd>& ends, 
   const std::vector<int> group = bent_groups(middle.walls.size(), ends);
   double all = 0, thick = 0;
   for (std::size_t g = 0; g < middle.walls.size(); ++g) {
-    TopTools_IndexedMapOfShape rims;
-    std::vector<int> uses;
-    double area = 0, volume = 0;
+    std::vector<JoinedFace> faces;
     for (const JoinedFace& face : middle.faces) {
-      if (group[face.wall] != static_cast<int>(g)) continue;
-      const double own = area_of(face.face);
-      area += own;
-      volume += own * face.coverage.mean;
-      for (TopExp_Explorer it(BRepTools::OuterWire(face.face), TopAbs_EDGE); it.More(); it.Next()) {
-        const int rim = rims.Add(it.Current());
-        uses.resize(rims.Extent());
-        ++uses[rim - 1];
-      }
+      if (group[face.wall] == static_cast<int>(g)) faces.push_back(face);
     }
-    double perimeter = 0;
-    for (int i = 1; i <= rims.Extent(); ++i) perimeter += uses[i - 1] == 1 ? length_of(rims(i)) : 0;
-    all += area;
-    if (area > 0 && volume / area > thickest * width_of(area, perimeter)) thick += area;
+    const std::vector<int> part = connected_parts(faces);
+    const int parts = part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end());
+    for (int p = 0; p < parts; ++p) {
+      const Extent extent = extent_of(faces, part, p);
+      all += extent.area;
+      if (extent.volume > thickest * width_of(extent.area, extent.perimeter) * extent.area)
+        thick += extent.area;
+    }
   }
   return all > 0 ? thick / all : 1;
 }
@@ -209,6 +213,16 @@ bool in_other_wall(const Skin& skin, const SolidMiddle& middle, int own, const g
   return false;
 }
 
+/// Whether most of a face lies across a wall: the riser of a step, which no free edge lies on.
+bool across_a_wall(const Skin& skin, const SolidMiddle& middle, const SkinFace& face) {
+  double across = 0;
+  for (const FaceSample& sample : face.samples(8)) {
+    const auto holds = [&](const Wall& wall) { return position_in(wall, skin, sample.point).has_value(); };
+    if (std::any_of(middle.walls.begin(), middle.walls.end(), holds)) across += sample.area;
+  }
+  return across > 0.5 * face.area();
+}
+
 void sort_unique(std::vector<int>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -255,8 +269,12 @@ void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_Inde
     sort_unique(rim.solid_faces);
     if (!rim.solid_faces.empty()) result.rims.push_back(rim);
   }
-  for (std::size_t i = 0; i < skin.faces().size(); ++i) {
-    if (accounted.count(static_cast<int>(i)) == 0) result.unpaired.push_back(skin.faces()[i].number());
+  // A face that was cut where solids were joined counts as one.
+  std::set<int> numbers;
+  for (const int face : accounted) numbers.insert(skin.faces()[face].number());
+  for (const SkinFace& face : skin.faces()) {
+    if (numbers.count(face.number()) == 0 && !across_a_wall(skin, middle, face))
+      result.unpaired.push_back(face.number());
   }
 }
 

@@ -1,5 +1,7 @@
 #include <BRepAdaptor_Curve.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepClass3d_SolidClassifier.hxx>
 #include <BRep_Tool.hxx>
 #include <GeomAPI_Interpolate.hxx>
@@ -32,15 +34,40 @@ namespace quadrille {
 
 namespace {
 
+class Material {
+ public:
+  explicit Material(const Skin& skin) : classifier_(skin.solid()), near_(1e-6 * skin.size()) {}
+  bool holds(const gp_Pnt& point) {
+    classifier_.Perform(point, near_);
+    return classifier_.State() == TopAbs_IN;
+  }
+
+ private:
+  BRepClass3d_SolidClassifier classifier_;
+  double near_;
+};
+
 const double nearly_parallel = std::cos(45 * M_PI / 180);
 
 /// One edge of a face, with the direction into the material and the one that leads away from the face.
 class FaceEdge {
  public:
-  FaceEdge(const SkinFace& face, const TopoDS_Edge& edge) : face_(face), edge_(edge), curve_(edge) {}
+  FaceEdge(const SkinFace& face, const TopoDS_Edge& edge)
+      : face_(face),
+        edge_(edge),
+        curve_(edge),
+        first_(curve_.FirstParameter()),
+        last_(curve_.LastParameter()) {}
 
-  double first() const { return curve_.FirstParameter(); }
-  double last() const { return curve_.LastParameter(); }
+  double first() const { return first_; }
+  double last() const { return last_; }
+  /// The same edge between two of its parameters.
+  FaceEdge stretch(double first, double last) const {
+    FaceEdge result = *this;
+    result.first_ = first;
+    result.last_ = last;
+    return result;
+  }
   bool closed() const {
     return curve_.Value(first()).Distance(curve_.Value(last())) < Precision::Confusion();
   }
@@ -68,6 +95,7 @@ class FaceEdge {
   const SkinFace& face_;
   TopoDS_Edge edge_;
   BRepAdaptor_Curve curve_;
+  double first_, last_;
 };
 
 Handle(Geom_Curve) interpolated(const FaceEdge& edge, double depth) {
@@ -137,10 +165,29 @@ TopoDS_Face cone_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) 
       .Face();
 }
 
+/// The plane between two arcs round one center, as at the end of a bend that goes on into a rounded corner.
+/// Null where they are no such arcs.
+TopoDS_Face plane_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
+  const auto first = circle_of(a), second = circle_of(b);
+  if (!first || !second) return {};
+  const double near = 1e-7 * first->Radius(), first_end = a->LastParameter();
+  const bool closed = a->Value(a->FirstParameter()).Distance(a->Value(first_end)) < near;
+  if (closed || first->Location().Distance(second->Location()) > near ||
+      !first->Axis().IsParallel(second->Axis(), 1e-7))
+    return {};
+  BRepBuilderAPI_MakeWire border(BRepBuilderAPI_MakeEdge(a).Edge());
+  border.Add(BRepBuilderAPI_MakeEdge(a->Value(first_end), b->Value(b->LastParameter())).Edge());
+  border.Add(BRepBuilderAPI_MakeEdge(b).Edge());
+  border.Add(BRepBuilderAPI_MakeEdge(b->Value(b->FirstParameter()), a->Value(a->FirstParameter())).Edge());
+  BRepBuilderAPI_MakeFace face(gp_Pln(gp_Ax3(first->Position())), border.Wire());
+  return face.IsDone() ? face.Face() : TopoDS_Face();
+}
+
 /// What lies between two curves.
 TopoDS_Face face_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
-  const TopoDS_Face cone = cone_between(a, b);
-  if (!cone.IsNull()) return cone;
+  for (const TopoDS_Face& simple : {cone_between(a, b), plane_between(a, b)}) {
+    if (!simple.IsNull()) return simple;
+  }
   return BRepBuilderAPI_MakeFace(GeomFill::Surface(a, b), Precision::Confusion()).Face();
 }
 
@@ -155,19 +202,40 @@ bool runs_through(const Wall& wall, const Skin& skin, const gp_Pnt& point, const
 struct NextWall {
   int wall = -1;    ///< -1 = none
   double away = 0;  ///< how far from the edge it was met: behind the riser of a step that leans or is rounded
+  double depth = 0;  ///< below the edge
 };
 
 constexpr double close_by = 0.05;  // over the thickness
 
-NextWall next_wall(const Skin& skin, const std::vector<Wall>& walls, int wall, const FaceEdge& edge) {
+/// Whether a wall begins behind a point of an edge.
+bool begins_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, double at,
+                   const NextWall& next) {
+  const gp_Pnt beyond = edge.inside(at, next.depth).Translated(next.away * edge.away(at));
+  return runs_through(wall, skin, beyond, edge.outward(at));
+}
+
+/// Whether another face rises from the edge, out of the one it bounds: an inner corner.
+bool rises(const FaceEdge& edge, double thickness, Material& material) {
+  const double at = 0.5 * (edge.first() + edge.last()), step = close_by * thickness;
+  return material.holds(edge.inside(at, -step).Translated(step * edge.away(at)));
+}
+
+NextWall next_wall(const Skin& skin, const std::vector<Wall>& walls, int wall, const FaceEdge& edge,
+                   Material& material) {
   const double t = walls[wall].thickness;
-  for (const double away : {close_by, 0.3, 0.6, 1.0}) {
-    for (const double share : {0.5, 0.25, 0.75}) {
-      const double at = edge.first() + share * (edge.last() - edge.first());
-      const gp_Pnt beyond = edge.inside(at, 0.5 * t).Translated(away * t * edge.away(at));
-      for (int other = 0; other < static_cast<int>(walls.size()); ++other) {
-        if (other == wall) continue;
-        if (runs_through(walls[other], skin, beyond, edge.outward(at))) return {other, away * t};
+  const bool corner = rises(edge, t, material);
+  // Half way down first: what begins there is the wall's own continuation. Of two sheets that lie on each
+  // other the thinner one does not reach there.
+  for (const double depth : {0.5, 0.85, 0.15}) {
+    for (const double away : {close_by, 0.3, 0.6, 1.0}) {
+      if (corner && away > close_by)
+        break;  // what is met further on is not behind a riser, but behind a wall
+      for (const double share : {0.5, 0.25, 0.75}) {
+        const double at = edge.first() + share * (edge.last() - edge.first());
+        for (int other = 0; other < static_cast<int>(walls.size()); ++other) {
+          const NextWall next{other, away * t, depth * t};
+          if (other != wall && begins_behind(skin, walls[other], edge, at, next)) return next;
+        }
       }
     }
   }
@@ -201,12 +269,45 @@ WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, con
   const double t = walls[wall].thickness;
   const double own = depth_at(skin, walls[wall], edge, -1e-3 * t, 0.5 * t);
   const double step_over = next.away > close_by * t ? next.away : 1e-3 * t;
-  const double other = depth_at(skin, walls[next.wall], edge, step_over, 0.5 * t);
+  const double other = depth_at(skin, walls[next.wall], edge, step_over, next.depth);
   const bool step = std::abs(own - other) > 1e-2 * t;
   const double high = std::min(own, other) - 0.1 * t, low = std::max(own, other) + 0.1 * t;
   // A rib across the bend interrupts the edge, not the wall: the fence runs on through the rib.
   const double longer = step ? 0 : thickest_of(walls);
   return {wall, next.wall, face_between(moved(edge, high, longer), moved(edge, low, longer)), step};
+}
+
+/// The stretches of an edge behind which a wall begins: of a bar that lies across another one, and whose
+/// side's edge is longer, the width of the other. What stands on the wall there does not interrupt them.
+std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const FaceEdge& edge,
+                                      const NextWall& next, Material& material) {
+  constexpr int count = 32;
+  const double first = edge.first(), length = edge.last() - first;
+  const auto at = [&](double i) { return first + length * (i + 0.5) / count; };
+  const auto begins = [&](double t) { return begins_behind(skin, wall, edge, t, next); };
+  const auto is_material = [&](double t) {
+    return material.holds(edge.inside(t, next.depth).Translated(next.away * edge.away(t)));
+  };
+  const auto border = [&](double inside, double outside) {
+    for (int step = 0; step < 60; ++step) {
+      const double middle = 0.5 * (inside + outside);
+      (begins(middle) ? inside : outside) = middle;
+    }
+    return inside;
+  };
+  std::vector<FaceEdge> result;
+  for (int i = 0; i < count; ++i) {
+    if (!begins(at(i))) continue;
+    int last = i;
+    for (int k = i + 1; k < count && (begins(at(k)) || is_material(at(k))); ++k)
+      last = begins(at(k)) ? k : last;
+    const double low = i > 0 ? border(at(i), at(i - 1)) : first;
+    const double high = last + 1 < count ? border(at(last), at(last + 1)) : first + length;
+    result.push_back(edge.stretch(low, high));
+    i = last;
+  }
+  if (result.empty()) result.push_back(edge);  // narrower than a sample
+  return result;
 }
 
 /// Whether a point lies near one of the others; if not, it becomes one of them.
@@ -243,19 +344,6 @@ class Borders {
   const Skin& skin_;
   const std::vector<int>& surfaces_;
   TopTools_IndexedDataMapOfShapeListOfShape neighbors_;
-};
-
-class Material {
- public:
-  explicit Material(const Skin& skin) : classifier_(skin.solid()), near_(1e-6 * skin.size()) {}
-  bool holds(const gp_Pnt& point) {
-    classifier_.Perform(point, near_);
-    return classifier_.State() == TopAbs_IN;
-  }
-
- private:
-  BRepClass3d_SolidClassifier classifier_;
-  double near_;
 };
 
 /// An edge of a wall's side at one of its vertices.
@@ -383,7 +471,13 @@ bool stands_on(const std::vector<Wall>& walls, int wall, int next) {
 std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,
                                     const std::vector<int>& surfaces) {
   const Borders borders(skin, surfaces);
+  Material material(skin);
   std::vector<WallEnd> ends;
+  const auto add = [&](const WallEnd& end, bool riser) {
+    ends.push_back(end);
+    // Behind a riser the other wall runs on below it, to the same fence.
+    if (riser) ends.push_back({end.next, end.wall, end.fence, end.step});
+  };
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
     const double t = walls[wall].thickness;
     std::vector<gp_Pnt> centers;
@@ -391,15 +485,19 @@ std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& w
       const SkinFace& face = skin.faces()[index];
       for (const TopoDS_Edge& edge : borders.of_face(face)) {
         const FaceEdge face_edge(face, edge);
-        const NextWall next = next_wall(skin, walls, wall, face_edge);
+        const NextWall next = next_wall(skin, walls, wall, face_edge, material);
         const gp_Pnt center = face_edge.inside(0.5 * (face_edge.first() + face_edge.last()), 0.5 * t);
         // A bend has an edge on either side of the wall: one fence does for both.
         if (next.wall < 0 || is_near(center, 0.01 * t, centers)) continue;
         const bool riser = next.away > close_by * t;
         if (riser && !stands_on(walls, wall, next.wall)) continue;
-        ends.push_back(make_end(skin, walls, wall, next, face_edge));
-        // Behind a riser the other wall runs on below it, to the same fence.
-        if (riser) ends.push_back({next.wall, wall, ends.back().fence, ends.back().step});
+        const WallEnd end = make_end(skin, walls, wall, next, face_edge);
+        if (!end.step) {
+          add(end, riser);
+          continue;
+        }
+        for (const FaceEdge& part : stretches_along(skin, walls[next.wall], face_edge, next, material))
+          add(make_end(skin, walls, wall, next, part), riser);
       }
     }
   }

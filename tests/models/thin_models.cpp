@@ -379,14 +379,115 @@ TopoDS_Shape thick_block() {
   return box(0, 0, 0, 30, 20, 10);
 }
 
-TopoDS_Shape welded_frame() {
+TopoDS_Shape together(const std::vector<TopoDS_Shape>& solids) {
   TopoDS_Compound result;
   const BRep_Builder builder;
   builder.MakeCompound(result);
-  for (const double x : {-20.0, 180.0})
-    builder.Add(result, cut(box(x, 0, 0, 40, 40, 200), {box(x + 3, 3, -1, 34, 34, 202)}));
-  builder.Add(result, cut(box(20, 5, 130, 160, 30, 30), {box(19, 7, 132, 162, 26, 26)}));
+  for (const TopoDS_Shape& solid : solids) builder.Add(result, solid);
   return result;
+}
+
+/// A tube along x from a corner, square outside.
+TopoDS_Shape tube_along_x(double x, double y, double z, double length, double wide, double wall) {
+  const double inside = wide - 2 * wall;
+  return cut(box(x, y, z, length, wide, wide), {box(x - 1, y + wall, z + wall, length + 2, inside, inside)});
+}
+
+TopoDS_Shape welded_frame(double gap, double wide) {
+  std::vector<TopoDS_Shape> parts;
+  for (const double x : {-20.0, 180.0})
+    parts.push_back(cut(box(x, 0, 0, 40, 40, 200), {box(x + 3, 3, -1, 34, 34, 202)}));
+  parts.push_back(tube_along_x(20 + gap, 20 - 0.5 * wide, 130, 160 - 2 * gap, wide, 2));
+  return together(parts);
+}
+
+/// Two square tubes that meet in a miter, one of them set off along the other.
+TopoDS_Shape mitered_frame(double gap) {
+  const TopoDS_Shape half = profile({{{-10, -10}, {300, 300}, {300, -10}}}, 60);
+  gp_Trsf down, mirror, apart;
+  down.SetTranslation(gp_Vec(0, 0, -20));
+  const TopoDS_Shape one =
+      BRepAlgoAPI_Common(tube_along_x(0, 0, 0, 200, 30, 2), BRepBuilderAPI_Transform(half, down).Shape())
+          .Shape();
+  mirror.SetMirror(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(1, -1, 0)));
+  apart.SetTranslation(gp_Vec(-gap, 0, 0));
+  return together({one, BRepBuilderAPI_Transform(one, apart * mirror).Shape()});
+}
+
+/// An I-beam between two plates.
+TopoDS_Shape beam_between_plates(double gap) {
+  const TopoDS_Shape beam = profile({i_outline(60, 100, 4, 6, 0)}, 200);
+  return together({beam, box(-10, -10, -4 - gap, 80, 120, 4), box(-10, -10, 200 + gap, 80, 120, 4)});
+}
+
+const std::vector<JoinedModel>& joined_models() {
+  const double columns = 2 * 4 * 37 * 200;
+  static const std::vector<JoinedModel> models{
+      {"frame_with_gaps", [] { return welded_frame(1); }, 3, columns + 4 * 28 * 163, {2, 3}},
+      {"frame_with_narrow_gaps", [] { return welded_frame(0.01); }, 3, columns + 4 * 28 * 163, {2, 3}},
+      {"frame_with_wide_gaps", [] { return welded_frame(1.99); }, 3, columns + 4 * 28 * 163, {2, 3}},
+      // The beam's sides lie beside those of the columns by 0.5.
+      {"flush_frame", [] { return welded_frame(0, 40); }, 3, columns + 4 * 38 * 163 + 4 * 38 * 0.5, {2, 3}},
+      {"flush_frame_with_gaps",
+       [] { return welded_frame(0.5, 40); },
+       3,
+       columns + 4 * 38 * 163 + 4 * 38 * 0.5,
+       {2, 3}},
+      {"mitered_frame", [] { return mitered_frame(1); }, 2, 0, {2}},
+      {"beam_between_plates", [] { return beam_between_plates(0.5); }, 3, 2 * 80 * 120 + 205 * 214, {4, 6}},
+      {"plates_end_to_end",
+       [] {
+         return together({box(0, 0, 0, 50, 60, 2), box(51, 0, 0, 50, 60, 2)});
+       },
+       2,
+       101 * 60,
+       {2}},
+      {"plate_on_plate",
+       [] {
+         return together({box(0, 0, 0, 100, 60, 3), box(49, 0, 3.5, 2, 60, 40)});
+       },
+       2,
+       100 * 60 + 60 * 42,
+       {2, 3}},
+      // Where they lie on each other it is as thick as both with the gap.
+      {"lap",
+       [] {
+         return together({box(0, 0, 0, 60, 40, 2), box(40, 0, 2.5, 60, 40, 2)});
+       },
+       2,
+       100 * 40 + 2 * 40 * 1.25,
+       {2, 4.5}},
+      {"lap_of_two_thicknesses",
+       [] {
+         return together({box(0, 0, 0, 60, 40, 2), box(40, 0, 2, 60, 40, 3)});
+       },
+       2,
+       100 * 40 + 40 * (1.5 + 1),
+       {2, 3, 5}},
+      {"crossed_bars",
+       [] {
+         return together({box(0, 20, 0, 80, 20, 2), box(30, -10, 2.4, 20, 80, 3)});
+       },
+       2,
+       20 * (80 + 60) + 2 * 20 * (1.7 + 1.2),
+       {2, 3, 5.4}},
+      {"sheet_with_doubler",
+       [] {
+         return together({box(0, 0, 0, 100, 80, 2), box(30, 20, 2, 40, 40, 2)});
+       },
+       2,
+       100 * 80 + 4 * 40,
+       {2, 4}},
+      {"square_tube_on_round_one",
+       [] {
+         return together({cut(drill(0, 0, 0, gp::DZ(), 30, 150), {drill(0, 0, -1, gp::DZ(), 27, 152)}),
+                          tube_along_x(31, -6, 60, 120, 12, 1.5)});
+       },
+       2,
+       0,
+       {1.5, 3}},
+  };
+  return models;
 }
 
 TopoDS_Shape plate_on_block() {
