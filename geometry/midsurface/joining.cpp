@@ -373,7 +373,9 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
   }
   for (const Wall& wall : walls) {
     // Two that are fitted end apart by what either is off; at least what fitting aims at.
-    if (wall.fitted) fuse.SetFuzzyValue(std::max({fuse.FuzzyValue(), 4 * wall.off, 1e-3 * wall.thickness}));
+    if (!wall.fitted) continue;
+    const double least = 1e-3 * wall.thickness;
+    fuse.SetFuzzyValue(std::max({fuse.FuzzyValue(), 4 * wall.off, least}));
   }
   if (fuse.Arguments().Extent() > 1) fuse.Perform();
   if (fuse.HasErrors()) throw failure("", "the middle surfaces could not be joined where they meet");

@@ -16,6 +16,7 @@
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <map>
@@ -185,32 +186,48 @@ std::vector<int> skin_at(const Skin& skin, const gp_Pnt& point, double tolerance
   return result;
 }
 
+/// How far a point is from the nearest surface of either side of a wall.
+std::array<double, 2> distances_to_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
+  std::array<double, 2> result{skin.size(), skin.size()};
+  for (int side = 0; side < 2; ++side) {
+    for (const int index : wall.sides[side]) {
+      const SkinFace& face = skin.faces()[index];
+      if (face.box().Distance(Bnd_Box(point, point)) > wall.thickness) continue;
+      result[side] = std::min(result[side], face.point(face.closest(point)).Distance(point));
+    }
+  }
+  return result;
+}
+
 /// Whether the point lies between the surfaces of a wall's sides, with one of its sides above or below it:
 /// where another wall stands on it the other side is interrupted.
 bool between_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
-  double around = 0;
-  bool on_side = false;
-  for (const auto& side : wall.sides) {
-    double nearest = skin.size();
-    for (const int index : side) {
-      const SkinFace& face = skin.faces()[index];
-      if (face.box().Distance(Bnd_Box(point, point)) > wall.thickness) continue;
-      on_side = on_side || face.foot(point);
-      nearest = std::min(nearest, face.point(face.closest(point)).Distance(point));
-    }
-    around += nearest;
-  }
-  return on_side && around < 1.05 * wall.thickness;
+  const auto [first, second] = distances_to_sides(skin, wall, point);
+  if (first + second >= 1.05 * wall.thickness) return false;
+  const std::vector<int> sides = both_sides(wall);
+  return std::any_of(sides.begin(), sides.end(), [&](int index) {
+    const SkinFace& face = skin.faces()[index];
+    return face.box().Distance(Bnd_Box(point, point)) <= wall.thickness && face.foot(point);
+  });
 }
 
-/// Whether the point lies inside a wall other than its own: a rib's rim goes on to the middle of the plate.
-bool in_other_wall(const Skin& skin, const SolidMiddle& middle, int own, const gp_Pnt& point) {
+/// How a point of a free edge lies in walls other than its face's own.
+struct InOthers {
+  bool within = false;      ///< one of them: a rib's rim goes on to the middle of the plate
+  std::set<int> halfway{};  ///< these, on their middle, where the edge should be theirs too
+};
+
+InOthers in_others(const Skin& skin, const SolidMiddle& middle, int own, const gp_Pnt& point) {
+  InOthers result;
   for (int wall = 0; wall < static_cast<int>(middle.walls.size()); ++wall) {
     if (wall == own) continue;
-    if (position_in(middle.walls[wall], skin, point) || between_sides(skin, middle.walls[wall], point))
-      return true;
+    const Wall& other = middle.walls[wall];
+    if (!position_in(other, skin, point) && !between_sides(skin, other, point)) continue;
+    result.within = true;
+    const auto [first, second] = distances_to_sides(skin, other, point);
+    if (std::abs(first - second) < 0.02 * (first + second)) result.halfway.insert(wall);
   }
-  return false;
+  return result;
 }
 
 /// Whether most of a face lies across a wall: the riser of a step, which no free edge lies on.
@@ -253,13 +270,17 @@ void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_Inde
     const BRepAdaptor_Curve curve(edge);
     const double length = curve.LastParameter() - curve.FirstParameter();
     bool stray = false;
-    std::map<int, int> rims;  // how many of the points lie on a face
+    std::map<int, int> halfway;  // how many of the points lie on the middle of a wall
+    std::map<int, int> rims;     // how many of the points lie on a face
     for (const double share : {0.5, 0.2, 0.8}) {
       const gp_Pnt point = curve.Value(curve.FirstParameter() + share * length);
       const auto on = skin_at(skin, point, tolerance);
       accounted.insert(on.begin(), on.end());
       for (const int face : on) ++rims[face];
-      stray = stray || (on.empty() && !in_other_wall(skin, middle, walls.Find(around(i).First()), point));
+      if (!on.empty()) continue;
+      const InOthers others = in_others(skin, middle, walls.Find(around(i).First()), point);
+      stray = stray || !others.within;
+      for (const int wall : others.halfway) stray = ++halfway[wall] == 3 || stray;
     }
     if (stray) result.stray_edges.push_back(edge_numbers.FindIndex(edge));
     MiddleRim rim{edge_numbers.FindIndex(edge), {}};

@@ -1,8 +1,11 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepClass3d_SolidClassifier.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
 #include <BRep_Tool.hxx>
 #include <GeomAPI_Interpolate.hxx>
 #include <GeomFill.hxx>
@@ -460,48 +463,127 @@ class RimEnds {
   Material material_;
 };
 
+/// From a fence to a point.
+std::optional<gp_Vec> way_from(const TopoDS_Face& fence, const gp_Pnt& point) {
+  const BRepExtrema_DistShapeShape distance(fence, BRepBuilderAPI_MakeVertex(point).Vertex());
+  if (!distance.IsDone() || distance.NbSolution() == 0) return std::nullopt;
+  return gp_Vec(distance.PointOnShape1(1), point);
+}
+
+/// The end of a wall before another one whose fence stands along an edge already, by index; -1 = none. The
+/// edges of the two sides of a bend are not of one length where it goes on into rounded corners, and not
+/// quite at one place where its radii have two centers.
+int fence_along(const std::vector<WallEnd>& ends, int wall, int next, const FaceEdge& edge,
+                double thickness) {
+  constexpr double near = 0.02;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (ends[i].wall != wall || ends[i].next != next || ends[i].step) continue;
+    bool along = true;
+    for (const double share : {0.5, 0.05, 0.95}) {
+      if (!along) break;
+      const double at = edge.first() + share * (edge.last() - edge.first());
+      const auto way = way_from(ends[i].fence, edge.inside(at, 0.5 * thickness));
+      along = way && way->Magnitude() < near * thickness;
+    }
+    if (along) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+/// Moves a fence half way to the edge on the other side of the wall.
+void move_between(TopoDS_Face& fence, const FaceEdge& edge, double thickness) {
+  const auto way = way_from(fence, edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * thickness));
+  if (!way || way->Magnitude() < Precision::Confusion()) return;
+  gp_Trsf half;
+  half.SetTranslation(0.5 * *way);
+  fence = TopoDS::Face(BRepBuilderAPI_Transform(fence, half, Standard_True).Shape());
+}
+
 /// Of two walls at a step whether the fence stands at the end of the first: the thicker one.
 bool stands_on(const std::vector<Wall>& walls, int wall, int next) {
   const double t = walls[wall].thickness, other = walls[next].thickness;
   return t > other || (t == other && wall < next);
 }
 
+/// Finds where walls end and others begin.
+class WallEnds {
+ public:
+  WallEnds(const Skin& skin, const std::vector<Wall>& walls)
+      : skin_(skin), walls_(walls), material_(skin), middles_(walls.size()) {}
+
+  const std::vector<WallEnd>& found() const { return ends_; }
+
+  /// Looks behind an edge of a wall's side.
+  void add(int wall, int side, const FaceEdge& edge) {
+    const double t = walls_[wall].thickness;
+    const NextWall next = next_wall(skin_, walls_, wall, edge, material_);
+    if (next.wall < 0) return;
+    const bool riser = next.away > close_by * t;
+    if (riser && !stands_on(walls_, wall, next.wall)) return;
+    if (stands_already(wall, next.wall, side, edge)) return;
+    const gp_Pnt middle = edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * t);
+    if (is_near(middle, 0.01 * t, middles_[wall])) return;
+    const WallEnd end = make_end(skin_, walls_, wall, next, edge);
+    if (!end.step) {
+      push(end, riser, side);
+      return;
+    }
+    for (const FaceEdge& part : stretches_along(skin_, walls_[next.wall], edge, next, material_))
+      push(make_end(skin_, walls_, wall, next, part), riser, between);
+  }
+
+ private:
+  static constexpr int between = -1;
+
+  /// \param side of the wall on whose edge the fence stands, or between both.
+  void push(const WallEnd& end, bool riser, int side) {
+    ends_.push_back(end);
+    // Behind a riser the other wall runs on below it, to the same fence.
+    if (riser) ends_.push_back({end.next, end.wall, end.fence, end.step});
+    sides_.resize(ends_.size(), side);
+  }
+
+  /// Whether a fence stands along the edge, made from the other side of the wall or from the other wall,
+  /// which are given one.
+  bool stands_already(int wall, int next, int side, const FaceEdge& edge) {
+    const double t = walls_[wall].thickness;
+    const int own = fence_along(ends_, wall, next, edge, t);
+    if (own >= 0) {
+      if (sides_[own] == 1 - side) {
+        move_between(ends_[own].fence, edge, t);
+        sides_[own] = between;
+      }
+      return true;
+    }
+    const int other_way = fence_along(ends_, next, wall, edge, t);
+    if (other_way < 0) return false;
+    push({wall, next, TopoDS_Face(ends_[other_way].fence), false}, false, between);
+    return true;
+  }
+
+  const Skin& skin_;
+  const std::vector<Wall>& walls_;
+  Material material_;
+  std::vector<std::vector<gp_Pnt>> middles_;  ///< of each wall's fences
+  std::vector<WallEnd> ends_;
+  std::vector<int> sides_;  ///< see push()
+};
+
 }  // namespace
 
 std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,
                                     const std::vector<int>& surfaces) {
   const Borders borders(skin, surfaces);
-  Material material(skin);
-  std::vector<WallEnd> ends;
-  const auto add = [&](const WallEnd& end, bool riser) {
-    ends.push_back(end);
-    // Behind a riser the other wall runs on below it, to the same fence.
-    if (riser) ends.push_back({end.next, end.wall, end.fence, end.step});
-  };
+  WallEnds ends(skin, walls);
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
-    const double t = walls[wall].thickness;
-    std::vector<gp_Pnt> centers;
-    for (const int index : both_sides(walls[wall])) {
-      const SkinFace& face = skin.faces()[index];
-      for (const TopoDS_Edge& edge : borders.of_face(face)) {
-        const FaceEdge face_edge(face, edge);
-        const NextWall next = next_wall(skin, walls, wall, face_edge, material);
-        const gp_Pnt center = face_edge.inside(0.5 * (face_edge.first() + face_edge.last()), 0.5 * t);
-        // A bend has an edge on either side of the wall: one fence does for both.
-        if (next.wall < 0 || is_near(center, 0.01 * t, centers)) continue;
-        const bool riser = next.away > close_by * t;
-        if (riser && !stands_on(walls, wall, next.wall)) continue;
-        const WallEnd end = make_end(skin, walls, wall, next, face_edge);
-        if (!end.step) {
-          add(end, riser);
-          continue;
-        }
-        for (const FaceEdge& part : stretches_along(skin, walls[next.wall], face_edge, next, material))
-          add(make_end(skin, walls, wall, next, part), riser);
+    for (int side = 0; side < 2; ++side) {
+      for (const int index : walls[wall].sides[side]) {
+        const SkinFace& face = skin.faces()[index];
+        for (const TopoDS_Edge& edge : borders.of_face(face)) ends.add(wall, side, FaceEdge(face, edge));
       }
     }
   }
-  return ends;
+  return ends.found();
 }
 
 std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& walls,

@@ -7,6 +7,7 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GeomAdaptor_Surface.hxx>
+#include <Geom_SphericalSurface.hxx>
 #include <Precision.hxx>
 #include <ShapeAnalysis_Surface.hxx>
 #include <TopExp.hxx>
@@ -63,13 +64,27 @@ void keep_regular(const GeomAdaptor_Surface& surface, ParameterRange& v) {
     v.high = std::min(v.high, apex);
 }
 
+/// A sphere whose seam and poles are away from the points, where they allow that.
+Handle(Geom_Surface) turned_away(const Handle(Geom_Surface) & surface, const std::vector<gp_Pnt>& points) {
+  const auto sphere = Handle(Geom_SphericalSurface)::DownCast(surface);
+  if (sphere.IsNull()) return surface;
+  const gp_Pnt center = sphere->Location();
+  gp_Vec middle;
+  for (const gp_Pnt& point : points) middle += gp_Vec(center, point) / static_cast<double>(points.size());
+  if (middle.Magnitude() < 0.8 * sphere->Radius()) return surface;
+  const gp_Dir ahead(middle);
+  const gp_Dir up = std::abs(ahead.Dot(sphere->Axis().Direction())) < 0.7 ? sphere->Axis().Direction()
+                                                                          : sphere->Position().XDirection();
+  return new Geom_SphericalSurface(gp_Ax3(center, ahead.Crossed(up), ahead.Reversed()), sphere->Radius());
+}
+
 /// The wall's middle surface, bounded so that it reaches past all that it may have to meet.
 TopoDS_Face middle_patch(const Skin& skin, const std::vector<Wall>& walls, int wall) {
   double margin = 0;
   for (const Wall& other : walls) margin = std::max(margin, 1.5 * other.thickness);
-  const Handle(Geom_Surface)& middle = walls[wall].middle;
-  if (walls[wall].fitted) return BRepBuilderAPI_MakeFace(middle, Precision::Confusion()).Face();
+  if (walls[wall].ends) return BRepBuilderAPI_MakeFace(walls[wall].middle, Precision::Confusion()).Face();
   const auto points = points_on_edges(skin, faces_to_cover(skin, walls, wall));
+  const Handle(Geom_Surface) middle = turned_away(walls[wall].middle, points);
   const gp_Pnt2d uv = ShapeAnalysis_Surface(middle).ValueOfUV(points.front(), Precision::Confusion());
   gp_Pnt at;
   gp_Vec du, dv;

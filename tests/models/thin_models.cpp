@@ -1,5 +1,6 @@
 #include "tests/models/thin_models.hpp"
 
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
@@ -7,6 +8,7 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
@@ -22,7 +24,9 @@
 #include <Geom_TrimmedCurve.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <TColgp_HArray1OfPnt.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Wire.hxx>
@@ -236,6 +240,39 @@ TopoDS_Shape housing() {
   const TopoDS_Shape walls = cut(tub(0, 0, 30), {tub(2, -1, 28)});
   return cut(fuse({walls, rib(39.4, 0.8, 10, 1.2, 58.4), rib(0.8, 29.4, 16, 98.4, 1.2), boss}),
              {drill(70, 15, 10, gp::DZ(), 2.5, 18)});
+}
+
+/// A box with rounded edges, but for those at its bottom.
+TopoDS_Shape rounded_above(const TopoDS_Shape& box, double radius) {
+  BRepFilletAPI_MakeFillet fillet(box);
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(box, TopAbs_EDGE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const BRepAdaptor_Curve curve(TopoDS::Edge(edges(i)));
+    const double low =
+        std::min(curve.Value(curve.FirstParameter()).Z(), curve.Value(curve.LastParameter()).Z());
+    const double high =
+        std::max(curve.Value(curve.FirstParameter()).Z(), curve.Value(curve.LastParameter()).Z());
+    if (high > low + 1 || low > 1) fillet.Add(radius, TopoDS::Edge(edges(i)));
+  }
+  return fillet.Shape();
+}
+
+/// A housing with draft, all its edges rounded but at the rim: the radii of its bends and corners differ by
+/// 2, its walls are 1.9988 thick, so that no two of them share their centers.
+TopoDS_Shape rounded_housing() {
+  const double draft = std::tan(2 * M_PI / 180);
+  return cut(rounded_above(drafted(0, 0, 0, 100, 60, 30, draft, draft), 5),
+             {rounded_above(drafted(2, 2, 0, 96, 56, 28, draft, draft), 3)});
+}
+
+/// The same with two ribs that cross, and a boss.
+TopoDS_Shape rounded_housing_with_ribs() {
+  const double draft = std::tan(2 * M_PI / 180);
+  const TopoDS_Shape outside = rounded_above(drafted(0, 0, 0, 100, 60, 30, draft, draft), 5);
+  const TopoDS_Shape boss = cut(drill(70, 15, 9.5, gp::DZ(), 4, 19), {drill(70, 15, 9.5, gp::DZ(), 2.5, 18)});
+  return fuse({rounded_housing(), BRepAlgoAPI_Common(box(39.4, 0.3, 12, 1.2, 59.4, 17), outside).Shape(),
+               BRepAlgoAPI_Common(box(0.3, 29.4, 16, 99.4, 1.2, 13), outside).Shape(), boss});
 }
 
 /// A cylinder with half-spheres as heads.
@@ -542,6 +579,8 @@ const std::vector<ThinModel>& thin_models() {
       {"pocket_sheet", pocket_sheet, 100 * 60 + 120, {2, 4}, 0.01, 1},
       {"tapering_web", tapering_web, 60 * 100 / std::cos(0.5 * std::atan(0.02)), {3}, 0.01, 1},
       {"housing", housing, 0, {1.3, 1.4, 1.7, 2}, 0.02, 4},
+      {"rounded_housing", rounded_housing, 0, {2}, 0.01, 1},
+      {"rounded_housing_with_ribs", rounded_housing_with_ribs, 0, {1.2, 1.5, 2}, 0.02, 4},
       {"tank", tank, 80 * 2 * M_PI * 30 + 4 * M_PI * 900, {2}, 0.01, 0},
       {"nozzle", nozzle, 0, {2, 3}, 0.03, 3},
       {"joggle", joggle, 60 * (80 + 20 * M_SQRT2 - 4 * 4 * std::tan(M_PI / 8) + M_PI * 2), {2}, 0.01, 1},
