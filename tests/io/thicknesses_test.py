@@ -29,7 +29,8 @@ def read_inp(path):
     nodes = {int(f[0]): tuple(map(float, f[1:])) for _, body in blocks(text, "NODE,") for f in map(lambda l: l.split(","), body.splitlines())}
     elements, sets = {}, {}
     for head, body in blocks(text, "ELEMENT,"):
-        name = re.search(r"ELSET=(\w+)|$", head).group(1)
+        found = re.search(r"ELSET=(\w+)", head)
+        name = found.group(1) if found else "without a set"
         for line in body.splitlines():
             number, *own = map(int, line.split(","))
             elements[number] = own
