@@ -430,25 +430,26 @@ class RimEnds {
         const std::vector<EdgeEnd> around = ends_at(edge.curve().Value(at), edges);
         const auto own = std::find_if(around.begin(), around.end(),
                                       [&](const EdgeEnd& end) { return end.edge == &edge && end.at == at; });
-        const bool at_rim = own != around.end() && around.size() == 2 &&
-                            std::any_of(around.begin(), around.end(), [&](const EdgeEnd& end) {
-                              return end.edge != &edge && !runs_on(*end.edge, t, material_);
-                            });
-        if (!at_rim) continue;
+        const auto rim = std::find_if(around.begin(), around.end(), [&](const EdgeEnd& end) {
+          return end.edge != &edge && !runs_on(*end.edge, t, material_);
+        });
+        if (own == around.end() || around.size() != 2 || rim == around.end()) continue;
         const gp_Pnt center = edge.inside(at, 0.5 * t);
         const gp_Vec aside = 0.05 * t * (edge.away(at) + own->outward_along);
         if (!material_.holds(center.Translated(aside)) || is_near(center, 0.01 * t, centers)) continue;
-        ends.push_back({wall, wall, fence(*own, t), false});
+        ends.push_back({wall, wall, fence(*own, *rim, t), false});
       }
     }
   }
 
  private:
-  /// A rectangle across the wall, from the vertex along the way that the wall runs on. It holds the edge that
-  /// leads from the vertex to the other side: where the side leans, its normal would miss that edge, and with
-  /// it the end of the rim.
-  TopoDS_Face fence(const EdgeEnd& end, double t) const {
-    const gp_Vec away = end.edge->away(end.at);
+  /// A rectangle across the wall, from the vertex along the way that the rim would run on. It holds the edge
+  /// that leads from the vertex to the other side: where the side leans, its normal would miss that edge, and
+  /// with it the end of the rim.
+  TopoDS_Face fence(const EdgeEnd& end, const EdgeEnd& rim, double t) const {
+    const gp_Vec straight = end.edge->away(end.at);
+    const bool onward = rim.outward_along.Dot(straight) > 0.3;
+    const gp_Vec& away = onward ? rim.outward_along : straight;
     const gp_Pnt start = end.edge->inside(end.at, 0.5 * t).Translated(0.05 * t * away);
     const auto hit = skin_.first_hit(start, gp_Dir(away));
     const double length = hit ? hit->distance + 0.1 * t : 2 * t;

@@ -457,6 +457,22 @@ TopoDS_Shape beam_between_plates(double gap) {
   return together({beam, box(-10, -10, -4 - gap, 80, 120, 4), box(-10, -10, 200 + gap, 80, 120, 4)});
 }
 
+/// A column of I-section, a tube that stands off from it, and a brace between them at 45 degrees, all a
+/// little apart.
+TopoDS_Shape braced_frame() {
+  gp_Trsf place, lift;
+  place.SetTranslation(gp_Vec(-30, -50, 0));
+  lift.SetTranslation(gp_Vec(0, 50, 60));
+  const TopoDS_Shape column =
+      BRepBuilderAPI_Transform(profile({i_outline(60, 100, 4, 6, 0)}, 300), place).Shape();
+  const TopoDS_Shape beam = cut(box(-20, 50.5, 180, 40, 200, 40), {box(-17, 49, 183, 34, 203, 34)});
+  gp_Trsf turn;
+  turn.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp::DX()), M_PI / 4);
+  const TopoDS_Shape straight = cut(box(-10, 0, 0, 20, 200, 20), {box(-8, -1, 2, 16, 202, 16)});
+  const TopoDS_Shape brace = BRepBuilderAPI_Transform(straight, lift * turn).Shape();
+  return together({column, beam, BRepAlgoAPI_Common(brace, box(-50, 50.3, 0, 100, 400, 179.7)).Shape()});
+}
+
 const std::vector<JoinedModel>& joined_models() {
   const double columns = 2 * 4 * 37 * 200;
   static const std::vector<JoinedModel> models{
@@ -471,6 +487,7 @@ const std::vector<JoinedModel>& joined_models() {
        columns + 4 * 38 * 163 + 4 * 38 * 0.5,
        {2, 3}},
       {"mitered_frame", [] { return mitered_frame(1); }, 2, 0, {2}},
+      {"braced_frame", braced_frame, 3, 0, {2, 3, 4, 6}},
       {"beam_between_plates", [] { return beam_between_plates(0.5); }, 3, 2 * 80 * 120 + 205 * 214, {4, 6}},
       {"plates_end_to_end",
        [] {
