@@ -28,6 +28,7 @@
 #include <gp_Cone.hxx>
 #include <gp_Cylinder.hxx>
 #include <gp_Pln.hxx>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -55,8 +56,10 @@ const double nearly_parallel = std::cos(45 * M_PI / 180);
 /// One edge of a face, with the direction into the material and the one that leads away from the face.
 class FaceEdge {
  public:
-  FaceEdge(const SkinFace& face, const TopoDS_Edge& edge)
+  /// \param beside the face on the other side of the edge.
+  FaceEdge(const SkinFace& face, const SkinFace& beside, const TopoDS_Edge& edge)
       : face_(face),
+        beside_(beside),
         edge_(edge),
         curve_(edge),
         first_(curve_.FirstParameter()),
@@ -83,6 +86,12 @@ class FaceEdge {
   gp_Pnt inside(double t, double depth) const {
     return curve_.Value(t).Translated(-depth * gp_Vec(outward(t)));
   }
+  /// Whether the other face rises from the edge, out of this one.
+  bool in_corner() const {
+    const double middle = 0.5 * (first_ + last_);
+    const auto other = beside_.outward(beside_.closest(curve_.Value(middle)));
+    return other && gp_Vec(*other).Dot(away(middle)) < -0.1;
+  }
   /// In the face's tangent plane, across the edge.
   gp_Vec away(double t) const {
     gp_Pnt at;
@@ -96,6 +105,7 @@ class FaceEdge {
 
  private:
   const SkinFace& face_;
+  const SkinFace& beside_;
   TopoDS_Edge edge_;
   BRepAdaptor_Curve curve_;
   double first_, last_;
@@ -217,16 +227,9 @@ bool begins_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, dou
   return runs_through(wall, skin, beyond, edge.outward(at));
 }
 
-/// Whether another face rises from the edge, out of the one it bounds: an inner corner.
-bool rises(const FaceEdge& edge, double thickness, Material& material) {
-  const double at = 0.5 * (edge.first() + edge.last()), step = close_by * thickness;
-  return material.holds(edge.inside(at, -step).Translated(step * edge.away(at)));
-}
-
-NextWall next_wall(const Skin& skin, const std::vector<Wall>& walls, int wall, const FaceEdge& edge,
-                   Material& material) {
+NextWall next_wall(const Skin& skin, const std::vector<Wall>& walls, int wall, const FaceEdge& edge) {
   const double t = walls[wall].thickness;
-  const bool corner = rises(edge, t, material);
+  const bool corner = edge.in_corner();
   // Half way down first: what begins there is the wall's own continuation. Of two sheets that lie on each
   // other the thinner one does not reach there.
   for (const double depth : {0.5, 0.85, 0.15}) {
@@ -330,13 +333,14 @@ class Borders {
   }
 
   /// The edges of a face that lead to another surface.
-  std::vector<TopoDS_Edge> of_face(const SkinFace& face) const {
-    std::vector<TopoDS_Edge> result;
+  std::vector<FaceEdge> of_face(const SkinFace& face) const {
+    std::vector<FaceEdge> result;
     for (TopExp_Explorer it(face.face(), TopAbs_EDGE); it.More(); it.Next()) {
       const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
       const TopTools_ListOfShape& around = neighbors_.FindFromKey(edge);
-      if (!BRep_Tool::Degenerated(edge) && number(around.First()) != number(around.Last()))
-        result.push_back(edge);
+      if (BRep_Tool::Degenerated(edge) || number(around.First()) == number(around.Last())) continue;
+      const TopoDS_Shape& other = around.First().IsSame(face.face()) ? around.Last() : around.First();
+      result.emplace_back(face, skin_.faces()[skin_.index_of(TopoDS::Face(other))], edge);
     }
     return result;
   }
@@ -424,14 +428,20 @@ class RimEnds {
   /// t thickness of the wall. \param centers of the fences that it has already, with those that are added.
   void add(int wall, double t, const std::vector<FaceEdge>& edges, std::vector<gp_Pnt>& centers,
            std::vector<WallEnd>& ends) {
+    std::map<const FaceEdge*, bool> known;
+    const auto goes_on = [&](const FaceEdge& edge) {
+      const auto [entry, is_new] = known.try_emplace(&edge, false);
+      if (is_new) entry->second = runs_on(edge, t, material_);
+      return entry->second;
+    };
     for (const FaceEdge& edge : edges) {
-      if (edge.closed() || !runs_on(edge, t, material_)) continue;
+      if (edge.closed() || !goes_on(edge)) continue;
       for (const double at : {edge.first(), edge.last()}) {
         const std::vector<EdgeEnd> around = ends_at(edge.curve().Value(at), edges);
         const auto own = std::find_if(around.begin(), around.end(),
                                       [&](const EdgeEnd& end) { return end.edge == &edge && end.at == at; });
         const auto rim = std::find_if(around.begin(), around.end(), [&](const EdgeEnd& end) {
-          return end.edge != &edge && !runs_on(*end.edge, t, material_);
+          return end.edge != &edge && !goes_on(*end.edge);
         });
         if (own == around.end() || around.size() != 2 || rim == around.end()) continue;
         const gp_Pnt center = edge.inside(at, 0.5 * t);
@@ -517,7 +527,7 @@ class WallEnds {
   /// Looks behind an edge of a wall's side.
   void add(int wall, int side, const FaceEdge& edge) {
     const double t = walls_[wall].thickness;
-    const NextWall next = next_wall(skin_, walls_, wall, edge, material_);
+    const NextWall next = next_wall(skin_, walls_, wall, edge);
     if (next.wall < 0) return;
     const bool riser = next.away > close_by * t;
     if (riser && !stands_on(walls_, wall, next.wall)) return;
@@ -580,7 +590,7 @@ std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& w
     for (int side = 0; side < 2; ++side) {
       for (const int index : walls[wall].sides[side]) {
         const SkinFace& face = skin.faces()[index];
-        for (const TopoDS_Edge& edge : borders.of_face(face)) ends.add(wall, side, FaceEdge(face, edge));
+        for (const FaceEdge& edge : borders.of_face(face)) ends.add(wall, side, edge);
       }
     }
   }
@@ -596,9 +606,7 @@ std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& wa
     std::vector<gp_Pnt> centers;
     for (const int index : both_sides(walls[wall])) {
       const SkinFace& face = skin.faces()[index];
-      std::vector<FaceEdge> edges;
-      for (const TopoDS_Edge& edge : borders.of_face(face)) edges.emplace_back(face, edge);
-      rims.add(wall, walls[wall].thickness, edges, centers, ends);
+      rims.add(wall, walls[wall].thickness, borders.of_face(face), centers, ends);
     }
   }
   return ends;
