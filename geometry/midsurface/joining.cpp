@@ -1,6 +1,7 @@
 #include "geometry/midsurface/joining.hpp"
 
 #include <BOPAlgo_Builder.hxx>
+#include <BRepAdaptor_Curve.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
@@ -14,8 +15,11 @@
 #include <TopoDS_Iterator.hxx>
 #include <TopoDS_Shell.hxx>
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "geometry/base/error.hpp"
+#include "geometry/midsurface/widths.hpp"
 
 namespace quadrille {
 
@@ -41,6 +45,7 @@ class EdgeUses {
   };
   int count() const { return edges_.Extent(); }
   const TopoDS_Shape& edge(int index) const { return edges_(index + 1); }
+  int find(const TopoDS_Shape& edge) const { return edges_.FindIndex(edge) - 1; }  ///< -1 = none
   const std::vector<Use>& uses(int index) const { return uses_[index]; }
 
  private:
@@ -64,29 +69,76 @@ TopTools_ListOfShape images(const BOPAlgo_Builder& fuse, const TopoDS_Shape& fac
   return itself;
 }
 
-std::vector<JoinedFace> covered_images(const BOPAlgo_Builder& fuse, const Skin& skin,
-                                       const std::vector<Wall>& walls,
-                                       const std::vector<std::vector<TopoDS_Face>>& pieces) {
+/// The pieces, cut at each other.
+struct Images {
+  std::vector<JoinedFace> between;    ///< the sides of their wall
+  std::vector<JoinedFace> hung_over;  ///< inside other walls
+};
+
+Images cut_pieces(const BOPAlgo_Builder& fuse, const Skin& skin, const std::vector<Wall>& walls,
+                  const std::vector<std::vector<TopoDS_Face>>& pieces) {
   constexpr double least_share = 0.25;
-  std::vector<JoinedFace> result;
+  Images result;
   for (std::size_t wall = 0; wall < walls.size(); ++wall) {
     for (const TopoDS_Face& piece : pieces[wall]) {
       for (const TopoDS_Shape& image : images(fuse, piece)) {
         const TopoDS_Face& face = TopoDS::Face(image);
         triangulate(face, 0.2 * walls[wall].thickness);
         const Coverage coverage = coverage_of(face, walls[wall], skin);
-        if (coverage.share < least_share) continue;
-        result.push_back({face, static_cast<int>(wall), false, coverage});
+        (coverage.share < least_share ? result.hung_over : result.between)
+            .push_back({face, static_cast<int>(wall), false, coverage});
       }
     }
   }
   return result;
 }
 
+/// Moves what hangs over back where it was cut off by nothing but another wall's surface that hangs over
+/// there itself: in the corner of a beam that is flush with a thicker column, the middle of the column's side
+/// runs on inside the beam's walls beside their own corner.
+void take_back(Images& images) {
+  constexpr double least_share = 0.5;
+  for (bool changed = true; changed;) {
+    changed = false;
+    const EdgeUses uses(images.between);
+    const auto continues = [&](const JoinedFace& face) {
+      bool own = false, met = false;
+      for (TopExp_Explorer it(face.face, TopAbs_EDGE); it.More(); it.Next()) {
+        const int edge = uses.find(it.Current());
+        if (edge < 0) continue;
+        const JoinedFace& other = images.between[uses.uses(edge).front().face];
+        const double covered = other.coverage.share * area_of(other.face);
+        met = met || other.wall != face.wall;
+        own = own || (uses.uses(edge).size() == 1 && other.wall == face.wall &&
+                      covered > least_share * (area_of(other.face) + area_of(face.face)));
+      }
+      return own && met;
+    };
+    for (std::size_t i = 0; i < images.hung_over.size(); ++i) {
+      if (!continues(images.hung_over[i])) continue;
+      images.between.push_back(images.hung_over[i]);
+      images.hung_over.erase(images.hung_over.begin() + static_cast<std::ptrdiff_t>(i));
+      changed = true;
+      break;  // the uses of edges have changed
+    }
+  }
+}
+
 /// Of the two ends at a step the fence of the thicker wall's joins.
 bool joins_step(const WallEnd& end, const std::vector<Wall>& walls) {
   const double t = walls[end.wall].thickness, next = walls[end.next].thickness;
   return end.step && (t > next || (t == next && end.wall < end.next));
+}
+
+Coverage whole_coverage(int wall, const std::vector<Wall>& walls) {
+  const double t = walls[wall].thickness;
+  const std::vector<int> sides = both_sides(walls[wall]);
+  return {1, t, t, t, {sides.begin(), sides.end()}};
+}
+
+/// A face that joins two middle surfaces, with the thickness of one of them.
+JoinedFace step_face(const TopoDS_Face& face, int wall, const std::vector<Wall>& walls) {
+  return {face, wall, true, whole_coverage(wall, walls)};
 }
 
 /// Of the fences at steps, the parts between the two middle surfaces.
@@ -111,13 +163,56 @@ void add_steps(const BOPAlgo_Builder& fuse, const std::vector<Wall>& walls, cons
     const int thinner = end.next;
     for (const TopoDS_Shape& image : images(fuse, end.fence)) {
       if (!touches(image, end.wall) || !touches(image, end.next) || !taken.Add(image)) continue;
-      const double t = walls[thinner].thickness;
-      const auto faces_of_wall = both_sides(walls[thinner]);
-      strips.push_back(
-          {TopoDS::Face(image), thinner, true, {1, t, t, t, {faces_of_wall.begin(), faces_of_wall.end()}}});
+      strips.push_back(step_face(TopoDS::Face(image), thinner, walls));
     }
   }
   faces.insert(faces.end(), strips.begin(), strips.end());
+}
+
+/// Whether a point lies on the skin.
+bool on_skin(const Skin& skin, const gp_Pnt& point, double near) {
+  const Bnd_Box at(point, point);
+  return std::any_of(skin.faces().begin(), skin.faces().end(), [&](const SkinFace& face) {
+    if (face.box().Distance(at) > near) return false;
+    const auto foot = face.foot(point);
+    return foot && foot->Distance(point) < near;
+  });
+}
+
+/// Where a wall ends in a corner of others beside the middle of the next one, as a beam's side does that is
+/// flush with a thicker column's: what hangs over of the third wall, from one middle to the other, joins
+/// them.
+void add_bridges(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& hung_over,
+                 std::vector<JoinedFace>& faces) {
+  const EdgeUses uses(faces);
+  const auto ends_inside = [&](int edge) {
+    const EdgeUses::Use& use = uses.uses(edge).front();
+    const TopoDS_Edge& shape = TopoDS::Edge(uses.edge(edge));
+    if (uses.uses(edge).size() > 1 || use.orientation == TopAbs_INTERNAL) return false;
+    const BRepAdaptor_Curve curve(shape);
+    const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+    return !on_skin(skin, middle, 1e-3 * walls[faces[use.face].wall].thickness);
+  };
+  std::vector<JoinedFace> bridges;
+  for (const JoinedFace& strip : hung_over) {
+    std::set<int> ended, met;
+    double length = 0;  // of the edges to be joined
+    for (TopExp_Explorer it(strip.face, TopAbs_EDGE); it.More(); it.Next()) {
+      const int edge = uses.find(it.Current());
+      if (edge < 0) continue;
+      const bool inside = ends_inside(edge);
+      if (inside) length += length_of(TopoDS::Edge(it.Current()));
+      for (const EdgeUses::Use& use : uses.uses(edge)) (inside ? ended : met).insert(faces[use.face].wall);
+    }
+    if (area_of(strip.face) > walls[strip.wall].thickness * length) continue;
+    for (const int wall : ended) met.erase(wall);
+    ended.erase(strip.wall);
+    if (ended.empty() || met.empty()) continue;
+    const int thinner =
+        walls[*ended.begin()].thickness < walls[*met.begin()].thickness ? *ended.begin() : *met.begin();
+    bridges.push_back(step_face(strip.face, thinner, walls));
+  }
+  faces.insert(faces.end(), bridges.begin(), bridges.end());
 }
 
 /// The face without some of its edges, which lie inside it. \return null where there are none of them.
@@ -184,6 +279,7 @@ void merge_wall(int wall, const Skin& skin, const std::vector<Wall>& walls,
     const TopoDS_Face& face = TopoDS::Face(it.Current());
     triangulate(face, 0.2 * walls[wall].thickness);
     merged.push_back({face, wall, false, coverage_of(face, walls[wall], skin)});
+    if (merged.back().coverage.share == 0) merged.back().coverage = whole_coverage(wall, walls);
   }
 }
 
@@ -277,12 +373,17 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
   }
   for (const Wall& wall : walls) {
     // Two that are fitted end apart by what either is off; at least what fitting aims at.
-    if (wall.fitted) fuse.SetFuzzyValue(std::max({fuse.FuzzyValue(), 4 * wall.off, 1e-3 * wall.thickness}));
+    if (!wall.fitted) continue;
+    const double least = 1e-3 * wall.thickness;
+    fuse.SetFuzzyValue(std::max({fuse.FuzzyValue(), 4 * wall.off, least}));
   }
   if (fuse.Arguments().Extent() > 1) fuse.Perform();
   if (fuse.HasErrors()) throw failure("", "the middle surfaces could not be joined where they meet");
-  std::vector<JoinedFace> faces = covered_images(fuse, skin, walls, pieces);
+  Images cut = cut_pieces(fuse, skin, walls, pieces);
+  take_back(cut);
+  std::vector<JoinedFace> faces = std::move(cut.between);
   add_steps(fuse, walls, ends, faces);
+  add_bridges(skin, walls, cut.hung_over, faces);
   drop_traces(faces);
   faces = merged_faces(skin, walls, faces);
   orient_alike(faces);

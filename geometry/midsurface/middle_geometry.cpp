@@ -7,6 +7,7 @@
 #include <Geom_Plane.hxx>
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_ToroidalSurface.hxx>
+#include <algorithm>
 #include <cmath>
 #include <gp_Circ.hxx>
 #include <gp_Cone.hxx>
@@ -169,6 +170,48 @@ Handle(Geom_Surface) middle_surface(const SkinFace& a, const SkinFace& b, double
     default:
       return {};
   }
+}
+
+namespace {
+
+/// \param apart from the first center to the second, across the axis. \return how far points round the
+/// middle, with the mean of the radii, are from being as far from one as from the other.
+double off_between_rounds(double apart, double first, double second) {
+  const double radius = 0.5 * (first + second);
+  double off = 0;
+  constexpr int steps = 16;
+  for (int i = 0; i <= steps; ++i) {
+    const double x = radius * std::cos(M_PI * i / steps), y = radius * std::sin(M_PI * i / steps);
+    const double to_first = std::abs(std::hypot(x + 0.5 * apart, y) - first);
+    const double to_second = std::abs(std::hypot(x - 0.5 * apart, y) - second);
+    off = std::max(off, 0.5 * std::abs(to_first - to_second));
+  }
+  return off;
+}
+
+}  // namespace
+
+NearMiddle near_middle_surface(const SkinFace& a, const SkinFace& b, double tolerance) {
+  const BRepAdaptor_Surface &s = a.surface(), &t = b.surface();
+  if (s.GetType() != t.GetType()) return {};
+  NearMiddle result;
+  if (s.GetType() == GeomAbs_Cylinder) {
+    const gp_Cylinder first = s.Cylinder(), second = t.Cylinder();
+    if (!first.Axis().IsParallel(second.Axis(), same_direction)) return {};
+    const gp_Vec along(first.Axis().Direction());
+    gp_Vec apart(first.Location(), second.Location());
+    apart -= apart.Dot(along) * along;
+    result.off = off_between_rounds(apart.Magnitude(), first.Radius(), second.Radius());
+    result.surface = new Geom_CylindricalSurface(first.Position().Translated(0.5 * apart),
+                                                 0.5 * (first.Radius() + second.Radius()));
+  } else if (s.GetType() == GeomAbs_Sphere) {
+    const gp_Sphere first = s.Sphere(), second = t.Sphere();
+    const gp_Vec apart(first.Location(), second.Location());
+    result.off = off_between_rounds(apart.Magnitude(), first.Radius(), second.Radius());
+    result.surface = new Geom_SphericalSurface(first.Position().Translated(0.5 * apart),
+                                               0.5 * (first.Radius() + second.Radius()));
+  }
+  return result.off <= tolerance ? result : NearMiddle();
 }
 
 }  // namespace quadrille

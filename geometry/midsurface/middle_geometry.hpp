@@ -16,4 +16,15 @@ bool on_one_surface(const SkinFace& a, const SkinFace& b, double size);
 /// where there is none of these kinds.
 Handle(Geom_Surface) middle_surface(const SkinFace& a, const SkinFace& b, double size);
 
+/// A surface that is nearly the middle, and how far it is off.
+struct NearMiddle {
+  Handle(Geom_Surface) surface;
+  double off = 0;
+};
+
+/// Between two cylinders with parallel axes, or two spheres, that nearly share their axis or center, such as
+/// the two sides of a bend in a wall with draft: the mean of the two, which is off by the square of what they
+/// are apart. Null where it is off by more than the tolerance.
+NearMiddle near_middle_surface(const SkinFace& a, const SkinFace& b, double tolerance);
+
 }  // namespace quadrille

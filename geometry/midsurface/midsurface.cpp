@@ -16,6 +16,7 @@
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <map>
@@ -32,6 +33,7 @@
 #include "geometry/midsurface/solids.hpp"
 #include "geometry/midsurface/wall_pieces.hpp"
 #include "geometry/midsurface/walls.hpp"
+#include "geometry/midsurface/widths.hpp"
 
 namespace quadrille {
 
@@ -43,12 +45,6 @@ struct SolidMiddle {
   std::vector<Wall> walls;
   double volume = 0;
 };
-
-double area_of(const TopoDS_Shape& shape) {
-  GProp_GProps properties;
-  BRepGProp::SurfaceProperties(shape, properties, 1e-6);
-  return std::abs(properties.Mass());
-}
 
 double volume_of(const TopoDS_Shape& shape) {
   GProp_GProps properties;
@@ -71,16 +67,31 @@ std::vector<int> bent_groups(std::size_t walls, const std::vector<WallEnd>& ends
   return group;
 }
 
-/// The shorter side of the rectangle of that area and perimeter.
-double width_of(double area, double perimeter) {
-  const double half = 0.25 * perimeter;
-  return half * half > area ? half - std::sqrt(half * half - area) : std::sqrt(area);
-}
+/// Of some faces that are connected.
+struct Extent {
+  double area = 0, volume = 0;
+  double perimeter = 0;  ///< without their holes
+};
 
-double length_of(const TopoDS_Shape& edge) {
-  GProp_GProps properties;
-  BRepGProp::LinearProperties(edge, properties);
-  return properties.Mass();
+/// \param part of each face; those of part `p` count.
+Extent extent_of(const std::vector<JoinedFace>& faces, const std::vector<int>& part, int p) {
+  TopTools_IndexedMapOfShape rims;
+  std::vector<int> uses;
+  Extent result;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (part[i] != p) continue;
+    const double area = area_of(faces[i].face);
+    result.area += area;
+    result.volume += area * faces[i].coverage.mean;
+    for (TopExp_Explorer it(BRepTools::OuterWire(faces[i].face), TopAbs_EDGE); it.More(); it.Next()) {
+      const int rim = rims.Add(it.Current());
+      uses.resize(rims.Extent());
+      ++uses[rim - 1];
+    }
+  }
+  for (int i = 1; i <= rims.Extent(); ++i)
+    result.perimeter += uses[i - 1] == 1 ? length_of(TopoDS::Edge(rims(i))) : 0;
+  return result;
 }
 
 /// Area of the faces that are thicker than `thickest` times their width, over the area of all.
@@ -88,24 +99,18 @@ double thick_share(const SolidMiddle& middle, const std::vector<WallEnd>& ends, 
   const std::vector<int> group = bent_groups(middle.walls.size(), ends);
   double all = 0, thick = 0;
   for (std::size_t g = 0; g < middle.walls.size(); ++g) {
-    TopTools_IndexedMapOfShape rims;
-    std::vector<int> uses;
-    double area = 0, volume = 0;
+    std::vector<JoinedFace> faces;
     for (const JoinedFace& face : middle.faces) {
-      if (group[face.wall] != static_cast<int>(g)) continue;
-      const double own = area_of(face.face);
-      area += own;
-      volume += own * face.coverage.mean;
-      for (TopExp_Explorer it(BRepTools::OuterWire(face.face), TopAbs_EDGE); it.More(); it.Next()) {
-        const int rim = rims.Add(it.Current());
-        uses.resize(rims.Extent());
-        ++uses[rim - 1];
-      }
+      if (group[face.wall] == static_cast<int>(g)) faces.push_back(face);
     }
-    double perimeter = 0;
-    for (int i = 1; i <= rims.Extent(); ++i) perimeter += uses[i - 1] == 1 ? length_of(rims(i)) : 0;
-    all += area;
-    if (area > 0 && volume / area > thickest * width_of(area, perimeter)) thick += area;
+    const std::vector<int> part = connected_parts(faces);
+    const int parts = part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end());
+    for (int p = 0; p < parts; ++p) {
+      const Extent extent = extent_of(faces, part, p);
+      all += extent.area;
+      if (extent.volume > thickest * width_of(extent.area, extent.perimeter) * extent.area)
+        thick += extent.area;
+    }
   }
   return all > 0 ? thick / all : 1;
 }
@@ -181,32 +186,58 @@ std::vector<int> skin_at(const Skin& skin, const gp_Pnt& point, double tolerance
   return result;
 }
 
+/// How far a point is from the nearest surface of either side of a wall.
+std::array<double, 2> distances_to_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
+  std::array<double, 2> result{skin.size(), skin.size()};
+  for (int side = 0; side < 2; ++side) {
+    for (const int index : wall.sides[side]) {
+      const SkinFace& face = skin.faces()[index];
+      if (face.box().Distance(Bnd_Box(point, point)) > wall.thickness) continue;
+      result[side] = std::min(result[side], face.point(face.closest(point)).Distance(point));
+    }
+  }
+  return result;
+}
+
 /// Whether the point lies between the surfaces of a wall's sides, with one of its sides above or below it:
 /// where another wall stands on it the other side is interrupted.
 bool between_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
-  double around = 0;
-  bool on_side = false;
-  for (const auto& side : wall.sides) {
-    double nearest = skin.size();
-    for (const int index : side) {
-      const SkinFace& face = skin.faces()[index];
-      if (face.box().Distance(Bnd_Box(point, point)) > wall.thickness) continue;
-      on_side = on_side || face.foot(point);
-      nearest = std::min(nearest, face.point(face.closest(point)).Distance(point));
-    }
-    around += nearest;
-  }
-  return on_side && around < 1.05 * wall.thickness;
+  const auto [first, second] = distances_to_sides(skin, wall, point);
+  if (first + second >= 1.05 * wall.thickness) return false;
+  const std::vector<int> sides = both_sides(wall);
+  return std::any_of(sides.begin(), sides.end(), [&](int index) {
+    const SkinFace& face = skin.faces()[index];
+    return face.box().Distance(Bnd_Box(point, point)) <= wall.thickness && face.foot(point);
+  });
 }
 
-/// Whether the point lies inside a wall other than its own: a rib's rim goes on to the middle of the plate.
-bool in_other_wall(const Skin& skin, const SolidMiddle& middle, int own, const gp_Pnt& point) {
+/// How a point of a free edge lies in walls other than its face's own.
+struct InOthers {
+  bool within = false;      ///< one of them: a rib's rim goes on to the middle of the plate
+  std::set<int> halfway{};  ///< these, on their middle, where the edge should be theirs too
+};
+
+InOthers in_others(const Skin& skin, const SolidMiddle& middle, int own, const gp_Pnt& point) {
+  InOthers result;
   for (int wall = 0; wall < static_cast<int>(middle.walls.size()); ++wall) {
     if (wall == own) continue;
-    if (position_in(middle.walls[wall], skin, point) || between_sides(skin, middle.walls[wall], point))
-      return true;
+    const Wall& other = middle.walls[wall];
+    if (!position_in(other, skin, point) && !between_sides(skin, other, point)) continue;
+    result.within = true;
+    const auto [first, second] = distances_to_sides(skin, other, point);
+    if (std::abs(first - second) < 0.02 * (first + second)) result.halfway.insert(wall);
   }
-  return false;
+  return result;
+}
+
+/// Whether most of a face lies across a wall: the riser of a step, which no free edge lies on.
+bool across_a_wall(const Skin& skin, const SolidMiddle& middle, const SkinFace& face) {
+  double across = 0;
+  for (const FaceSample& sample : face.samples(8)) {
+    const auto holds = [&](const Wall& wall) { return position_in(wall, skin, sample.point).has_value(); };
+    if (std::any_of(middle.walls.begin(), middle.walls.end(), holds)) across += sample.area;
+  }
+  return across > 0.5 * face.area();
 }
 
 void sort_unique(std::vector<int>& numbers) {
@@ -239,13 +270,17 @@ void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_Inde
     const BRepAdaptor_Curve curve(edge);
     const double length = curve.LastParameter() - curve.FirstParameter();
     bool stray = false;
-    std::map<int, int> rims;  // how many of the points lie on a face
+    std::map<int, int> halfway;  // how many of the points lie on the middle of a wall
+    std::map<int, int> rims;     // how many of the points lie on a face
     for (const double share : {0.5, 0.2, 0.8}) {
       const gp_Pnt point = curve.Value(curve.FirstParameter() + share * length);
       const auto on = skin_at(skin, point, tolerance);
       accounted.insert(on.begin(), on.end());
       for (const int face : on) ++rims[face];
-      stray = stray || (on.empty() && !in_other_wall(skin, middle, walls.Find(around(i).First()), point));
+      if (!on.empty()) continue;
+      const InOthers others = in_others(skin, middle, walls.Find(around(i).First()), point);
+      stray = stray || !others.within;
+      for (const int wall : others.halfway) stray = ++halfway[wall] == 3 || stray;
     }
     if (stray) result.stray_edges.push_back(edge_numbers.FindIndex(edge));
     MiddleRim rim{edge_numbers.FindIndex(edge), {}};
@@ -255,8 +290,12 @@ void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_Inde
     sort_unique(rim.solid_faces);
     if (!rim.solid_faces.empty()) result.rims.push_back(rim);
   }
-  for (std::size_t i = 0; i < skin.faces().size(); ++i) {
-    if (accounted.count(static_cast<int>(i)) == 0) result.unpaired.push_back(skin.faces()[i].number());
+  // A face that was cut where solids were joined counts as one.
+  std::set<int> numbers;
+  for (const int face : accounted) numbers.insert(skin.faces()[face].number());
+  for (const SkinFace& face : skin.faces()) {
+    if (numbers.count(face.number()) == 0 && !across_a_wall(skin, middle, face))
+      result.unpaired.push_back(face.number());
   }
 }
 

@@ -9,6 +9,7 @@
 #include <TopoDS.hxx>
 
 #include "geometry/base/error.hpp"
+#include "geometry/midsurface/gaps.hpp"
 
 namespace quadrille {
 
@@ -39,6 +40,26 @@ Solids solids_of(const TopoDS_Shape& shape) {
   return result;
 }
 
+std::deque<Skin> skins_of(const Solids& solids) {
+  std::deque<Skin> result;
+  for (int i = 1; i <= solids.solids.Extent(); ++i) {
+    const TopoDS_Solid solid = right_way_out(solids.solids(i));
+    Bnd_Box box;
+    BRepBndLib::Add(solid, box, Standard_False);
+    triangulate(solid, 1e-3 * std::sqrt(box.SquareExtent()));
+    result.emplace_back(solid, solids.numbers);
+  }
+  return result;
+}
+
+/// Adds what closes the gaps to the solids.
+void close_gaps(Solids& solids) {
+  const GapFillers fillers = fill_gaps(skins_of(solids));
+  for (const TopoDS_Shape& filler : fillers.solids) solids.solids.Add(right_way_out(filler));
+  for (TopTools_DataMapOfShapeInteger::Iterator it(fillers.numbers); it.More(); it.Next())
+    solids.numbers.Bind(it.Key(), it.Value());
+}
+
 Solids fused(const Solids& apart) {
   TopTools_ListOfShape first, others;
   for (int i = 1; i <= apart.solids.Extent(); ++i) (i == 1 ? first : others).Append(apart.solids(i));
@@ -66,16 +87,11 @@ Solids fused(const Solids& apart) {
 
 std::deque<Skin> skins_of(const TopoDS_Shape& shape, bool join) {
   Solids solids = solids_of(shape);
-  if (join && solids.solids.Extent() > 1) solids = fused(solids);
-  std::deque<Skin> result;
-  for (int i = 1; i <= solids.solids.Extent(); ++i) {
-    const TopoDS_Solid solid = right_way_out(solids.solids(i));
-    Bnd_Box box;
-    BRepBndLib::Add(solid, box, Standard_False);
-    triangulate(solid, 1e-3 * std::sqrt(box.SquareExtent()));
-    result.emplace_back(solid, solids.numbers);
+  if (join && solids.solids.Extent() > 1) {
+    close_gaps(solids);
+    solids = fused(solids);
   }
-  return result;
+  return skins_of(solids);
 }
 
 }  // namespace quadrille

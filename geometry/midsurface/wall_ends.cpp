@@ -1,6 +1,11 @@
 #include <BRepAdaptor_Curve.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepClass3d_SolidClassifier.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
 #include <BRep_Tool.hxx>
 #include <GeomAPI_Interpolate.hxx>
 #include <GeomFill.hxx>
@@ -23,6 +28,7 @@
 #include <gp_Cone.hxx>
 #include <gp_Cylinder.hxx>
 #include <gp_Pln.hxx>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -32,15 +38,42 @@ namespace quadrille {
 
 namespace {
 
+class Material {
+ public:
+  explicit Material(const Skin& skin) : classifier_(skin.solid()), near_(1e-6 * skin.size()) {}
+  bool holds(const gp_Pnt& point) {
+    classifier_.Perform(point, near_);
+    return classifier_.State() == TopAbs_IN;
+  }
+
+ private:
+  BRepClass3d_SolidClassifier classifier_;
+  double near_;
+};
+
 const double nearly_parallel = std::cos(45 * M_PI / 180);
 
 /// One edge of a face, with the direction into the material and the one that leads away from the face.
 class FaceEdge {
  public:
-  FaceEdge(const SkinFace& face, const TopoDS_Edge& edge) : face_(face), edge_(edge), curve_(edge) {}
+  /// \param beside the face on the other side of the edge.
+  FaceEdge(const SkinFace& face, const SkinFace& beside, const TopoDS_Edge& edge)
+      : face_(face),
+        beside_(beside),
+        edge_(edge),
+        curve_(edge),
+        first_(curve_.FirstParameter()),
+        last_(curve_.LastParameter()) {}
 
-  double first() const { return curve_.FirstParameter(); }
-  double last() const { return curve_.LastParameter(); }
+  double first() const { return first_; }
+  double last() const { return last_; }
+  /// The same edge between two of its parameters.
+  FaceEdge stretch(double first, double last) const {
+    FaceEdge result = *this;
+    result.first_ = first;
+    result.last_ = last;
+    return result;
+  }
   bool closed() const {
     return curve_.Value(first()).Distance(curve_.Value(last())) < Precision::Confusion();
   }
@@ -52,6 +85,12 @@ class FaceEdge {
   }
   gp_Pnt inside(double t, double depth) const {
     return curve_.Value(t).Translated(-depth * gp_Vec(outward(t)));
+  }
+  /// Whether the other face rises from the edge, out of this one.
+  bool in_corner() const {
+    const double middle = 0.5 * (first_ + last_);
+    const auto other = beside_.outward(beside_.closest(curve_.Value(middle)));
+    return other && gp_Vec(*other).Dot(away(middle)) < -0.1;
   }
   /// In the face's tangent plane, across the edge.
   gp_Vec away(double t) const {
@@ -66,8 +105,10 @@ class FaceEdge {
 
  private:
   const SkinFace& face_;
+  const SkinFace& beside_;
   TopoDS_Edge edge_;
   BRepAdaptor_Curve curve_;
+  double first_, last_;
 };
 
 Handle(Geom_Curve) interpolated(const FaceEdge& edge, double depth) {
@@ -137,10 +178,29 @@ TopoDS_Face cone_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) 
       .Face();
 }
 
+/// The plane between two arcs round one center, as at the end of a bend that goes on into a rounded corner.
+/// Null where they are no such arcs.
+TopoDS_Face plane_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
+  const auto first = circle_of(a), second = circle_of(b);
+  if (!first || !second) return {};
+  const double near = 1e-7 * first->Radius(), first_end = a->LastParameter();
+  const bool closed = a->Value(a->FirstParameter()).Distance(a->Value(first_end)) < near;
+  if (closed || first->Location().Distance(second->Location()) > near ||
+      !first->Axis().IsParallel(second->Axis(), 1e-7))
+    return {};
+  BRepBuilderAPI_MakeWire border(BRepBuilderAPI_MakeEdge(a).Edge());
+  border.Add(BRepBuilderAPI_MakeEdge(a->Value(first_end), b->Value(b->LastParameter())).Edge());
+  border.Add(BRepBuilderAPI_MakeEdge(b).Edge());
+  border.Add(BRepBuilderAPI_MakeEdge(b->Value(b->FirstParameter()), a->Value(a->FirstParameter())).Edge());
+  BRepBuilderAPI_MakeFace face(gp_Pln(gp_Ax3(first->Position())), border.Wire());
+  return face.IsDone() ? face.Face() : TopoDS_Face();
+}
+
 /// What lies between two curves.
 TopoDS_Face face_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
-  const TopoDS_Face cone = cone_between(a, b);
-  if (!cone.IsNull()) return cone;
+  for (const TopoDS_Face& simple : {cone_between(a, b), plane_between(a, b)}) {
+    if (!simple.IsNull()) return simple;
+  }
   return BRepBuilderAPI_MakeFace(GeomFill::Surface(a, b), Precision::Confusion()).Face();
 }
 
@@ -155,19 +215,33 @@ bool runs_through(const Wall& wall, const Skin& skin, const gp_Pnt& point, const
 struct NextWall {
   int wall = -1;    ///< -1 = none
   double away = 0;  ///< how far from the edge it was met: behind the riser of a step that leans or is rounded
+  double depth = 0;  ///< below the edge
 };
 
 constexpr double close_by = 0.05;  // over the thickness
 
+/// Whether a wall begins behind a point of an edge.
+bool begins_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, double at,
+                   const NextWall& next) {
+  const gp_Pnt beyond = edge.inside(at, next.depth).Translated(next.away * edge.away(at));
+  return runs_through(wall, skin, beyond, edge.outward(at));
+}
+
 NextWall next_wall(const Skin& skin, const std::vector<Wall>& walls, int wall, const FaceEdge& edge) {
   const double t = walls[wall].thickness;
-  for (const double away : {close_by, 0.3, 0.6, 1.0}) {
-    for (const double share : {0.5, 0.25, 0.75}) {
-      const double at = edge.first() + share * (edge.last() - edge.first());
-      const gp_Pnt beyond = edge.inside(at, 0.5 * t).Translated(away * t * edge.away(at));
-      for (int other = 0; other < static_cast<int>(walls.size()); ++other) {
-        if (other == wall) continue;
-        if (runs_through(walls[other], skin, beyond, edge.outward(at))) return {other, away * t};
+  const bool corner = edge.in_corner();
+  // Half way down first: what begins there is the wall's own continuation. Of two sheets that lie on each
+  // other the thinner one does not reach there.
+  for (const double depth : {0.5, 0.85, 0.15}) {
+    for (const double away : {close_by, 0.3, 0.6, 1.0}) {
+      if (corner && away > close_by)
+        break;  // what is met further on is not behind a riser, but behind a wall
+      for (const double share : {0.5, 0.25, 0.75}) {
+        const double at = edge.first() + share * (edge.last() - edge.first());
+        for (int other = 0; other < static_cast<int>(walls.size()); ++other) {
+          const NextWall next{other, away * t, depth * t};
+          if (other != wall && begins_behind(skin, walls[other], edge, at, next)) return next;
+        }
       }
     }
   }
@@ -201,12 +275,45 @@ WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, con
   const double t = walls[wall].thickness;
   const double own = depth_at(skin, walls[wall], edge, -1e-3 * t, 0.5 * t);
   const double step_over = next.away > close_by * t ? next.away : 1e-3 * t;
-  const double other = depth_at(skin, walls[next.wall], edge, step_over, 0.5 * t);
+  const double other = depth_at(skin, walls[next.wall], edge, step_over, next.depth);
   const bool step = std::abs(own - other) > 1e-2 * t;
   const double high = std::min(own, other) - 0.1 * t, low = std::max(own, other) + 0.1 * t;
   // A rib across the bend interrupts the edge, not the wall: the fence runs on through the rib.
   const double longer = step ? 0 : thickest_of(walls);
   return {wall, next.wall, face_between(moved(edge, high, longer), moved(edge, low, longer)), step};
+}
+
+/// The stretches of an edge behind which a wall begins: of a bar that lies across another one, and whose
+/// side's edge is longer, the width of the other. What stands on the wall there does not interrupt them.
+std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const FaceEdge& edge,
+                                      const NextWall& next, Material& material) {
+  constexpr int count = 32;
+  const double first = edge.first(), length = edge.last() - first;
+  const auto at = [&](double i) { return first + length * (i + 0.5) / count; };
+  const auto begins = [&](double t) { return begins_behind(skin, wall, edge, t, next); };
+  const auto is_material = [&](double t) {
+    return material.holds(edge.inside(t, next.depth).Translated(next.away * edge.away(t)));
+  };
+  const auto border = [&](double inside, double outside) {
+    for (int step = 0; step < 60; ++step) {
+      const double middle = 0.5 * (inside + outside);
+      (begins(middle) ? inside : outside) = middle;
+    }
+    return inside;
+  };
+  std::vector<FaceEdge> result;
+  for (int i = 0; i < count; ++i) {
+    if (!begins(at(i))) continue;
+    int last = i;
+    for (int k = i + 1; k < count && (begins(at(k)) || is_material(at(k))); ++k)
+      last = begins(at(k)) ? k : last;
+    const double low = i > 0 ? border(at(i), at(i - 1)) : first;
+    const double high = last + 1 < count ? border(at(last), at(last + 1)) : first + length;
+    result.push_back(edge.stretch(low, high));
+    i = last;
+  }
+  if (result.empty()) result.push_back(edge);  // narrower than a sample
+  return result;
 }
 
 /// Whether a point lies near one of the others; if not, it becomes one of them.
@@ -226,13 +333,14 @@ class Borders {
   }
 
   /// The edges of a face that lead to another surface.
-  std::vector<TopoDS_Edge> of_face(const SkinFace& face) const {
-    std::vector<TopoDS_Edge> result;
+  std::vector<FaceEdge> of_face(const SkinFace& face) const {
+    std::vector<FaceEdge> result;
     for (TopExp_Explorer it(face.face(), TopAbs_EDGE); it.More(); it.Next()) {
       const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
       const TopTools_ListOfShape& around = neighbors_.FindFromKey(edge);
-      if (!BRep_Tool::Degenerated(edge) && number(around.First()) != number(around.Last()))
-        result.push_back(edge);
+      if (BRep_Tool::Degenerated(edge) || number(around.First()) == number(around.Last())) continue;
+      const TopoDS_Shape& other = around.First().IsSame(face.face()) ? around.Last() : around.First();
+      result.emplace_back(face, skin_.faces()[skin_.index_of(TopoDS::Face(other))], edge);
     }
     return result;
   }
@@ -243,19 +351,6 @@ class Borders {
   const Skin& skin_;
   const std::vector<int>& surfaces_;
   TopTools_IndexedDataMapOfShapeListOfShape neighbors_;
-};
-
-class Material {
- public:
-  explicit Material(const Skin& skin) : classifier_(skin.solid()), near_(1e-6 * skin.size()) {}
-  bool holds(const gp_Pnt& point) {
-    classifier_.Perform(point, near_);
-    return classifier_.State() == TopAbs_IN;
-  }
-
- private:
-  BRepClass3d_SolidClassifier classifier_;
-  double near_;
 };
 
 /// An edge of a wall's side at one of its vertices.
@@ -333,31 +428,38 @@ class RimEnds {
   /// t thickness of the wall. \param centers of the fences that it has already, with those that are added.
   void add(int wall, double t, const std::vector<FaceEdge>& edges, std::vector<gp_Pnt>& centers,
            std::vector<WallEnd>& ends) {
+    std::map<const FaceEdge*, bool> known;
+    const auto goes_on = [&](const FaceEdge& edge) {
+      const auto [entry, is_new] = known.try_emplace(&edge, false);
+      if (is_new) entry->second = runs_on(edge, t, material_);
+      return entry->second;
+    };
     for (const FaceEdge& edge : edges) {
-      if (edge.closed() || !runs_on(edge, t, material_)) continue;
+      if (edge.closed() || !goes_on(edge)) continue;
       for (const double at : {edge.first(), edge.last()}) {
         const std::vector<EdgeEnd> around = ends_at(edge.curve().Value(at), edges);
         const auto own = std::find_if(around.begin(), around.end(),
                                       [&](const EdgeEnd& end) { return end.edge == &edge && end.at == at; });
-        const bool at_rim = own != around.end() && around.size() == 2 &&
-                            std::any_of(around.begin(), around.end(), [&](const EdgeEnd& end) {
-                              return end.edge != &edge && !runs_on(*end.edge, t, material_);
-                            });
-        if (!at_rim) continue;
+        const auto rim = std::find_if(around.begin(), around.end(), [&](const EdgeEnd& end) {
+          return end.edge != &edge && !goes_on(*end.edge);
+        });
+        if (own == around.end() || around.size() != 2 || rim == around.end()) continue;
         const gp_Pnt center = edge.inside(at, 0.5 * t);
         const gp_Vec aside = 0.05 * t * (edge.away(at) + own->outward_along);
         if (!material_.holds(center.Translated(aside)) || is_near(center, 0.01 * t, centers)) continue;
-        ends.push_back({wall, wall, fence(*own, t), false});
+        ends.push_back({wall, wall, fence(*own, *rim, t), false});
       }
     }
   }
 
  private:
-  /// A rectangle across the wall, from the vertex along the way that the wall runs on. It holds the edge that
-  /// leads from the vertex to the other side: where the side leans, its normal would miss that edge, and with
-  /// it the end of the rim.
-  TopoDS_Face fence(const EdgeEnd& end, double t) const {
-    const gp_Vec away = end.edge->away(end.at);
+  /// A rectangle across the wall, from the vertex along the way that the rim would run on. It holds the edge
+  /// that leads from the vertex to the other side: where the side leans, its normal would miss that edge, and
+  /// with it the end of the rim.
+  TopoDS_Face fence(const EdgeEnd& end, const EdgeEnd& rim, double t) const {
+    const gp_Vec straight = end.edge->away(end.at);
+    const bool onward = rim.outward_along.Dot(straight) > 0.3;
+    const gp_Vec& away = onward ? rim.outward_along : straight;
     const gp_Pnt start = end.edge->inside(end.at, 0.5 * t).Translated(0.05 * t * away);
     const auto hit = skin_.first_hit(start, gp_Dir(away));
     const double length = hit ? hit->distance + 0.1 * t : 2 * t;
@@ -372,38 +474,127 @@ class RimEnds {
   Material material_;
 };
 
+/// From a fence to a point.
+std::optional<gp_Vec> way_from(const TopoDS_Face& fence, const gp_Pnt& point) {
+  const BRepExtrema_DistShapeShape distance(fence, BRepBuilderAPI_MakeVertex(point).Vertex());
+  if (!distance.IsDone() || distance.NbSolution() == 0) return std::nullopt;
+  return gp_Vec(distance.PointOnShape1(1), point);
+}
+
+/// The end of a wall before another one whose fence stands along an edge already, by index; -1 = none. The
+/// edges of the two sides of a bend are not of one length where it goes on into rounded corners, and not
+/// quite at one place where its radii have two centers.
+int fence_along(const std::vector<WallEnd>& ends, int wall, int next, const FaceEdge& edge,
+                double thickness) {
+  constexpr double near = 0.02;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (ends[i].wall != wall || ends[i].next != next || ends[i].step) continue;
+    bool along = true;
+    for (const double share : {0.5, 0.05, 0.95}) {
+      if (!along) break;
+      const double at = edge.first() + share * (edge.last() - edge.first());
+      const auto way = way_from(ends[i].fence, edge.inside(at, 0.5 * thickness));
+      along = way && way->Magnitude() < near * thickness;
+    }
+    if (along) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+/// Moves a fence half way to the edge on the other side of the wall.
+void move_between(TopoDS_Face& fence, const FaceEdge& edge, double thickness) {
+  const auto way = way_from(fence, edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * thickness));
+  if (!way || way->Magnitude() < Precision::Confusion()) return;
+  gp_Trsf half;
+  half.SetTranslation(0.5 * *way);
+  fence = TopoDS::Face(BRepBuilderAPI_Transform(fence, half, Standard_True).Shape());
+}
+
 /// Of two walls at a step whether the fence stands at the end of the first: the thicker one.
 bool stands_on(const std::vector<Wall>& walls, int wall, int next) {
   const double t = walls[wall].thickness, other = walls[next].thickness;
   return t > other || (t == other && wall < next);
 }
 
+/// Finds where walls end and others begin.
+class WallEnds {
+ public:
+  WallEnds(const Skin& skin, const std::vector<Wall>& walls)
+      : skin_(skin), walls_(walls), material_(skin), middles_(walls.size()) {}
+
+  const std::vector<WallEnd>& found() const { return ends_; }
+
+  /// Looks behind an edge of a wall's side.
+  void add(int wall, int side, const FaceEdge& edge) {
+    const double t = walls_[wall].thickness;
+    const NextWall next = next_wall(skin_, walls_, wall, edge);
+    if (next.wall < 0) return;
+    const bool riser = next.away > close_by * t;
+    if (riser && !stands_on(walls_, wall, next.wall)) return;
+    if (stands_already(wall, next.wall, side, edge)) return;
+    const gp_Pnt middle = edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * t);
+    if (is_near(middle, 0.01 * t, middles_[wall])) return;
+    const WallEnd end = make_end(skin_, walls_, wall, next, edge);
+    if (!end.step) {
+      push(end, riser, side);
+      return;
+    }
+    for (const FaceEdge& part : stretches_along(skin_, walls_[next.wall], edge, next, material_))
+      push(make_end(skin_, walls_, wall, next, part), riser, between);
+  }
+
+ private:
+  static constexpr int between = -1;
+
+  /// \param side of the wall on whose edge the fence stands, or between both.
+  void push(const WallEnd& end, bool riser, int side) {
+    ends_.push_back(end);
+    // Behind a riser the other wall runs on below it, to the same fence.
+    if (riser) ends_.push_back({end.next, end.wall, end.fence, end.step});
+    sides_.resize(ends_.size(), side);
+  }
+
+  /// Whether a fence stands along the edge, made from the other side of the wall or from the other wall,
+  /// which are given one.
+  bool stands_already(int wall, int next, int side, const FaceEdge& edge) {
+    const double t = walls_[wall].thickness;
+    const int own = fence_along(ends_, wall, next, edge, t);
+    if (own >= 0) {
+      if (sides_[own] == 1 - side) {
+        move_between(ends_[own].fence, edge, t);
+        sides_[own] = between;
+      }
+      return true;
+    }
+    const int other_way = fence_along(ends_, next, wall, edge, t);
+    if (other_way < 0) return false;
+    push({wall, next, TopoDS_Face(ends_[other_way].fence), false}, false, between);
+    return true;
+  }
+
+  const Skin& skin_;
+  const std::vector<Wall>& walls_;
+  Material material_;
+  std::vector<std::vector<gp_Pnt>> middles_;  ///< of each wall's fences
+  std::vector<WallEnd> ends_;
+  std::vector<int> sides_;  ///< see push()
+};
+
 }  // namespace
 
 std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,
                                     const std::vector<int>& surfaces) {
   const Borders borders(skin, surfaces);
-  std::vector<WallEnd> ends;
+  WallEnds ends(skin, walls);
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
-    const double t = walls[wall].thickness;
-    std::vector<gp_Pnt> centers;
-    for (const int index : both_sides(walls[wall])) {
-      const SkinFace& face = skin.faces()[index];
-      for (const TopoDS_Edge& edge : borders.of_face(face)) {
-        const FaceEdge face_edge(face, edge);
-        const NextWall next = next_wall(skin, walls, wall, face_edge);
-        const gp_Pnt center = face_edge.inside(0.5 * (face_edge.first() + face_edge.last()), 0.5 * t);
-        // A bend has an edge on either side of the wall: one fence does for both.
-        if (next.wall < 0 || is_near(center, 0.01 * t, centers)) continue;
-        const bool riser = next.away > close_by * t;
-        if (riser && !stands_on(walls, wall, next.wall)) continue;
-        ends.push_back(make_end(skin, walls, wall, next, face_edge));
-        // Behind a riser the other wall runs on below it, to the same fence.
-        if (riser) ends.push_back({next.wall, wall, ends.back().fence, ends.back().step});
+    for (int side = 0; side < 2; ++side) {
+      for (const int index : walls[wall].sides[side]) {
+        const SkinFace& face = skin.faces()[index];
+        for (const FaceEdge& edge : borders.of_face(face)) ends.add(wall, side, edge);
       }
     }
   }
-  return ends;
+  return ends.found();
 }
 
 std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& walls,
@@ -415,9 +606,7 @@ std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& wa
     std::vector<gp_Pnt> centers;
     for (const int index : both_sides(walls[wall])) {
       const SkinFace& face = skin.faces()[index];
-      std::vector<FaceEdge> edges;
-      for (const TopoDS_Edge& edge : borders.of_face(face)) edges.emplace_back(face, edge);
-      rims.add(wall, walls[wall].thickness, edges, centers, ends);
+      rims.add(wall, walls[wall].thickness, borders.of_face(face), centers, ends);
     }
   }
   return ends;

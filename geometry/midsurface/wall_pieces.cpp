@@ -7,6 +7,7 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GeomAdaptor_Surface.hxx>
+#include <Geom_SphericalSurface.hxx>
 #include <Precision.hxx>
 #include <ShapeAnalysis_Surface.hxx>
 #include <TopExp.hxx>
@@ -63,13 +64,27 @@ void keep_regular(const GeomAdaptor_Surface& surface, ParameterRange& v) {
     v.high = std::min(v.high, apex);
 }
 
+/// A sphere whose seam and poles are away from the points, where they allow that.
+Handle(Geom_Surface) turned_away(const Handle(Geom_Surface) & surface, const std::vector<gp_Pnt>& points) {
+  const auto sphere = Handle(Geom_SphericalSurface)::DownCast(surface);
+  if (sphere.IsNull()) return surface;
+  const gp_Pnt center = sphere->Location();
+  gp_Vec middle;
+  for (const gp_Pnt& point : points) middle += gp_Vec(center, point) / static_cast<double>(points.size());
+  if (middle.Magnitude() < 0.8 * sphere->Radius()) return surface;
+  const gp_Dir ahead(middle);
+  const gp_Dir up = std::abs(ahead.Dot(sphere->Axis().Direction())) < 0.7 ? sphere->Axis().Direction()
+                                                                          : sphere->Position().XDirection();
+  return new Geom_SphericalSurface(gp_Ax3(center, ahead.Crossed(up), ahead.Reversed()), sphere->Radius());
+}
+
 /// The wall's middle surface, bounded so that it reaches past all that it may have to meet.
 TopoDS_Face middle_patch(const Skin& skin, const std::vector<Wall>& walls, int wall) {
   double margin = 0;
   for (const Wall& other : walls) margin = std::max(margin, 1.5 * other.thickness);
-  const Handle(Geom_Surface)& middle = walls[wall].middle;
-  if (walls[wall].fitted) return BRepBuilderAPI_MakeFace(middle, Precision::Confusion()).Face();
+  if (walls[wall].ends) return BRepBuilderAPI_MakeFace(walls[wall].middle, Precision::Confusion()).Face();
   const auto points = points_on_edges(skin, faces_to_cover(skin, walls, wall));
+  const Handle(Geom_Surface) middle = turned_away(walls[wall].middle, points);
   const gp_Pnt2d uv = ShapeAnalysis_Surface(middle).ValueOfUV(points.front(), Precision::Confusion());
   gp_Pnt at;
   gp_Vec du, dv;
@@ -81,21 +96,39 @@ TopoDS_Face middle_patch(const Skin& skin, const std::vector<Wall>& walls, int w
   return BRepBuilderAPI_MakeFace(middle, u.low, u.high, v.low, v.high, Precision::Confusion()).Face();
 }
 
+/// The faces that need not cut a wall: its own sides, which its middle cannot meet, and those of walls that
+/// go on behind its fences, which it meets beyond them only, nearly tangent, where OpenCASCADE looks long and
+/// may lose all.
+std::set<int> left_out(const std::vector<Wall>& walls, int wall, const std::vector<WallEnd>& ends) {
+  std::set<int> result;
+  const auto leave_out = [&](int other) {
+    const std::vector<int> sides = both_sides(walls[other]);
+    result.insert(sides.begin(), sides.end());
+  };
+  leave_out(wall);
+  for (const WallEnd& end : ends) {
+    if (end.wall == wall && !end.step) leave_out(end.next);
+  }
+  return result;
+}
+
 /// The faces of the skin that the patch may meet, as one argument: OpenCASCADE then does not look for
-/// intersections among them. A wall's own sides it cannot meet, and next to a bent one OpenCASCADE looks
-/// long.
-TopoDS_Compound near_faces(const Skin& skin, const Wall& wall, const TopoDS_Face& patch) {
+/// intersections among them.
+std::vector<TopoDS_Shape> near_faces(const Skin& skin, const std::set<int>& left_out,
+                                     const TopoDS_Face& patch) {
   TopoDS_Compound result;
   const BRep_Builder builder;
   builder.MakeCompound(result);
+  bool any = false;
   Bnd_Box box;
   BRepBndLib::Add(patch, box, Standard_False);
-  const std::vector<int> sides = both_sides(wall);
   for (std::size_t i = 0; i < skin.faces().size(); ++i) {
-    const bool side = std::find(sides.begin(), sides.end(), static_cast<int>(i)) != sides.end();
-    if (!side && !box.IsOut(skin.faces()[i].box())) builder.Add(result, skin.faces()[i].face());
+    if (left_out.count(static_cast<int>(i)) != 0 || box.IsOut(skin.faces()[i].box())) continue;
+    builder.Add(result, skin.faces()[i].face());
+    any = true;
   }
-  return result;
+  if (!any) return {};
+  return {result};
 }
 
 /// The samples lie inside the face: where the thickness varies, it has its extremes at corners.
@@ -131,24 +164,50 @@ Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin
   return result;
 }
 
-std::vector<TopoDS_Face> wall_pieces(const Skin& skin, const std::vector<Wall>& walls, int wall,
-                                     const std::vector<WallEnd>& ends) {
-  const TopoDS_Face patch = middle_patch(skin, walls, wall);
+namespace {
+
+/// The pieces into which others cut a face; the face where they do not meet it, none where OpenCASCADE
+/// cannot.
+std::vector<TopoDS_Face> cut_by(const TopoDS_Face& face, const std::vector<TopoDS_Shape>& others) {
+  if (others.empty()) return {face};
   BOPAlgo_Builder cutter;
   cutter.SetNonDestructive(Standard_True);
-  cutter.AddArgument(patch);
-  cutter.AddArgument(near_faces(skin, walls[wall], patch));
-  for (const WallEnd& end : ends) {
-    if (end.wall == wall) cutter.AddArgument(end.fence);
-  }
+  cutter.AddArgument(face);
+  for (const TopoDS_Shape& other : others) cutter.AddArgument(other);
   cutter.Perform();
+  if (cutter.HasErrors()) return {};
+  if (!cutter.Images().IsBound(face)) return {face};
   std::vector<TopoDS_Face> result;
-  if (cutter.HasErrors() || !cutter.Images().IsBound(patch)) return result;
+  for (const TopoDS_Shape& piece : cutter.Images().Find(face)) result.push_back(TopoDS::Face(piece));
+  return result;
+}
+
+/// Those that lie between the sides of the wall somewhere.
+std::vector<TopoDS_Face> between_sides(const std::vector<TopoDS_Face>& pieces, const Wall& wall,
+                                       const Skin& skin) {
   constexpr double least_share = 0.02;
-  for (const TopoDS_Shape& piece : cutter.Images().Find(patch)) {
-    const TopoDS_Face& face = TopoDS::Face(piece);
-    triangulate(face, 0.2 * walls[wall].thickness);
-    if (coverage_of(face, walls[wall], skin).share > least_share) result.push_back(face);
+  std::vector<TopoDS_Face> result;
+  for (const TopoDS_Face& piece : pieces) {
+    triangulate(piece, 0.2 * wall.thickness);
+    if (coverage_of(piece, wall, skin).share > least_share) result.push_back(piece);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<TopoDS_Face> wall_pieces(const Skin& skin, const std::vector<Wall>& walls, int wall,
+                                     const std::vector<WallEnd>& ends) {
+  std::vector<TopoDS_Shape> fences;
+  for (const WallEnd& end : ends) {
+    if (end.wall == wall) fences.push_back(end.fence);
+  }
+  // The fences first, which the surface meets clearly: of the skin there is little left then to meet.
+  std::vector<TopoDS_Face> result;
+  const std::set<int> never_met = left_out(walls, wall, ends);
+  for (const TopoDS_Face& part : cut_by(middle_patch(skin, walls, wall), fences)) {
+    const auto pieces = cut_by(part, near_faces(skin, never_met, part));
+    for (const TopoDS_Face& piece : between_sides(pieces, walls[wall], skin)) result.push_back(piece);
   }
   return result;
 }

@@ -209,9 +209,16 @@ std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
   std::vector<SurfacePair> pairs = pair_surfaces(skin, surfaces, look_through_all(skin, context));
   std::vector<Wall> walls;
   double thickest = 0;
-  for (const SurfacePair& pair : pairs) {
-    thickest = std::max(thickest, pair.thickness_area / pair.area());
-    if (!pair.middle.IsNull()) walls.push_back({pair.faces, pair.middle, pair.thickness_area / pair.area()});
+  for (SurfacePair& pair : pairs) {
+    const double thickness = pair.thickness_area / pair.area();
+    thickest = std::max(thickest, thickness);
+    NearMiddle middle{pair.middle, 0};
+    if (pair.middle.IsNull())
+      middle = near_middle_surface(skin.faces()[pair.faces[0].front()], skin.faces()[pair.faces[1].front()],
+                                   tolerance * thickness);
+    if (middle.surface.IsNull()) continue;
+    walls.push_back({pair.faces, middle.surface, thickness, pair.middle.IsNull(), false, middle.off});
+    pair.middle = middle.surface;
   }
   std::erase_if(pairs, [](const SurfacePair& pair) { return !pair.middle.IsNull(); });
   for (Wall& wall : group_pairs(skin, std::move(pairs), touching_surfaces(skin, surfaces))) {
@@ -219,7 +226,7 @@ std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
     const auto middle = fit_middle(skin, wall.sides, tolerance * wall.thickness, 3 * thickest);
     if (!middle) continue;
     wall.middle = middle->surface;
-    wall.fitted = true;
+    wall.fitted = wall.ends = true;
     wall.off = middle->off;
     walls.push_back(wall);
   }

@@ -16,10 +16,12 @@ namespace quadrille {
 /// the middle is fitted, the second side may be several surfaces, one behind the other.
 struct Wall {
   std::array<std::vector<int>, 2> sides;  ///< indices into Skin::faces()
-  Handle(Geom_Surface) middle;  ///< every point is as far from one side as from the other; unbounded if exact
-  double thickness = 0;         ///< mean over the wall
-  bool fitted = false;          ///< the middle is a B-spline, and ends
-  double off = 0;               ///< of a fitted middle: largest distance from the true one
+  Handle(Geom_Surface)
+      middle;  ///< every point is as far from one side as from the other; unbounded unless it `ends`
+  double thickness = 0;  ///< mean over the wall
+  bool fitted = false;   ///< the middle is not exact
+  bool ends = false;     ///< the middle is a B-spline, and ends
+  double off = 0;        ///< of a fitted middle: largest distance from the true one
 };
 
 /// A piece of the material at one point: how far the two sides of a wall are apart there.

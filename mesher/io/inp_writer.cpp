@@ -143,7 +143,14 @@ void write_node_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& 
 void write_sections(const OutputMesh& mesh, TextWriter& out) {
   for (const ThicknessGroup& group : mesh.thicknesses()) {
     out << "*ELSET, ELSET=" << group.name << '\n';
-    for (const int face : group.faces) out << "Face" << face << '\n';
+    if (mesh.groups(2).empty()) {  // no sets of faces were asked for
+      std::vector<int> elements = group.members;
+      for (int& element : elements) ++element;
+      std::sort(elements.begin(), elements.end());
+      write_list(elements, out);
+    } else {
+      for (const int face : group.faces) out << "Face" << face << '\n';
+    }
     out << "*SHELL SECTION, ELSET=" << group.name << ", MATERIAL=Material"
         << (group.varies ? ", NODAL THICKNESS\n" : "\n") << group.thickness << '\n';
   }

@@ -206,7 +206,8 @@ void OutputMesh::number_nodes() {
 }
 
 int OutputMesh::face(int shell) const {
-  if (!groups_.faces) return 0;
+  // Thicknesses are told by faces, whatever groups are asked for.
+  if (!groups_.faces && mesh_.thicknesses.empty()) return 0;
   const std::vector<int>& faces = is_quad(shell) ? mesh_.quad_faces : mesh_.triangle_faces;
   const std::size_t index = is_quad(shell) ? shell : shell - quad_count();
   return index < faces.size() ? faces[index] : 0;

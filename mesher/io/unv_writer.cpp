@@ -115,7 +115,8 @@ class GroupWriter {
 };
 
 void write_groups(const OutputMesh& mesh, TextWriter& out) {
-  if (mesh.groups(2).empty() && mesh.groups(1).empty() && mesh.groups(0).empty()) return;
+  const bool named = !mesh.groups(2).empty() || !mesh.groups(1).empty() || !mesh.groups(0).empty();
+  if (!named && mesh.thicknesses().empty()) return;
   begin_dataset(2467, out);
   GroupWriter groups(out);
   for (const NamedGroup& group : mesh.groups(2))

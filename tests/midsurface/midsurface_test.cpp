@@ -30,6 +30,9 @@ namespace quadrille {
 void PrintTo(const ThinModel& model, std::ostream* stream) {
   *stream << model.name;
 }
+void PrintTo(const JoinedModel& model, std::ostream* stream) {
+  *stream << model.name;
+}
 
 namespace {
 
@@ -251,6 +254,61 @@ TEST(MidSurface, JoinsSolidsThatTouchWhereThatIsWanted) {
   ExecutionContext context;
   const ShellMesh result = mesh(joined, options, context);
   EXPECT_TRUE(validate(result).empty());
+}
+
+class Joined : public testing::TestWithParam<JoinedModel> {};
+
+TEST_P(Joined, IsOnePart) {
+  const TopoDS_Shape shape = GetParam().make();
+  EXPECT_EQ(middle_of(shape).solids, GetParam().solids);
+  const MidSurface middle = middle_of(shape, false, true);
+  EXPECT_TRUE(middle.problems.empty());
+  EXPECT_EQ(middle.solids, 1);
+  EXPECT_EQ(middle.parts, 1);
+  EXPECT_TRUE(middle.stray_edges.empty());
+  // Of the miter's end a strip as wide as the gap is left beside the other tube.
+  EXPECT_EQ(middle.unpaired.size(), GetParam().name == "mitered_frame" ? 1U : 0U);
+  EXPECT_NEAR(middle.shell_volume / middle.volume, 1, 0.035);
+  if (GetParam().middle_area > 0) {
+    EXPECT_NEAR(area_of(middle), GetParam().middle_area, 1e-6 * GetParam().middle_area);
+  }
+  std::set<double> thicknesses;
+  const int solid_faces = model_of(shape).face_count();
+  for (const MiddleFace& face : middle.faces) {
+    thicknesses.insert(std::round(100 * face.thickness) / 100);
+    EXPECT_GE(face.solid_faces.size(), 2U);
+    EXPECT_GE(face.solid_faces.front(), 1);
+    EXPECT_LE(face.solid_faces.back(), solid_faces);
+  }
+  EXPECT_EQ(std::vector<double>(thicknesses.begin(), thicknesses.end()), GetParam().thicknesses);
+  MeshOptions options;
+  options.sizing.elements_per_diagonal = 25;
+  ExecutionContext context;
+  const ShellMesh result = mesh(middle.model, options, context);
+  EXPECT_TRUE(validate(result).empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, Joined, testing::ValuesIn(joined_models()),
+                         [](const auto& test) { return test.param.name; });
+
+/// The beam's wall is 2 mm thick: wider gaps stay.
+TEST(MidSurface, LeavesWideGaps) {
+  const MidSurface middle = middle_of(welded_frame(2.1), false, true);
+  EXPECT_TRUE(middle.problems.empty());
+  EXPECT_EQ(middle.solids, 3);
+  EXPECT_EQ(middle.parts, 3);
+}
+
+/// What closes a gap has the names of the faces that it carries on.
+TEST(MidSurface, NamesTheFacesOfSolidsJoinedOverGaps) {
+  const auto faces_of = [](double gap) {
+    std::vector<std::pair<double, std::vector<int>>> result;
+    for (const MiddleFace& face : middle_of(welded_frame(gap), false, true).faces)
+      result.emplace_back(std::round(10 * face.area), face.solid_faces);
+    std::sort(result.begin(), result.end());
+    return result;
+  };
+  EXPECT_EQ(faces_of(1), faces_of(0));
 }
 
 /// What is turned round an axis is a torus and the like to the program: faces keep their numbers, and have

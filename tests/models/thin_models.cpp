@@ -1,5 +1,6 @@
 #include "tests/models/thin_models.hpp"
 
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
@@ -7,6 +8,7 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
@@ -22,7 +24,9 @@
 #include <Geom_TrimmedCurve.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <TColgp_HArray1OfPnt.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Wire.hxx>
@@ -238,6 +242,39 @@ TopoDS_Shape housing() {
              {drill(70, 15, 10, gp::DZ(), 2.5, 18)});
 }
 
+/// A box with rounded edges, but for those at its bottom.
+TopoDS_Shape rounded_above(const TopoDS_Shape& box, double radius) {
+  BRepFilletAPI_MakeFillet fillet(box);
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(box, TopAbs_EDGE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const BRepAdaptor_Curve curve(TopoDS::Edge(edges(i)));
+    const double low =
+        std::min(curve.Value(curve.FirstParameter()).Z(), curve.Value(curve.LastParameter()).Z());
+    const double high =
+        std::max(curve.Value(curve.FirstParameter()).Z(), curve.Value(curve.LastParameter()).Z());
+    if (high > low + 1 || low > 1) fillet.Add(radius, TopoDS::Edge(edges(i)));
+  }
+  return fillet.Shape();
+}
+
+/// A housing with draft, all its edges rounded but at the rim: the radii of its bends and corners differ by
+/// 2, its walls are 1.9988 thick, so that no two of them share their centers.
+TopoDS_Shape rounded_housing() {
+  const double draft = std::tan(2 * M_PI / 180);
+  return cut(rounded_above(drafted(0, 0, 0, 100, 60, 30, draft, draft), 5),
+             {rounded_above(drafted(2, 2, 0, 96, 56, 28, draft, draft), 3)});
+}
+
+/// The same with two ribs that cross, and a boss.
+TopoDS_Shape rounded_housing_with_ribs() {
+  const double draft = std::tan(2 * M_PI / 180);
+  const TopoDS_Shape outside = rounded_above(drafted(0, 0, 0, 100, 60, 30, draft, draft), 5);
+  const TopoDS_Shape boss = cut(drill(70, 15, 9.5, gp::DZ(), 4, 19), {drill(70, 15, 9.5, gp::DZ(), 2.5, 18)});
+  return fuse({rounded_housing(), BRepAlgoAPI_Common(box(39.4, 0.3, 12, 1.2, 59.4, 17), outside).Shape(),
+               BRepAlgoAPI_Common(box(0.3, 29.4, 16, 99.4, 1.2, 13), outside).Shape(), boss});
+}
+
 /// A cylinder with half-spheres as heads.
 TopoDS_Shape tank() {
   const auto capsule = [](double radius) {
@@ -379,14 +416,132 @@ TopoDS_Shape thick_block() {
   return box(0, 0, 0, 30, 20, 10);
 }
 
-TopoDS_Shape welded_frame() {
+TopoDS_Shape together(const std::vector<TopoDS_Shape>& solids) {
   TopoDS_Compound result;
   const BRep_Builder builder;
   builder.MakeCompound(result);
-  for (const double x : {-20.0, 180.0})
-    builder.Add(result, cut(box(x, 0, 0, 40, 40, 200), {box(x + 3, 3, -1, 34, 34, 202)}));
-  builder.Add(result, cut(box(20, 5, 130, 160, 30, 30), {box(19, 7, 132, 162, 26, 26)}));
+  for (const TopoDS_Shape& solid : solids) builder.Add(result, solid);
   return result;
+}
+
+/// A tube along x from a corner, square outside.
+TopoDS_Shape tube_along_x(double x, double y, double z, double length, double wide, double wall) {
+  const double inside = wide - 2 * wall;
+  return cut(box(x, y, z, length, wide, wide), {box(x - 1, y + wall, z + wall, length + 2, inside, inside)});
+}
+
+TopoDS_Shape welded_frame(double gap, double wide) {
+  std::vector<TopoDS_Shape> parts;
+  for (const double x : {-20.0, 180.0})
+    parts.push_back(cut(box(x, 0, 0, 40, 40, 200), {box(x + 3, 3, -1, 34, 34, 202)}));
+  parts.push_back(tube_along_x(20 + gap, 20 - 0.5 * wide, 130, 160 - 2 * gap, wide, 2));
+  return together(parts);
+}
+
+/// Two square tubes that meet in a miter, one of them set off along the other.
+TopoDS_Shape mitered_frame(double gap) {
+  const TopoDS_Shape half = profile({{{-10, -10}, {300, 300}, {300, -10}}}, 60);
+  gp_Trsf down, mirror, apart;
+  down.SetTranslation(gp_Vec(0, 0, -20));
+  const TopoDS_Shape one =
+      BRepAlgoAPI_Common(tube_along_x(0, 0, 0, 200, 30, 2), BRepBuilderAPI_Transform(half, down).Shape())
+          .Shape();
+  mirror.SetMirror(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(1, -1, 0)));
+  apart.SetTranslation(gp_Vec(-gap, 0, 0));
+  return together({one, BRepBuilderAPI_Transform(one, apart * mirror).Shape()});
+}
+
+/// An I-beam between two plates.
+TopoDS_Shape beam_between_plates(double gap) {
+  const TopoDS_Shape beam = profile({i_outline(60, 100, 4, 6, 0)}, 200);
+  return together({beam, box(-10, -10, -4 - gap, 80, 120, 4), box(-10, -10, 200 + gap, 80, 120, 4)});
+}
+
+/// A column of I-section, a tube that stands off from it, and a brace between them at 45 degrees, all a
+/// little apart.
+TopoDS_Shape braced_frame() {
+  gp_Trsf place, lift;
+  place.SetTranslation(gp_Vec(-30, -50, 0));
+  lift.SetTranslation(gp_Vec(0, 50, 60));
+  const TopoDS_Shape column =
+      BRepBuilderAPI_Transform(profile({i_outline(60, 100, 4, 6, 0)}, 300), place).Shape();
+  const TopoDS_Shape beam = cut(box(-20, 50.5, 180, 40, 200, 40), {box(-17, 49, 183, 34, 203, 34)});
+  gp_Trsf turn;
+  turn.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp::DX()), M_PI / 4);
+  const TopoDS_Shape straight = cut(box(-10, 0, 0, 20, 200, 20), {box(-8, -1, 2, 16, 202, 16)});
+  const TopoDS_Shape brace = BRepBuilderAPI_Transform(straight, lift * turn).Shape();
+  return together({column, beam, BRepAlgoAPI_Common(brace, box(-50, 50.3, 0, 100, 400, 179.7)).Shape()});
+}
+
+const std::vector<JoinedModel>& joined_models() {
+  const double columns = 2 * 4 * 37 * 200;
+  static const std::vector<JoinedModel> models{
+      {"frame_with_gaps", [] { return welded_frame(1); }, 3, columns + 4 * 28 * 163, {2, 3}},
+      {"frame_with_narrow_gaps", [] { return welded_frame(0.01); }, 3, columns + 4 * 28 * 163, {2, 3}},
+      {"frame_with_wide_gaps", [] { return welded_frame(1.99); }, 3, columns + 4 * 28 * 163, {2, 3}},
+      // The beam's sides lie beside those of the columns by 0.5.
+      {"flush_frame", [] { return welded_frame(0, 40); }, 3, columns + 4 * 38 * 163 + 4 * 38 * 0.5, {2, 3}},
+      {"flush_frame_with_gaps",
+       [] { return welded_frame(0.5, 40); },
+       3,
+       columns + 4 * 38 * 163 + 4 * 38 * 0.5,
+       {2, 3}},
+      {"mitered_frame", [] { return mitered_frame(1); }, 2, 0, {2}},
+      {"braced_frame", braced_frame, 3, 0, {2, 3, 4, 6}},
+      {"beam_between_plates", [] { return beam_between_plates(0.5); }, 3, 2 * 80 * 120 + 205 * 214, {4, 6}},
+      {"plates_end_to_end",
+       [] {
+         return together({box(0, 0, 0, 50, 60, 2), box(51, 0, 0, 50, 60, 2)});
+       },
+       2,
+       101 * 60,
+       {2}},
+      {"plate_on_plate",
+       [] {
+         return together({box(0, 0, 0, 100, 60, 3), box(49, 0, 3.5, 2, 60, 40)});
+       },
+       2,
+       100 * 60 + 60 * 42,
+       {2, 3}},
+      // Where they lie on each other it is as thick as both with the gap.
+      {"lap",
+       [] {
+         return together({box(0, 0, 0, 60, 40, 2), box(40, 0, 2.5, 60, 40, 2)});
+       },
+       2,
+       100 * 40 + 2 * 40 * 1.25,
+       {2, 4.5}},
+      {"lap_of_two_thicknesses",
+       [] {
+         return together({box(0, 0, 0, 60, 40, 2), box(40, 0, 2, 60, 40, 3)});
+       },
+       2,
+       100 * 40 + 40 * (1.5 + 1),
+       {2, 3, 5}},
+      {"crossed_bars",
+       [] {
+         return together({box(0, 20, 0, 80, 20, 2), box(30, -10, 2.4, 20, 80, 3)});
+       },
+       2,
+       20 * (80 + 60) + 2 * 20 * (1.7 + 1.2),
+       {2, 3, 5.4}},
+      {"sheet_with_doubler",
+       [] {
+         return together({box(0, 0, 0, 100, 80, 2), box(30, 20, 2, 40, 40, 2)});
+       },
+       2,
+       100 * 80 + 4 * 40,
+       {2, 4}},
+      {"square_tube_on_round_one",
+       [] {
+         return together({cut(drill(0, 0, 0, gp::DZ(), 30, 150), {drill(0, 0, -1, gp::DZ(), 27, 152)}),
+                          tube_along_x(31, -6, 60, 120, 12, 1.5)});
+       },
+       2,
+       0,
+       {1.5, 3}},
+  };
+  return models;
 }
 
 TopoDS_Shape plate_on_block() {
@@ -441,6 +596,8 @@ const std::vector<ThinModel>& thin_models() {
       {"pocket_sheet", pocket_sheet, 100 * 60 + 120, {2, 4}, 0.01, 1},
       {"tapering_web", tapering_web, 60 * 100 / std::cos(0.5 * std::atan(0.02)), {3}, 0.01, 1},
       {"housing", housing, 0, {1.3, 1.4, 1.7, 2}, 0.02, 4},
+      {"rounded_housing", rounded_housing, 0, {2}, 0.01, 1},
+      {"rounded_housing_with_ribs", rounded_housing_with_ribs, 0, {1.2, 1.5, 2}, 0.02, 4},
       {"tank", tank, 80 * 2 * M_PI * 30 + 4 * M_PI * 900, {2}, 0.01, 0},
       {"nozzle", nozzle, 0, {2, 3}, 0.03, 3},
       {"joggle", joggle, 60 * (80 + 20 * M_SQRT2 - 4 * 4 * std::tan(M_PI / 8) + M_PI * 2), {2}, 0.01, 1},

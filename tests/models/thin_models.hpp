@@ -40,8 +40,21 @@ TopoDS_Shape thick_block();
 TopoDS_Shape plate_on_block();
 
 /// Three box profiles that touch, a solid each: two columns of 40 x 40 x 3, 200 mm high, and between them,
-/// 160 mm long, a beam of 30 x 30 x 2.
-TopoDS_Shape welded_frame();
+/// 160 mm long, a beam of 30 x 30 x 2. \param gap between the beam and either column, by which the beam is
+/// shorter. \param wide of the beam; 40: its sides are flush with those of the columns.
+TopoDS_Shape welded_frame(double gap = 0, double wide = 30);
+
+/// Solids that are one part with what joins them.
+struct JoinedModel {
+  std::string name;
+  std::function<TopoDS_Shape()> make;
+  int solids = 0;
+  double middle_area = 0;           ///< of the true middle surface, with the strips at steps; 0 = not known
+  std::vector<double> thicknesses;  ///< that occur, ascending
+};
+
+/// Solids with gaps between them that are narrow enough to be closed, and solids that lie on each other.
+const std::vector<JoinedModel>& joined_models();
 
 /// A plate with many ribs: 200 faces and more.
 TopoDS_Shape ribbed_plate(int ribs_each_way);

@@ -1,0 +1,38 @@
+#include "geometry/midsurface/widths.hpp"
+
+#include <BRepGProp.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <cmath>
+
+namespace quadrille {
+
+double length_of(const TopoDS_Edge& edge) {
+  GProp_GProps properties;
+  BRepGProp::LinearProperties(edge, properties);
+  return properties.Mass();
+}
+
+double area_of(const TopoDS_Face& face) {
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(face, properties, 1e-6);
+  return std::abs(properties.Mass());
+}
+
+double width_of(double area, double perimeter) {
+  const double half = 0.25 * perimeter;
+  return half * half > area ? half - std::sqrt(half * half - area) : std::sqrt(area);
+}
+
+double width_of(const TopoDS_Face& face) {
+  double perimeter = 0;
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
+    if (!BRep_Tool::Degenerated(edge) && !BRep_Tool::IsClosed(edge, face)) perimeter += length_of(edge);
+  }
+  return width_of(area_of(face), perimeter);
+}
+
+}  // namespace quadrille
