@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <optional>
 
 #include "geometry/base/module_loader.hpp"
@@ -211,6 +213,19 @@ TEST(SizeSources, SoManyElementsAreAcrossAGap) {
   EXPECT_GT(gaps, 100);
 }
 
+/// Replaces a number among the metadata of all grids of a .vdb file: name, type, length and value follow each
+/// other.
+void set_metadata(const std::filesystem::path& path, const std::string& name, double value) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string before = name + std::string("\6\0\0\0double\10\0\0\0", 14);
+  int found = 0;
+  for (std::size_t at = bytes.find(before); at != std::string::npos; at = bytes.find(before, at + 1), ++found)
+    std::memcpy(bytes.data() + at + before.size(), &value, sizeof value);
+  ASSERT_GT(found, 0);
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
 TEST(SizeSources, GridsOfOthersHaveAScaleAndAUnit) {
   const CadModel box = sample("box");
   const auto path = std::filesystem::temp_directory_path() / "quadrille_scale_test.vdb";
@@ -238,6 +253,9 @@ TEST(SizeSources, GridsOfOthersHaveAScaleAndAUnit) {
   EXPECT_NEAR(size_with(1, 1, 2), 0.2, 0.01);
   EXPECT_NEAR(size_with(3, 1, 2), 0.6, 0.03);
   EXPECT_NEAR(size_with(1, 2, 4), 0.4, 0.02);
+  // Sizes in another unit than the places.
+  set_metadata(path, "unit", 3);
+  EXPECT_NEAR(size_with(1, 1, 2), 0.6, 0.03);
   std::filesystem::remove(path);
 }
 
