@@ -43,8 +43,7 @@ class Smoother {
         parameters_(surface_mesh.parameters),
         normals_(surface_mesh.normals),
         surface_(surface),
-        context_(context),
-        check_place_(context, places_a_check) {
+        context_(context) {
     const std::size_t n = points_.size();
     free_.resize(n);
     for (std::size_t i = 0; i < n; ++i) free_[i] = surface_mesh.fixed[i] ? 0 : 1;
@@ -139,7 +138,6 @@ class Smoother {
 
  private:
   enum class Goal { raise, untangle };
-  static constexpr int places_a_check = 16;  // that a node's best place is looked for
 
   /// For loops over nodes or elements.
   void check(int i) const {
@@ -369,7 +367,6 @@ class Smoother {
 
   /// Compass search in the tangent plane for the place where the worst element round the node is best.
   bool search(int node, Goal goal) {
-    check_place_();
     const Vector3 origin = points_[node], normal = normals_[node];
     const double size = mean_side(node);
     if (!(size > 0)) return false;
@@ -416,7 +413,6 @@ class Smoother {
   /// The corner areas are linear in the node's place, so the least of them is concave: golden sections, one
   /// in the other, find where it is largest.
   bool spread_corners(int node) {
-    check_place_();
     struct Area {
       double x, y, constant;
       double at(double px, double py) const { return constant + x * px + y * py; }
@@ -566,7 +562,6 @@ class Smoother {
   std::vector<Vector3>& normals_;
   const SmoothingSurface& surface_;
   const ExecutionContext& context_;
-  SparseCheck check_place_;
   std::vector<char> free_, active_, next_active_, turns_sharply_;
   std::vector<int> first_, corners_;
   std::vector<double> quality_;  ///< scaled Jacobian of each quad
