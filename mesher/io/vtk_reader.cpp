@@ -48,8 +48,12 @@ void unite_points(ImportedMesh& mesh, MeshBuilder& builder) {
     const Vector3 &p = mesh.points[a], &q = mesh.points[b];
     return std::tie(p.x(), p.y(), p.z(), a) < std::tie(q.x(), q.y(), q.z(), b);
   };
+  // The builder refuses what is no place, and nodes that are not there.
   for (const Vector3& p : mesh.points)
-    if (!p.allFinite()) return;  // which the builder refuses
+    if (!p.allFinite()) return;
+  const auto is_there = [&](std::int64_t node) { return node >= 1 && node <= std::ssize(mesh.points); };
+  for (const FileElement& element : mesh.elements)
+    if (!std::all_of(element.nodes.begin(), element.nodes.begin() + element.node_count, is_there)) return;
   std::sort(order.begin(), order.end(), before);
   std::vector<int> first(mesh.points.size());
   for (std::size_t k = 0; k < order.size(); ++k) {

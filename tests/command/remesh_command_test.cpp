@@ -82,6 +82,7 @@ TEST_P(BadUses, GiveOneSentenceAndNoFile) {
   test::write_text(folder / "in.stl", tetrahedron());
   test::write_text(folder / "empty.stl", "solid nothing\nendsolid nothing\n");
   test::write_text(folder / "nan.obj", "v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n");
+  test::write_text(folder / "far.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf -2147483648 2 3\n");
   test::write_text(folder / "fin.obj",
                    "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nv 0 -4 -4\nf 1 2 3\nf 2 1 4\nf 1 2 5\n");
   const auto files = folder.file_count();
@@ -105,6 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
                       BadUse{"no file", "none.stl -o out.msh --size 1", "none.stl", 1},
                       BadUse{"empty", "empty.stl -o out.msh --size 1", "empty.stl", 1},
                       BadUse{"not a number", "nan.obj -o out.msh --size 1", "nan.obj", 1},
+                      BadUse{"no such point", "far.obj -o out.msh --size 1", "does not define", 1},
                       BadUse{"three on a side", "fin.obj -o out.msh --size 1",
                              "3 triangles meet at the side from (0, 0, 0) to (4, 0, 0)", 1},
                       BadUse{"no time", "in.stl -o out.msh --size 0.02 --time-limit 0.05", "time limit", 1}));
