@@ -14,6 +14,7 @@
 #include <ext/stdio_filebuf.h>
 #include <fstream>
 #include <istream>
+#include <iterator>
 #include <new>
 #include <ostream>
 #include <sstream>
@@ -183,6 +184,16 @@ void run_isolated(const IsolatedWork& options, const std::function<void(std::ost
   Child child(id);
   told.close();
   take_result(options, listen(child, heard, options), take);
+}
+
+std::string isolated_bytes(const IsolatedWork& options, const std::function<std::string()>& make) {
+  std::string bytes;
+  run_isolated(
+      options, [&](std::ostream& out) { out << make(); },
+      [&](std::istream& in) {
+        bytes = {std::istreambuf_iterator<char>(in), {}};
+      });
+  return bytes;
 }
 
 }  // namespace quadrille

@@ -29,4 +29,7 @@ struct IsolatedWork {
 void run_isolated(const IsolatedWork& options, const std::function<void(std::ostream&)>& work,
                   const std::function<void(std::istream&)>& take);
 
+/// The bytes that `make` gives in a child process, as run_isolated().
+std::string isolated_bytes(const IsolatedWork& options, const std::function<std::string()>& make);
+
 }  // namespace quadrille

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <istream>
-#include <iterator>
 #include <limits>
-#include <ostream>
 #include <string>
 
 #include <fmt/format.h>
@@ -30,14 +27,12 @@ std::string file_of(const VdbField& field, const std::string& name) {
   options.crashed = options.too_long = fmt::format(
       "{}: OpenVDB crashed while it wrote the sizes, for want of memory or threads perhaps", name);
   options.time_limit = longest_with_vdb;
-  std::string bytes;
-  const auto work = [&](std::ostream& out) {
+  return isolated_bytes(options, [&] {
+    std::string bytes;
     const std::string problem = vdb_module().function<VdbFileFunction>("_file")(field, bytes);
     if (!problem.empty()) throw failure(name, fmt::format("{}: {}", name, problem));
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  };
-  run_isolated(options, work, [&](std::istream& in) { bytes = {std::istreambuf_iterator<char>(in), {}}; });
-  return bytes;
+    return bytes;
+  });
 }
 
 }  // namespace

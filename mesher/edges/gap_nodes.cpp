@@ -96,10 +96,10 @@ class GapNodes {
     return {CGAL::Bbox_3(from[0], from[1], from[2], to[0], to[1], to[2]), number};
   }
 
-  /// Where along a segment a point stands before it, in shares of it.
-  static double share_along(const Segment& segment, const Vector3& point) {
-    const Vector3 along = segment.b - segment.a;
-    return (point - segment.a).dot(along) / along.squaredNorm();
+  /// Where along a segment from a to b a point stands before it, in shares of it.
+  static double share_along(const Vector3& a, const Vector3& b, const Vector3& point) {
+    const Vector3 along = b - a;
+    return (point - a).dot(along) / along.squaredNorm();
   }
 
   void add_pair(int edge, int place, const Segment& across) {
@@ -107,7 +107,7 @@ class GapNodes {
     const int node = own.nodes[place];
     if (node == other.nodes[across.first] || node == other.nodes[across.last]) return;
     const Vector3 at = nodes_.points[node];
-    const double share = share_along(across, at);
+    const double share = share_along(across.a, across.b, at);
     if (!(share >= 0 && share <= 1)) return;
     const double distance = (at - across.a - share * (across.b - across.a)).norm();
     if (distance < widest_gap * across.length())
@@ -132,7 +132,7 @@ class GapNodes {
     const EdgeCurve curve(shape_.edges[pair.edge]), across(shape_.edges[pair.other]);
     const Vector3 at = curve.point(own[k].parameter);
     const double from = others[i].parameter, to = others[i + 1].parameter;
-    const double share = share_along({0, 0, 0, 0, across.point(from), across.point(to)}, at);
+    const double share = share_along(across.point(from), across.point(to), at);
     if (!(share >= 0 && share <= 1)) return;
     const int facing = share < 0.5 ? i : i + 1;
     if (!others[facing].settled) {
@@ -143,7 +143,7 @@ class GapNodes {
     const Vector3 fixed = across.point(others[facing].parameter);
     for (const int j : {k - 1, k}) {
       const double low = own[j].parameter, high = own[j + 1].parameter;
-      const double back = share_along({0, 0, 0, 0, curve.point(low), curve.point(high)}, fixed);
+      const double back = share_along(curve.point(low), curve.point(high), fixed);
       const bool near = j == k ? back >= 0 && back <= 0.5 : back >= 0.5 && back <= 1;
       if (near && place(own, k, low + back * (high - low))) return;
     }

@@ -1,9 +1,5 @@
 #include "mesher/io/modules.hpp"
 
-#include <istream>
-#include <iterator>
-#include <ostream>
-
 #include "geometry/base/error.hpp"
 #include "geometry/base/isolated_work.hpp"
 #include "geometry/base/module_loader.hpp"
@@ -76,14 +72,12 @@ std::string med_file(const OutputMesh& mesh, const std::string& name, const std:
   IsolatedWork options;
   options.subject = name;
   options.crashed = name + ".med: libmed crashed while it wrote the mesh, for want of memory perhaps";
-  std::string bytes;
-  const auto work = [&](std::ostream& out) {
-    check(write(mesh, name, description, bytes));
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  };
   // libmed prints lines of its own where it fails, and what a child prints is not seen.
-  run_isolated(options, work, [&](std::istream& in) { bytes = {std::istreambuf_iterator<char>(in), {}}; });
-  return bytes;
+  return isolated_bytes(options, [&] {
+    std::string bytes;
+    check(write(mesh, name, description, bytes));
+    return bytes;
+  });
 }
 
 }  // namespace quadrille

@@ -17,7 +17,6 @@ struct Case {
   const FaceProblem& problem;
   double size;
   FaceRecord& record;
-  FaceRecipe& recipe;
   EdgeTreatment& edges;
 };
 
@@ -28,7 +27,7 @@ bool finer_there(Case& patient) {
   const auto& parts = patient.problem.stretches;
   auto& finer = patient.edges.plan.finer;
   finer.insert(finer.end(), parts.begin(), parts.end());
-  patient.recipe = {patient.recipe.chart};
+  patient.record.recipe = {patient.record.recipe.chart};
   return !parts.empty();
 }
 
@@ -40,9 +39,10 @@ bool twice_as_fine(Case& patient) {
     for (const Coedge& coedge : wire.coedges) edges.insert(coedge.edge);
   }
   std::erase_if(plan.finer, [&](const EdgeStretch& part) { return edges.contains(part.edge); });
-  patient.recipe = {.chart = patient.recipe.chart, .fineness = 2 * patient.recipe.fineness};
+  patient.record.recipe = {.chart = patient.record.recipe.chart,
+                           .fineness = 2 * patient.record.recipe.fineness};
   for (const int edge : edges)
-    plan.factor[edge - 1] = std::max(plan.factor[edge - 1], patient.recipe.fineness);
+    plan.factor[edge - 1] = std::max(plan.factor[edge - 1], patient.record.recipe.fineness);
   return true;
 }
 
@@ -53,7 +53,7 @@ bool along_chord(Case& patient) {
     any |= bare == 0;
     bare = 1;
   }
-  patient.recipe.chart = ChartKind::own;
+  patient.record.recipe.chart = ChartKind::own;
   return any;
 }
 
@@ -94,23 +94,24 @@ bool as_point(Case& patient) {
 }
 
 bool with_curves_made_anew(Case& patient) {
-  patient.recipe = {ChartKind::new_curves};
+  patient.record.recipe = {ChartKind::new_curves};
   return true;
 }
 
 bool seen_from_above(Case& patient) {
-  patient.recipe = {ChartKind::view};
+  patient.record.recipe = {ChartKind::view};
   return true;
 }
 
 bool denser_points(Case& patient) {
-  patient.recipe = {.chart = patient.recipe.chart, .refusal = 0.6, .fineness = patient.recipe.fineness};
+  patient.record.recipe = {
+      .chart = patient.record.recipe.chart, .refusal = 0.6, .fineness = patient.record.recipe.fineness};
   return true;
 }
 
 bool without_clean_up(Case& patient) {
-  if (!patient.recipe.clean_up) return false;
-  patient.recipe.mapped = patient.recipe.clean_up = false;
+  if (!patient.record.recipe.clean_up) return false;
+  patient.record.recipe.mapped = patient.record.recipe.clean_up = false;
   return true;
 }
 
@@ -189,7 +190,7 @@ bool apply_remedy(const CadShape& shape, const FaceProblem& problem, double size
                   EdgeTreatment& edges) {
   if (record.attempts >= FaceRecord::most_attempts) return false;
   record.tried.resize(table.size(), 0);
-  Case patient{shape, problem.face() - 1, problem, size, record, record.recipe, edges};
+  Case patient{shape, problem.face() - 1, problem, size, record, edges};
   for (std::size_t row = 0; row < table.size(); ++row) {
     const bool fits = (table[row].causes >> static_cast<unsigned>(problem.cause()) & 1U) != 0;
     if (!fits || record.tried[row] == table[row].times || !table[row].apply(patient)) continue;
