@@ -61,6 +61,7 @@ struct Outline {
   std::array<int, PatchTemplate::max_sides> ring;  ///< nodes, counter-clockwise
   std::array<int, PatchTemplate::max_sides>
       sides;  ///< side of the patch from each node of the ring to the next
+  std::array<int, PatchTemplate::max_sides> uses;  ///< quads of the patch at each node of the ring
   int length = 0;
   std::array<int, 4> inside;
   int inside_count = 0;
@@ -71,21 +72,6 @@ struct Patch {
   static constexpr int max_quads = 8;
   std::array<int, max_quads> quads;
   int count = 0;
-
-  /// The same for the same quads in any order, as long as they and the valences of their nodes do not change.
-  std::uint64_t fingerprint(const QuadTopology& topology) const {
-    const auto mix = [](std::uint64_t value) {
-      value = (value ^ (value >> 31)) * 0x9E3779B97F4A7C15u;
-      return value ^ (value >> 29);
-    };
-    std::uint64_t sum = 0;
-    for (int i = 0; i < count; ++i)
-      for (int side = 4 * quads[i]; side < 4 * quads[i] + 4; ++side)
-        sum += mix(static_cast<std::uint64_t>(side) << 32 ^
-                   static_cast<std::uint64_t>(topology.origin(side)) << 6 ^
-                   static_cast<std::uint64_t>(topology.valence(side)));
-    return sum;
-  }
 
   bool contains(int quad) const {
     return std::find(quads.begin(), quads.begin() + count, quad) != quads.begin() + count;
@@ -155,15 +141,17 @@ class CleanUp {
 
   bool removable(int node) const {
     const int side = topology_.side_of(node);
-    return side >= 0 && !locked_[node] && topology_.closed(node);
+    return side >= 0 && inner(node);
   }
+
+  /// Whether quads close round a node that may move.
+  bool inner(int node) const { return topology_.closed(node) && !locked_[node]; }
+
+  static double inner_cost(int quads) { return quads < 3 ? 20 : (quads - 4) * (quads - 4); }
 
   /// How far a node with `quads` quads is from what its angle asks for.
   double node_cost(int node, int quads) const {
-    if (topology_.closed(node) && !locked_[node]) {
-      if (quads < 3) return 20;
-      return (quads - 4) * (quads - 4);
-    }
+    if (inner(node)) return inner_cost(quads);
     if (quads < 1) return 1e9;
     const double angle = angles_[node] * 180 / pi;
     const double wanted = std::max(1.0, std::round(angle / 90));
@@ -184,8 +172,15 @@ class CleanUp {
   bool merge_corners(int quad, int corner);
 
   double cost_at(int node) const;
-  double cost_of(int side) const { return node_cost(topology_.origin(side), topology_.valence(side)); }
   bool improve_round(int node);
+
+  /// What a quad adds to the patches that it is tried in: the same for all of one round.
+  struct QuadState {
+    int round = 0;
+    double cost = 0;          ///< of its nodes
+    std::uint64_t print = 0;  ///< changes with its nodes and their valences
+  };
+  const QuadState& state_of(int quad);
   bool try_patch(const Patch& patch);
   bool trace(const Patch& patch, Outline& outline) const;
   /// A template laid into an outline: where its corners are and which nodes they are to be.
@@ -210,6 +205,8 @@ class CleanUp {
   std::vector<char>& doubtful_;       ///< nodes where something may still be gained
   int drift_ = 0;                     ///< quads more than at first
   bool blocked_ = false;              ///< a gain was refused for the shapes it would give
+  int round_ = 0;                     ///< number of the node that is tried
+  std::vector<QuadState> states_;     ///< by quad, as of their rounds
   std::vector<std::uint64_t> tried_;  ///< fingerprints of patches that gave nothing, by their low bits
 
   SurfaceMesh& mesh_;
@@ -230,6 +227,7 @@ void CleanUp::measure_boundary() {
   for (int side = 0; side < 4 * topology_.size(); ++side) {
     check();
     const int node = topology_.origin(side);
+    if (inner(node)) continue;  // nobody asks for its angles
     const int before = topology_.origin(QuadTopology::previous(side));
     const Vector3& normal = mesh_.normals[node];
     const Vector3 forth = point(topology_.end(side)) - point(node), back = point(before) - point(node);
@@ -432,6 +430,7 @@ bool CleanUp::improve_valences() {
 
 /// Tries the patches round a node, the smallest first.
 bool CleanUp::improve_round(int node) {
+  ++round_;
   const QuadTopology::Fan fan = topology_.fan(topology_.side_of(node));
   if (fan.quads > 12) return false;
   std::array<int, 12> sides;
@@ -498,9 +497,14 @@ bool CleanUp::trace(const Patch& patch, Outline& outline) const {
     if (outline.length == outer) return false;
     outline.sides[outline.length] = side;
     outline.ring[outline.length++] = topology_.origin(side);
+    int& uses = outline.uses[outline.length == outer ? 0 : outline.length];  // at the next node
+    uses = 1;
     side = QuadTopology::next(side);
-    for (int twin = topology_.twin(side); twin >= 0 && patch.contains(twin >> 2); twin = topology_.twin(side))
+    for (int twin = topology_.twin(side); twin >= 0 && patch.contains(twin >> 2);
+         twin = topology_.twin(side)) {
       side = QuadTopology::next(twin);
+      ++uses;
+    }
   } while (side != start);
   if (outline.length != outer) return false;
   const auto ring_end = outline.ring.begin() + outline.length;
@@ -517,55 +521,65 @@ bool CleanUp::trace(const Patch& patch, Outline& outline) const {
   return patch.count == outline.length / 2 - 1 + outline.inside_count;
 }
 
+const CleanUp::QuadState& CleanUp::state_of(int quad) {
+  const auto mix = [](std::uint64_t value) {
+    value = (value ^ (value >> 31)) * 0x9E3779B97F4A7C15u;
+    return value ^ (value >> 29);
+  };
+  if (states_.size() <= static_cast<std::size_t>(quad)) states_.resize(topology_.size());
+  QuadState& state = states_[quad];
+  if (state.round == round_) return state;
+  state = {round_, 0, 0};
+  for (int side = 4 * quad; side < 4 * quad + 4; ++side) {
+    const int node = topology_.origin(side), valence = topology_.valence(side);
+    state.cost += node_cost(node, valence);
+    state.print += mix(static_cast<std::uint64_t>(side) << 32 ^ static_cast<std::uint64_t>(node) << 6 ^
+                       static_cast<std::uint64_t>(valence));
+  }
+  return state;
+}
+
 /// Fills the patch anew by the template that costs least, if that gains.
 bool CleanUp::try_patch(const Patch& patch) {
   // Nothing is gained where no two nodes are irregular. A node counts here with each of its quads.
   double most = 0;
-  for (int i = 0; i < patch.count; ++i)
-    for (int k = 0; k < 4; ++k) most += cost_of(4 * patch.quads[i] + k);
+  std::uint64_t fingerprint = 0;  // the same for the same quads in any order, as long as their nodes stay
+  for (int i = 0; i < patch.count; ++i) {
+    const QuadState& state = state_of(patch.quads[i]);
+    most += state.cost;
+    fingerprint += state.print;
+  }
   if (most < worth_trying) return false;
-  const std::uint64_t fingerprint = patch.fingerprint(topology_);
   std::uint64_t& slot = tried_[fingerprint % tried_slots];
   if (slot == fingerprint) return false;
   slot = fingerprint;
   Outline outline;
   if (!trace(patch, outline)) return false;
-  constexpr int max_uses = 6;
-  std::array<std::array<double, max_uses>, PatchTemplate::max_sides> costs;
+  FillingCosts costs;
   double cost = 0;
   for (int i = 0; i < outline.length; ++i) {
-    // Quads of the patch at the node, and beyond it.
-    int inside = 0;
-    for (int k = 0; k < patch.count; ++k) inside += topology_.side_at(patch.quads[k], outline.ring[i]) >= 0;
-    const int valence = topology_.valence(outline.sides[i]);
-    for (int uses = 1; uses < max_uses; ++uses)
-      costs[i][uses] = node_cost(outline.ring[i], valence - inside + uses);
-    cost += costs[i][std::min(inside, max_uses - 1)];
+    const int node = outline.ring[i], inside = outline.uses[i];
+    const int beyond = topology_.valence(outline.sides[i]) - inside;
+    const bool is_inner = inner(node);
+    for (int uses = 1; uses <= PatchTemplate::max_uses; ++uses)
+      costs.uses[i][uses] = is_inner ? inner_cost(beyond + uses) : node_cost(node, beyond + uses);
+    cost += costs.uses[i][std::min(inside, PatchTemplate::max_uses)];
   }
   for (int i = 0; i < outline.inside_count; ++i) cost += cost_at(outline.inside[i]);
   if (cost < worth_trying) return false;
 
-  struct Candidate {
-    double cost;
-    const PatchTemplate* filling;
-  };
   // Where two fillings gain alike, the one that brings the number of quads back to the first count.
   const double drift = std::clamp(drift_cost * drift_ / topology_.size(), -resize_cost, resize_cost);
-  constexpr int candidates = 4;
-  std::array<Candidate, candidates> best;
-  int count = 0;
-  for (const PatchTemplate& filling : patch_templates(outline.length)) {
-    const int added = filling.interior - outline.inside_count;
-    double sum = filling.interior_cost + resize_cost * std::abs(added) + drift * added;
-    for (int i = 0; i < outline.length && sum <= cost - min_gain; ++i) sum += costs[i][filling.uses[i]];
-    if (sum > cost - min_gain || (count == candidates && sum >= best[count - 1].cost)) continue;
-    int at = count < candidates ? count++ : count - 1;
-    for (; at > 0 && best[at - 1].cost > sum; --at) best[at] = best[at - 1];
-    best[at] = {sum, &filling};
+  for (int interior = 0; interior <= PatchTemplate::max_interior; ++interior) {
+    const int added = interior - outline.inside_count;
+    costs.resize[interior] = resize_cost * std::abs(added);
+    costs.drift[interior] = drift * added;
   }
-  for (int i = 0; i < count; ++i)
-    if (fill(patch, outline, *best[i].filling)) return true;
-  if (count > 0) {
+  costs.limit = cost - min_gain;
+  const CheapestFillings cheapest = cheapest_fillings(outline.length, costs);
+  for (int i = 0; i < cheapest.count; ++i)
+    if (fill(patch, outline, *cheapest.fillings[i])) return true;
+  if (cheapest.count > 0) {
     // Met again from another node, the patch is to count as blocked there too.
     blocked_ = true;
     slot = 0;

@@ -3,7 +3,10 @@
 
 #include "mesher/quads/patch_templates.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <numeric>
+#include <tuple>
 
 namespace quadrille {
 namespace {
@@ -127,14 +130,138 @@ class Enumeration {
   std::vector<PatchTemplate> found_;
 };
 
+/// The fillings of one polygon: trees, one for each number of nodes inside and cost of these.
+class FillingTrees {
+ public:
+  explicit FillingTrees(int sides) : sides_(sides), fillings_(Enumeration(sides).take()) {
+    order_.resize(fillings_.size());
+    std::iota(order_.begin(), order_.end(), 0);
+    const auto key = [this](int k) {
+      const PatchTemplate& filling = fillings_[k];
+      return std::tie(filling.interior, filling.interior_cost, filling.uses);
+    };
+    std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) { return key(a) < key(b); });
+    const int count = static_cast<int>(order_.size());
+    for (int first = 0, last = 0; first < count; first = last) {
+      const auto alike = [&](int k) {
+        return fillings_[order_[k]].interior == fillings_[order_[first]].interior &&
+               fillings_[order_[k]].interior_cost == fillings_[order_[first]].interior_cost;
+      };
+      while (last < count && alike(last)) ++last;
+      const int begin = static_cast<int>(branches_.size());
+      grow(0, first, last);
+      trees_.push_back({order_[first], begin, static_cast<int>(branches_.size())});
+    }
+  }
+
+  const std::vector<PatchTemplate>& fillings() const { return fillings_; }
+  CheapestFillings cheapest(const FillingCosts& costs) const;
+
+ private:
+  /// Fillings that have the same uses at the nodes up to one. The branches of the next node follow.
+  struct Branch {
+    int node;
+    int uses;         ///< at that node
+    int first, last;  ///< in order_: those fillings
+    int past;         ///< the branch after all that follow from this one
+  };
+  struct Tree {
+    int any;  ///< one of its fillings
+    int begin, end;
+  };
+  /// The cheapest found so far, by cost, then by number.
+  struct Best {
+    struct Found {
+      double cost;
+      int filling;
+    };
+    std::array<Found, CheapestFillings::max_count> found;
+    int count = 0;
+
+    bool full() const { return count == CheapestFillings::max_count; }
+    void add(double cost, int filling) {
+      const auto before = [&](const Found& other) {
+        return cost < other.cost || (cost == other.cost && filling < other.filling);
+      };
+      if (full() && !before(found.back())) return;
+      int at = full() ? count - 1 : count++;
+      for (; at > 0 && before(found[at - 1]); --at) found[at] = found[at - 1];
+      found[at] = {cost, filling};
+    }
+  };
+
+  void grow(int node, int first, int last) {
+    if (node == sides_) return;
+    while (first < last) {
+      const int uses = fillings_[order_[first]].uses[node];
+      int next = first;
+      while (next < last && fillings_[order_[next]].uses[node] == uses) ++next;
+      const std::size_t branch = branches_.size();
+      branches_.push_back({node, uses, first, next, 0});
+      grow(node + 1, first, next);
+      branches_[branch].past = static_cast<int>(branches_.size());
+      first = next;
+    }
+  }
+
+  int sides_;
+  std::vector<PatchTemplate> fillings_;
+  std::vector<int> order_;  ///< fillings by their tree, then by their uses
+  std::vector<Branch> branches_;
+  std::vector<Tree> trees_;
+};
+
+CheapestFillings FillingTrees::cheapest(const FillingCosts& costs) const {
+  // The least that a node and those after it can cost.
+  std::array<double, PatchTemplate::max_sides + 1> rest;
+  rest[sides_] = 0;
+  for (int i = sides_ - 1; i >= 0; --i)
+    rest[i] = rest[i + 1] + *std::min_element(costs.uses[i].begin() + 1, costs.uses[i].end());
+  constexpr double rounding = 1e-9;
+  Best best;
+  std::array<double, PatchTemplate::max_sides + 1> sums;
+  for (const Tree& tree : trees_) {
+    const PatchTemplate& any = fillings_[tree.any];
+    sums[0] = any.interior_cost + costs.resize[any.interior] + costs.drift[any.interior];
+    for (int k = tree.begin; k < tree.end;) {
+      const Branch& branch = branches_[k];
+      const int after = branch.node + 1;
+      const double sum = sums[after] = sums[branch.node] + costs.uses[branch.node][branch.uses];
+      const double most = best.full() ? best.found.back().cost : costs.limit;
+      if (sum + rest[after] > most + rounding) {
+        k = branch.past;
+        continue;
+      }
+      ++k;
+      if (after < sides_ || sum > costs.limit) continue;
+      for (int i = branch.first; i < branch.last; ++i) best.add(sum, order_[i]);
+    }
+  }
+  CheapestFillings result;
+  for (; result.count < best.count; ++result.count)
+    result.fillings[result.count] = &fillings_[best.found[result.count].filling];
+  return result;
+}
+
+/// Null where no polygon of so many sides is filled.
+const FillingTrees* filling_trees(int sides) {
+  static const std::array<FillingTrees, 4> trees = {FillingTrees(4), FillingTrees(6), FillingTrees(8),
+                                                    FillingTrees(10)};
+  if (sides < 4 || sides > PatchTemplate::max_sides || sides % 2 != 0) return nullptr;
+  return &trees[(sides - 4) / 2];
+}
+
 }  // namespace
 
 const std::vector<PatchTemplate>& patch_templates(int sides) {
-  static const std::array<std::vector<PatchTemplate>, 4> tables = {
-      Enumeration(4).take(), Enumeration(6).take(), Enumeration(8).take(), Enumeration(10).take()};
   static const std::vector<PatchTemplate> none;
-  if (sides < 4 || sides > PatchTemplate::max_sides || sides % 2 != 0) return none;
-  return tables[(sides - 4) / 2];
+  const FillingTrees* trees = filling_trees(sides);
+  return trees ? trees->fillings() : none;
+}
+
+CheapestFillings cheapest_fillings(int sides, const FillingCosts& costs) {
+  const FillingTrees* trees = filling_trees(sides);
+  return trees ? trees->cheapest(costs) : CheapestFillings{};
 }
 
 }  // namespace quadrille

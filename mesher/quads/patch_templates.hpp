@@ -10,6 +10,7 @@ namespace quadrille {
 /// One way to fill a polygon with quads.
 struct PatchTemplate {
   static constexpr int max_sides = 10, max_interior = 2, max_quads = max_sides / 2 - 1 + max_interior;
+  static constexpr int max_uses = 5;  ///< quads at one node of the polygon
 
   int interior = 0;  ///< nodes inside
   int quads = 0;
@@ -22,5 +23,25 @@ struct PatchTemplate {
 /// The fillings of a polygon of 4, 6, 8 or 10 sides with at most max_interior nodes inside, each of valence 3
 /// to 5. Computed once; thread-safe.
 const std::vector<PatchTemplate>& patch_templates(int sides);
+
+/// What the nodes of a filling cost.
+struct FillingCosts {
+  /// By node of the polygon, then by the number of quads of the filling at it, from 1.
+  std::array<std::array<double, PatchTemplate::max_uses + 1>, PatchTemplate::max_sides> uses;
+  /// By the number of nodes inside, beside what their valences cost: for being there, and for the density.
+  std::array<double, PatchTemplate::max_interior + 1> resize, drift;
+  double limit;  ///< fillings that cost more are not wanted
+};
+
+/// Fillings, the cheapest first; of equals the one that comes first among patch_templates().
+struct CheapestFillings {
+  static constexpr int max_count = 4;
+  std::array<const PatchTemplate*, max_count> fillings;
+  int count = 0;
+};
+
+/// The fillings that cost least, at most four. They are found in a tree by the uses of one node of the
+/// polygon after the other, of which branches that cost too much already are left out.
+CheapestFillings cheapest_fillings(int sides, const FillingCosts& costs);
 
 }  // namespace quadrille

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "mesher/mesh/quality.hpp"
 #include "mesher/quads/improve.hpp"
@@ -114,6 +116,7 @@ TEST(PatchTemplates, FillThePolygonOnceEach) {
       }
       ASSERT_EQ(validate(mesh), std::vector<std::string>{});
       EXPECT_EQ(euler(mesh), 1);
+      EXPECT_LE(*std::max_element(filling.uses.begin(), filling.uses.end()), PatchTemplate::max_uses);
       SideSet rim;
       for (int i = 0; i < sides; ++i) rim.insert({i, (i + 1) % sides});
       EXPECT_EQ(open_sides(mesh), rim);
@@ -121,6 +124,41 @@ TEST(PatchTemplates, FillThePolygonOnceEach) {
     }
     EXPECT_FALSE(seen.empty());
   }
+}
+
+/// All fillings within the limit, the cheapest first, of equals the one listed first.
+std::vector<const PatchTemplate*> fillings_by_cost(int sides, const FillingCosts& costs) {
+  std::vector<std::pair<double, const PatchTemplate*>> priced;
+  for (const PatchTemplate& filling : patch_templates(sides)) {
+    double sum = filling.interior_cost + costs.resize[filling.interior] + costs.drift[filling.interior];
+    for (int i = 0; i < sides; ++i) sum += costs.uses[i][filling.uses[i]];
+    if (sum <= costs.limit) priced.emplace_back(sum, &filling);
+  }
+  std::stable_sort(priced.begin(), priced.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<const PatchTemplate*> result;
+  for (const auto& [cost, filling] : priced) result.push_back(filling);
+  return result;
+}
+
+TEST(PatchTemplates, CheapestAreThoseOfAllTried) {
+  std::mt19937 random(5);
+  // Whole numbers, so that many fillings cost the same.
+  const auto below = [&](unsigned n) { return static_cast<double>(random() % n); };
+  for (int round = 0; round < 4000; ++round) {
+    const int sides = 4 + 2 * (round % 4);
+    FillingCosts costs;
+    for (auto& node : costs.uses)
+      for (double& cost : node) cost = below(4);
+    for (double& cost : costs.resize) cost = 0.25 * below(4);
+    for (double& cost : costs.drift) cost = 0.125 * below(4) - 0.25;
+    costs.limit = below(20);
+    const std::vector<const PatchTemplate*> all = fillings_by_cost(sides, costs);
+    const CheapestFillings cheapest = cheapest_fillings(sides, costs);
+    ASSERT_EQ(cheapest.count, std::min<int>(static_cast<int>(all.size()), CheapestFillings::max_count));
+    for (int i = 0; i < cheapest.count; ++i) ASSERT_EQ(cheapest.fillings[i], all[i]) << "round " << round;
+  }
+  EXPECT_EQ(cheapest_fillings(5, {}).count, 0);
 }
 
 TEST(QuadTopology, FollowsFansRoundNodes) {
