@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <boost/pending/disjoint_sets.hpp>
 
 #include "geometry/base/error.hpp"
 #include "mesher/edges/count_balance.hpp"
@@ -28,8 +30,12 @@ class CountChooser {
   }
 
   EdgeCounts run() {
+    is_waiting_.assign(sides_.size(), 0);
+    for (std::size_t face = 0; face < sides_.size(); ++face)
+      is_waiting_[face] = sides_[face].outline == FaceSides::Outline::stepped;
     tie_chords();
     std::vector<int> odd = balance_faces();
+    if (odd.empty() && take_steps()) odd = balance_faces();
     if (!odd.empty()) {
       // Edges of three faces and more, as a rule: without sums, then without chords.
       for (std::size_t face = 0; face < sides_.size(); ++face) {
@@ -44,23 +50,10 @@ class CountChooser {
     }
     hold_fixed(odd);
     EdgeCounts result{std::vector<int>(effective_.size(), 0), chords_, odd};
-    std::vector<int> least(effective_.size(), 1);
-    for (std::size_t i = 0; i < effective_.size(); ++i) {
-      int& of_chord = least[chords_.of(static_cast<int>(i))];
-      of_chord = std::max(of_chord, wishes_.least_of_grids[i]);
-    }
     for (std::size_t i = 0; i < effective_.size(); ++i) {
       const int chord = chords_.of(static_cast<int>(i));
-      const auto& variable = problem_.variables[chord];
       if (wishes_.least[i] == 0) continue;
-      if (fixed_[chord] > 0) {
-        result.counts[i] = fixed_[chord];
-        continue;
-      }
-      // No rule holds a chord between grids.
-      result.counts[i] = variable.terms.empty() && is_between_grids_[chord]
-                             ? std::max(least[chord], rounded(wishes_.stride * variable.wanted))
-                             : wishes_.stride * variable.value;
+      result.counts[i] = fixed_[chord] > 0 ? fixed_[chord] : units_[chord] * problem_.variables[chord].value;
     }
     return result;
   }
@@ -82,6 +75,7 @@ class CountChooser {
       }
     }
     sides.facing.clear();
+    is_waiting_[face] = 0;
     if (sides.outline != FaceSides::Outline::odd) sides.outline = FaceSides::Outline::other;
   }
 
@@ -127,8 +121,7 @@ class CountChooser {
   void hold_fixed(const std::vector<int>& odd) const {
     for (std::size_t i = 0; i < fixed_.size(); ++i) {
       const int chord = static_cast<int>(i);
-      if (chords_.of(chord) != chord || fixed_[i] % wishes_.stride == 0) continue;
-      if (problem_.variables[i].terms.empty() && is_between_grids_[i]) continue;
+      if (chords_.of(chord) != chord || fixed_[i] % units_[i] == 0) continue;
       throw usage_error(
           "segments",
           fmt::format(
@@ -171,6 +164,7 @@ class CountChooser {
     }
     for (std::size_t face = 0; face < sides_.size(); ++face) {
       const auto& facing = sides_[face].facing;
+      if (is_waiting_[face]) continue;
       bool fits = std::none_of(facing.begin(), facing.end(),
                                [&](const FacingPair& pair) { return is_far_off(pair); });
       for (const FacingPair& pair : facing) {
@@ -182,36 +176,66 @@ class CountChooser {
     start_values();
   }
 
-  /// Each chord near the mean of what its members want.
+  /// Each chord near the mean of what its members want, in elements of the mesh that is recombined.
   void start_values() {
-    const std::size_t n = effective_.size();
-    auto& variables = problem_.variables;
-    variables.assign(n, {});
-    std::vector<int> members(n, 0);
-    std::vector<char> even(n, 0);  // (chords)
-    for (std::size_t i = 0; i < n; ++i) {
-      if (wishes_.least[i] == 0) continue;
-      const int chord = chords_.of(static_cast<int>(i));
-      variables[chord].wanted += wishes_.wanted[i];
-      variables[chord].least = std::max(variables[chord].least, wishes_.least[i]);
-      ++members[chord];
-      if (!wishes_.even.empty()) even[chord] |= wishes_.even[i];
+    units_.assign(effective_.size(), wishes_.stride);
+    members_.assign(effective_.size(), {});
+    for (std::size_t i = 0; i < effective_.size(); ++i) {
+      if (wishes_.least[i] != 0) members_[chords_.of(static_cast<int>(i))].push_back(static_cast<int>(i));
     }
-    for (std::size_t i = 0; i < n; ++i) {
-      if (members[i] == 0) continue;
-      variables[i].wanted /= members[i];
-      variables[i].weight = members[i];
-      variables[i].value = std::max(variables[i].least, rounded(variables[i].wanted));
-      if (even[i] != 0 && fixed_[i] == 0) {
-        variables[i].fixed = true;
-        variables[i].value = 2 * rounded(0.5 * std::max(variables[i].wanted, 1.0 * variables[i].least));
-        variables[i].wanted = variables[i].value;
+    problem_.variables.assign(effective_.size(), {});
+    for (std::size_t i = 0; i < effective_.size(); ++i) start_value(static_cast<int>(i));
+  }
+
+  /// In segments of the final mesh `units_[chord]` each; the terms stay.
+  void start_value(int chord) {
+    const std::vector<int>& members = members_[chord];
+    if (members.empty()) return;
+    auto& variable = problem_.variables[chord];
+    const int unit = units_[chord], parts = wishes_.stride / unit;
+    const bool final_segments = unit < wishes_.stride;
+    bool even = false;
+    double wanted = 0;
+    variable.least = 1;
+    for (const int i : members) {
+      wanted += wishes_.wanted[i];
+      variable.least =
+          std::max(variable.least, final_segments ? wishes_.least_of_grids[i] : wishes_.least[i]);
+      even |= !wishes_.even.empty() && wishes_.even[i] != 0;
+    }
+    variable.wanted = parts * (wanted / static_cast<double>(members.size()));
+    variable.weight = static_cast<double>(members.size());
+    variable.value = std::max(variable.least, rounded(variable.wanted));
+    variable.fixed = fixed_[chord] > 0 || even;
+    if (fixed_[chord] > 0) {
+      variable.wanted = 1.0 * fixed_[chord] / unit;
+      variable.value = variable.least = std::max(1, fixed_[chord] / unit);
+    } else if (even) {
+      variable.value = 2 * rounded(0.5 * std::max(variable.wanted, 1.0 * variable.least));
+      variable.wanted = variable.value;
+    }
+  }
+
+  /// Chords that only grids have, and that sums tie to such alone, are counted in segments of the final mesh:
+  /// nothing there is cut in two.
+  void choose_units() {
+    boost::disjoint_sets_with_storage<> groups(problem_.variables.size());
+    std::vector<int> first(problem_.rules.size(), -1);
+    for (std::size_t i = 0; i < problem_.variables.size(); ++i) {
+      for (const auto& [node, coefficient] : problem_.variables[i].terms) {
+        if (first[node] < 0) first[node] = static_cast<int>(i);
+        groups.union_set(i, static_cast<std::size_t>(first[node]));
       }
-      if (fixed_[i] == 0) continue;
-      variables[i].fixed = true;
-      variables[i].wanted = 1.0 * fixed_[i] / wishes_.stride;
-      variables[i].value = std::max(1, fixed_[i] / wishes_.stride);
-      variables[i].least = variables[i].value;
+    }
+    std::vector<int> units(problem_.variables.size(), 1);
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      if (!is_between_grids_[i]) units[groups.find_set(i)] = wishes_.stride;
+    }
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      const int unit = units[groups.find_set(i)];
+      if (units_[i] == unit) continue;
+      units_[i] = unit;
+      start_value(static_cast<int>(i));
     }
   }
 
@@ -223,15 +247,15 @@ class CountChooser {
     is_between_grids_.assign(problem_.variables.size(), 1);
     for (std::size_t face = 0; face < sides_.size(); ++face) {
       const FaceSides& sides = sides_[face];
-      const bool is_grid = sides.rest.empty() && sides.outline != FaceSides::Outline::other;
-      for (const FacingPair& pair : sides.facing) {
-        for (const Side* side : {&pair.first, &pair.second}) {
-          for (const SideEdge& edge : *side) is_between_grids_[chords_.of(edge.edge)] &= is_grid;
-        }
-        const int node = add_node(static_cast<int>(face), BalanceProblem::Rule::zero);
-        for (const SideEdge& edge : pair.first) add_term(edge.edge, node, 1);
-        for (const SideEdge& edge : pair.second) add_term(edge.edge, node, -1);
+      const bool is_grid =
+          sides.rest.empty() && sides.outline != FaceSides::Outline::other && !is_waiting_[face];
+      for_each_edge(sides, [&](int edge) { is_between_grids_[chords_.of(edge)] &= is_grid; });
+      if (is_waiting_[face]) {
+        const int node = add_node(static_cast<int>(face), BalanceProblem::Rule::even);
+        for_each_edge(sides, [&](int edge) { add_term(edge, node, 1); });
+        continue;
       }
+      add_facing(static_cast<int>(face));
       for (const int edge : sides.rest) is_between_grids_[chords_.of(edge)] = 0;
       // One node more at the base of a wedge or the end of a strip would make elements far shorter than they
       // are wide.
@@ -240,11 +264,89 @@ class CountChooser {
       const int node = add_node(static_cast<int>(face), BalanceProblem::Rule::even);
       for (const int edge : sides.rest) add_term(edge, node, 1);
     }
+    drop_idle_terms();
+    choose_units();
+  }
+
+  void drop_idle_terms() {
     for (auto& variable : problem_.variables) {
       std::erase_if(variable.terms, [&](const auto& term) {
         return problem_.rules[term.first] == BalanceProblem::Rule::zero ? term.second == 0
                                                                         : term.second % 2 == 0;
       });
+    }
+  }
+
+  /// Faces with steps take part one after the other where that leaves the counts near those wanted; the
+  /// others lose their outline. What other faces have does not suffer for them.
+  /// \return whether there are any.
+  bool take_steps() {
+    bool any = false;
+    for (std::size_t face = 0; face < sides_.size(); ++face) {
+      if (!is_waiting_[face]) continue;
+      any = true;
+      if (!take_steps_of(static_cast<int>(face))) drop(static_cast<int>(face));
+      is_waiting_[face] = 0;
+    }
+    if (any) set_up_rules();
+    return any;
+  }
+
+  bool take_steps_of(int face) {
+    const auto& facing = sides_[face].facing;
+    if (std::any_of(facing.begin(), facing.end(), [&](const FacingPair& pair) { return is_far_off(pair); }))
+      return false;
+    const int rules = static_cast<int>(problem_.rules.size());
+    constexpr double most = 0.25;  // of deviations squared: that of an edge with half as many again
+    // In place of an even sum.
+    const auto ruled = std::find(faces_of_nodes_.begin(), faces_of_nodes_.end(), face);
+    const int even = static_cast<int>(ruled - faces_of_nodes_.begin());
+    std::vector<int> values;
+    std::vector<std::size_t> ruled_chords;
+    for (std::size_t i = 0; i < problem_.variables.size(); ++i) {
+      auto& variable = problem_.variables[i];
+      values.push_back(variable.value);
+      if (std::erase_if(variable.terms, [&](const auto& term) { return term.first == even; }) > 0)
+        ruled_chords.push_back(i);
+    }
+    add_facing(face);
+    drop_idle_terms();
+    const double cost = deviation(problem_);
+    if (balance(problem_).empty() && deviation(problem_) <= cost + most) return true;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      problem_.variables[i].value = values[i];
+      std::erase_if(problem_.variables[i].terms, [&](const auto& term) { return term.first >= rules; });
+    }
+    for (const std::size_t i : ruled_chords) problem_.variables[i].terms.push_back({even, 1});
+    problem_.rules.resize(rules);
+    faces_of_nodes_.resize(rules);
+    return false;
+  }
+
+  static double deviation(const BalanceProblem& problem) {
+    double sum = 0;
+    for (const auto& variable : problem.variables) {
+      const double wanted = std::max(variable.wanted, 1.0 * variable.least);
+      sum += variable.weight * std::pow((variable.value - wanted) / wanted, 2);
+    }
+    return sum;
+  }
+
+  template <class Visit>
+  static void for_each_edge(const FaceSides& sides, Visit&& visit) {
+    for (const FacingPair& pair : sides.facing) {
+      for (const Side* side : {&pair.first, &pair.second}) {
+        for (const SideEdge& edge : *side) visit(edge.edge);
+      }
+    }
+  }
+
+  /// As many segments on the sides that face each other.
+  void add_facing(int face) {
+    for (const FacingPair& pair : sides_[face].facing) {
+      const int node = add_node(face, BalanceProblem::Rule::zero);
+      for (const SideEdge& edge : pair.first) add_term(edge.edge, node, 1);
+      for (const SideEdge& edge : pair.second) add_term(edge.edge, node, -1);
     }
   }
 
@@ -324,10 +426,13 @@ class CountChooser {
   std::vector<FaceSides>& sides_;
   std::vector<double> effective_;  // (edges) what is wanted, not below the least
   Chords chords_;
-  std::vector<int> fixed_;  // (chords) segments of the final mesh; 0 = any number
+  std::vector<int> fixed_;                 // (chords) segments of the final mesh; 0 = any number
+  std::vector<std::vector<int>> members_;  // (chords) edges
+  std::vector<int> units_;                 // (chords) segments of the final mesh that a count stands for
   BalanceProblem problem_;  // a variable for each edge, of which those of chords' representatives count
   std::vector<int> faces_of_nodes_;
   std::vector<char> is_between_grids_;  // (chords)
+  std::vector<char> is_waiting_;        // (faces) 1 = has steps that do not count yet
 };
 
 }  // namespace

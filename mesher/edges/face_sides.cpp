@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
@@ -16,6 +18,7 @@ namespace {
 
 constexpr double corner_turning = 0.7;  // radians; a right-angled corner turns by pi / 2
 constexpr double smooth_turning = 0.6;  // what other vertices may turn
+constexpr double most_backward = 2.4;   // what the boundary may turn to the right at a corner of an outline
 
 /// A wire without what is left out of the mesh.
 struct Walk {
@@ -90,28 +93,98 @@ class SideFinder {
     return std::atan2(in.cross(out).dot(normal), in.dot(out));
   }
 
-  /// Three to five corners, and no other vertex turns much.
-  void take_corners(const Walk& walk, FaceSides& sides) const {
-    const int n = static_cast<int>(walk.edges.size());
-    if (n < 3) return;
+  /// The vertices that turn by a right angle or so; nothing if one is neither that nor smooth.
+  static std::optional<std::vector<int>> corners_of(const Walk& walk) {
     std::vector<int> corners;
-    for (int k = 0; k < n; ++k) {
-      if (walk.turnings[k] > corner_turning) {
+    for (int k = 0; k < static_cast<int>(walk.turnings.size()); ++k) {
+      const double turning = walk.turnings[k];
+      if (turning < -most_backward) return std::nullopt;
+      if (std::abs(turning) > corner_turning) {
         corners.push_back(k);
-      } else if (std::abs(walk.turnings[k]) > smooth_turning) {
-        return;
+      } else if (std::abs(turning) > smooth_turning) {
+        return std::nullopt;
       }
     }
-    if (corners.size() < 3 || corners.size() > 5) return;
-    for (const int corner : corners) sides.starts.push_back(walk.coedges[corner]);
-    sides.outline = corners.size() == 4 ? FaceSides::Outline::four : FaceSides::Outline::odd;
-    if (corners.size() != 4) return;
+    return corners;
+  }
+
+  static Side between(const Walk& walk, int from, int to) {
+    Side side;
+    const int n = static_cast<int>(walk.edges.size());
+    for (int k = from; side.empty() || k != to; k = (k + 1) % n) side.push_back(walk.edges[k]);
+    return side;
+  }
+
+  /// Three to five corners, or steps.
+  void take_corners(const Walk& walk, FaceSides& sides) const {
+    const auto corners = corners_of(walk);
+    if (!corners || corners->size() < 3) return;
+    const bool is_stepped =
+        std::any_of(corners->begin(), corners->end(), [&](int k) { return walk.turnings[k] < 0; });
+    if (is_stepped) return take_steps(walk, *corners, sides);
+    if (corners->size() > 5) return;
+    for (const int corner : *corners) sides.starts.push_back(walk.coedges[corner]);
+    sides.outline = corners->size() == 4 ? FaceSides::Outline::four : FaceSides::Outline::odd;
+    if (corners->size() != 4) return;
     std::array<Side, 4> four;
-    for (int c = 0; c < 4; ++c) {
-      const int from = corners[c], to = corners[(c + 1) % 4];
-      for (int k = from; k != to; k = (k + 1) % n) four[c].push_back(walk.edges[k]);
-    }
+    for (int c = 0; c < 4; ++c) four[c] = between(walk, (*corners)[c], (*corners)[(c + 1) % 4]);
     for (int c = 0; c < 2; ++c) add_pairs(four[c], turned(four[c + 2]), sides);
+  }
+
+  /// A side of a stepped outline, as long as it is, on the way along its direction.
+  struct Tread {
+    double from, to;
+    Side side;
+  };
+
+  /// Corners that turn by a full turn in all.
+  void take_steps(const Walk& walk, const std::vector<int>& corners, FaceSides& sides) const {
+    int turns = 0;
+    for (const int corner : corners) turns += walk.turnings[corner] > 0 ? 1 : -1;
+    if (turns != 4) return;
+    std::array<std::vector<Tread>, 4> treads;  // by direction
+    std::array<double, 2> place{};
+    int direction = 0;
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      if (c > 0) direction = (direction + (walk.turnings[corners[c]] > 0 ? 1 : 3)) % 4;
+      Side side = between(walk, corners[c], corners[(c + 1) % corners.size()]);
+      double& at = place[direction % 2];
+      const double before = at, length = length_of(side);
+      at += direction < 2 ? length : -length;
+      sides.starts.push_back(walk.coedges[corners[c]]);
+      sides.directions.push_back(direction);
+      if (direction >= 2) side = turned(std::move(side));
+      treads[direction].push_back({std::min(before, at), std::max(before, at), std::move(side)});
+    }
+    sides.outline = FaceSides::Outline::stepped;
+    for (int d = 0; d < 2; ++d) add_treads(treads[d], treads[d + 2], sides);
+  }
+
+  /// Sides one after the other on both sides of the face face each other part by part; others, as those of a
+  /// comb's teeth, all together.
+  void add_treads(std::vector<Tread> one, std::vector<Tread> other, FaceSides& sides) const {
+    const bool in_rows = put_in_order(one) && put_in_order(other);
+    FacingPair pair;
+    for (const Tread& tread : one) pair.first.insert(pair.first.end(), tread.side.begin(), tread.side.end());
+    for (const Tread& tread : other)
+      pair.second.insert(pair.second.end(), tread.side.begin(), tread.side.end());
+    if (in_rows) {
+      add_pairs(pair.first, pair.second, sides);
+    } else {
+      sides.facing.push_back(std::move(pair));
+    }
+  }
+
+  /// Whether none lies beside another.
+  static bool put_in_order(std::vector<Tread>& treads) {
+    std::stable_sort(treads.begin(), treads.end(),
+                     [](const Tread& a, const Tread& b) { return a.from < b.from; });
+    constexpr double overlap = 0.1;  // of the shorter one
+    for (std::size_t i = 0; i + 1 < treads.size(); ++i) {
+      const Tread &a = treads[i], &b = treads[i + 1];
+      if (a.to - b.from > overlap * std::min(a.to - a.from, b.to - b.from)) return false;
+    }
+    return true;
   }
 
   static bool is_smooth(const Walk& walk) {
@@ -232,6 +305,12 @@ class SideFinder {
       ends.push_back((ends.empty() ? 0 : ends.back()) + shape_.edges[edge.edge].length);
     for (double& end : ends) end /= std::max(ends.back(), std::numeric_limits<double>::min());
     return ends;
+  }
+
+  double length_of(const Side& side) const {
+    return std::accumulate(side.begin(), side.end(), 0.0, [&](double sum, const SideEdge& edge) {
+      return sum + shape_.edges[edge.edge].length;
+    });
   }
 
   double wanted_of(const Side& side) const {

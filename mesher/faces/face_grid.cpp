@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "mesher/edges/hole_blocks.hpp"
+#include "mesher/faces/step_layout.hpp"
 #include "mesher/mesh/quality.hpp"
 
 namespace quadrille {
@@ -17,7 +18,7 @@ namespace quadrille {
 namespace {
 
 using Outline = FaceSides::Outline;
-using Line = std::vector<int>;  // points in a row
+using Line = StepLayout::Line;  // points in a row
 
 constexpr double least_jacobian = 0.3;  // of a cell
 
@@ -37,6 +38,9 @@ class GridMaker {
     switch (sides_.outline) {
       case Outline::four:
         if (!make_four()) return std::nullopt;
+        break;
+      case Outline::stepped:
+        if (!make_stepped()) return std::nullopt;
         break;
       case Outline::ring:
         if (!make_ring()) return std::nullopt;
@@ -112,6 +116,25 @@ class GridMaker {
     if (sides[0].size() != sides[2].size() || sides[1].size() != sides[3].size()) return false;
     fill(sides[0], sides[1], turned(sides[2]), turned(sides[3]));
     return true;
+  }
+
+  /// Steps are laid out in whole cells; where they close without overlap, each cell is a quad. Nodes inside
+  /// are spread by Laplace's equation over columns and rows as wide as the boundary has them, so that
+  /// straight steps get straight lines.
+  bool make_stepped() {
+    if (loops_.size() != 1) return false;
+    const auto layout = StepLayout::make(cut_loop(), sides_.directions, grid_.points, check_);
+    if (!layout) return false;
+    const std::vector<Vector2> inside = layout->spread(grid_.uv, check_);
+    const int first = static_cast<int>(grid_.uv.size());
+    for (const Vector2& uv : inside) add_point(uv);
+    layout->for_each_cell([&](const std::array<int, 4>& corners) {
+      check_();
+      std::array<int, 4> quad = corners;
+      for (int& point : quad) point = point < 0 ? first + StepLayout::inner(point) : point;
+      grid_.quads.push_back(quad);
+    });
+    return !grid_.quads.empty();
   }
 
   /// Rows between two loops, from each node of one to that of the other which makes the way shortest.

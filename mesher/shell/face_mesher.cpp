@@ -64,12 +64,13 @@ class FaceMesher {
     auto grid = mesh_as_grid();
     if (!grid) return mesh_without_grid();
     if (has_kept_edge(shape_.faces[face_], nodes_)) return std::move(*grid);  // flat rows are what is wanted
-    constexpr double much = 0.05;
-    const double outside = has_rows(*grid) ? share_outside(*grid) : 0;
+    const bool is_stepped = nodes_.sides[face_].outline == FaceSides::Outline::stepped;
+    const double much = is_stepped ? 0.01 : 0.05, better = is_stepped ? 1 : 2;
+    const double outside = is_stepped || has_rows(*grid) ? share_outside(*grid) : 0;
     if (outside > much) {  // the nodes that one side has for its neighbors' sake squeeze the rows
       try {
         FaceMesh free = mesh_without_grid();
-        if (2 * share_outside(free) < outside) return free;
+        if (better * share_outside(free) < outside) return free;
       } catch (const FaceProblem&) {
         context_.check();  // the grid has none
       }

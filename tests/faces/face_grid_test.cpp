@@ -2,9 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <TopoDS_Face.hxx>
+#include <gp_Pnt.hxx>
+#include <gp_Vec.hxx>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
 #include "mesher/edges/edge_sampling.hpp"
@@ -64,6 +74,66 @@ TEST(FaceGrid, LeavesOtherFacesAlone) {
     const ShellMesh shell = mesh_sample(name, 3);
     for (const auto& face : shell.faces) EXPECT_NE(face.note, "grid") << name;
   }
+}
+
+/// A plate of the outline, 4 thick.
+CadModel plate_of(const std::vector<std::array<double, 2>>& outline) {
+  BRepBuilderAPI_MakePolygon wire;
+  for (const auto& [x, y] : outline) wire.Add(gp_Pnt(x, y, 0));
+  wire.Close();
+  const TopoDS_Face face = BRepBuilderAPI_MakeFace(wire.Wire(), true);
+  return CadModel(std::make_shared<CadShape>(BRepPrimAPI_MakePrism(face, gp_Vec(0, 0, 4)).Shape(), "plate"));
+}
+
+/// Plates whose outlines turn by right angles both ways are grids all over.
+TEST(FaceGrid, TakesSteps) {
+  const std::map<std::string, std::vector<std::array<double, 2>>> outlines{
+      {"L", {{0, 0}, {40, 0}, {40, 11}, {13, 11}, {13, 35}, {0, 35}}},
+      {"T", {{20, 0}, {30, 0}, {30, 25}, {52, 25}, {52, 33}, {0, 33}, {0, 25}, {20, 25}}},
+      {"U", {{0, 0}, {50, 0}, {50, 30}, {38, 30}, {38, 9}, {11, 9}, {11, 27}, {0, 27}}},
+      {"Z", {{0, 0}, {30, 0}, {30, 20}, {55, 20}, {55, 28}, {22, 28}, {22, 8}, {0, 8}}},
+      {"stairs",
+       {{0, 0}, {40, 0}, {40, 40}, {30, 40}, {30, 30}, {20, 30}, {20, 18}, {9, 18}, {9, 8}, {0, 8}}},
+      {"cross",
+       {{20, 0},
+        {31, 0},
+        {31, 20},
+        {50, 20},
+        {50, 30},
+        {31, 30},
+        {31, 52},
+        {20, 52},
+        {20, 30},
+        {0, 30},
+        {0, 20},
+        {20, 20}}}};
+  for (const auto& [name, outline] : outlines) {
+    const CadModel plate = plate_of(outline);
+    for (const double size : {2.0, 3.1, 5.0, 8.0}) {
+      MeshOptions options;
+      options.sizing.size = size;
+      ExecutionContext context;
+      const ShellMesh shell = mesh(plate, options, context);
+      for (const auto& face : shell.faces) {
+        EXPECT_EQ(face.note, "grid") << name << " / " << size << " Face" << face.face;
+        EXPECT_GT(face.q_min, 0.75) << name << " / " << size << " Face" << face.face;
+        EXPECT_EQ(irregular_inside(shell, face.face), 0) << name << " / " << size << " Face" << face.face;
+      }
+    }
+  }
+}
+
+/// Teeth that lean turn both ways too, but their sides do not close.
+TEST(FaceGrid, LeavesOutlinesThatAreNoSteps) {
+  const CadModel sawtooth = plate_of(
+      {{0, 0}, {60, 0}, {60, 20}, {45, 32}, {45, 20}, {30, 32}, {30, 20}, {15, 32}, {15, 20}, {0, 32}});
+  MeshOptions options;
+  options.sizing.size = 3;
+  ExecutionContext context;
+  const ShellMesh shell = mesh(sawtooth, options, context);
+  EXPECT_EQ(std::count_if(shell.faces.begin(), shell.faces.end(),
+                          [](const auto& face) { return face.note != "grid"; }),
+            2);
 }
 
 /// Between grids a count need not be even, so that strips narrower than the size get one row.
