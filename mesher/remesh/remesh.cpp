@@ -514,7 +514,7 @@ class Remesher {
       stretches.push_back({curve.at(0.5 * (side.from + middle))});
       stretches.push_back({curve.at(0.5 * (middle + side.to))});
     }
-    add_surface_midsides(mesh, quads_, stretches, *reference_, notes_);
+    add_surface_midsides(mesh, quads_, stretches, {*reference_, *locator_}, notes_);
   }
 
   void tell_faces(ShellMesh& mesh) const {
