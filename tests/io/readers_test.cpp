@@ -118,6 +118,38 @@ TEST(Readers, InpSetsMayNameOthersAndOverlap) {
 }
 
 /// Gmsh writes an element of two physical groups twice in version 2.2.
+TEST(Readers, UnvTakesGroupsAsGmshWritesThem) {
+  // Gmsh begins a new line where nodes are followed by elements, and has groups of the nodes of elements.
+  const TemporaryFolder folder;
+  test::write_text(
+      folder / "a.unv",
+      "    -1\n  2411\n"
+      "         1         1         1        11\n   0.0   0.0   0.0\n"
+      "         2         1         1        11\n   1.0   0.0   0.0\n"
+      "         3         1         1        11\n   1.0   1.0   0.0\n"
+      "         4         1         1        11\n   0.0   1.0   0.0\n"
+      "    -1\n    -1\n  2412\n"
+      "         1        91         6         0         7         3\n         1         2         3\n"
+      "         2        91         6         0         7         3\n         1         3         4\n"
+      "    -1\n    -1\n  2477\n"
+      "         1         0         0         0         0         0         0         6\ntop\n"
+      "         7         1         0         0         7         2         0         0\n"
+      "         7         3         0         0\n"
+      "         8         1         0         0         8         2         0         0\n"
+      "         7         4         0         0\n"
+      "    -1\n");
+  const ShellMesh mesh = read_mesh(folder / "a.unv");
+  ASSERT_EQ(mesh.groups.size(), 2U);
+  EXPECT_EQ(mesh.groups[0].name, "top");
+  EXPECT_EQ(mesh.groups[1].name, "top");
+  EXPECT_EQ(mesh.corners.size(), 4U);
+  // One name in .inp too: the set of nodes that a set of elements has anyway is not written twice.
+  write_mesh(mesh, folder / "a.inp");
+  const std::string text = test::file_text(folder / "a.inp");
+  EXPECT_NE(text.find("NSET=top\n"), std::string::npos) << text;
+  EXPECT_EQ(text.find("top_2"), std::string::npos) << text;
+}
+
 TEST(Readers, MshUnitesElementsOfSeveralGroups) {
   const ShellMesh mesh = read_msh(
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"all of it\"\n2 2 "
