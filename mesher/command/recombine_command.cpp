@@ -68,6 +68,11 @@ void run(const RecombineArguments& arguments) {
       throw named_by_file(error, input, name);
     }
   }();
+  if (result.quads.empty())
+    throw failure(name,
+                  fmt::format("{}: no quad can be made: no two of its triangles lie side by side in one "
+                              "face or property",
+                              name));
   {
     const StageTimer timer(context, Stage::write);
     write_mesh(result, arguments.output, arguments.options.settings.write);

@@ -163,8 +163,10 @@ class BdfReader {
   void add_element(const Card& card, const CardShape& shape) {
     FileElement element;
     element.number = whole(card.field(0), "an element's number", card);
+    // Left blank, Nastran takes the element's own number. Programs that know no properties (meshio) leave it
+    // blank, and mean none.
     const std::int64_t property =
-        card.field(1).empty() ? element.number : whole(card.field(1), "an element's property", card);
+        card.field(1).empty() ? 0 : whole(card.field(1), "an element's property", card);
     if (property > 0 && property <= std::numeric_limits<int>::max()) element.cad = static_cast<int>(property);
     element.shape = shape.shape;
     element.node_count = shape.nodes;

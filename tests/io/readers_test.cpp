@@ -196,6 +196,27 @@ TEST(Readers, BdfTakesFreeFieldsExponentsWithoutLetterAndNames) {
   EXPECT_EQ(mesh.groups[0].entities, std::vector<int>{4});
 }
 
+TEST(Readers, BdfTakesBlankPropertiesForNone) {
+  const TemporaryFolder folder;
+  test::write_text(folder / "a.bdf",
+                   "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\n"
+                   "CTRIA3,1,,1,2,3\nCTRIA3,2,,1,3,4\nENDDATA\n");
+  EXPECT_EQ(read_mesh(folder / "a.bdf").triangle_faces, (std::vector<int>{0, 0}));
+}
+
+TEST(Readers, InpHasTheMiddleOfALineBetweenItsEnds) {
+  const TemporaryFolder folder;
+  test::write_text(folder / "a.inp",
+                   "*NODE\n1, 0, 0, 0\n2, 2, 0, 0\n3, 2, 2, 0\n4, 1, 0, 0\n5, 2, 1, 0\n6, 1, 1, 0\n"
+                   "*ELEMENT, TYPE=S6, ELSET=all\n1, 1, 2, 3, 4, 5, 6\n"
+                   "*ELEMENT, TYPE=T3D3, ELSET=rim\n2, 1, 4, 2\n");
+  const ShellMesh mesh = read_mesh(folder / "a.inp");
+  ASSERT_EQ(mesh.segments.size(), 1U);
+  const auto& [a, b] = mesh.segments[0].nodes;
+  EXPECT_EQ(mesh.points[a], Vector3(0, 0, 0));
+  EXPECT_EQ(mesh.points[b], Vector3(2, 0, 0));
+}
+
 TEST(Readers, VtkReadsWhatWeWrite) {
   const TemporaryFolder folder;
   for (const char* name : {"a.vtu", "a.vtk"}) {
