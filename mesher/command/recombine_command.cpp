@@ -69,10 +69,9 @@ void run(const RecombineArguments& arguments) {
     }
   }();
   if (result.quads.empty())
-    throw failure(name,
-                  fmt::format("{}: no quad can be made: no two of its triangles lie side by side in one "
-                              "face or property",
-                              name));
+    throw failure(name, fmt::format("{}: no quad can be made: no two of its triangles share a side in one "
+                                    "face or property (--merge makes one of nodes that lie close together)",
+                                    name));
   {
     const StageTimer timer(context, Stage::write);
     write_mesh(result, arguments.output, arguments.options.settings.write);

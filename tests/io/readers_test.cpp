@@ -204,6 +204,20 @@ TEST(Readers, BdfTakesBlankPropertiesForNone) {
   EXPECT_EQ(read_mesh(folder / "a.bdf").triangle_faces, (std::vector<int>{0, 0}));
 }
 
+TEST(Readers, BdfTakesQuadsOfNineNodesAndTellsOfBars) {
+  const TemporaryFolder folder;
+  std::string text = "BEGIN BULK\n";
+  const double at[9][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}, {1, 1}};
+  for (int i = 0; i < 9; ++i) text += fmt::format("GRID,{},,{:.1f},{:.1f},0.\n", i + 1, at[i][0], at[i][1]);
+  text += "CBAR,2,1,1,2\nCBAR,3,1,2,3\nCQUAD9,1,4,1,2,3,4,5,6,\n,7,8,9\nENDDATA\n";
+  test::write_text(folder / "a.bdf", text);
+  std::vector<std::string> notes;
+  const ShellMesh mesh = read_mesh(folder / "a.bdf", &notes);
+  EXPECT_EQ(mesh.quads.size(), 1U);
+  EXPECT_EQ(mesh.order, 2);
+  EXPECT_EQ(notes, std::vector<std::string>{"2 elements CBAR are left out"});
+}
+
 TEST(Readers, InpHasTheMiddleOfALineBetweenItsEnds) {
   const TemporaryFolder folder;
   test::write_text(folder / "a.inp",

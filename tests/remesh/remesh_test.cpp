@@ -473,6 +473,9 @@ TEST(Remesh, RefusesWhatIsNoSurface) {
   expect_error(surface_of(points, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}), options, Kind::failure,
                "3 triangles meet at the side from (0, 0, 0) to (5, 0, 0)");
   expect_error(surface_of(points, {{0, 1, 2}, {0, 2, 1}}), options, Kind::failure, "same corners");
+  ShellMesh soup = box({4, 4, 4});
+  for (std::size_t v = 0; v < soup.points.size(); ++v) soup.points[v].x() += 1e-6 * static_cast<double>(v);
+  expect_error(soup, options, Kind::failure, "none of the 12 triangles shares a side with another: `merge`");
   expect_error(surface_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}), options, Kind::failure,
                "has no area");
   const double nan = std::numeric_limits<double>::quiet_NaN();
