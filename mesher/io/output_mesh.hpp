@@ -133,6 +133,16 @@ class OutputMesh {
   std::vector<ThicknessGroup> thicknesses_;
 };
 
+/// What an array of VTK's formats for a set is called: its name, with `_` behind where an array of ours has
+/// it, and for what VTK writes into XML as it is.
+inline std::string array_of_set(std::string name) {
+  for (char& c : name)
+    if (c == '"' || c == '<' || c == '>' || c == '&' || static_cast<unsigned char>(c) < ' ') c = '_';
+  for (const char* own : {"face", "edge", "vertex", "q", "thickness"})
+    if (name == own) return name + '_';
+  return name;
+}
+
 /// Over a shell element; 0 where not known.
 inline double mean_thickness(const OutputMesh& mesh, int shell) {
   const std::array<double, 4> corners = mesh.corner_thicknesses(shell);

@@ -78,7 +78,7 @@ class GridMaker {
   /// 1 for the cells in a set, 0 for others.
   vtkNew<vtkUnsignedCharArray> set_of(const std::string& name) const {
     vtkNew<vtkUnsignedCharArray> set;
-    set->SetName(name.c_str());
+    set->SetName(array_of_set(name).c_str());
     for (const int dimension : {2, 1, 0})
       for (const char member : mesh_.is_in_set(dimension, name)) set->InsertNextValue(member);
     return set;

@@ -46,7 +46,7 @@ std::string array_name(const std::string& name) {
 }
 
 void write_set(const std::string& name, const std::vector<char>& members, TextWriter& out) {
-  out << "SCALARS " << array_name(name) << " unsigned_char 1\nLOOKUP_TABLE default\n";
+  out << "SCALARS " << array_name(array_of_set(name)) << " unsigned_char 1\nLOOKUP_TABLE default\n";
   for (const char member : members) out << static_cast<int>(member) << '\n';
 }
 

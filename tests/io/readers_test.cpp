@@ -252,6 +252,18 @@ TEST(Readers, VtkKeepsSetsThoseOfSidesAsNodes) {
     EXPECT_EQ(after.at(name), before.at(name)) << name;
   EXPECT_EQ(after.at("0 left rim").size(), 4U);
   EXPECT_EQ(after.count("1 left rim"), 0U);
+  // Names that arrays of ours have.
+  ShellMesh odd = named_grid();
+  odd.groups = {{"q", 2, 0, {2}}, {"face", 2, 0, {1}}, {"50 % \"w\" \xc3\xa4", 2, 0, {1, 2}}};
+  for (const char* file : {"c.vtk", "c.vtu"}) {
+    write_mesh(odd, folder / file);
+    const ShellMesh back = read_mesh(folder / file);
+    EXPECT_EQ(back.quad_faces, odd.quad_faces) << file;
+    const auto found = members(back), wanted = members(odd);
+    EXPECT_EQ(found.at("2 q_"), wanted.at("2 q")) << file;
+    EXPECT_EQ(found.at("2 face_"), wanted.at("2 face")) << file;
+    EXPECT_EQ(found.count("2 50 % _w_ \xc3\xa4"), 1U) << file;
+  }
   // What the array `face` tells is not told again, and a mesh without names has no sets.
   write_mesh(ShellGrid(3, 1).mesh(), folder / "b.vtk");
   EXPECT_EQ(test::file_text(folder / "b.vtk").find("unsigned_char"), std::string::npos);
