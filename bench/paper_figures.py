@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the figures of docs/paper.md from the results of bench/paper.
+"""Draws the figures of docs/notes/paper.md from the results of bench/paper.
 
     paper_figures.py FOLDER... -o docs/pictures
 

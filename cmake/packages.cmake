@@ -80,6 +80,13 @@ file(WRITE ${PROJECT_BINARY_DIR}/documents/shlibs
   "libquadrille ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} ${PACKAGE_library} ${same}\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/documents/triggers
   ${PROJECT_BINARY_DIR}/documents/shlibs)
+foreach(pair "PYTHON;python3-quadrille" "ADDON;freecad-quadrille")
+  list(POP_FRONT pair component PACKAGE)
+  set(prerm ${PROJECT_BINARY_DIR}/documents/${PACKAGE}/prerm)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/debian/prerm.in ${prerm} @ONLY FILE_PERMISSIONS OWNER_READ OWNER_WRITE
+    OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+  set(CPACK_DEBIAN_${component}_PACKAGE_CONTROL_EXTRA ${prerm})
+endforeach()
 set(about "Quadrille meshes the faces of CAD parts with quads only, for finite elements:\n\
 one chain of nodes on each edge, nodes on the geometry, groups named as in\n\
 FreeCAD.\n")

@@ -29,7 +29,7 @@ for text in sorted(texts):
     print(f"QT_TRANSLATE_NOOP({'QuadrilleSettings'!r}, {text!r})")
 tree = ast.parse(pathlib.Path("quadrille/state.py").read_text())
 values = {node.targets[0].id: node.value.value for node in tree.body if isinstance(node, ast.Assign)
-          and isinstance(node.value, ast.Constant) and node.targets[0].id.isupper() and node.targets[0].id != "TYPE"}
+          and isinstance(node.value, ast.Constant) and node.targets[0].id.isupper() and not node.targets[0].id.endswith("TYPE")}
 for text in values.values():
     print(f"QT_TRANSLATE_NOOP({'QuadrilleStatus'!r}, {text!r})")
 PYTHON

@@ -49,8 +49,16 @@ class Docs(unittest.TestCase):
 
     def test_every_page_is_in_the_site(self):
         nav = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
-        for page in (ROOT / "docs").glob("*.md"):
-            self.assertIn(f": {page.name}\n", nav)
+        for page in (ROOT / "docs").rglob("*.md"):
+            self.assertIn(f": {page.relative_to(ROOT / 'docs')}\n", nav)
+
+    def test_the_manual_has_its_parts(self):
+        nav = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
+        for part in ("tutorial", "install", "sizes", "command", "python", "api", "formats", "method", "verification", "quality",
+                     "robustness", "troubleshooting", "glossary", "contributing", "changelog", "notes/decisions"):
+            self.assertIn(f": {part}.md\n", nav)
+        self.assertGreater((ROOT / "docs" / "formats.md").read_text(encoding="utf-8").count("\n| Gmsh "), 4)  # the table that was run
+        self.assertRegex((ROOT / "README.md").read_text(encoding="utf-8"), r"!\[[^]]*\]\([^)]*\.(png|svg)\)")
 
     @unittest.skipUnless(shutil.which("mkdocs"), "NOT TESTED: mkdocs is not installed")
     def test_site_is_made(self):

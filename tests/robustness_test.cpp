@@ -143,7 +143,7 @@ TEST(Robustness, NamesTheCauseAndItsRemedy) {
   const std::string note = note_of(meshed("wrong_curves"), 1);
   EXPECT_PRED2(has, note, "parametric curves made anew");
   EXPECT_FALSE(has(note, "seen from above")) << note;
-  const ShellMesh ribs = mesh_of(CadModel(std::make_shared<CadShape>(ribbed_plate(2), "ribbed_plate")), 20);
+  const ShellMesh ribs = mesh_of(CadModel(std::make_shared<CadShape>(ribbed_plate(6), "ribbed_plate")), 7.1);
   int without = 0;
   for (const auto& face : ribs.faces) {
     EXPECT_LE(face.attempts, 2) << face.face << ": " << face.note;

@@ -68,6 +68,10 @@ void run(const RecombineArguments& arguments) {
       throw named_by_file(error, input, name);
     }
   }();
+  if (result.quads.empty())
+    throw failure(name, fmt::format("{}: no quad can be made: no two of its triangles share a side in one "
+                                    "face or property (--merge makes one of nodes that lie close together)",
+                                    name));
   {
     const StageTimer timer(context, Stage::write);
     write_mesh(result, arguments.output, arguments.options.settings.write);

@@ -25,7 +25,7 @@ struct RemeshArguments : GivenSettings {
   std::filesystem::path report, picture;
   std::optional<double> merge, feature_angle;
   LimitsOption limits;
-  bool quiet = false;
+  bool quiet = false, end_with_input = false;
 };
 
 void check_files(const RemeshArguments& arguments) {
@@ -93,6 +93,7 @@ void run(const RemeshArguments& arguments) {
   context.expect(
       {Stage::read, Stage::sample, Stage::triangulate, Stage::mesh, Stage::assemble, Stage::write});
   CancelOnSignal cancel(context, arguments.settings.time_limit);
+  if (arguments.end_with_input) end_with_input();
   std::vector<std::string> notes;
   context.report(Stage::read, 0);
   const ShellMesh input = [&] {
@@ -148,6 +149,8 @@ void add_remesh_command(CLI::App& app) {
                       "write counts, quality, distances to the surface and times as JSON");
   command->add_option("--picture", arguments->picture, "draw the mesh into a .png");
   command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");
+  command->add_flag("--end-with-input", arguments->end_with_input,
+                    "end the work when standard input closes, for programs that start this one");
   arguments->limits.add_to(*command);
   command->callback([arguments] { run(*arguments); });
 }

@@ -41,10 +41,20 @@ struct CardShape {
   int nodes;
 };
 constexpr CardShape card_shapes[] = {
-    {"CTRIA3", ElementShape::triangle, 3}, {"CTRIAR", ElementShape::triangle, 3},
-    {"CTRIA6", ElementShape::triangle, 6}, {"CQUAD4", ElementShape::quad, 4},
-    {"CQUADR", ElementShape::quad, 4},     {"CQUAD8", ElementShape::quad, 8},
+    {"CTRIA3", ElementShape::triangle, 3},
+    {"CTRIAR", ElementShape::triangle, 3},
+    {"CTRIA6", ElementShape::triangle, 6},
+    {"CQUAD4", ElementShape::quad, 4},
+    {"CQUADR", ElementShape::quad, 4},
+    {"CQUAD8", ElementShape::quad, 8},
+    {"CSHEAR", ElementShape::quad, 4},
+    {"CQUAD9", ElementShape::quad, 8},  // of Gmsh, with a node in the middle
+    {"CQUAD", ElementShape::quad, 8},
 };
+/// Elements that a mesh of a surface has no place for: they are counted.
+constexpr std::string_view left_out[] = {"CBAR",   "CBEAM",   "CROD",   "CONROD", "CTUBE",
+                                         "CBUSH",  "CTRAX3",  "CTRAX6", "CTRIAX", "CTRIAX6",
+                                         "CQUADX", "CQUADX4", "CQUADX8"};
 constexpr std::string_view volumes[] = {"CTETRA", "CHEXA", "CPENTA", "CPYRAM", "CPYRA"};
 
 class BdfReader {
@@ -61,6 +71,8 @@ class BdfReader {
     }
     finish_card();
     name_properties();
+    for (const auto& [name, count] : left_out_)
+      builder_.note(fmt::format("{} elements {} are left out", count, name));
     return builder_.finish(notes);
   }
 
@@ -122,6 +134,8 @@ class BdfReader {
           fmt::format("{} is a volume, in a line before this one: only surface meshes are read", card.name));
     for (const CardShape& shape : card_shapes)
       if (card.name == shape.name) return add_element(card, shape);
+    if (std::find(std::begin(left_out), std::end(left_out), card.name) != std::end(left_out))
+      ++left_out_[std::string(card.name)];
   }
 
   std::int64_t whole(std::string_view text, const char* what, const Card& card) const {
@@ -163,8 +177,10 @@ class BdfReader {
   void add_element(const Card& card, const CardShape& shape) {
     FileElement element;
     element.number = whole(card.field(0), "an element's number", card);
+    // Left blank, Nastran takes the element's own number. Programs that know no properties (meshio) leave it
+    // blank, and mean none.
     const std::int64_t property =
-        card.field(1).empty() ? element.number : whole(card.field(1), "an element's property", card);
+        card.field(1).empty() ? 0 : whole(card.field(1), "an element's property", card);
     if (property > 0 && property <= std::numeric_limits<int>::max()) element.cad = static_cast<int>(property);
     element.shape = shape.shape;
     element.node_count = shape.nodes;
@@ -220,7 +236,8 @@ class BdfReader {
   TextCursor cursor_;
   MeshBuilder builder_;
   Card card_;
-  std::map<int, std::string> names_;                      // of properties
+  std::map<int, std::string> names_;  // of properties
+  std::map<std::string, int> left_out_;
   std::map<int, std::vector<std::int64_t>> elements_of_;  // by property
 };
 

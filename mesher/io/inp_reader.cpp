@@ -198,6 +198,9 @@ class InpReader {
       else
         pending_.nodes[read_numbers_ - 1] = value;
       if (++read_numbers_ <= pending_.node_count) continue;
+      // Beams and trusses have their middle node between the ends.
+      if (pending_.shape == ElementShape::line && pending_.node_count == 3)
+        std::swap(pending_.nodes[1], pending_.nodes[2]);
       builder_.add_element(pending_);
       if (set_ != nullptr) add_to_set(pending_.number);
       read_numbers_ = 0;

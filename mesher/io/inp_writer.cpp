@@ -37,12 +37,23 @@ class SetNames {
   explicit SetNames(const OutputMesh& mesh) {
     for (const int dimension : {2, 1, 0})
       for (const NamedGroup& group : mesh.groups(dimension))
-        names_[dimension].push_back(free_name(group.name));
+        names_[dimension].push_back(is_written_already(mesh, dimension, group) ? "" : free_name(group.name));
   }
-  /// \param group its place in OutputMesh::groups(dimension).
+  /// Empty for nodes that are the set of a face or an edge of the same name. \param group its place in
+  /// OutputMesh::groups(dimension).
   const std::string& of(int dimension, std::size_t group) const { return names_[dimension][group]; }
 
  private:
+  /// Other formats have a group of elements and one of its nodes by one name.
+  static bool is_written_already(const OutputMesh& mesh, int dimension, const NamedGroup& nodes) {
+    if (dimension > 0) return false;
+    for (const int other : {2, 1})
+      for (const NamedGroup& group : mesh.groups(other))
+        if (group.name == nodes.name && mesh.node_numbers(other, group) == mesh.node_numbers(0, nodes))
+          return true;
+    return false;
+  }
+
   std::string free_name(std::string name) {
     constexpr std::size_t longest = 70;  // of 80, with room for what is put behind
     name.resize(std::min(name.size(), longest));
@@ -132,7 +143,7 @@ void write_node_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& 
   for (const int dimension : {2, 1, 0})
     for (std::size_t i = 0; i < mesh.groups(dimension).size(); ++i) {
       const std::vector<int> nodes = mesh.node_numbers(dimension, mesh.groups(dimension)[i]);
-      if (nodes.empty()) continue;
+      if (nodes.empty() || names.of(dimension, i).empty()) continue;
       out << "*NSET, NSET=" << names.of(dimension, i) << '\n';
       write_list(nodes, out);
     }

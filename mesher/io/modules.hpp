@@ -3,6 +3,8 @@
 /// needs VTK, VTK with OpenGL and X11, and libmed. They are opened on demand, since loading those libraries
 /// costs more time than meshing a small part.
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,9 @@ namespace quadrille {
 struct ImportedMesh {
   std::vector<Vector3> points;
   std::vector<FileElement> elements;
+  std::vector<char> set_names;                           ///< each followed by a 0
+  std::vector<std::array<std::int64_t, 2>> in_set;       ///< place of an element, place of the name
+  std::vector<std::array<std::int64_t, 2>> node_in_set;  ///< place of a point, place of the name
 };
 
 /// What the modules export, as C symbols of these types. Each function returns an empty string, or the

@@ -32,6 +32,9 @@ std::vector<CadGroup> grouped(int count, NumberOf number_of) {
   return groups;
 }
 
+/// By dimension, as FreeCAD names them.
+const std::array<std::string, 3> kind_names{"Vertex", "Edge", "Face"};
+
 void sort_unique(std::vector<int>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -51,7 +54,6 @@ OutputMesh::OutputMesh(const ShellMesh& mesh, const GroupKinds& groups, int quad
 }
 
 void OutputMesh::name_groups(int dimension) {
-  constexpr const char* kinds[] = {"Vertex", "Edge", "Face"};
   constexpr const char* unnamed[] = {"PhysicalPoint", "PhysicalCurve", "PhysicalSurface"};
   const bool wanted[] = {groups_.vertices, groups_.edges, groups_.faces};
   if (!wanted[dimension]) return;
@@ -59,7 +61,7 @@ void OutputMesh::name_groups(int dimension) {
   if (!groups_were_read()) {
     for (const CadGroup& entity : entities(dimension))
       if (entity.number > 0)
-        named.push_back({kinds[dimension] + std::to_string(entity.number), true, 0, {entity.number}});
+        named.push_back({kind_names[dimension] + std::to_string(entity.number), true, 0, {entity.number}});
     return;
   }
   for (const ShellMesh::Group& group : mesh_.groups) {
@@ -77,6 +79,30 @@ std::vector<int> OutputMesh::members(int dimension, const NamedGroup& group) con
       result.insert(result.end(), entity.members.begin(), entity.members.end());
   }
   if (group.entities.size() > 1) std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<std::string> OutputMesh::set_names() const {
+  std::vector<std::string> names;
+  if (!groups_were_read()) return names;
+  for (const int dimension : {2, 1, 0}) {
+    for (const NamedGroup& group : named_[dimension]) {
+      const bool is_told = group.entities.size() == 1 &&
+                           group.name == kind_names[dimension] + std::to_string(group.entities[0]);
+      if (!is_told && std::find(names.begin(), names.end(), group.name) == names.end())
+        names.push_back(group.name);
+    }
+  }
+  return names;
+}
+
+std::vector<char> OutputMesh::is_in_set(int dimension, const std::string& name) const {
+  const int count = dimension == 2 ? shell_count() : dimension == 1 ? segment_count() : corner_count();
+  std::vector<char> result(count, 0);
+  for (const NamedGroup& group : named_[dimension]) {
+    if (group.name != name) continue;
+    for (const int member : members(dimension, group)) result[member] = 1;
+  }
   return result;
 }
 

@@ -104,6 +104,11 @@ class OutputMesh {
   bool groups_were_read() const { return !mesh_.groups.empty(); }
   /// Indices of shell elements, segments or corners, ascending.
   std::vector<int> members(int dimension, const NamedGroup& group) const;
+  /// Names that the files' own numbers of faces, edges and vertices do not tell, such as those of sets that
+  /// were read; each once. VTK's formats have an array for each.
+  std::vector<std::string> set_names() const;
+  /// For each shell element, segment or corner, 1 if it is in a group of this name.
+  std::vector<char> is_in_set(int dimension, const std::string& name) const;
   /// File numbers of the nodes of a group, ascending, each once.
   std::vector<int> node_numbers(int dimension, const NamedGroup& group) const;
 
@@ -127,6 +132,16 @@ class OutputMesh {
   std::array<std::vector<NamedGroup>, 3> named_;
   std::vector<ThicknessGroup> thicknesses_;
 };
+
+/// What an array of VTK's formats for a set is called: its name, with `_` behind where an array of ours has
+/// it, and for what VTK writes into XML as it is.
+inline std::string array_of_set(std::string name) {
+  for (char& c : name)
+    if (c == '"' || c == '<' || c == '>' || c == '&' || static_cast<unsigned char>(c) < ' ') c = '_';
+  for (const char* own : {"face", "edge", "vertex", "q", "thickness"})
+    if (name == own) return name + '_';
+  return name;
+}
 
 /// Over a shell element; 0 where not known.
 inline double mean_thickness(const OutputMesh& mesh, int shell) {

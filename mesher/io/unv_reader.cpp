@@ -168,8 +168,10 @@ class UnvReader {
     for (int i = 0; i < 7; ++i) count = next<std::int64_t>(line, "a group's number of members");
     Group group{std::string(trimmed(needed_line())), {}};
     if (group.name.empty()) throw cursor_.error_before("a group has no name");
+    line = {};
     for (std::int64_t i = 0; i < count; ++i) {
-      if (i % 2 == 0) line = needed_line();
+      if (trimmed(line).empty())
+        line = needed_line();  // of two members, or, of Gmsh, one before another kind
       const auto kind = next<std::int64_t>(line, "a member's kind");
       group.members.push_back({kind, next<std::int64_t>(line, "a member's number")});
       for (int k = 0; k < 2; ++k) next<std::int64_t>(line, "a member's component");

@@ -14,10 +14,12 @@
 #include <vtkPointData.h>
 #include <vtkSTLReader.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <algorithm>
+#include <cstring>
 #include <exception>
 #include <limits>
 
@@ -78,7 +80,9 @@ vtkSmartPointer<vtkDataSet> read_data_set(const std::string& path, const std::st
   if (ending == ".ply") return read_with(vtkNew<vtkPLYReader>().Get(), path);
   if (ending == ".vtu") return read_with(vtkNew<vtkXMLUnstructuredGridReader>().Get(), path);
   if (ending == ".vtp") return read_with(vtkNew<vtkXMLPolyDataReader>().Get(), path);
-  return read_with(vtkNew<vtkDataSetReader>().Get(), path);
+  const vtkNew<vtkDataSetReader> reader;
+  reader->ReadAllScalarsOn();
+  return read_with(reader.Get(), path);
 }
 
 /// Where the files of other programs, and ours, tell the CAD entity of a cell; by dimension.
@@ -92,10 +96,40 @@ vtkDataArray* entity_array(vtkDataSet* mesh, int dimension) {
   return array != nullptr && array->GetNumberOfComponents() == 1 ? array : nullptr;
 }
 
+/// Arrays of bytes that are 0 or 1 are sets.
+std::vector<vtkUnsignedCharArray*> sets_in(vtkDataSetAttributes* data) {
+  std::vector<vtkUnsignedCharArray*> sets;
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
+    auto* array = vtkUnsignedCharArray::SafeDownCast(data->GetArray(i));
+    if (array == nullptr || array->GetNumberOfComponents() != 1 || array->GetName() == nullptr) continue;
+    if (std::string_view(array->GetName()).substr(0, 3) == "vtk") continue;
+    const unsigned char *values = array->GetPointer(0), *end = values + array->GetNumberOfTuples();
+    if (std::all_of(values, end, [](unsigned char value) { return value <= 1; })) sets.push_back(array);
+  }
+  return sets;
+}
+
+/// Keeps the name of a set; gives its place.
+std::int64_t place_of_name(const char* name, ImportedMesh& result) {
+  const auto place = std::count(result.set_names.begin(), result.set_names.end(), '\0');
+  result.set_names.insert(result.set_names.end(), name, name + std::strlen(name) + 1);
+  return place;
+}
+
+void import_node_sets(vtkDataSet* mesh, ImportedMesh& result) {
+  for (vtkUnsignedCharArray* set : sets_in(mesh->GetPointData())) {
+    const std::int64_t place = place_of_name(set->GetName(), result);
+    for (vtkIdType point = 0; point < set->GetNumberOfTuples(); ++point)
+      if (set->GetValue(point) == 1) result.node_in_set.push_back({point, place});
+  }
+}
+
 class CellImport {
  public:
   CellImport(vtkDataSet* mesh, ImportedMesh& result) : mesh_(mesh), result_(result) {
     for (int dimension = 0; dimension < 3; ++dimension) arrays_[dimension] = entity_array(mesh, dimension);
+    for (vtkUnsignedCharArray* set : sets_in(mesh->GetCellData()))
+      sets_.emplace_back(set, place_of_name(set->GetName(), result));
   }
 
   void add(vtkIdType cell) {
@@ -161,6 +195,9 @@ class CellImport {
         throw failure("", fmt::format("cell {} (counted from 0) has too few nodes", cell));
       element.nodes[element.node_count++] = nodes_->GetId(place) + 1;
     }
+    for (const auto& [set, place] : sets_)
+      if (set->GetValue(cell) == 1)
+        result_.in_set.push_back({static_cast<std::int64_t>(result_.elements.size()), place});
     result_.elements.push_back(element);
   }
 
@@ -168,6 +205,7 @@ class CellImport {
   ImportedMesh& result_;
   vtkNew<vtkIdList> nodes_;
   vtkDataArray* arrays_[3];
+  std::vector<std::pair<vtkUnsignedCharArray*, std::int64_t>> sets_;
 };
 
 /// Displacements by the names that solvers and converters give them.
@@ -223,6 +261,7 @@ QUADRILLE_EXPORT std::string quadrille_vtk_read(const std::string& path, const s
   quadrille::CellImport cells(read, mesh);
   mesh.elements.reserve(read->GetNumberOfCells());
   for (vtkIdType cell = 0; cell < read->GetNumberOfCells(); ++cell) cells.add(cell);
+  quadrille::import_node_sets(read, mesh);
   return {};
 } catch (const std::exception& error) {
   return error.what();

@@ -70,10 +70,20 @@ class GridMaker {
     grid->GetCellData()->AddArray(q_);
     while (thickness_->GetNumberOfValues() < grid->GetNumberOfCells()) thickness_->InsertNextValue(0);
     if (!mesh_.thicknesses().empty()) grid->GetCellData()->AddArray(thickness_);
+    for (const std::string& name : mesh_.set_names()) grid->GetCellData()->AddArray(set_of(name));
     return grid;
   }
 
  private:
+  /// 1 for the cells in a set, 0 for others.
+  vtkNew<vtkUnsignedCharArray> set_of(const std::string& name) const {
+    vtkNew<vtkUnsignedCharArray> set;
+    set->SetName(array_of_set(name).c_str());
+    for (const int dimension : {2, 1, 0})
+      for (const char member : mesh_.is_in_set(dimension, name)) set->InsertNextValue(member);
+    return set;
+  }
+
   void add(const ElementNodes& nodes, int type, int dimension, int number) {
     std::array<vtkIdType, 9> ids;
     std::transform(nodes.begin(), nodes.end(), ids.begin(), [&](int node) { return mesh_.number(node) - 1; });

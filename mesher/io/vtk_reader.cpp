@@ -73,6 +73,17 @@ void unite_points(ImportedMesh& mesh, MeshBuilder& builder) {
         fmt::format("{} triangles with two corners on one place are left out", count - mesh.elements.size()));
 }
 
+/// The groups of the builder that the sets are, by their places.
+std::vector<int> groups_of_sets(const ImportedMesh& mesh, MeshBuilder& builder) {
+  std::vector<int> groups;
+  for (auto begin = mesh.set_names.begin(); begin != mesh.set_names.end();) {
+    const auto end = std::find(begin, mesh.set_names.end(), '\0');
+    groups.push_back(builder.group(std::string(begin, end), 0));
+    begin = std::next(end);
+  }
+  return groups;
+}
+
 template <class Record>
 void put(const std::vector<Record>& records, std::ostream& out) {
   static_assert(std::is_trivially_copyable_v<Record> || std::is_same_v<Record, Vector3>);
@@ -107,6 +118,9 @@ ImportedMesh read_isolated(const std::string& name, const std::string& ending) {
       const ImportedMesh mesh = vtk_mesh(name, ending);
       put(mesh.points, out);
       put(mesh.elements, out);
+      put(mesh.set_names, out);
+      put(mesh.in_set, out);
+      put(mesh.node_in_set, out);
     } catch (const Error& error) {
       throw failure(name, fmt::format("{}: {}", name, error.what()));
     }
@@ -115,6 +129,9 @@ ImportedMesh read_isolated(const std::string& name, const std::string& ending) {
   run_isolated(options, work, [&](std::istream& in) {
     get(mesh.points, in);
     get(mesh.elements, in);
+    get(mesh.set_names, in);
+    get(mesh.in_set, in);
+    get(mesh.node_in_set, in);
   });
   return mesh;
 }
@@ -128,6 +145,9 @@ ShellMesh read_by_vtk(const std::filesystem::path& path, std::vector<std::string
                  [](unsigned char c) { return std::tolower(c); });
   ImportedMesh mesh = read_isolated(name, ending);
   MeshBuilder builder(name);
+  const std::vector<int> set_groups = groups_of_sets(mesh, builder);
+  for (const auto& [element, set] : mesh.in_set)
+    mesh.elements[element].groups = builder.joined(mesh.elements[element].groups, set_groups[set]);
   if (ending == ".stl" || ending == ".obj") unite_points(mesh, builder);
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
     builder.add_node(static_cast<std::int64_t>(i) + 1, mesh.points[i]);
@@ -137,9 +157,10 @@ ShellMesh read_by_vtk(const std::filesystem::path& path, std::vector<std::string
   for (FileElement& element : mesh.elements) {
     const auto solid = static_cast<std::size_t>(element.cad);
     if (has_names && solid > 0 && solid <= solids.size() && !solids[solid - 1].empty())
-      element.groups = builder.joined(0, builder.group(solids[solid - 1], 0));
+      element.groups = builder.joined(element.groups, builder.group(solids[solid - 1], 0));
     builder.add_element(element);
   }
+  for (const auto& [point, set] : mesh.node_in_set) builder.put_node(point + 1, set_groups[set]);
   return builder.finish(notes);
 }
 

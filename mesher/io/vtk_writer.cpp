@@ -1,7 +1,11 @@
 /// Legacy .vtk as text, version 2.0 of the format, which all readers know, binary ones not: the shell
 /// elements with their CAD face and q. Based on: the VTK User's Guide, "VTK file formats".
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "mesher/io/writers.hpp"
 
@@ -29,6 +33,43 @@ void write_lines(const OutputMesh& mesh, TextWriter& out, Write write) {
     write(static_cast<int>(i), to);
     to << '\n';
   });
+}
+
+/// A name of an array as VTK writes it: other characters by their codes.
+std::string array_name(const std::string& name) {
+  std::string result;
+  for (const char c : name) {
+    const bool plain = c > ' ' && c < 127 && c != '"' && c != '%';
+    result += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return result;
+}
+
+void write_set(const std::string& name, const std::vector<char>& members, TextWriter& out) {
+  out << "SCALARS " << array_name(array_of_set(name)) << " unsigned_char 1\nLOOKUP_TABLE default\n";
+  for (const char member : members) out << static_cast<int>(member) << '\n';
+}
+
+/// Sets of elements, then those of nodes: of sides and points, which are no cells here.
+void write_sets(const OutputMesh& mesh, TextWriter& out) {
+  std::vector<std::string> of_nodes;
+  for (const std::string& name : mesh.set_names()) {
+    const auto has_it = [&](int dimension) {
+      const auto& groups = mesh.groups(dimension);
+      return std::any_of(groups.begin(), groups.end(), [&](const auto& group) { return group.name == name; });
+    };
+    if (has_it(2)) write_set(name, mesh.is_in_set(2, name), out);
+    if (has_it(1) || has_it(0)) of_nodes.push_back(name);
+  }
+  if (!of_nodes.empty()) out << "POINT_DATA " << mesh.nodes().size() << '\n';
+  for (const std::string& name : of_nodes) {
+    std::vector<char> members(mesh.nodes().size(), 0);
+    for (const int dimension : {1, 0})
+      for (const NamedGroup& group : mesh.groups(dimension))
+        if (group.name == name)
+          for (const int number : mesh.node_numbers(dimension, group)) members[number - 1] = 1;
+    write_set(name, members, out);
+  }
 }
 
 }  // namespace
@@ -59,9 +100,11 @@ void write_vtk(const OutputMesh& mesh, const WriteOptions& options, const std::v
   out << "SCALARS q double 1\nLOOKUP_TABLE default\n";
   write_lines(mesh, out,
               [&](int shell, TextWriter& to) { to << (mesh.is_quad(shell) ? qualities[shell] : 0.0); });
-  if (mesh.thicknesses().empty()) return;
-  out << "SCALARS thickness double 1\nLOOKUP_TABLE default\n";
-  write_lines(mesh, out, [&](int shell, TextWriter& to) { to << mean_thickness(mesh, shell); });
+  if (!mesh.thicknesses().empty()) {
+    out << "SCALARS thickness double 1\nLOOKUP_TABLE default\n";
+    write_lines(mesh, out, [&](int shell, TextWriter& to) { to << mean_thickness(mesh, shell); });
+  }
+  write_sets(mesh, out);
 }
 
 }  // namespace quadrille

@@ -15,31 +15,6 @@ namespace quadrille {
 
 namespace {
 
-/// One face of the surface. Points are found by the tree of boxes: a walk from triangle to triangle ends
-/// where long and narrow ones lie side by side, as those of cylinders in files of CAD systems do.
-class PatchOfSurface : public SmoothingSurface {
- public:
-  PatchOfSurface(const PatchSurface& on, int patch) : on_(on), patch_(patch) {}
-
-  Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const override {
-    Vector3 walked = on_.surface.move(uv, target, normal);
-    const SurfaceLocator::Place found = on_.locator.nearest(patch_, target);
-    constexpr double closer = 1 - 1e-9;
-    if ((found.point - target).norm() >= closer * (walked - target).norm()) return walked;
-    Vector2 place(found.triangle, 0);
-    Vector3 there;
-    on_.surface.move(place, found.point, there);
-    if (there.dot(normal) <= 0) return walked;  // another sheet
-    uv = place;
-    normal = there;
-    return found.point;
-  }
-
- private:
-  const PatchSurface on_;
-  int patch_;
-};
-
 class PatchMesher {
  public:
   PatchMesher(PatchTriangles triangles, const PatchSurface& on, ExecutionContext& context)
@@ -229,6 +204,20 @@ class PatchMesher {
 };
 
 }  // namespace
+
+Vector3 PatchOfSurface::move(Vector2& uv, const Vector3& target, Vector3& normal) const {
+  Vector3 walked = on_.surface.move(uv, target, normal);
+  const SurfaceLocator::Place found = on_.locator.nearest(patch_, target);
+  constexpr double closer = 1 - 1e-9;
+  if ((found.point - target).norm() >= closer * (walked - target).norm()) return walked;
+  Vector2 place(found.triangle, 0);
+  Vector3 there;
+  on_.surface.move(place, found.point, there);
+  if (there.dot(normal) <= 0) return walked;  // another sheet
+  uv = place;
+  normal = there;
+  return found.point;
+}
 
 PatchQuads quads_on_patch(PatchTriangles triangles, const PatchSurface& on, const RecombineOptions& recombine,
                           const ImproveOptions& improve, ExecutionContext& context) {

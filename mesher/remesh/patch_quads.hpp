@@ -43,6 +43,18 @@ struct PatchSurface {
   const SurfaceLocator& locator;    ///< of the same triangles
 };
 
+/// One face of the surface. Points are found by the tree of boxes: a walk from triangle to triangle ends
+/// where long and narrow ones lie side by side, as those of cylinders in files of CAD systems do.
+class PatchOfSurface : public SmoothingSurface {
+ public:
+  PatchOfSurface(const PatchSurface& on, int patch) : on_(on), patch_(patch) {}
+  Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const override;
+
+ private:
+  const PatchSurface on_;
+  int patch_;
+};
+
 /// Pairs the triangles, cleans up, splits each quad into four and each triangle into three, and smooths, on
 /// the surface. Throws Error (cancelled).
 PatchQuads quads_on_patch(PatchTriangles triangles, const PatchSurface& on, const RecombineOptions& recombine,

@@ -56,6 +56,11 @@ void check_manifold(const TriangleMesh& mesh) {
   for (const auto& t : mesh.triangles)
     for (int i = 0; i < 3; ++i) keys.push_back(side_key(t[i], t[next_index(i)]));
   std::sort(keys.begin(), keys.end());
+  if (mesh.triangles.size() > 2 && std::adjacent_find(keys.begin(), keys.end()) == keys.end())
+    throw failure(
+        "", fmt::format("none of the {} triangles shares a side with another: `merge` makes one of nodes "
+                        "that lie close together",
+                        mesh.triangles.size()));
   for (std::size_t k = 0; k + 2 < keys.size(); ++k) {
     if (keys[k] != keys[k + 2]) continue;
     const auto count = std::count(keys.begin() + static_cast<long>(k), keys.end(), keys[k]);
@@ -514,7 +519,7 @@ class Remesher {
       stretches.push_back({curve.at(0.5 * (side.from + middle))});
       stretches.push_back({curve.at(0.5 * (middle + side.to))});
     }
-    add_surface_midsides(mesh, quads_, stretches, *reference_, notes_);
+    add_surface_midsides(mesh, quads_, stretches, {*reference_, *locator_}, notes_);
   }
 
   void tell_faces(ShellMesh& mesh) const {

@@ -49,7 +49,7 @@ void straighten(ShellMesh& mesh, std::vector<std::string>& notes) {
 }  // namespace
 
 void add_surface_midsides(ShellMesh& mesh, const std::vector<PatchQuads>& patches,
-                          const std::vector<CurveStretch>& stretches, const SmoothingSurface& surface,
+                          const std::vector<CurveStretch>& stretches, const PatchSurface& on,
                           std::vector<std::string>& notes) {
   std::unordered_map<std::uint64_t, int> middles;
   const auto add = [&](const Vector3& place) {
@@ -62,6 +62,7 @@ void add_surface_midsides(ShellMesh& mesh, const std::vector<PatchQuads>& patche
     middles[side_key(segment.nodes[0], segment.nodes[1])] = segment.middle;
   }
   for (const PatchQuads& patch : patches) {
+    const PatchOfSurface surface(on, patch.patch);
     for (const auto& quad : patch.quads) {
       std::array<int, 4>& midsides = mesh.midsides.emplace_back();
       for (int k = 0; k < 4; ++k) {

@@ -19,7 +19,7 @@ struct CurveStretch {
 /// \param patches whose quads are those of the mesh, in order; nodes are the mesh's. \param stretches
 /// (segments).
 void add_surface_midsides(ShellMesh& mesh, const std::vector<PatchQuads>& patches,
-                          const std::vector<CurveStretch>& stretches, const SmoothingSurface& surface,
+                          const std::vector<CurveStretch>& stretches, const PatchSurface& on,
                           std::vector<std::string>& notes);
 
 }  // namespace quadrille

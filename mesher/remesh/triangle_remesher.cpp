@@ -337,10 +337,7 @@ class TriangleRemesher {
     for (const Halfedge side : {h, back}) {
       if (mesh_.is_border(side)) continue;
       const Vertex corner = opposite_corner(side);
-      const Edge of_gone = mesh_.edge(mesh_.halfedge(gone, corner)),
-                 of_kept = mesh_.edge(mesh_.halfedge(kept, corner));
-      if (on_curve(of_gone)) return false;
-      merged[corner] = span_[of_kept];
+      merged[corner] = span_[mesh_.edge(mesh_.halfedge(kept, corner))];
     }
     if (!CGAL::Euler::does_satisfy_link_condition(e, mesh_) ||
         !may_move(gone, at(kept), kept, hold_[gone] == passing))
@@ -354,7 +351,7 @@ class TriangleRemesher {
         beyond = span_[mesh_.edge(other)];
         far = mesh_.source(other);
       }
-      // A curve that would end where it began.
+      // The curve's next side would fall onto another side, which may be on a curve too.
       if (mesh_.halfedge(far, kept) != Mesh::null_halfedge()) return false;
     }
     const double cap = std::min(cap_[gone], cap_[kept]);

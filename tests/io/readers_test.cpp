@@ -58,11 +58,12 @@ ShellMesh named_grid(int order = 1) {
 }
 
 class Named : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Formats, Named, testing::Values("a.msh", "4.msh", "a.unv"), [](const auto& file) {
-  std::string name = file.param;
-  name[1] = '_';
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Formats, Named, testing::Values("a.msh", "4.msh", "a.unv", "a.vtu"),
+                         [](const auto& file) {
+                           std::string name = file.param;
+                           name[1] = '_';
+                           return name;
+                         });
 
 TEST_P(Named, GroupsComeBackAsTheyWentOut) {
   const TemporaryFolder folder;
@@ -76,7 +77,7 @@ TEST_P(Named, GroupsComeBackAsTheyWentOut) {
     EXPECT_EQ(back.quads.size(), mesh.quads.size());
     EXPECT_EQ(back.segments.size(), mesh.segments.size());
     EXPECT_EQ(back.order, order);
-    if (GetParam() == "a.unv") continue;
+    if (GetParam() == "a.unv" || GetParam() == "a.vtu") continue;  // they have no numbers
     for (const ShellMesh::Group& group : back.groups) {
       const auto same = std::find_if(mesh.groups.begin(), mesh.groups.end(),
                                      [&](const auto& other) { return other.name == group.name; });
@@ -118,6 +119,38 @@ TEST(Readers, InpSetsMayNameOthersAndOverlap) {
 }
 
 /// Gmsh writes an element of two physical groups twice in version 2.2.
+TEST(Readers, UnvTakesGroupsAsGmshWritesThem) {
+  // Gmsh begins a new line where nodes are followed by elements, and has groups of the nodes of elements.
+  const TemporaryFolder folder;
+  test::write_text(
+      folder / "a.unv",
+      "    -1\n  2411\n"
+      "         1         1         1        11\n   0.0   0.0   0.0\n"
+      "         2         1         1        11\n   1.0   0.0   0.0\n"
+      "         3         1         1        11\n   1.0   1.0   0.0\n"
+      "         4         1         1        11\n   0.0   1.0   0.0\n"
+      "    -1\n    -1\n  2412\n"
+      "         1        91         6         0         7         3\n         1         2         3\n"
+      "         2        91         6         0         7         3\n         1         3         4\n"
+      "    -1\n    -1\n  2477\n"
+      "         1         0         0         0         0         0         0         6\ntop\n"
+      "         7         1         0         0         7         2         0         0\n"
+      "         7         3         0         0\n"
+      "         8         1         0         0         8         2         0         0\n"
+      "         7         4         0         0\n"
+      "    -1\n");
+  const ShellMesh mesh = read_mesh(folder / "a.unv");
+  ASSERT_EQ(mesh.groups.size(), 2U);
+  EXPECT_EQ(mesh.groups[0].name, "top");
+  EXPECT_EQ(mesh.groups[1].name, "top");
+  EXPECT_EQ(mesh.corners.size(), 4U);
+  // One name in .inp too: the set of nodes that a set of elements has anyway is not written twice.
+  write_mesh(mesh, folder / "a.inp");
+  const std::string text = test::file_text(folder / "a.inp");
+  EXPECT_NE(text.find("NSET=top\n"), std::string::npos) << text;
+  EXPECT_EQ(text.find("top_2"), std::string::npos) << text;
+}
+
 TEST(Readers, MshUnitesElementsOfSeveralGroups) {
   const ShellMesh mesh = read_msh(
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"all of it\"\n2 2 "
@@ -163,6 +196,41 @@ TEST(Readers, BdfTakesFreeFieldsExponentsWithoutLetterAndNames) {
   EXPECT_EQ(mesh.groups[0].entities, std::vector<int>{4});
 }
 
+TEST(Readers, BdfTakesBlankPropertiesForNone) {
+  const TemporaryFolder folder;
+  test::write_text(folder / "a.bdf",
+                   "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\n"
+                   "CTRIA3,1,,1,2,3\nCTRIA3,2,,1,3,4\nENDDATA\n");
+  EXPECT_EQ(read_mesh(folder / "a.bdf").triangle_faces, (std::vector<int>{0, 0}));
+}
+
+TEST(Readers, BdfTakesQuadsOfNineNodesAndTellsOfBars) {
+  const TemporaryFolder folder;
+  std::string text = "BEGIN BULK\n";
+  const double at[9][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}, {1, 1}};
+  for (int i = 0; i < 9; ++i) text += fmt::format("GRID,{},,{:.1f},{:.1f},0.\n", i + 1, at[i][0], at[i][1]);
+  text += "CBAR,2,1,1,2\nCBAR,3,1,2,3\nCQUAD9,1,4,1,2,3,4,5,6,\n,7,8,9\nENDDATA\n";
+  test::write_text(folder / "a.bdf", text);
+  std::vector<std::string> notes;
+  const ShellMesh mesh = read_mesh(folder / "a.bdf", &notes);
+  EXPECT_EQ(mesh.quads.size(), 1U);
+  EXPECT_EQ(mesh.order, 2);
+  EXPECT_EQ(notes, std::vector<std::string>{"2 elements CBAR are left out"});
+}
+
+TEST(Readers, InpHasTheMiddleOfALineBetweenItsEnds) {
+  const TemporaryFolder folder;
+  test::write_text(folder / "a.inp",
+                   "*NODE\n1, 0, 0, 0\n2, 2, 0, 0\n3, 2, 2, 0\n4, 1, 0, 0\n5, 2, 1, 0\n6, 1, 1, 0\n"
+                   "*ELEMENT, TYPE=S6, ELSET=all\n1, 1, 2, 3, 4, 5, 6\n"
+                   "*ELEMENT, TYPE=T3D3, ELSET=rim\n2, 1, 4, 2\n");
+  const ShellMesh mesh = read_mesh(folder / "a.inp");
+  ASSERT_EQ(mesh.segments.size(), 1U);
+  const auto& [a, b] = mesh.segments[0].nodes;
+  EXPECT_EQ(mesh.points[a], Vector3(0, 0, 0));
+  EXPECT_EQ(mesh.points[b], Vector3(2, 0, 0));
+}
+
 TEST(Readers, VtkReadsWhatWeWrite) {
   const TemporaryFolder folder;
   for (const char* name : {"a.vtu", "a.vtk"}) {
@@ -173,6 +241,33 @@ TEST(Readers, VtkReadsWhatWeWrite) {
     EXPECT_EQ(back.quad_faces, mesh.quad_faces) << name;
     EXPECT_EQ(back.segments.size(), std::string(name) == "a.vtu" ? mesh.segments.size() : 0U);
   }
+}
+
+TEST(Readers, VtkKeepsSetsThoseOfSidesAsNodes) {
+  const TemporaryFolder folder;
+  const ShellMesh mesh = named_grid();
+  write_mesh(mesh, folder / "a.vtk");
+  const auto before = members(mesh), after = members(read_mesh(folder / "a.vtk"));
+  for (const char* name : {"2 Face1", "2 the whole plate", "0 support"})
+    EXPECT_EQ(after.at(name), before.at(name)) << name;
+  EXPECT_EQ(after.at("0 left rim").size(), 4U);
+  EXPECT_EQ(after.count("1 left rim"), 0U);
+  // Names that arrays of ours have.
+  ShellMesh odd = named_grid();
+  odd.groups = {{"q", 2, 0, {2}}, {"face", 2, 0, {1}}, {"50 % \"w\" \xc3\xa4", 2, 0, {1, 2}}};
+  for (const char* file : {"c.vtk", "c.vtu"}) {
+    write_mesh(odd, folder / file);
+    const ShellMesh back = read_mesh(folder / file);
+    EXPECT_EQ(back.quad_faces, odd.quad_faces) << file;
+    const auto found = members(back), wanted = members(odd);
+    EXPECT_EQ(found.at("2 q_"), wanted.at("2 q")) << file;
+    EXPECT_EQ(found.at("2 face_"), wanted.at("2 face")) << file;
+    EXPECT_EQ(found.count("2 50 % _w_ \xc3\xa4"), 1U) << file;
+  }
+  // What the array `face` tells is not told again, and a mesh without names has no sets.
+  write_mesh(ShellGrid(3, 1).mesh(), folder / "b.vtk");
+  EXPECT_EQ(test::file_text(folder / "b.vtk").find("unsigned_char"), std::string::npos);
+  EXPECT_TRUE(read_mesh(folder / "b.vtk").groups.empty());
 }
 
 const std::string two_solids =

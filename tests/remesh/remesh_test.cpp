@@ -245,9 +245,8 @@ TEST(Remesh, SizesBeyondASmoothSurfaceGiveSmallerElements) {
   EXPECT_EQ(euler_characteristic(mesh), 0);
 }
 
-TEST(Remesh, ACanKeepsItsRoundRims) {
-  // 5 in radius, 12 high, 120 triangles along each rim, which are far shorter than the elements.
-  constexpr int n = 120;
+/// A can of radius 5, 12 high, with n triangles along each rim and n strips of two from rim to rim.
+ShellMesh can(int n) {
   std::vector<Vector3> points;
   std::vector<std::array<int, 3>> triangles;
   for (int k = 0; k < n; ++k) {
@@ -259,8 +258,40 @@ TEST(Remesh, ACanKeepsItsRoundRims) {
   }
   points.emplace_back(0, 0, 0);
   points.emplace_back(0, 0, 12);
+  return surface_of(std::move(points), std::move(triangles));
+}
+
+TEST(Remesh, MidsideNodesLieOnNarrowTrianglesToo) {
+  constexpr int n = 300;
+  RemeshOptions options = with_size(1.9);
+  options.order = 2;
+  std::vector<std::string> notes;
+  const ShellMesh mesh = remeshed(can(n), options, nullptr, &notes);
+  EXPECT_TRUE(mesh.off_geometry.empty());
+  EXPECT_EQ(notes, std::vector<std::string>());
+  const double sagitta = 5 * (1 - std::cos(std::numbers::pi / n)) + 1e-9;
+  for (const auto& midsides : mesh.midsides) {
+    for (const int node : midsides) {
+      const Vector3& p = mesh.points[node];
+      if (p.z() < 1e-9 || p.z() > 12 - 1e-9) continue;
+      EXPECT_NEAR(p.head<2>().norm(), 5, sagitta);
+    }
+  }
+  // In the middles of their sides, not anywhere else on the surface.
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    for (int k = 0; k < 4; ++k) {
+      const Vector3 &a = mesh.points[mesh.quads[q][k]], &b = mesh.points[mesh.quads[q][(k + 1) % 4]];
+      const Vector3& m = mesh.points[mesh.midsides[q][k]];
+      EXPECT_LT(std::abs((m - a).norm() - (m - b).norm()), 0.1 * (a - b).norm());
+    }
+  }
+}
+
+TEST(Remesh, ACanKeepsItsRoundRims) {
+  // The triangles along the rims are far shorter than the elements.
+  constexpr int n = 120;
   RemeshFidelity fidelity;
-  const ShellMesh mesh = remeshed(surface_of(points, triangles), with_size(1.2), &fidelity);
+  const ShellMesh mesh = remeshed(can(n), with_size(1.2), &fidelity);
   EXPECT_EQ(check_and_count_rim(mesh), 0);
   EXPECT_EQ(euler_characteristic(mesh), 2);
   EXPECT_EQ(mesh.faces.size(), 3u);
@@ -442,6 +473,9 @@ TEST(Remesh, RefusesWhatIsNoSurface) {
   expect_error(surface_of(points, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}), options, Kind::failure,
                "3 triangles meet at the side from (0, 0, 0) to (5, 0, 0)");
   expect_error(surface_of(points, {{0, 1, 2}, {0, 2, 1}}), options, Kind::failure, "same corners");
+  ShellMesh soup = box({4, 4, 4});
+  for (std::size_t v = 0; v < soup.points.size(); ++v) soup.points[v].x() += 1e-6 * static_cast<double>(v);
+  expect_error(soup, options, Kind::failure, "none of the 12 triangles shares a side with another: `merge`");
   expect_error(surface_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}), options, Kind::failure,
                "has no area");
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -172,7 +172,8 @@ def check_version(path: str) -> None:
 
 
 class MeshJob:
-    """One run of `quadrille mesh`. Start it, then either wait() for it or poll() it from a timer."""
+    """One run of `quadrille mesh`, or of another command that makes a mesh. Start it, then either wait() for it or poll()
+    it from a timer."""
 
     def __init__(
         self,
@@ -181,10 +182,12 @@ class MeshJob:
         settings: Optional[MeshSettings] = None,
         command: Optional[str] = None,
         picture: Optional[Union[str, Path]] = None,
+        work: Sequence[str] = ("mesh",),
     ) -> None:
+        """work: what the command is to do, with options that are not of the table of settings."""
         self._folder = scratch_folder()
         self._report = Path(self._folder.name) / "report.json"
-        self._arguments = [command or find_command(), "mesh", str(model)]
+        self._arguments = [command or find_command(), *work, str(model)]
         for output in outputs:
             self._arguments += ["-o", str(output)]
         self._arguments += (settings or MeshSettings()).arguments()

@@ -24,7 +24,8 @@ from .state import UP_TO_DATE, Wanted, complaint, shape_of
 
 __all__ = [
     "Error", "MeshFeature", "PREFERENCES", "ShapeJob", "UP_TO_DATE", "check_part", "complaint", "export", "find_mesher",
-    "finish", "flip", "make_mesh", "mesh_object", "mesh_shape", "read_mesh", "refine", "remesh", "start", "suggested_size",
+    "finish", "flip", "make_mesh", "mesh_object", "mesh_shape", "mesh_surface", "read_mesh", "refine", "remesh", "start",
+    "suggested_size",
 ]
 
 
@@ -63,7 +64,7 @@ def mesh_object(
         Error: with one sentence, the document unchanged.
     """
     wanted = _in_millimeters(MeshSettings(size=size, order=order, **settings))
-    _check_analysis(analysis)
+    check_analysis(analysis)
     shape = shape_of(doc_object)
     job = ShapeJob(shape, wanted, command, outputs, picture)
     measured = shapes.fingerprint(shape)
@@ -79,16 +80,42 @@ def make_mesh(doc_object, size: Optional[float] = None, order: int = 2, name: st
     """Adds a mesh object for a document object, without meshing yet: the task panel or remesh() does that."""
     wanted = _in_millimeters(MeshSettings(size=size, order=order, **settings))
     shape = shape_of(doc_object)
-    _check_analysis(analysis)
+    check_analysis(analysis)
     names = [*map(face_name, wanted.get("faces", ())), *wanted.get("sizes", ())]
     shapes.references_to_names(shape, doc_object, links.link(doc_object, names))  # an error now, with nothing made
     return _add_mesh(doc_object, name, wanted, analysis)
 
 
+def mesh_surface(surface, size: Optional[float] = None, order: int = 2, feature_angle: float = 40, merge: float = 0,
+                 name: str = "QuadMesh", analysis=None, progress: Optional[Progress] = None, command: Optional[str] = None):
+    """Meshes a mesh object of FreeCAD anew with quads: a scan, an STL file (`quadrille remesh`).
+
+    Args:
+        surface: a Mesh::Feature.
+        size: length of elements in mm, or with a unit ("2 cm"); None = a sixtieth of the surface's diagonal.
+        order: 2 for eight-node quads, 1 for four-node quads.
+        feature_angle: degrees between the normals of neighboring triangles from which on they are of two faces; 0 = the
+            whole surface is one face.
+        merge: nodes at most this far apart become one, in mm or with a unit; 0 = those on one place.
+        name, analysis, progress, command: as for mesh_object().
+
+    Returns:
+        a Fem::FemMeshObjectPython whose `Surface` links to the mesh object, with groups named Face1..., Edge1...,
+        Vertex1...; remesh() and export() take it.
+
+    Raises:
+        Error: with one sentence, the document unchanged.
+    """
+    from . import surfaces
+
+    asked = surfaces.Asked(size=millimeters(size or 0), order=order, feature_angle=feature_angle, merge=millimeters(merge))
+    return surfaces.make(surface, asked, name, analysis, progress, command)
+
+
 def check_part(doc_object, analysis=None) -> None:
     """Raises Error when a document object cannot be meshed, or the analysis cannot take its mesh."""
     shape_of(doc_object)
-    _check_analysis(analysis)
+    check_analysis(analysis)
 
 
 def check_references(mesh, references) -> None:
@@ -150,6 +177,9 @@ def remesh(mesh, progress: Optional[Progress] = None, command: Optional[str] = N
     """Meshes a mesh object's shape anew with the settings in its properties; on an Error it keeps its old mesh.
 
     What hand_over() left for it is taken in place of meshing: so the panel's work is a command that macros can record."""
+    if state.is_surface_mesh(mesh):
+        mesh.Proxy.remesh(mesh, progress, command)
+        return
     job = _handed_over.pop(_key(mesh), None)
     if job is None:
         job = start(mesh, command)
@@ -222,7 +252,7 @@ def refine(mesh, references, size, name: str = "Refinement"):
 
     if not references or not any(names for _, names in references):
         raise Error("select the faces, edges or vertices to refine", "usage", mesh.Name)
-    length = _millimeters(size)
+    length = millimeters(size)
     if not length > 0:
         raise Error(f"a refinement of size {size} makes no sense: it must be larger than 0", "usage", mesh.Name)
     check_references(mesh, references)  # an error now, not when meshing
@@ -256,12 +286,12 @@ def export(mesh, path: Union[str, Path]) -> None:
 
     The mesher writes the file, with all sets and groups: the same shape and settings give the same mesh.
     """
-    now, sentence = state.judge(mesh)
+    now, sentence = mesh.Proxy.judge(mesh)
     if now != UP_TO_DATE:
         raise Error(f"{mesh.Label}: {sentence}; nothing was exported", "usage", mesh.Name)
     with scratch_folder() as folder:
         written = os.path.join(folder, "export" + Path(path).suffix.lower())
-        job = start(mesh, outputs=[written])
+        job = mesh.Proxy.start(mesh, outputs=[written])
         fem_mesh, _ = job.wait_for_result()
         if (fem_mesh.FaceCount, fem_mesh.NodeCount) != (mesh.FemMesh.FaceCount, mesh.FemMesh.NodeCount):
             raise Error(f"{mesh.Label}: the mesher gives another mesh now (it is of another version, or the part was computed "
@@ -270,6 +300,28 @@ def export(mesh, path: Union[str, Path]) -> None:
             Path(path).write_bytes(Path(written).read_bytes())
         except OSError as error:
             raise Error(f"{path}: cannot be written: {error.strerror}", "failure", str(path)) from error
+
+
+#: What every mesh object has besides what it was asked for: kind, name, group and use of a property.
+RESULT_PROPERTIES = (
+    ("App::PropertyEnumeration", "Status", "Result", "Whether the mesh is that of the part and the settings"),
+    ("App::PropertyBool", "ReducedShells", "Solve", "Second-order quads are written for CalculiX as S8R, not S8"),
+    ("App::PropertyFloat", "ShellOffset", "Solve", "Where the middle of the shell lies, in thicknesses from the mesh along "
+     "its normals: 0.5 = the mesh is the bottom surface, -0.5 = the top (CalculiX)"),
+    ("App::PropertyInteger", "QuadCount", "Result", "Number of quads"),
+    ("App::PropertyInteger", "NodeCount", "Result", "Number of nodes"),
+    ("App::PropertyFloat", "WorstQuality", "Result", "Least q (1 = all corners right-angled, 0 = useless)"),
+    ("App::PropertyFloat", "MeanQuality", "Result", "Mean q"),
+    ("App::PropertyFloat", "WorstJacobian", "Result", "Least scaled Jacobian"),
+    ("App::PropertyFloat", "MeanJacobian", "Result", "Mean scaled Jacobian"),
+    ("App::PropertyFloat", "LargestAspect", "Result", "Largest ratio of longest to shortest edge of a quad"),
+    ("App::PropertyFloat", "IrregularPercent", "Result", "Inner nodes with other than four quads, percent"),
+    ("App::PropertyFloat", "OutsidePercent", "Result", "Quads outside the limits of industry, percent"),
+    ("App::PropertyFloat", "Seconds", "Result", "Seconds that the mesher took, all threads together"),
+    ("App::PropertyFloatList", "MeshedShape", "Hidden", "Measures of the part when it was meshed"),
+    ("App::PropertyString", "MeshedSettings", "Hidden", "Settings that the mesh was made with"),
+    ("App::PropertyString", "MeshToken", "Hidden", "Name of the mesh, for undo"),
+)
 
 
 class MeshFeature:
@@ -300,23 +352,7 @@ class MeshFeature:
             (links.PROPERTY, "FlippedFaces", "Mesh", "Faces whose shell normals are turned over"),
             ("App::PropertyLinkList", "MeshRegionList", "Mesh", "FEM mesh regions: sizes on faces, edges, vertices"),
             ("App::PropertyLinkList", "MeshGroupList", "Mesh", "FEM mesh groups to make"),
-            ("App::PropertyEnumeration", "Status", "Result", "Whether the mesh is that of the part and the settings"),
-            ("App::PropertyBool", "ReducedShells", "Solve", "Second-order quads are written for CalculiX as S8R, not S8"),
-            ("App::PropertyFloat", "ShellOffset", "Solve", "Where the middle of the shell lies, in thicknesses from the mesh along "
-             "its normals: 0.5 = the mesh is the bottom surface, -0.5 = the top (CalculiX)"),
-            ("App::PropertyInteger", "QuadCount", "Result", "Number of quads"),
-            ("App::PropertyInteger", "NodeCount", "Result", "Number of nodes"),
-            ("App::PropertyFloat", "WorstQuality", "Result", "Least q (1 = all corners right-angled, 0 = useless)"),
-            ("App::PropertyFloat", "MeanQuality", "Result", "Mean q"),
-            ("App::PropertyFloat", "WorstJacobian", "Result", "Least scaled Jacobian"),
-            ("App::PropertyFloat", "MeanJacobian", "Result", "Mean scaled Jacobian"),
-            ("App::PropertyFloat", "LargestAspect", "Result", "Largest ratio of longest to shortest edge of a quad"),
-            ("App::PropertyFloat", "IrregularPercent", "Result", "Inner nodes with other than four quads, percent"),
-            ("App::PropertyFloat", "OutsidePercent", "Result", "Quads outside the limits of industry, percent"),
-            ("App::PropertyFloat", "Seconds", "Result", "Seconds that the mesher took, all threads together"),
-            ("App::PropertyFloatList", "MeshedShape", "Hidden", "Measures of the part when it was meshed"),
-            ("App::PropertyString", "MeshedSettings", "Hidden", "Settings that the mesh was made with"),
-            ("App::PropertyString", "MeshToken", "Hidden", "Name of the mesh, for undo"),
+            *RESULT_PROPERTIES,
             ("App::PropertyString", "ChosenElements", "Hidden", "What the named faces, edges and vertices were"),
         ):
             if name not in obj.PropertiesList:
@@ -334,12 +370,13 @@ class MeshFeature:
             if group in ("Result", "Hidden"):
                 obj.setEditorMode(name, 1 if group == "Result" else 2)
 
+    #: What the mesh is, as state.judge() has it; surfaces.py has other ones.
+    judge = staticmethod(state.judge)
+    start = staticmethod(start)
+
     def execute(self, obj) -> None:
         """FreeCAD calls this when the part or a setting has changed: says so, and leaves the mesh as it is."""
-        sentence = state.update(obj)
-        if sentence:
-            label = f"{obj.Label}: "  # errors that name the object have it
-            FreeCAD.Console.PrintWarning(f"{'' if sentence.startswith(label) else label}{sentence}\n")
+        state.tell_change(obj)
 
     def onChanged(self, obj, name: str) -> None:
         """FreeCAD calls this after a property was set: named faces are remembered as they are."""
@@ -372,7 +409,7 @@ def _mesh_type() -> str:
     return "Fem::FemMeshShapeBaseObjectPython" if version >= (1, 0) else "Fem::FemMeshObjectPython"
 
 
-def _millimeters(value) -> float:
+def millimeters(value) -> float:
     """A number, or a quantity or text with a unit ("2 cm"), in millimeters."""
     if isinstance(value, str):
         value = FreeCAD.Units.Quantity(value)
@@ -385,13 +422,14 @@ def _in_millimeters(settings: MeshSettings) -> MeshSettings:
         if BY_NAME[name]["unit"] != "mm":
             continue
         if isinstance(value, Mapping):
-            settings[name] = {str(key): _millimeters(size) for key, size in value.items()}
+            settings[name] = {str(key): millimeters(size) for key, size in value.items()}
         else:
-            settings[name] = _millimeters(value)
+            settings[name] = millimeters(value)
     return settings
 
 
-def _check_analysis(analysis) -> None:
+def check_analysis(analysis) -> None:
+    """Raises Error when an object is no analysis, or one that cannot take another mesh."""
     if analysis is None:
         return
     if not analysis.isDerivedFrom("Fem::FemAnalysis"):
@@ -432,6 +470,11 @@ def _store_result(mesh, fem_mesh, report: Dict, job: ShapeJob) -> None:
         _breps.popitem(last=False)
     mesh.MeshedShape, mesh.MeshedSettings = job.made_of
     mesh.Status = state.judge(mesh)[0]
+    store_quality(mesh, fem_mesh, report)
+
+
+def store_quality(mesh, fem_mesh, report: Dict) -> None:
+    """Puts what the mesher's report tells of a mesh into the properties of its object."""
     quality = report.get("quality", {})
     mesh.QuadCount = fem_mesh.FaceCount
     mesh.NodeCount = fem_mesh.NodeCount

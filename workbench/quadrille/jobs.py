@@ -24,38 +24,17 @@ def find_mesher(command: Optional[str] = None) -> str:
     return path
 
 
-class ShapeJob:
-    """The meshing of a shape in a child process. Start it, then wait(), or poll() it from a timer until it has ended;
+class FemJob:
+    """A run of the command whose mesh FreeCAD takes. Start it, then wait(), or poll() it from a timer until it has ended;
     result() gives the mesh."""
 
-    def __init__(
-        self,
-        shape,
-        settings: MeshSettings,
-        command: Optional[str] = None,
-        outputs: Sequence[Union[str, Path]] = (),
-        picture: Optional[Union[str, Path]] = None,
-        brep: Optional[bytes] = None,
-    ) -> None:
-        if shape.isNull() or not shape.Faces:
-            raise Error("the shape has no faces to mesh", "usage")
-        self._command = find_mesher(command)
-        self._folder = scratch_folder()
-        model = os.path.join(self._folder.name, "shape.brep")
-        self._output = os.path.join(self._folder.name, "mesh.med")
-        if brep is None:
-            shape.exportBrep(model)
-            brep = Path(model).read_bytes()
-        else:
-            Path(model).write_bytes(brep)
-        self.brep = brep  #: the shape as the mesher sees it
-        self.made_of: Tuple[List[float], str] = ([], "")  #: fingerprint of the part, and settings, when it was started
-        self.found: Dict[Tuple[str, str, str], str] = {}  #: present names of faces, edges, vertices, see links.py
-        self._job = MeshJob(model, [self._output, *outputs], settings, self._command, picture)
+    def __init__(self, command: str, folder, output: str, job: MeshJob) -> None:
+        """folder: the scratch folder that the job works in, removed when it has ended; output: the .med file in it."""
+        self._command, self._folder, self._output, self._job = command, folder, output, job
         self._report: Optional[Dict] = None
         self._result: Optional[Tuple["Fem.FemMesh", Dict]] = None
 
-    def start(self) -> "ShapeJob":
+    def start(self):
         """Starts the child process."""
         try:
             self._job.start()
@@ -118,6 +97,34 @@ class ShapeJob:
         """wait(), then result()."""
         self.wait(progress)
         return self.result()
+
+
+class ShapeJob(FemJob):
+    """The meshing of a shape in a child process."""
+
+    def __init__(
+        self,
+        shape,
+        settings: MeshSettings,
+        command: Optional[str] = None,
+        outputs: Sequence[Union[str, Path]] = (),
+        picture: Optional[Union[str, Path]] = None,
+        brep: Optional[bytes] = None,
+    ) -> None:
+        if shape.isNull() or not shape.Faces:
+            raise Error("the shape has no faces to mesh", "usage")
+        command = find_mesher(command)
+        folder = scratch_folder()
+        model, output = (os.path.join(folder.name, name) for name in ("shape.brep", "mesh.med"))
+        if brep is None:
+            shape.exportBrep(model)
+            brep = Path(model).read_bytes()
+        else:
+            Path(model).write_bytes(brep)
+        self.brep = brep  #: the shape as the mesher sees it
+        self.made_of: Tuple[List[float], str] = ([], "")  #: fingerprint of the part, and settings, when it was started
+        self.found: Dict[Tuple[str, str, str], str] = {}  #: present names of faces, edges, vertices, see links.py
+        super().__init__(command, folder, output, MeshJob(model, [output, *outputs], settings, command, picture))
 
 
 def read_mesh(path: Union[str, Path]) -> "Fem.FemMesh":

@@ -28,7 +28,7 @@ def _plain(name: str) -> str:
 
 def part_of(pick: Pick):
     """The part that a pick lies in."""
-    for obj in _along(pick):
+    for obj in along(pick):
         if hasattr(getattr(obj, "Shape", None), "Faces"):
             return obj
     return pick[0]
@@ -49,7 +49,7 @@ def elements_of(part, picks: Iterable[Pick]) -> List[str]:
     other parts and of whole objects are passed over. Raises Error when the part's shape has no such element any more."""
     names: List[str] = []
     for pick in picks:
-        path = _along(pick)
+        path = along(pick)
         element = pick[1].split(".")[-1]
         if part not in path or not element:
             continue
@@ -71,14 +71,14 @@ def references_on(part, picks: Sequence[Pick]) -> List[Tuple]:
     if names:
         references.append((part, tuple(names)))
     for pick in picks:
-        path = _along(pick)
+        path = along(pick)
         element = pick[1].split(".")[-1]
         if element and part not in path:
             references.append((path[-1], (element,)))
     return references
 
 
-def _along(pick: Pick) -> List:
+def along(pick: Pick) -> List:
     """The objects from the outermost inward."""
     obj, path = pick
     return list(obj.getSubObjectList(path)) if path else [obj]

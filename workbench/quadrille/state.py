@@ -4,12 +4,16 @@
 import json
 from typing import Any, Dict, FrozenSet, List, NamedTuple, Optional, Tuple
 
+import FreeCAD
+
 from . import groups, links, old_documents, shapes
 from .errors import Error
 from .settings import SETTINGS, MeshSettings, from_property
 
 #: The type of the Python side of our mesh objects.
 TYPE = "Fem::FemMeshQuadrille"
+#: The same, of meshes made of FreeCAD's mesh objects.
+SURFACE_TYPE = "Fem::FemMeshQuadrilleSurface"
 
 # The words of the property Status.
 UP_TO_DATE = "up to date"
@@ -42,6 +46,16 @@ class Wanted(NamedTuple):
 def is_quad_mesh(obj) -> bool:
     """True for the mesh objects of this addon."""
     return getattr(getattr(obj, "Proxy", None), "Type", "") == TYPE
+
+
+def is_surface_mesh(obj) -> bool:
+    """True for the meshes that surfaces.py made of FreeCAD's mesh objects."""
+    return getattr(getattr(obj, "Proxy", None), "Type", "") == SURFACE_TYPE
+
+
+def source_of(mesh):
+    """The part, or the mesh object, that a mesh of ours is made of; None when it is gone."""
+    return mesh.Surface if is_surface_mesh(mesh) else mesh.Shape
 
 
 def wanted_of(mesh) -> Wanted:
@@ -136,21 +150,29 @@ def judge(mesh) -> Tuple[str, str]:
 def update(mesh) -> Optional[str]:
     """Brings the property Status up to date; gives the sentence to tell when the mesh was good and is not any more."""
     before = mesh.Status
-    now, sentence = judge(mesh)
+    now, sentence = mesh.Proxy.judge(mesh)
     if before == now:
         return None
     mesh.Status = now
     return sentence if before == UP_TO_DATE else None
 
 
+def tell_change(mesh) -> None:
+    """Brings the property Status up to date, and warns when the mesh was good and is not any more."""
+    sentence = update(mesh)
+    if sentence:
+        label = f"{mesh.Label}: "  # errors that name the object have it
+        FreeCAD.Console.PrintWarning(f"{'' if sentence.startswith(label) else label}{sentence}\n")
+
+
 def complaint(mesh) -> str:
     """Why nothing should be solved with the mesh of a mesh object, as a sentence; empty when nothing is known to be wrong,
     and for mesh objects that are not ours."""
-    if not is_quad_mesh(mesh):
+    if not is_quad_mesh(mesh) and not is_surface_mesh(mesh):
         return ""
-    now, sentence = judge(mesh)
+    now, sentence = mesh.Proxy.judge(mesh)
     if now == OTHER_MEANS:
         return ""
     if now == UP_TO_DATE:
-        return "; ".join(groups.left_out(mesh))
+        return "; ".join(groups.left_out(mesh)) if is_quad_mesh(mesh) else ""
     return f"{mesh.Label}: {sentence}; what is solved with the mesh as it is would not be right"

@@ -363,6 +363,50 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <source>Make its middle surface</source>
         <translation>Mittelfläche erzeugen</translation>
     </message>
+    <message>
+        <source>select one mesh object, such as an STL file that was imported</source>
+        <translation>ein Netzobjekt wählen, etwa eine importierte STL-Datei</translation>
+    </message>
+    <message>
+        <source>{}: the mesh object that it meshes is gone</source>
+        <translation>{}: das Netzobjekt, das es vernetzt, ist weg</translation>
+    </message>
+    <message>
+        <source>Quad mesh of {}</source>
+        <translation>Vierecknetz von {}</translation>
+    </message>
+    <message>
+        <source>{}: its normals are those of {}: flip them there (Meshes, Flip normals), and mesh again</source>
+        <translation>{}: seine Normalen sind die von {}: dort umdrehen (Netze, Normalen umkehren) und neu vernetzen</translation>
+    </message>
+    <message>
+        <source>none: one face</source>
+        <translation>keiner: eine Fläche</translation>
+    </message>
+    <message>
+        <source>Meshing {}...</source>
+        <translation>Vernetze {} …</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>the element size must be larger than 0</source>
+        <translation>die Elementgröße muss größer als 0 sein</translation>
+    </message>
+    <message>
+        <source>Element order</source>
+        <translation>Elementordnung</translation>
+    </message>
+    <message>
+        <source>New face from a fold of</source>
+        <translation>Neue Fläche ab einem Knick von</translation>
+    </message>
+    <message>
+        <source>Merge nodes closer than</source>
+        <translation>Knoten verschmelzen, näher als</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>
@@ -725,6 +769,17 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>Give the selected faces, edges or vertices a size of their own (a FEM mesh region)</source>
         <translation>Den gewählten Flächen, Kanten oder Ecken eine eigene Größe geben (FEM-Netzbereich)</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Surface</name>
+    <message>
+        <source>Quad mesh from mesh</source>
+        <translation>Vierecknetz aus Netz</translation>
+    </message>
+    <message>
+        <source>Mesh the selected mesh object, such as a scan or an STL file, anew with quads</source>
+        <translation>Das gewählte Netzobjekt, etwa einen Scan oder eine STL-Datei, neu mit Vierecken vernetzen</translation>
     </message>
 </context>
 </TS>

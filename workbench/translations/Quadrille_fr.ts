@@ -363,6 +363,50 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <source>Make its middle surface</source>
         <translation>Créer sa surface moyenne</translation>
     </message>
+    <message>
+        <source>select one mesh object, such as an STL file that was imported</source>
+        <translation>sélectionnez un objet maillage, par exemple un fichier STL importé</translation>
+    </message>
+    <message>
+        <source>{}: the mesh object that it meshes is gone</source>
+        <translation>{} : l’objet maillage qu’il maille n’existe plus</translation>
+    </message>
+    <message>
+        <source>Quad mesh of {}</source>
+        <translation>Maillage de quadrangles de {}</translation>
+    </message>
+    <message>
+        <source>{}: its normals are those of {}: flip them there (Meshes, Flip normals), and mesh again</source>
+        <translation>{} : ses normales sont celles de {} : retournez-les là (Maillages, Inverser les normales), puis maillez à nouveau</translation>
+    </message>
+    <message>
+        <source>none: one face</source>
+        <translation>aucun : une seule face</translation>
+    </message>
+    <message>
+        <source>Meshing {}...</source>
+        <translation>Maillage de {}…</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annuler</translation>
+    </message>
+    <message>
+        <source>the element size must be larger than 0</source>
+        <translation>la taille d’élément doit être supérieure à 0</translation>
+    </message>
+    <message>
+        <source>Element order</source>
+        <translation>Ordre des éléments</translation>
+    </message>
+    <message>
+        <source>New face from a fold of</source>
+        <translation>Nouvelle face à partir d’un pli de</translation>
+    </message>
+    <message>
+        <source>Merge nodes closer than</source>
+        <translation>Fusionner les nœuds plus proches que</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>
@@ -725,6 +769,17 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>Give the selected faces, edges or vertices a size of their own (a FEM mesh region)</source>
         <translation>Donner une taille propre aux faces, arêtes ou sommets sélectionnés (région de maillage FEM)</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Surface</name>
+    <message>
+        <source>Quad mesh from mesh</source>
+        <translation>Quadrangles à partir d’un maillage</translation>
+    </message>
+    <message>
+        <source>Mesh the selected mesh object, such as a scan or an STL file, anew with quads</source>
+        <translation>Remailler en quadrangles l’objet maillage sélectionné, par exemple un scan ou un fichier STL</translation>
     </message>
 </context>
 </TS>

@@ -11,14 +11,14 @@ from PySide import QtGui
 import quadrille_commands
 
 from .. import freecad as core
-from .. import middle, picks
+from .. import middle, picks, surfaces
 from ..errors import Error
-from ..state import is_quad_mesh
+from ..state import is_quad_mesh, is_surface_mesh, source_of
 from . import QT_TRANSLATE_NOOP, do, icon, links_text, overlays, path_of, preferences, tell, transaction, translate
 from .length_field import LengthField
 
-TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Refine", "Quadrille_Quality", "Quadrille_Normals", "Quadrille_Flip",
-           "Quadrille_Export"]
+TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Surface", "Quadrille_Refine", "Quadrille_Quality",
+           "Quadrille_Normals", "Quadrille_Flip", "Quadrille_Export"]
 #: What the mesher writes, for the file dialog.
 FORMATS = {
     "CalculiX, Abaqus": "inp", "Gmsh": "msh", "I-DEAS universal": "unv", "MED (Salome, Code_Aster)": "med",
@@ -31,25 +31,26 @@ def picked(document) -> list:
     return picks.picks_of(FreeCADGui.Selection.getSelectionEx(document.Name, 0))
 
 
-def mesh_in_question():
-    """The selected mesh object, or the one whose part is selected, or the only one in the document."""
+def mesh_in_question(with_surfaces: bool = False):
+    """The selected mesh object, or the one whose part is selected, or the only one in the document. with_surfaces: those
+    made of mesh objects too."""
     document = FreeCAD.ActiveDocument
     if document is None:
         raise Error(translate("Quadrille", "open a document first"), "usage")
-    meshes = [obj for obj in document.Objects if is_quad_mesh(obj)]
+    meshes = [obj for obj in document.Objects if is_quad_mesh(obj) or with_surfaces and is_surface_mesh(obj)]
     if not meshes:
         raise Error(translate("Quadrille", "the document has no quad mesh: select a part and use Quad mesh from shape first"),
                     "usage")
     selected = picks.parts_of(picked(document))
     for candidates in ([mesh for mesh in meshes if mesh in selected],
-                       [mesh for mesh in meshes if mesh.Shape in selected], meshes):
+                       [mesh for mesh in meshes if source_of(mesh) in selected], meshes):
         if len(candidates) == 1:
             return candidates[0]
     raise Error(translate("Quadrille", "the document has several quad meshes: select one of them"), "usage")
 
 
 def _meshed_in_question():
-    mesh = mesh_in_question()
+    mesh = mesh_in_question(with_surfaces=True)
     if not mesh.FemMesh.FaceCount:
         raise Error(translate("Quadrille", "{}: is not meshed yet: double-click it and press Mesh").format(mesh.Label), "usage",
                     mesh.Name)
@@ -205,6 +206,63 @@ class MiddleCommand(_Command):
         return QtGui.QMessageBox.question(FreeCADGui.getMainWindow(), "Quadrille", question, buttons) == QtGui.QMessageBox.Yes
 
 
+class SurfaceCommand(_Command):
+    """Quad mesh from mesh: a scan, an STL file."""
+
+    name = "Quadrille_Surface"
+    text = QT_TRANSLATE_NOOP("Quadrille_Surface", "Quad mesh from mesh")
+    tip = QT_TRANSLATE_NOOP("Quadrille_Surface", "Mesh the selected mesh object, such as a scan or an STL file, anew with quads")
+    pixmap = "quadrille_surface"
+    accelerator = "Q, S"
+    step = "Create quad mesh from mesh"
+
+    def run(self) -> None:
+        document = FreeCAD.ActiveDocument
+        chosen = list(dict.fromkeys(found for found in map(_mesh_picked, picked(document)) if found is not None))
+        if len(chosen) != 1:
+            raise Error(translate("Quadrille", "select one mesh object, such as an STL file that was imported"), "usage")
+        if is_surface_mesh(chosen[0]):
+            self._again(chosen[0])
+            return
+        surface, analysis = chosen[0], active_analysis(document)
+        surfaces.check_surface(surface, analysis)
+        core.find_mesher()
+        asked = self._asked(surface, surfaces.Asked(size=surfaces.usual_size(surface)))
+        if asked is not None:
+            do("import quadrille.freecad")
+            do(f"quadrille.freecad.mesh_surface({path_of(surface)}{_arguments(asked._asdict(), analysis)})")
+
+    def _again(self, mesh) -> None:
+        """With other settings."""
+        if mesh.Surface is None:
+            raise Error(translate("Quadrille", "{}: the mesh object that it meshes is gone").format(mesh.Label), "usage", mesh.Name)
+        surfaces.check_surface(mesh.Surface)
+        asked = self._asked(mesh.Surface, surfaces.asked_of(mesh))
+        if asked is None:
+            return
+        do("import quadrille.freecad")
+        for name, value in (("Size", asked.size), ("ElementOrder", "1st" if asked.order == 1 else "2nd"),
+                            ("FeatureAngle", asked.feature_angle), ("MergeDistance", asked.merge)):
+            do(f"{path_of(mesh)}.{name} = {value!r}")
+        do(f"quadrille.freecad.remesh({path_of(mesh)})")
+
+    def _asked(self, surface, before: surfaces.Asked) -> Optional[surfaces.Asked]:
+        """What the user wants, already meshed; None when the box was cancelled."""
+        from . import surface_view
+
+        asked = surface_view.ask(before, translate("Quadrille", "Quad mesh of {}").format(surface.Label))
+        if asked is not None:
+            surface_view.check(asked)
+            surface_view.mesh_with_bar(surface, asked)
+        return asked
+
+
+def _mesh_picked(pick):
+    """The mesh object, or the quad mesh of one, that a pick lies in; None when it is something else."""
+    inward = picks.along(pick)
+    return next((obj for obj in reversed(inward) if surfaces.is_mesh_object(obj) or is_surface_mesh(obj)), None)
+
+
 class RefineCommand(_Command):
     """Refine faces, edges or vertices: a FEM mesh region on our mesh."""
 
@@ -294,6 +352,10 @@ class FlipCommand(_Command):
 
     def run(self) -> None:
         mesh = _meshed_in_question()
+        if is_surface_mesh(mesh):
+            raise Error(translate("Quadrille", "{}: its normals are those of {}: flip them there (Meshes, Flip normals), and mesh "
+                                  "again").format(mesh.Label, mesh.Surface.Label if mesh.Surface else "its surface"), "usage",
+                        mesh.Name)
         chosen = [pick for pick in picked(mesh.Document) if pick[1].split(".")[-1]]
         faces = [name for name in picks.elements_of(mesh.Shape, chosen) if name.startswith("Face")]
         if chosen and not faces:
@@ -335,8 +397,8 @@ class ExportCommand(_Command):
 
 
 #: The commands by the names that FreeCAD knows them by.
-COMMANDS = {command.name: command for command in (MiddleCommand, MeshCommand, RefineCommand, QualityCommand, NormalsCommand, FlipCommand,
-                                                  ExportCommand)}
+COMMANDS = {command.name: command for command in (MiddleCommand, MeshCommand, SurfaceCommand, RefineCommand, QualityCommand,
+                                                  NormalsCommand, FlipCommand, ExportCommand)}
 
 
 def register() -> None:

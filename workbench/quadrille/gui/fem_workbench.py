@@ -4,7 +4,7 @@
 FreeCAD makes the button of a command when a workbench that lists it is first chosen, and addons cannot add to the FEM
 workbench's lists. So the entries here are actions of their own that run the commands: they are there from the start."""
 
-from typing import Dict, Optional
+from typing import Dict, Optional, Sequence
 
 import FreeCADGui
 from PySide import QtCore, QtGui
@@ -91,7 +91,7 @@ def _name(action, name: str) -> None:
     action.setStatusTip(translate(name, command.tip))
 
 
-def fill_context_menu(mesh, menu) -> None:
+def fill_context_menu(mesh, menu, names: Sequence[str] = _CONTEXT) -> None:
     """Adds the commands to the context menu of a mesh object, for that mesh."""
 
     def run(name: str) -> None:
@@ -99,7 +99,7 @@ def fill_context_menu(mesh, menu) -> None:
         FreeCADGui.Selection.addSelection(mesh)
         FreeCADGui.runCommand(name)
 
-    for name in _CONTEXT:
+    for name in names:
         action = _action(name, menu)
         action.triggered.disconnect()
         action.triggered.connect(lambda *_, name=name: run(name))
