@@ -1,13 +1,17 @@
-"""Sizes on the part in FreeCAD's window, before it is meshed.
+"""Sizes on the part in FreeCAD's window, before it is meshed, and meshes that follow their results.
 
     scripts/freecad_gui tests/freecad/gui/sizes_test.py [FOLDER FOR SCREENSHOTS]
 """
 
+import shutil
 import sys
+import tempfile
+import unittest
 from pathlib import Path
 from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path.append(str(Path(__file__).resolve().parents[3] / "examples" / "freecad"))
 
 import FreeCAD
 import FreeCADGui
@@ -16,8 +20,8 @@ from PySide import QtCore, QtGui
 
 import quadrille.freecad
 from case import GuiCase, picture, run, type_into
-from driver import close_panel, find, process, wait_for
-from quadrille import sizes
+from driver import Boxes, close_panel, find, process, trigger, wait_for
+from quadrille import sizes, solvers, state
 from quadrille.gui import size_preview
 
 real = sizes.SizesJob.drop
@@ -153,6 +157,65 @@ class SizesTest(GuiCase):
         timer.stop()
         self.assertGreater(beats["child"], 5)
         self.assertGreater(beats["drawing"], 5)
+
+    def solved(self):
+        """A plate that was solved; its mesh and analysis."""
+        import adapt_loop
+        import parameter_study
+
+        part, drill = parameter_study.make_part(self.document)
+        drill.Radius = 8
+        self.document.recompute()
+        analysis, _, _, fixed, force = parameter_study.make_analysis(self.document, part)
+        fixed.References = [(part, parameter_study.edge_at(part.Shape, 0.0))]
+        force.References = [(part, parameter_study.edge_at(part.Shape, parameter_study.LENGTH))]
+        for solver in solvers.solvers_of(analysis):
+            setattr(solver, solvers.SURFACE_RESULTS, True)
+        mesh = quadrille.freecad.mesh_object(part, size=10, analysis=analysis)
+        with tempfile.TemporaryDirectory() as folder:
+            adapt_loop.solve(analysis, folder)
+        self.show()
+        return mesh, analysis
+
+    @unittest.skipUnless(shutil.which("ccx") and FreeCAD.Version()[:2] < ["1", "1"], "no CalculiX, or results as pipelines")
+    def test_one_command_adapts(self):
+        mesh, _ = self.solved()
+        quads, size, steps = mesh.QuadCount, mesh.Size.Value, self.document.UndoCount
+        with mock.patch.object(QtGui.QInputDialog, "getDouble", return_value=(2.0, True)):
+            with Boxes() as boxes:
+                trigger("Quadrille_Adapt")
+        self.assertEqual([text for text in boxes.texts if "QProgressDialog" not in text], [])
+        self.assertGreater(mesh.QuadCount, 2 * quads)
+        self.assertEqual(mesh.Status, state.UP_TO_DATE)
+        self.assertEqual(self.document.UndoCount, steps + 1)
+        adapted = mesh.QuadCount
+        self.document.undo()
+        process(0.2)
+        self.assertEqual((mesh.QuadCount, mesh.Size.Value, mesh.FollowResults), (quads, size, False))
+        self.document.redo()
+        process(0.2)
+        self.assertEqual((mesh.QuadCount, mesh.FollowResults, mesh.Status), (adapted, True, state.UP_TO_DATE))
+        # The panel lists where the sizes come from, and takes them away.
+        FreeCADGui.activeDocument().setEdit(mesh.Name)
+        process(0.2)
+        find("QuadrillePreview").click()
+        self.wait()
+        self.assertIn("size-field", find("QuadrillePreviewText").text())
+        picture("sizes_adapted")
+        find("QuadrilleFollows").click()
+        self.wait()
+        self.assertNotIn("size-field", find("QuadrillePreviewText").text())
+        close_panel()
+        self.assertFalse(mesh.FollowResults)
+
+    def test_without_a_result_one_sentence(self):
+        self.meshed(self.box())
+        with mock.patch.object(QtGui.QInputDialog, "getDouble", return_value=(2.0, True)):
+            with Boxes() as boxes:
+                trigger("Quadrille_Adapt")
+        self.assertTrue(any("is in no analysis" in text for text in boxes.texts), boxes.texts)
+        with mock.patch.object(QtGui.QInputDialog, "getDouble", return_value=(2.0, False)):
+            trigger("Quadrille_Adapt")
 
     def test_closing_ends_the_work(self):
         part = self.bracket()

@@ -75,6 +75,8 @@ class MeshPanel:
         self.estimate.setObjectName("QuadrilleEstimate")
         self.estimate.setWordWrap(True)
         self.refinements = RefinementList(self._refine_selection, self._update_estimate)
+        self.follows = QtGui.QCheckBox(translate("Quadrille", "Sizes follow the results of the last round"))
+        self.follows.setObjectName("QuadrilleFollows")
         self.entries = EntryRows(self._update_estimate)
         self.preview = SizePreview(self.mesh, self._wanted, self._show_count)
         self.mesh_button = _button("QuadrilleMesh", translate("Quadrille", "Mesh"), "")
@@ -94,6 +96,7 @@ class MeshPanel:
         self.take_selection.clicked.connect(self._take_selection)
         self.mesh_button.clicked.connect(self._start)
         self.stop_button.clicked.connect(self._stop)
+        self.follows.toggled.connect(lambda *_: self._update_estimate())
         for setting in self.settings.values():
             setting.when_changed(self._update_estimate)
 
@@ -124,10 +127,11 @@ class MeshPanel:
         listed = QtGui.QWidget()
         rows = QtGui.QVBoxLayout(listed)
         rows.setContentsMargins(0, 0, 0, 0)
+        rows.addWidget(self.follows)
         rows.addWidget(self.entries)
         rows.addWidget(self.refinements)
         refinements = _section("QuadrilleRefinements", translate("Quadrille", "Refinements"), listed,
-                               any(getattr(self.mesh, name) for name in ("MeshRegionList", *ENTRIES)))
+                               any(getattr(self.mesh, name) for name in ("MeshRegionList", state.ADAPTED, *ENTRIES)))
         holder = QtGui.QWidget()
         holder.setLayout(more)
         changed = any(name not in _IN_SIGHT and getattr(self.mesh, name) != default
@@ -142,6 +146,8 @@ class MeshPanel:
         for name, setting in self.settings.items():
             value = wanted.values[name]
             setting.show(links.names_in(value) if name in links.OWN else value)
+        self.follows.setVisible(bool(wanted.values[state.ADAPTED]))
+        self.follows.setChecked(wanted.values[state.FOLLOWS])
         self.entries.show_all(wanted.values)
         self.refinements.show_all(wanted.refinements)
         self.surfaces.setChecked(all(getattr(solver, solvers.SURFACE_RESULTS) for solver in self._solvers()))
@@ -162,7 +168,7 @@ class MeshPanel:
             elif shown != links.names_in(values[name]):
                 values[name] = links.link(self.mesh.Shape, shown)
                 anew.add(name)
-        values.update(self.entries.values())
+        values.update(self.entries.values(), **{state.FOLLOWS: self.follows.isChecked()})
         return state.Wanted(values, self.refinements.refinements(), frozenset(anew))
 
     def _commands(self, wanted: state.Wanted) -> list:
