@@ -404,8 +404,8 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>{}: {:.0f} Vierecke auf {:.1f} % der Fläche</translation>
     </message>
     <message>
-        <source>Sizes follow the results of the last round</source>
-        <translation>Größen folgen den Ergebnissen der letzten Runde</translation>
+        <source>Follow results</source>
+        <translation>Ergebnissen folgen</translation>
     </message>
 </context>
 <context>

@@ -404,8 +404,8 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>{} : {:.0f} quadrangles sur {:.1f} % de l'aire</translation>
     </message>
     <message>
-        <source>Sizes follow the results of the last round</source>
-        <translation>Les tailles suivent les résultats du dernier tour</translation>
+        <source>Follow results</source>
+        <translation>Suivre les résultats</translation>
     </message>
 </context>
 <context>

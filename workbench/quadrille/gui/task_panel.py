@@ -75,7 +75,7 @@ class MeshPanel:
         self.estimate.setObjectName("QuadrilleEstimate")
         self.estimate.setWordWrap(True)
         self.refinements = RefinementList(self._refine_selection, self._update_estimate)
-        self.follows = QtGui.QCheckBox(translate("Quadrille", "Sizes follow the results of the last round"))
+        self.follows = QtGui.QCheckBox(translate("Quadrille", "Follow results"))
         self.follows.setObjectName("QuadrilleFollows")
         self.entries = EntryRows(self._update_estimate)
         self.preview = SizePreview(self.mesh, self._wanted, self._show_count)
