@@ -38,7 +38,7 @@ std::string plate_with_fillet(const std::filesystem::path& folder) {
       break;
     }
   }
-  const std::string path = (folder / "plate.brep").string();
+  std::string path = (folder / "plate.brep").string();
   BRepTools::Write(fillet.Shape(), path.c_str());
   return path;
 }
