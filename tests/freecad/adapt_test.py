@@ -18,6 +18,7 @@ from FreeCAD import Vector
 
 import quadrille.freecad as core
 from quadrille import adaption, state
+from quadrille.command import CommandJob
 from solver_test import solve_standard
 
 
@@ -110,6 +111,22 @@ class AdaptTest(unittest.TestCase):
         self.assertGreater(found.error, 0.01)
         self.assertLess(found.error, 0.5)
         self.assertEqual(found.quads, mesh.QuadCount)
+
+    def test_the_error_is_that_of_the_solvers_own_file(self):
+        for order in (1, 2):
+            for across in (False, True):
+                with self.subTest(order=order, across=across):
+                    mesh, analysis = self.plate(order=order, across=across)
+                    self.solve(analysis)
+                    folder = Path(self.folder.name)
+                    job = CommandJob(["adapt", str(folder / "QuadMesh.inp"), str(folder / "QuadMesh.frd"), "-o",
+                                      str(folder / "s.vdb"), "--poisson", "0.25"])
+                    told = job.start().wait()
+                    found = adaption.estimate(mesh)
+                    self.assertAlmostEqual(found.error / told["error"], 1, 4)
+                    self.assertEqual(found.quads, told["quads"])
+                    FreeCAD.closeDocument(self.document.Name)
+                    self.document = FreeCAD.newDocument("Test")
 
     def test_first_order(self):
         mesh, analysis = self.plate(order=1)
