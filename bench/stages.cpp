@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "field.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille {
@@ -98,10 +99,11 @@ std::size_t count_quads(const std::filesystem::path& mesh) {
 
 int run(int argc, char** argv) {
   CLI::App app("Microseconds a quad of each stage");
-  std::vector<std::string> models = sample_paths();
+  std::vector<std::string> models;
   std::vector<double> divisions{60, 150, 300};
   int threads = 1, repeat = 3;
-  bool gmsh = false, direct = false;
+  bool gmsh = false, direct = false, field = false;
+  SizingOptions sizing;
   app.add_option("MODEL", models, "CAD files (default: the sample parts)");
   app.add_option("--elements-per-diagonal", divisions,
                  "sizes, as the diagonal over these (default: 60 150 300)")
@@ -112,7 +114,18 @@ int run(int argc, char** argv) {
   app.add_flag("--gmsh", gmsh,
                "run Gmsh on the same part at the same size, and print the ratio of the times a quad");
   app.add_flag("--direct", direct, "the direct strategy");
+  app.add_flag(
+      "--field", field,
+      "memory and time of the sizing field by levels instead, with both gradations, at the first of the "
+      "sizes (default model: a plate of 1 m with a fillet of 0.1 mm)");
+  app.add_option("--size-min", sizing.size_min, "of the field, mm");
   CLI11_PARSE(app, argc, argv);
+  if (field) {
+    sizing.elements_per_diagonal = divisions.front();
+    print_fields(models, sizing, threads, repeat);
+    return 0;
+  }
+  if (models.empty()) models = sample_paths();
 
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / fmt::format("quadrille-bench-{}", ::getpid());

@@ -66,6 +66,36 @@ class Cylinder(verification.PinchedCylinder):
     uniform = (60, 40, 25, 18, 12)
 
 
+class FromFile:
+    """A shell from a CAD file, clamped in one plane and pulled along (1, 0, 1) at its edges in another."""
+
+    goals, reference = (0.2, 0.1, 0.07, 0.05), None
+    arguments = None  #: of the command line
+
+    def __init__(self):
+        self._shape = Part.read(self.arguments.part)
+        diagonal = self._shape.BoundBox.DiagonalLength
+        self.start = diagonal / 15
+        self.uniform = tuple(diagonal / n for n in (15, 22, 32, 47, 70, 100))
+
+    def shape(self):
+        return self._shape
+
+    @staticmethod
+    def plane(text):
+        """The distance from a plane such as x=20."""
+        axis, value = text.split("=")
+        return lambda points: points[:, "xyz".index(axis)] - float(value)
+
+    def problem(self, mesh):
+        problem = Problem(210000.0, 0.3, self.arguments.thickness)
+        problem.fix(mesh.where(self.plane(self.arguments.hold)), 1, 2, 3, 4, 5, 6)
+        problem.load(mesh.edge_load(mesh.where(self.plane(self.arguments.pull)), lambda point, normal: np.array([10.0, 0.0, 10.0])))
+        if not problem.loads:
+            raise SystemExit(f"no edge lies in {self.arguments.pull}")
+        return problem
+
+
 CASES = {"le1": Membrane, "hole": Hole, "corner": Corner, "cylinder": Cylinder}
 
 
@@ -101,7 +131,7 @@ class Study:
 
     def answer(self, mesh, moved):
         """What the case is judged by, where it is no energy."""
-        if isinstance(self.case, Corner):
+        if isinstance(self.case, (Corner, FromFile)):
             return {}
         if isinstance(self.case, Cylinder):
             top, bottom = mesh.at(0, 300, 0), mesh.at(0, -300, 0)
@@ -141,7 +171,7 @@ def stress_at(frd, place, axis):
 
 def study(name):
     """Uniform and adapted meshes of one case."""
-    case, rows = CASES[name](), []
+    case, rows = CASES.get(name, FromFile)(), []
     with tempfile.TemporaryDirectory() as folder:
         this = Study(case, folder)
         for size in case.uniform:
@@ -194,11 +224,18 @@ def main():
     parser.add_argument("--plot", help="draw the errors into this .png")
     parser.add_argument("--check", action="store_true",
                         help="fail unless the last adapted mesh has less than half the error of a uniform one")
+    parser.add_argument("--part", help="a shell of your own (.brep, .step) in place of the cases")
+    parser.add_argument("--hold", metavar="x=0", help="of the part: the plane where it is clamped")
+    parser.add_argument("--pull", metavar="y=100", help="of the part: the plane with the edges that are pulled")
+    parser.add_argument("--thickness", type=float, default=1.0, help="of the part (default 1)")
     arguments = parser.parse_args()
+    if arguments.part and not (arguments.hold and arguments.pull):
+        parser.error("--part needs --hold and --pull")
+    FromFile.arguments = arguments
     if not shutil.which("ccx"):
         print("CalculiX (ccx) is not installed: nothing is solved")
         return
-    rows = {name: study(name) for name in arguments.case or CASES}
+    rows = {name: study(name) for name in ([Path(arguments.part).stem] if arguments.part else arguments.case or CASES)}
     Path(arguments.out).write_text(json.dumps(rows, indent=1) + "\n")
     if arguments.plot:
         plot(rows, arguments.plot)

@@ -125,4 +125,5 @@ def main():
         sys.exit("twice the thickness must sag an eighth")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -52,26 +54,113 @@ std::vector<FaceSample> sample_face(const CadShape& shape, const CadFace& face) 
   return samples;
 }
 
+/// What regions ask for on a face, summed over cells of its parameter plane that are halved at their borders.
+class RegionSum {
+ public:
+  RegionSum(const CadShape& shape, const CadFace& face, const std::vector<SizeRegion>& regions, double least)
+      : surface_(face), domain_(coarse_domain(shape, face)), regions_(regions), least_(least) {
+    const Vector2 low(face.u_min, face.v_min);
+    add(low, Vector2(face.u_max, face.v_max) - low, 0);
+  }
+
+  /// Visits pieces: visit(area, size).
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (const auto& [area, size] : pieces_) visit(area, size);
+  }
+
+ private:
+  /// The least size of the regions that a point is no farther from than this; infinite where there is none.
+  double size_near(const Vector3& p, double distance) const {
+    double size = std::numeric_limits<double>::infinity();
+    for (const SizeRegion& region : regions_) {
+      if (region.distance(p) <= distance) size = std::min(size, std::max(region.size, least_));
+    }
+    return size;
+  }
+
+  void add(const Vector2& low, const Vector2& extent, int depth) {
+    constexpr int first = 4, last = 8;  // halvings: for the face's own border, and for those of regions
+    constexpr double bulge = 1.3;       // of a cell beyond a flat one
+    const SurfacePoint at = surface_.evaluate(low + 0.5 * extent);
+    const double reach = 0.5 * bulge * (at.du.norm() * extent.x() + at.dv.norm() * extent.y());
+    if (depth > 2 && !std::isfinite(size_near(at.point, reach))) return;
+    const double size = size_near(at.point, 0);
+    if (depth == last || (depth >= first && is_alike(low, extent, size))) {
+      const double area = at.du.cross(at.dv).norm() * extent.x() * extent.y();
+      if (std::isfinite(size) && domain_.inside(low + 0.5 * extent)) pieces_.emplace_back(area, size);
+      return;
+    }
+    for (int k = 0; k < 4; ++k)
+      add(low + 0.5 * extent.cwiseProduct(Vector2(k & 1, k >> 1)), 0.5 * extent, depth + 1);
+  }
+
+  /// Whether the corners of a cell have the size of its middle, too: regions are convex.
+  bool is_alike(const Vector2& low, const Vector2& extent, double size) const {
+    for (int k = 0; k < 4; ++k) {
+      if (size_near(surface_.point(low + extent.cwiseProduct(Vector2(k & 1, k >> 1))), 0) != size)
+        return false;
+    }
+    return true;
+  }
+
+  FaceSurface surface_;
+  TrimmedDomain domain_;
+  const std::vector<SizeRegion>& regions_;
+  double least_;
+  std::vector<std::pair<double, double>> pieces_;  // area, size
+};
+
 /// Blocks of the sizing field that a square of one voxel of a surface takes: the field about it is some six
 /// voxels thick, lies at all angles to the blocks, and is taken over by the coarser levels, each a quarter.
 constexpr double blocks_a_square = 3.3 / 64;
 
-/// The size asked for by itself on a face, where that is less than everywhere.
+/// The size asked for by itself on a face, or by its layers, where that is less than everywhere.
 double size_on(const SizingOptions& options, const SizeLimits& limits, int face) {
-  const auto own = options.face_sizes.find(face + 1);
-  return own == options.face_sizes.end() ? limits.largest : std::min(limits.largest, own->second);
+  double size = limits.largest;
+  if (const auto own = options.face_sizes.find(face + 1); own != options.face_sizes.end())
+    size = std::min(size, own->second);
+  if (const auto own = options.layers.faces.find(face + 1); own != options.layers.faces.end())
+    size = std::min(size, own->second.first);
+  return size;
 }
 
 /// Whether blocks about the faces that have sizes of their own could be more than the budget has, by the
 /// faces' boxes.
 bool may_pass_blocks(const CadShape& shape, const SizingOptions& options) {
   double squares = 0;
-  for (const auto& [face, size] : options.face_sizes) {
+  const auto add = [&](int face, double size) {
     Bnd_Box box;
     BRepBndLib::Add(shape.faces[face - 1].face, box, Standard_False);
     if (!box.IsVoid()) squares += 2 * box.SquareExtent() / (size * size);
-  }
+  };
+  for (const auto& [face, size] : options.face_sizes) add(face, size);
+  for (const auto& [face, layers] : options.layers.faces) add(face, layers.first);
   return squares * blocks_a_square > options.budget.blocks;
+}
+
+/// Throws Error (usage) where regions ask for more elements or blocks on the faces used than there may be.
+void hold_regions(const CadShape& shape, const SizingOptions& options, const SizeLimits& limits,
+                  const std::vector<char>& used, double free, const ExecutionContext& context) {
+  const double most = std::min(options.budget.elements, options.budget.blocks / blocks_a_square);
+  std::vector<SizeRegion> regions;
+  for (const SizeRegion& region : options.regions) {
+    const double squares = 2 * std::pow(shape.diagonal() / std::max(region.size, limits.least), 2) *
+                           static_cast<double>(shape.faces.size());
+    if (region.size < limits.largest && squares > most) regions.push_back(region);
+  }
+  if (regions.empty()) return;
+  double elements = 0, blocks = 0;
+  for (std::size_t i = 0; i < shape.faces.size(); ++i) {
+    context.check();
+    if (!used[i]) continue;
+    RegionSum(shape, shape.faces[i], regions, limits.least).for_each([&](double area, double size) {
+      elements += area / (size * size);
+      blocks += blocks_a_square * area / std::pow(field_voxel(limits.largest, size, options.growth), 2);
+    });
+  }
+  hold_elements(elements, options.budget, free);
+  if (blocks > options.budget.blocks) throw too_many_blocks(blocks);
 }
 
 }  // namespace
@@ -132,6 +221,7 @@ ElementBudget::ElementBudget(const CadModel& model, const SizingOptions& options
                              const std::vector<char>& used, ExecutionContext& context)
     : budget_(options.budget), free_(budget_.bytes_an_element > 0 ? free_memory() : 0) {
   const SizeLimits limits = size_limits(model, options);
+  hold_regions(model.shape(), options, limits, used, free_, context);
   const double limit = budget_.bytes_an_element > 0
                            ? std::min(budget_.elements, free_ / budget_.bytes_an_element)
                            : budget_.elements;

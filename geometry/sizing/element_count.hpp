@@ -41,8 +41,8 @@ void hold_elements(double count, const Budget& budget, double free);
 /// size asked for can pass it, nothing is measured.
 class ElementBudget {
  public:
-  /// Throws Error (usage), with the number, if the sizes asked for on faces and by curvature pass the budget,
-  /// be it that of elements or that of the sizing field.
+  /// Throws Error (usage), with the number, if the sizes asked for on faces, in regions and by curvature pass
+  /// the budget, be it that of elements or that of the sizing field.
   /// \param used (faces) 1 = meshed.
   ElementBudget(const CadModel& model, const SizingOptions& options, const std::vector<char>& used,
                 ExecutionContext& context);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <queue>
 
@@ -92,8 +93,10 @@ void SizeCascade::grade(double slope, double most, const Near& near, BlockCount&
                         const ExecutionContext& context) {
   ++stamp_;
   for (int level = levels() - 1; level >= 0; --level) {
+    const auto started = std::chrono::steady_clock::now();
     if (level + 1 < levels()) take_over(level, blocks);
     grade_level(level, slope, most, near, blocks, context);
+    seconds_[level] += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   }
   last_level_ = -1;
   accessor_.reset();

@@ -10,6 +10,7 @@
 #include <openvdb/tree/LeafNode.h>
 #include <openvdb/tree/RootNode.h>
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -134,6 +135,9 @@ class SizeCascade {
   void grade(double slope, double most, const Near& near, BlockCount& blocks,
              const ExecutionContext& context);
 
+  /// Seconds that the gradings of a level have taken.
+  double seconds(int level) const { return seconds_[level]; }
+
   /// Visits all active voxels: visit(level, coordinates, value).
   template <class Visit>
   void for_each(Visit&& visit) const {
@@ -179,6 +183,7 @@ class SizeCascade {
   std::vector<std::unique_ptr<SizeTree>> trees_;
   std::vector<std::vector<Coord>> fresh_;    // (levels) lowered since the last grading
   std::vector<std::vector<Coord>> changed_;  // (levels) lowered by it
+  std::array<double, max_size_levels> seconds_{};
   std::unique_ptr<VoxelAccessor> accessor_;  // of the level that was added to last
   int last_level_ = -1;
   std::uint32_t stamp_ = 0;  // number of gradings

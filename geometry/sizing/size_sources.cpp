@@ -73,7 +73,11 @@ void SizeSources::hold_segments() const {
   for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
     const CadEdge& edge = shape_.edges[i];
     if (edge.degenerate || edge.faces.empty() || !(edge.length > 0)) continue;
-    const double cap = cap_of(edge), segments = prescribed_[i] ? prescribed_[i]->segments : edge.length / cap;
+    double cap = cap_of(edge);
+    const auto& layers = options_.layers.edges;
+    if (const auto own = layers.find(edge.number); own != layers.end() && !unsized_.is_layered(i))
+      cap = std::min(cap, own->second.first);
+    const double segments = prescribed_[i] ? prescribed_[i]->segments : edge.length / cap;
     sum += segments;
     if (cap < limits_.largest)
       blocks += blocks_a_voxel * edge.length / field_voxel(limits_.largest, cap, options_.growth);

@@ -77,6 +77,16 @@ class SizingField {
   double size_max() const;  ///< millimeters
   double size_min() const;  ///< millimeters
 
+  /// One level of voxels, of all faces together.
+  struct Level {
+    double voxel = 0;         ///< width, millimeters
+    std::int64_t blocks = 0;  ///< of 8 x 8 x 8 voxels
+    std::int64_t bytes = 0;   ///< that its trees take
+    double seconds = 0;       ///< of all threads, for the gradation
+  };
+  /// From the coarsest on.
+  std::vector<Level> levels() const;
+
   class Impl;
 
   /// Looks sizes up on one face, on one edge, or anywhere; holds the accessors.

@@ -17,7 +17,7 @@ namespace {
 struct AdaptArguments {
   std::filesystem::path mesh, result, output, report;
   AdaptOptions options;
-  bool quiet = false;
+  bool quiet = false, end_with_input = false;
 };
 
 void run(const AdaptArguments& arguments) {
@@ -30,6 +30,7 @@ void run(const AdaptArguments& arguments) {
                            {"-o", arguments.output},
                            {"--report", arguments.report}});
   report_crashes(arguments.mesh, "reading");
+  if (arguments.end_with_input) end_with_input();
   ExecutionContext context;
   const AdaptResult result =
       adapt(read_mesh(arguments.mesh), arguments.result, arguments.output, arguments.options, context);
@@ -72,6 +73,8 @@ void add_adapt_command(CLI::App& app) {
   command->add_option("--growth", options.growth, "how fast the size may change (default 0.3)");
   command->add_option("--poisson", options.poisson, "Poisson's ratio (default 0.3)");
   command->add_option("--report", arguments->report, "write error, counts and sizes as JSON");
+  command->add_flag("--end-with-input", arguments->end_with_input,
+                    "end the work when standard input closes, for programs that start this one");
   command->add_flag("--quiet", arguments->quiet, "print nothing");
   command->callback([arguments] { run(*arguments); });
 }

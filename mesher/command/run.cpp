@@ -53,6 +53,13 @@ void add_commands(CLI::App& app) {
   add_settings_command(app);
 }
 
+/// In CLI11's words, but for options that are given more often than they take a value.
+std::string sentence_of(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::size_t end = text.find(": At Most 1 required");
+  return end == std::string::npos ? text : text.substr(0, end) + " is given more than once: give it once";
+}
+
 /// --help and --version also come as parse "errors".
 int answer(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) {
@@ -61,7 +68,7 @@ int answer(const CLI::App& app, const CLI::ParseError& error) {
     print(text.str());
     return success;
   }
-  return complain(std::string(error.what()) + " (see quadrille --help)", bad_use);
+  return complain(sentence_of(error) + " (see quadrille --help)", bad_use);
 }
 
 int parse_and_work(int argc, char** argv) {

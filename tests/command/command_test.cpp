@@ -244,6 +244,19 @@ TEST(Command, RefusesAnEnormousEdge) {
   EXPECT_PRED2(contains, result.out, "million");
 }
 
+TEST(Command, AsksForOptionsOnce) {
+  const TemporaryFolder folder;
+  for (const char* option : {"--size", "--growth", "--report", "--strategy"}) {
+    const auto result = test::run(fmt::format("cd {} && {} mesh {} -o out.msh {} 2 {} 3 2>&1",
+                                              folder.path().string(), program, box, option, option));
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.out, fmt::format("quadrille: {} is given more than once: give it once (see quadrille "
+                                      "--help)\n",
+                                      option));
+  }
+  EXPECT_EQ(folder.file_count(), 0);
+}
+
 TEST(Command, TakesTheThreadsThatThereAre) {
   const TemporaryFolder folder;
   EXPECT_EQ(stderr_of(folder, "mesh " + box + " -o a.msh --size 4 --quiet --threads 4096").out, "");

@@ -1,9 +1,16 @@
 /// The sizing field, edge sampling with parity, and the geometry they stand on.
 
 #include <gtest/gtest.h>
+#include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepTools.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 
 #include <cmath>
 #include <random>
+#include <sstream>
+#include <string>
 
 #include "geometry/base/trimmed_domain.hpp"
 #include "geometry/cad/cad_shape.hpp"
@@ -133,6 +140,85 @@ TEST(SizingField, KeepsToItsBudget) {
   EXPECT_THROW(field_of(model, options), Error);
   options.budget = Budget::unlimited();
   EXPECT_NO_THROW(field_of(model, options));
+}
+
+TEST(SizingField, AFilletOfATenThousandthTakesLittleRoom) {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(1000, 400, 50).Shape();
+  BRepFilletAPI_MakeFillet fillet(box);
+  TopoDS_Shape long_edge;  // the last one runs along the longest side
+  for (TopExp_Explorer it(box, TopAbs_EDGE); it.More(); it.Next()) long_edge = it.Current();
+  fillet.Add(0.1, TopoDS::Edge(long_edge));
+  std::ostringstream text;
+  BRepTools::Write(fillet.Shape(), text);
+  const CadModel model = CadModel::from_brep(text.str());
+  SizingOptions options;
+  options.size_min = 0.05;
+  for (const Gradation gradation : {Gradation::space, Gradation::surface}) {
+    options.gradation = gradation;
+    const SizingField field = field_of(model, options);
+    double bytes = 0, blocks = 0;
+    for (const SizingField::Level& level : field.levels()) {
+      bytes += static_cast<double>(level.bytes);
+      blocks += static_cast<double>(level.blocks);
+    }
+    EXPECT_GT(field.levels().size(), 7u);
+    EXPECT_GT(blocks, 1000);
+    EXPECT_GT(bytes, 2048 * blocks);  // each holds 512 floats
+    EXPECT_LT(bytes, 200e6);
+    double least = options.size_min * 100;
+    for (const CadEdge& edge : model.shape().edges) {
+      SizingField::Sampler size_at(field, edge);
+      least = std::min(least, size_at(EdgeCurve(edge).point(0.5 * (edge.first + edge.last))));
+    }
+    EXPECT_NEAR(least, 2 * M_PI * 0.1 / 12, 0.002);
+  }
+}
+
+/// Refused by an estimate, which has to be about right: half of the budget that it names is enough for twice
+/// the size.
+TEST(ElementBudget, RegionsAndLayersAreEstimatedBeforeAFieldIsMade) {
+  const CadModel model = CadModel::read(sample_model("box").path());
+  const std::vector<char> used(model.face_count(), 1);
+  ExecutionContext context;
+  SizingOptions options;
+  options.size = model.diagonal() / 20;
+  const auto refused = [&] {
+    try {
+      ElementBudget(model, options, used, context);
+    } catch (const Error& error) {
+      return std::string(error.what()).find("million") != std::string::npos;
+    }
+    return false;
+  };
+  const double area = model.area(), reach = 2 * model.diagonal();
+  for (const double share : {0.5, 2.0}) {
+    SizeRegion region;
+    region.a = model.box_min() - Vector3::Constant(reach);
+    region.b = model.box_max() + Vector3::Constant(reach);
+    region.size = std::sqrt(area / (share * options.budget.elements));
+    options.regions = {region};
+    options.budget.blocks = 1e12;
+    options.budget.bytes_an_element = 0;
+    EXPECT_EQ(refused(), share > 1) << share;
+  }
+  // A small ball takes what lies in it, and no more.
+  const double radius = 0.1 * model.diagonal();
+  for (const double share : {0.5, 2.0}) {
+    SizeRegion region;
+    region.shape = SizeRegion::Shape::sphere;
+    region.a = model.box_min();
+    region.radius = radius;
+    region.size = std::sqrt(0.75 * M_PI * radius * radius / (share * options.budget.elements));
+    options.regions = {region};
+    EXPECT_EQ(refused(), share > 1) << share;
+  }
+  options.regions.clear();
+  options.layers.faces[1] = {1e-6, 1.2, 5};
+  EXPECT_TRUE(refused());
+  options.layers.faces.clear();
+  options.budget = Budget();
+  options.layers.edges[1] = {1e-7, 1.2, 5};
+  EXPECT_THROW(field_of(model, options), Error);
 }
 
 TEST(SizingField, IsExactAtATinyVertexToo) {

@@ -171,29 +171,16 @@ def check_version(path: str) -> None:
     _checked[path] = modified
 
 
-class MeshJob:
-    """One run of `quadrille mesh`, or of another command that makes a mesh. Start it, then either wait() for it or poll()
-    it from a timer."""
+class CommandJob:
+    """One run of a subcommand that writes a report. Start it, then either wait() for it or poll() it from a timer."""
 
-    def __init__(
-        self,
-        model: Union[str, Path],
-        outputs: Sequence[Union[str, Path]],
-        settings: Optional[MeshSettings] = None,
-        command: Optional[str] = None,
-        picture: Optional[Union[str, Path]] = None,
-        work: Sequence[str] = ("mesh",),
-    ) -> None:
-        """work: what the command is to do, with options that are not of the table of settings."""
+    _work = "the work"  #: what was cancelled, for users
+
+    def __init__(self, arguments: Sequence[str], command: Optional[str] = None) -> None:
+        """arguments: the name of the subcommand and what follows it, without --report."""
         self._folder = scratch_folder()
         self._report = Path(self._folder.name) / "report.json"
-        self._arguments = [command or find_command(), *work, str(model)]
-        for output in outputs:
-            self._arguments += ["-o", str(output)]
-        self._arguments += (settings or MeshSettings()).arguments()
-        self._arguments += ["--report", str(self._report), "--end-with-input"]
-        if picture:
-            self._arguments += ["--picture", str(picture)]
+        self._arguments = [command or find_command(), *arguments, "--report", str(self._report), "--end-with-input"]
         self._lines: "queue.Queue[str]" = queue.Queue()
         self._process: Optional[subprocess.Popen] = None
         self._reader: Optional[threading.Thread] = None
@@ -201,7 +188,7 @@ class MeshJob:
         self._last_progress = ("start", 0.0)
         self.messages: List[str] = []  #: what the command said on stderr, without the progress
 
-    def start(self) -> "MeshJob":
+    def start(self) -> "CommandJob":
         """Starts the child process."""
         try:
             self._process = subprocess.Popen(
@@ -254,6 +241,14 @@ class MeshJob:
                 self._process.kill()
                 self._process.wait()
 
+    def kill(self) -> None:
+        """Ends the child process at once, without asking: for work that leaves nothing behind. There is no result then."""
+        self._cancelled = True
+        if self.running:
+            self._process.kill()
+            self._process.wait()
+        self._close()
+
     def wait(self, progress: Optional[Progress] = None) -> Dict:
         """Waits for the end, passing progress on; then as result()."""
         try:
@@ -285,7 +280,7 @@ class MeshJob:
         self.poll()
         try:
             if self._cancelled:
-                raise Error("the meshing was cancelled", "cancelled")
+                raise Error(f"{self._work} was cancelled", "cancelled")
             if code != 0:
                 raise self._error(code)
             with open(self._report, encoding="utf-8") as file:
@@ -304,6 +299,30 @@ class MeshJob:
         if code < 0:
             return Error(f"the mesher was killed by signal {-code}", "failure", self._arguments[0])
         return Error(sentence_of(self.messages, code), _KINDS.get(code, "failure"))
+
+
+class MeshJob(CommandJob):
+    """One run of `quadrille mesh`, or of another command that makes a mesh."""
+
+    _work = "the meshing"
+
+    def __init__(
+        self,
+        model: Union[str, Path],
+        outputs: Sequence[Union[str, Path]],
+        settings: Optional[MeshSettings] = None,
+        command: Optional[str] = None,
+        picture: Optional[Union[str, Path]] = None,
+        work: Sequence[str] = ("mesh",),
+    ) -> None:
+        """work: what the command is to do, with options that are not of the table of settings."""
+        arguments = [*work, str(model)]
+        for output in outputs:
+            arguments += ["-o", str(output)]
+        arguments += (settings or MeshSettings()).arguments()
+        if picture:
+            arguments += ["--picture", str(picture)]
+        super().__init__(arguments, command)
 
 
 def sentence_of(lines: List[str], code: int) -> str:

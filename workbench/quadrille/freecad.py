@@ -350,6 +350,8 @@ class MeshFeature:
         for kind, name, group, text in (
             ("App::PropertyLink", "Shape", "Mesh", "The part that is meshed"),
             (links.PROPERTY, "FlippedFaces", "Mesh", "Faces whose shell normals are turned over"),
+            ("App::PropertyBool", state.FOLLOWS, "Mesh", "Sizes follow results, as the last round of adapting found them"),
+            ("App::PropertyFileIncluded", state.ADAPTED, "Hidden", "Sizes of the last round of adapting"),
             ("App::PropertyLinkList", "MeshRegionList", "Mesh", "FEM mesh regions: sizes on faces, edges, vertices"),
             ("App::PropertyLinkList", "MeshGroupList", "Mesh", "FEM mesh groups to make"),
             *RESULT_PROPERTIES,

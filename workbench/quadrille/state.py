@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a mesh object asks for, and whether its mesh is that. Runs inside FreeCAD."""
 
+import hashlib
 import json
+from pathlib import Path
 from typing import Any, Dict, FrozenSet, List, NamedTuple, Optional, Tuple
 
 import FreeCAD
@@ -14,6 +16,10 @@ from .settings import SETTINGS, MeshSettings, from_property
 TYPE = "Fem::FemMeshQuadrille"
 #: The same, of meshes made of FreeCAD's mesh objects.
 SURFACE_TYPE = "Fem::FemMeshQuadrilleSurface"
+
+#: The properties with the sizes that follow results, see adaption.py, a file that the document keeps, and whether they hold:
+#: FreeCAD cannot empty the first.
+ADAPTED, FOLLOWS = "AdaptedSizes", "FollowResults"
 
 # The words of the property Status.
 UP_TO_DATE = "up to date"
@@ -61,6 +67,7 @@ def source_of(mesh):
 def wanted_of(mesh) -> Wanted:
     """What a mesh object asks for."""
     values = {setting["property"]: getattr(mesh, setting["property"]) for setting in SETTINGS if setting["property"]}
+    values.update((name, getattr(mesh, name, default)) for name, default in ((ADAPTED, ""), (FOLLOWS, False)))
     refinements = [Refinement(region, region.References, _length(region)) for region in mesh.MeshRegionList]
     refinements += [Refinement(None, links.link(mesh.Shape, names), size)
                     for size, names in old_documents.sizes_of(mesh).items()]
@@ -91,6 +98,8 @@ def settings_to_use(mesh, wanted: Wanted, found: Dict[links.Key, str]) -> MeshSe
     sizes = sizes_wanted(mesh, wanted, found)
     if sizes:
         settings["sizes"] = sizes
+    if _follows(wanted):
+        settings.update(size_field=wanted.values[ADAPTED], size_field_scale=1.0, size_field_unit=1.0)
     return settings
 
 
@@ -117,7 +126,21 @@ def settings_key(mesh, wanted: Wanted, found: Dict[links.Key, str]) -> str:
     """All that a mesh depends on besides its part, as text to compare."""
     settings = settings_to_use(mesh, wanted, found).of_the_mesh()
     settings["flipped"] = flipped(mesh, found)
+    if _follows(wanted):  # the document keeps it at another place each time
+        settings["size_field"] = _digest(mesh, wanted.values[ADAPTED])
     return json.dumps(settings, sort_keys=True, default=list)
+
+
+def _follows(wanted: Wanted) -> bool:
+    return bool(wanted.values[FOLLOWS] and wanted.values[ADAPTED])
+
+
+def _digest(mesh, path: str) -> str:
+    try:
+        return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+    except OSError as error:
+        raise Error(f"{mesh.Label}: its sizes from results cannot be read ({error.strerror}): switch {FOLLOWS} off", "failure",
+                    mesh.Name) from error
 
 
 def same_settings(one: str, other: str) -> bool:

@@ -407,6 +407,50 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <source>Merge nodes closer than</source>
         <translation>Knoten verschmelzen, näher als</translation>
     </message>
+    <message>
+        <source>Adapting {}</source>
+        <translation>{} wird angepasst</translation>
+    </message>
+    <message>
+        <source>Adapt {} to results</source>
+        <translation>{} an Ergebnisse anpassen</translation>
+    </message>
+    <message>
+        <source>Error of the stresses that is wanted, percent</source>
+        <translation>Gewünschter Fehler der Spannungen, Prozent</translation>
+    </message>
+    <message>
+        <source>{} of {}: give its numbers, or remove it</source>
+        <translation>{} von {}: Zahlen angeben oder entfernen</translation>
+    </message>
+    <message>
+        <source>Preview sizes</source>
+        <translation>Größen vorab zeigen</translation>
+    </message>
+    <message>
+        <source>Show in colors how large elements would be, and what asks for that, before meshing</source>
+        <translation>Vor dem Vernetzen in Farben zeigen, wie groß die Elemente würden und was das verlangt</translation>
+    </message>
+    <message>
+        <source>finding sizes</source>
+        <translation>Größen werden bestimmt</translation>
+    </message>
+    <message>
+        <source>finding sizes: {} %</source>
+        <translation>Größen werden bestimmt: {} %</translation>
+    </message>
+    <message>
+        <source>dark {:.3g} mm, light {:.3g} mm</source>
+        <translation>dunkel {:.3g} mm, hell {:.3g} mm</translation>
+    </message>
+    <message>
+        <source>{}: {:.0f} quads on {:.1f} % of the area</source>
+        <translation>{}: {:.0f} Vierecke auf {:.1f} % der Fläche</translation>
+    </message>
+    <message>
+        <source>Follow results</source>
+        <translation>Ergebnissen folgen</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>
@@ -692,6 +736,17 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>made by other means: mesh again</source>
         <translation>auf andere Weise entstanden: neu vernetzen</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Adapt</name>
+    <message>
+        <source>Adapt mesh to results</source>
+        <translation>Netz an Ergebnisse anpassen</translation>
+    </message>
+    <message>
+        <source>Estimate the error of the stresses in the result of the analysis, and mesh again with sizes that spread it evenly; then solve again</source>
+        <translation>Den Fehler der Spannungen im Ergebnis der Analyse schätzen und mit Größen neu vernetzen, die ihn gleichmäßig verteilen; dann neu lösen</translation>
     </message>
 </context>
 <context>

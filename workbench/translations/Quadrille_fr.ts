@@ -407,6 +407,50 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <source>Merge nodes closer than</source>
         <translation>Fusionner les nœuds plus proches que</translation>
     </message>
+    <message>
+        <source>Adapting {}</source>
+        <translation>Adaptation de {}</translation>
+    </message>
+    <message>
+        <source>Adapt {} to results</source>
+        <translation>Adapter {} aux résultats</translation>
+    </message>
+    <message>
+        <source>Error of the stresses that is wanted, percent</source>
+        <translation>Erreur voulue sur les contraintes, pour cent</translation>
+    </message>
+    <message>
+        <source>{} of {}: give its numbers, or remove it</source>
+        <translation>{} de {} : indiquez ses nombres ou supprimez-le</translation>
+    </message>
+    <message>
+        <source>Preview sizes</source>
+        <translation>Aperçu des tailles</translation>
+    </message>
+    <message>
+        <source>Show in colors how large elements would be, and what asks for that, before meshing</source>
+        <translation>Montrer en couleurs, avant de mailler, la taille qu'auraient les éléments et ce qui la demande</translation>
+    </message>
+    <message>
+        <source>finding sizes</source>
+        <translation>recherche des tailles</translation>
+    </message>
+    <message>
+        <source>finding sizes: {} %</source>
+        <translation>recherche des tailles : {} %</translation>
+    </message>
+    <message>
+        <source>dark {:.3g} mm, light {:.3g} mm</source>
+        <translation>foncé {:.3g} mm, clair {:.3g} mm</translation>
+    </message>
+    <message>
+        <source>{}: {:.0f} quads on {:.1f} % of the area</source>
+        <translation>{} : {:.0f} quadrangles sur {:.1f} % de l'aire</translation>
+    </message>
+    <message>
+        <source>Follow results</source>
+        <translation>Suivre les résultats</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>
@@ -692,6 +736,17 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>made by other means: mesh again</source>
         <translation>fait par d'autres moyens : maillez à nouveau</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Adapt</name>
+    <message>
+        <source>Adapt mesh to results</source>
+        <translation>Adapter le maillage aux résultats</translation>
+    </message>
+    <message>
+        <source>Estimate the error of the stresses in the result of the analysis, and mesh again with sizes that spread it evenly; then solve again</source>
+        <translation>Estimer l'erreur sur les contraintes dans le résultat de l'analyse, et remailler avec des tailles qui la répartissent également ; puis résoudre à nouveau</translation>
     </message>
 </context>
 <context>

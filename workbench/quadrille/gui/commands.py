@@ -6,19 +6,19 @@ from typing import Optional
 
 import FreeCAD
 import FreeCADGui
-from PySide import QtGui
+from PySide import QtCore, QtGui
 
 import quadrille_commands
 
 from .. import freecad as core
-from .. import middle, picks, surfaces
+from .. import adaption, middle, picks, surfaces
 from ..errors import Error
 from ..state import is_quad_mesh, is_surface_mesh, source_of
 from . import QT_TRANSLATE_NOOP, do, icon, links_text, overlays, path_of, preferences, tell, transaction, translate
 from .length_field import LengthField
 
 TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Surface", "Quadrille_Refine", "Quadrille_Quality",
-           "Quadrille_Normals", "Quadrille_Flip", "Quadrille_Export"]
+           "Quadrille_Normals", "Quadrille_Flip", "Quadrille_Adapt", "Quadrille_Export"]
 #: What the mesher writes, for the file dialog.
 FORMATS = {
     "CalculiX, Abaqus": "inp", "Gmsh": "msh", "I-DEAS universal": "unv", "MED (Salome, Code_Aster)": "med",
@@ -367,6 +367,49 @@ class FlipCommand(_Command):
             overlays.show_normals(mesh)
 
 
+class AdaptCommand(_Command):
+    """Meshes anew by the error of the result."""
+
+    name = "Quadrille_Adapt"
+    text = QT_TRANSLATE_NOOP("Quadrille_Adapt", "Adapt mesh to results")
+    tip = QT_TRANSLATE_NOOP(
+        "Quadrille_Adapt", "Estimate the error of the stresses in the result of the analysis, and mesh again with sizes that spread it "
+        "evenly; then solve again")
+    accelerator = "Q, A"
+    pixmap = "quadrille_adapt"
+    step = "Adapt mesh to results"
+
+    def run(self) -> None:
+        mesh = _meshed_in_question()
+        percent = self.ask(mesh)
+        if percent is None:
+            return
+        dialog = QtGui.QProgressDialog(translate("Quadrille", "Adapting {}").format(mesh.Label), translate("Quadrille", "Stop"), 0, 100,
+                                       FreeCADGui.getMainWindow())
+        dialog.setWindowModality(QtCore.Qt.WindowModal)
+        dialog.setMinimumDuration(0)
+
+        def progress(_stage: str, fraction: float) -> bool:
+            dialog.setValue(min(99, round(100 * fraction)))  # at its end it would close
+            QtCore.QCoreApplication.processEvents()
+            return not dialog.wasCanceled()
+
+        try:
+            adaption.prepare(mesh, error=percent / 100, progress=progress)
+        finally:
+            dialog.close()
+        do("import quadrille.adaption")
+        do(f"quadrille.adaption.adapt({path_of(mesh)}, error={percent / 100!r})")
+
+    @staticmethod
+    def ask(mesh) -> Optional[float]:
+        """The error wanted, in percent, from a box; None when it is cancelled."""
+        percent, agreed = QtGui.QInputDialog.getDouble(
+            FreeCADGui.getMainWindow(), translate("Quadrille", "Adapt {} to results").format(mesh.Label),
+            translate("Quadrille", "Error of the stresses that is wanted, percent"), 5.0, 0.01, 99.0, 2)
+        return percent if agreed else None
+
+
 class ExportCommand(_Command):
     """Exports the mesh."""
 
@@ -398,7 +441,7 @@ class ExportCommand(_Command):
 
 #: The commands by the names that FreeCAD knows them by.
 COMMANDS = {command.name: command for command in (MiddleCommand, MeshCommand, SurfaceCommand, RefineCommand, QualityCommand,
-                                                  NormalsCommand, FlipCommand, ExportCommand)}
+                                                  NormalsCommand, FlipCommand, AdaptCommand, ExportCommand)}
 
 
 def register() -> None:

@@ -16,11 +16,14 @@ from .. import freecad as core
 from .. import groups, links, old_documents, picks, shapes, solvers, state
 from ..errors import Error
 from . import do, icon, links_text, path_of, preferences, standard_buttons, tell, translate
+from .entry_rows import PROPERTIES as ENTRIES
+from .entry_rows import EntryRows
 from .mesher_choice import MesherChoice, is_missing
 from .quality_view import QualityWidget
 from .refinement_list import RefinementList
 from .session import Session
 from .setting_widgets import setting_widgets
+from .size_preview import SizePreview
 from .thin_hint import thin_hint
 
 _POLL_MILLISECONDS = 50
@@ -72,6 +75,10 @@ class MeshPanel:
         self.estimate.setObjectName("QuadrilleEstimate")
         self.estimate.setWordWrap(True)
         self.refinements = RefinementList(self._refine_selection, self._update_estimate)
+        self.follows = QtGui.QCheckBox(translate("Quadrille", "Follow results"))
+        self.follows.setObjectName("QuadrilleFollows")
+        self.entries = EntryRows(self._update_estimate)
+        self.preview = SizePreview(self.mesh, self._wanted, self._show_count)
         self.mesh_button = _button("QuadrilleMesh", translate("Quadrille", "Mesh"), "")
         self.mesh_button.setIcon(QtGui.QIcon(icon("quadrille_mesh")))
         self.stop_button = _button("QuadrilleStop", translate("Quadrille", "Stop"), translate("Quadrille", "Ends the mesher"))
@@ -89,6 +96,7 @@ class MeshPanel:
         self.take_selection.clicked.connect(self._take_selection)
         self.mesh_button.clicked.connect(self._start)
         self.stop_button.clicked.connect(self._stop)
+        self.follows.toggled.connect(lambda *_: self._update_estimate())
         for setting in self.settings.values():
             setting.when_changed(self._update_estimate)
 
@@ -112,11 +120,18 @@ class MeshPanel:
         if hint is not None:
             layout.addWidget(hint)
         layout.addLayout(basic)
+        layout.addWidget(self.preview)
         layout.addWidget(_beside(self.mesh_button, self.stop_button))
         layout.addWidget(self.bar)
         layout.addWidget(self.log)
-        refinements = _section("QuadrilleRefinements", translate("Quadrille", "Refinements"), self.refinements,
-                               bool(self.mesh.MeshRegionList))
+        listed = QtGui.QWidget()
+        rows = QtGui.QVBoxLayout(listed)
+        rows.setContentsMargins(0, 0, 0, 0)
+        rows.addWidget(self.follows)
+        rows.addWidget(self.entries)
+        rows.addWidget(self.refinements)
+        refinements = _section("QuadrilleRefinements", translate("Quadrille", "Refinements"), listed,
+                               any(getattr(self.mesh, name) for name in ("MeshRegionList", state.ADAPTED, *ENTRIES)))
         holder = QtGui.QWidget()
         holder.setLayout(more)
         changed = any(name not in _IN_SIGHT and getattr(self.mesh, name) != default
@@ -131,6 +146,9 @@ class MeshPanel:
         for name, setting in self.settings.items():
             value = wanted.values[name]
             setting.show(links.names_in(value) if name in links.OWN else value)
+        self.follows.setVisible(bool(wanted.values[state.ADAPTED]))
+        self.follows.setChecked(wanted.values[state.FOLLOWS])
+        self.entries.show_all(wanted.values)
         self.refinements.show_all(wanted.refinements)
         self.surfaces.setChecked(all(getattr(solver, solvers.SURFACE_RESULTS) for solver in self._solvers()))
 
@@ -150,6 +168,7 @@ class MeshPanel:
             elif shown != links.names_in(values[name]):
                 values[name] = links.link(self.mesh.Shape, shown)
                 anew.add(name)
+        values.update(self.entries.values(), **{state.FOLLOWS: self.follows.isChecked()})
         return state.Wanted(values, self.refinements.refinements(), frozenset(anew))
 
     def _commands(self, wanted: state.Wanted) -> list:
@@ -186,6 +205,7 @@ class MeshPanel:
     # Estimate
 
     def _update_estimate(self) -> None:
+        self.preview.follow()
         try:
             wanted = self._wanted()
             found = links.follow(self.mesh, wanted.anew)
@@ -197,7 +217,10 @@ class MeshPanel:
         except (Error, AttributeError, RuntimeError) as error:  # also a part without a shape, or one that cannot be measured
             self.estimate.setText(str(error))
             return
-        self.estimate.setText(translate("Quadrille", "about {} quads").format(_rounded(count)))
+        self._show_count(count)
+
+    def _show_count(self, count: float) -> None:
+        self.estimate.setText(translate("Quadrille", "about {} quads").format(_rounded(round(count))))
 
     def _suggest(self) -> None:
         try:
@@ -290,6 +313,7 @@ class MeshPanel:
             if error.kind != "cancelled":
                 tell(str(error))
             return
+        self.preview.button.setChecked(False)
         for line in job.messages:
             self._say(line)
         self.bar.setFormat("%p %")
@@ -353,6 +377,7 @@ class MeshPanel:
 
     def _leave(self) -> None:
         self._timer.stop()
+        self.preview.release()
         if self._observing:
             self._observing = False
             FreeCAD.removeDocumentObserver(self)

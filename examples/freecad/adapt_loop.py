@@ -1,0 +1,100 @@
+"""Solves and meshes in turn until the estimated error of the stresses is as small as wanted.
+
+    scripts/freecad_python examples/freecad/adapt_loop.py [DOCUMENT.FCStd] [--error 0.03] [--rounds 6] [--save ADAPTED.FCStd]
+
+DOCUMENT has an analysis with a quad mesh, a CalculiX solver (CcxTools), material, thickness, supports and loads; without one a
+cantilever plate with a hole is taken, that of parameter_study.py. Loads and supports stay where they are: they refer to the part.
+"""
+
+import argparse
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "workbench"))
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import FreeCAD
+
+import parameter_study
+import quadrille.adaption
+import quadrille.freecad
+from quadrille import groups, solvers
+from quadrille.state import is_quad_mesh
+
+
+def sample():
+    """The plate with a hole, meshed coarsely."""
+    document = FreeCAD.newDocument("Plate")
+    part, drill = parameter_study.make_part(document)
+    drill.Radius = 8
+    document.recompute()
+    analysis, _, _, fixed, force = parameter_study.make_analysis(document, part)
+    fixed.References = [(part, parameter_study.edge_at(part.Shape, 0.0))]
+    force.References = [(part, parameter_study.edge_at(part.Shape, parameter_study.LENGTH))]
+    quadrille.freecad.mesh_object(part, size=10, analysis=analysis)
+    return document
+
+
+def solve(analysis, folder):
+    """One run of CalculiX by FreeCAD's solver object; the results of the last one go."""
+    from femtools import ccxtools
+
+    fea = ccxtools.FemToolsCcx(analysis, test_mode=False)
+    fea.update_objects()
+    fea.setup_working_dir(folder, create=True)
+    fea.setup_ccx()
+    problems = fea.check_prerequisites()
+    if problems:
+        raise SystemExit(problems.strip())
+    fea.purge_results()
+    fea.write_inp_file()
+    fea.ccx_run()
+    fea.load_results()
+
+
+def largest_stress(analysis):
+    """The largest von Mises stress of the last result, MPa."""
+    return max(max(member.vonMises) for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject"))
+
+
+def main():
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+    parser.add_argument("document", nargs="?")
+    parser.add_argument("--error", type=float, default=0.03, help="wanted, as a share of the whole (default 0.03)")
+    parser.add_argument("--rounds", type=int, default=6, help="at most (default 6)")
+    parser.add_argument("--save", help="keep the document with the last mesh and result here")
+    arguments = parser.parse_args()
+    if not shutil.which("ccx"):
+        print("CalculiX (ccx) is not installed: nothing is solved")
+        return
+    document = FreeCAD.openDocument(arguments.document) if arguments.document else sample()
+    meshes = [obj for obj in document.Objects if is_quad_mesh(obj)]
+    analysis = groups.analysis_of(meshes[0]) if len(meshes) == 1 else None
+    if analysis is None:
+        raise SystemExit(f"{document.Label}: one quad mesh in an analysis is wanted")
+    mesh = meshes[0]
+    for solver in solvers.solvers_of(analysis):
+        setattr(solver, solvers.SURFACE_RESULTS, True)
+    print("round  quads  error %  largest stress MPa")
+    error = 1.0
+    with tempfile.TemporaryDirectory() as folder:
+        for number in range(arguments.rounds):
+            quads = mesh.QuadCount
+            solve(analysis, folder)
+            last = number + 1 == arguments.rounds
+            found = quadrille.adaption.estimate(mesh) if last else quadrille.adaption.adapt(mesh, error=arguments.error)
+            error = found.error
+            print(f"{number + 1:5d} {quads:6d} {100 * error:8.2f} {largest_stress(analysis):19.4g}", flush=True)
+            if error <= arguments.error:
+                break
+    if arguments.save:
+        document.saveAs(str(Path(arguments.save).absolute()))
+    if error > arguments.error:
+        raise SystemExit(f"{mesh.Label}: the error is still {100 * error:.2f} % after {arguments.rounds} rounds")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes that follow their results: the error of a solution, and the next mesh with sizes that spread it evenly.
+
+    import quadrille.adaption
+    quadrille.adaption.adapt(App.ActiveDocument.QuadMesh, error=0.03)
+
+takes the result that is in the mesh's analysis, and puts a new mesh into the same mesh object: what refers to the part, as loads,
+supports, thicknesses and materials do, holds for it too. Then solve again. Needs results at the surfaces of the shell (the solver's
+property BeamShellResultOutput3D). Runs inside FreeCAD."""
+
+import json
+import os
+from itertools import chain
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple
+
+import FreeCAD
+import numpy as np
+
+from . import groups, solvers, state
+from . import freecad as core
+from .command import CommandJob, Progress, scratch_folder
+from .errors import Error
+from .jobs import find_mesher
+from .state import ADAPTED, FOLLOWS
+
+
+class Estimate(NamedTuple):
+    """The error of a solution, and the mesh that would have the one wanted."""
+
+    error: float  #: of the stresses, in the energy norm, as a share of the whole
+    quads: int  #: of the mesh that was solved
+    quads_wanted: float  #: about how many the next mesh has
+    size_min: float  #: least of its sizes, mm
+    size_max: float  #: largest of its sizes, mm
+
+
+class _Round(NamedTuple):
+    """A round that is done but for the document."""
+
+    estimate: Estimate
+    folder: object  #: that holds the sizes
+    properties: Dict[str, Any]  #: of the mesh object, new
+    job: Optional[core.ShapeJob]  #: that has made the mesh; None where the error is small enough
+
+
+def estimate(mesh, result=None, command: Optional[str] = None) -> Estimate:
+    """The error of the result in a mesh object's analysis, or of another one; the sizes are those for 5 %."""
+    with scratch_folder() as folder:
+        return _estimate(mesh, result, [], folder, None, command)
+
+
+def adapt(mesh, error: float = 0.05, count: Optional[float] = None, result=None, progress: Optional[Progress] = None,
+          command: Optional[str] = None) -> Estimate:
+    """Meshes anew, with sizes that spread the error of the result evenly.
+
+    Args:
+        mesh: a mesh object, in an analysis that was solved with this mesh.
+        error: error of the stresses that is wanted, in the energy norm, as a share of the whole.
+        count: number of elements wanted, in place of an error.
+        result: the result to take; None = the last one in the mesh's analysis.
+        progress: called with the stage and the fraction of the work done; returning False cancels.
+
+    Returns:
+        the estimate for the mesh that was solved. Where its error is below the one wanted, the mesh stays as it is.
+
+    Raises:
+        Error: with one sentence, the document unchanged.
+    """
+    done = _ready.pop(_key(mesh), None) or _prepare(mesh, error, count, result, progress, command)
+    try:
+        if done.job is None:
+            FreeCAD.Console.PrintMessage(f"{mesh.Label}: the estimated error is {100 * done.estimate.error:.3g} %, below the "
+                                         "one wanted: the mesh stays\n")
+            return done.estimate
+        for name, value in done.properties.items():
+            setattr(mesh, name, value)
+        core.finish(mesh, done.job)
+    finally:
+        done.folder.cleanup()
+    FreeCAD.Console.PrintMessage(f"{mesh.Label}: the estimated error was {100 * done.estimate.error:.3g} % with "
+                                 f"{done.estimate.quads} quads; now there are {mesh.QuadCount}: solve again\n")
+    return done.estimate
+
+
+def prepare(mesh, error: float = 0.05, count: Optional[float] = None, progress: Optional[Progress] = None) -> None:
+    """Does the work of the adapt() that follows at once, while a window shows its progress: so it is a command that macros
+    can record."""
+    _ready[_key(mesh)] = _prepare(mesh, error, count, None, progress, None)
+
+
+_ready: Dict[Tuple[str, str], _Round] = {}
+
+
+def _key(mesh) -> Tuple[str, str]:
+    return (mesh.Document.Name, mesh.Name)
+
+
+def _prepare(mesh, error, count, result, progress, command) -> _Round:
+    """All that can go wrong, before the document is touched."""
+    if mesh.SizeField:
+        raise Error(f"{mesh.Label}: its SizeField is in the place of the sizes that follow results: clear it first", "usage",
+                    "SizeField")
+    folder = scratch_folder()
+    try:
+        aim = ["--count", repr(float(count))] if count is not None else ["--error", repr(float(error))]
+        found = _estimate(mesh, result, aim, folder.name, progress, command)
+        present, sizes = state.wanted_of(mesh), os.path.join(folder.name, _SIZES)
+        new = {"Size": found.size_max, "SizeMin": found.size_min, ADAPTED: sizes, FOLLOWS: True}
+        wanted = present._replace(values={**present.values, **new})
+        if count is None and found.error <= error:
+            return _Round(found, folder, new, None)
+        job = core.start(mesh, command, wanted=wanted)
+        job.wait(progress)
+        return _Round(found, folder, new, job)
+    except BaseException:
+        folder.cleanup()
+        raise
+
+
+_SIZES = "sizes.vdb"
+
+
+def _estimate(mesh, result, aim: List[str], folder: str, progress: Optional[Progress], command: Optional[str]) -> Estimate:
+    analysis = groups.analysis_of(mesh)
+    if analysis is None:
+        raise Error(f"{mesh.Label}: is in no analysis: put it into one, and solve that first", "usage", mesh.Name)
+    solved, displaced, sizes = (os.path.join(folder, name) for name in ("mesh.inp", "result.vtu", _SIZES))
+    result = result or _last_result(mesh, analysis)
+    _write_bricks(displaced, result, analysis)
+    _write_shells(solved, mesh.FemMesh)
+    job = CommandJob(["adapt", solved, displaced, "-o", sizes, *aim, "--poisson", repr(_poisson(analysis)),
+                      "--growth", repr(mesh.Growth)], find_mesher(command))
+    try:
+        told = job.start().wait(progress)
+    except Error as error:
+        raise Error(str(error).replace(displaced, result.Label).replace(solved, mesh.Label), error.kind, result.Name) from error
+    return Estimate(told["error"], told["quads"], told["quads_wanted"], told["size_min"], told["size_max"])
+
+
+def _last_result(mesh, analysis):
+    found = [member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject")
+             and getattr(member, "DisplacementVectors", None) and getattr(member, "Mesh", None) is not None]
+    if not found:
+        raise Error(f"{analysis.Label}: has no result with displacements: solve it with {mesh.Label} first", "usage", analysis.Name)
+    return found[-1]
+
+
+def _poisson(analysis) -> float:
+    """Poisson's ratio of the first material that tells one; 0.3 where none does."""
+    for member in analysis.Group:
+        text = getattr(member, "Material", None)
+        if isinstance(text, dict) and text.get("PoissonRatio"):
+            return float(FreeCAD.Units.Quantity(text["PoissonRatio"]).Value)
+    return 0.3
+
+
+def _nodes(fem_mesh) -> Tuple[np.ndarray, np.ndarray]:
+    """Numbers and places of a mesh's nodes."""
+    nodes = fem_mesh.Nodes
+    return np.fromiter(nodes, int, len(nodes)), np.fromiter(chain.from_iterable(map(tuple, nodes.values())), float).reshape(-1, 3)
+
+
+def _write_shells(path: str, fem_mesh) -> None:
+    """The quads of a mesh as a file of CalculiX's."""
+    numbers, points = _nodes(fem_mesh)
+    lines = ["*NODE", *(f"{number},{x:.17g},{y:.17g},{z:.17g}" for number, (x, y, z) in zip(numbers, points))]
+    elements = [(face, fem_mesh.getElementNodes(face)) for face in sorted(fem_mesh.Faces)]
+    for kind, count in (("S8R", 8), ("S4", 4)):
+        of_kind = [f"{face}," + ",".join(map(str, nodes)) for face, nodes in elements if len(nodes) == count]
+        if of_kind:
+            lines += [f"*ELEMENT, TYPE={kind}", *of_kind]
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")
+
+
+#: VTK's number of a brick, and where its nodes are in FreeCAD's list, which has the top first: bottom, top, and with twenty
+#: nodes the sides of the bottom, of the top, and those that stand upright.
+_BRICKS = {8: (12, [4, 5, 6, 7, 0, 1, 2, 3]),
+           20: (25, [4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11, 16, 17, 18, 19])}
+
+
+def _write_bricks(path: str, result, analysis) -> None:
+    """The bricks that CalculiX made of the shells, and how they moved, as a .vtu file."""
+    bricks = result.Mesh.FemMesh
+    if not bricks.VolumeCount:
+        solver = next((solver.Label for solver in solvers.solvers_of(analysis)), "the solver")
+        raise Error(f"{result.Label}: tells of the middle of the shell alone: set {solvers.SURFACE_RESULTS} of {solver} to true, "
+                    "and solve again", "usage", result.Name)
+    numbers, points = _nodes(bricks)
+    index = np.zeros(numbers.max() + 1, dtype=int)
+    index[numbers] = np.arange(len(numbers))
+    moved = np.zeros_like(points)
+    moved[index[list(result.NodeNumbers)]] = np.array([tuple(vector) for vector in result.DisplacementVectors])
+    cells = []
+    for volume in sorted(bricks.Volumes):
+        nodes = bricks.getElementNodes(volume)
+        if len(nodes) not in _BRICKS:
+            raise Error(f"{result.Label}: does not tell of shells: an element has {len(nodes)} nodes", "usage", result.Name)
+        cells.append(index[[nodes[place] for place in _BRICKS[len(nodes)][1]]])
+    ends = np.cumsum([len(cell) for cell in cells])
+    kinds = [_BRICKS[len(cell)][0] for cell in cells]
+    with open(path, "w", encoding="ascii") as file:
+        file.write('<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">\n'
+                   f'<UnstructuredGrid><Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(cells)}">\n')
+        for head, arrays in (("PointData", [("U", 3, moved)]), ("Points", [("Points", 3, points)]),
+                             ("Cells", [("connectivity", 1, np.concatenate(cells)), ("offsets", 1, ends), ("types", 1, kinds)])):
+            file.write(f"<{head}>\n")
+            for name, width, values in arrays:
+                values = np.asarray(values)
+                kind = "Float64" if values.dtype.kind == "f" else "Int64"
+                file.write(f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{width}" format="ascii">\n')
+                np.savetxt(file, values, fmt="%.17g" if kind == "Float64" else "%d")
+                file.write("</DataArray>\n")
+            file.write(f"</{head}>\n")
+        file.write("</Piece></UnstructuredGrid></VTKFile>\n")

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sizes that a mesh would have, on the surface of its part, before it is made: `quadrille sizes` in a child process. Runs
+inside FreeCAD."""
+
+import json
+import os
+import time
+from typing import Dict, NamedTuple, Optional, Sequence, Tuple
+
+import numpy as np
+
+from . import links, state
+from .command import CommandJob, scratch_folder
+from .errors import Error
+from .jobs import find_mesher
+from .settings import BY_NAME, MeshSettings, in_words_of_properties
+
+
+class Source(NamedTuple):
+    """What asks for sizes, where it asks for the least."""
+
+    name: str  #: by the option that says so
+    area: float  #: mm^2
+    quads: float  #: about how many there would be there
+    least: float  #: mm
+    largest: float  #: mm
+
+
+class SizeMap(NamedTuple):
+    """Sizes over triangles of the part's surface."""
+
+    points: np.ndarray  #: (n, 3) float32, mm
+    sizes: np.ndarray  #: (n,) mm
+    triangles: np.ndarray  #: (m, 3) int32, indices into points
+    lines: np.ndarray  #: (k, 2) int32, along CAD edges
+    quads: float  #: about how many the mesh would have
+    sources: Tuple[Source, ...]  #: those that rule somewhere
+
+
+class SizesJob:
+    """One run of `quadrille sizes` on a shape. Start it, then poll() it from a timer until it has ended, or wait()."""
+
+    def __init__(self, shape, settings: MeshSettings, command: Optional[str] = None) -> None:
+        command = find_mesher(command)
+        self._folder = scratch_folder()
+        model = os.path.join(self._folder.name, "shape.brep")
+        self._output = os.path.join(self._folder.name, "sizes.json")
+        shape.exportBrep(model)
+        own = MeshSettings(**{name: value for name, value in settings.items() if BY_NAME[name]["use"] != "write"})
+        self._job = CommandJob(["sizes", model, "-o", self._output, *own.arguments()], command)
+
+    def start(self) -> "SizesJob":
+        """Starts the child process."""
+        try:
+            self._job.start()
+        except Error:
+            self._folder.cleanup()
+            raise
+        return self
+
+    @property
+    def running(self) -> bool:
+        """True while the child process lives."""
+        return self._job.running
+
+    def poll(self) -> Sequence[Tuple[str, float]]:
+        """The progress since the last call, as (stage, fraction) pairs; never waits."""
+        return self._job.poll()
+
+    def drop(self) -> None:
+        """Ends the child process at once; nobody wants the result."""
+        self._job.kill()
+        self._folder.cleanup()
+
+    def wait(self) -> SizeMap:
+        """Waits for the end; the map."""
+        try:
+            while self.running:
+                self.poll()
+                time.sleep(0.02)
+        except BaseException:
+            self.drop()
+            raise
+        return self.result()
+
+    def result(self) -> SizeMap:
+        """The map, once the child has ended; raises Error when it failed."""
+        try:
+            self._job.result()
+            with open(self._output, encoding="utf-8") as file:
+                return _map_of(json.load(file))
+        except Error as error:
+            raise Error(in_words_of_properties(str(error)), error.kind, error.subject) from error
+        finally:
+            self._folder.cleanup()
+
+
+def _map_of(told: Dict) -> SizeMap:
+    sources = (Source(entry["name"], entry["area"], entry["quads"], entry["size_min"], entry["size_max"])
+               for entry in told["sources"])
+    return SizeMap(
+        np.array(told["points"], dtype=np.float32).reshape(-1, 3), np.array(told["point_sizes"], dtype=float),
+        np.array(told["triangles"], dtype=np.int32).reshape(-1, 3), np.array(told["lines"], dtype=np.int32).reshape(-1, 2),
+        told["quads"], tuple(source for source in sources if source.area > 0))
+
+
+def start(mesh, wanted: Optional[state.Wanted] = None, command: Optional[str] = None) -> SizesJob:
+    """Starts to find the sizes that a mesh object's mesh would have.
+
+    Args:
+        wanted: settings that count in place of the object's own.
+
+    Raises:
+        Error: with one sentence, where the settings or the part make no sense.
+    """
+    wanted = wanted or state.wanted_of(mesh)
+    shape = state.shape_of(mesh.Shape)
+    found = links.follow(mesh, wanted.anew)
+    return SizesJob(shape, state.settings_to_use(mesh, wanted, found), command).start()
+
+
+#: Colors of sizes from the least to the largest, by the logarithm: those of `quadrille sizes --picture` (viridis).
+_STOPS = np.array([(0.267, 0.005, 0.329), (0.229, 0.322, 0.546), (0.128, 0.567, 0.551), (0.369, 0.789, 0.383),
+                   (0.993, 0.906, 0.144)])
+#: A range of sizes is at least so wide, so that there is one.
+_NARROWEST = 1.1
+
+
+def range_of(sizes: np.ndarray) -> Tuple[float, float]:
+    """The least and the largest size that colors stand for."""
+    largest = float(sizes.max())
+    return min(float(sizes.min()), largest / _NARROWEST), largest
+
+
+def colors(sizes: np.ndarray, least: float, largest: float) -> np.ndarray:
+    """(n, 3) red, green and blue of sizes in a range."""
+    place = np.log(sizes / least) / np.log(largest / least) * (len(_STOPS) - 1)
+    return np.stack([np.interp(place, np.arange(len(_STOPS)), _STOPS[:, k]) for k in range(3)], axis=1)
