@@ -35,7 +35,10 @@ class CountChooser {
       is_waiting_[face] = sides_[face].outline == FaceSides::Outline::stepped;
     tie_chords();
     std::vector<int> odd = balance_faces();
-    if (odd.empty() && take_steps()) odd = balance_faces();
+    if (odd.empty() && take_steps()) {
+      odd = balance_faces();
+      if (!odd.empty()) odd = balance_without_steps();
+    }
     if (!odd.empty()) {
       // Edges of three faces and more, as a rule: without sums, then without chords.
       for (std::size_t face = 0; face < sides_.size(); ++face) {
@@ -290,6 +293,14 @@ class CountChooser {
     }
     if (any) set_up_rules();
     return any;
+  }
+
+  std::vector<int> balance_without_steps() {
+    for (std::size_t face = 0; face < sides_.size(); ++face) {
+      if (sides_[face].outline == FaceSides::Outline::stepped) drop(static_cast<int>(face));
+    }
+    start_values();
+    return balance_faces();
   }
 
   bool take_steps_of(int face) {

@@ -134,6 +134,7 @@ class SideFinder {
   /// A side of a stepped outline, as long as it is, on the way along its direction.
   struct Tread {
     double from, to;
+    double level;  // in the other direction
     Side side;
   };
 
@@ -154,10 +155,32 @@ class SideFinder {
       sides.starts.push_back(walk.coedges[corners[c]]);
       sides.directions.push_back(direction);
       if (direction >= 2) side = turned(std::move(side));
-      treads[direction].push_back({std::min(before, at), std::max(before, at), std::move(side)});
+      treads[direction].push_back(
+          {std::min(before, at), std::max(before, at), place[1 - direction % 2], std::move(side)});
+    }
+    if (is_narrow(treads[0], treads[2]) || is_narrow(treads[1], treads[3])) {
+      sides = {};
+      return;
     }
     sides.outline = FaceSides::Outline::stepped;
     for (int d = 0; d < 2; ++d) add_treads(treads[d], treads[d + 2], sides);
+  }
+
+  /// Whether treads come so near to each other that rows between them would lean by more than they are high:
+  /// nodes of free meshes are made to face each other there.
+  bool is_narrow(const std::vector<Tread>& one, const std::vector<Tread>& other) const {
+    constexpr double least = 0.5;
+    return std::any_of(one.begin(), one.end(), [&](const Tread& a) {
+      const double length = segment_of(a.side);
+      return std::any_of(other.begin(), other.end(), [&](const Tread& b) {
+        return std::min(a.to, b.to) > std::max(a.from, b.from) &&
+               std::abs(a.level - b.level) < least * std::max(length, segment_of(b.side));
+      });
+    });
+  }
+
+  double segment_of(const Side& side) const {
+    return length_of(side) / std::max(1.0, std::max(wanted_of(side), static_cast<double>(side.size())));
   }
 
   /// Sides one after the other on both sides of the face face each other part by part; others, as those of a
