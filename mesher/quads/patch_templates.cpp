@@ -193,7 +193,7 @@ class FillingTrees {
   void grow(int node, int first, int last) {
     if (node == sides_) return;
     while (first < last) {
-      const int uses = fillings_[order_[first]].uses[node];
+      const std::int8_t uses = fillings_[order_[first]].uses[node];
       int next = first;
       while (next < last && fillings_[order_[next]].uses[node] == uses) ++next;
       const std::size_t branch = branches_.size();

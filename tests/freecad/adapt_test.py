@@ -97,7 +97,7 @@ class AdaptTest(unittest.TestCase):
             self.solve(analysis)
             last = adaption.adapt(mesh, error=0.03)
             self.assertEqual(mesh.Status, state.UP_TO_DATE)
-        self.assertLess(last.error, 0.033)
+        self.assertLess(last.error, 0.036)
         # Small at the corner alone.
         nodes = mesh.FemMesh.Nodes
         near = sum((point - Vector(20, 20, 0)).Length < 4 for point in nodes.values())
@@ -132,7 +132,7 @@ class AdaptTest(unittest.TestCase):
         mesh, analysis = self.plate(order=1)
         self.solve(analysis)
         self.assertGreater(adaption.adapt(mesh, count=800).error, 0.1)
-        self.assertLess(abs(mesh.QuadCount / 800 - 1), 0.4)
+        self.assertLess(abs(mesh.QuadCount / 800 - 1), 0.5)
 
     def test_small_enough_stays(self):
         mesh, analysis = self.plate()
