@@ -13,9 +13,9 @@
 #include <span>
 
 #include "mesher/mesh/quad_geometry.hpp"
-#include "mesher/quads/improve.hpp"
+#include "mesher/quads/cavities.hpp"
+#include "mesher/quads/edited_mesh.hpp"
 #include "mesher/quads/patch_templates.hpp"
-#include "mesher/quads/quad_topology.hpp"
 
 namespace quadrille {
 namespace {
@@ -31,11 +31,6 @@ constexpr double min_gain = 0.5;      ///< a patch is filled anew only for more 
 constexpr double worth_trying = 1.5;  ///< a patch whose nodes cost less in all cannot gain
 constexpr double resize_cost = 0.2;   ///< of each node more or fewer: keeps the density
 constexpr double drift_cost = 50;     ///< of each node more, by the share of quads already gained
-
-double angle_between(const Vector3& from, const Vector3& to, const Vector3& normal) {
-  const double angle = std::atan2(from.cross(to).dot(normal), from.dot(to));
-  return angle < 0 ? angle + 2 * pi : angle;
-}
 
 /// Quads of a mesh and what is to stand in their place. A node may move along.
 struct Change {
@@ -85,22 +80,12 @@ struct Patch {
   }
 };
 
-class CleanUp {
+class CleanUp : private EditedMesh {
  public:
   /// \param doubtful nodes to begin with; empty = all. Out (by write_back()): those to begin with next time.
   CleanUp(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, ImproveReport& report,
           std::vector<char>& doubtful, const ExecutionContext& context)
-      : doubtful_(doubtful),
-        mesh_(surface_mesh),
-        surface_(surface),
-        report_(report),
-        context_(context),
-        topology_(surface_mesh.mesh.quads, surface_mesh.mesh.quad_tags,
-                  static_cast<int>(surface_mesh.mesh.points.size()), context),
-        locked_(surface_mesh.fixed) {
-    for (const auto& triangle : mesh_.mesh.triangles)
-      for (const int node : triangle) locked_[node] = 1;
-    measure_boundary();
+      : EditedMesh(surface_mesh, context), doubtful_(doubtful), surface_(surface), report_(report) {
     if (doubtful_.empty()) doubtful_.assign(mesh_.mesh.points.size(), 1);
     tried_.assign(tried_slots, 0);
   }
@@ -134,18 +119,10 @@ class CleanUp {
   void write_back();
 
  private:
-  int node_count() const { return static_cast<int>(mesh_.mesh.points.size()); }
-  const Vector3& point(int node) const { return mesh_.mesh.points[node]; }
-
-  void measure_boundary();
-
   bool removable(int node) const {
     const int side = topology_.side_of(node);
     return side >= 0 && inner(node);
   }
-
-  /// Whether quads close round a node that may move.
-  bool inner(int node) const { return topology_.closed(node) && !locked_[node]; }
 
   static double inner_cost(int quads) { return quads < 3 ? 20 : (quads - 4) * (quads - 4); }
 
@@ -164,7 +141,6 @@ class CleanUp {
   }
 
   double cost_change(const Change& change) const;
-  double worst(std::span<const Quad> quads) const;
   bool too_long(const Change& change) const;
   bool apply(Change& change, double allowed_cost);
   bool collapse_doublet(int node);
@@ -196,8 +172,7 @@ class CleanUp {
   bool fill(const Patch& patch, const Outline& outline, const PatchTemplate& filling);
   /// The template with its inner corners relaxed from the middle of the outline.
   Filling relaxed(const Outline& outline, const PatchTemplate& filling) const;
-  /// A new free node at the place of another; returns its number.
-  int add_node_like(int donor);
+  int add_node(int donor);
   void push(int node);
 
   static constexpr std::size_t tried_slots = 1 << 13;
@@ -209,37 +184,11 @@ class CleanUp {
   std::vector<QuadState> states_;     ///< by quad, as of their rounds
   std::vector<std::uint64_t> tried_;  ///< fingerprints of patches that gave nothing, by their low bits
 
-  SurfaceMesh& mesh_;
   const SmoothingSurface& surface_;
   ImproveReport& report_;
-  const ExecutionContext& context_;
-  QuadTopology topology_;
-  std::vector<char> locked_;    ///< fixed, or on a triangle
-  std::vector<double> angles_;  ///< total corner angle of a node's quads, a fan
-  std::vector<int> queue_;      ///< nodes whose surroundings are to be tried
+  std::vector<int> queue_;  ///< nodes whose surroundings are to be tried
   std::vector<char> queued_;
 };
-
-void CleanUp::measure_boundary() {
-  angles_.assign(mesh_.mesh.points.size(), 0);
-  std::vector<int> fans(mesh_.mesh.points.size(), 0);
-  SparseCheck check(context_);
-  for (int side = 0; side < 4 * topology_.size(); ++side) {
-    check();
-    const int node = topology_.origin(side);
-    if (inner(node)) continue;  // nobody asks for its angles
-    const int before = topology_.origin(QuadTopology::previous(side));
-    const Vector3& normal = mesh_.normals[node];
-    const Vector3 forth = point(topology_.end(side)) - point(node), back = point(before) - point(node);
-    angles_[node] += angle_between(forth, back, normal);
-    if (topology_.twin(side) < 0) ++fans[node];
-  }
-  for (std::size_t i = 0; i < angles_.size(); ++i)
-    if (fans[i] > 1) angles_[i] /= fans[i];
-  if (mesh_.boundary_angles.empty()) return;
-  for (std::size_t i = 0; i < angles_.size(); ++i)
-    if (fans[i] == 1 && mesh_.boundary_angles[i] > 0) angles_[i] = mesh_.boundary_angles[i];
-}
 
 double CleanUp::cost_change(const Change& change) const {
   std::array<int, 4 * max_patch> nodes, delta;
@@ -274,17 +223,6 @@ double CleanUp::cost_change(const Change& change) const {
     if (quads > 0 || !removable(node)) sum += node_cost(node, quads);
   }
   return sum;
-}
-
-double CleanUp::worst(std::span<const Quad> quads) const {
-  double least = 1;
-  for (const Quad& q : quads) {
-    const Vector3 normal =
-        mesh_.normals[q[0]] + mesh_.normals[q[1]] + mesh_.normals[q[2]] + mesh_.normals[q[3]];
-    least =
-        std::min(least, folded_scaled_jacobian(point(q[0]), point(q[1]), point(q[2]), point(q[3]), normal));
-  }
-  return least;
 }
 
 bool CleanUp::too_long(const Change& change) const {
@@ -623,17 +561,9 @@ double CleanUp::Filling::worst() const {
   return least;
 }
 
-int CleanUp::add_node_like(int donor) {
-  const int node = topology_.add_node();
-  mesh_.mesh.points.push_back(point(donor));
-  mesh_.normals.push_back(mesh_.normals[donor]);
-  mesh_.parameters.push_back(mesh_.parameters[donor]);
-  mesh_.fixed.push_back(0);
-  if (!mesh_.boundary_angles.empty()) mesh_.boundary_angles.push_back(0);
-  locked_.push_back(0);
-  angles_.push_back(0);
+int CleanUp::add_node(int donor) {
   doubtful_.push_back(0);
-  return node;
+  return add_node_like(donor);
 }
 
 bool CleanUp::fill(const Patch& patch, const Outline& outline, const PatchTemplate& filling) {
@@ -658,7 +588,7 @@ bool CleanUp::fill(const Patch& patch, const Outline& outline, const PatchTempla
   for (int i = 0; i < n; ++i)
     if (!mesh_.fixed[filled.nodes[i]]) donor = filled.nodes[i];
   for (int i = 0; i < filling.interior; ++i) {
-    const int node = i < outline.inside_count ? outline.inside[i] : add_node_like(donor);
+    const int node = i < outline.inside_count ? outline.inside[i] : add_node(donor);
     saved[i] = {point(node), mesh_.normals[node], mesh_.parameters[node]};
     Vector3& x = filled.x[n + i];
     filled.nodes[n + i] = node;
@@ -685,38 +615,9 @@ bool CleanUp::fill(const Patch& patch, const Outline& outline, const PatchTempla
   return false;
 }
 
-/// The fixed points first, in their old order, then the free ones still used, in theirs.
 void CleanUp::write_back() {
-  std::vector<int> number(mesh_.mesh.points.size(), -1);
-  SurfaceMesh result;
   std::vector<char> doubtful;
-  SparseCheck check(context_);
-  const auto keep = [&](int node) {
-    check();
-    number[node] = static_cast<int>(result.mesh.points.size());
-    result.mesh.points.push_back(mesh_.mesh.points[node]);
-    result.parameters.push_back(mesh_.parameters[node]);
-    result.normals.push_back(mesh_.normals[node]);
-    result.fixed.push_back(mesh_.fixed[node]);
-    if (!mesh_.boundary_angles.empty()) result.boundary_angles.push_back(mesh_.boundary_angles[node]);
-    doubtful.push_back(doubtful_[node]);
-  };
-  for (int node = 0; node < node_count(); ++node)
-    if (mesh_.fixed[node]) keep(node);
-  for (int node = 0; node < node_count(); ++node)
-    if (!mesh_.fixed[node] && (locked_[node] || topology_.side_of(node) >= 0)) keep(node);
-  for (int quad = 0; quad < topology_.size(); ++quad) {
-    check();
-    if (!topology_.alive(quad)) continue;
-    const Quad& q = topology_.quad(quad);
-    result.mesh.quads.push_back({number[q[0]], number[q[1]], number[q[2]], number[q[3]]});
-    if (topology_.tagged()) result.mesh.quad_tags.push_back(topology_.tag(quad));
-  }
-  for (auto& triangle : mesh_.mesh.triangles)
-    result.mesh.triangles.push_back({number[triangle[0]], number[triangle[1]], number[triangle[2]]});
-  result.mesh.triangle_tags = std::move(mesh_.mesh.triangle_tags);
-  context_.check();
-  mesh_ = std::move(result);
+  for (const int node : EditedMesh::write_back()) doubtful.push_back(doubtful_[node]);
   doubtful_ = std::move(doubtful);
 }
 
@@ -739,6 +640,9 @@ void clean_up(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const 
     if (!any) break;
     smooth(surface_mesh, surface, relaxing, report, context);
   }
+  const int cavities = remesh_cavities(surface_mesh, surface, context);
+  report.cavities += cavities;
+  if (cavities > 0) smooth(surface_mesh, surface, relaxing, report, context);
 }
 
 }  // namespace quadrille

@@ -48,6 +48,7 @@ struct ImproveReport {
   int quad_vertex_merges = 0;
   int doublet_collapses = 0;
   int valence_moves = 0;  ///< other topological moves that lowered the valence deviation
+  int cavities = 0;       ///< large patches filled anew
   int bad_elements = 0;   ///< elements that still have a scaled Jacobian <= 0
 };
 

@@ -8,8 +8,6 @@
 namespace quadrille {
 namespace {
 
-constexpr int max_patch = 48;  ///< quads in a patch; larger ones are refused
-
 constexpr int boundary = -1;
 
 bool has_node(std::span<const QuadTopology::Quad> quads, int node) {

@@ -16,6 +16,7 @@ namespace quadrille {
 class QuadTopology {
  public:
   using Quad = std::array<int, 4>;
+  static constexpr int max_patch = 160;  ///< quads in a patch; larger ones are not replaced
 
   /// The sides that leave one node, counter-clockwise, as far as they hang together.
   struct Fan {

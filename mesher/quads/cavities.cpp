@@ -1,0 +1,325 @@
+#include "mesher/quads/cavities.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <unordered_set>
+
+#include "mesher/quads/criteria_patch.hpp"
+#include "mesher/quads/edited_mesh.hpp"
+#include "mesher/quads/polygon_filling.hpp"
+
+namespace quadrille {
+namespace {
+
+constexpr int max_quads = 150;   ///< in a patch, before and after
+constexpr int max_growths = 8;   ///< of a patch
+constexpr int max_search = 600;  ///< quads looked at for the nearest irregular node
+constexpr int max_rounds = 2;    ///< over all nodes
+/// A filling has that share of the quads before at least and at most, and no more of all quads than that come
+/// or go: sizes are to stay.
+constexpr double least_share = 0.7, most_share = 1.35, most_drift = 0.08;
+constexpr int few_quads = 8;  ///< that may come or go in any face
+/// Quads may be this badly shaped at first: smoothing mends them.
+constexpr double mendable = 0.2;
+
+class Cavities : private EditedMesh {
+ public:
+  Cavities(SurfaceMesh& mesh, const SmoothingSurface& surface, const ExecutionContext& context)
+      : EditedMesh(mesh, context),
+        surface_(surface),
+        uses_(mesh.mesh.points.size(), 0),
+        met_(mesh.mesh.points.size(), 0) {}
+
+  int run() {
+    int filled = 0;
+    SparseCheck check(context_, 16);
+    for (int round = 0; round < max_rounds; ++round) {
+      const int before = filled;
+      for (int node = 0; node < node_count(); ++node) {
+        check();
+        if (topology_.side_of(node) >= 0 && topology_.openings(node) < 2 && cost(node) > 0 && mend(node))
+          ++filled;
+      }
+      if (filled == before) break;
+    }
+    if (filled > 0) write_back();
+    return filled;
+  }
+
+ private:
+  int valence(int node) const { return topology_.valence(topology_.side_of(node)); }
+
+  /// The quads that the angle at a boundary node asks for.
+  int wanted(int node) const {
+    return std::max(1, static_cast<int>(std::lround(angles_[node] / (std::numbers::pi / 2))));
+  }
+
+  int cost(int node) const {
+    const int excess = valence(node) - (inner(node) ? 4 : wanted(node));
+    return excess * excess;
+  }
+
+  bool in_patch(int quad) const { return in_patch_[quad] != 0; }
+
+  void clear() {
+    for (const int quad : patch_) {
+      in_patch_[quad] = 0;
+      for (const int node : topology_.quad(quad)) uses_[node] = 0;
+    }
+    patch_.clear();
+  }
+
+  bool add(int quad) {
+    if (in_patch(quad)) return true;
+    if (patch_.size() == max_quads) return false;
+    in_patch_[quad] = 1;
+    for (const int node : topology_.quad(quad)) ++uses_[node];
+    patch_.push_back(quad);
+    return true;
+  }
+
+  bool add_fan(int node) {
+    const QuadTopology::Fan fan = topology_.fan(topology_.side_of(node));
+    for (int i = 0, side = fan.first; i < fan.quads; ++i, side = topology_.rotate(side))
+      if (!add(side >> 2)) return false;
+    return true;
+  }
+
+  void restore(const std::vector<int>& patch) {
+    clear();
+    for (const int quad : patch) add(quad);
+  }
+
+  bool mend(int node) {
+    in_patch_.resize(topology_.size(), 0);
+    reached_.resize(topology_.size(), 0);
+    tried_.clear();
+    const bool done = add_fan(node) && grow_until_filled();
+    if (!done) clear();
+    return done;
+  }
+
+  bool grow_until_filled() {
+    std::vector<int> last;  // the patch before it grew to what did not fit
+    for (int growth = 0; growth < max_growths; ++growth) {
+      const bool fits = make_convex() && trace();
+      if (fits && fill()) return true;
+      if (fits)
+        last = patch_;
+      else if (last.empty())
+        return false;
+      else
+        restore(last);
+      if (!grow() && !widen()) return false;
+    }
+    return false;
+  }
+
+  /// Adds the quads round the outline, for more room.
+  bool widen() {
+    const std::size_t count = patch_.size();
+    for (std::size_t i = 0; i < count; ++i)
+      for (const int node : topology_.quad(patch_[i]))
+        if (inner(node) && !add_fan(node)) return false;
+    return patch_.size() > count;
+  }
+
+  /// Adds quads until no node of the outline has more than two of them inside.
+  bool make_convex() {
+    for (std::size_t i = 0; i < patch_.size(); ++i) {
+      for (const int node : topology_.quad(patch_[i])) {
+        if (uses_[node] < 3 || topology_.openings(node) > 1 || uses_[node] == valence(node)) continue;
+        if (!inner(node) || !add_fan(node)) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Adds the quads of the nearest irregular node that was not tried, and those on the way to it.
+  bool grow() {
+    ++search_;
+    std::vector<int> queue = patch_, from(patch_.size(), -1);
+    for (const int quad : patch_) reached_[quad] = search_;
+    for (std::size_t i = 0; i < queue.size() && queue.size() < max_search; ++i) {
+      for (const int node : topology_.quad(queue[i])) {
+        if (topology_.openings(node) > 1 || cost(node) == 0 || uses_[node] == valence(node)) continue;
+        if (!inner(node) && wanted(node) > 2) continue;
+        if (std::find(tried_.begin(), tried_.end(), node) != tried_.end()) continue;
+        tried_.push_back(node);
+        for (int at = static_cast<int>(i); at >= 0; at = from[at])
+          if (!add(queue[at])) return false;
+        return add_fan(node);
+      }
+      for (int side = 4 * queue[i]; side < 4 * queue[i] + 4; ++side) {
+        const int beyond = topology_.twin(side) < 0 ? -1 : topology_.twin(side) >> 2;
+        if (beyond < 0 || reached_[beyond] == search_) continue;
+        reached_[beyond] = search_;
+        queue.push_back(beyond);
+        from.push_back(static_cast<int>(i));
+      }
+    }
+    return false;
+  }
+
+  bool is_outer(int side) const {
+    const int twin = topology_.twin(side);
+    return twin < 0 || !in_patch(twin >> 2);
+  }
+
+  /// Finds the outline, its corners, the nodes inside and what they all cost. False if the patch is no disc,
+  /// has nodes inside that must stay, or would have a corner that turns back.
+  bool trace() {
+    ring_.clear();
+    corners_.clear();
+    inside_.clear();
+    cost_ = 0;
+    ++search_;
+    int start = -1, outer = 0;
+    for (const int quad : patch_)
+      for (int side = 4 * quad; side < 4 * quad + 4; ++side)
+        if (is_outer(side)) {
+          start = side;
+          ++outer;
+        }
+    if (start < 0) return false;
+    int side = start;
+    do {
+      const int node = topology_.origin(side);
+      if (met_[node] == search_) return false;
+      met_[node] = search_;
+      // All of its quads that are inside lie side by side, or the outline meets itself here.
+      int quads = uses_[node];
+      if (!inner(node) && !on_triangle_[node] && topology_.openings(node) == 1 && quads == valence(node)) {
+        cost_ += cost(node);
+        quads = wanted(node);
+      }
+      if (quads > 2) return false;
+      if (quads == 1) corners_.push_back(static_cast<int>(ring_.size()));
+      ring_.push_back(node);
+      for (side = QuadTopology::next(side); !is_outer(side);) side = QuadTopology::next(topology_.twin(side));
+    } while (side != start);
+    if (static_cast<int>(ring_.size()) != outer) return false;
+    for (const int quad : patch_)
+      for (const int node : topology_.quad(quad)) {
+        if (met_[node] == search_) continue;
+        met_[node] = search_;
+        if (!inner(node)) return false;
+        inside_.push_back(node);
+        cost_ += cost(node);
+      }
+    return static_cast<int>(patch_.size()) == outer / 2 - 1 + static_cast<int>(inside_.size());
+  }
+
+  /// The same for the same quads, as long as these have their nodes.
+  std::uint64_t fingerprint() const {
+    std::uint64_t sum = 0;
+    for (const int quad : patch_) {
+      std::uint64_t print = static_cast<std::uint64_t>(quad);
+      for (const int node : topology_.quad(quad))
+        print = (print ^ (print >> 29) ^ static_cast<std::uint64_t>(node)) * 0x9E3779B97F4A7C15u;
+      sum += print ^ (print >> 32);
+    }
+    return sum;
+  }
+
+  bool fill() {
+    if (cost_ < 2 || !seen_.insert(fingerprint()).second) return false;
+    std::vector<Vector3> outline;
+    for (const int node : ring_) outline.push_back(point(node));
+    const auto share = [&](double of) {
+      return static_cast<int>(std::lround(of * static_cast<double>(patch_.size())));
+    };
+    // What has come or gone already may come back, however much it is.
+    const int drift = std::max({std::abs(drift_), few_quads, static_cast<int>(most_drift * first_count_)});
+    const int count = static_cast<int>(patch_.size()) - drift_;
+    const FillingLimits limits{.most_irregular = cost_ - 1,
+                               .least_quads = std::max(share(least_share), count - drift),
+                               .most_quads = std::min({share(most_share), count + drift, max_quads})};
+    return fill_polygon(outline, corners_, limits,
+                        [&](const PolygonFilling& filling) { return put(filling); });
+  }
+
+  /// How far the quads are from the criteria of industry; no quad counts for more than `most`.
+  double mean_objective(const std::vector<Quad>& quads) const {
+    constexpr double most = 20;
+    double sum = 0;
+    for (const Quad& q : quads)
+      sum += std::min(most, measure_objective(point(q[0]), point(q[1]), point(q[2]), point(q[3])).value);
+    return sum / static_cast<double>(quads.size());
+  }
+
+  /// Puts a filling in the place of the patch, unless its quads are worse.
+  bool put(const PolygonFilling& filling) {
+    std::vector<Quad> before;
+    for (const int quad : patch_) before.push_back(topology_.quad(quad));
+    std::vector<int> nodes = ring_;
+    for (std::size_t i = ring_.size(); i < filling.places.size(); ++i)
+      nodes.push_back(place(filling.places[i]));
+    std::vector<Quad> quads = filling.quads;
+    for (Quad& quad : quads)
+      for (int& node : quad) node = nodes[node];
+    const bool done =
+        worst(quads) > std::min(worst(before), mendable) && mean_objective(quads) < mean_objective(before);
+    const std::vector<int> old = patch_;
+    clear();
+    if (done && topology_.replace(old, quads)) {
+      spare_.clear();
+      drift_ += static_cast<int>(quads.size()) - static_cast<int>(old.size());
+      return true;
+    }
+    for (const int quad : old) add(quad);
+    // The nodes serve the next filling.
+    spare_.assign(nodes.begin() + static_cast<long>(ring_.size()), nodes.end());
+    return false;
+  }
+
+  /// A free node at the place of the surface that is nearest.
+  int place(const Vector3& target) {
+    const auto nearest = [&](const std::vector<int>& nodes, int best) {
+      for (const int node : nodes)
+        if (best < 0 || (point(node) - target).squaredNorm() < (point(best) - target).squaredNorm())
+          best = node;
+      return best;
+    };
+    const int donor = nearest(inside_, nearest(ring_, -1));
+    int node = -1;
+    if (spare_.empty()) {
+      node = add_node_like(donor);
+      uses_.push_back(0);
+      met_.push_back(0);
+    } else {
+      node = spare_.back();
+      spare_.pop_back();
+      mesh_.parameters[node] = mesh_.parameters[donor];
+    }
+    mesh_.mesh.points[node] = surface_.move(mesh_.parameters[node], target, mesh_.normals[node]);
+    return node;
+  }
+
+  const SmoothingSurface& surface_;
+  const int first_count_ = topology_.size();
+  int drift_ = 0;  ///< quads more than at first
+  std::vector<int> patch_;
+  std::vector<char> in_patch_;  ///< by quad
+  std::vector<int> uses_;       ///< by node: quads of the patch
+  std::vector<int> ring_, corners_, inside_;
+  int cost_ = 0;              ///< of the patch as it is
+  std::vector<int> tried_;    ///< irregular nodes that the patch has grown to
+  std::vector<int> met_;      ///< by node: the trace that met it last
+  std::vector<int> reached_;  ///< by quad: the search that met it last
+  int search_ = 0;
+  std::vector<int> spare_;                  ///< nodes that no quad uses
+  std::unordered_set<std::uint64_t> seen_;  ///< patches that were not filled
+};
+
+}  // namespace
+
+int remesh_cavities(SurfaceMesh& mesh, const SmoothingSurface& surface, const ExecutionContext& context) {
+  return Cavities(mesh, surface, context).run();
+}
+
+}  // namespace quadrille

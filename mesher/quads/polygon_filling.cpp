@@ -1,0 +1,364 @@
+#include "mesher/quads/polygon_filling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace quadrille {
+namespace {
+
+using Quad = std::array<int, 4>;
+using Chain = std::vector<int>;  ///< the nodes of a side, both ends included
+
+int segments_of(const Chain& chain) {
+  return static_cast<int>(chain.size()) - 1;
+}
+
+/// The segments of the sides of a polygon with an irregular node inside, three or five, and how the rows from
+/// that node part them: so many lie between the corner that a side begins with and the row.
+struct Spokes {
+  std::array<int, 5> before{};
+  int least = 0;  ///< below 1 where no such polygon is filled
+
+  explicit Spokes(std::span<const int> sides) {
+    const int n = static_cast<int>(sides.size());
+    for (int i = 0; i < n; ++i) {
+      int sum = 0;
+      for (int k = 0; k < n; ++k) sum += (k % 2 == 0 ? 1 : -1) * sides[(i + 2 * k) % n];
+      before[i] = sum % 2 == 0 ? sum / 2 : 0;
+    }
+    least = *std::min_element(before.begin(), before.begin() + n);
+  }
+
+  int quads(std::span<const int> sides) const {
+    int sum = 0;
+    for (std::size_t i = 0, last = sides.size() - 1; i < sides.size(); last = i++)
+      sum += before[i] * (sides[last] - before[last]);
+    return sum;
+  }
+};
+
+bool is_grid(std::span<const int> sides) {
+  return sides.size() == 4 && sides[0] == sides[2] && sides[1] == sides[3];
+}
+
+/// Makes quads in polygons that share sides.
+class Filler {
+ public:
+  explicit Filler(std::vector<Vector3> outline) { filling_.places = std::move(outline); }
+
+  /// A straight row of nodes.
+  Chain row(int from, int to, int segments) {
+    Chain result{from};
+    for (int k = 1; k < segments; ++k)
+      result.push_back(add(at(from) + (at(to) - at(from)) * (static_cast<double>(k) / segments)));
+    result.push_back(to);
+    return result;
+  }
+
+  /// \param sides in order, each ends where the next one begins
+  void fill(const std::vector<Chain>& sides) {
+    const int n = static_cast<int>(sides.size());
+    if (n == 4) return grid(sides[0], sides[1], sides[2], sides[3]);
+    std::vector<int> lengths;
+    for (const Chain& side : sides) lengths.push_back(segments_of(side));
+    const Spokes spokes(lengths);
+    Vector3 middle = Vector3::Zero();
+    for (int i = 0; i < n; ++i) middle += at(sides[i][spokes.before[i]]) / n;
+    const int center = add(middle);
+    ++filling_.irregular;
+    std::vector<Chain> spoke;
+    for (int i = 0; i < n; ++i)
+      spoke.push_back(row(sides[i][spokes.before[i]], center, spokes.before[(i + 1) % n]));
+    for (int i = 0; i < n; ++i) {
+      const int last = (i + n - 1) % n;
+      grid(Chain(sides[i].begin(), sides[i].begin() + spokes.before[i] + 1), spoke[i],
+           Chain(spoke[last].rbegin(), spoke[last].rend()),
+           Chain(sides[last].begin() + spokes.before[last], sides[last].end()));
+    }
+  }
+
+  PolygonFilling take() { return std::move(filling_); }
+
+ private:
+  const Vector3& at(int node) const { return filling_.places[node]; }
+  int add(const Vector3& place) {
+    filling_.places.push_back(place);
+    return static_cast<int>(filling_.places.size()) - 1;
+  }
+
+  /// By transfinite interpolation.
+  void grid(const Chain& south, const Chain& east, const Chain& north, const Chain& west) {
+    const int columns = segments_of(south), rows = segments_of(east);
+    std::vector<Chain> nodes{south};
+    for (int j = 1; j < rows; ++j) {
+      const double t = static_cast<double>(j) / rows;
+      Chain& row = nodes.emplace_back();
+      row.push_back(west[rows - j]);
+      for (int i = 1; i < columns; ++i) {
+        const double s = static_cast<double>(i) / columns;
+        row.push_back(add((1 - t) * at(south[i]) + t * at(north[columns - i]) + (1 - s) * at(west[rows - j]) +
+                          s * at(east[j]) - (1 - s) * (1 - t) * at(south[0]) -
+                          s * (1 - t) * at(south[columns]) - s * t * at(north[0]) -
+                          (1 - s) * t * at(north[columns])));
+      }
+      row.push_back(east[j]);
+    }
+    nodes.emplace_back(north.rbegin(), north.rend());
+    for (int j = 0; j < rows; ++j)
+      for (int i = 0; i < columns; ++i)
+        filling_.quads.push_back({nodes[j][i], nodes[j][i + 1], nodes[j + 1][i + 1], nodes[j + 1][i]});
+  }
+
+  PolygonFilling filling_;
+};
+
+/// A row across a polygon, from a node of one side to one of another. What lies to its left and to its right
+/// is filled round one irregular node each.
+struct Cut {
+  int first, from, second, to, segments;
+  int quads;  ///< on both sides of it
+  double cost;
+};
+
+class PolygonCutter {
+ public:
+  PolygonCutter(const std::vector<Vector3>& places, const std::vector<Chain>& sides)
+      : places_(places), sides_(sides), count_(static_cast<int>(sides.size())) {
+    for (const Chain& side : sides_) lengths_.push_back(segments_of(side));
+    const std::size_t n = places_.size();
+    for (std::size_t i = 0; i < n; ++i)
+      mean_ += (places_[i] - places_[(i + 1) % n]).norm() / static_cast<double>(n);
+  }
+
+  /// The cheapest first. Of rows beside each other between the same two irregular nodes only that next to the
+  /// first of these is among them.
+  std::vector<Cut> cuts() const {
+    std::vector<Cut> result;
+    const int apart = count_ == 6 ? 3 : 1;
+    // Of two and of six corners, both parts are alike: half of the cuts are the others seen from behind.
+    const int firsts = count_ == 4 ? 4 : count_ / 2;
+    for (int first = 0; first < firsts; ++first) {
+      const int second = (first + apart) % count_;
+      for (int from = 1; from < lengths_[first]; ++from)
+        for (int to = 1; to < lengths_[second]; ++to) add_cut(first, from, second, to, result);
+    }
+    std::stable_sort(result.begin(), result.end(),
+                     [](const Cut& a, const Cut& b) { return a.cost < b.cost; });
+    return result;
+  }
+
+  PolygonFilling fill(const Cut& cut) const {
+    Filler filler(places_);
+    const Chain &a = sides_[cut.first], &b = sides_[cut.second];
+    const Chain forth = filler.row(a[cut.from], b[cut.to], cut.segments);
+    std::vector<Chain> left{Chain(a.begin() + cut.from, a.end())}, right{Chain(b.begin() + cut.to, b.end())};
+    for (int i = (cut.first + 1) % count_; i != cut.second; i = (i + 1) % count_) left.push_back(sides_[i]);
+    left.emplace_back(b.begin(), b.begin() + cut.to + 1);
+    left.emplace_back(forth.rbegin(), forth.rend());
+    for (int i = (cut.second + 1) % count_; i != cut.first; i = (i + 1) % count_) right.push_back(sides_[i]);
+    right.emplace_back(a.begin(), a.begin() + cut.from + 1);
+    right.push_back(forth);
+    filler.fill(left);
+    filler.fill(right);
+    return filler.take();
+  }
+
+ private:
+  /// Segments of the sides of one part; the cut comes last.
+  struct Part {
+    std::array<int, 5> sides;
+    int count = 0;
+
+    void add(int segments) { sides[count++] = segments; }
+    std::span<const int> span() const { return {sides.data(), static_cast<std::size_t>(count)}; }
+    /// Whether its irregular node lies where midpoint subdivision leaves a corner of the quads before it.
+    bool on_corners(const Spokes& spokes) const {
+      return spokes.before[1] % 2 == 0 && (sides[0] - spokes.before[0]) % 2 == 0;
+    }
+  };
+
+  void add_cut(int first, int from, int second, int to, std::vector<Cut>& cuts) const {
+    Part left, right;
+    left.add(lengths_[first] - from);
+    for (int i = (first + 1) % count_; i != second; i = (i + 1) % count_) left.add(lengths_[i]);
+    left.add(to);
+    // So many that one segment lies between the cut and the irregular node to its left.
+    const auto& s = left.sides;
+    const int segments = left.count == 2 ? s[0] + s[1] - 2 : 2 - s[0] + s[1] + s[2] - s[3];
+    if (segments < 1) return;
+    left.add(segments);
+    right.add(lengths_[second] - to);
+    for (int i = (second + 1) % count_; i != first; i = (i + 1) % count_) right.add(lengths_[i]);
+    right.add(from);
+    right.add(segments);
+    const Spokes to_left(left.span()), to_right(right.span());
+    if (to_left.least < 1 || to_right.least < 1) return;
+    if (!left.on_corners(to_left) || !right.on_corners(to_right)) return;
+    const double distance = (places_[sides_[first][from]] - places_[sides_[second][to]]).norm();
+    const double stretch = std::log(distance / (segments * mean_));
+    const int least = std::min(to_left.least, to_right.least);
+    cuts.push_back({first, from, second, to, segments,
+                    to_left.quads(left.span()) + to_right.quads(right.span()),
+                    stretch * stretch + crowding / least});
+  }
+
+  /// What it costs that an irregular node lies next to a side.
+  static constexpr double crowding = 0.3;
+
+  const std::vector<Vector3>& places_;
+  const std::vector<Chain>& sides_;
+  int count_;
+  std::vector<int> lengths_;
+  double mean_ = 0;
+};
+
+/// The quads of which those given are the midpoint subdivision; nothing where they are none. Of the outline
+/// every other node is a corner, from the first.
+class Coarsening {
+ public:
+  Coarsening(const PolygonFilling& fine, int outline)
+      : fine_(fine), kinds_(fine.places.size(), Kind::unknown) {
+    for (int i = 0; i < outline; ++i) kinds_[i] = i % 2 == 0 ? Kind::corner : Kind::middle;
+  }
+
+  std::optional<PolygonFilling> run() {
+    if (!find_kinds()) return std::nullopt;
+    PolygonFilling result;
+    result.irregular = fine_.irregular;
+    std::vector<int> number(kinds_.size(), -1);
+    for (std::size_t i = 0; i < kinds_.size(); ++i) {
+      if (kinds_[i] != Kind::corner) continue;
+      number[i] = static_cast<int>(result.places.size());
+      result.places.push_back(fine_.places[i]);
+    }
+    // Of each fine quad: the middle before its corner, and that after.
+    struct Side {
+      int center, before, corner, after;
+    };
+    std::vector<Side> sides;
+    for (const Quad& quad : fine_.quads)
+      for (int k = 0; k < 4; ++k)
+        if (kinds_[quad[k]] == Kind::center)
+          sides.push_back({quad[k], quad[(k + 1) & 3], quad[(k + 2) & 3], quad[(k + 3) & 3]});
+    std::stable_sort(sides.begin(), sides.end(),
+                     [](const Side& a, const Side& b) { return a.center < b.center; });
+    if (sides.size() % 4 != 0) return std::nullopt;
+    for (std::size_t first = 0; first < sides.size(); first += 4) {
+      if (sides[first].center != sides[first + 3].center) return std::nullopt;
+      Quad quad{};
+      int at = sides[first].before;
+      for (int& corner : quad) {
+        std::size_t i = first;
+        while (i < first + 4 && sides[i].before != at) ++i;
+        if (i == first + 4) return std::nullopt;
+        corner = number[sides[i].corner];
+        at = sides[i].after;
+      }
+      result.quads.push_back(quad);
+    }
+    return result;
+  }
+
+ private:
+  enum class Kind : char { unknown, corner, middle, center };
+
+  static Kind opposite(Kind kind) {
+    return kind == Kind::corner ? Kind::center : kind == Kind::center ? Kind::corner : kind;
+  }
+
+  /// From quad to quad; false where a node would be of two kinds.
+  bool find_kinds() {
+    for (bool any = true; any;) {
+      any = false;
+      for (const Quad& quad : fine_.quads)
+        for (int k = 0; k < 4; ++k) {
+          const Kind a = kinds_[quad[k]], b = kinds_[quad[(k + 1) & 3]];
+          if (a == Kind::unknown || b == Kind::unknown) continue;
+          if ((a == Kind::middle) == (b == Kind::middle)) return false;
+          for (const auto& [node, kind] :
+               {std::pair(quad[(k + 2) & 3], opposite(a)), std::pair(quad[(k + 3) & 3], opposite(b))}) {
+            if (kinds_[node] != Kind::unknown && kinds_[node] != kind) return false;
+            any |= kinds_[node] == Kind::unknown;
+            kinds_[node] = kind;
+          }
+        }
+    }
+    return true;
+  }
+
+  const PolygonFilling& fine_;
+  std::vector<Kind> kinds_;
+};
+
+void relax(PolygonFilling& filling, std::size_t outline) {
+  constexpr int sweeps = 20;
+  std::vector<Vector3> sum(filling.places.size());
+  std::vector<int> count(filling.places.size());
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    std::fill(sum.begin(), sum.end(), Vector3::Zero());
+    std::fill(count.begin(), count.end(), 0);
+    for (const Quad& quad : filling.quads)
+      for (int k = 0; k < 4; ++k) {
+        sum[quad[k]] += filling.places[quad[(k + 1) & 3]] + filling.places[quad[(k + 3) & 3]];
+        count[quad[k]] += 2;
+      }
+    for (std::size_t i = outline; i < filling.places.size(); ++i) filling.places[i] = sum[i] / count[i];
+  }
+}
+
+/// The sides between corners, each node of the outline counted `times`, with those put in after it.
+std::vector<Chain> sides_between(const std::vector<int>& corners, int outline, int times) {
+  std::vector<Chain> sides;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const int last = i + 1 < corners.size() ? corners[i + 1] : corners[0] + outline;
+    Chain& side = sides.emplace_back();
+    for (int k = times * corners[i]; k <= times * last; ++k) side.push_back(k % (times * outline));
+  }
+  return sides;
+}
+
+}  // namespace
+
+bool fill_polygon(const std::vector<Vector3>& outline, const std::vector<int>& corners,
+                  const FillingLimits& limits, const std::function<bool(const PolygonFilling&)>& accept) {
+  const int n = static_cast<int>(corners.size()), nodes = static_cast<int>(outline.size());
+  if (n < 2 || n > 6) return false;
+  const std::vector<Chain> sides = sides_between(corners, nodes, 1);
+  std::vector<int> lengths;
+  for (const Chain& side : sides) lengths.push_back(segments_of(side));
+  const auto allowed = [&](int quads) { return quads >= limits.least_quads && quads <= limits.most_quads; };
+  const auto offer = [&](PolygonFilling filling) {
+    relax(filling, outline.size());
+    return accept(filling);
+  };
+  if (is_grid(lengths) || (n % 2 == 1 && limits.most_irregular >= 1 && Spokes(lengths).least >= 1)) {
+    if (!allowed(n == 4 ? lengths[0] * lengths[1] : Spokes(lengths).quads(lengths))) return false;
+    Filler filler(outline);
+    filler.fill(sides);
+    return offer(filler.take());
+  }
+  if (n % 2 == 1 || limits.most_irregular < 2) return false;
+  // Irregular nodes that are neighbors have no row of nodes between them, but one of the midpoint
+  // subdivision.
+  std::vector<Vector3> finer;
+  for (int i = 0; i < nodes; ++i) {
+    finer.push_back(outline[i]);
+    finer.push_back(0.5 * (outline[i] + outline[(i + 1) % nodes]));
+  }
+  const std::vector<Chain> finer_sides = sides_between(corners, nodes, 2);
+  const PolygonCutter cutter(finer, finer_sides);
+  int left = 4;
+  for (const Cut& cut : cutter.cuts()) {
+    if (!allowed(cut.quads / 4)) continue;
+    auto filling = Coarsening(cutter.fill(cut), 2 * nodes).run();
+    if (!filling) continue;
+    if (offer(std::move(*filling))) return true;
+    if (--left == 0) return false;
+  }
+  return false;
+}
+
+}  // namespace quadrille
