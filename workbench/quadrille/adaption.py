@@ -10,7 +10,6 @@ property BeamShellResultOutput3D). Runs inside FreeCAD."""
 
 import json
 import os
-from itertools import chain
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 import FreeCAD
@@ -18,6 +17,7 @@ import numpy as np
 
 from . import groups, solvers, state
 from . import freecad as core
+from .arrays import nodes_of
 from .command import CommandJob, Progress, scratch_folder
 from .errors import Error
 from .jobs import find_mesher
@@ -154,15 +154,9 @@ def _poisson(analysis) -> float:
     return 0.3
 
 
-def _nodes(fem_mesh) -> Tuple[np.ndarray, np.ndarray]:
-    """Numbers and places of a mesh's nodes."""
-    nodes = fem_mesh.Nodes
-    return np.fromiter(nodes, int, len(nodes)), np.fromiter(chain.from_iterable(map(tuple, nodes.values())), float).reshape(-1, 3)
-
-
 def _write_shells(path: str, fem_mesh) -> None:
     """The quads of a mesh as a file of CalculiX's."""
-    numbers, points = _nodes(fem_mesh)
+    numbers, points = nodes_of(fem_mesh)
     lines = ["*NODE", *(f"{number},{x:.17g},{y:.17g},{z:.17g}" for number, (x, y, z) in zip(numbers, points))]
     elements = [(face, fem_mesh.getElementNodes(face)) for face in sorted(fem_mesh.Faces)]
     for kind, count in (("S8R", 8), ("S4", 4)):
@@ -186,7 +180,7 @@ def _write_bricks(path: str, result, analysis) -> None:
         solver = next((solver.Label for solver in solvers.solvers_of(analysis)), "the solver")
         raise Error(f"{result.Label}: tells of the middle of the shell alone: set {solvers.SURFACE_RESULTS} of {solver} to true, "
                     "and solve again", "usage", result.Name)
-    numbers, points = _nodes(bricks)
+    numbers, points = nodes_of(bricks)
     index = np.zeros(numbers.max() + 1, dtype=int)
     index[numbers] = np.arange(len(numbers))
     moved = np.zeros_like(points)
