@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The measuring of a part for its panel: the panel is open meanwhile, and alive however many faces the part has."""
 
+import time
 from typing import Callable, Iterator, Optional
 
 from PySide import QtCore
@@ -8,6 +9,8 @@ from PySide import QtCore
 from .. import shapes
 from ..errors import Error
 
+#: The window waits for so long at a time.
+_SECONDS = 0.02
 #: What is raised of a part without a shape, or one that cannot be measured.
 FAILURES = (Error, AttributeError, RuntimeError)
 
@@ -21,7 +24,7 @@ class Measuring:
         self._steps: Optional[Iterator[None]] = None
         self._timer = QtCore.QTimer()
         self._timer.setInterval(0)
-        self._timer.timeout.connect(self._step)
+        self._timer.timeout.connect(self._go_on)
         self.running = True  #: until it is there
 
     def start(self) -> None:
@@ -43,6 +46,11 @@ class Measuring:
         """Nothing is measured any more."""
         self._timer.stop()
         self._steps = None
+
+    def _go_on(self) -> None:
+        until = time.monotonic() + _SECONDS
+        while self.running and self._steps is not None and time.monotonic() < until:
+            self._step()
 
     def _step(self) -> None:
         if self._steps is None:
