@@ -80,7 +80,7 @@ class MeshPanel:
         self.refinements = RefinementList(self._refine_selection, self._update_estimate)
         self.follows = QtGui.QCheckBox(translate("Quadrille", "Follow results"))
         self.follows.setObjectName("QuadrilleFollows")
-        self.entries = EntryRows(self._update_estimate)
+        self.entries = EntryRows(self._divide_selection, self._update_estimate)
         self.preview = SizePreview(self.mesh, self._wanted, self._show_count)
         self.mesh_button = _button("QuadrilleMesh", translate("Quadrille", "Mesh"), "")
         self.mesh_button.setIcon(QtGui.QIcon(icon("quadrille_mesh")))
@@ -276,12 +276,24 @@ class MeshPanel:
         names = self._picked("Face", "Edge", "Vertex")
         if not names:
             return
+        usual = self._usual_size()
+        if usual is not None:
+            self.refinements.add(links.link(self.mesh.Shape, names), usual / 2)
+
+    def _divide_selection(self) -> None:
+        names = self._picked("Edge")
+        usual = self._usual_size() if names else None
+        if usual is not None:
+            shape = self.mesh.Shape.Shape
+            self.entries.add("Segments", {name: f"{max(1, round(shape.getElement(name).Length / usual))}" for name in names})
+
+    def _usual_size(self) -> Optional[float]:
+        """The size that holds where no other is asked for; None, and a box, where it cannot be read."""
         try:
-            usual = self.settings["Size"].value() or self.mesh.Shape.Shape.BoundBox.DiagonalLength / 60
+            return self.settings["Size"].value() or self.mesh.Shape.Shape.BoundBox.DiagonalLength / 60
         except Error as error:
             tell(str(error))
-            return
-        self.refinements.add(links.link(self.mesh.Shape, names), usual / 2)
+            return None
 
     # Meshing
 
