@@ -236,6 +236,7 @@ class AddonTest(unittest.TestCase):
 
     def test_elements_of_nodes_are_gathered_when_they_are_needed(self):
         from femmesh import meshtools
+        from femmesh.meshsetsgetter import MeshSetsGetter
 
         mesh = core.mesh_object(self.box(), size=2)
         elements, nodes = meshtools.get_femelement_faces_table(mesh.FemMesh), mesh.FemMesh.Nodes
@@ -246,6 +247,14 @@ class AddonTest(unittest.TestCase):
         self.assertEqual((len(table), calls), (len(nodes), []))
         self.assertEqual(dict(table), real(nodes, elements))
         self.assertEqual(calls, [1])
+        if hasattr(MeshSetsGetter, "_load_tables"):  # from FreeCAD 1.1 on
+            getter = types.SimpleNamespace(mesh_object=mesh, femmesh=mesh.FemMesh, femnodes_mesh={}, femelement_table={},
+                                           femnodes_ele_table={})
+            MeshSetsGetter._load_tables(getter)
+            self.assertIsInstance(getter.femnodes_mesh, shell_input.Later)
+            self.assertEqual(dict(getter.femnodes_mesh), nodes)
+            self.assertEqual(list(getter.femnodes_mesh.values()), list(nodes.values()))
+            self.assertEqual(dict(getter.femelement_table), dict(elements))
 
     def test_thickness_and_material_per_face(self):
         from femtools import ccxtools

@@ -43,6 +43,10 @@ class Later(Mapping):
     def __len__(self):
         return self._length
 
+    def values(self):
+        """Quicker than one by one."""
+        return self._table.values()
+
 
 class ElementTable(Later):
     """FreeCAD's table of the nodes of each element of a shell mesh, and the same as arrays."""
@@ -57,6 +61,19 @@ class ElementTable(Later):
         if self._shells is None:
             self._shells = arrays.shells_of(self._fem_mesh, nodes)
         return self._shells
+
+
+def nodes_later(function):
+    """FreeCAD's table of nodes; of a shell mesh one that is made where it is needed. FreeCAD 1.1 makes it twice for each input."""
+
+    @functools.wraps(function)
+    def _load_tables(self):
+        fem_mesh = getattr(self, "femmesh", None)
+        if fem_mesh is not None and not self.femnodes_mesh and fem_mesh.FaceCount and not fem_mesh.VolumeCount:
+            self.femnodes_mesh = Later(lambda: fem_mesh.Nodes, fem_mesh.NodeCount)
+        function(self)
+
+    return _load_tables
 
 
 def of_shells(function):

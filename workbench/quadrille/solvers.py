@@ -36,8 +36,8 @@ def wrap_solvers(complaint: Complaint) -> None:
     if _complaint is not None:
         return
     _complaint = complaint
-    present = [entry for entry in NEWER if importlib.util.find_spec(entry[0]) is not None]
-    for module, name, wrapper in (*present, *WRAPPED):
+    newer = NEWER if importlib.util.find_spec(NEWER[0][0]) is not None else ()
+    for module, name, wrapper in (*newer, *WRAPPED):
         _wrap(module, name, wrapper)
 
 
@@ -67,6 +67,7 @@ _LOST = {
     "_when_needed": "large meshes take long to write for solvers",
     "_with_set": "several materials or thicknesses take long to write for solvers",
     "of_shells": "forces on faces take long to write for CalculiX",
+    "nodes_later": "large meshes take long to write for CalculiX",
     "at_once": "large meshes take long to write for CalculiX",
     "from_groups": "forces on faces take long to write for CalculiX",
     "in_one_go": "forces on faces take long to write for CalculiX",
@@ -266,8 +267,11 @@ def hint_at_surfaces(result, analysis) -> None:
             return
 
 
-#: The same, of FreeCAD 1.1 and later: left out where there is no such module.
-NEWER = (("femsolver.calculix.calculixtools", "CalculiXTools.prepare", _prepared),)
+#: The same, of FreeCAD 1.1 and later: left out where there is no module of the first one's name.
+NEWER = (
+    ("femsolver.calculix.calculixtools", "CalculiXTools.prepare", _prepared),
+    ("femmesh.meshsetsgetter", "MeshSetsGetter._load_tables", shell_input.nodes_later),
+)
 #: FreeCAD's functions that are wrapped: module, name, and what wraps it.
 WRAPPED = (
     ("femsolver.run", "Check.check_mesh_exists", _checked_in_framework),
