@@ -73,12 +73,11 @@ def solve_to_pipeline(solver, folder):
 
 def largest_stress(analysis):
     """The largest von Mises stress of the last result, MPa."""
-    for member in analysis.Group:
-        if member.isDerivedFrom("Fem::FemResultObject"):
-            return max(member.vonMises)
-        if member.isDerivedFrom("Fem::FemPostPipeline"):
-            return max(member.Data.GetBlock(0).GetPointData().GetArray("von Mises Stress").GetRange())
-    raise SystemExit(f"{analysis.Label}: has no result")
+    objects = [member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject")]
+    if objects:
+        return max(max(result.vonMises) for result in objects)
+    pipeline = next(member for member in analysis.Group if member.isDerivedFrom("Fem::FemPostPipeline"))
+    return max(pipeline.Data.GetBlock(0).GetPointData().GetArray("von Mises Stress").GetRange())
 
 
 def main():

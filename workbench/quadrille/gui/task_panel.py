@@ -130,8 +130,8 @@ class MeshPanel:
         rows = QtGui.QVBoxLayout(listed)
         rows.setContentsMargins(0, 0, 0, 0)
         rows.addWidget(self.follows)
-        rows.addWidget(self.entries)
         rows.addWidget(self.refinements)
+        rows.addWidget(self.entries)
         refinements = _section("QuadrilleRefinements", translate("Quadrille", "Refinements"), listed,
                                any(getattr(self.mesh, name) for name in ("MeshRegionList", state.ADAPTED, *ENTRIES)))
         holder = QtGui.QWidget()
