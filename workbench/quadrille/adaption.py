@@ -8,7 +8,6 @@ takes the result that is in the mesh's analysis, and puts a new mesh into the sa
 supports, thicknesses and materials do, holds for it too. Then solve again. Needs results at the surfaces of the shell (the solver's
 property BeamShellResultOutput3D). Runs inside FreeCAD."""
 
-import json
 import os
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
