@@ -27,7 +27,7 @@ import ObjectsFem
 import Part
 
 import quadrille.freecad
-from quadrille import undo
+from quadrille import jobs, undo
 from quadrille.gui import quality_view
 from driver import Boxes, close_panel, find, prepare, process, trigger, wait_for
 
@@ -65,7 +65,7 @@ def quadrille_run(document, part, size, order):
     process(0.3)
     mesh = document.Objects[-1]
     started = time.perf_counter()
-    with Stopwatch(quadrille.freecad, "read_mesh") as read, Stopwatch(undo, "put") as put:
+    with Stopwatch(jobs, "read_mesh") as read, Stopwatch(undo, "put") as put:
         find("QuadrilleMesh").click()
         wait_for(lambda: find("QuadrilleMesh").isEnabled(), 300, "meshing")
     stored = time.perf_counter()

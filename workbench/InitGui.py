@@ -31,13 +31,14 @@ class QuadrilleWorkbench(FreeCADGui.Workbench):
 
 def _start():
     """The commands are known from the start, so that the FEM workbench and macros have them too."""
-    from quadrille.gui import TRANSLATIONS, commands, fem_workbench, preferences
+    from quadrille.gui import TRANSLATIONS, ahead, commands, fem_workbench, preferences
 
     FreeCADGui.addLanguagePath(str(TRANSLATIONS))
     FreeCADGui.updateLocale()
     preferences.add_page()
     commands.register()
     fem_workbench.join()
+    ahead.join()
 
 
 FreeCADGui.addWorkbench(QuadrilleWorkbench())

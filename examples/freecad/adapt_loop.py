@@ -2,7 +2,7 @@
 
     scripts/freecad_python examples/freecad/adapt_loop.py [DOCUMENT.FCStd] [--error 0.03] [--rounds 6] [--save ADAPTED.FCStd]
 
-DOCUMENT has an analysis with a quad mesh, a CalculiX solver (CcxTools), material, thickness, supports and loads; without one a
+DOCUMENT has an analysis with a quad mesh, a CalculiX solver (CcxTools, or that of FreeCAD 1.1), material, thickness, supports and loads; without one a
 cantilever plate with a hole is taken, that of parameter_study.py. Loads and supports stay where they are: they refer to the part.
 """
 
@@ -39,6 +39,10 @@ def sample():
 
 def solve(analysis, folder):
     """One run of CalculiX by FreeCAD's solver object; the results of the last one go."""
+    for solver in solvers.solvers_of(analysis):
+        if solver.Proxy.Type == "Fem::SolverCalculiX":  # from FreeCAD 1.1 on
+            solve_to_pipeline(solver, folder)
+            return
     from femtools import ccxtools
 
     fea = ccxtools.FemToolsCcx(analysis, test_mode=False)
@@ -54,9 +58,26 @@ def solve(analysis, folder):
     fea.load_results()
 
 
+def solve_to_pipeline(solver, folder):
+    """The same by the solver object whose results are a pipeline."""
+    from femsolver.calculix.calculixtools import CalculiXTools
+
+    solver.WorkingDirectory = folder
+    tool = CalculiXTools(solver)
+    tool.prepare()
+    process = tool.compute()
+    if not process.waitForFinished(-1) or process.exitCode() != 0:
+        raise SystemExit(bytes(process.readAllStandardOutput()).decode(errors="replace"))
+    tool.update_properties()
+
+
 def largest_stress(analysis):
     """The largest von Mises stress of the last result, MPa."""
-    return max(max(member.vonMises) for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject"))
+    objects = [member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject")]
+    if objects:
+        return max(max(result.vonMises) for result in objects)
+    pipeline = next(member for member in analysis.Group if member.isDerivedFrom("Fem::FemPostPipeline"))
+    return max(pipeline.Data.GetBlock(0).GetPointData().GetArray("von Mises Stress").GetRange())
 
 
 def main():

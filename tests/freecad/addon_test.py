@@ -23,7 +23,7 @@ from FreeCAD import Vector
 
 import quadrille
 import quadrille.freecad as core
-from quadrille import command, groups, quality, shapes, solvers
+from quadrille import command, groups, quality, shapes, shell_input, solvers
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
 
@@ -172,6 +172,51 @@ class AddonTest(unittest.TestCase):
                 meshtools.get_force_obj_face_nodeload_table(mesh.FemMesh, table, nodes, force)  # nothing is searched
             self.document.removeObject(mesh.Name)
 
+    def test_the_mesh_is_written_as_freecad_writes_it(self):
+        from femsolver.calculix import write_mesh
+        from femtools import ccxtools
+
+        part = self.document.addObject("Part::Feature", "Part")
+        part.Shape = Part.makeCylinder(5, 20).fuse(Part.makeBox(20, 4, 4))
+        analysis, fixed, _ = self.analysis()
+        make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
+        solver = analysis.addObject(make_solver(self.document, "Solver"))[0]
+        fixed.References = [(part, "Face2")]
+        analysis.addObject(ObjectsFem.makeElementGeometry2D(self.document, 1.0, "Thickness"))
+        material = analysis.addObject(ObjectsFem.makeMaterialSolid(self.document, "Steel"))[0]
+        material.Material = {"Name": "Steel", "YoungsModulus": "210000 MPa", "PoissonRatio": "0.3"}
+        force = analysis.addObject(ObjectsFem.makeConstraintForce(self.document, "Force"))[0]
+        force.References, force.Force = [(part, "Face1")], "100 N" if FreeCAD.Version()[0] != "0" else 100.0
+
+        def written():
+            with tempfile.TemporaryDirectory() as folder:
+                fea = ccxtools.FemToolsCcx(analysis, solver, test_mode=True)
+                fea.update_objects()
+                fea.setup_working_dir(folder, create=True)
+                fea.write_inp_file()
+                return {path.name: [line for line in path.read_bytes().splitlines() if b" time" not in line.lower()]
+                        for path in Path(folder).glob("*.inp")}
+
+        for order, split, reduced in ((1, False, True), (2, False, True), (2, True, False), (2, True, True)):
+            with self.subTest(order=order, split=split, reduced=reduced):
+                mesh = core.mesh_object(part, size=2, order=order, analysis=analysis)
+                mesh.ReducedShells, solver.SplitInputWriter = reduced, split
+                self.document.recompute()
+                with unittest.mock.patch.object(shell_input, "text_of", wraps=shell_input.text_of) as used:
+                    ours = written()
+                self.assertEqual(used.call_count, 1)
+                with unittest.mock.patch.object(write_mesh, "write_mesh", write_mesh.write_mesh.__wrapped__):
+                    self.assertEqual(ours, written())
+                self.assertEqual(len(ours) > 1, split)
+                self.document.removeObject(mesh.Name)
+        if hasattr(solver, "ModelSpace"):  # from FreeCAD 1.0 on; such elements FreeCAD writes itself
+            core.mesh_object(part, size=2, analysis=analysis)
+            solver.ModelSpace = "plane stress"
+            with unittest.mock.patch.object(shell_input, "text_of") as used:
+                texts = written()
+            self.assertFalse(used.called)
+            self.assertTrue(any(b"TYPE=CPS8" in line for lines in texts.values() for line in lines))
+
     @staticmethod
     def written(force, table):
         """What FreeCAD's writer makes of loads: cards, and the load of each node along each axis on each face."""
@@ -191,6 +236,7 @@ class AddonTest(unittest.TestCase):
 
     def test_elements_of_nodes_are_gathered_when_they_are_needed(self):
         from femmesh import meshtools
+        from femmesh.meshsetsgetter import MeshSetsGetter
 
         mesh = core.mesh_object(self.box(), size=2)
         elements, nodes = meshtools.get_femelement_faces_table(mesh.FemMesh), mesh.FemMesh.Nodes
@@ -201,6 +247,14 @@ class AddonTest(unittest.TestCase):
         self.assertEqual((len(table), calls), (len(nodes), []))
         self.assertEqual(dict(table), real(nodes, elements))
         self.assertEqual(calls, [1])
+        if hasattr(MeshSetsGetter, "_load_tables"):  # from FreeCAD 1.1 on
+            getter = types.SimpleNamespace(mesh_object=mesh, femmesh=mesh.FemMesh, femnodes_mesh={}, femelement_table={},
+                                           femnodes_ele_table={})
+            MeshSetsGetter._load_tables(getter)
+            self.assertIsInstance(getter.femnodes_mesh, shell_input.Later)
+            self.assertEqual(dict(getter.femnodes_mesh), nodes)
+            self.assertEqual(list(getter.femnodes_mesh.values()), list(nodes.values()))
+            self.assertEqual(dict(getter.femelement_table), dict(elements))
 
     def test_thickness_and_material_per_face(self):
         from femtools import ccxtools

@@ -8,9 +8,7 @@ takes the result that is in the mesh's analysis, and puts a new mesh into the sa
 supports, thicknesses and materials do, holds for it too. Then solve again. Needs results at the surfaces of the shell (the solver's
 property BeamShellResultOutput3D). Runs inside FreeCAD."""
 
-import json
 import os
-from itertools import chain
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 import FreeCAD
@@ -18,6 +16,7 @@ import numpy as np
 
 from . import groups, solvers, state
 from . import freecad as core
+from .arrays import nodes_of
 from .command import CommandJob, Progress, scratch_folder
 from .errors import Error
 from .jobs import find_mesher
@@ -126,7 +125,7 @@ def _estimate(mesh, result, aim: List[str], folder: str, progress: Optional[Prog
         raise Error(f"{mesh.Label}: is in no analysis: put it into one, and solve that first", "usage", mesh.Name)
     solved, displaced, sizes = (os.path.join(folder, name) for name in ("mesh.inp", "result.vtu", _SIZES))
     result = result or _last_result(mesh, analysis)
-    _write_bricks(displaced, result, analysis)
+    _write_bricks(displaced, _bricks_of(result, analysis))
     _write_shells(solved, mesh.FemMesh)
     job = CommandJob(["adapt", solved, displaced, "-o", sizes, *aim, "--poisson", repr(_poisson(analysis)),
                       "--growth", repr(mesh.Growth)], find_mesher(command))
@@ -138,11 +137,18 @@ def _estimate(mesh, result, aim: List[str], folder: str, progress: Optional[Prog
 
 
 def _last_result(mesh, analysis):
+    """The last result object in an analysis, or what FreeCAD 1.1's CalculiX gives instead: a pipeline."""
+    listed = [result for solver in solvers.solvers_of(analysis) for result in getattr(solver, "Results", ())]
     found = [member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject")
-             and getattr(member, "DisplacementVectors", None) and getattr(member, "Mesh", None) is not None]
+             and getattr(member, "DisplacementVectors", None) and getattr(member, "Mesh", None) is not None
+             or _is_pipeline(member) and member in listed]
     if not found:
         raise Error(f"{analysis.Label}: has no result with displacements: solve it with {mesh.Label} first", "usage", analysis.Name)
     return found[-1]
+
+
+def _is_pipeline(result) -> bool:
+    return result.isDerivedFrom("Fem::FemPostPipeline")
 
 
 def _poisson(analysis) -> float:
@@ -154,15 +160,9 @@ def _poisson(analysis) -> float:
     return 0.3
 
 
-def _nodes(fem_mesh) -> Tuple[np.ndarray, np.ndarray]:
-    """Numbers and places of a mesh's nodes."""
-    nodes = fem_mesh.Nodes
-    return np.fromiter(nodes, int, len(nodes)), np.fromiter(chain.from_iterable(map(tuple, nodes.values())), float).reshape(-1, 3)
-
-
 def _write_shells(path: str, fem_mesh) -> None:
     """The quads of a mesh as a file of CalculiX's."""
-    numbers, points = _nodes(fem_mesh)
+    numbers, points = nodes_of(fem_mesh)
     lines = ["*NODE", *(f"{number},{x:.17g},{y:.17g},{z:.17g}" for number, (x, y, z) in zip(numbers, points))]
     elements = [(face, fem_mesh.getElementNodes(face)) for face in sorted(fem_mesh.Faces)]
     for kind, count in (("S8R", 8), ("S4", 4)):
@@ -179,34 +179,69 @@ _BRICKS = {8: (12, [4, 5, 6, 7, 0, 1, 2, 3]),
            20: (25, [4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11, 16, 17, 18, 19])}
 
 
-def _write_bricks(path: str, result, analysis) -> None:
-    """The bricks that CalculiX made of the shells, and how they moved, as a .vtu file."""
-    bricks = result.Mesh.FemMesh
-    if not bricks.VolumeCount:
+class _Bricks(NamedTuple):
+    """The bricks that CalculiX made of the shells, and how they moved."""
+
+    points: np.ndarray  #: (n, 3)
+    moved: np.ndarray  #: (n, 3)
+    nodes: np.ndarray  #: of all bricks, one after another, as VTK has them
+    ends: np.ndarray  #: in `nodes`, of each brick
+    kinds: np.ndarray  #: VTK's numbers
+
+
+def _bricks_of(result, analysis) -> _Bricks:
+    bricks = _bricks_of_pipeline(result) if _is_pipeline(result) else _bricks_of_object(result)
+    if not bricks.kinds.size or not np.isin(bricks.kinds, [kind for kind, _ in _BRICKS.values()]).all():
         solver = next((solver.Label for solver in solvers.solvers_of(analysis)), "the solver")
         raise Error(f"{result.Label}: tells of the middle of the shell alone: set {solvers.SURFACE_RESULTS} of {solver} to true, "
                     "and solve again", "usage", result.Name)
-    numbers, points = _nodes(bricks)
+    return bricks
+
+
+def _bricks_of_object(result) -> _Bricks:
+    bricks = result.Mesh.FemMesh
+    numbers, points = nodes_of(bricks)
     index = np.zeros(numbers.max() + 1, dtype=int)
     index[numbers] = np.arange(len(numbers))
     moved = np.zeros_like(points)
     moved[index[list(result.NodeNumbers)]] = np.array([tuple(vector) for vector in result.DisplacementVectors])
-    cells = []
+    cells, kinds = [], []
     for volume in sorted(bricks.Volumes):
         nodes = bricks.getElementNodes(volume)
         if len(nodes) not in _BRICKS:
             raise Error(f"{result.Label}: does not tell of shells: an element has {len(nodes)} nodes", "usage", result.Name)
-        cells.append(index[[nodes[place] for place in _BRICKS[len(nodes)][1]]])
-    ends = np.cumsum([len(cell) for cell in cells])
-    kinds = [_BRICKS[len(cell)][0] for cell in cells]
+        kind, places = _BRICKS[len(nodes)]
+        kinds.append(kind)
+        cells.append(index[[nodes[place] for place in places]])
+    flat = np.concatenate(cells) if cells else np.zeros(0, dtype=int)
+    return _Bricks(points, moved, flat, np.cumsum([len(cell) for cell in cells], dtype=int), np.array(kinds, dtype=int))
+
+
+def _bricks_of_pipeline(pipeline) -> _Bricks:
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    grid = pipeline.Data
+    while hasattr(grid, "GetNumberOfBlocks"):  # the last of several steps
+        blocks = [grid.GetBlock(number) for number in range(grid.GetNumberOfBlocks())]
+        grid = next((block for block in reversed(blocks) if block is not None), None)
+    moved = grid.GetPointData().GetArray("Displacement") if grid is not None else None
+    if moved is None:
+        raise Error(f"{pipeline.Label}: has no displacements: solve again", "usage", pipeline.Name)
+    cells = grid.GetCells()
+    return _Bricks(*map(vtk_to_numpy, (grid.GetPoints().GetData(), moved, cells.GetConnectivityArray())),
+                   vtk_to_numpy(cells.GetOffsetsArray())[1:], vtk_to_numpy(grid.GetCellTypesArray()))
+
+
+def _write_bricks(path: str, bricks: _Bricks) -> None:
+    """As a .vtu file."""
     with open(path, "w", encoding="ascii") as file:
         file.write('<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">\n'
-                   f'<UnstructuredGrid><Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(cells)}">\n')
-        for head, arrays in (("PointData", [("U", 3, moved)]), ("Points", [("Points", 3, points)]),
-                             ("Cells", [("connectivity", 1, np.concatenate(cells)), ("offsets", 1, ends), ("types", 1, kinds)])):
+                   f'<UnstructuredGrid><Piece NumberOfPoints="{len(bricks.points)}" NumberOfCells="{len(bricks.kinds)}">\n')
+        for head, arrays in (("PointData", [("U", 3, bricks.moved)]), ("Points", [("Points", 3, bricks.points)]),
+                             ("Cells", [("connectivity", 1, bricks.nodes), ("offsets", 1, bricks.ends),
+                                        ("types", 1, bricks.kinds)])):
             file.write(f"<{head}>\n")
             for name, width, values in arrays:
-                values = np.asarray(values)
                 kind = "Float64" if values.dtype.kind == "f" else "Int64"
                 file.write(f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{width}" format="ascii">\n')
                 np.savetxt(file, values, fmt="%.17g" if kind == "Float64" else "%d")

@@ -12,18 +12,20 @@ import numpy as np
 
 from FreeCAD import Units
 
-from . import groups, shapes, state
+from . import arrays, groups, shapes, state
+from .arrays import Shells
 from .errors import Error
+from .shell_input import ElementTable, rows
 
 
 class Loads(Mapping):
     """The force on each node of a face: what FreeCAD has as a dictionary, kept as arrays.
 
     `newtons[i]` is the force on the node `nodes[i]`, which ascend; `unit` is what FreeCAD multiplies loads by, 1.0 or a
-    quantity of 1."""
+    quantity of 1; `shells` is the mesh, for what is written next."""
 
-    def __init__(self, nodes: np.ndarray, newtons: np.ndarray, unit) -> None:
-        self.nodes, self.newtons, self._unit = nodes, newtons, unit
+    def __init__(self, nodes: np.ndarray, newtons: np.ndarray, unit, shells: Shells) -> None:
+        self.nodes, self.newtons, self._unit, self.shells = nodes, newtons, unit, shells
 
     def __getitem__(self, node):
         place = np.searchsorted(self.nodes, node)
@@ -39,13 +41,8 @@ class Loads(Mapping):
 
     def lines(self, direction) -> str:
         """CalculiX's lines for a force along a direction, as FreeCAD writes them, axis by axis."""
-        text = []
-        for axis, share in enumerate(direction, 1):
-            if abs(share) > 1e-15:  # FreeCAD's own limit
-                values = (share * self.newtons).tolist()
-                pairs = [item for pair in zip(self.nodes.tolist(), values) for item in pair]
-                text.append(f"%d,{axis},%.13G\n" * len(values) % tuple(pairs))
-        return "".join(text)
+        return "".join(rows(f"%d,{axis},%.13G\n", self.nodes, share * self.newtons)
+                       for axis, share in enumerate(direction, 1) if abs(share) > 1e-15)  # FreeCAD's own limit
 
 
 def from_groups(function):
@@ -53,7 +50,7 @@ def from_groups(function):
 
     @functools.wraps(function)
     def get_force_obj_face_nodeload_table(femmesh, femelement_table, femnodes_mesh, frc_obj):
-        table = _table(femmesh, femelement_table, femnodes_mesh, frc_obj) if not femmesh.VolumeCount else None
+        table = _table(femmesh, femelement_table, femnodes_mesh, frc_obj)
         return function(femmesh, femelement_table, femnodes_mesh, frc_obj) if table is None else table
 
     return get_force_obj_face_nodeload_table
@@ -76,7 +73,7 @@ def in_one_go(function):
     return write_meshdata_constraint
 
 
-def _table(femmesh, femelement_table: Dict, femnodes_mesh: Dict, force) -> Optional[List[Tuple[str, Loads]]]:
+def _table(femmesh, femelement_table: Mapping, femnodes_mesh: Dict, force) -> Optional[List[Tuple[str, Loads]]]:
     """FreeCAD's table of loads; None where a face has no group, or its elements have another area than the face."""
     analysis = groups.analysis_of(force)
     mesh = next((member for member in analysis.Group if state.is_quad_mesh(member)), None) if analysis is not None else None
@@ -90,20 +87,23 @@ def _table(femmesh, femelement_table: Dict, femnodes_mesh: Dict, force) -> Optio
         return None
     if len(names) != len(asked) or not names or not all(name.startswith("Face") for name in names):
         return None
+    known = isinstance(femelement_table, ElementTable)
+    shells = femelement_table.shells(femnodes_mesh) if known else arrays.shells_of(femmesh, femnodes_mesh)
+    if shells is None:
+        return None
     areas = [mesh.Shape.Shape.getElement(name).Area for name in names]
     quantity = hasattr(force.Force, "getValueAs")  # from FreeCAD 0.21 on
     newtons = float(force.Force.getValueAs("N")) if quantity else force.Force
     table = []
     for name, area, (obj, asked_name) in zip(names, areas, asked):
-        found = sorted(groups.elements_in(femmesh, name))
-        elements = [femelement_table[element] for element in found if element in femelement_table]
-        if not elements or len(elements) != len(found) or {*map(len, elements)} not in ({4}, {8}):
+        found = np.array(groups.elements_in(femmesh, name), dtype=int)
+        if not found.size or not np.isin(found, shells.elements).all():
             return None
-        nodes, shares = _areas(femnodes_mesh, np.array(elements))
+        nodes, shares = _areas(shells, np.searchsorted(shells.elements, found))
         if not 0.99 < shares.sum() / area < 1.01:
             return None
         table.append((f"node loads on shape: {obj.Name}:{asked_name}",
-                      Loads(nodes, shares * (newtons / sum(areas)), Units.Quantity(1.0) if quantity else 1.0)))
+                      Loads(nodes, shares * (newtons / sum(areas)), Units.Quantity(1.0) if quantity else 1.0, shells)))
     return table
 
 
@@ -114,17 +114,15 @@ _TRIANGLES = {4: ((0, 1, 2), (0, 2, 3)),
 _SHARES = {4: (1 / 4,) * 4, 8: (-1 / 12,) * 4 + (1 / 3,) * 4}
 
 
-def _areas(femnodes_mesh: Dict, elements: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+def _areas(shells: Shells, elements: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
     """The nodes of elements, ascending, and the share of the elements' area that each has."""
-    used = np.zeros(elements.max() + 1, dtype=bool)
-    used[elements] = True
-    nodes = np.flatnonzero(used)
-    places = (np.cumsum(used) - 1)[elements]
-    points = np.array([tuple(femnodes_mesh[node]) for node in nodes.tolist()])
-    size = elements.shape[1]
-    area = sum(_triangle(points, places[:, triangle]) for triangle in _TRIANGLES[size])
-    shares = (area[:, None] * np.array(_SHARES[size])).ravel()
-    return nodes, np.bincount(places.ravel(), shares)
+    places = shells.places(shells.corners[elements])
+    size = places.shape[1]
+    area = sum(_triangle(shells.points, places[:, triangle]) for triangle in _TRIANGLES[size])
+    shares = np.bincount(places.ravel(), (area[:, None] * np.array(_SHARES[size])).ravel(), len(shells.nodes))
+    used = np.zeros(len(shells.nodes), dtype=bool)
+    used[places] = True
+    return shells.nodes[used], shares[used]
 
 
 def _triangle(points: np.ndarray, corners: Sequence[Sequence[int]]) -> np.ndarray:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The quality of each quad of a FEM mesh, by NumPy. Runs inside FreeCAD."""
 
-from itertools import chain
 from typing import Dict, NamedTuple
 
 import numpy as np
 
+from .arrays import faces_of, nodes_of
 
 #: Industry's criteria: of the perfect square, and the usual limit. They are those of the mesher (mesher/mesh/criteria.hpp).
 CRITERIA = {
@@ -78,14 +78,10 @@ class ElementQuality(NamedTuple):
 
 def measure(fem_mesh) -> ElementQuality:
     """Measures the corner quads of a FEM mesh; midside nodes are left out."""
-    nodes = fem_mesh.Nodes
-    points = np.zeros((max(nodes, default=0) + 1, 3))
-    coordinates = chain.from_iterable(map(tuple, nodes.values()))
-    points[list(nodes)] = np.fromiter(coordinates, float, 3 * len(nodes)).reshape(-1, 3)
-    ids = np.array(fem_mesh.Faces, dtype=int)
-    elements = list(map(fem_mesh.getElementNodes, fem_mesh.Faces))
-    sizes = np.fromiter(map(len, elements), int, len(elements))
-    flat = np.fromiter(chain.from_iterable(elements), int, int(sizes.sum()))
+    numbers, places = nodes_of(fem_mesh)
+    points = np.zeros((max(numbers, default=0) + 1, 3))
+    points[numbers] = places
+    ids, sizes, flat = faces_of(fem_mesh)
     quads = np.isin(sizes, (4, 8))
     starts = (np.cumsum(sizes) - sizes)[quads]
     corners = flat[starts[:, None] + np.arange(4)]

@@ -4,7 +4,7 @@ and the names of referenced faces, edges and vertices. Runs inside FreeCAD."""
 
 import hashlib
 import math
-from typing import Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
 
 import Part
 import numpy as np
@@ -13,6 +13,8 @@ from .errors import Error
 
 #: Samples a face and direction, for its curvature; fewer where there are many faces.
 _SAMPLES, _FEW_SAMPLES, _MANY_FACES = 8, 4, 300
+#: Faces or edges that are measured at a time.
+_STEP = 25
 
 
 class SizeEstimate:
@@ -23,30 +25,48 @@ class SizeEstimate:
     """
 
     def __init__(self, shape) -> None:
-        faces, edges = shape.Faces, shape.Edges
+        for _ in self._measure(shape):
+            pass
+
+    @classmethod
+    def in_steps(cls, shape) -> Iterator["SizeEstimate"]:
+        """Gives an estimate again and again, some milliseconds of measuring later each time; it can be used after the last."""
+        estimate = cls.__new__(cls)
+        yield estimate
+        for _ in estimate._measure(shape):
+            yield estimate
+
+    def _measure(self, shape) -> Iterator[None]:
+        faces = shape.Faces
+        yield
+        edges = shape.Edges
         samples = _SAMPLES if len(faces) <= _MANY_FACES else _FEW_SAMPLES
         self._diagonal = shape.BoundBox.DiagonalLength
         numbers: Dict[int, List[Tuple[object, int]]] = {}
-        degenerated = [edge.Degenerated for edge in edges]
+        lengths, bends = [], []
         for index, edge in enumerate(edges):
-            if not degenerated[index]:
+            point = edge.Degenerated
+            lengths.append(0.0 if point else edge.Length)
+            bends.append(0.0 if point else _curvature_of_edge(edge))
+            if not point:
                 numbers.setdefault(edge.hashCode(), []).append((edge, index))
-        self._areas = np.array([face.Area for face in faces])
-        pieces = [(index, *piece) for index, face in enumerate(faces)
-                  for piece in _curvatures(face, self._areas[index], samples)]
-        self._pieces = _columns(pieces, 3)  # face, area, curvature
-        lengths = np.array([0.0 if point else edge.Length for edge, point in zip(edges, degenerated)])
-        sides = []  # face, edge, what the margin along it widens by, per length and distance
+            if index % _STEP == 0:
+                yield
+        areas, pieces, sides = [], [], []
         for index, face in enumerate(faces):
+            areas.append(face.Area)
+            pieces += [(index, *piece) for piece in _curvatures(face, areas[-1], samples)]
             for wire, widening in _wires(face):
                 sides += [(index, number, widening) for edge in wire.Edges
                           for same, number in numbers.get(edge.hashCode(), ()) if same.isSame(edge)]
-        self._sides = _columns(sides, 3)
-        self._edge_curvatures = np.array([0.0 if point else _curvature_of_edge(edge) for edge, point in zip(edges, degenerated)])
+            if index % _STEP == 0:
+                yield
+        self._areas, self._lengths, self._edge_curvatures = np.array(areas), np.array(lengths), np.array(bends)
+        self._pieces = _columns(pieces, 3)  # face, area, curvature
+        self._sides = _columns(sides, 3)  # face, edge, what the margin along it widens by, per length and distance
         # The neighbor is as fine as its curvature wants, up to the edge.
         typical = self._typical_curvatures()[self._column(self._sides, 0)]
         np.maximum.at(self._edge_curvatures, self._column(self._sides, 1), typical)
-        self._lengths = lengths
         self._reaches = self._reach()
 
     @property
@@ -129,9 +149,18 @@ _last_estimate: List[Tuple[object, SizeEstimate]] = []
 
 def estimate_of(shape) -> SizeEstimate:
     """The estimate of a shape; that of the shape asked for last is kept."""
-    if not _last_estimate or not _last_estimate[0][0].isSame(shape):
-        _last_estimate[:] = [(shape, SizeEstimate(shape))]
+    for _ in estimate_in_steps(shape):
+        pass
     return _last_estimate[0][1]
+
+
+def estimate_in_steps(shape) -> Iterator[None]:
+    """Makes the estimate of a shape, some milliseconds at a time; estimate_of() has it when this has ended."""
+    if _last_estimate and _last_estimate[0][0].isSame(shape):
+        return
+    for estimate in SizeEstimate.in_steps(shape):
+        yield
+    _last_estimate[:] = [(shape, estimate)]
 
 
 def _wires(face) -> List[Tuple[object, float]]:

@@ -15,13 +15,13 @@ Meshes without such groups, and mesh objects that are not ours, give the same as
 import functools
 import importlib.util
 import os
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Callable, List, Optional, Tuple
 
 import FreeCAD
 
-from . import forces, groups
+from . import forces, groups, shell_input
+from .shell_input import Later
 
 #: Tells why a mesh object's mesh must not be solved with; empty for a current one, and for objects not ours.
 Complaint = Callable[[object], str]
@@ -36,8 +36,8 @@ def wrap_solvers(complaint: Complaint) -> None:
     if _complaint is not None:
         return
     _complaint = complaint
-    present = [entry for entry in NEWER if importlib.util.find_spec(entry[0]) is not None]
-    for module, name, wrapper in (*present, *WRAPPED):
+    newer = NEWER if importlib.util.find_spec(NEWER[0][0]) is not None else ()
+    for module, name, wrapper in (*newer, *WRAPPED):
         _wrap(module, name, wrapper)
 
 
@@ -66,6 +66,9 @@ _LOST = {
     "_from_groups": "several materials or thicknesses take long to write for solvers",
     "_when_needed": "large meshes take long to write for solvers",
     "_with_set": "several materials or thicknesses take long to write for solvers",
+    "of_shells": "forces on faces take long to write for CalculiX",
+    "nodes_later": "large meshes take long to write for CalculiX",
+    "at_once": "large meshes take long to write for CalculiX",
     "from_groups": "forces on faces take long to write for CalculiX",
     "in_one_go": "forces on faces take long to write for CalculiX",
     "_followed": "the input for CalculiX has S8 and no offset of shells, whatever the mesh object says",
@@ -191,33 +194,13 @@ def _with_set(function):
     return get_femelements_by_femnodes_std
 
 
-class _Later(Mapping):
-    """A table that is made when it is first looked into."""
-
-    def __init__(self, make: Callable[[], dict], length: int) -> None:
-        self._make, self._length = make, length
-
-    @functools.cached_property
-    def _table(self) -> dict:
-        return self._make()
-
-    def __getitem__(self, key):
-        return self._table[key]
-
-    def __iter__(self):
-        return iter(self._table)
-
-    def __len__(self):
-        return self._length
-
-
 def _when_needed(function):
     """The same table of each node's elements, when it is needed: FreeCAD 1.1 makes it for each input, and a text of it for its
     log, and looks into it where elements are searched by their nodes."""
 
     @functools.wraps(function)
     def get_femnodes_ele_table(femnodes_mesh, femelement_table):
-        return _Later(lambda: function(femnodes_mesh, femelement_table), len(femnodes_mesh))
+        return Later(lambda: function(femnodes_mesh, femelement_table), len(femnodes_mesh))
 
     return get_femnodes_ele_table
 
@@ -250,14 +233,14 @@ def _followed(function):
 def reduce_and_offset(path, reduced: bool, offset: float) -> Tuple[int, int]:
     """In an input file of CalculiX: S8 shells become S8R, shell sections get an offset in thicknesses. Returns how many
     blocks of elements and sections were changed."""
-    text = Path(path).read_text(encoding="utf-8")
-    blocks, sections = text.count("TYPE=S8,") if reduced else 0, text.count("*SHELL SECTION,") if offset else 0
+    text = Path(path).read_bytes()  # as text it would take ten times as long
+    blocks, sections = text.count(b"TYPE=S8,") if reduced else 0, text.count(b"*SHELL SECTION,") if offset else 0
     if blocks:
-        text = text.replace("TYPE=S8,", "TYPE=S8R,")
+        text = text.replace(b"TYPE=S8,", b"TYPE=S8R,")
     if sections:
-        text = text.replace("*SHELL SECTION,", f"*SHELL SECTION, OFFSET={offset:g},")
+        text = text.replace(b"*SHELL SECTION,", f"*SHELL SECTION, OFFSET={offset:g},".encode())
     if blocks or sections:
-        Path(path).write_text(text, encoding="utf-8")
+        Path(path).write_bytes(text)
     return blocks, sections
 
 
@@ -284,19 +267,24 @@ def hint_at_surfaces(result, analysis) -> None:
             return
 
 
-#: The same, of FreeCAD 1.1 and later: left out where there is no such module.
-NEWER = (("femsolver.calculix.calculixtools", "CalculiXTools.prepare", _prepared),)
+#: The same, of FreeCAD 1.1 and later: left out where there is no module of the first one's name.
+NEWER = (
+    ("femsolver.calculix.calculixtools", "CalculiXTools.prepare", _prepared),
+    ("femmesh.meshsetsgetter", "MeshSetsGetter._load_tables", shell_input.nodes_later),
+)
 #: FreeCAD's functions that are wrapped: module, name, and what wraps it.
 WRAPPED = (
     ("femsolver.run", "Check.check_mesh_exists", _checked_in_framework),
     ("femtools.checksanalysis", "check_member_for_solver_calculix", _checked_by_ccxtools),
     ("femtools.membertools", "get_mesh_to_solve", _announced),
+    ("femmesh.meshtools", "get_femelement_table", shell_input.of_shells),
     ("femmesh.meshtools", "get_femelement_faces_table", _of_shells),
     ("femmesh.meshtools", "get_femelement_sets", _noting_objects),
     ("femmesh.meshtools", "get_femelements_by_references", _from_groups),
     ("femmesh.meshtools", "get_femelements_by_femnodes_std", _with_set),
     ("femmesh.meshtools", "get_femnodes_ele_table", _when_needed),
     ("femmesh.meshtools", "get_force_obj_face_nodeload_table", forces.from_groups),
+    ("femsolver.calculix.write_mesh", "write_mesh", shell_input.at_once),
     ("femsolver.calculix.write_constraint_force", "write_meshdata_constraint", forces.in_one_go),
     ("femsolver.calculix.writer", "FemInputWriterCcx.write_solver_input", _followed),
 )

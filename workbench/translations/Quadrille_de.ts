@@ -451,6 +451,14 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <source>Follow results</source>
         <translation>Ergebnissen folgen</translation>
     </message>
+    <message>
+        <source>Divide selected edges</source>
+        <translation>Gewählte Kanten teilen</translation>
+    </message>
+    <message>
+        <source>Say how many elements the selected edges get</source>
+        <translation>Wie viele Elemente die gewählten Kanten bekommen</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>

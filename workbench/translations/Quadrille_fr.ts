@@ -451,6 +451,14 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <source>Follow results</source>
         <translation>Suivre les résultats</translation>
     </message>
+    <message>
+        <source>Divide selected edges</source>
+        <translation>Diviser les arêtes choisies</translation>
+    </message>
+    <message>
+        <source>Say how many elements the selected edges get</source>
+        <translation>Dire combien d’éléments les arêtes choisies reçoivent</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>

@@ -87,6 +87,8 @@ class GuiCase(unittest.TestCase):
             trigger("Quadrille_Mesh")
         self.assertEqual(boxes.texts, [])
         self.assertTrue(FreeCADGui.Control.activeDialog())
+        estimate = find("QuadrilleEstimate")
+        wait_for(lambda: estimate.text() != "...", 20, "the estimate")
         return [obj for obj in self.document.Objects if is_quad_mesh(obj)][-1]
 
     def press_mesh(self, seconds=60):

@@ -147,9 +147,8 @@ class MeshCommand(_Command):
         core.find_mesher()
         do("import quadrille.freecad")
         part = _one_part(selected)
-        chosen = preferences.settings()
-        size = core.suggested_size(part, preferences.suggested_quads(), chosen.get("elements_per_circle", 12))
-        do(f"quadrille.freecad.make_mesh({path_of(part)}{_arguments({'size': size, **chosen}, analysis)})")
+        # Its panel finds a size.
+        do(f"quadrille.freecad.make_mesh({path_of(part)}{_arguments(preferences.settings(), analysis)})")
         self._edit, self._made = [obj for obj in document.Objects if is_quad_mesh(obj)][-1], True
 
     def afterwards(self) -> None:

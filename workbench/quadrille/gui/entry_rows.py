@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sizes of a mesh that are entries of its properties (in space, layers, numbers of segments and their bias) in its panel:
-what each is on, and its numbers, edited in place. New ones are made in the property editor."""
+what each is on, and its numbers, edited in place. Numbers on edges are added here, other new ones in the property editor."""
 
 from typing import Any, Callable, Dict, List, NamedTuple, Sequence
 
@@ -25,14 +25,22 @@ class _Row(NamedTuple):
 class EntryRows(QtGui.QWidget):
     """A row for each entry."""
 
-    def __init__(self, changed: Callable[[], None]) -> None:
+    def __init__(self, divide: Callable[[], None], changed: Callable[[], None]) -> None:
+        """divide: adds numbers for the edges that are selected, by add()."""
         super().__init__()
         self._rows: List[_Row] = []
         self._changed = changed
-        self._grid = QtGui.QGridLayout(self)
-        self._grid.setContentsMargins(0, 0, 0, 0)
+        self._grid = QtGui.QGridLayout()
         self._grid.setColumnStretch(0, 3)
         self._grid.setColumnStretch(1, 2)
+        self.divide_button = QtGui.QPushButton(translate("Quadrille", "Divide selected edges"))
+        self.divide_button.setObjectName("QuadrilleDivide")
+        self.divide_button.setToolTip(translate("Quadrille", "Say how many elements the selected edges get"))
+        self.divide_button.clicked.connect(lambda *_: divide())
+        layout = QtGui.QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addLayout(self._grid)
+        layout.addWidget(self.divide_button)
 
     def values(self) -> Dict[str, List[str]]:
         """The entries shown, by property. Raises Error where one has no number."""
@@ -76,6 +84,16 @@ class EntryRows(QtGui.QWidget):
         self._rows.append(_Row(name, place, box))
         box.textChanged.connect(lambda *_: self._changed())
         remove.clicked.connect(lambda *_: self._remove(number))
+
+    def add(self, name: str, entries: Dict[str, str]) -> None:
+        """Entries of a property, by their places; those of places that are there already give way."""
+        shown: Dict[str, List[str]] = {other: [] for other in PROPERTIES}
+        for row in self._rows:
+            if row.property != name or row.place not in entries:
+                shown[row.property].append(f"{row.place}={row.box.text()}")
+        shown[name] += [f"{place}={text}" for place, text in entries.items()]
+        self.show_all(shown)
+        self._changed()
 
     def _remove(self, number: int) -> None:
         rest: Dict[str, List[str]] = {name: [] for name in PROPERTIES}

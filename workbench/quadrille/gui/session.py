@@ -14,7 +14,7 @@ class Session:
     def __init__(self, mesh, made_by: str = "") -> None:
         """made_by: the name of the step of undo that has just made the mesh object; empty for one that was there."""
         self._mesh, self._name, self._document = mesh, mesh.Name, mesh.Document
-        self._made_by = made_by
+        self.made_by = made_by
         self._own: List[str] = [made_by] if made_by else []  # names of the steps taken, the last one first
         self._whole = bool(self._document.UndoMode)  # FreeCAD keeps all of them
         self._before: Dict[str, Any] = {name: getattr(mesh, name) for name in mesh.PropertiesList if _is_ours(mesh, name)}
@@ -49,7 +49,7 @@ class Session:
 
     def _restore(self) -> None:
         mesh, document = self._mesh, self._document
-        if self._made_by:
+        if self.made_by:
             for region in mesh.MeshRegionList:
                 document.removeObject(region.Name)
             document.removeObject(mesh.Name)

@@ -18,6 +18,7 @@ from ..errors import Error
 from . import do, icon, links_text, path_of, preferences, standard_buttons, tell, translate
 from .entry_rows import PROPERTIES as ENTRIES
 from .entry_rows import EntryRows
+from .measuring import FAILURES, Measuring
 from .mesher_choice import MesherChoice, is_missing
 from .quality_view import QualityWidget
 from .refinement_list import RefinementList
@@ -45,6 +46,7 @@ class MeshPanel:
         self._anew: set = set()
         self._started = 0.0
         self._part_was_visible = mesh.Shape.ViewObject.Visibility
+        self._measuring = Measuring(mesh, self._measured)
         self._build()
         self._load()
         self._timer = QtCore.QTimer()  # not the form's: it must outlive a form that FreeCAD deletes
@@ -54,6 +56,7 @@ class MeshPanel:
         FreeCAD.addDocumentObserver(self)
         self._observing = True
         self._update_estimate()
+        self._measuring.start()
 
     # What the panel is made of
 
@@ -77,7 +80,7 @@ class MeshPanel:
         self.refinements = RefinementList(self._refine_selection, self._update_estimate)
         self.follows = QtGui.QCheckBox(translate("Quadrille", "Follow results"))
         self.follows.setObjectName("QuadrilleFollows")
-        self.entries = EntryRows(self._update_estimate)
+        self.entries = EntryRows(self._divide_selection, self._update_estimate)
         self.preview = SizePreview(self.mesh, self._wanted, self._show_count)
         self.mesh_button = _button("QuadrilleMesh", translate("Quadrille", "Mesh"), "")
         self.mesh_button.setIcon(QtGui.QIcon(icon("quadrille_mesh")))
@@ -116,9 +119,8 @@ class MeshPanel:
         if is_missing():
             choice = MesherChoice(lambda _command: choice.hide())
             layout.addWidget(choice)
-        hint = thin_hint(self.mesh.Shape, self.reject)
-        if hint is not None:
-            layout.addWidget(hint)
+        self._hint = QtGui.QVBoxLayout()
+        layout.addLayout(self._hint)
         layout.addLayout(basic)
         layout.addWidget(self.preview)
         layout.addWidget(_beside(self.mesh_button, self.stop_button))
@@ -128,8 +130,8 @@ class MeshPanel:
         rows = QtGui.QVBoxLayout(listed)
         rows.setContentsMargins(0, 0, 0, 0)
         rows.addWidget(self.follows)
-        rows.addWidget(self.entries)
         rows.addWidget(self.refinements)
+        rows.addWidget(self.entries)
         refinements = _section("QuadrilleRefinements", translate("Quadrille", "Refinements"), listed,
                                any(getattr(self.mesh, name) for name in ("MeshRegionList", state.ADAPTED, *ENTRIES)))
         holder = QtGui.QWidget()
@@ -159,6 +161,7 @@ class MeshPanel:
 
     def _wanted(self) -> state.Wanted:
         """What the panel shows; raises Error where a field cannot be read."""
+        self._measuring.finish()
         values = dict(state.wanted_of(self.mesh).values)
         anew = set(self._anew)
         for name, setting in self.settings.items():
@@ -204,7 +207,24 @@ class MeshPanel:
 
     # Estimate
 
+    def _measured(self) -> None:
+        """The part is measured: a new mesh gets a size, unless the user was faster."""
+        try:
+            if self._session.made_by and not self.mesh.Size and not self.settings["Size"].value():
+                size = self._suggestion()
+                do(f"{path_of(self.mesh)}.Size = {size!r}")
+                self.settings["Size"].show(size)
+            hint = thin_hint(self.mesh.Shape, self.reject)
+            if hint is not None:
+                self._hint.addWidget(hint)
+        except FAILURES:  # the estimate tells of it
+            pass
+        self._update_estimate()
+
     def _update_estimate(self) -> None:
+        if self._measuring.running:
+            self.estimate.setText("...")
+            return
         self.preview.follow()
         try:
             wanted = self._wanted()
@@ -214,7 +234,7 @@ class MeshPanel:
             size = settings.get("size") or self.mesh.Shape.Shape.BoundBox.DiagonalLength / 60
             count = estimate.quads(size, settings.get("size_min"), settings["elements_per_circle"], settings.get("sizes"),
                                    settings.get("faces", ()), settings["growth"])
-        except (Error, AttributeError, RuntimeError) as error:  # also a part without a shape, or one that cannot be measured
+        except FAILURES as error:
             self.estimate.setText(str(error))
             return
         self._show_count(count)
@@ -224,12 +244,13 @@ class MeshPanel:
 
     def _suggest(self) -> None:
         try:
-            per_circle = self.settings["ElementsPerCircle"].value()
-            size = shapes.estimate_of(self.mesh.Shape.Shape).suggested(preferences.suggested_quads(), per_circle)
-        except (Error, AttributeError, RuntimeError) as error:
+            self.settings["Size"].show(self._suggestion())
+        except FAILURES as error:
             tell(str(error))
-            return
-        self.settings["Size"].show(size)
+
+    def _suggestion(self) -> float:
+        per_circle = self.settings["ElementsPerCircle"].value()
+        return shapes.estimate_of(self.mesh.Shape.Shape).suggested(preferences.suggested_quads(), per_circle)
 
     def _picked(self, *kinds: str) -> list:
         """The names of what is selected on the part."""
@@ -255,12 +276,24 @@ class MeshPanel:
         names = self._picked("Face", "Edge", "Vertex")
         if not names:
             return
+        usual = self._usual_size()
+        if usual is not None:
+            self.refinements.add(links.link(self.mesh.Shape, names), usual / 2)
+
+    def _divide_selection(self) -> None:
+        names = self._picked("Edge")
+        usual = self._usual_size() if names else None
+        if usual is not None:
+            shape = self.mesh.Shape.Shape
+            self.entries.add("Segments", {name: f"{max(1, round(shape.getElement(name).Length / usual))}" for name in names})
+
+    def _usual_size(self) -> Optional[float]:
+        """The size that holds where no other is asked for; None, and a box, where it cannot be read."""
         try:
-            usual = self.settings["Size"].value() or self.mesh.Shape.Shape.BoundBox.DiagonalLength / 60
+            return self.settings["Size"].value() or self.mesh.Shape.Shape.BoundBox.DiagonalLength / 60
         except Error as error:
             tell(str(error))
-            return
-        self.refinements.add(links.link(self.mesh.Shape, names), usual / 2)
+            return None
 
     # Meshing
 
@@ -377,6 +410,7 @@ class MeshPanel:
 
     def _leave(self) -> None:
         self._timer.stop()
+        self._measuring.release()
         self.preview.release()
         if self._observing:
             self._observing = False
