@@ -35,6 +35,7 @@ class Cavities : private EditedMesh {
         met_(mesh.mesh.points.size(), 0) {}
 
   int run() {
+    const int first_node_count = node_count();
     int filled = 0;
     SparseCheck check(context_, 16);
     for (int round = 0; round < max_rounds; ++round) {
@@ -46,7 +47,7 @@ class Cavities : private EditedMesh {
       }
       if (filled == before) break;
     }
-    if (filled > 0) write_back();
+    if (filled > 0 || node_count() > first_node_count) write_back();
     return filled;
   }
 
