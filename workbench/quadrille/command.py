@@ -63,18 +63,19 @@ def scratch_folder() -> "tempfile.TemporaryDirectory":
 def _sweep(place: Path) -> None:
     for folder in place.glob(f"{_SCRATCH}*"):
         owner = re.match(r"(\d+)-", folder.name[len(_SCRATCH):])
-        if owner and not _is_running(int(owner.group(1))) and folder.stat().st_uid == os.getuid():
+        if owner and _is_left_behind(folder, int(owner.group(1))):
             shutil.rmtree(folder, ignore_errors=True)
 
 
-def _is_running(process: int) -> bool:
+def _is_left_behind(folder: Path, process: int) -> bool:
+    """Whether the folder is this user's, and the process that made it is gone."""
     try:
         os.kill(process, 0)
     except ProcessLookupError:
-        return False
+        return folder.stat().st_uid == os.getuid()
     except PermissionError:
         pass
-    return True
+    return False
 
 
 def _which(path: str) -> Optional[str]:
