@@ -13,7 +13,11 @@ from collections import OrderedDict
 from pathlib import Path
 from typing import Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
-import FreeCAD
+from . import freecad_modules
+
+freecad_modules.find()
+
+import FreeCAD  # noqa: E402
 
 from . import groups, links, old_documents, shapes, solvers, state, undo
 from .command import Progress, scratch_folder
