@@ -310,11 +310,7 @@ void bind_model(py::module_& module) {
 void bind_mesh(py::module_& module) {
   py::class_<PythonMesh> mesh(
       module, "Mesh",
-      documented(
-          "Mesh(points, quads, *, triangles=None, face_ids=None, triangle_face_ids=None, segments=None, "
-          "corners=None)",
-          "An all-quad mesh. Arrays are read-only views, node indices start at 0, CAD numbers at 1.")
-          .c_str());
+      "An all-quad mesh. Arrays are read-only views, node indices start at 0, CAD numbers at 1.");
   bind_arrays(mesh);
   mesh.def_property_readonly(
           "order", [](const PythonMesh& self) { return self.mesh.order; },

@@ -295,11 +295,14 @@ void bind_arrays(py::class_<PythonMesh>& mesh) {
            py::arg("triangles") = py::none(), py::arg("face_ids") = py::none(),
            py::arg("triangle_face_ids") = py::none(), py::arg("segments") = py::none(),
            py::arg("corners") = py::none(),
-           "A mesh of arrays, as the properties of these names give them: points (n, 3) in mm, quads (m, 4) "
-           "or\n"
-           "(m, 8), triangles (t, 3); nodes count from 0, CAD numbers from 1, 0 = none. The arrays are "
-           "copied.\n"
-           "Raises quadrille.Error (usage), which names the array and the row.")
+           documented(
+               "__init__(self, points, quads, *, triangles=None, face_ids=None, triangle_face_ids=None, "
+               "segments=None, corners=None)",
+               "A mesh of arrays, as the properties of these names give them: points (n, 3) in mm, quads (m, "
+               "4) or\n"
+               "(m, 8), triangles (t, 3); nodes count from 0, CAD numbers from 1, 0 = none. The arrays are "
+               "copied.\nRaises quadrille.Error (usage), which names the array and the row.")
+               .c_str())
       .def_property_readonly(
           "points", [](const py::object& self) { return table<double>(mesh_of(self).mesh.points, self); },
           "(n, 3) float64: the nodes in mm, corner nodes first, then midside nodes.")

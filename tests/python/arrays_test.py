@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import quadrille
-from quadrille.settings import SETTINGS, MeshSettings
+from quadrille.setting_table import SETTINGS, MeshSettings
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
 #: A square of 2 x 2 with a point in its middle at (1, 1).
@@ -179,7 +179,7 @@ class ArraysTest(unittest.TestCase):
                     kinds[parameter.kind].append((parameter.name, parameter.default))
                 arguments = stub.args
                 positional = [argument.arg for argument in arguments.args]
-                if name == "Mesh":
+                if name == "Mesh":  # what calling it takes
                     positional.remove("self")
                 given = [inspect.Parameter.empty] * (len(positional) - len(arguments.defaults))
                 given += [ast.literal_eval(default) for default in arguments.defaults]
@@ -191,6 +191,13 @@ class ArraysTest(unittest.TestCase):
             for name, member in vars(kind).items():
                 if not name.startswith("_"):
                     self.assertTrue(member.__doc__, f"{kind.__name__}.{name}")
+
+    def test_no_module_hides_a_function(self):
+        """A module of the package that is imported becomes an attribute of the package."""
+        modules = {path.stem for path in Path(quadrille.__file__).parent.glob("*.py")}
+        self.assertIn("setting_table", modules)
+        self.assertEqual(modules & set(quadrille.__all__), set())
+        self.assertEqual([entry["name"] for entry in quadrille.settings()], [entry["name"] for entry in SETTINGS])
 
     def test_stubs_are_of_what_there_is(self):
         tree = ast.parse(Path(quadrille.__file__).with_name("__init__.pyi").read_text())

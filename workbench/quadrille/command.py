@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 from .errors import Error
-from .settings import MeshSettings
+from .setting_table import MeshSettings
 
 #: Called with a stage name and the fraction of the stage done, in [0, 1]; returning False cancels the work.
 Progress = Callable[[str, float], Optional[bool]]
