@@ -197,6 +197,7 @@ class ArraysTest(unittest.TestCase):
         modules = {path.stem for path in Path(quadrille.__file__).parent.glob("*.py")}
         self.assertIn("setting_table", modules)
         self.assertEqual(modules & set(quadrille.__all__), set())
+        self.assertEqual(quadrille.__version__, quadrille._quadrille.__version__)
         self.assertEqual([entry["name"] for entry in quadrille.settings()], [entry["name"] for entry in SETTINGS])
 
     def test_stubs_are_of_what_there_is(self):
