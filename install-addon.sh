@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the Quadrille workbench where FreeCAD 0.20 and 1.0 look for addons of the user, or takes it away again.
+# Installs the Quadrille workbench where FreeCAD 0.20, 1.0 and 1.1 look for addons of the user, or takes it away again.
 #
 #   ./install-addon.sh                 for every FreeCAD of this user (distribution, AppImage; Flatpak if it is there)
 #   ./install-addon.sh --link          a symbolic link instead of a copy, for work on the addon
@@ -33,10 +33,17 @@ if [[ ${#targets[@]} -eq 0 ]]; then
   if [[ -n "${FREECAD_USER_HOME:-}" ]]; then
     targets=("$FREECAD_USER_HOME/Mod")
   else
-    targets=("${XDG_DATA_HOME:-$HOME/.local/share}/FreeCAD/Mod")
+    folders=("${XDG_DATA_HOME:-$HOME/.local/share}/FreeCAD")
     if [[ -d "$HOME/.var/app/org.freecad.FreeCAD" ]]; then
-      targets+=("$HOME/.var/app/org.freecad.FreeCAD/data/FreeCAD/Mod")
+      folders+=("$HOME/.var/app/org.freecad.FreeCAD/data/FreeCAD")
     fi
+    for folder in "${folders[@]}"; do
+      targets+=("$folder/Mod")
+      # From 1.1 on each version has a folder of its own, once it has run where no FreeCAD had.
+      for version in "$folder"/v[0-9]*; do
+        if [[ -d "$version" ]]; then targets+=("$version/Mod"); fi
+      done
+    done
   fi
 fi
 

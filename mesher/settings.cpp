@@ -385,6 +385,12 @@ const Setting* find_setting(std::string_view name) {
   return it == table.end() ? nullptr : &*it;
 }
 
+std::string option_of(std::string_view name) {
+  if (const Setting* setting = find_setting(name)) return fmt::format("--{}", setting->option);
+  if (name == "merge") return "--merge";
+  return name == "feature_angle" ? "--feature-angle" : "";
+}
+
 SettingValue parse(const Setting& setting, const std::vector<std::string>& texts) {
   const std::string_view kind = setting.kind();
   if (kind == "names" || kind == "words" || kind == "entries") return texts;

@@ -77,6 +77,10 @@ QUADRILLE_API const std::vector<Setting>& all_settings();
 /// The entry of that name; null if there is none.
 QUADRILLE_API const Setting* find_setting(std::string_view name);
 
+/// The command's option, "--size-min", for a name that sentences of the library have in backquotes: a
+/// setting's, or one that recombining and remeshing have besides. Empty for other names.
+QUADRILLE_API std::string option_of(std::string_view name);
+
 /// What a text stands for. Throws Error (usage, subject: the setting's name).
 QUADRILLE_API SettingValue parse(const Setting& setting, const std::vector<std::string>& texts);
 

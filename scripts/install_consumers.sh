@@ -6,7 +6,8 @@
 #   scripts/install_consumers.sh --list    print the packages and stop
 set -euo pipefail
 
-packages=(python3-dolfinx python3-gmsh libdeal.ii-dev python3-sfepy python3-getfem++)
+# deal.II of Debian 13 links by mold.
+packages=(python3-dolfinx python3-gmsh libdeal.ii-dev mold libmfem-dev python3-sfepy python3-getfem++)
 
 if [[ "${1:-}" == --list ]]; then
   printf '%s\n' "${packages[@]}"

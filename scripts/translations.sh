@@ -21,7 +21,7 @@ if [[ "${1:-}" == --update ]]; then
   PYTHONDONTWRITEBYTECODE=1 python3 - >"$marks" <<'PYTHON'
 import ast, importlib.util, pathlib, sys, types
 package = types.ModuleType("quadrille"); package.__path__ = ["quadrille"]; sys.modules["quadrille"] = package
-from quadrille.settings import SETTINGS, property_help, property_kind, words
+from quadrille.setting_table import SETTINGS, property_help, property_kind, words
 texts = {text for setting in SETTINGS if setting["property"] for text in (
     setting["label"], property_help(setting), setting["otherwise"],
     *(words(setting) if property_kind(setting) == "App::PropertyEnumeration" else ())) if text}

@@ -1,4 +1,5 @@
-"""Data flows one way: each room of geometry/ and mesher/ includes only itself and rooms that stand before it."""
+"""Data flows one way: each room of geometry/ and mesher/ includes only itself and rooms that stand before it. What they ask of
+the operating system lies in the files that docs/porting.md names."""
 
 import pathlib
 import re
@@ -39,6 +40,11 @@ ROOMS = [
 # What lies in folders of a room belongs to the room.
 INCLUDE = re.compile(r'^#include "((?:geometry|mesher)/[^"]+)"', re.MULTILINE)
 
+# Headers that C++ and the libraries do not bring.
+SYSTEM = re.compile(r"^#include <(?:(?:sys|linux|X11|arpa|netinet|mach)/[^>]+|(?:unistd|fcntl|dlfcn|link|elf|poll|spawn|pthread|sched|"
+                    r"signal|csignal|termios|malloc|pwd|windows)(?:\.h)?)>", re.MULTILINE | re.IGNORECASE)
+PLACE = re.compile(r"""["'(=](?:/proc/|/dev/|/etc/|/usr/|/sys/)""")
+
 
 def room_of(path):
     for name in (path, "/".join(path.split("/")[:2])):
@@ -66,6 +72,20 @@ class Rooms(unittest.TestCase):
             self.assertIn(room, {name.split("/")[1] for name in ROOMS}, test)
             stem = test.stem.removesuffix("_test")
             self.assertTrue(stem in modules, f"{test} tests no module of that name")
+
+    def test_the_system_is_asked_where_porting_says(self):
+        files = {p.relative_to(ROOT).as_posix(): p.read_text() for top in ("geometry", "mesher") for p in (ROOT / top).rglob("*.?pp")}
+        asking = {name for name, text in files.items() if SYSTEM.search(text) or PLACE.search(text)}
+        told = set(re.findall(r"`((?:geometry|mesher)/[a-z_/]+\.[ch]pp)`", (ROOT / "docs" / "porting.md").read_text()))
+        self.assertEqual(asking - told, set())
+        self.assertEqual(told - set(files), set())
+        self.assertGreater(len(asking), 5)
+        builds = [ROOT / "CMakeLists.txt", *(ROOT / "cmake").glob("*.cmake"), *ROOT.glob("*/CMakeLists.txt"),
+                  *ROOT.glob("tests/*/CMakeLists.txt")]
+        wrong = [str(p.relative_to(ROOT)) for p in builds
+                 if re.search(r"/usr/(?:lib|bin|include)|X11::|package\(X11|/etc/", p.read_text())
+                 and p.name not in ("system.cmake", "packages.cmake")]
+        self.assertEqual(wrong, [])
 
 
 if __name__ == "__main__":

@@ -174,6 +174,14 @@ std::string settings_help(Setting::Use use) {
   return text;
 }
 
+/// The settings of a function as its signature has them: ", size=None, order=None".
+std::string settings_signature(Setting::Use use) {
+  std::string text;
+  for (const Setting& setting : all_settings())
+    if (setting.use == use) text += fmt::format(", {}=None", setting.name);
+  return text;
+}
+
 /// Calls `read` with the options for it; Ctrl-C ends it.
 template <class Read>
 CadModel read_model(bool isolated, const Settings& settings, Read read) {
@@ -260,10 +268,13 @@ void translate(std::exception_ptr pointer) {
   } catch (const Error& error) {
     const py::object type = py::module_::import("quadrille.errors").attr("Error");
     std::string sentence = error.what();
-    for (const Setting& setting : all_settings()) {  // Python's own names need no quotes
-      const std::string quoted = fmt::format("`{}`", setting.name);
-      for (std::size_t at; (at = sentence.find(quoted)) != std::string::npos;)
-        sentence.replace(at, quoted.size(), setting.name);
+    for (std::size_t start = 0; (start = sentence.find('`', start)) != std::string::npos;) {
+      const std::size_t end = sentence.find('`', start + 1);
+      if (end == std::string::npos) break;
+      const std::string name = sentence.substr(start + 1, end - start - 1);
+      const bool own = !option_of(name).empty();
+      if (own) sentence.replace(start, end + 1 - start, name);  // Python's own names need no quotes
+      start = own ? start + name.size() : end;
     }
     const py::object value = type(sentence, kind_name(error.kind()), error.subject());
     PyErr_SetObject(type.ptr(), value.ptr());
@@ -273,11 +284,11 @@ void translate(std::exception_ptr pointer) {
 void bind_model(py::module_& module) {
   py::class_<CadModel>(module, "Model",
                        "A CAD model: faces, edges and vertices numbered from 1 as in FreeCAD.")
-      .def_property_readonly("face_count", &CadModel::face_count)
-      .def_property_readonly("edge_count", &CadModel::edge_count)
-      .def_property_readonly("vertex_count", &CadModel::vertex_count)
-      .def_property_readonly("solid_count", &CadModel::solid_count)
-      .def_property_readonly("shell_count", &CadModel::shell_count)
+      .def_property_readonly("face_count", &CadModel::face_count, "Faces, numbered from 1.")
+      .def_property_readonly("edge_count", &CadModel::edge_count, "Edges, numbered from 1.")
+      .def_property_readonly("vertex_count", &CadModel::vertex_count, "Vertices, numbered from 1.")
+      .def_property_readonly("solid_count", &CadModel::solid_count, "Solids.")
+      .def_property_readonly("shell_count", &CadModel::shell_count, "Shells, those of solids among them.")
       .def_property_readonly("diagonal", &CadModel::diagonal, "Length of the bounding box's diagonal, in mm.")
       .def_property_readonly(
           "area", [](const CadModel& model) { return model.area(); }, "Sum of the face areas, in mm^2.")
@@ -289,7 +300,7 @@ void bind_model(py::module_& module) {
             const Vector3 low = model.box_min(), high = model.box_max();
             return std::pair(std::array{low.x(), low.y(), low.z()}, std::array{high.x(), high.y(), high.z()});
           },
-          "Lower and upper corner of the bounding box.")
+          "Lower and upper corner of the bounding box: two lists of three numbers, mm.")
       .def("__repr__", [](const CadModel& model) {
         return py::str("<quadrille.Model: {} faces, {} edges, {} vertices>")
             .format(model.face_count(), model.edge_count(), model.vertex_count());
@@ -301,19 +312,22 @@ void bind_mesh(py::module_& module) {
       module, "Mesh",
       "An all-quad mesh. Arrays are read-only views, node indices start at 0, CAD numbers at 1.");
   bind_arrays(mesh);
-  mesh.def_property_readonly("order", [](const PythonMesh& self) { return self.mesh.order; })
+  mesh.def_property_readonly(
+          "order", [](const PythonMesh& self) { return self.mesh.order; },
+          "1: quads of four nodes, 2: of eight.")
       .def_property_readonly("faces", &face_statuses, "What became of each CAD face: a list of dicts.")
       .def("quality", &quality_dict, py::arg("limits") = py::none(),
-           "Counts and measures: a dict, named as in the command's report, with the criteria of industry "
-           "under "
-           "'criteria'. limits: a limits file, JSON or HyperMesh's.")
+           documented("quality(self, limits=None)",
+                      "Counts and measures: a dict, named as in the command's report, with the criteria of "
+                      "industry under\n'criteria'. limits: a limits file, JSON or HyperMesh's.")
+               .c_str())
       .def(
           "qualities",
           [](const PythonMesh& self) {
             const std::vector<double> values = quad_qualities(self.mesh);
             return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
           },
-          "(m,) float64: q of each quad.")
+          documented("qualities(self)", "(m,) float64: q of each quad, 0 to 1.").c_str())
       .def(
           "write",
           [](const PythonMesh& self, const std::filesystem::path& path, const std::string& title,
@@ -324,9 +338,10 @@ void bind_mesh(py::module_& module) {
             write_mesh(self.mesh, path, options);
           },
           py::arg("path"), py::kw_only(), py::arg("title") = "",
-          ("Writes the mesh; the format follows from the ending: .msh, .inp, .unv, .bdf, .med, .vtu, "
-           ".vtk.\n\n" +
-           settings_help(Setting::Use::write))
+          documented("write(self, path, *, title=''" + settings_signature(Setting::Use::write) + ")",
+                     "Writes the mesh, lengths in mm; the format follows from the ending: .msh, .inp, .unv, "
+                     ".bdf, .med, .vtu, .vtk.\n\n" +
+                         settings_help(Setting::Use::write))
               .c_str())
       .def(
           "picture",
@@ -334,7 +349,10 @@ void bind_mesh(py::module_& module) {
             write_picture(self.mesh, path, width, height);
           },
           py::arg("path"), py::kw_only(), py::arg("width") = 1600, py::arg("height") = 1200,
-          py::call_guard<py::gil_scoped_release>(), "Draws the mesh, colored by q, into a PNG.")
+          py::call_guard<py::gil_scoped_release>(),
+          documented("picture(self, path, *, width=1600, height=1200)",
+                     "Draws the mesh, colored by q, into a PNG of so many pixels.")
+              .c_str())
       .def("__repr__", [](const PythonMesh& self) {
         return py::str("<quadrille.Mesh: {} quads of order {}, {} nodes>")
             .format(self.mesh.quads.size(), self.mesh.order, self.mesh.points.size());
@@ -375,8 +393,8 @@ void bind_midsurface(py::module_& module) {
             for (const MiddleFace& face : self.faces) result.append(face_dict(face));
             return result;
           },
-          "By face number minus 1: dicts of area, thickness (mean, _min and _max), solid, solid_faces and "
-          "step.")
+          "By face number minus 1: dicts of area in mm^2, thickness (mean, _min and _max) in mm, solid, "
+          "solid_faces and step.")
       .def_property_readonly(
           "rims",
           [](const MidSurface& self) {
@@ -388,17 +406,23 @@ void bind_midsurface(py::module_& module) {
       .def_readonly("volume", &MidSurface::volume, "Of the solids, in mm^3.")
       .def_readonly("shell_volume", &MidSurface::shell_volume, "Sum of area times thickness, in mm^3.")
       .def_readonly("parts", &MidSurface::parts, "Connected parts.")
-      .def_readonly("free_edges", &MidSurface::free_edges)
+      .def_readonly("free_edges", &MidSurface::free_edges, "Edges of one face only.")
       .def_readonly("unpaired", &MidSurface::unpaired, "Solid faces that are neither side nor rim of a wall.")
       .def_readonly("problems", &MidSurface::problems, "With partial: what would have been an error.")
       .def("write", &write_midsurface, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
-           "Writes the faces as .brep or .step, or what is known of them as .json.");
+           documented("write(self, path)",
+                      "Writes the faces as .brep or .step, or what is known of them as "
+                      ".json.")
+               .c_str());
   module.def(
       "midsurface", &midsurface_of, py::arg("model"), py::kw_only(), py::arg("partial") = false,
       py::arg("join") = false, py::call_guard<py::gil_scoped_release>(),
-      "The middle surface of each solid of a model. partial: give what could be paired where a solid is "
-      "thin in\nplaces only, instead of raising quadrille.Error. join: take solids that touch for one part, "
-      "as if welded.");
+      documented(
+          "midsurface(model, *, partial=False, join=False)",
+          "The MidSurface of the solids of a model. partial: give what could be paired where a solid is "
+          "thin in\nplaces only, instead of raising quadrille.Error. join: take solids that touch for one "
+          "part, as if welded.")
+          .c_str());
 }
 
 void bind_functions(py::module_& module) {
@@ -414,7 +438,9 @@ void bind_functions(py::module_& module) {
                           [&](const ReadOptions& options) { return CadModel::read(path, options); });
       },
       py::arg("path"), py::kw_only(), py::arg("isolated") = true,
-      ("Reads a STEP, IGES or BREP file.\n\n" + isolated_help).c_str());
+      documented("read(path, *, isolated=True" + settings_signature(Setting::Use::read) + ")",
+                 "Reads a STEP, IGES or BREP file: a Model, lengths in mm.\n\n" + isolated_help)
+          .c_str());
   module.def(
       "read_brep",
       [](const std::string& text, const std::string& name, bool isolated, const py::kwargs& arguments) {
@@ -423,7 +449,10 @@ void bind_functions(py::module_& module) {
             [&](const ReadOptions& options) { return CadModel::from_brep(text, name, options); });
       },
       py::arg("text"), py::arg("name") = "shape", py::kw_only(), py::arg("isolated") = true,
-      ("Parses a shape in OpenCASCADE's BREP text format.\n\n" + isolated_help).c_str());
+      documented(
+          "read_brep(text, name='shape', *, isolated=True" + settings_signature(Setting::Use::read) + ")",
+          "Parses a shape in OpenCASCADE's BREP text format: a Model.\n\n" + isolated_help)
+          .c_str());
   module.def(
       "read_mesh",
       [](const std::filesystem::path& path) {
@@ -431,21 +460,29 @@ void bind_functions(py::module_& module) {
         return PythonMesh(read_mesh(path));
       },
       py::arg("path"),
-      "Reads a surface mesh: .msh, .inp, .unv, .bdf, .stl, .obj, .ply, .vtk, .vtu or .vtp. Raises "
-      "quadrille.Error.");
+      documented("read_mesh(path)",
+                 "Reads a surface mesh: .msh, .inp, .unv, .bdf, .stl, .obj, .ply, .vtk, .vtu or .vtp. Raises "
+                 "quadrille.Error.")
+          .c_str());
   bind_recombine(module);
   module.def(
       "remesh", &remesh_surface, py::arg("surface"), py::kw_only(), py::arg("size"),
       py::arg("feature_angle") = 40.0, py::arg("merge") = py::none(), py::arg("order") = 1,
       py::arg("progress") = py::none(),
-      "A triangulated surface, a Mesh such as read_mesh() gives, meshed anew with quads only.\n\n"
-      "size: length of elements, mm; feature_angle: degrees between normals from which on neighbors are of "
-      "two "
-      "faces,\n0 = shape makes no faces; merge: make one of nodes at most so far apart, mm; order: 1 or 2; "
-      "force, time_limit,\nthreads, progress as mesh() has them. Groups of faces and edges are kept; how far "
-      "the "
-      "mesh is from the surface\nis in its fidelity. What was mended or lost is warned of. Raises "
-      "quadrille.Error.");
+      documented(
+          "remesh(surface, *, size, feature_angle=40.0, merge=None, order=1, progress=None, force=None, "
+          "time_limit=None, threads=None)",
+          "A triangulated surface, a Mesh such as read_mesh() gives, meshed anew with quads only.\n\n"
+          "size: length of elements, mm; feature_angle: degrees between normals from which on neighbors are "
+          "of "
+          "two faces,\n0 = shape makes no faces; merge: make one of nodes at most so far apart, mm; order: 1 "
+          "or "
+          "2; force, time_limit,\nthreads, progress as mesh() has them. Groups of faces and edges are kept; "
+          "how "
+          "far the mesh is from the surface\nis in its fidelity. What was mended or lost is warned of. "
+          "Raises "
+          "quadrille.Error.")
+          .c_str());
   module.def(
       "suggested_size",
       [](const CadModel& model, int quads) {
@@ -453,19 +490,26 @@ void bind_functions(py::module_& module) {
         return QuadEstimate(model, context).size_for(quads).size;
       },
       py::arg("model"), py::arg("quads") = 5000, py::call_guard<py::gil_scoped_release>(),
-      "A size that gives about this many quads.");
+      documented("suggested_size(model, quads=5000)", "A size, in mm, that gives about this many quads.")
+          .c_str());
   module.def(
       "settings", [] { return py::module_::import("json").attr("loads")(settings_table().dump()); },
-      "The table of settings: a list of dicts, as `quadrille settings --json` gives it.");
+      documented("settings()",
+                 "The table of settings: a list of dicts, as `quadrille settings --json` gives it.")
+          .c_str());
   module.def("mesh", &mesh_model<MidSurface>, py::arg("model"), py::kw_only(),
-             py::arg("progress") = py::none(),
-             "Meshes a MidSurface; the mesh that is written then knows the thickness of each face.");
-  module.def("mesh", &mesh_model<CadModel>, py::arg("model"), py::kw_only(), py::arg("progress") = py::none(),
-             ("Meshes a model's faces with quads only.\n\n" + settings_help(Setting::Use::mesh) +
+             py::arg("progress") = py::none());
+  module.def(
+      "mesh", &mesh_model<CadModel>, py::arg("model"), py::kw_only(), py::arg("progress") = py::none(),
+      documented(
+          "mesh(model, *, progress=None" + settings_signature(Setting::Use::mesh) + ")",
+          "A Mesh of quads only on the faces of a Model, or of a MidSurface: it then knows the "
+          "thickness of each face.\n\n" +
+              settings_help(Setting::Use::mesh) +
               "progress: called with the stage's name and the fraction of all the work done; returning False "
               "cancels, "
               "what it\nraises is raised here\nRaises quadrille.Error.")
-                 .c_str());
+          .c_str());
 }
 
 }  // namespace
@@ -473,6 +517,8 @@ void bind_functions(py::module_& module) {
 }  // namespace quadrille
 
 PYBIND11_MODULE(_quadrille, module) {
+  py::options options;
+  options.disable_function_signatures();  // docstrings have their own
   module.doc() = "The compiled half of the package quadrille.";
   module.attr("__version__") = quadrille::version();
   py::register_exception_translator(&quadrille::translate);

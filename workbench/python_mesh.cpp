@@ -286,16 +286,23 @@ PythonMesh recombined(const PythonMesh& mesh, double feature_angle, const std::o
 
 }  // namespace
 
+std::string documented(const std::string& signature, const std::string& text) {
+  return signature + "\n--\n\n" + text;
+}
+
 void bind_arrays(py::class_<PythonMesh>& mesh) {
   mesh.def(py::init(&mesh_of_arrays), py::arg("points"), py::arg("quads"), py::kw_only(),
            py::arg("triangles") = py::none(), py::arg("face_ids") = py::none(),
            py::arg("triangle_face_ids") = py::none(), py::arg("segments") = py::none(),
            py::arg("corners") = py::none(),
-           "A mesh of arrays, as the properties of these names give them: points (n, 3) in mm, quads (m, 4) "
-           "or\n"
-           "(m, 8), triangles (t, 3); nodes count from 0, CAD numbers from 1, 0 = none. The arrays are "
-           "copied.\n"
-           "Raises quadrille.Error (usage), which names the array and the row.")
+           documented(
+               "__init__(self, points, quads, *, triangles=None, face_ids=None, triangle_face_ids=None, "
+               "segments=None, corners=None)",
+               "A mesh of arrays, as the properties of these names give them: points (n, 3) in mm, quads (m, "
+               "4) or\n"
+               "(m, 8), triangles (t, 3); nodes count from 0, CAD numbers from 1, 0 = none. The arrays are "
+               "copied.\nRaises quadrille.Error (usage), which names the array and the row.")
+               .c_str())
       .def_property_readonly(
           "points", [](const py::object& self) { return table<double>(mesh_of(self).mesh.points, self); },
           "(n, 3) float64: the nodes in mm, corner nodes first, then midside nodes.")
@@ -316,13 +323,17 @@ void bind_arrays(py::class_<PythonMesh>& mesh) {
                              "Of a mesh that was read from a file with names: a list of (name, dimension, "
                              "number, entities): the\n"
                              "faces (dimension 2), edges (1) or vertices (0) that belong to it.")
-      .def("recombined", &recombined, py::kw_only(), py::arg("feature_angle") = 40.0,
-           py::arg("merge") = py::none(), py::arg("improve") = true, py::arg("threads") = 0,
-           "A Mesh of quads in place of the triangles; quads are cut in two first. feature_angle: degrees "
-           "between normals\n"
-           "from which on a side stays, 0 = none; merge: make one of nodes at most so far apart, mm. Groups, "
-           "segments and\n"
-           "corners are kept. What was mended or lost is warned of. Raises quadrille.Error.")
+      .def(
+          "recombined", &recombined, py::kw_only(), py::arg("feature_angle") = 40.0,
+          py::arg("merge") = py::none(), py::arg("improve") = true, py::arg("threads") = 0,
+          documented(
+              "recombined(self, *, feature_angle=40.0, merge=None, improve=True, threads=0)",
+              "A Mesh of quads in place of the triangles; quads are cut in two first. feature_angle: degrees "
+              "between normals\nfrom which on a side stays, 0 = none; merge: make one of nodes at most so "
+              "far "
+              "apart, mm; improve: clean up and\nsmooth the quads; threads: 0 = all cores. Groups, segments "
+              "and corners are kept. What was mended or lost is warned\nof. Raises quadrille.Error.")
+              .c_str())
       .def_property_readonly("fidelity", &fidelity_of,
                              "Of a mesh that remesh() made: a dict of mesh_from_surface and "
                              "surface_from_mesh (dicts of distance "
@@ -330,7 +341,7 @@ void bind_arrays(py::class_<PythonMesh>& mesh) {
                              "at, face), surface_area, mesh_area in mm2, surface_volume, mesh_volume in mm3 "
                              "(0 where it is open). "
                              "Else None;\nit is not pickled.")
-      .def("_repr_html_", &html_of)
+      .def("_repr_html_", &html_of, documented("_repr_html_(self)", "The picture, for notebooks.").c_str())
       .def(py::pickle(&state_of, &from_state));
 }
 
@@ -338,10 +349,16 @@ void bind_recombine(py::module_& module) {
   module.def(
       "recombine", &recombine_arrays, py::arg("points"), py::arg("triangles"), py::kw_only(),
       py::arg("tags") = py::none(), py::arg("improve") = true, py::arg("threads") = 0,
-      "A Mesh of quads made of a triangulation: points (n, 3), triangles (m, 3) counter-clockwise, counted\n"
-      "from 0, tags (m,): triangles of different tags are never joined, and face_ids of the mesh are tags.\n"
-      "improve: clean up and smooth the quads on the triangulation, so that points move and are renumbered;\n"
-      "without it points stay as they are. An odd count leaves triangles. Raises quadrille.Error.");
+      documented(
+          "recombine(points, triangles, *, tags=None, improve=True, threads=0)",
+          "A Mesh of quads made of a triangulation: points (n, 3) in mm, triangles (m, 3) "
+          "counter-clockwise,\n"
+          "counted from 0, tags (m,): triangles of different tags are never joined, and face_ids of the mesh "
+          "are\ntags. improve: clean up and smooth the quads on the triangulation, so that points move and "
+          "are "
+          "renumbered;\nwithout it points stay as they are. threads: 0 = all cores. An odd count leaves "
+          "triangles. Raises\nquadrille.Error.")
+          .c_str());
 }
 
 }  // namespace quadrille

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct PythonMesh {
     }
   }
 };
+
+/// A docstring whose first line, "name(self, path, *, title='')", is what inspect.signature() tells; defaults
+/// must be literals.
+std::string documented(const std::string& signature, const std::string& text);
 
 /// Adds to the class Mesh what it makes of arrays and gives as arrays: its constructor, points, quads,
 /// triangles, face_ids, segments and corners, pickling, and the picture that notebooks show.

@@ -30,6 +30,9 @@ void add_settings_command(CLI::App& app);
 /// Writes to stdout at once. Throws Error (failure) when it is closed or full.
 void print(std::string_view text);
 
+/// Whether somebody looks at stderr.
+bool stderr_is_terminal();
+
 /// Throws Error (failure) unless the path is a file that can be read.
 void require_readable(const std::filesystem::path& path);
 

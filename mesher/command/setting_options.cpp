@@ -67,12 +67,11 @@ std::string with_options(std::string sentence) {
   for (std::size_t start = 0; (start = sentence.find('`', start)) != std::string::npos;) {
     const std::size_t end = sentence.find('`', start + 1);
     if (end == std::string::npos) break;
-    const Setting* setting = find_setting(sentence.substr(start + 1, end - start - 1));
-    if (setting == nullptr) {  // a file name may have backquotes too
+    const std::string option = option_of(sentence.substr(start + 1, end - start - 1));
+    if (option.empty()) {  // a file name may have backquotes too
       start = end;
       continue;
     }
-    const std::string option = fmt::format("--{}", setting->option);
     sentence.replace(start, end + 1 - start, option);
     start += option.size();
   }

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <limits>
 #include <map>
+#include <regex>
 #include <set>
 
 #include "mesher/io/mesh_builder.hpp"
@@ -101,22 +102,25 @@ class InpReader {
     return &set;
   }
 
+  /// 3, 4, 6 or 8 for shells, membranes, rigid and plane elements, whatever they are made for (S4R, CPS6M,
+  /// CAX4P, DC2D4); 0 for others.
+  static int nodes_of_surface_element(const std::string& type) {
+    static const std::regex pattern(
+        "(?:S|STRI|M3D|SFM3D|R3D|DS|CPS|CPE|CPEG|CAX|CGAX|DC2D|DCAX|AC2D|ACAX)([3468])"
+        "[A-Z]*5?");
+    std::smatch match;
+    if (type.size() > 16) return 0;  // patterns take stack
+    return std::regex_match(type, match, pattern) ? match[1].str()[0] - '0' : 0;
+  }
+
   void begin_elements(const std::string& text) {
     const std::string type = parameter(text, "TYPE");
     pending_ = {};
     const auto is_one_of = [&](std::initializer_list<std::string_view> names) {
       return std::find(names.begin(), names.end(), type) != names.end();
     };
-    if (is_one_of({"S4", "S4R", "S4R5", "M3D4", "M3D4R", "CPS4", "CPS4R", "CPE4", "CPE4R", "CAX4", "CAX4R",
-                   "R3D4"}))
-      set_shape(ElementShape::quad, 4);
-    else if (is_one_of(
-                 {"S8", "S8R", "S8R5", "M3D8", "M3D8R", "CPS8", "CPS8R", "CPE8", "CPE8R", "CAX8", "CAX8R"}))
-      set_shape(ElementShape::quad, 8);
-    else if (is_one_of({"S3", "S3R", "STRI3", "M3D3", "CPS3", "CPE3", "CAX3", "R3D3"}))
-      set_shape(ElementShape::triangle, 3);
-    else if (is_one_of({"S6", "STRI65", "M3D6", "CPS6", "CPE6", "CAX6"}))
-      set_shape(ElementShape::triangle, 6);
+    if (const int nodes = nodes_of_surface_element(type); nodes > 0)
+      set_shape(nodes % 3 == 0 ? ElementShape::triangle : ElementShape::quad, nodes);
     else if (is_one_of({"T3D2", "T2D2", "B31", "B31R", "B21"}))
       set_shape(ElementShape::line, 2);
     else if (is_one_of({"T3D3", "T2D3", "B32", "B32R", "B22"}))

@@ -2,7 +2,6 @@
 
 #include <CGAL/version.h>
 #include <openvdb/version.h>
-#include <sys/resource.h>
 
 #include <Standard_Version.hxx>
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/atomic_file.hpp"
+#include "geometry/base/process_usage.hpp"
 #include "mesher/io/io.hpp"
 
 namespace quadrille {
@@ -113,24 +113,19 @@ json let_go_to_json(const ShellMesh& mesh) {
   return features;
 }
 
-double seconds_of(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * time.tv_usec;
-}
-
 }  // namespace
 
 json make_report(const ShellMesh& mesh, const QualitySummary& summary, const ExecutionContext& context,
                  const std::filesystem::path& input, const std::vector<std::string>& warnings) {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
+  const ProcessUsage usage = process_usage();
   return {{"input", input.string()},
           {"order", mesh.order},
           {"counts", {{"nodes", summary.nodes}, {"quads", summary.quads}, {"triangles", summary.triangles}}},
           {"quality", quality_to_json(summary)},
           {"criteria", criteria_to_json(check_criteria(mesh), {})},
           {"seconds", seconds_to_json(context)},
-          {"cpu_seconds", seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime)},
-          {"peak_bytes", static_cast<std::int64_t>(usage.ru_maxrss) * 1024},
+          {"cpu_seconds", usage.cpu_seconds},
+          {"peak_bytes", usage.peak_bytes},
           {"faces", faces_to_json(mesh)},
           {"off_geometry", off_geometry_to_json(mesh)},
           {"let_go", let_go_to_json(mesh)},

@@ -77,7 +77,7 @@ XDisplay::XDisplay() {
   if (start_server()) return;
   if (had_display_) ::setenv("DISPLAY", old_display_.c_str(), 1);
   if (!had_display_ || !can_open(old_display_.c_str()))
-    problem_ = "the picture cannot be drawn: there is no display, and Xvfb (package xvfb) cannot be started";
+    problem_ = "there is no display, and Xvfb (package xvfb) cannot be started";
 }
 
 XDisplay::~XDisplay() {

@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"a node twice in an element", square("", 4, two + "3 2 2 0 1 1 1 2\n", 3),
                  "element 3 uses node 1 twice"},
         BadInput{"two nodes on one place", square("5 0 0 0\n", 5, two + "3 2 2 0 1 5 4 3\n", 3),
-                 "the points 0 and 4"},
+                 "the points 0 and 4 lie on one place, 0 0 0: join them with --merge 0 ("},
         BadInput{"each triangle a face", square("", 4, "1 2 2 1 1 1 2 3\n2 2 2 2 2 1 3 4\n", 2),
                  "no quad can be made"},
         BadInput{"a node defined twice", square("4 0 2 0\n", 5, two, 2), "node 4 is defined twice"},

@@ -34,6 +34,7 @@ CASES = {
     "libmed's tools": {".med": ((4, 8, 9), None)},
     "dolfinx": {".msh 2.2": ((4, 9), None), ".msh 4.1": ((4, 9), None)},
     "deal.II": {".msh 2.2": ((4,), "faces"), ".msh 4.1": ((4,), "faces")},
+    "MFEM": {".msh 2.2": ((4, 9), None), ".vtk": ((4, 9), None)},
     "SfePy": {".msh 2.2": ((4,), "faces"), ".msh 4.1": ((4,), "none"), ".med": ((4,), "faces"), ".vtk": ((4,), None)},
     "GetFEM": {".msh 2.2": ((4, 8, 9), None)},
 }

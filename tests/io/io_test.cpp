@@ -451,6 +451,27 @@ TEST(InpReader, SetsGiveFaces) {
   EXPECT_EQ(mesh.quad_faces, (std::vector<int>{2, 3}));
 }
 
+TEST(InpReader, ShellsMembranesAndPlaneElementsOfAnyKind) {
+  const auto quads_and_triangles = [](const std::string& type, const std::string& nodes) {
+    const ShellMesh mesh = read_inp(
+        "*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n5,.5,0\n6,1,.5\n7,.5,1\n8,0,.5\n9,.5,.5\n*ELEMENT,TYPE=" + type +
+            "\n1," + nodes + "\n",
+        "a.inp");
+    return std::pair(mesh.quads.size(), mesh.triangles.size());
+  };
+  for (const char* type : {"S4", "S4R5", "S4RS", "M3D4R", "CPE4RH", "CAX4P", "CPS4", "DC2D4", "R3D4"})
+    EXPECT_EQ(quads_and_triangles(type, "1,2,3,4"), (std::pair<std::size_t, std::size_t>(1, 0))) << type;
+  for (const char* type : {"S8R", "S8RT", "CPE8H", "DCAX8"})
+    EXPECT_EQ(quads_and_triangles(type, "1,2,3,4,5,6,7,8"), (std::pair<std::size_t, std::size_t>(1, 0)))
+        << type;
+  for (const char* type : {"S3RS", "STRI3", "CAX3", "CPS3"})
+    EXPECT_EQ(quads_and_triangles(type, "1,2,3"), (std::pair<std::size_t, std::size_t>(0, 1))) << type;
+  for (const char* type : {"STRI65", "CPS6M"})
+    EXPECT_EQ(quads_and_triangles(type, "1,2,3,5,6,9"), (std::pair<std::size_t, std::size_t>(0, 1))) << type;
+  for (const char* type : {"SC8R", "C3D4", "DC3D4", "SAX1", "S9R5", "COH2D4", "S", "S4RRRRRRRRRRRRRRR"})
+    EXPECT_PRED2(contains, error_of([&] { quads_and_triangles(type, "1,2,3,4"); }), type);
+}
+
 // ---- other programs ----
 
 TEST_P(RoundTrip, GmshReadsBothVersions) {

@@ -1,6 +1,7 @@
 """Meshes from arrays, read, recombined, pickled, shown in notebooks; and the stubs that editors read."""
 
 import ast
+import inspect
 import os
 import pickle
 import tempfile
@@ -10,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import quadrille
-from quadrille.settings import SETTINGS, MeshSettings
+from quadrille.setting_table import SETTINGS, MeshSettings
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
 #: A square of 2 x 2 with a point in its middle at (1, 1).
@@ -139,6 +140,10 @@ class ArraysTest(unittest.TestCase):
         self.assertEqual(pickle.loads(pickle.dumps(mesh)).groups, mesh.groups)
         left = mesh.points[mesh.quads[mesh.face_ids == mesh.groups[0][3][0]]]
         self.assertLessEqual(left[..., 0].max(), 1)
+        apart = quadrille.Mesh(np.tile(POINTS, (2, 1)), np.empty((0, 4), int),
+                               triangles=[(0, 1, 4), (1, 2, 4), (5, 7, 8), (5, 8, 9), (7, 8, 9)])
+        with self.assertRaisesRegex(quadrille.Error, "lie on one place, 0 0 0: join them with merge 0$"):
+            apart.recombined()
         for wrong in ({"feature_angle": 200}, {"feature_angle": -1}, {"merge": -1.0}):
             with self.assertRaises(quadrille.Error) as raised:
                 mesh.recombined(**wrong)
@@ -154,6 +159,46 @@ class ArraysTest(unittest.TestCase):
         text = quadrille.mesh(self.model, size=8)._repr_html_()
         self.assertIn('src="data:image/png;base64,iVBOR', text)
         self.assertIn("&lt;quadrille.Mesh: ", text)
+
+    def test_signatures_are_those_of_the_stubs(self):
+        tree = ast.parse(Path(quadrille.__file__).with_name("__init__.pyi").read_text())
+        stubs = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
+        for node in (node for node in tree.body if isinstance(node, ast.ClassDef)):
+            for item in node.body:
+                if isinstance(item, ast.FunctionDef) and not any(decorator.id == "property" for decorator in item.decorator_list):
+                    stubs[node.name if item.name == "__init__" else f"{node.name}.{item.name}"] = item
+        self.assertGreater(len(stubs), 15)
+        for name, stub in stubs.items():
+            function = quadrille
+            for part in name.split("."):
+                function = getattr(function, part)
+            with self.subTest(name=name):
+                self.assertGreater(len(function.__doc__), 15)
+                kinds = {inspect.Parameter.POSITIONAL_OR_KEYWORD: [], inspect.Parameter.KEYWORD_ONLY: []}
+                for parameter in inspect.signature(function).parameters.values():
+                    kinds[parameter.kind].append((parameter.name, parameter.default))
+                arguments = stub.args
+                positional = [argument.arg for argument in arguments.args]
+                if name == "Mesh":  # what calling it takes
+                    positional.remove("self")
+                given = [inspect.Parameter.empty] * (len(positional) - len(arguments.defaults))
+                given += [ast.literal_eval(default) for default in arguments.defaults]
+                self.assertEqual(kinds[inspect.Parameter.POSITIONAL_OR_KEYWORD], list(zip(positional, given)))
+                named = {argument.arg: inspect.Parameter.empty if default is None else ast.literal_eval(default)
+                         for argument, default in zip(arguments.kwonlyargs, arguments.kw_defaults)}
+                self.assertEqual(dict(kinds[inspect.Parameter.KEYWORD_ONLY]), named)
+        for kind in (quadrille.Mesh, quadrille.Model, quadrille.MidSurface):
+            for name, member in vars(kind).items():
+                if not name.startswith("_"):
+                    self.assertTrue(member.__doc__, f"{kind.__name__}.{name}")
+
+    def test_no_module_hides_a_function(self):
+        """A module of the package that is imported becomes an attribute of the package."""
+        modules = {path.stem for path in Path(quadrille.__file__).parent.glob("*.py")}
+        self.assertIn("setting_table", modules)
+        self.assertEqual(modules & set(quadrille.__all__), set())
+        self.assertEqual(quadrille.__version__, quadrille._quadrille.__version__)
+        self.assertEqual([entry["name"] for entry in quadrille.settings()], [entry["name"] for entry in SETTINGS])
 
     def test_stubs_are_of_what_there_is(self):
         tree = ast.parse(Path(quadrille.__file__).with_name("__init__.pyi").read_text())

@@ -4,10 +4,11 @@ import csv
 import io
 import os
 import shutil
+import socket
 import stat
 import tempfile
 import unittest
-from contextlib import redirect_stderr, redirect_stdout
+from contextlib import redirect_stderr, redirect_stdout, suppress
 from pathlib import Path
 
 from quadrille import batch
@@ -90,6 +91,15 @@ class BatchTest(unittest.TestCase):
         _, _, err = self.run_batch("--order", "2", "--quiet")
         self.assertEqual(err, "")
         self.assertGreater(meshes[0].stat().st_mtime_ns, after[0])
+
+    def test_another_dask_may_run_here(self):
+        """Dask's own port is taken: nothing is said of it."""
+        with socket.socket() as other:
+            with suppress(OSError):  # taken by a real one
+                other.bind(("", 8787))
+                other.listen()
+            code, _, err = self.run_batch("--quiet")
+        self.assertEqual((code, err), (1, ""))
 
     def test_bad_use_is_one_sentence(self):
         for arguments, part, expected in (

@@ -47,6 +47,21 @@ class Clone(unittest.TestCase):
         self.assertIn(f"RESULT {clone}/workbench/quadrille/__init__.py", said.stdout, said.stdout + said.stderr)
         self.assertIn(f"MESHER {mesher}", said.stdout, said.stdout + said.stderr)
 
+    def test_the_script_installs_for_every_freecad(self):
+        """FreeCAD 1.1 has a folder of its own, unless an older one has been there before it."""
+        data = self.home / "data" / "FreeCAD"
+        (data / "v1-1").mkdir(parents=True)
+        environment = {**os.environ, "XDG_DATA_HOME": str(data.parent), "HOME": str(self.home)}
+        environment.pop("FREECAD_USER_HOME", None)
+        addons = [folder / "Mod" / "Quadrille" for folder in (data, data / "v1-1")]
+        for arguments in ([], ["--link"]):
+            subprocess.run([ROOT / "install-addon.sh", *arguments], env=environment, capture_output=True, check=True)
+            for addon in addons:
+                self.assertTrue((addon / "package.xml").is_file())
+                self.assertEqual(addon.is_symlink(), bool(arguments))
+        subprocess.run([ROOT / "install-addon.sh", "--uninstall"], env=environment, capture_output=True, check=True)
+        self.assertEqual([addon for addon in addons if addon.exists()], [])
+
     def test_both_descriptions_are_the_same(self):
         """Of a clone, and of the addon that install-addon.sh and the package install; only the folder differs."""
         of_clone, installed = ((ROOT / name).read_text() for name in ("package.xml", "workbench/package.xml"))

@@ -15,7 +15,7 @@ import quadrille.command
 from quadrille import Error
 from quadrille.command import MeshJob, MeshSettings, find_command, scratch_folder
 
-from quadrille.settings import SETTINGS, from_property, to_property
+from quadrille.setting_table import SETTINGS, from_property, to_property
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
 
@@ -47,6 +47,17 @@ class CommandTest(unittest.TestCase):
                          ["--layers", "Edge1=0.1,1.2,6", "--segments", "Edge4=20"])
         with self.assertRaises(TypeError):
             MeshSettings(seed=1)
+
+    def test_no_display_is_told_once(self):
+        """Neither a display nor Xvfb, as where nothing but the package is installed."""
+        with tempfile.TemporaryDirectory() as folder:
+            said = subprocess.run([os.environ["QUADRILLE_COMMAND"], "mesh", MODELS / "box.brep", "-o", "a.msh", "--picture", "a.png",
+                                   "--quiet"], cwd=folder, capture_output=True, text=True, check=False,
+                                  env={"PATH": "/nowhere"})
+            self.assertEqual(said.returncode, 1)
+            self.assertEqual(said.stderr, "quadrille: a.png: the picture cannot be drawn (there is no display, and Xvfb (package "
+                                          "xvfb) cannot be started)\n")
+            self.assertEqual(os.listdir(folder), ["a.msh"])
 
     def test_table_is_the_commands(self):
         answer = subprocess.run([find_command(), "settings", "--json"], capture_output=True, text=True, check=True)

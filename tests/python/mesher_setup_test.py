@@ -3,6 +3,7 @@
 import hashlib
 import io
 import os
+import random
 import tarfile
 import tempfile
 import unittest
@@ -13,14 +14,18 @@ from quadrille.command import VERSION
 from quadrille.errors import Error
 
 
+class Link(str):
+    """What a member of an archive points to."""
+
+
 def bundle(path, version=VERSION, name="bin/quadrille", extra=()):
     """An archive like that of scripts/bundle.sh, whose command is a script."""
     script = f"#!/bin/sh\necho quadrille {version}\n".encode()
     with tarfile.open(path, "w:xz") as archive:
         for member, data in [(f"quadrille-{version}/{name}", script), *extra]:
             entry = tarfile.TarInfo(member)
-            if data is None:
-                entry.type, entry.linkname = tarfile.SYMTYPE, "../../elsewhere"
+            if isinstance(data, Link):
+                entry.type, entry.linkname = tarfile.SYMTYPE, data
                 archive.addfile(entry)
                 continue
             entry.size, entry.mode = len(data), 0o755
@@ -58,12 +63,20 @@ class MesherSetup(unittest.TestCase):
         self.refused(bundle(self.folder / "none.tar.xz", name="bin/other"), "has no bin/quadrille")
         top = f"quadrille-{VERSION}"
         for number, (member, data) in enumerate([("../evil", b"x"), ("/evil", b"x"), (f"{top}/../../evil", b"x"),
-                                                 (f"{top}/link", None)]):
+                                                 (f"{top}/link", Link("../../elsewhere"))]):
             self.refused(bundle(self.folder / f"evil{number}.tar.xz", extra=[(member, data)]), "would lie outside")
+        # Each of the links leads one folder up and stays inside of what its name says; the chain of them does not.
+        chain = [(f"{top}/a/up", Link("..")), (f"{top}/a/up/up", Link("..")), (f"{top}/a/up/up/evil", b"x")]
+        self.refused(bundle(self.folder / "chain.tar.xz", extra=chain), "would lie outside")
         self.refused(bundle(self.folder / "two.tar.xz", extra=[("other/file", b"x")]), "is not a bundle")
         (self.folder / "rubbish.tar.xz").write_bytes(b"rubbish")
         self.refused(self.folder / "rubbish.tar.xz", "cannot be unpacked")
         self.refused(self.folder / "missing.tar.xz", "cannot be unpacked")
+        whole = bundle(self.folder / "large.tar.xz", extra=[(f"{top}/large", random.Random(1).randbytes(1 << 20))]).read_bytes()
+        (self.folder / "short.tar.xz").write_bytes(whole[:len(whole) // 2])
+        self.refused(self.folder / "short.tar.xz", "cannot be unpacked")
+        (self.folder / "damaged.tar.xz").write_bytes(whole[:-40] + b"x" + whole[-39:])
+        self.refused(self.folder / "damaged.tar.xz", "cannot be unpacked")
         self.assertIn(VERSION, Path(command).read_text())
         self.assertEqual([entry.name for entry in self.data.iterdir()], ["mesher"])
 
@@ -76,7 +89,9 @@ class MesherSetup(unittest.TestCase):
         self.assertEqual(shares[-1], 1.0)
         got.unlink()
         for address, part in [("file:///nowhere/a.tar.xz", "cannot be downloaded"), ("ftp://a/b", "is not the address"),
-                              ("https://host/", "is not the address"), ("", "is not the address")]:
+                              ("https://host/", "is not the address"), ("", "is not the address"),
+                              ("https://local host/a.tar.xz", "cannot be downloaded"),
+                              ("http://127.0.0.1:1/a.tar.xz", "cannot be downloaded")]:
             with self.assertRaises(Error) as raised:
                 mesher_setup.download(address, there)
             self.assertIn(part, str(raised.exception))

@@ -21,11 +21,15 @@ from .errors import Error
 __all__ = ["Error", "Mesh", "MidSurface", "Model", "__version__", "mesh", "midsurface", "read", "read_brep", "read_mesh",
            "recombine", "remesh", "settings", "suggested_size"]
 
-_COMPILED = frozenset(__all__) - {"Error"}
+_COMPILED = frozenset(__all__) - {"Error", "__version__"}
 
 
 def __getattr__(name: str):
     """Loads the compiled part on demand (PEP 562)."""
+    if name == "__version__":  # of the addon too, which has no compiled part
+        from .command import VERSION
+
+        return VERSION
     if name not in _COMPILED:
         raise AttributeError(f"module 'quadrille' has no attribute '{name}'")
     try:
@@ -46,4 +50,4 @@ def _why_missing(error: ImportError) -> str:
 
 
 def __dir__() -> list:
-    return sorted(set(globals()) | _COMPILED)
+    return sorted(set(globals()) | set(__all__))

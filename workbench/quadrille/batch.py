@@ -23,7 +23,7 @@ from typing import Any, Dict, Iterable, List, NamedTuple, Optional
 
 from .command import VERSION, MeshJob, check_version, find_command
 from .errors import Error
-from .settings import SETTINGS
+from .setting_table import SETTINGS
 
 ENDINGS = (".step", ".stp", ".iges", ".igs", ".brep")
 FORMATS = ("msh", "inp", "unv", "med", "vtu", "vtk", "bdf")
@@ -159,7 +159,10 @@ def _client(options: argparse.Namespace):
             return distributed.Client(options.scheduler, timeout=options.scheduler_timeout)
         except (OSError, TimeoutError, ValueError, TypeError) as error:
             raise Error(f"{options.scheduler}: no Dask scheduler answers there", "failure", options.scheduler) from error
+    # Without a dashboard its server runs all the same: on a free port that this machine alone sees.
+    own = "127.0.0.1:0"
     cluster = distributed.LocalCluster(n_workers=options.workers, threads_per_worker=1, dashboard_address=None,
+                                       scheduler_kwargs={"dashboard_address": own}, worker_dashboard_address=own,
                                        memory_limit=0, silence_logs=logging.CRITICAL)
     return distributed.Client(cluster)
 

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 from .errors import Error
-from .settings import MeshSettings
+from .setting_table import MeshSettings
 
 #: Called with a stage name and the fraction of the stage done, in [0, 1]; returning False cancels the work.
 Progress = Callable[[str, float], Optional[bool]]
@@ -63,18 +63,19 @@ def scratch_folder() -> "tempfile.TemporaryDirectory":
 def _sweep(place: Path) -> None:
     for folder in place.glob(f"{_SCRATCH}*"):
         owner = re.match(r"(\d+)-", folder.name[len(_SCRATCH):])
-        if owner and not _is_running(int(owner.group(1))) and folder.stat().st_uid == os.getuid():
+        if owner and _is_left_behind(folder, int(owner.group(1))):
             shutil.rmtree(folder, ignore_errors=True)
 
 
-def _is_running(process: int) -> bool:
+def _is_left_behind(folder: Path, process: int) -> bool:
+    """Whether the folder is this user's, and the process that made it is gone."""
     try:
         os.kill(process, 0)
     except ProcessLookupError:
-        return False
+        return folder.stat().st_uid == os.getuid()
     except PermissionError:
         pass
-    return True
+    return False
 
 
 def _which(path: str) -> Optional[str]:

@@ -13,13 +13,17 @@ from collections import OrderedDict
 from pathlib import Path
 from typing import Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
-import FreeCAD
+from . import freecad_modules
+
+freecad_modules.find()
+
+import FreeCAD  # noqa: E402
 
 from . import groups, links, old_documents, shapes, solvers, state, undo
 from .command import Progress, scratch_folder
 from .errors import Error
 from .jobs import PREFERENCES, ShapeJob, find_mesher, mesh_shape, read_mesh
-from .settings import BY_NAME, SETTINGS, MeshSettings, face_name, property_help, property_kind, to_property, words
+from .setting_table import BY_NAME, SETTINGS, MeshSettings, face_name, property_help, property_kind, to_property, words
 from .state import UP_TO_DATE, Wanted, complaint, shape_of
 
 __all__ = [

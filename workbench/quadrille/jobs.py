@@ -11,7 +11,7 @@ import Fem
 
 from .command import MeshJob, Progress, check_version, find_command, scratch_folder
 from .errors import Error
-from .settings import MeshSettings, in_words_of_properties
+from .setting_table import MeshSettings, in_words_of_properties
 
 PREFERENCES = "User parameter:BaseApp/Preferences/Mod/Quadrille"
 

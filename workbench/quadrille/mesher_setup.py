@@ -7,14 +7,16 @@ refused whose members would lie outside of their folder, and the mesher is tried
 """
 
 import hashlib
+import http.client
+import lzma
 import os
 import shutil
 import subprocess
-import sys
 import tarfile
 import tempfile
 import urllib.error
 import urllib.request
+import zlib
 from pathlib import Path
 from typing import Callable, Optional, Union
 from urllib.parse import urlsplit
@@ -61,7 +63,7 @@ def download(address: str, folder: Union[str, Path], progress: Optional[Progress
             if whole and done != whole:
                 raise Error(f"{address}: ended after {done} of {whole} bytes", "failure", address)
         os.replace(part, target)
-    except (OSError, ValueError) as error:  # URLError is an OSError
+    except (OSError, ValueError, http.client.HTTPException) as error:  # URLError is an OSError
         reason = getattr(error, "reason", error)
         raise Error(f"{address}: cannot be downloaded ({reason})", "failure", address) from error
     finally:
@@ -73,9 +75,11 @@ def download(address: str, folder: Union[str, Path], progress: Optional[Progress
 def _members(archive: tarfile.TarFile, path: Path) -> list:
     """The archive's members, all of them below one folder; raises Error where one would lie or lead elsewhere."""
     members, tops, size = archive.getmembers(), set(), 0
+    links = {Path(member.name) for member in members if member.issym()}
     for member in members:
         parts = Path(member.name).parts
         inside = parts and not member.name.startswith("/") and ".." not in parts
+        inside = inside and links.isdisjoint(Path(member.name).parents)  # a chain of links leads anywhere
         if member.issym():
             inside = inside and not member.linkname.startswith("/") and \
                 len(parts) - 1 > Path(member.linkname).parts.count("..")
@@ -100,7 +104,7 @@ def install(archive: Union[str, Path], data_folder: Union[str, Path]) -> str:
     try:
         with tarfile.open(path) as bundle:
             members = _members(bundle, path)
-            extra = {"filter": "data"} if sys.version_info >= (3, 12) else {}
+            extra = {"filter": "data"} if hasattr(tarfile, "data_filter") else {}
             bundle.extractall(fresh, members, **extra)
         root = fresh / Path(members[0].name).parts[0]
         if not (root / "bin" / "quadrille").is_file():
@@ -115,7 +119,7 @@ def install(archive: Union[str, Path], data_folder: Union[str, Path]) -> str:
             if old.exists():
                 os.rename(old, target)
             raise
-    except (OSError, tarfile.TarError, EOFError, subprocess.SubprocessError) as error:
+    except (OSError, tarfile.TarError, lzma.LZMAError, zlib.error, EOFError, subprocess.SubprocessError) as error:
         raise Error(f"{path}: cannot be unpacked ({error})", "failure", str(path)) from error
     finally:
         shutil.rmtree(fresh, ignore_errors=True)

@@ -13,7 +13,7 @@ from . import links, state
 from .command import CommandJob, scratch_folder
 from .errors import Error
 from .jobs import find_mesher
-from .settings import BY_NAME, MeshSettings, in_words_of_properties
+from .setting_table import BY_NAME, MeshSettings, in_words_of_properties
 
 
 class Source(NamedTuple):

@@ -10,7 +10,7 @@ import FreeCAD
 
 from . import groups, links, old_documents, shapes
 from .errors import Error
-from .settings import SETTINGS, MeshSettings, from_property
+from .setting_table import SETTINGS, MeshSettings, from_property
 
 #: The type of the Python side of our mesh objects.
 TYPE = "Fem::FemMeshQuadrille"

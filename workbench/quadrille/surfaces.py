@@ -15,7 +15,7 @@ from . import groups, observers, solvers, state, undo
 from .command import MeshJob, Progress, scratch_folder
 from .errors import Error
 from .jobs import FemJob, find_mesher
-from .settings import MeshSettings
+from .setting_table import MeshSettings
 
 #: Share of a surface's diagonal that elements are long where no size is given.
 _USUAL_SIZE = 1 / 60

@@ -26,7 +26,7 @@ import quadrille.quality
 from case import MODELS, GuiCase, picture, run, type_size
 from driver import Boxes, close_panel, find, process, trigger, wait_for, window
 from quadrille.gui import commands, overlays
-from quadrille.settings import SETTINGS
+from quadrille.setting_table import SETTINGS
 from quadrille.state import is_quad_mesh
 
 def fem_entries():

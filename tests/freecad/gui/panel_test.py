@@ -24,7 +24,7 @@ from driver import Boxes, close_panel, find, process, trigger, wait_for, window
 from quadrille import links, quality, shapes, state
 from quadrille.gui import commands, overlays, preferences
 from quadrille.gui.task_panel import MeshPanel
-from quadrille.settings import SETTINGS
+from quadrille.setting_table import SETTINGS
 from quadrille.state import is_quad_mesh
 
 CANCEL = QtGui.QDialogButtonBox.Cancel

@@ -5,6 +5,7 @@ import pathlib
 import re
 import subprocess
 from dataclasses import dataclass, field
+from importlib import metadata
 from typing import Dict, Optional
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -194,14 +195,25 @@ def read_getfem(path):
     return Seen(nodes=mesh.nbpts(), quads=mesh.nbcvs(), group_count=len([r for r in mesh.regions() if len(mesh.region(r)[0])]))
 
 
-def read_dealii(path):
-    """By deal.II: the program beside this file."""
-    program = path.parent / "dealii" / "dealii_reader"
+def built_reader(name, path):
+    """The program in the folder `name` beside this file, built once beside the meshes."""
+    program = path.parent / name / f"{name}_reader"
     if not program.exists():
-        run("cmake", "-S", HERE, "-B", program.parent, "-DCMAKE_BUILD_TYPE=Release")
+        run("cmake", "-S", HERE / name, "-B", program.parent, "-DCMAKE_BUILD_TYPE=Release")
         run("cmake", "--build", program.parent, timeout=600)
-    nodes, quads, materials = map(int, run(program, path).split())
+    return program
+
+
+def read_dealii(path):
+    """By deal.II."""
+    nodes, quads, materials = map(int, run(built_reader("dealii", path), path).split())
     return Seen(nodes=nodes, quads=quads, group_count=materials)
+
+
+def read_mfem(path):
+    """By MFEM, which takes faces from .msh alone."""
+    nodes, quads, attributes = map(int, run(built_reader("mfem", path), path).splitlines()[-1].split())
+    return Seen(nodes=nodes, quads=quads, group_count=attributes if path.suffix == ".msh" else None)
 
 
 def package_version(package):
@@ -209,9 +221,11 @@ def package_version(package):
     answer = subprocess.run(["dpkg-query", "-W", "-f", "${db:Status-Status} ${Version}", package], capture_output=True,
                             text=True, check=False)
     status, _, version = answer.stdout.partition(" ")
-    really = re.search(r"really-?(\d[\d.]*)", version)
-    plain = really.group(1) if really else re.sub(r"^\d+:|[+~-].*$", "", version)
-    return plain if status == "installed" else None
+    if status != "installed":
+        return None
+    if package == "python3-meshio":  # Debian's number is another
+        return metadata.version("meshio")
+    return re.sub(r"^\d+:|[+~-].*$", "", version)
 
 
 #: name: (read, Debian package, comes with scripts/install_dependencies.sh)
@@ -224,6 +238,7 @@ READERS = {
     "libmed's tools": (read_libmed, "libmed-tools", True),
     "dolfinx": (read_dolfinx, "python3-dolfinx", False),
     "deal.II": (read_dealii, "libdeal.ii-dev", False),
+    "MFEM": (read_mfem, "libmfem-dev", False),
     "SfePy": (read_sfepy, "python3-sfepy", False),
     "GetFEM": (read_getfem, "python3-getfem++", False),
 }

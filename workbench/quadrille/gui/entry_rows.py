@@ -7,7 +7,7 @@ from typing import Any, Callable, Dict, List, NamedTuple, Sequence
 from PySide import QtGui
 
 from ..errors import Error
-from ..settings import SETTINGS
+from ..setting_table import SETTINGS
 from . import translate
 
 #: Properties whose value is a list of texts such as "Edge4=20".

@@ -11,7 +11,7 @@ from PySide import QtGui
 from ..command import check_version, find_command
 from ..errors import Error
 from ..jobs import PREFERENCES
-from ..settings import BY_NAME, to_property
+from ..setting_table import BY_NAME, to_property
 from . import icon, translate
 from .mesher_choice import MesherChoice
 from .setting_widgets import SettingWidget
@@ -55,7 +55,7 @@ def defaults() -> Dict[str, Any]:
 
 def settings() -> Dict[str, Any]:
     """The same by the names that scripts use, where they differ from the table's."""
-    from ..settings import from_property
+    from ..setting_table import from_property
 
     values = {name: from_property(BY_NAME[name], defaults().get(BY_NAME[name]["property"], to_property(BY_NAME[name], None)))
               for name in _DEFAULTS}

@@ -1,0 +1,26 @@
+#include "geometry/base/file_access.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace quadrille {
+
+namespace {
+
+std::string why_not(const std::filesystem::path& path, int mode) {
+  return ::access(path.c_str(), mode) == 0 ? std::string() : std::strerror(errno);
+}
+
+}  // namespace
+
+std::string why_unreadable(const std::filesystem::path& path) {
+  return why_not(path, R_OK);
+}
+
+std::string why_unwritable(const std::filesystem::path& folder) {
+  return why_not(folder, W_OK | X_OK);
+}
+
+}  // namespace quadrille
