@@ -244,6 +244,25 @@ class Cavities : private EditedMesh {
                         [&](const PolygonFilling& filling) { return put(filling); });
   }
 
+  /// Whether some side is longer than those before, and far longer than these are in the mean.
+  bool too_long(const std::vector<Quad>& before, const std::vector<Quad>& quads) const {
+    constexpr double far = 1.6;
+    const auto longest = [&](const std::vector<Quad>& of, double& mean) {
+      double most = 0, sum = 0;
+      for (const Quad& q : of)
+        for (int k = 0; k < 4; ++k) {
+          const double length = (point(q[k]) - point(q[(k + 1) & 3])).norm();
+          most = std::max(most, length);
+          sum += length;
+        }
+      mean = sum / (4 * static_cast<double>(of.size()));
+      return most;
+    };
+    double mean = 0, unused = 0;
+    const double most = std::max(longest(before, mean), far * mean);
+    return longest(quads, unused) > most;
+  }
+
   /// How far the quads are from the criteria of industry; no quad counts for more than `most`.
   double mean_objective(const std::vector<Quad>& quads) const {
     constexpr double most = 20;
@@ -263,8 +282,8 @@ class Cavities : private EditedMesh {
     std::vector<Quad> quads = filling.quads;
     for (Quad& quad : quads)
       for (int& node : quad) node = nodes[node];
-    const bool done =
-        worst(quads) > std::min(worst(before), mendable) && mean_objective(quads) < mean_objective(before);
+    const bool done = !too_long(before, quads) && worst(quads) > std::min(worst(before), mendable) &&
+                      mean_objective(quads) < mean_objective(before);
     const std::vector<int> old = patch_;
     clear();
     if (done && topology_.replace(old, quads)) {
