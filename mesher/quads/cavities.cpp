@@ -227,8 +227,19 @@ class Cavities : private EditedMesh {
     return sum;
   }
 
+  /// Whether the surface turns little enough in the patch for places between the nodes to make sense.
+  bool is_flat() const {
+    constexpr double least_cosine = 0.7;
+    Vector3 mean = Vector3::Zero();
+    for (const int node : ring_) mean += normal(node);
+    mean.normalize();
+    const auto turned = [&](int node) { return !(normal(node).dot(mean) > least_cosine); };
+    return std::none_of(ring_.begin(), ring_.end(), turned) &&
+           std::none_of(inside_.begin(), inside_.end(), turned);
+  }
+
   bool fill() {
-    if (cost_ < 2 || !seen_.insert(fingerprint()).second) return false;
+    if (cost_ < 2 || !is_flat() || !seen_.insert(fingerprint()).second) return false;
     std::vector<Vector3> outline;
     for (const int node : ring_) outline.push_back(point(node));
     const auto share = [&](double of) {
@@ -246,21 +257,23 @@ class Cavities : private EditedMesh {
 
   /// Whether some side is longer than those before, and far longer than these are in the mean.
   bool too_long(const std::vector<Quad>& before, const std::vector<Quad>& quads) const {
-    constexpr double far = 1.6;
-    const auto longest = [&](const std::vector<Quad>& of, double& mean) {
-      double most = 0, sum = 0;
-      for (const Quad& q : of)
-        for (int k = 0; k < 4; ++k) {
-          const double length = (point(q[k]) - point(q[(k + 1) & 3])).norm();
-          most = std::max(most, length);
-          sum += length;
-        }
-      mean = sum / (4 * static_cast<double>(of.size()));
-      return most;
-    };
-    double mean = 0, unused = 0;
-    const double most = std::max(longest(before, mean), far * mean);
-    return longest(quads, unused) > most;
+    constexpr double far = 1.9;
+    double longest = 0, sum = 0;
+    for_each_side(before, [&](double length) {
+      longest = std::max(longest, length);
+      sum += length;
+    });
+    const double most = std::max(longest, far * sum / (4 * static_cast<double>(before.size())));
+    bool result = false;
+    for_each_side(quads, [&](double length) { result |= length > most; });
+    return result;
+  }
+
+  /// With its length; sides inside are met from both quads.
+  template <class Visit>
+  void for_each_side(const std::vector<Quad>& quads, Visit visit) const {
+    for (const Quad& q : quads)
+      for (int k = 0; k < 4; ++k) visit((point(q[k]) - point(q[(k + 1) & 3])).norm());
   }
 
   /// How far the quads are from the criteria of industry; no quad counts for more than `most`.
