@@ -255,27 +255,6 @@ class Cavities : private EditedMesh {
                         [&](const PolygonFilling& filling) { return put(filling); });
   }
 
-  /// Whether some side is longer than those before, and far longer than these are in the mean.
-  bool too_long(const std::vector<Quad>& before, const std::vector<Quad>& quads) const {
-    constexpr double far = 1.9;
-    double longest = 0, sum = 0;
-    for_each_side(before, [&](double length) {
-      longest = std::max(longest, length);
-      sum += length;
-    });
-    const double most = std::max(longest, far * sum / (4 * static_cast<double>(before.size())));
-    bool result = false;
-    for_each_side(quads, [&](double length) { result |= length > most; });
-    return result;
-  }
-
-  /// With its length; sides inside are met from both quads.
-  template <class Visit>
-  void for_each_side(const std::vector<Quad>& quads, Visit visit) const {
-    for (const Quad& q : quads)
-      for (int k = 0; k < 4; ++k) visit((point(q[k]) - point(q[(k + 1) & 3])).norm());
-  }
-
   /// How far the quads are from the criteria of industry; no quad counts for more than `most`.
   double mean_objective(const std::vector<Quad>& quads) const {
     constexpr double most = 20;

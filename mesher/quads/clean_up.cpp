@@ -23,7 +23,6 @@ namespace {
 using Quad = QuadTopology::Quad;
 constexpr double pi = std::numbers::pi;
 constexpr int max_patch = 32;        ///< quads in a patch
-constexpr double max_stretch = 1.9;  ///< no side gets longer than this times the mean side of its patch
 /// A patch that is better connected may be this badly shaped at first: smoothing mends it.
 constexpr double mendable = 0.05;
 constexpr double regular_cost = 0.5;  ///< nodes that cost less are left alone
@@ -141,7 +140,6 @@ class CleanUp : private EditedMesh {
   }
 
   double cost_change(const Change& change) const;
-  bool too_long(const Change& change) const;
   bool apply(Change& change, double allowed_cost);
   bool collapse_doublet(int node);
   bool merge_slender(int quad);
@@ -225,27 +223,14 @@ double CleanUp::cost_change(const Change& change) const {
   return sum;
 }
 
-bool CleanUp::too_long(const Change& change) const {
-  double sum = 0, longest_old = 0, longest = 0;
-  for (const int quad : change.old_span())
-    for (int k = 0; k < 4; ++k) {
-      const Quad& q = topology_.quad(quad);
-      const double length = (point(q[k]) - point(q[(k + 1) & 3])).norm();
-      sum += length;
-      longest_old = std::max(longest_old, length);
-    }
-  for (const Quad& q : change.new_span())
-    for (int k = 0; k < 4; ++k) longest = std::max(longest, (point(q[k]) - point(q[(k + 1) & 3])).norm());
-  return longest > std::max(longest_old, max_stretch * sum / (4 * change.old_count));
-}
-
 /// Carries a change out if the valences gain enough and no element becomes worse than it was (or than can be
 /// mended).
 bool CleanUp::apply(Change& change, double allowed_cost) {
   if (change.count == 0 || cost_change(change) > allowed_cost) return false;
-  std::array<Quad, max_patch> before;
-  for (int i = 0; i < change.old_count; ++i) before[i] = topology_.quad(change.old_quads[i]);
-  const double worst_before = worst({before.data(), static_cast<std::size_t>(change.old_count)});
+  std::array<Quad, max_patch> old;
+  for (int i = 0; i < change.old_count; ++i) old[i] = topology_.quad(change.old_quads[i]);
+  const std::span<const Quad> before(old.data(), change.old_count);
+  const double worst_before = worst(before);
   const int node = change.moved;
   Vector3 place = Vector3::Zero(), normal = Vector3::Zero();
   Vector2 uv = Vector2::Zero();
@@ -264,7 +249,8 @@ bool CleanUp::apply(Change& change, double allowed_cost) {
     mesh_.mesh.points[node] =
         surface_.move(mesh_.parameters[node], sum / std::max(neighbors, 1), mesh_.normals[node]);
   }
-  const bool done = worst(change.new_span()) > std::min(worst_before, mendable) && !too_long(change) &&
+  const bool done = worst(change.new_span()) > std::min(worst_before, mendable) &&
+                    !too_long(before, change.new_span()) &&
                     topology_.replace(change.old_span(), change.new_span());
   if (!done && node >= 0) {
     mesh_.mesh.points[node] = place;
@@ -568,12 +554,13 @@ int CleanUp::add_node(int donor) {
 
 bool CleanUp::fill(const Patch& patch, const Outline& outline, const PatchTemplate& filling) {
   Change change;
-  std::array<Quad, Patch::max_quads> before;
+  std::array<Quad, Patch::max_quads> old;
   for (int i = 0; i < patch.count; ++i) {
     change.add_old(patch.quads[i]);
-    before[i] = topology_.quad(patch.quads[i]);
+    old[i] = topology_.quad(patch.quads[i]);
   }
-  const double floor = std::min(worst({before.data(), static_cast<std::size_t>(patch.count)}), mendable);
+  const std::span<const Quad> before(old.data(), patch.count);
+  const double floor = std::min(worst(before), mendable);
   Filling filled = relaxed(outline, filling);
   if (!(filled.worst() > floor)) return false;
 
@@ -599,7 +586,7 @@ bool CleanUp::fill(const Patch& patch, const Outline& outline, const PatchTempla
     for (int j = 0; j < 4; ++j) change.quads[change.count][j] = filled.nodes[c[j]];
     ++change.count;
   }
-  if (filled.worst() > floor && !too_long(change) &&
+  if (filled.worst() > floor && !too_long(before, change.new_span()) &&
       topology_.replace(change.old_span(), change.new_span())) {
     ++report_.valence_moves;
     drift_ += change.count - change.old_count;

@@ -55,6 +55,20 @@ double EditedMesh::worst(std::span<const Quad> quads) const {
   return least;
 }
 
+bool EditedMesh::too_long(std::span<const Quad> before, std::span<const Quad> quads) const {
+  constexpr double far = 1.9;
+  const auto side = [&](const Quad& q, int k) { return (point(q[k]) - point(q[(k + 1) & 3])).norm(); };
+  double sum = 0, most = 0, longest = 0;
+  for (const Quad& q : before)
+    for (int k = 0; k < 4; ++k) {
+      sum += side(q, k);
+      most = std::max(most, side(q, k));
+    }
+  for (const Quad& q : quads)
+    for (int k = 0; k < 4; ++k) longest = std::max(longest, side(q, k));
+  return longest > std::max(most, far * sum / (4 * static_cast<double>(before.size())));
+}
+
 int EditedMesh::add_node_like(int donor) {
   const int node = topology_.add_node();
   // Copies first: the arrays may move.

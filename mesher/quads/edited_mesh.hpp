@@ -23,6 +23,8 @@ class EditedMesh {
   bool inner(int node) const { return topology_.closed(node) && may_move(node); }
   /// \return the least scaled Jacobian; negative where a quad is folded.
   double worst(std::span<const Quad> quads) const;
+  /// Whether some side is longer than every one before, and far longer than these are in the mean.
+  bool too_long(std::span<const Quad> before, std::span<const Quad> quads) const;
 
  protected:
   bool may_move(int node) const { return !mesh_.fixed[node] && !on_triangle_[node]; }

@@ -32,7 +32,9 @@ struct FillingLimits {
 /// \param corners indices into `outline`, ascending
 /// \param accept is called with one filling after the other, four at most, those first whose rows suit the
 /// distances, until it returns true. Inner nodes lie as transfinite interpolation and some Laplacian sweeps
-/// put them. \return whether it did.
+/// put them.
+///
+/// \return whether it did.
 ///
 /// Time: quadratic in the longest side, linear in the quads. Based on: Takayama, Panozzo & Sorkine-Hornung,
 /// Pattern-based quadrangulation for N-sided patches (2014), for which patterns there are.

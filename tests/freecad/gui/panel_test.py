@@ -353,7 +353,7 @@ class PanelTest(GuiCase):
         first, second = mesh.MeshRegionList
         before = mesh.QuadCount
         self.edit(mesh)
-        self.assertEqual([find(f"QuadrilleRefined{i}").text() for i in (0, 1)], ["Face1", "Edge12"])
+        self.assertEqual([find(f"QuadrilleRefinedName{i}").text() for i in (0, 1)], ["Face1", "Edge12"])
         type_into("QuadrilleRefinedSize0", "0.5 mm")
         find("QuadrilleRefinedRemove1").click()
         self.press_mesh()

@@ -9,6 +9,7 @@ from PySide import QtGui
 from ..errors import Error
 from ..setting_table import SETTINGS
 from . import translate
+from .row_list import RowList
 
 #: Properties whose value is a list of texts such as "Edge4=20".
 PROPERTIES = tuple(setting["property"] for setting in SETTINGS if setting["property"] and setting["kind"] == "entries")
@@ -22,25 +23,13 @@ class _Row(NamedTuple):
     box: Any  #: what follows
 
 
-class EntryRows(QtGui.QWidget):
+class EntryRows(RowList):
     """A row for each entry."""
 
     def __init__(self, divide: Callable[[], None], changed: Callable[[], None]) -> None:
         """divide: adds numbers for the edges that are selected, by add()."""
-        super().__init__()
-        self._rows: List[_Row] = []
-        self._changed = changed
-        self._grid = QtGui.QGridLayout()
-        self._grid.setColumnStretch(0, 3)
-        self._grid.setColumnStretch(1, 2)
-        self.divide_button = QtGui.QPushButton(translate("Quadrille", "Divide selected edges"))
-        self.divide_button.setObjectName("QuadrilleDivide")
-        self.divide_button.setToolTip(translate("Quadrille", "Say how many elements the selected edges get"))
-        self.divide_button.clicked.connect(lambda *_: divide())
-        layout = QtGui.QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addLayout(self._grid)
-        layout.addWidget(self.divide_button)
+        super().__init__(translate("Quadrille", "Divide selected edges"),
+                         translate("Quadrille", "Say how many elements the selected edges get"), "QuadrilleDivide", divide, changed)
 
     def values(self) -> Dict[str, List[str]]:
         """The entries shown, by property. Raises Error where one has no number."""
@@ -55,35 +44,16 @@ class EntryRows(QtGui.QWidget):
 
     def show_all(self, values: Dict[str, Sequence[str]]) -> None:
         """Shows the entries of these properties and no others."""
-        while self._grid.count():
-            widget = self._grid.takeAt(0).widget()
-            widget.hide()
-            widget.setParent(None)
-            widget.deleteLater()
-        self._rows = []
+        self._clear()
         for name in PROPERTIES:
             for entry in values[name]:
                 self._add_row(name, entry)
 
     def _add_row(self, name: str, entry: str) -> None:
-        number, (place, _, text) = len(self._rows), entry.rpartition("=")
-        shown = QtGui.QLineEdit(f"{name} {place}")
-        shown.setReadOnly(True)
-        shown.setCursorPosition(0)
-        shown.setToolTip(f"{name}: {entry}")
-        shown.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
+        place, _, text = entry.rpartition("=")
         box = QtGui.QLineEdit(text)
-        box.setObjectName(f"QuadrilleEntry{number}")
-        box.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
-        remove = QtGui.QToolButton()
-        remove.setText("×")
-        remove.setObjectName(f"QuadrilleEntryRemove{number}")
-        remove.setToolTip(translate("Quadrille", "Remove this refinement"))
-        for column, widget in enumerate((shown, box, remove)):
-            self._grid.addWidget(widget, number, column)
-        self._rows.append(_Row(name, place, box))
-        box.textChanged.connect(lambda *_: self._changed())
-        remove.clicked.connect(lambda *_: self._remove(number))
+        box.setObjectName(f"QuadrilleEntry{len(self._rows)}")
+        self._show_row(_Row(name, place, box), f"{name} {place}", f"{name}: {entry}", box, "QuadrilleEntry")
 
     def add(self, name: str, entries: Dict[str, str]) -> None:
         """Entries of a property, by their places; those of places that are there already give way."""

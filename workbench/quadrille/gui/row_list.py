@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rows of a name, a field and a button that removes the row, with a button beneath that adds some: what a panel's lists have in
+common."""
+
+from typing import Any, Callable, List
+
+from PySide import QtGui
+
+from . import translate
+
+
+class RowList(QtGui.QWidget):
+    """A list whose rows are edited in place."""
+
+    def __init__(self, text: str, tip: str, name: str, pressed: Callable[[], None], changed: Callable[[], None]) -> None:
+        """text, tip, name: of the button beneath. changed: called when a row is edited, added or removed."""
+        super().__init__()
+        self._rows: List[Any] = []
+        self._changed = changed
+        self._grid = QtGui.QGridLayout()
+        self._grid.setColumnStretch(0, 3)
+        self._grid.setColumnStretch(1, 2)
+        self.button = QtGui.QPushButton(text)
+        self.button.setObjectName(name)
+        self.button.setToolTip(tip)
+        self.button.clicked.connect(lambda *_: pressed())
+        layout = QtGui.QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addLayout(self._grid)
+        layout.addWidget(self.button)
+
+    def _clear(self) -> None:
+        while self._grid.count():
+            widget = self._grid.takeAt(0).widget()
+            widget.hide()
+            widget.setParent(None)
+            widget.deleteLater()
+        self._rows = []
+
+    def _show_row(self, row: Any, text: str, tip: str, box: Any, name: str) -> None:
+        """Puts a row beneath the others. name: what the names of its text and of the button that removes it begin with."""
+        number = len(self._rows)
+        shown = QtGui.QLineEdit(text)  # scrolls where the text is long
+        shown.setObjectName(f"{name}Name{number}")
+        shown.setReadOnly(True)
+        shown.setCursorPosition(0)
+        shown.setToolTip(tip)
+        remove = QtGui.QToolButton()
+        remove.setText("×")
+        remove.setObjectName(f"{name}Remove{number}")
+        remove.setToolTip(translate("Quadrille", "Remove this refinement"))
+        for column, widget in enumerate((shown, box, remove)):
+            self._grid.addWidget(widget, number, column)
+        for widget in (shown, box):
+            widget.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
+        self._rows.append(row)
+        box.textChanged.connect(lambda *_: self._changed())
+        remove.clicked.connect(lambda *_: self._remove(number))
+
+    def _remove(self, number: int) -> None:
+        raise NotImplementedError
