@@ -22,7 +22,7 @@ namespace {
 
 using Quad = QuadTopology::Quad;
 constexpr double pi = std::numbers::pi;
-constexpr int max_patch = 32;        ///< quads in a patch
+constexpr int max_patch = 32;  ///< quads in a patch
 /// A patch that is better connected may be this badly shaped at first: smoothing mends it.
 constexpr double mendable = 0.05;
 constexpr double regular_cost = 0.5;  ///< nodes that cost less are left alone
@@ -48,35 +48,6 @@ struct Change {
   }
   std::span<const int> old_span() const { return {old_quads.data(), static_cast<std::size_t>(old_count)}; }
   std::span<const Quad> new_span() const { return {quads.data(), static_cast<std::size_t>(count)}; }
-};
-
-/// A patch of quads as a polygon with nodes inside.
-struct Outline {
-  std::array<int, PatchTemplate::max_sides> ring;  ///< nodes, counter-clockwise
-  std::array<int, PatchTemplate::max_sides>
-      sides;  ///< side of the patch from each node of the ring to the next
-  std::array<int, PatchTemplate::max_sides> uses;  ///< quads of the patch at each node of the ring
-  int length = 0;
-  std::array<int, 4> inside;
-  int inside_count = 0;
-};
-
-/// Quads that are tried as one patch.
-struct Patch {
-  static constexpr int max_quads = 8;
-  std::array<int, max_quads> quads;
-  int count = 0;
-
-  bool contains(int quad) const {
-    return std::find(quads.begin(), quads.begin() + count, quad) != quads.begin() + count;
-  }
-  bool add(int quad) {
-    if (quad < 0) return false;
-    if (contains(quad)) return true;
-    if (count == max_quads) return false;
-    quads[count++] = quad;
-    return true;
-  }
 };
 
 class CleanUp : private EditedMesh {
@@ -118,27 +89,6 @@ class CleanUp : private EditedMesh {
   void write_back();
 
  private:
-  bool removable(int node) const {
-    const int side = topology_.side_of(node);
-    return side >= 0 && inner(node);
-  }
-
-  static double inner_cost(int quads) { return quads < 3 ? 20 : (quads - 4) * (quads - 4); }
-
-  /// How far a node with `quads` quads is from what its angle asks for.
-  double node_cost(int node, int quads) const {
-    if (inner(node)) return inner_cost(quads);
-    if (quads < 1) return 1e9;
-    const double angle = angles_[node] * 180 / pi;
-    const double wanted = std::max(1.0, std::round(angle / 90));
-    // No smoothing mends the mean angle at a boundary node: beyond 130 degrees it soon rules everything.
-    // Opening a straight corner costs two or three irregular nodes inside, and is worth it from 150 degrees
-    // on.
-    const double mean = angle / quads;
-    const double flat = std::max(0.0, mean - 130) / 15, sharp = std::max(0.0, 40 - mean) / 20;
-    return (quads - wanted) * (quads - wanted) + 3 * flat * flat + 3 * sharp * sharp;
-  }
-
   double cost_change(const Change& change) const;
   bool apply(Change& change, double allowed_cost);
   bool collapse_doublet(int node);
@@ -155,8 +105,7 @@ class CleanUp : private EditedMesh {
     std::uint64_t print = 0;  ///< changes with its nodes and their valences
   };
   const QuadState& state_of(int quad);
-  bool try_patch(const Patch& patch);
-  bool trace(const Patch& patch, Outline& outline) const;
+  bool try_patch(const SmallPatch& patch);
   /// A template laid into an outline: where its corners are and which nodes they are to be.
   struct Filling {
     const PatchTemplate& filling;
@@ -167,7 +116,7 @@ class CleanUp : private EditedMesh {
     double worst() const;
   };
 
-  bool fill(const Patch& patch, const Outline& outline, const PatchTemplate& filling);
+  bool fill(const SmallPatch& patch, const Outline& outline, const PatchTemplate& filling);
   /// The template with its inner corners relaxed from the middle of the outline.
   Filling relaxed(const Outline& outline, const PatchTemplate& filling) const;
   int add_node(int donor);
@@ -364,14 +313,14 @@ bool CleanUp::improve_round(int node) {
   };
 
   // The node's own ring.
-  Patch ring;
+  SmallPatch ring;
   bool whole = true;
   for (int i = 0; i < fan.quads; ++i) whole = ring.add(sides[i] >> 2) && whole;
   if (whole && ring.count > 1 && try_patch(ring)) return true;
   // Pairs of quads, then chains of three.
   for (int i = 0; i < fan.quads; ++i)
     for (int k = 0; k < 4; ++k) {
-      Patch pair;
+      SmallPatch pair;
       pair.add(sides[i] >> 2);
       if (quad_across(4 * (sides[i] >> 2) + k) == (sides[(i + 1) % fan.quads] >> 2))
         continue;  // met from there
@@ -379,12 +328,12 @@ bool CleanUp::improve_round(int node) {
     }
   for (int i = 0; i < fan.quads; ++i)
     for (int k = 0; k < 4; ++k) {
-      Patch pair;
+      SmallPatch pair;
       pair.add(sides[i] >> 2);
       if (!pair.add(quad_across(4 * (sides[i] >> 2) + k))) continue;
       for (int member = 0; member < 2; ++member)
         for (int j = 0; j < 4; ++j) {
-          Patch triple = pair;
+          SmallPatch triple = pair;
           if (triple.add(quad_across(4 * pair.quads[member] + j)) && triple.count == 3 && try_patch(triple))
             return true;
         }
@@ -396,53 +345,13 @@ bool CleanUp::improve_round(int node) {
       const int other_side = topology_.side_at(sides[i] >> 2, q[((sides[i] & 3) + step) & 3]);
       if (!topology_.closed(topology_.origin(other_side))) continue;
       const QuadTopology::Fan other = topology_.fan(other_side);
-      Patch both = ring;
+      SmallPatch both = ring;
       bool fits = true;
       for (int j = 0, at = other.first; j < other.quads && fits; ++j, at = topology_.rotate(at))
         fits = both.add(at >> 2);
       if (fits && try_patch(both)) return true;
     }
   return false;
-}
-
-/// The polygon round a patch; false if it is not a disc, too long, or holds nodes that must stay.
-bool CleanUp::trace(const Patch& patch, Outline& outline) const {
-  int start = -1, outer = 0;
-  for (int i = 0; i < patch.count; ++i)
-    for (int k = 0; k < 4; ++k) {
-      const int twin = topology_.twin(4 * patch.quads[i] + k);
-      if (twin >= 0 && patch.contains(twin >> 2)) continue;
-      start = 4 * patch.quads[i] + k;
-      ++outer;
-    }
-  if (start < 0 || outer > PatchTemplate::max_sides) return false;
-  int side = start;
-  do {
-    if (outline.length == outer) return false;
-    outline.sides[outline.length] = side;
-    outline.ring[outline.length++] = topology_.origin(side);
-    int& uses = outline.uses[outline.length == outer ? 0 : outline.length];  // at the next node
-    uses = 1;
-    side = QuadTopology::next(side);
-    for (int twin = topology_.twin(side); twin >= 0 && patch.contains(twin >> 2);
-         twin = topology_.twin(side)) {
-      side = QuadTopology::next(twin);
-      ++uses;
-    }
-  } while (side != start);
-  if (outline.length != outer) return false;
-  const auto ring_end = outline.ring.begin() + outline.length;
-  for (auto at = outline.ring.begin(); at != ring_end; ++at)
-    if (std::find(at + 1, ring_end, *at) != ring_end) return false;
-  for (int i = 0; i < patch.count; ++i)
-    for (const int node : topology_.quad(patch.quads[i])) {
-      if (std::find(outline.ring.begin(), ring_end, node) != ring_end) continue;
-      const auto inside_end = outline.inside.begin() + outline.inside_count;
-      if (std::find(outline.inside.begin(), inside_end, node) != inside_end) continue;
-      if (outline.inside_count == 4 || !removable(node)) return false;
-      outline.inside[outline.inside_count++] = node;
-    }
-  return patch.count == outline.length / 2 - 1 + outline.inside_count;
 }
 
 const CleanUp::QuadState& CleanUp::state_of(int quad) {
@@ -464,7 +373,7 @@ const CleanUp::QuadState& CleanUp::state_of(int quad) {
 }
 
 /// Fills the patch anew by the template that costs least, if that gains.
-bool CleanUp::try_patch(const Patch& patch) {
+bool CleanUp::try_patch(const SmallPatch& patch) {
   // Nothing is gained where no two nodes are irregular. A node counts here with each of its quads.
   double most = 0;
   std::uint64_t fingerprint = 0;  // the same for the same quads in any order, as long as their nodes stay
@@ -552,9 +461,9 @@ int CleanUp::add_node(int donor) {
   return add_node_like(donor);
 }
 
-bool CleanUp::fill(const Patch& patch, const Outline& outline, const PatchTemplate& filling) {
+bool CleanUp::fill(const SmallPatch& patch, const Outline& outline, const PatchTemplate& filling) {
   Change change;
-  std::array<Quad, Patch::max_quads> old;
+  std::array<Quad, SmallPatch::max_quads> old;
   for (int i = 0; i < patch.count; ++i) {
     change.add_old(patch.quads[i]);
     old[i] = topology_.quad(patch.quads[i]);

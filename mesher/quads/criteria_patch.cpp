@@ -118,4 +118,37 @@ CriteriaPatch::Lanes CriteriaPatch::evaluate(const Lanes& x, const Lanes& y) con
   return result;
 }
 
+std::array<double, 2> CriteriaPatch::lowest(double shortest, double longest) const {
+  const double h = 0.1 * shortest;
+  const Lanes x{0, h, -h, 0, 0, h, -h, 0}, y{0, 0, 0, h, -h, h, -h, 0};
+  const auto f = evaluate(x, y);
+  const double gx = (f[1] - f[2]) / (2 * h), gy = (f[3] - f[4]) / (2 * h);
+  double xx = (f[1] + f[2] - 2 * f[0]) / (h * h), yy = (f[3] + f[4] - 2 * f[0]) / (h * h);
+  const double xy = (f[5] + f[6] + 2 * f[0] - f[1] - f[2] - f[3] - f[4]) / (2 * h * h);
+  // Made positive definite by a shift of the lower eigenvalue.
+  const double middle = 0.5 * (xx + yy), radius = std::hypot(0.5 * (xx - yy), xy);
+  const double wanted = 0.1 * (std::abs(middle) + radius), shift = std::max(0.0, wanted - (middle - radius));
+  xx += shift;
+  yy += shift;
+  const double determinant = xx * yy - xy * xy;
+  double sx = -(yy * gx - xy * gy) / determinant, sy = -(xx * gy - xy * gx) / determinant;
+  const double length = std::hypot(sx, sy);
+  const auto best = std::min_element(f.begin(), f.end()) - f.begin();
+  if (!std::isfinite(length) || length == 0) return {x[best], y[best]};
+  if (length > longest) {
+    sx *= longest / length;
+    sy *= longest / length;
+  }
+  constexpr Lanes shares{1.5, 1.2, 1, 0.7, 0.4, 0.2, 0.1, 0.03};
+  Lanes px, py;
+  for (int k = 0; k < lanes; ++k) {
+    px[k] = shares[k] * sx;
+    py[k] = shares[k] * sy;
+  }
+  const auto along = evaluate(px, py);
+  const auto lowest = std::min_element(along.begin(), along.end()) - along.begin();
+  if (f[best] < along[lowest]) return {x[best], y[best]};
+  return {px[lowest], py[lowest]};
+}
+
 }  // namespace quadrille

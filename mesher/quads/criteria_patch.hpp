@@ -36,6 +36,11 @@ class CriteriaPatch {
   /// The sum of the objectives with the node moved by x u + y v; huge where a quad would not be convex.
   Lanes evaluate(const Lanes& x, const Lanes& y) const;
 
+  /// The best move (x, y) found by a step of Newton's method, whose derivatives are differences over places
+  /// that are judged together, and by shares of that step. \param shortest side at the node: derivatives are
+  /// taken over a tenth of it. \param longest step
+  std::array<double, 2> lowest(double shortest, double longest) const;
+
  private:
   struct Quad {
     double bx, by, cx, cy, dx, dy;  ///< from the node's present place

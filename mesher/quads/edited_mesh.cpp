@@ -69,6 +69,45 @@ bool EditedMesh::too_long(std::span<const Quad> before, std::span<const Quad> qu
   return longest > std::max(most, far * sum / (4 * static_cast<double>(before.size())));
 }
 
+bool EditedMesh::trace(const SmallPatch& patch, Outline& outline) const {
+  int start = -1, outer = 0;
+  for (int i = 0; i < patch.count; ++i)
+    for (int k = 0; k < 4; ++k) {
+      const int twin = topology_.twin(4 * patch.quads[i] + k);
+      if (twin >= 0 && patch.contains(twin >> 2)) continue;
+      start = 4 * patch.quads[i] + k;
+      ++outer;
+    }
+  if (start < 0 || outer > PatchTemplate::max_sides) return false;
+  int side = start;
+  do {
+    if (outline.length == outer) return false;
+    outline.sides[outline.length] = side;
+    outline.ring[outline.length++] = topology_.origin(side);
+    int& uses = outline.uses[outline.length == outer ? 0 : outline.length];  // at the next node
+    uses = 1;
+    side = QuadTopology::next(side);
+    for (int twin = topology_.twin(side); twin >= 0 && patch.contains(twin >> 2);
+         twin = topology_.twin(side)) {
+      side = QuadTopology::next(twin);
+      ++uses;
+    }
+  } while (side != start);
+  if (outline.length != outer) return false;
+  const auto ring_end = outline.ring.begin() + outline.length;
+  for (auto at = outline.ring.begin(); at != ring_end; ++at)
+    if (std::find(at + 1, ring_end, *at) != ring_end) return false;
+  for (int i = 0; i < patch.count; ++i)
+    for (const int node : topology_.quad(patch.quads[i])) {
+      if (std::find(outline.ring.begin(), ring_end, node) != ring_end) continue;
+      const auto inside_end = outline.inside.begin() + outline.inside_count;
+      if (std::find(outline.inside.begin(), inside_end, node) != inside_end) continue;
+      if (outline.inside_count == 4 || !removable(node)) return false;
+      outline.inside[outline.inside_count++] = node;
+    }
+  return patch.count == outline.length / 2 - 1 + outline.inside_count;
+}
+
 int EditedMesh::add_node_like(int donor) {
   const int node = topology_.add_node();
   // Copies first: the arrays may move.

@@ -1,13 +1,47 @@
 #pragma once
 /// The quads of a face while patches of them are replaced; not part of the public interface.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 #include <span>
 #include <vector>
 
 #include "mesher/quads/improve.hpp"
+#include "mesher/quads/patch_templates.hpp"
 #include "mesher/quads/quad_topology.hpp"
 
 namespace quadrille {
+
+/// A patch of quads as a polygon with nodes inside.
+struct Outline {
+  std::array<int, PatchTemplate::max_sides> ring;  ///< nodes, counter-clockwise
+  std::array<int, PatchTemplate::max_sides>
+      sides;  ///< side of the patch from each node of the ring to the next
+  std::array<int, PatchTemplate::max_sides> uses;  ///< quads of the patch at each node of the ring
+  int length = 0;
+  std::array<int, 4> inside;
+  int inside_count = 0;
+};
+
+/// Quads that are tried as one patch.
+struct SmallPatch {
+  static constexpr int max_quads = 8;
+  std::array<int, max_quads> quads;
+  int count = 0;
+
+  bool contains(int quad) const {
+    return std::find(quads.begin(), quads.begin() + count, quad) != quads.begin() + count;
+  }
+  bool add(int quad) {
+    if (quad < 0) return false;
+    if (contains(quad)) return true;
+    if (count == max_quads) return false;
+    quads[count++] = quad;
+    return true;
+  }
+};
 
 /// A surface mesh with its topology. write_back() puts the mesh in order again.
 class EditedMesh {
@@ -27,6 +61,27 @@ class EditedMesh {
   bool too_long(std::span<const Quad> before, std::span<const Quad> quads) const;
 
  protected:
+  bool removable(int node) const {
+    const int side = topology_.side_of(node);
+    return side >= 0 && inner(node);
+  }
+  static double inner_cost(int quads) { return quads < 3 ? 20 : (quads - 4) * (quads - 4); }
+
+  /// How far a node with `quads` quads is from what its angle asks for.
+  double node_cost(int node, int quads) const {
+    if (inner(node)) return inner_cost(quads);
+    if (quads < 1) return 1e9;
+    const double angle = angles_[node] * 180 / std::numbers::pi;
+    const double wanted = std::max(1.0, std::round(angle / 90));
+    // No smoothing mends the mean angle at a boundary node: beyond 130 degrees it soon rules everything.
+    // Opening a straight corner costs two or three irregular nodes inside, and is worth it from 150 degrees
+    // on.
+    const double mean = angle / quads;
+    const double flat = std::max(0.0, mean - 130) / 15, sharp = std::max(0.0, 40 - mean) / 20;
+    return (quads - wanted) * (quads - wanted) + 3 * flat * flat + 3 * sharp * sharp;
+  }
+  /// The polygon round a patch; false if it is not a disc, too long, or holds nodes that must stay.
+  bool trace(const SmallPatch& patch, Outline& outline) const;
   bool may_move(int node) const { return !mesh_.fixed[node] && !on_triangle_[node]; }
   /// A new free node at the place of another; returns its number.
   int add_node_like(int donor);

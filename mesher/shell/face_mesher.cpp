@@ -22,6 +22,7 @@
 #include "mesher/pairing/recombine.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/improve.hpp"
+#include "mesher/quads/mending.hpp"
 #include "mesher/quads/ring_quads.hpp"
 #include "mesher/quads/subdivision.hpp"
 #include "mesher/shell/boundary_sides.hpp"
@@ -165,7 +166,28 @@ class FaceMesher {
       quads = subdivide(quads, triangulation.segments, surface_, context_);
       improve(quads, false);
     }
+    mend_folded(quads);
     return quads;
+  }
+
+  /// Where moving nodes left quads turned over.
+  void mend_folded(FaceQuads& quads) {
+    const StageTimer timer(context_, Stage::improve);
+    const auto& mesh = quads.surface_mesh.mesh;
+    const auto& p = mesh.points;
+    if (std::none_of(mesh.quads.begin(), mesh.quads.end(), [&](const std::array<int, 4>& q) {
+          return quad_scaled_jacobian(p[q[0]], p[q[1]], p[q[2]], p[q[3]]) <= 0;
+        }))
+      return;
+    std::vector<char> changed;
+    mend_quads(quads.surface_mesh, CadSmoothingSurface(surface_), folded_objective, changed, context_);
+    keep_poles(quads);
+  }
+
+  /// After quads were replaced. Poles are fixed points, and those keep their places.
+  static void keep_poles(FaceQuads& quads) {
+    quads.pole.resize(quads.surface_mesh.mesh.points.size(), 0);
+    std::fill(quads.pole.begin() + static_cast<long>(quads.nodes.size()), quads.pole.end(), 0);
   }
 
   std::optional<FaceMesh> mesh_as_grid() {
@@ -240,9 +262,7 @@ class FaceMesher {
     ImproveReport report;
     if (topology && options_.improve.clean_up) {
       clean_up(quads.surface_mesh, surface, options_.improve, report, context_);
-      // Poles are fixed points, and those keep their places.
-      quads.pole.resize(quads.surface_mesh.mesh.points.size(), 0);
-      std::fill(quads.pole.begin() + static_cast<long>(quads.nodes.size()), quads.pole.end(), 0);
+      keep_poles(quads);
     }
     smooth(quads.surface_mesh, surface, options_.improve, report, context_);
   }

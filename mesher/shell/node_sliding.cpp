@@ -15,6 +15,7 @@
 #include "mesher/edges/grid_rows.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/quads/criteria_patch.hpp"
+#include "mesher/quads/mending.hpp"
 
 namespace quadrille {
 namespace {
@@ -50,6 +51,7 @@ struct FaceState {
   std::vector<char> active;                    // (points) worth a visit
   std::vector<char> slid;                      // (boundary points) uv is to follow
   bool touched = false;
+  bool mended = false;  ///< other quads than before
   int moves = 0;
 
   const FaceSurface& get_surface() {
@@ -62,6 +64,18 @@ struct FaceState {
   QuadObjective measure(int quad) const {
     return measure_objective(corner(quad, 0), corner(quad, 1), corner(quad, 2), corner(quad, 3));
   }
+};
+
+/// How nodes of a face that is mended move.
+class MovedOnFace : public SmoothingSurface {
+ public:
+  explicit MovedOnFace(FaceState& face) : surface_(face.get_surface()) {}
+  Vector3 move(Vector2& uv, const Vector3& target, Vector3&) const override {
+    return surface_.move(uv, target).point;
+  }
+
+ private:
+  const FaceSurface& surface_;
 };
 
 class NodeSliding {
@@ -88,6 +102,12 @@ class NodeSliding {
       if (moves == 0) break;
     }
     for_each_face([&](FaceState& face) { finish(face); });
+  }
+
+  /// Fills patches round quads outside the limits anew. \return whether there were some.
+  bool mend() {
+    for_each_face([&](FaceState& face) { mend(face); });
+    return std::any_of(states_.begin(), states_.end(), [](const FaceState& face) { return face.mended; });
   }
 
  private:
@@ -394,7 +414,7 @@ class NodeSliding {
     const Vector3 u = normal.unitOrthogonal(), v = normal.normalized().cross(u);
     CriteriaPatch patch(u, v);
     if (!draw(round, patch)) return false;
-    const auto [x, y] = lowest(patch, round);
+    const auto [x, y] = patch.lowest(round.shortest, 0.5 * round.mean);
     for (const double share : {1.0, 0.5}) {
       Vector2 uv = face.mesh->uv[node];
       trial.point = face.get_surface().move(uv, here + share * (x * u + y * v)).point;
@@ -408,40 +428,37 @@ class NodeSliding {
     return false;
   }
 
-  /// The best place found by a step of Newton's method, whose derivatives are differences over places that
-  /// are judged together, and by shares of that step.
-  static std::array<double, 2> lowest(const CriteriaPatch& patch, const Round& round) {
-    const double h = 0.1 * round.shortest;
-    const CriteriaPatch::Lanes x{0, h, -h, 0, 0, h, -h, 0}, y{0, 0, 0, h, -h, h, -h, 0};
-    const auto f = patch.evaluate(x, y);
-    const double gx = (f[1] - f[2]) / (2 * h), gy = (f[3] - f[4]) / (2 * h);
-    double xx = (f[1] + f[2] - 2 * f[0]) / (h * h), yy = (f[3] + f[4] - 2 * f[0]) / (h * h);
-    const double xy = (f[5] + f[6] + 2 * f[0] - f[1] - f[2] - f[3] - f[4]) / (2 * h * h);
-    // Made positive definite by a shift of the lower eigenvalue.
-    const double middle = 0.5 * (xx + yy), radius = std::hypot(0.5 * (xx - yy), xy);
-    const double wanted = 0.1 * (std::abs(middle) + radius),
-                 shift = std::max(0.0, wanted - (middle - radius));
-    xx += shift;
-    yy += shift;
-    const double determinant = xx * yy - xy * xy;
-    double sx = -(yy * gx - xy * gy) / determinant, sy = -(xx * gy - xy * gx) / determinant;
-    const double length = std::hypot(sx, sy), longest = 0.5 * round.mean;
-    const auto best = std::min_element(f.begin(), f.end()) - f.begin();
-    if (!std::isfinite(length) || length == 0) return {x[best], y[best]};
-    if (length > longest) {
-      sx *= longest / length;
-      sy *= longest / length;
+  // ---- other quads ----
+
+  void mend(FaceState& face) {
+    FaceMesh& mesh = *face.mesh;
+    const auto outside = [](double value) { return value > outside_objective; };
+    if (mesh.grid || std::none_of(face.objective.begin(), face.objective.end(), outside)) return;
+    SurfaceMesh work;
+    work.mesh.points = mesh.points;
+    work.mesh.quads = mesh.quads;
+    work.parameters = mesh.uv;
+    work.fixed.assign(mesh.points.size(), 0);
+    std::fill_n(work.fixed.begin(), mesh.nodes.size(), 1);
+    work.normals.assign(mesh.points.size(), Vector3::Zero());
+    for (const auto& q : mesh.quads) {
+      const Vector3 normal =
+          (mesh.points[q[2]] - mesh.points[q[0]]).cross(mesh.points[q[3]] - mesh.points[q[1]]).normalized();
+      for (const int node : q) work.normals[node] += normal;
     }
-    constexpr CriteriaPatch::Lanes shares{1.5, 1.2, 1, 0.7, 0.4, 0.2, 0.1, 0.03};
-    CriteriaPatch::Lanes px, py;
-    for (int k = 0; k < CriteriaPatch::lanes; ++k) {
-      px[k] = shares[k] * sx;
-      py[k] = shares[k] * sy;
-    }
-    const auto along = patch.evaluate(px, py);
-    const auto lowest = std::min_element(along.begin(), along.end()) - along.begin();
-    if (f[best] < along[lowest]) return {x[best], y[best]};
-    return {px[lowest], py[lowest]};
+    for (Vector3& normal : work.normals) normal.normalize();
+    std::vector<char> changed;
+    if (mend_quads(work, MovedOnFace(face), outside_objective, changed, context_) == 0) return;
+    face.mended = true;
+    std::swap(mesh.points, work.mesh.points);
+    std::swap(mesh.quads, work.mesh.quads);
+    std::swap(mesh.uv, work.parameters);
+    mesh.pole.resize(mesh.points.size(), 0);
+    const std::vector<char> slid = face.slid;
+    prepare(face);
+    face.slid = slid;
+    face.touched = true;
+    for (std::size_t i = 0; i < changed.size(); ++i) face.active[i] &= changed[i];
   }
 
   // ---- after ----
@@ -477,7 +494,9 @@ void slide_nodes(const CadShape& shape, BoundaryNodes& nodes, std::vector<std::o
   if (options.sliding_sweeps <= 0) return;
   const StageTimer timer(context, Stage::slide);
   context.report(Stage::slide, 0);
-  NodeSliding(shape, nodes, faces, context).run(options.sliding_sweeps);
+  NodeSliding sliding(shape, nodes, faces, context);
+  sliding.run(options.sliding_sweeps);
+  if (sliding.mend()) sliding.run(options.sliding_sweeps);
 }
 
 }  // namespace quadrille

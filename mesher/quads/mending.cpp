@@ -1,0 +1,449 @@
+#include "mesher/quads/mending.hpp"
+
+#include <boost/container/static_vector.hpp>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "mesher/quads/criteria_patch.hpp"
+#include "mesher/quads/edited_mesh.hpp"
+
+namespace quadrille {
+namespace {
+
+using Quad = QuadTopology::Quad;
+
+constexpr double fine = 0.1;  ///< nodes of quads below it stay
+/// A quad counts for no more, so that one that the CAD forces out of shape does not rule its neighbors;
+/// folded ones count as much while nodes move.
+constexpr double most = 20;
+constexpr double min_gain = 0.3;
+/// A unit of what valences cost is worth so much of the objective.
+constexpr double per_cost = 0.2;
+/// Fillings whose valences cost so much more than those before are tried.
+constexpr double slack = 8;
+/// No sine of a corner falls below this and below the least of those before.
+constexpr double floor_sine = 0.3;
+constexpr int max_attempts = 40;  ///< for a quad
+constexpr int sweeps = 3;
+/// An attempt is given up where so many times the gain of the last sweep would not make it the best.
+constexpr double follow = 1;
+constexpr int passes = 2;  ///< over all quads
+
+/// The quads of a filling and those next to them, apart from the mesh.
+class Trial {
+ public:
+  static constexpr int max_points = 64, max_quads = 48;
+  template <class T, int n>
+  using List = boost::container::static_vector<T, n>;
+
+  List<Vector3, max_points> points;
+  List<int, max_points> nodes;     ///< of the mesh; -1 = new
+  List<char, max_points> movable;  ///< (points)
+  List<Quad, max_quads> quads;     ///< by point; those of the filling first
+  Vector3 up = Vector3::Zero();    ///< normal of the patch
+  double floor = floor_sine;       ///< no corner's sine is to be less
+
+  void measure() {
+    values_.resize(quads.size());
+    for (std::size_t i = 0; i < quads.size(); ++i) measure(i);
+  }
+
+  /// A quad of the mesh that is as it was.
+  void add_old(const Quad& quad, const QuadObjective& of) {
+    quads.push_back(quad);
+    values_.push_back({std::min(most, of.value), true});
+    floor = std::min(floor, of.least_sine);
+  }
+
+  double sum() const {
+    double result = 0;
+    for (const auto& value : values_) result += value.value;
+    return result;
+  }
+
+  bool sound() const {
+    return std::all_of(values_.begin(), values_.end(), [](const auto& value) { return value.sound; });
+  }
+
+  void relax() {
+    for (int i = 0; i < static_cast<int>(points.size()); ++i)
+      if (movable[i]) relax(i);
+  }
+
+ private:
+  struct Value {
+    double value;
+    bool sound;
+  };
+
+  void measure(std::size_t quad) {
+    const Quad& q = quads[quad];
+    const QuadObjective of = measure_objective(points[q[0]], points[q[1]], points[q[2]], points[q[3]]);
+    const bool sound = of.least_sine > 0 && of.least_sine >= floor && of.normal.dot(up) > 0;
+    values_[quad] = {sound ? std::min(most, of.value) : most, sound};
+  }
+
+  void relax(int node) {
+    List<std::pair<int, int>, CriteriaPatch::max_quads> uses;  // quad, corner
+    double worst = 0;
+    for (int i = 0; i < static_cast<int>(quads.size()); ++i)
+      for (int k = 0; k < 4; ++k) {
+        if (quads[i][k] != node) continue;
+        if (uses.size() == uses.capacity()) return;
+        uses.emplace_back(i, k);
+        worst = std::max(worst, values_[i].value);
+      }
+    if (worst < fine) return;
+    const Vector3 u = up.unitOrthogonal(), v = up.normalized().cross(u);
+    CriteriaPatch patch(u, v);
+    double shortest = std::numeric_limits<double>::max(), sum = 0;
+    for (const auto& [quad, k] : uses) {
+      const Quad& q = quads[quad];
+      const Vector3 &here = points[node], &next = points[q[(k + 1) & 3]], &last = points[q[(k + 3) & 3]];
+      if (!patch.add(here, next, points[q[(k + 2) & 3]], last)) return;
+      for (const double side : {(next - here).norm(), (last - here).norm()}) {
+        shortest = std::min(shortest, side);
+        sum += side;
+      }
+    }
+    if (!(shortest > 0)) return;
+    const auto [x, y] = patch.lowest(shortest, sum / (4.0 * static_cast<double>(uses.size())));
+    points[node] += x * u + y * v;
+    for (const auto& [quad, k] : uses) measure(quad);
+  }
+
+  List<Value, max_quads> values_;
+};
+
+class Mending : private EditedMesh {
+ public:
+  Mending(SurfaceMesh& mesh, const SmoothingSurface& surface, double poor, const ExecutionContext& context)
+      : EditedMesh(mesh, context), surface_(surface), poor_(poor), changed_(mesh.mesh.points.size(), 0) {}
+
+  int run() {
+    int count = 0;
+    for (int pass = 0; pass < passes; ++pass) {
+      int done = 0;
+      for (const auto& [value, quad] : worst_first(pass > 0)) {
+        context_.check();
+        if (topology_.alive(quad) && measure(quad).value > poor_) done += mend(quad);
+      }
+      count += done;
+      if (done == 0) break;
+    }
+    return count;
+  }
+
+  void write_back(std::vector<char>& changed) {
+    changed.clear();
+    for (const int node : EditedMesh::write_back()) changed.push_back(changed_[node]);
+  }
+
+ private:
+  /// One way to fill one patch.
+  struct Candidate {
+    SmallPatch patch;
+    Outline outline;
+    const PatchTemplate* filling;
+    double cost;    ///< what valences cost more than before
+    double before;  ///< the objective of the patch as it is
+    double quick;   ///< that of the filling before nodes move, less that
+  };
+
+  struct Attempt {
+    const Candidate* candidate;
+    Trial trial;
+    double before = 0, gain = 0;
+
+    void weigh() { gain = before - trial.sum() - per_cost * std::max(0.0, candidate->cost); }
+  };
+
+  const QuadObjective& measure(int quad) const {
+    if (measured_.size() < static_cast<std::size_t>(topology_.size())) measured_.resize(topology_.size());
+    std::optional<QuadObjective>& known = measured_[quad];
+    if (!known) {
+      const Quad& q = topology_.quad(quad);
+      known = measure_objective(point(q[0]), point(q[1]), point(q[2]), point(q[3]));
+    }
+    return *known;
+  }
+
+  /// \param again only those with a node that moved or is new
+  std::vector<std::pair<double, int>> worst_first(bool again) const {
+    std::vector<std::pair<double, int>> bad;
+    for (int quad = 0; quad < topology_.size(); ++quad) {
+      if (!topology_.alive(quad)) continue;
+      const Quad& q = topology_.quad(quad);
+      if (again && std::none_of(q.begin(), q.end(), [this](int node) { return changed_[node]; })) continue;
+      const double value = measure(quad).value;
+      if (value > poor_) bad.emplace_back(-value, quad);
+    }
+    std::sort(bad.begin(), bad.end());
+    return bad;
+  }
+
+  // ---- patches that hold a quad ----
+
+  struct Patches {
+    std::vector<SmallPatch> list;
+    std::set<std::vector<int>> met;
+
+    bool add(const SmallPatch& patch) {
+      std::vector<int> key(patch.quads.begin(), patch.quads.begin() + patch.count);
+      std::sort(key.begin(), key.end());
+      if (!met.insert(key).second) return false;
+      list.push_back(patch);
+      return true;
+    }
+  };
+
+  /// The patch, and all that come of it by taking in one neighbor after the other.
+  void grow(const SmallPatch& patch, int size, Patches& patches) const {
+    if (!patches.add(patch) || patch.count == size) return;
+    for (int i = 0; i < patch.count; ++i)
+      for (int k = 0; k < 4; ++k) {
+        const int twin = topology_.twin(4 * patch.quads[i] + k);
+        SmallPatch more = patch;
+        if (twin >= 0 && !patch.contains(twin >> 2) && more.add(twin >> 2)) grow(more, size, patches);
+      }
+  }
+
+  bool add_ring(SmallPatch& patch, int quad, int node) const {
+    const QuadTopology::Fan fan = topology_.fan(topology_.side_at(quad, node));
+    for (int i = 0, side = fan.first; i < fan.quads; ++i, side = topology_.rotate(side))
+      if (!patch.add(side >> 2)) return false;
+    return true;
+  }
+
+  /// Up to three quads, the quads round a corner, or round two.
+  std::vector<SmallPatch> patches_of(int quad) const {
+    Patches patches;
+    SmallPatch one;
+    one.add(quad);
+    grow(one, 3, patches);
+    const Quad& q = topology_.quad(quad);
+    for (int k = 0; k < 4; ++k) {
+      SmallPatch ring = one;
+      if (!add_ring(ring, quad, q[k])) continue;
+      patches.add(ring);
+      for (const int other : {q[(k + 1) & 3], q[(k + 2) & 3]}) {
+        SmallPatch both = ring;
+        if (add_ring(both, quad, other)) patches.add(both);
+      }
+    }
+    return std::move(patches.list);
+  }
+
+  // ---- their fillings ----
+
+  void find_fillings(const SmallPatch& patch, std::vector<Candidate>& candidates) const {
+    Candidate candidate{patch, {}, nullptr, 0, 0, 0};
+    Outline& outline = candidate.outline;
+    if (!trace(patch, outline)) return;
+    FillingCosts costs;
+    double cost = 0;
+    for (int i = 0; i < outline.length; ++i) {
+      const int node = outline.ring[i], beyond = topology_.valence(outline.sides[i]) - outline.uses[i];
+      for (int uses = 1; uses <= PatchTemplate::max_uses; ++uses)
+        costs.uses[i][uses] = node_cost(node, beyond + uses);
+      cost += node_cost(node, beyond + outline.uses[i]);
+    }
+    for (int i = 0; i < outline.inside_count; ++i)
+      cost += node_cost(outline.inside[i], topology_.valence(topology_.side_of(outline.inside[i])));
+    for (int i = 0; i < patch.count; ++i) candidate.before += std::min(most, measure(patch.quads[i]).value);
+    costs.resize.fill(0);
+    costs.drift.fill(0);
+    costs.limit = cost + slack;
+    const CheapestFillings cheapest = cheapest_fillings(outline.length, costs);
+    for (int i = 0; i < cheapest.count; ++i) {
+      candidate.filling = cheapest.fillings[i];
+      candidate.cost = candidate.filling->interior_cost - cost;
+      for (int k = 0; k < outline.length; ++k) candidate.cost += costs.uses[k][candidate.filling->uses[k]];
+      Trial trial;
+      lay(candidate, trial);
+      candidate.quick = trial.sum() - candidate.before;
+      candidates.push_back(candidate);
+    }
+  }
+
+  /// The filling, with nodes inside at the mean of their neighbors.
+  void lay(const Candidate& candidate, Trial& trial) const {
+    const Outline& outline = candidate.outline;
+    const PatchTemplate& filling = *candidate.filling;
+    Vector3 center = Vector3::Zero();
+    for (int i = 0; i < outline.length; ++i) {
+      const int node = outline.ring[i];
+      add_point(trial, node, point(node), inner(node));
+      trial.up += normal(node);
+      center += point(node) / outline.length;
+    }
+    for (int i = 0; i < filling.interior; ++i)
+      add_point(trial, i < outline.inside_count ? outline.inside[i] : -1, center, true);
+    for (int k = 0; k < filling.quads; ++k) {
+      const auto& c = filling.corners[k];
+      trial.quads.push_back({c[0], c[1], c[2], c[3]});
+    }
+    for (int sweep = 0; sweep < 6; ++sweep)
+      for (int i = outline.length; i < static_cast<int>(trial.points.size()); ++i) {
+        Vector3 sum = Vector3::Zero();
+        int neighbors = 0;
+        for (const Quad& q : trial.quads)
+          for (int k = 0; k < 4; ++k) {
+            if (q[k] != i) continue;
+            sum += trial.points[q[(k + 1) & 3]];
+            ++neighbors;
+          }
+        trial.points[i] = sum / neighbors;
+      }
+    trial.measure();
+  }
+
+  static void add_point(Trial& trial, int node, const Vector3& place, bool movable) {
+    trial.nodes.push_back(node);
+    trial.points.push_back(place);
+    trial.movable.push_back(movable ? 1 : 0);
+  }
+
+  /// Adds the quads next to the patch; false where they are too many.
+  bool surround(const SmallPatch& patch, const Outline& outline, Trial& trial) const {
+    boost::container::static_vector<int, Trial::max_quads> met;
+    for (int i = 0; i < outline.length; ++i) {
+      const QuadTopology::Fan fan = topology_.fan(topology_.side_of(outline.ring[i]));
+      for (int k = 0, side = fan.first; k < fan.quads; ++k, side = topology_.rotate(side)) {
+        const int quad = side >> 2;
+        if (patch.contains(quad) || std::find(met.begin(), met.end(), quad) != met.end()) continue;
+        if (trial.quads.size() == Trial::max_quads || trial.points.size() + 4 > Trial::max_points)
+          return false;
+        met.push_back(quad);
+        Quad local;
+        for (int j = 0; j < 4; ++j) {
+          const int node = topology_.quad(quad)[j];
+          const auto at = std::find(trial.nodes.begin(), trial.nodes.end(), node);
+          local[j] = static_cast<int>(at - trial.nodes.begin());
+          if (at == trial.nodes.end()) add_point(trial, node, point(node), false);
+        }
+        trial.add_old(local, measure(quad));
+      }
+    }
+    return true;
+  }
+
+  // ---- the best of them ----
+
+  bool mend(int quad) {
+    std::vector<Candidate> candidates;
+    for (const SmallPatch& patch : patches_of(quad)) find_fillings(patch, candidates);
+    std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+      return a.quick + per_cost * a.cost < b.quick + per_cost * b.cost;
+    });
+    if (candidates.size() > max_attempts)
+      candidates.erase(candidates.begin() + max_attempts, candidates.end());
+    std::vector<Attempt> attempts;
+    double best = min_gain;
+    for (const Candidate& candidate : candidates) {
+      Attempt now{&candidate, {}};
+      if (!attempt(now, best)) continue;
+      best = now.gain;
+      attempts.push_back(std::move(now));
+    }
+    // The last is the best.
+    for (auto now = attempts.rbegin(); now != attempts.rend(); ++now)
+      if (put(*now)) return true;
+    return false;
+  }
+
+  /// Moves the nodes of a filling. \return whether more is gained than the best so far.
+  bool attempt(Attempt& now, double best) const {
+    const Candidate& candidate = *now.candidate;
+    Trial& trial = now.trial;
+    lay(candidate, trial);
+    for (int i = 0; i < candidate.patch.count; ++i)
+      trial.floor = std::min(trial.floor, measure(candidate.patch.quads[i]).least_sine);
+    now.before = candidate.before - trial.sum();
+    if (!surround(candidate.patch, candidate.outline, trial)) return false;
+    now.before += trial.sum();
+    now.weigh();
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      const double last = now.gain;
+      trial.relax();
+      now.weigh();
+      if (now.gain + follow * (now.gain - last) <= best) return false;
+    }
+    return now.gain > best && trial.sound();
+  }
+
+  /// Carries an attempt out with its nodes on the surface, unless that takes the gain away.
+  bool put(Attempt& now) {
+    const Candidate& candidate = *now.candidate;
+    Trial& trial = now.trial;
+    int donor = trial.nodes[0];
+    for (int i = 0; i < candidate.outline.length; ++i)
+      if (inner(trial.nodes[i])) donor = trial.nodes[i];
+    std::vector<Vector2> uv(trial.nodes.size());
+    std::vector<Vector3> normals(trial.nodes.size());
+    for (std::size_t i = 0; i < trial.nodes.size(); ++i) {
+      if (!trial.movable[i]) continue;
+      const int from = trial.nodes[i] < 0 ? donor : trial.nodes[i];
+      uv[i] = mesh_.parameters[from];
+      normals[i] = normal(from);
+      trial.points[i] = surface_.move(uv[i], trial.points[i], normals[i]);
+    }
+    trial.measure();
+    now.weigh();
+    if (!(now.gain > min_gain) || !trial.sound()) return false;
+    if (!replace(candidate, trial, donor)) return false;
+    settle(trial, uv, normals);
+    for (int i = 0; i < candidate.patch.count; ++i) measured_[candidate.patch.quads[i]].reset();
+    return true;
+  }
+
+  bool replace(const Candidate& candidate, Trial& trial, int donor) {
+    for (int& node : trial.nodes) {
+      if (node >= 0) continue;
+      node = add_node_like(donor);
+      changed_.push_back(0);
+    }
+    std::vector<Quad> quads(trial.quads.begin(), trial.quads.begin() + candidate.filling->quads);
+    for (Quad& quad : quads)
+      for (int& node : quad) node = trial.nodes[node];
+    const std::span<const int> old(candidate.patch.quads.data(), candidate.patch.count);
+    return topology_.replace(old, quads);
+  }
+
+  void settle(const Trial& trial, const std::vector<Vector2>& uv, const std::vector<Vector3>& normals) {
+    for (std::size_t i = 0; i < trial.nodes.size(); ++i) {
+      const int node = trial.nodes[i];
+      changed_[node] = 1;
+      if (!trial.movable[i]) continue;
+      mesh_.mesh.points[node] = trial.points[i];
+      mesh_.parameters[node] = uv[i];
+      mesh_.normals[node] = normals[i];
+      const QuadTopology::Fan fan = topology_.fan(topology_.side_of(node));
+      for (int k = 0, side = fan.first; k < fan.quads; ++k, side = topology_.rotate(side))
+        if (side >> 2 < static_cast<int>(measured_.size())) measured_[side >> 2].reset();
+    }
+  }
+
+  const SmoothingSurface& surface_;
+  double poor_;
+  std::vector<char> changed_;                                   ///< (nodes)
+  mutable std::vector<std::optional<QuadObjective>> measured_;  ///< (quads) as far as they are asked for
+};
+
+}  // namespace
+
+int mend_quads(SurfaceMesh& mesh, const SmoothingSurface& surface, double poor, std::vector<char>& changed,
+               const ExecutionContext& context) {
+  Mending work(mesh, surface, poor, context);
+  const int count = work.run();
+  work.write_back(changed);
+  return count;
+}
+
+}  // namespace quadrille
