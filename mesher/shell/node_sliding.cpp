@@ -104,7 +104,7 @@ class NodeSliding {
     for_each_face([&](FaceState& face) { finish(face); });
   }
 
-  /// Fills patches round quads outside the limits anew. \return whether there were some.
+  /// Fills patches round quads outside the limits anew. \return whether some were.
   bool mend() {
     for_each_face([&](FaceState& face) { mend(face); });
     return std::any_of(states_.begin(), states_.end(), [](const FaceState& face) { return face.mended; });
@@ -165,7 +165,7 @@ class NodeSliding {
     face.objective.resize(mesh.quads.size());
     face.least_sine.resize(mesh.quads.size());
     face.active.assign(mesh.points.size(), 0);
-    face.slid.assign(mesh.nodes.size(), 0);
+    face.slid.resize(mesh.nodes.size(), 0);
     for (int quad = 0; quad < static_cast<int>(mesh.quads.size()); ++quad) {
       check();
       const QuadObjective measured = face.measure(quad);
@@ -431,34 +431,42 @@ class NodeSliding {
   // ---- other quads ----
 
   void mend(FaceState& face) {
-    FaceMesh& mesh = *face.mesh;
     const auto outside = [](double value) { return value > outside_objective; };
-    if (mesh.grid || std::none_of(face.objective.begin(), face.objective.end(), outside)) return;
-    SurfaceMesh work;
-    work.mesh.points = mesh.points;
-    work.mesh.quads = mesh.quads;
-    work.parameters = mesh.uv;
-    work.fixed.assign(mesh.points.size(), 0);
-    std::fill_n(work.fixed.begin(), mesh.nodes.size(), 1);
-    work.normals.assign(mesh.points.size(), Vector3::Zero());
-    for (const auto& q : mesh.quads) {
-      const Vector3 normal =
-          (mesh.points[q[2]] - mesh.points[q[0]]).cross(mesh.points[q[3]] - mesh.points[q[1]]).normalized();
-      for (const int node : q) work.normals[node] += normal;
-    }
-    for (Vector3& normal : work.normals) normal.normalize();
+    face.mended = false;
+    if (face.mesh->grid || std::none_of(face.objective.begin(), face.objective.end(), outside)) return;
+    FaceMesh& mesh = *face.mesh;
+    SurfaceMesh work = surface_mesh(mesh);
     std::vector<char> changed;
-    if (mend_quads(work, MovedOnFace(face), outside_objective, changed, context_) == 0) return;
-    face.mended = true;
-    std::swap(mesh.points, work.mesh.points);
-    std::swap(mesh.quads, work.mesh.quads);
-    std::swap(mesh.uv, work.parameters);
+    try {
+      if (mend_quads(work, MovedOnFace(face), outside_objective, changed, context_) == 0) return;
+    } catch (const Standard_Failure&) {
+      return;  // the surface cannot be evaluated somewhere: the face stays as it is
+    }
+    face.mended = face.touched = true;
+    mesh.points = std::move(work.mesh.points);
+    mesh.quads = std::move(work.mesh.quads);
+    mesh.uv = std::move(work.parameters);
     mesh.pole.resize(mesh.points.size(), 0);
-    const std::vector<char> slid = face.slid;
     prepare(face);
-    face.slid = slid;
-    face.touched = true;
     for (std::size_t i = 0; i < changed.size(); ++i) face.active[i] &= changed[i];
+  }
+
+  static SurfaceMesh surface_mesh(const FaceMesh& mesh) {
+    SurfaceMesh result;
+    result.mesh.points = mesh.points;
+    result.mesh.quads = mesh.quads;
+    result.parameters = mesh.uv;
+    result.fixed.assign(mesh.points.size(), 0);
+    std::fill_n(result.fixed.begin(), mesh.nodes.size(), 1);
+    result.normals.assign(mesh.points.size(), Vector3::Zero());
+    const auto& p = mesh.points;
+    for (const auto& quad : mesh.quads) {
+      const auto& [a, b, c, d] = quad;
+      const Vector3 normal = (p[c] - p[a]).cross(p[d] - p[b]).normalized();
+      for (const int node : quad) result.normals[node] += normal;
+    }
+    for (Vector3& normal : result.normals) normal.normalize();
+    return result;
   }
 
   // ---- after ----
@@ -496,7 +504,7 @@ void slide_nodes(const CadShape& shape, BoundaryNodes& nodes, std::vector<std::o
   context.report(Stage::slide, 0);
   NodeSliding sliding(shape, nodes, faces, context);
   sliding.run(options.sliding_sweeps);
-  if (sliding.mend()) sliding.run(options.sliding_sweeps);
+  if (options.clean_up && sliding.mend()) sliding.run(options.sliding_sweeps);
 }
 
 }  // namespace quadrille
