@@ -51,7 +51,7 @@ class Job {
         options_(options),
         size_(size_limits(model, options.sizing).largest),
         context_(context),
-        edges_{SamplingPlan(shape_), std::vector<Collapse>(shape_.edges.size(), Collapse::no)},
+        edges_{SamplingPlan(shape_), std::vector<char>(shape_.edges.size(), 0)},
         used_(faces_used(model, options.faces)),
         meshes_(shape_.faces.size()),
         problems_(shape_.faces.size()),

@@ -318,7 +318,7 @@ SamplingPlan::SamplingPlan(const CadShape& shape)
       unaligned(shape.faces.size(), 0),
       subdivided(shape.faces.size(), 0),
       tiny(find_tiny_features(shape, std::vector<char>(shape.faces.size(), 1),
-                              std::vector<Collapse>(shape.edges.size(), Collapse::no), 0)) {}
+                              std::vector<char>(shape.edges.size(), 0), 0)) {}
 
 BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int stride,
                            const std::vector<char>& used, const SamplingPlan& plan,

@@ -130,10 +130,8 @@ LetGo::LetGo(const CadShape& shape, const std::vector<char>& used, double reach)
 }
 
 TinyFeatures LetGo::find(const std::vector<Collapse>& collapse, double length) const {
-  std::vector<Collapse> both = collapse;
-  for (std::size_t i = 0; i < both.size(); ++i) {
-    if (edges_[i]) both[i] = Collapse::always;
-  }
+  std::vector<char> both = collapse;
+  for (std::size_t i = 0; i < both.size(); ++i) both[i] |= edges_[i];
   return find_tiny_features(shape_, used_, both, length, {reach_, &kept_faces_});
 }
 
@@ -168,7 +166,7 @@ void LetGo::choose() {
 
 /// \return whether there was something to keep.
 bool LetGo::keep_harmed() {
-  const TinyFeatures tiny = find(std::vector<Collapse>(edges_.size(), Collapse::no), 0);
+  const TinyFeatures tiny = find(std::vector<char>(edges_.size(), 0), 0);
   const HarmFinder finder(shape_, tiny, reach_);
   bool any = false;
   const auto keep_edge = [&](int edge) {

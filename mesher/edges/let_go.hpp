@@ -18,7 +18,7 @@ class LetGo {
   LetGo(const CadShape& shape, const std::vector<char>& used, double reach);
 
   /// What is left out with these and `collapse` (edges) together; see find_tiny_features().
-  TinyFeatures find(const std::vector<Collapse>& collapse, double length) const;
+  TinyFeatures find(const std::vector<char>& collapse, double length) const;
 
   /// Keeps what was let go on the face and at its vertices. \param face from 0. \param tiny what find() gave.
   /// \return false if there was nothing.

@@ -22,12 +22,11 @@ class Finder {
     tiny_.merged_faces.assign(shape.faces.size(), 0);
   }
 
-  TinyFeatures run(const std::vector<Collapse>& collapse) {
+  TinyFeatures run(const std::vector<char>& collapse) {
     for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
       const CadEdge& edge = shape_.edges[i];
       if (edge.degenerate || edge.first_vertex == 0 || edge.last_vertex == 0 || !(edge.length > 0)) continue;
-      const double limit = std::max(length_, collapse[i] == Collapse::below_tolerance ? tolerance(edge) : 0);
-      if (edge.length < limit || collapse[i] == Collapse::always) make_point(static_cast<int>(i));
+      if (edge.length < length_ || collapse[i]) make_point(static_cast<int>(i));
     }
     for (std::size_t face = 0; face < shape_.faces.size(); ++face) {
       if (used_[face]) merge(static_cast<int>(face));
@@ -37,15 +36,6 @@ class Finder {
   }
 
  private:
-  /// Within which the two ends are one place. Translators give vertices tolerances as large as a face: no
-  /// more than a little of the model is believed.
-  double tolerance(const CadEdge& edge) const {
-    constexpr double largest = 1e-4;
-    const auto& vertices = shape_.vertex_tolerances;
-    return std::min({std::max(edge.tolerance, vertices[edge.first_vertex - 1]),
-                     std::max(edge.tolerance, vertices[edge.last_vertex - 1]), largest * shape_.diagonal()});
-  }
-
   void make_point(int index) {
     const CadEdge& edge = shape_.edges[index];
     tiny_.collapsed_edges[index] = 1;
@@ -156,7 +146,7 @@ bool lies_along(const CadEdge& edge, const CadEdge& other, double reach) {
 }
 
 TinyFeatures find_tiny_features(const CadShape& shape, const std::vector<char>& used,
-                                const std::vector<Collapse>& collapse, double length,
+                                const std::vector<char>& collapse, double length,
                                 const SliverLimits& slivers) {
   return Finder(shape, used, length, slivers).run(collapse);
 }

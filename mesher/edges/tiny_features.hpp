@@ -20,9 +20,6 @@ struct TinyFeatures {
   int end(int vertex) const { return vertex > 0 ? vertices[vertex - 1] + 1 : 0; }
 };
 
-/// Which edges become points whatever their length, or if they are shorter than the tolerance of their ends.
-enum class Collapse : char { no, below_tolerance, always };
-
 /// Which faces become edges beside those below the length given.
 struct SliverLimits {
   double reach = 0;                         ///< their two edges lie within this of each other
@@ -34,10 +31,10 @@ bool lies_along(const CadEdge& edge, const CadEdge& other, double reach);
 
 /// Edges marked for it, and edges shorter than `length`, become points; faces between two edges that are then
 /// left with the same ends, less than `length` apart, become edges, and faces without edges vanish. \param
-/// used (faces) 1 = the face is meshed. \param collapse (edges) \param length model units; 0 = none.
+/// used (faces) 1 = the face is meshed. \param collapse (edges) 1 = marked \param length model units; 0 = none.
 /// \param slivers further faces that may become edges.
 TinyFeatures find_tiny_features(const CadShape& shape, const std::vector<char>& used,
-                                const std::vector<Collapse>& collapse, double length,
+                                const std::vector<char>& collapse, double length,
                                 const SliverLimits& slivers = {});
 
 }  // namespace quadrille

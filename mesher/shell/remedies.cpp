@@ -57,40 +57,19 @@ bool along_chord(Case& patient) {
   return any;
 }
 
-bool collapse(Case& patient, Collapse how) {
-  bool any = false;
-  for (const CadWire& wire : patient.shape.faces[patient.face].wires) {
-    for (const Coedge& coedge : wire.coedges) {
-      Collapse& now = patient.edges.collapse[coedge.edge - 1];
-      any |= now < how;
-      now = std::max(now, how);
-    }
-  }
-  return any;
-}
-
-/// Only where some edge is.
-bool points_below_tolerance(Case& patient) {
-  const CadShape& shape = patient.shape;
-  const auto is_short = [&](const Coedge& coedge) {
-    const CadEdge& edge = shape.edges[coedge.edge - 1];
-    if (edge.degenerate || edge.first_vertex == 0 || edge.last_vertex == 0) return false;
-    return edge.length < std::max({edge.tolerance, shape.vertex_tolerances[edge.first_vertex - 1],
-                                   shape.vertex_tolerances[edge.last_vertex - 1]});
-  };
-  const auto& wires = shape.faces[patient.face].wires;
-  return std::any_of(wires.begin(), wires.end(),
-                     [&](const CadWire& wire) {
-                       return std::any_of(wire.coedges.begin(), wire.coedges.end(), is_short);
-                     }) &&
-         collapse(patient, Collapse::below_tolerance);
-}
-
 /// For faces so small beside the elements that one node can stand for them.
 bool as_point(Case& patient) {
   constexpr double share = 0.2;  // of the least size that the options allow by default
   if (!(longest_edge(patient.shape, patient.face) < share * patient.size / 8)) return false;
-  return collapse(patient, Collapse::always);
+  bool any = false;
+  for (const CadWire& wire : patient.shape.faces[patient.face].wires) {
+    for (const Coedge& coedge : wire.coedges) {
+      char& collapse = patient.edges.collapse[coedge.edge - 1];
+      any |= collapse == 0;
+      collapse = 1;
+    }
+  }
+  return any;
 }
 
 bool with_curves_made_anew(Case& patient) {
@@ -154,8 +133,6 @@ constexpr std::array table{
     Row{any_of({Cause::narrow_gaps}), "finer segments there", FaceRecord::most_looks, finer_there},
     Row{any_of({Cause::coarse_segments}), "finer segments there", 4, finer_there},
     Row{any_of({Cause::looped_edge}), "nodes along the chord of that edge", 1, along_chord},
-    Row{any_of({Cause::crossing_curves}), "edges below their tolerance taken as points", 1,
-        points_below_tolerance},
     Row{any_of({Cause::inverted_inside, Cause::inverted_at_boundary}), "without clean-up", 1,
         without_clean_up},
     Row{any_of({Cause::inverted_inside, Cause::no_mesh}), "denser points", 1, denser_points},
@@ -168,7 +145,6 @@ constexpr std::array table{
     Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::looped_edge, Cause::unusable_boundary,
                 Cause::no_mesh, Cause::inverted_inside, Cause::inverted_at_boundary}),
         "seen from above", 1, seen_from_above},
-    Row{any_of({Cause::crossing_curves}), "nodes along the chords of those edges", 1, along_chord},
     Row{any_of({Cause::coarse_segments, Cause::stray_curves, Cause::crossing_curves, Cause::looped_edge,
                 Cause::unusable_boundary, Cause::no_mesh, Cause::inverted_inside,
                 Cause::inverted_at_boundary}),

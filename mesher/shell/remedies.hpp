@@ -40,7 +40,7 @@ struct FaceRecord {
 /// What remedies may change beside the face's own record.
 struct EdgeTreatment {
   SamplingPlan plan;
-  std::vector<Collapse> collapse;  ///< (edges)
+  std::vector<char> collapse;  ///< (edges) 1 = becomes a point
 };
 
 /// The longest of a face's edges. \param face from 0.

@@ -108,7 +108,7 @@ TEST(LetGo, KeepsAroundAFaceOnRequest) {
   const CadModel block = beveled_block(0.1);
   const CadShape& shape = block.shape();
   const std::vector<char> used(block.face_count(), 1);
-  const std::vector<Collapse> none(shape.edges.size(), Collapse::no);
+  const std::vector<char> none(shape.edges.size(), 0);
   LetGo let_go(shape, used, 0.5);
   const TinyFeatures tiny = let_go.find(none, 0);
   const auto bevel = std::find(tiny.merged_faces.begin(), tiny.merged_faces.end(), 1);

@@ -85,11 +85,11 @@ def measure(fem_mesh) -> ElementQuality:
     quads = np.isin(sizes, (4, 8))
     starts = (np.cumsum(sizes) - sizes)[quads]
     corners = flat[starts[:, None] + np.arange(4)]
-    return _measure(ids[quads], corners, points[corners])
+    return measure_quads(ids[quads], corners, points[corners])
 
 
-def _measure(ids: np.ndarray, nodes: np.ndarray, corners: np.ndarray) -> ElementQuality:
-    """nodes: (n, 4); corners: (n, 4, 3)."""
+def measure_quads(ids: np.ndarray, nodes: np.ndarray, corners: np.ndarray) -> ElementQuality:
+    """ids: (n,); nodes: (n, 4) ids of the corners; corners: (n, 4, 3) their places."""
     out = np.roll(corners, -1, axis=1) - corners  # edge from each corner to the next
     back = np.roll(corners, 1, axis=1) - corners
     lengths = np.linalg.norm(out, axis=2)
