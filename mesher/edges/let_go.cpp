@@ -129,7 +129,7 @@ LetGo::LetGo(const CadShape& shape, const std::vector<char>& used, double reach)
   }
 }
 
-TinyFeatures LetGo::find(const std::vector<Collapse>& collapse, double length) const {
+TinyFeatures LetGo::find(const std::vector<char>& collapse, double length) const {
   std::vector<char> both = collapse;
   for (std::size_t i = 0; i < both.size(); ++i) both[i] |= edges_[i];
   return find_tiny_features(shape_, used_, both, length, {reach_, &kept_faces_});
