@@ -202,8 +202,7 @@ double SpatialSizes::at_corner(const SizePoint& point, const Vector3& corner) co
   constexpr double rounding = 1e-9;
   const double here = std::max(external_(point.point), limits_.least);
   if (point.size < (1 - rounding) * here) return point.size;
-  const double there = external_(corner);
-  return std::isfinite(there) ? std::clamp(there, limits_.least, limits_.largest) : point.size;
+  return std::clamp(external_(corner), limits_.least, limits_.largest);
 }
 
 double SpatialSizes::hint(const Vector3& point) const {

@@ -226,6 +226,36 @@ void set_metadata(const std::filesystem::path& path, const std::string& name, do
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
+/// A file of ours gives back what it was written from, also where sizes change, and not the least of all
+/// near.
+TEST(SizeSources, SizesOfAFileOfOursAreThoseItWasWrittenWith) {
+  const CadModel box = sample("box");
+  const auto path = std::filesystem::temp_directory_path() / "quadrille_again_test.vdb";
+  SizingOptions written;
+  written.size = 2;
+  written.vertex_sizes[1] = 0.1;
+  written.gradation = Gradation::space;
+  ExecutionContext context;
+  const SizingField first = SizingField::build(box, written, context);
+  first.write(path);
+  SizingField::Sampler before(first);
+  SizingOptions read;
+  read.size = 2;
+  read.size_min = 0.1;
+  read.size_field = path;
+  read.gradation = Gradation::space;
+  double sum = 0, count = 0;
+  look(box, read, [&](const Vector3& p, double size) {
+    const double ratio = size / before(p);
+    EXPECT_GT(ratio, 0.7) << p.transpose();
+    EXPECT_LT(ratio, 1.3) << p.transpose();
+    sum += std::log(ratio);
+    ++count;
+  });
+  EXPECT_NEAR(std::exp(sum / count), 1, 0.02);
+  std::filesystem::remove(path);
+}
+
 TEST(SizeSources, GridsOfOthersHaveAScaleAndAUnit) {
   const CadModel box = sample("box");
   const auto path = std::filesystem::temp_directory_path() / "quadrille_scale_test.vdb";
