@@ -139,7 +139,8 @@ class SizePlan {
       const double least = *std::min_element(sizes.begin(), sizes.end());
       const int n = std::clamp(static_cast<int>(std::ceil(longest / least)), 2, 32);
       for (int k = 0; k < n * n; ++k) {
-        const double x = (k % n + 0.5) / n, y = (k / n + 0.5) / n;
+        const int column = k % n, row = k / n;
+        const double x = (column + 0.5) / n, y = (row + 0.5) / n;
         const std::array<double, 4> weights{(1 - x) * (1 - y), x * (1 - y), x * y, (1 - x) * y};
         Vector3 point{0, 0, 0};
         double logarithm = 0;
