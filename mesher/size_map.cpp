@@ -22,6 +22,9 @@ namespace {
 /// Sides of triangles are no longer than this share of the model, or so many sizes.
 constexpr double longest_share = 1 / 300.0, longest_sizes = 1.5;
 constexpr std::size_t most_triangles = 1000000;
+/// Radians between neighboring ones on curved faces: small fillets far below the size should not take most of
+/// them.
+constexpr double turn_of_triangle = 0.4;
 
 /// One kind of size: whether options have it, and how it is taken over into options that have none.
 struct Kind {
@@ -167,8 +170,8 @@ SurfaceTriangles triangles_for(const CadModel& model, const MeshOptions& options
                                const ExecutionContext& context) {
   const double share = longest_share * model.diagonal();
   const double deflection = std::min(0.1 * field.size_max(), share);
-  SurfaceTriangles surface =
-      triangulate_surface(model.shape(), deflection, used_faces(model, options.faces), context);
+  SurfaceTriangles surface = triangulate_surface(model.shape(), deflection, turn_of_triangle,
+                                                 used_faces(model, options.faces), context);
   std::vector<std::unique_ptr<SizingField::Sampler>> samplers(model.face_count());
   const auto longest = [&](int face, const Vector3& point) {
     auto& size_at = samplers[face - 1];

@@ -69,7 +69,7 @@ class Cylinder(verification.PinchedCylinder):
 class FromFile:
     """A shell from a CAD file, clamped in one plane and pulled along (1, 0, 1) at its edges in another."""
 
-    goals, reference = (0.2, 0.1, 0.07, 0.05), None
+    goals, reference = (0.08, 0.05, 0.035, 0.025), None
     arguments = None  #: of the command line
 
     def __init__(self):

@@ -33,6 +33,16 @@ Coord floor_of(const Vector3& index) {
   return Coord::floor(openvdb::Vec3d(index.x(), index.y(), index.z()));
 }
 
+Coord corner_of(const Coord& base, int k) {
+  return base.offsetBy(k & 1, k >> 1 & 1, k >> 2);
+}
+
+/// What the k-th corner of a voxel counts at a place in it.
+double weight_of(const Vector3& index, const Coord& base, int k) {
+  const Vector3 t(index.x() - base.x(), index.y() - base.y(), index.z() - base.z());
+  return ((k & 1) ? t.x() : 1 - t.x()) * ((k >> 1 & 1) ? t.y() : 1 - t.y()) * ((k >> 2) ? t.z() : 1 - t.z());
+}
+
 }  // namespace
 
 double widening(double growth) {
@@ -81,8 +91,53 @@ void SizeCascade::lower(int level, const Coord& c, float value, BlockCount& bloc
 void SizeCascade::add(const Vector3& point, double size, BlockCount& blocks) {
   const int level = frame_.level_of(size);
   const Coord base = floor_of(point / frame_.voxel(level));
-  for (int k = 0; k < 8; ++k)
-    lower(level, base.offsetBy(k & 1, k >> 1 & 1, k >> 2), static_cast<float>(size), blocks);
+  for (int k = 0; k < 8; ++k) lower(level, corner_of(base, k), static_cast<float>(size), blocks);
+}
+
+void SizeCascade::add_by_corner(const Vector3& point, double size, BlockCount& blocks,
+                                const std::function<double(const Vector3& corner)>& size_at) {
+  const int level = frame_.level_of(size);
+  const double voxel = frame_.voxel(level);
+  const Coord base = floor_of(point / voxel);
+  for (int k = 0; k < 8; ++k) {
+    const Coord c = corner_of(base, k);
+    lower(level, c, static_cast<float>(size_at(voxel * Vector3(c.x(), c.y(), c.z()))), blocks);
+  }
+}
+
+void SizeCascade::add_means(const std::vector<SizePoint>& points, BlockCount& blocks) {
+  struct Share {
+    int level;
+    Coord corner;
+    double weight, logarithm;
+  };
+  std::vector<Share> shares;
+  for (const SizePoint& at : points) {
+    // Beside voxels of its own level there may be some of the next ones that want all their corners.
+    const int own = frame_.level_of(at.size);
+    for (int level = std::max(own - 1, 0); level <= std::min(own + 1, frame_.finest); ++level) {
+      if (at.size > coverage * frame_.size(level)) continue;
+      const Vector3 index = at.point / frame_.voxel(level);
+      const Coord base = floor_of(index);
+      for (int k = 0; k < 8; ++k) {
+        const double weight = weight_of(index, base, k);
+        if (weight > 0) shares.push_back({level, corner_of(base, k), weight, std::log(at.size)});
+      }
+    }
+  }
+  std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) {
+    return a.level != b.level ? a.level < b.level : a.corner < b.corner;
+  });
+  for (auto first = shares.begin(); first != shares.end();) {
+    double weight = 0, sum = 0;
+    auto last = first;
+    for (; last != shares.end() && last->level == first->level && last->corner == first->corner; ++last) {
+      weight += last->weight;
+      sum += last->weight * last->logarithm;
+    }
+    lower(first->level, first->corner, static_cast<float>(std::exp(sum / weight)), blocks);
+    first = last;
+  }
 }
 
 bool SizeCascade::is_fresh() const {
@@ -166,15 +221,12 @@ double SizeCascade::Lookup::operator()(const Vector3& point) {
   for (auto& [scale, limit, coarsest, accessor] : levels_) {
     const Vector3 index = point * scale;
     const Coord base = floor_of(index);
-    const Vector3 t(index.x() - base.x(), index.y() - base.y(), index.z() - base.z());
     double value = 0;
     int active = 0;
     for (int k = 0; k < 8; ++k) {
-      const double weight =
-          ((k & 1) ? t.x() : 1 - t.x()) * ((k >> 1 & 1) ? t.y() : 1 - t.y()) * ((k >> 2) ? t.z() : 1 - t.z());
       float corner = 0;
-      active += accessor.probe(base.offsetBy(k & 1, k >> 1 & 1, k >> 2), corner);
-      value += weight * corner;
+      active += accessor.probe(corner_of(base, k), corner);
+      value += weight_of(index, base, k) * corner;
     }
     if (coarsest || (active == 8 && value <= limit)) return std::min(value, size_max_);
   }

@@ -18,6 +18,7 @@
 
 #include "geometry/base/execution_context.hpp"
 #include "geometry/base/vector.hpp"
+#include "geometry/sizing/size_file.hpp"
 
 namespace quadrille {
 
@@ -121,6 +122,14 @@ class SizeCascade {
   /// The size at a point and, so that it comes out of the voxels as it went in, at all corners of its voxel,
   /// is at most this.
   void add(const Vector3& point, double size, BlockCount& blocks);
+
+  /// The same with a size of each corner's own.
+  void add_by_corner(const Vector3& point, double size, BlockCount& blocks,
+                     const std::function<double(const Vector3& corner)>& size_at);
+
+  /// Puts the mean of the points about it into each voxel's corner, on all levels that look-ups near them may
+  /// come to.
+  void add_means(const std::vector<SizePoint>& points, BlockCount& blocks);
 
   /// Whether something was added since it was graded.
   bool is_fresh() const;

@@ -69,20 +69,21 @@ void write_cascade(const SizeCascade& cascade, const std::filesystem::path& path
   write_file(path, file_of(field, path.string()));
 }
 
-void write_sizes(const std::vector<SizePoint>& points, double growth, const std::filesystem::path& path,
-                 const ExecutionContext& context) {
+SizeCascade mean_sizes(const std::vector<SizePoint>& points, double growth, const ExecutionContext& context) {
+  // Voxels at the largest size itself would be left out.
+  constexpr double above = 1.0001;
   CascadeFrame frame{0, growth, max_size_levels - 1};
   double reach = 0;
   for (const SizePoint& at : points) {
-    frame.size_max = std::max(frame.size_max, at.size);
+    frame.size_max = std::max(frame.size_max, above * at.size);
     reach = std::max(reach, at.point.cwiseAbs().maxCoeff());
   }
   frame.finest = std::clamp(30 - std::ilogb(reach / frame.voxel(0) + 1), 0, frame.finest);
   SizeCascade cascade(frame);
   BlockCount blocks(Budget().blocks);
-  for (const SizePoint& at : points) cascade.add(at.point, at.size, blocks);
+  cascade.add_means(points, blocks);
   cascade.grade(growth, frame.size_max, {}, blocks, context);
-  write_cascade(cascade, path);
+  return cascade;
 }
 
 }  // namespace quadrille

@@ -29,9 +29,9 @@ inline constexpr double longest_with_vdb = 300;
 /// Error (failure) where the file cannot be written.
 void write_cascade(const SizeCascade& cascade, const std::filesystem::path& path);
 
-/// Writes the largest sizes under those at points that grow by at most `growth` per length, up to the largest
-/// of them. Throws as write_cascade().
-void write_sizes(const std::vector<SizePoint>& points, double growth, const std::filesystem::path& path,
-                 const ExecutionContext& context);
+/// Sizes between those at points, from where they grow by at most `growth` per length, up to the largest of
+/// them. Voxels hold the mean of the points about them, not the least, which would be smaller sizes than were
+/// asked for wherever they change.
+SizeCascade mean_sizes(const std::vector<SizePoint>& points, double growth, const ExecutionContext& context);
 
 }  // namespace quadrille

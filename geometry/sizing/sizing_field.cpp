@@ -101,8 +101,7 @@ class Builder {
     void pass_on() {
       for (const int cascade : cascades_) {
         const std::lock_guard lock(builder_.mutexes_[cascade]);
-        for (const auto& [p, size] : points_)
-          builder_.field_.cascades[cascade]->add(p, size, builder_.blocks_);
+        for (const SizePoint& at : points_) builder_.add(*builder_.field_.cascades[cascade], at);
       }
       points_.clear();
     }
@@ -120,6 +119,12 @@ class Builder {
 
   void add(const std::set<int>& cascades, const Vector3& p, double size) {
     for (const int cascade : cascades) field_.cascades[cascade]->add(p, size, blocks_);
+  }
+
+  void add(SizeCascade& cascade, const SizePoint& at) {
+    if (!spatial_.has_corners()) return cascade.add(at.point, at.size, blocks_);
+    cascade.add_by_corner(at.point, at.size, blocks_,
+                          [&](const Vector3& corner) { return spatial_.at_corner(at, corner); });
   }
 
   void add_edge(int edge) {

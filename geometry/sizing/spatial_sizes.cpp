@@ -157,6 +157,7 @@ void SpatialSizes::open_external(const CadModel& model, const SizingOptions& opt
                     "{:.4g}, {:.4g}) mm; is `size_field_unit` right?",
                     path, low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
   external_ = [at = std::move(sizes.at), unit, scale](const Vector3& p) { return scale * at(p / unit); };
+  between_voxels_ = sizes.between_voxels;
   spacing_ = std::min(spacing_, std::max(unit * sizes.voxel, limits_.least));
 }
 
@@ -194,6 +195,14 @@ double SpatialSizes::at(const Vector3& point) const {
   if (external_) size = std::min(size, external_(point));
   if (!points_.empty()) size = std::min(size, SizeCascade::Lookup(cascade_)(point));
   return std::max(size, limits_.least);
+}
+
+double SpatialSizes::at_corner(const SizePoint& point, const Vector3& corner) const {
+  if (!between_voxels_) return point.size;
+  constexpr double rounding = 1e-9;
+  const double here = std::max(external_(point.point), limits_.least);
+  if (point.size < (1 - rounding) * here) return point.size;
+  return std::clamp(external_(corner), limits_.least, limits_.largest);
 }
 
 double SpatialSizes::hint(const Vector3& point) const {

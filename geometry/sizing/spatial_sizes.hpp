@@ -27,6 +27,12 @@ class SpatialSizes {
   bool empty() const { return regions_.empty() && !external_ && points_.empty(); }
   /// Within the limits.
   double at(const Vector3& point) const;
+  /// What a corner of the voxel is given where a point asks for a size: what our own files hold at the
+  /// corner, if that is what asks at the point, so that sizes come out of the field as they are in the file;
+  /// else the point's.
+  double at_corner(const SizePoint& point, const Vector3& corner) const;
+  /// Whether at_corner() may be another size than the point's.
+  bool has_corners() const { return between_voxels_; }
   /// What sizes there may be near a point, so that whoever halves his steps until they are about as long
   /// passes over nothing.
   double hint(const Vector3& point) const;
@@ -45,6 +51,7 @@ class SpatialSizes {
   double spacing_;
   std::vector<SizeRegion> regions_;
   std::function<double(const Vector3&)> external_;
+  bool between_voxels_ = false;  // of external_: it changes as slowly as sizes may
   std::vector<SizePoint> points_;
   SizeCascade cascade_;  // of the points
 };

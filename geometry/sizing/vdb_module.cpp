@@ -29,19 +29,41 @@ struct ExternalField {
   struct Grid {
     FloatGrid::Ptr grid;
     double unit;
+    double limit = 0;  // sizes above are told by coarser grids
   };
   std::vector<Grid> grids;
+  bool cascade = false;  // one of ours, finest first: between voxels sizes are what they were
 
-  double at(const Vector3& p) const {
+  double at(const Vector3& p) const { return cascade ? between(p) : least(p); }
+
+  /// As SizeCascade::Lookup.
+  double between(const Vector3& p) const {
+    for (const auto& [grid, unit, limit] : grids) {
+      Coord base;
+      openvdb::Vec3d t;
+      if (!enter(*grid, p, base, t)) continue;
+      double size = 0;
+      int active = 0;
+      for (int k = 0; k < 8; ++k) {
+        const double weight =
+            ((k & 1) ? t[0] : 1 - t[0]) * ((k >> 1 & 1) ? t[1] : 1 - t[1]) * ((k >> 2) ? t[2] : 1 - t[2]);
+        float value = 0;
+        active += grid->tree().probeValue(base.offsetBy(k & 1, k >> 1 & 1, k >> 2), value);
+        size += weight * value;
+      }
+      const bool coarsest = &grid == &grids.back().grid;
+      if (active > 0 && (coarsest || (active == 8 && size <= limit))) return unit * size;
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+
+  /// The least active corner of all grids: never larger than asked for, and the background cannot leak in.
+  double least(const Vector3& p) const {
     double result = std::numeric_limits<double>::infinity();
-    for (const auto& [grid, unit] : grids) {
-      const openvdb::Vec3d index = grid->worldToIndex(openvdb::Vec3d(p.x(), p.y(), p.z()));
-      // Beyond where voxels are numbered there are none; damaged transforms lead there.
-      constexpr double farthest = 1e9;
-      const auto within = [](double i) { return std::abs(i) < farthest; };
-      if (!within(index.x()) || !within(index.y()) || !within(index.z())) continue;
-      // The least active corner: never larger than asked for, and the background cannot leak in.
-      const Coord base = Coord::floor(index);
+    for (const auto& [grid, unit, limit] : grids) {
+      Coord base;
+      openvdb::Vec3d t;
+      if (!enter(*grid, p, base, t)) continue;
       for (int k = 0; k < 8; ++k) {
         float value = 0;
         if (grid->tree().probeValue(base.offsetBy(k & 1, k >> 1 & 1, k >> 2), value))
@@ -51,13 +73,40 @@ struct ExternalField {
     return result;
   }
 
+  /// The voxel that a point is in, and where in it; false where voxels have no numbers, to where damaged
+  /// transforms lead.
+  static bool enter(const FloatGrid& grid, const Vector3& p, Coord& base, openvdb::Vec3d& within) {
+    const openvdb::Vec3d index = grid.worldToIndex(openvdb::Vec3d(p.x(), p.y(), p.z()));
+    constexpr double farthest = 1e9;
+    for (int i = 0; i < 3; ++i) {
+      if (!(std::abs(index[i]) < farthest)) return false;
+    }
+    base = Coord::floor(index);
+    within = index - base.asVec3d();
+    return true;
+  }
+
+  /// Finds out whether the grids are those of to_grid(), and puts them in order.
+  void recognize() {
+    for (Grid& own : grids) {
+      const auto largest = own.grid->getMetadata<openvdb::DoubleMetadata>("size_max");
+      if (!largest || own.grid->getName().rfind("size", 0) != 0) return;
+      own.limit = largest->value();
+    }
+    std::sort(grids.begin(), grids.end(),
+              [](const Grid& a, const Grid& b) { return a.grid->voxelSize()[0] < b.grid->voxelSize()[0]; });
+    const double widest = grids.back().grid->voxelSize()[0];
+    for (Grid& own : grids) own.limit *= own.grid->voxelSize()[0] / widest;
+    cascade = true;
+  }
+
   /// \return the sentence that says what is wrong with the sizes; empty = nothing.
   std::string measure(ExternalSizes& sizes) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     sizes.low.setConstant(infinity);
     sizes.high.setConstant(-infinity);
     sizes.voxel = infinity;
-    for (const auto& [grid, unit] : grids) {
+    for (const auto& [grid, unit, limit] : grids) {
       for (auto it = grid->cbeginValueOn(); it; ++it) {
         if (*it > 0 && std::isfinite(*it) && unit > 0 && std::isfinite(unit)) continue;
         const openvdb::Vec3d p = grid->indexToWorld(it.getCoord());
@@ -145,6 +194,8 @@ QUADRILLE_EXPORT std::string quadrille_vdb_open(const std::string& path, Externa
     if (field->grids.empty()) return fmt::format("{} holds no float grid to use as a size field", path);
     if (const std::string problem = field->measure(sizes); !problem.empty())
       return fmt::format("{} holds {}", path, problem);
+    field->recognize();
+    sizes.between_voxels = field->cascade;
     sizes.at = [field](const Vector3& p) { return field->at(p); };
     return {};
   } catch (const std::exception&) {

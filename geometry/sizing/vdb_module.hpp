@@ -27,8 +27,10 @@ struct VdbField {
 
 /// What the grids of a file of others ask for, in the file's own unit.
 struct ExternalSizes {
-  std::function<double(const Vector3&)>
-      at;                               ///< the least that a grid asks for; infinite where all are silent
+  /// The least that a grid asks for, or where the file is one of ours what its cascade holds; infinite where
+  /// all are silent.
+  std::function<double(const Vector3&)> at;
+  bool between_voxels = false;          ///< it is one of ours
   Vector3 low{0, 0, 0}, high{0, 0, 0};  ///< where they are not
   double voxel = 0;                     ///< shortest side of a voxel
 };

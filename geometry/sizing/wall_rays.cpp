@@ -21,6 +21,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 const double facing = std::cos(40 * M_PI / 180);
 /// Of the narrowest thickness: how far triangles are from the surface.
 constexpr double deflection_share = 0.05;
+constexpr double turn_of_triangle = 0.2;
 
 double signed_volume(const SurfaceTriangles& surface) {
   double sum = 0;
@@ -87,7 +88,7 @@ struct Exit {
 
 WallRays::WallRays(const CadShape& shape, double narrowest, const ExecutionContext& context)
     : tree_(std::make_unique<Tree>()) {
-  tree_->surface = triangulate_surface(shape, deflection_share * narrowest,
+  tree_->surface = triangulate_surface(shape, deflection_share * narrowest, turn_of_triangle,
                                        std::vector<char>(shape.faces.size(), 1), context);
   const SurfaceTriangles& surface = tree_->surface;
   std::vector<Box> boxes;

@@ -23,9 +23,6 @@ namespace quadrille {
 
 namespace {
 
-/// Radians between neighboring triangles of a curved face.
-constexpr double turn_of_triangle = 0.2;
-
 /// Adds a triangulated face. \return false if it has no triangles.
 bool add_face(const CadShape& shape, int index, const TopoDS_Face& face, SurfaceTriangles& surface) {
   TopLoc_Location place;
@@ -68,16 +65,20 @@ class Round {
     for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
       for (int k = 0; k < 3; ++k) {
         const auto [a, b] = side(i, k);
-        if (middles_.contains(key(a, b))) continue;
+        const auto [found, is_new] = middles_.try_emplace(key(a, b));
+        Side& own = found->second;
+        if (!is_new) {
+          own.triangles[1] = static_cast<int>(i);
+          continue;
+        }
+        own.triangles[0] = static_cast<int>(i);
         const Vector3 middle = 0.5 * (surface.points[a] + surface.points[b]);
-        const int state = length(a, b) > longest(surface.faces[i], middle) ? to_divide : whole;
-        middles_.emplace(key(a, b), state);
-        any_ = any_ || state == to_divide;
+        if (length(a, b) > longest(surface.faces[i], middle)) mark(own);
       }
     }
   }
 
-  bool any() const { return any_; }
+  bool any() const { return !divided_.empty(); }
 
   void divide() {
     close();
@@ -91,12 +92,12 @@ class Round {
     std::vector<SurfaceTriangles::Line> lines;
     for (const SurfaceTriangles::Line& line : surface_.lines) {
       const auto found = middles_.find(key(line.points[0], line.points[1]));
-      if (found == middles_.end() || found->second < 0) {
+      if (found == middles_.end() || found->second.middle < 0) {
         lines.push_back(line);
         continue;
       }
-      lines.push_back({{line.points[0], found->second}, line.edge, line.face});
-      lines.push_back({{found->second, line.points[1]}, line.edge, line.face});
+      lines.push_back({{line.points[0], found->second.middle}, line.edge, line.face});
+      lines.push_back({{found->second.middle, line.points[1]}, line.edge, line.face});
     }
     surface_.triangles = std::move(triangles);
     surface_.faces = std::move(faces);
@@ -105,6 +106,16 @@ class Round {
 
  private:
   static constexpr int whole = -1, to_divide = -2;
+
+  struct Side {
+    int middle = whole;  // its point, or a state
+    std::array<int, 2> triangles{-1, -1};
+  };
+
+  void mark(Side& side) {
+    side.middle = to_divide;
+    divided_.push_back(&side);
+  }
 
   static std::uint64_t key(int a, int b) {
     return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
@@ -125,27 +136,25 @@ class Round {
 
   /// Where a side is divided, so is the longest of each triangle that it bounds: angles stay what they are.
   void close() {
-    for (bool changed = true; changed;) {  // each pass marks a side or is the last
-      changed = false;
-      for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
-        bool divided = false;
-        for (int k = 0; k < 3; ++k) divided = divided || middle(i, k) == to_divide;
-        int& longest = middle(i, longest_side(i));
-        if (!divided || longest == to_divide) continue;
-        longest = to_divide;
-        changed = true;
+    while (!divided_.empty()) {
+      const Side& side = *divided_.back();
+      divided_.pop_back();
+      for (const int triangle : side.triangles) {
+        if (triangle < 0) continue;
+        Side& longest = side_of(triangle, longest_side(triangle));
+        if (longest.middle == whole) mark(longest);
       }
     }
   }
 
-  int& middle(std::size_t triangle, int k) {
+  Side& side_of(std::size_t triangle, int k) {
     const auto [a, b] = side(triangle, k);
     return middles_.at(key(a, b));
   }
 
   /// The point in the middle of a side to be divided; negative for the others.
   int point_of(std::size_t triangle, int k) {
-    int& point = middle(triangle, k);
+    int& point = side_of(triangle, k).middle;
     if (point != to_divide) return point;
     const auto [a, b] = side(triangle, k);
     point = static_cast<int>(surface_.points.size());
@@ -180,14 +189,14 @@ class Round {
   }
 
   SurfaceTriangles& surface_;
-  std::unordered_map<std::uint64_t, int> middles_;  // by side: its middle's point, or a state
-  bool any_ = false;
+  std::unordered_map<std::uint64_t, Side> middles_;
+  std::vector<Side*> divided_;  // whose triangles were not looked at
 };
 
 }  // namespace
 
-SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, const std::vector<char>& used,
-                                     const ExecutionContext& context) {
+SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, double turn,
+                                     const std::vector<char>& used, const ExecutionContext& context) {
   SurfaceTriangles surface;
   context.check();
   TopoDS_Compound faces;
@@ -199,7 +208,7 @@ SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, c
   // The model itself stays as it is: without triangles.
   BRepBuilderAPI_Copy copy(faces, Standard_False);
   try {
-    BRepMesh_IncrementalMesh(copy.Shape(), deflection, Standard_False, turn_of_triangle, Standard_False);
+    BRepMesh_IncrementalMesh(copy.Shape(), deflection, Standard_False, turn, Standard_False);
   } catch (const Standard_Failure&) {
     // The faces done by then are there.
   }

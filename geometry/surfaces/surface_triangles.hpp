@@ -30,9 +30,10 @@ struct SurfaceTriangles {
 };
 
 /// Triangulates a copy of the model by OpenCASCADE. \param deflection largest distance from the surface,
-/// millimeters. \param used (faces) 1 = wanted.
-SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, const std::vector<char>& used,
-                                     const ExecutionContext& context);
+/// millimeters. \param turn radians between neighboring triangles of a curved face, at most. \param used
+/// (faces) 1 = wanted.
+SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, double turn,
+                                     const std::vector<char>& used, const ExecutionContext& context);
 
 /// Divides sides that are longer than wanted in their middle, until there are none, or there are `most`
 /// triangles. Sides stay whole where the next triangle has none of it: neighbors share all points. \param

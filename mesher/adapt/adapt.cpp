@@ -1,13 +1,16 @@
 #include "mesher/adapt/adapt.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/sizing/size_cascade.hpp"
 #include "geometry/sizing/size_file.hpp"
 #include "mesher/adapt/error_estimate.hpp"
 #include "mesher/adapt/shell_stress.hpp"
@@ -43,18 +46,129 @@ bool deforms(const SolverResult& result) {
   });
 }
 
-/// Points on a quad, no farther apart than its size.
-void cover(const ShellMesh& mesh, int quad, double size, std::vector<SizePoint>& points) {
-  const auto corner = [&](int k) { return mesh.points[mesh.quads[quad][k]]; };
-  const double longest = std::max({(corner(1) - corner(0)).norm(), (corner(2) - corner(1)).norm(),
-                                   (corner(3) - corner(2)).norm(), (corner(0) - corner(3)).norm()});
-  const int n = std::clamp(static_cast<int>(std::ceil(longest / size)), 1, 32);
-  for (int k = 0; k < n * n; ++k) {
-    const double x = (k % n + 0.5) / n, y = (k / n + 0.5) / n;
-    points.push_back(
-        {(1 - y) * ((1 - x) * corner(0) + x * corner(1)) + y * ((1 - x) * corner(3) + x * corner(2)), size});
+/// Sizes that spread an error evenly, as the field that is written has them.
+class SizePlan {
+ public:
+  SizePlan(const ShellMesh& mesh, const ErrorEstimate& estimate, const AdaptOptions& options,
+           ExecutionContext& context)
+      : mesh_(mesh),
+        estimate_(estimate),
+        options_(options),
+        context_(context),
+        now_(sizes_of(mesh)),
+        even_(even_sizes(mesh, estimate)),
+        at_points_(mesh.points.size(), 0) {
+    std::vector<double> quads(mesh.points.size(), 0);
+    for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
+      for (const int node : mesh.quads[quad]) {
+        at_points_[node] += now_[quad];
+        ++quads[node];
+      }
+    }
+    double sum = 0, corners = 0;
+    for (std::size_t node = 0; node < quads.size(); ++node) {
+      if (quads[node] == 0) continue;
+      at_points_[node] /= quads[node];
+      sum += std::log(at_points_[node] / even_[node]);
+      ++corners;
+    }
+    // Where the search begins: sizes stay in the mean.
+    for (double& size : even_) size *= std::exp(sum / corners);
   }
-}
+
+  struct Draft {
+    SizeCascade field;
+    double count, error;    ///< of the next mesh, about
+    double least, largest;  ///< sizes
+  };
+
+  /// The sizes that come to what is wanted. Where sizes grow slowly, and none may change by much, what comes
+  /// of them is seen from the field alone.
+  Draft find() const {
+    constexpr int most_drafts = 12;
+    constexpr double near = 0.005;
+    double factor = 1;
+    for (int k = 1;; ++k) {
+      Draft draft = of_factor(factor);
+      const double step = options_.count > 0 ? std::sqrt(draft.count / options_.count)
+                                             : std::pow(options_.error / draft.error, 1.0 / order_of(mesh_));
+      if (k == most_drafts || std::abs(step - 1) < near || !std::isfinite(step)) return draft;
+      factor *= step;
+    }
+  }
+
+ private:
+  Draft of_factor(double factor) const {
+    context_.check();
+    std::vector<SizePoint> points;
+    for_places(factor, [&](std::size_t, const Vector3& point, double size, double) {
+      points.push_back({point, size});
+    });
+    Draft draft{mean_sizes(points, options_.growth, context_), 0, 0, points.front().size, 0};
+    SizeCascade::Lookup size_at(draft.field);
+    double square = 0;
+    for_places(factor, [&](std::size_t quad, const Vector3& point, double, double share) {
+      const double size = size_at(point), ratio = size / now_[quad];
+      draft.count += share / (ratio * ratio);
+      square += share * estimate_.squares[quad] * std::pow(ratio, 2 * order_of(mesh_));
+      draft.least = std::min(draft.least, size);
+      draft.largest = std::max(draft.largest, size);
+    });
+    // Half of what is gained by spreading the error is relied on: some of its unevenness is noise, and where
+    // stresses have no end smaller elements gain less than their order tells.
+    const double uniform = estimate_.relative() *
+                           std::pow(static_cast<double>(now_.size()) / draft.count, 0.5 * order_of(mesh_));
+    draft.error = std::sqrt(std::sqrt(square / (estimate_.all + estimate_.sum())) * uniform);
+    return draft;
+  }
+
+  /// Visits places on all quads, no farther apart than the sizes there: visit(quad, point, size, share of the
+  /// quad).
+  template <class Visit>
+  void for_places(double factor, Visit&& visit) const {
+    for (std::size_t quad = 0; quad < mesh_.quads.size(); ++quad) {
+      std::array<Vector3, 4> corners;
+      std::array<double, 4> sizes{};
+      for (int k = 0; k < 4; ++k) {
+        const int node = mesh_.quads[quad][k];
+        corners[k] = mesh_.points[node];
+        sizes[k] = size_at_corner(node, factor);
+      }
+      double longest = 0;
+      for (int k = 0; k < 4; ++k) longest = std::max(longest, (corners[(k + 1) % 4] - corners[k]).norm());
+      const double least = *std::min_element(sizes.begin(), sizes.end());
+      const int n = std::clamp(static_cast<int>(std::ceil(longest / least)), 2, 32);
+      for (int k = 0; k < n * n; ++k) {
+        const int column = k % n, row = k / n;
+        const double x = (column + 0.5) / n, y = (row + 0.5) / n;
+        const std::array<double, 4> weights{(1 - x) * (1 - y), x * (1 - y), x * y, (1 - x) * y};
+        Vector3 point{0, 0, 0};
+        double logarithm = 0;
+        for (int i = 0; i < 4; ++i) {
+          point += weights[i] * corners[i];
+          logarithm += weights[i] * std::log(sizes[i]);
+        }
+        visit(quad, point, std::exp(logarithm), 1.0 / (n * n));
+      }
+    }
+  }
+
+  double size_at_corner(int node, double factor) const {
+    constexpr double most = 4;  // that a size changes at once
+    const double size = std::clamp(factor * even_[node], at_points_[node] / most, at_points_[node] * most);
+    const double largest =
+        options_.size_max > 0 ? options_.size_max : std::numeric_limits<double>::infinity();
+    return std::clamp(size, options_.size_min, largest);
+  }
+
+  const ShellMesh& mesh_;
+  const ErrorEstimate& estimate_;
+  const AdaptOptions& options_;
+  ExecutionContext& context_;
+  std::vector<double> now_;        // (quads) sizes
+  std::vector<double> even_;       // (points) sizes wanted, to a factor
+  std::vector<double> at_points_;  // (points) sizes
+};
 
 }  // namespace
 
@@ -67,18 +181,10 @@ AdaptResult adapt(const ShellMesh& mesh, const std::filesystem::path& solution,
   if (!deforms(result)) throw failure(name, fmt::format("{} holds no stresses: nothing is deformed", name));
   const auto stresses = shell_stresses(mesh, result, options.poisson, name);
   const ErrorEstimate estimate = estimate_error(mesh, stresses, options.poisson);
-  context.check();
-  std::vector<double> wanted =
-      sizes_for(mesh, estimate, {options.count > 0 ? 0 : options.error, options.count});
-  const double most = options.size_max > 0 ? options.size_max : std::numeric_limits<double>::infinity();
-  for (double& size : wanted) size = std::clamp(size, options.size_min, most);
-  std::vector<SizePoint> points;
-  for (std::size_t quad = 0; quad < wanted.size(); ++quad)
-    cover(mesh, static_cast<int>(quad), wanted[quad], points);
-  write_sizes(points, options.growth, sizes, context);
-  const auto [least, largest] = std::minmax_element(wanted.begin(), wanted.end());
-  return {estimate.relative(), static_cast<int>(mesh.quads.size()), count_for(mesh, wanted), *least,
-          *largest};
+  const SizePlan::Draft draft = SizePlan(mesh, estimate, options, context).find();
+  write_cascade(draft.field, sizes);
+  return {estimate.relative(), static_cast<int>(mesh.quads.size()), draft.count, draft.error, draft.least,
+          draft.largest};
 }
 
 }  // namespace quadrille

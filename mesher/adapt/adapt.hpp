@@ -22,6 +22,7 @@ struct AdaptResult {
   double error = 0;  ///< estimated for the mesh that was solved, in the energy norm, of the whole
   int quads = 0;
   double quads_wanted = 0;        ///< that the sizes give, about
+  double error_wanted = 0;        ///< that they give, about
   double least = 0, largest = 0;  ///< sizes
 };
 

@@ -138,39 +138,39 @@ ErrorEstimate estimate_error(const ShellMesh& mesh, const std::vector<std::array
   return estimate;
 }
 
-std::vector<double> sizes_for(const ShellMesh& mesh, const ErrorEstimate& estimate, const AdaptGoal& goal) {
-  const double order = mesh.order == 2 ? 2 : 1, dimension = 2;
-  const double share = 1 / (2 * order + dimension);
+int order_of(const ShellMesh& mesh) {
+  return mesh.order == 2 ? 2 : 1;
+}
+
+std::vector<double> sizes_of(const ShellMesh& mesh) {
   std::vector<double> sizes;
-  double sum = 0;
-  for (const double square : estimate.squares) sum += std::pow(std::max(square, 1e-300), dimension * share);
-  const double wanted = goal.error * std::sqrt(estimate.all + estimate.sum());
-  for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
-    const double now = std::sqrt(vector_area(mesh, static_cast<int>(quad)).norm());
-    // Where there is no error there is no bound.
-    const double square =
-        std::max(estimate.squares[quad], 1e-12 * estimate.sum() / static_cast<double>(mesh.quads.size()));
-    double size = now * std::pow(square > 0 ? square : 1, -share) * std::pow(sum, -0.5 / order);
-    if (goal.error > 0) size *= std::pow(wanted, 1 / order);
-    sizes.push_back(size);
-  }
-  if (goal.count > 0) {
-    const double factor = std::sqrt(count_for(mesh, sizes) / goal.count);
-    for (double& size : sizes) size *= factor;
-  }
-  constexpr double most = 4;
-  for (std::size_t quad = 0; quad < sizes.size(); ++quad) {
-    const double now = std::sqrt(vector_area(mesh, static_cast<int>(quad)).norm());
-    sizes[quad] = std::clamp(sizes[quad], now / most, now * most);
-  }
+  for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad)
+    sizes.push_back(std::sqrt(vector_area(mesh, static_cast<int>(quad)).norm()));
   return sizes;
 }
 
-double count_for(const ShellMesh& mesh, const std::vector<double>& sizes) {
-  double count = 0;
-  for (std::size_t quad = 0; quad < sizes.size(); ++quad)
-    count += vector_area(mesh, static_cast<int>(quad)).norm() / (sizes[quad] * sizes[quad]);
-  return count;
+std::vector<double> even_sizes(const ShellMesh& mesh, const ErrorEstimate& estimate) {
+  // In two dimensions the square of an element's error goes with this power of its size.
+  const double power = 2 * order_of(mesh) + 2;
+  const std::vector<double> now = sizes_of(mesh);
+  std::vector<double> errors(mesh.points.size(), 0), powers(mesh.points.size(), 0);
+  double all = 0;
+  for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
+    const double own = std::pow(now[quad], power);
+    all += own;
+    for (const int node : mesh.quads[quad]) {
+      errors[node] += estimate.squares[quad];
+      powers[node] += own;
+    }
+  }
+  // Where there is no error there is no bound.
+  constexpr double least_share = 1e-12;
+  const double least = std::max(least_share * estimate.sum() / all, 1e-300);
+  std::vector<double> sizes(mesh.points.size(), 0);
+  for (std::size_t node = 0; node < sizes.size(); ++node) {
+    if (powers[node] > 0) sizes[node] = std::pow(std::max(errors[node] / powers[node], least), -1 / power);
+  }
+  return sizes;
 }
 
 }  // namespace quadrille

@@ -27,18 +27,14 @@ struct ErrorEstimate {
 ErrorEstimate estimate_error(const ShellMesh& mesh, const std::vector<std::array<ShellStress, 4>>& stresses,
                              double poisson);
 
-/// What is wanted: one of both is 0.
-struct AdaptGoal {
-  double error = 0;  ///< relative
-  double count = 0;  ///< quads
-};
+/// Order of a mesh's elements: the error of their stresses goes with that power of their size.
+int order_of(const ShellMesh& mesh);
 
-/// (quads) sizes with which each new element has the same error, together what is wanted. Errors of
-/// second-order elements go with the square of the size, those of first order with the size; no size changes
-/// by more than a factor of four at once.
-std::vector<double> sizes_for(const ShellMesh& mesh, const ErrorEstimate& estimate, const AdaptGoal& goal);
+/// (quads) The square root of their area.
+std::vector<double> sizes_of(const ShellMesh& mesh);
 
-/// About how many elements sizes give.
-double count_for(const ShellMesh& mesh, const std::vector<double>& sizes);
+/// (points) With such sizes at its corners, times any factor, all elements have the same error; 0 at points
+/// that are no corners. What a single quad says is noise: each corner goes by all quads about it.
+std::vector<double> even_sizes(const ShellMesh& mesh, const ErrorEstimate& estimate);
 
 }  // namespace quadrille

@@ -38,6 +38,7 @@ void run(const AdaptArguments& arguments) {
     const nlohmann::ordered_json report{{"error", result.error},
                                         {"quads", result.quads},
                                         {"quads_wanted", result.quads_wanted},
+                                        {"error_wanted", result.error_wanted},
                                         {"size_min", result.least},
                                         {"size_max", result.largest}};
     write_file(arguments.report, report.dump(2) + "\n");
@@ -45,10 +46,10 @@ void run(const AdaptArguments& arguments) {
   if (arguments.quiet) return;
   print(
       fmt::format("error        {:.3g} % of the energy norm, with {} quads\n"
-                  "wanted       about {:.0f} quads of {:.3g} to {:.3g} mm\n"
+                  "wanted       {:.3g} %, with about {:.0f} quads of {:.3g} to {:.3g} mm\n"
                   "mesh with    --size {:.3g} --size-min {:.3g} --size-field {}\n",
-                  100 * result.error, result.quads, result.quads_wanted, result.least, result.largest,
-                  result.largest, result.least, arguments.output.string()));
+                  100 * result.error, result.quads, 100 * result.error_wanted, result.quads_wanted,
+                  result.least, result.largest, result.largest, result.least, arguments.output.string()));
 }
 
 }  // namespace

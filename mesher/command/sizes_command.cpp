@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <bit>
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -49,18 +53,40 @@ json summary_of(const SizeMap& map) {
   return {{"quads", map.quads}, {"sources", sources_of(map)}, {"missing", map.missing}};
 }
 
+/// The bytes of numbers, in base64.
+template <class Number>
+std::string text_of(const std::vector<Number>& numbers) {
+  static_assert(std::endian::native == std::endian::little);
+  using namespace boost::archive::iterators;
+  using Letters = base64_from_binary<transform_width<const char*, 6, 8>>;
+  const char* bytes = reinterpret_cast<const char*>(numbers.data());
+  const std::size_t count = numbers.size() * sizeof(Number);
+  std::string text(Letters(bytes), Letters(bytes + count));
+  text.append((3 - count % 3) % 3, '=');
+  return text;
+}
+
+/// The elements of lists, one after another, as other numbers.
+template <class Number, class Lists>
+std::vector<Number> flat(const Lists& lists) {
+  std::vector<Number> numbers;
+  for (const auto& list : lists) {
+    for (const auto value : list) numbers.push_back(static_cast<Number>(value));
+  }
+  return numbers;
+}
+
 /// All of the map: for programs that draw it.
 json all_of(const SizeMap& map) {
   json result = summary_of(map);
-  json points = json::array(), lines = json::array();
-  for (const Vector3& point : map.points) points.push_back({point.x(), point.y(), point.z()});
+  std::vector<std::array<int, 2>> lines;
   for (const SizeMap::Line& line : map.lines) lines.push_back(line.points);
-  result.update({{"points", std::move(points)},
-                 {"point_sizes", map.sizes},
-                 {"point_sources", map.rulers},
-                 {"triangles", map.triangles},
-                 {"triangle_faces", map.faces},
-                 {"lines", std::move(lines)}});
+  result.update({{"points", text_of(flat<float>(map.points))},
+                 {"point_sizes", text_of(std::vector<float>(map.sizes.begin(), map.sizes.end()))},
+                 {"point_sources", text_of(map.rulers)},
+                 {"triangles", text_of(flat<int>(map.triangles))},
+                 {"triangle_faces", text_of(map.faces)},
+                 {"lines", text_of(flat<int>(lines))}});
   return result;
 }
 

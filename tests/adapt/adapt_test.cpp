@@ -17,6 +17,8 @@
 #include "mesher/adapt/error_estimate.hpp"
 #include "mesher/adapt/shell_stress.hpp"
 #include "mesher/io/result_reader.hpp"
+#include "mesher/quadrille.hpp"
+#include "tests/support/sample_models.hpp"
 
 namespace quadrille {
 namespace {
@@ -238,16 +240,95 @@ TEST(ErrorEstimate, SizesSpreadItEvenly) {
   const ShellMesh mesh = grid(10, flat);  // quads of side 1
   ErrorEstimate estimate;
   estimate.squares.assign(100, 1e-4);
-  estimate.all = 1;  // 9.95 %
-  for (const double wanted : {0.0995, 0.0995 / 4}) {
-    const auto sizes = sizes_for(mesh, estimate, {wanted, 0});
-    for (const double size : sizes) EXPECT_NEAR(size, std::sqrt(wanted / 0.0995), 0.01);
-  }
+  estimate.all = 1;
+  for (const double size : even_sizes(mesh, estimate)) EXPECT_NEAR(size, even_sizes(mesh, estimate)[0], 1e-9);
   // Second order: the square of a quad's error goes with the sixth power of its new size, over as many.
-  estimate.squares[7] = 64e-4;
-  const auto sizes = sizes_for(mesh, estimate, {0, 400});
-  EXPECT_NEAR(sizes[7] / sizes[8], 0.5, 1e-6);
-  EXPECT_NEAR(count_for(mesh, sizes), 400, 1);
+  for (int quad = 0; quad < 100; ++quad) {
+    if (quad % 10 < 5) estimate.squares[quad] = 64e-4;
+  }
+  auto sizes = even_sizes(mesh, estimate);
+  EXPECT_NEAR(sizes[3] / sizes[8], 0.5, 1e-6);
+  EXPECT_GT(sizes[5], 1.05 * sizes[4]);
+  EXPECT_LT(sizes[5], 0.95 * sizes[6]);
+  // A single quad is believed by a quarter at each of its corners.
+  estimate.squares.assign(100, 1e-4);
+  estimate.squares[55] = 64e-4;
+  sizes = even_sizes(mesh, estimate);
+  EXPECT_NEAR(sizes[5 * 11 + 5] / sizes[0], std::pow(67.0 / 4, -1.0 / 6), 1e-6);
+}
+
+/// Writes the sizes for a solution on a mesh, and deletes the files at the end.
+class Adapted {
+ public:
+  Adapted(const ShellMesh& mesh, const std::function<Vector3(const Vector3&)>& moved,
+          const AdaptOptions& options) {
+    std::ofstream(solution_) << frd(mesh, moved);
+    ExecutionContext context;
+    result = adapt(mesh, solution_, sizes, options, context);
+  }
+  ~Adapted() {
+    std::filesystem::remove(solution_);
+    std::filesystem::remove(sizes);
+  }
+  Adapted(const Adapted&) = delete;
+  Adapted& operator=(const Adapted&) = delete;
+
+  AdaptResult result;
+  std::filesystem::path sizes = std::filesystem::temp_directory_path() / "quadrille_adapted_test.vdb";
+
+ private:
+  std::filesystem::path solution_ = std::filesystem::temp_directory_path() / "quadrille_adapted_test.frd";
+};
+
+/// Quads that the box has with the sizes in a file.
+int quads_with(const CadModel& box, const Adapted& adapted) {
+  MeshOptions options;
+  options.sizing.size = adapted.result.largest;
+  options.sizing.size_min = adapted.result.least;
+  options.sizing.size_field = adapted.sizes;
+  options.sizing.elements_per_circle = 0;
+  ExecutionContext context;
+  return static_cast<int>(mesh(box, options, context).quads.size());
+}
+
+TEST(Adapt, TheNextMeshHasAsManyQuadsAsItTells) {
+  const CadModel box = CadModel::read(sample_model("box").path());
+  MeshOptions options;
+  options.sizing.size = (box.box_max() - box.box_min()).norm() / 20;
+  ExecutionContext context;
+  ShellMesh first = mesh(box, options, context);
+  first.order = 2;
+  const Vector3 at = box.box_max();
+  const double length = (at - box.box_min()).norm();
+  // Steep at a corner, and everywhere with noise, whose wave is shorter than a quad.
+  const auto moved = [&](const Vector3& p) {
+    const double noise = 1e-4 * std::sin(1e3 * p.dot(Vector3(1, 1.7, 2.3)) / length);
+    return Vector3(std::exp(-20 * (p - at).norm() / length) + noise, noise, -noise);
+  };
+  AdaptOptions wanted;
+  for (const double count : {1000.0, 4000.0}) {
+    wanted.count = count;
+    const Adapted adapted(first, moved, wanted);
+    EXPECT_NEAR(adapted.result.quads_wanted / count, 1, 0.02);
+    EXPECT_NEAR(quads_with(box, adapted) / count, 1, 0.3);
+    EXPECT_GT(adapted.result.largest, 2 * adapted.result.least);
+  }
+}
+
+TEST(Adapt, ASmallerErrorTakesMoreQuads) {
+  const ShellMesh mesh = grid(10, flat);
+  const auto moved = [](const Vector3& p) { return Vector3(std::exp(0.3 * p.x()), 0, 0); };
+  AdaptOptions options;
+  options.count = 100;
+  const Adapted same(mesh, moved, options);
+  EXPECT_LT(same.result.error_wanted, same.result.error);
+  options.count = 0;
+  options.error = same.result.error / 4;
+  const Adapted finer(mesh, moved, options);
+  EXPECT_NEAR(finer.result.error_wanted / options.error, 1, 0.02);
+  // Not below the half of what it takes where all sizes become smaller alike.
+  EXPECT_GT(finer.result.quads_wanted, 200);
+  EXPECT_LT(finer.result.quads_wanted, 400);
 }
 
 TEST(FrdReader, SaysWhatIsWrong) {

@@ -282,7 +282,14 @@ TEST(Command, ShowsSizes) {
   const auto report = nlohmann::json::parse(test::file_text(folder / "r.json"));
   const auto all = nlohmann::json::parse(test::file_text(folder / "s.json"));
   EXPECT_EQ(all["quads"], report["quads"]);
-  EXPECT_EQ(all["points"].size(), all["point_sizes"].size());
+  const auto text = [&](const char* name) { return all[name].get<std::string>(); };
+  // Four letters of base64 are three bytes: points have three numbers of four bytes, sizes one.
+  EXPECT_NEAR(static_cast<double>(text("points").size()),
+              3.0 * static_cast<double>(text("point_sizes").size()), 8);
+  EXPECT_EQ(text("point_sizes").size(), text("point_sources").size());
+  EXPECT_EQ(
+      text("points").find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/="),
+      std::string::npos);
   EXPECT_EQ(all["sources"].back()["name"], "size-on");
   EXPECT_NEAR(all["sources"].back()["size_min"].get<double>(), 0.5, 1e-3);
   ASSERT_EQ(stdout_of(folder, "mesh " + options + "-o m.msh --report m.json").exit_code, 0);

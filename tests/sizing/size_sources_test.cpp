@@ -14,6 +14,8 @@
 #include "geometry/base/module_loader.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/face_gaps.hpp"
+#include "geometry/sizing/size_cascade.hpp"
+#include "geometry/sizing/size_file.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/sizing/spatial_sizes.hpp"
 #include "geometry/sizing/vdb_module.hpp"
@@ -224,6 +226,60 @@ void set_metadata(const std::filesystem::path& path, const std::string& name, do
     std::memcpy(bytes.data() + at + before.size(), &value, sizeof value);
   ASSERT_GT(found, 0);
   std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// Where sizes change, those between points are looked up, on all levels, and not the least of all in a
+/// voxel.
+TEST(SizeSources, MeansOfPointsAreWhatTheyAskFor) {
+  constexpr double slope = 0.2;
+  const auto wanted = [](double x) { return 0.1 + slope * x; };
+  std::vector<SizePoint> points;
+  for (double x = 0; x < 20; x += 0.5 * wanted(x)) {
+    for (double y = 0; y < 10; y += 0.5 * wanted(x)) points.push_back({{x, y, 0.3}, wanted(x)});
+  }
+  ExecutionContext context;
+  const SizeCascade field = mean_sizes(points, 0.3, context);
+  EXPECT_GT(field.levels(), 4);
+  SizeCascade::Lookup size_at(field);
+  double sum = 0, count = 0;
+  for (double x = 0.5; x < 19; x += 0.1) {
+    const double ratio = size_at({x, 5, 0.3}) / wanted(x);
+    EXPECT_GT(ratio, 0.85) << x;
+    EXPECT_LT(ratio, 1.15) << x;
+    sum += std::log(ratio);
+    ++count;
+  }
+  EXPECT_NEAR(std::exp(sum / count), 1, 0.05);
+}
+
+/// A file of ours gives back what it was written from, also where sizes change, and not the least of all
+/// near.
+TEST(SizeSources, SizesOfAFileOfOursAreThoseItWasWrittenWith) {
+  const CadModel box = sample("box");
+  const auto path = std::filesystem::temp_directory_path() / "quadrille_again_test.vdb";
+  SizingOptions written;
+  written.size = 2;
+  written.vertex_sizes[1] = 0.1;
+  written.gradation = Gradation::space;
+  ExecutionContext context;
+  const SizingField first = SizingField::build(box, written, context);
+  first.write(path);
+  SizingField::Sampler before(first);
+  SizingOptions read;
+  read.size = 2;
+  read.size_min = 0.1;
+  read.size_field = path;
+  read.gradation = Gradation::space;
+  double sum = 0, count = 0;
+  look(box, read, [&](const Vector3& p, double size) {
+    const double ratio = size / before(p);
+    EXPECT_GT(ratio, 0.7) << p.transpose();
+    EXPECT_LT(ratio, 1.3) << p.transpose();
+    sum += std::log(ratio);
+    ++count;
+  });
+  EXPECT_NEAR(std::exp(sum / count), 1, 0.02);
+  std::filesystem::remove(path);
 }
 
 TEST(SizeSources, GridsOfOthersHaveAScaleAndAUnit) {

@@ -190,6 +190,10 @@ class _Bricks(NamedTuple):
 
 
 def _bricks_of(result, analysis) -> _Bricks:
+    for solver in solvers.solvers_of(analysis):
+        if _is_pipeline(result) and result in getattr(solver, "Results", ()) and getattr(solver, "DisplaceMesh", False):
+            raise Error(f"{result.Label}: its nodes are moved: set DisplaceMesh of {solver.Label} to false, and solve again", "usage",
+                        result.Name)
     bricks = _bricks_of_pipeline(result) if _is_pipeline(result) else _bricks_of_object(result)
     if not bricks.kinds.size or not np.isin(bricks.kinds, [kind for kind, _ in _BRICKS.values()]).all():
         solver = next((solver.Label for solver in solvers.solvers_of(analysis)), "the solver")

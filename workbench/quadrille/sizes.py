@@ -2,6 +2,7 @@
 """The sizes that a mesh would have, on the surface of its part, before it is made: `quadrille sizes` in a child process. Runs
 inside FreeCAD."""
 
+import base64
 import json
 import os
 import time
@@ -98,10 +99,14 @@ class SizesJob:
 def _map_of(told: Dict) -> SizeMap:
     sources = (Source(entry["name"], entry["area"], entry["quads"], entry["size_min"], entry["size_max"])
                for entry in told["sources"])
-    return SizeMap(
-        np.array(told["points"], dtype=np.float32).reshape(-1, 3), np.array(told["point_sizes"], dtype=float),
-        np.array(told["triangles"], dtype=np.int32).reshape(-1, 3), np.array(told["lines"], dtype=np.int32).reshape(-1, 2),
-        told["quads"], tuple(source for source in sources if source.area > 0))
+    points, sizes = (_array(told[name], np.float32) for name in ("points", "point_sizes"))
+    triangles, lines = (_array(told[name], np.int32) for name in ("triangles", "lines"))
+    return SizeMap(points.reshape(-1, 3), sizes.astype(float), triangles.reshape(-1, 3), lines.reshape(-1, 2),
+                   told["quads"], tuple(source for source in sources if source.area > 0))
+
+
+def _array(text: str, kind) -> np.ndarray:
+    return np.frombuffer(base64.b64decode(text), np.dtype(kind).newbyteorder("<"))
 
 
 def start(mesh, wanted: Optional[state.Wanted] = None, command: Optional[str] = None) -> SizesJob:
