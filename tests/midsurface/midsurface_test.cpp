@@ -374,6 +374,29 @@ TEST(MidSurface, TellsWhatIsFittedAndHowFarItIsOff) {
   EXPECT_EQ(fitted, 1);
 }
 
+/// Sewing keeps solids, the same one at two places too.
+TEST(MidSurface, OfSewnSolids) {
+  const TopoDS_Shape sheet = thin_model("l_section");
+  gp_Trsf aside;
+  aside.SetTranslation(gp_Vec(200, 0, 0));
+  TopoDS_Compound both;
+  const BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, sheet);
+  builder.Add(both, sheet.Moved(TopLoc_Location(aside)));
+  const CadModel model = model_of(both), sewn = model.sewn(1e-3);
+  EXPECT_EQ(sewn.edge_count(), model.edge_count());
+  ExecutionContext context;
+  const MidSurface before = midsurface(model, {}, context), after = midsurface(sewn, {}, context);
+  EXPECT_EQ(after.solids, 2);
+  EXPECT_NEAR(after.volume, before.volume, 1e-6);
+  ASSERT_EQ(after.faces.size(), before.faces.size());
+  for (std::size_t i = 0; i < after.faces.size(); ++i) {
+    EXPECT_EQ(after.faces[i].solid_faces, before.faces[i].solid_faces);
+    EXPECT_NEAR(after.faces[i].area, before.faces[i].area, 1e-6);
+  }
+}
+
 TEST(MidSurface, NeedsASolid) {
   const TopoDS_Shape face = TopExp_Explorer(thick_block(), TopAbs_FACE).Current();
   EXPECT_THROW(middle_of(face), Error);
