@@ -141,6 +141,7 @@ SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const Mid
   }
   told(0.9);
   result.faces = join_walls(skin, result.walls, ends, pieces);
+  add_fillets(skin, result.walls, result.volume, result.faces);
   if (thick_share(result, ends, options.thickest) > 0.5) throw not_thin(name, options);
   return result;
 }

@@ -584,7 +584,7 @@ const std::vector<ThinModel>& thin_models() {
       {"t_beam", [] { return t_beam(0); }, 200 * (60 + 58), {4}, 0.03, 1},
       {"t_beam_with_fillets", [] { return t_beam(4); }, 200 * (60 + 58), {4}, 0.03, 1},
       {"box_beam", [] { return box_beam(0, 0); }, 200 * 2 * (57 + 76), {3, 4}, 0.01, 2},
-      {"box_beam_with_fillets", [] { return box_beam(0, 4); }, 200 * 2 * (57 + 76), {3, 4}, 0.03, 2},
+      {"box_beam_with_fillets", [] { return box_beam(0, 4); }, 200 * 2 * (57 + 76), {3, 3.29, 4, 4.31}, 1e-6, 2},
       {"sharp_l", sharp_l, 100 * (39 + 58.5), {2, 3}, 0.01, 1},
       {"folded_sheet", folded_sheet, 80 * (50 + 50), {2}, 0.01, 1},
       {"ribbed_plate", [] { return ribbed_plate(2); }, 200 * 200 + 4 * 200 * 23.5, {2, 3}, 0.02, 1},
