@@ -29,6 +29,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/midsurface/joining.hpp"
+#include "geometry/midsurface/plain_faces.hpp"
 #include "geometry/midsurface/skin.hpp"
 #include "geometry/midsurface/solids.hpp"
 #include "geometry/midsurface/wall_pieces.hpp"
@@ -415,7 +416,7 @@ std::shared_ptr<const ThicknessSource> thickness_source(const std::vector<SolidM
 
 MidSurface make(const CadModel& model, const MidSurfaceOptions& options, ExecutionContext& context) {
   const std::string& name = model.shape().name;
-  const TopoDS_Shape shape = BRepBuilderAPI_Copy(model.shape().shape).Shape();
+  const TopoDS_Shape shape = with_plain_faces(BRepBuilderAPI_Copy(model.shape().shape).Shape());
   const auto kept_skins = std::make_shared<const std::deque<Skin>>(skins_of(shape, options.join));
   const std::deque<Skin>& skins = *kept_skins;
   if (skins.empty())

@@ -27,6 +27,7 @@
 #include <gp_Circ.hxx>
 #include <gp_Cone.hxx>
 #include <gp_Cylinder.hxx>
+#include <gp_Lin.hxx>
 #include <gp_Pln.hxx>
 #include <map>
 #include <optional>
@@ -131,11 +132,11 @@ Handle(Geom_Curve) interpolated(const FaceEdge& edge, double depth) {
 Handle(Geom_Curve) moved(const FaceEdge& edge, double depth, double longer) {
   const double first = edge.first(), last = edge.last(), near = 1e-5 * std::abs(depth);
   const auto at = [&](double share) { return edge.inside(first + share * (last - first), depth); };
-  if (edge.curve().GetType() == GeomAbs_Line) {
-    const gp_Pnt middle(0.5 * (at(0).XYZ() + at(1).XYZ()));
-    if (middle.Distance(at(0.5)) < near)
-      return new Geom_TrimmedCurve(new Geom_Line(at(0), gp_Dir(gp_Vec(at(0), at(1)))), -longer,
-                                   at(0).Distance(at(1)) + longer);
+  if (const double length = at(0).Distance(at(1)); length > near) {
+    const gp_Lin line(at(0), gp_Dir(gp_Vec(at(0), at(1))));
+    const auto is_on_line = [&](double share) { return line.Distance(at(share)) < near; };
+    if (is_on_line(0.25) && is_on_line(0.5) && is_on_line(0.75))  // B-splines too
+      return new Geom_TrimmedCurve(new Geom_Line(line), -longer, length + longer);
   }
   if (edge.curve().GetType() == GeomAbs_Circle) {
     gp_Ax2 frame = edge.curve().Circle().Position();
