@@ -118,6 +118,7 @@ void add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume
   if (held < 0.5 * worth_it * volume) return;
   BOPAlgo_Builder fuse;
   fuse.SetNonDestructive(Standard_True);
+  fuse.SetUseOBB(Standard_True);
   for (const JoinedFace& face : faces) fuse.AddArgument(face.face);
   for (const auto& [fillet, borders] : fillets) {
     for (const FilletBorder& border : borders) fuse.AddArgument(border.fence);

@@ -371,6 +371,7 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
                                    const std::vector<std::vector<TopoDS_Face>>& pieces) {
   BOPAlgo_Builder fuse;
   fuse.SetNonDestructive(Standard_True);
+  fuse.SetUseOBB(Standard_True);
   for (const auto& of_wall : pieces) {
     if (!of_wall.empty()) fuse.AddArgument(compound_of(of_wall));
   }

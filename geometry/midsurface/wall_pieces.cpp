@@ -172,6 +172,7 @@ std::vector<TopoDS_Face> cut_by(const TopoDS_Face& face, const std::vector<TopoD
   if (others.empty()) return {face};
   BOPAlgo_Builder cutter;
   cutter.SetNonDestructive(Standard_True);
+  cutter.SetUseOBB(Standard_True);
   cutter.AddArgument(face);
   for (const TopoDS_Shape& other : others) cutter.AddArgument(other);
   cutter.Perform();
