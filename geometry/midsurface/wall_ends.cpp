@@ -9,7 +9,6 @@
 #include <BRep_Tool.hxx>
 #include <GeomAPI_Interpolate.hxx>
 #include <GeomFill.hxx>
-#include <GeomLib.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_Line.hxx>
@@ -114,21 +113,7 @@ class FaceEdge {
   double first_, last_;
 };
 
-/// A curve that goes straight on at both ends.
-Handle(Geom_Curve) run_on(const Handle(Geom_BSplineCurve) & curve, double longer) {
-  Handle(Geom_BoundedCurve) result(curve);
-  for (const bool after : {false, true}) {
-    gp_Pnt end;
-    gp_Vec along;
-    curve->D1(after ? curve->LastParameter() : curve->FirstParameter(), end, along);
-    if (along.Magnitude() < Precision::Confusion()) continue;
-    const double way = after ? longer : -longer;
-    GeomLib::ExtendCurveToPoint(result, end.Translated(way * along.Normalized()), 1, after);
-  }
-  return result;
-}
-
-Handle(Geom_Curve) interpolated(const FaceEdge& edge, double depth, double longer) {
+Handle(Geom_Curve) interpolated(const FaceEdge& edge, double depth) {
   constexpr int intervals = 32;
   const bool closed = edge.closed();
   const int count = closed ? intervals : intervals + 1;
@@ -139,12 +124,11 @@ Handle(Geom_Curve) interpolated(const FaceEdge& edge, double depth, double longe
   }
   GeomAPI_Interpolate spline(points, closed, Precision::Confusion());
   spline.Perform();
-  if (closed || !(longer > 0)) return Handle(Geom_Curve)(spline.Curve());
-  return run_on(spline.Curve(), longer);
+  return Handle(Geom_Curve)(spline.Curve());
 }
 
 /// The edge moved into the material: lines stay lines, arcs arcs, where all its points do. \param longer by
-/// so much at both ends.
+/// so much at both ends, where it stays a line or an arc.
 Handle(Geom_Curve) moved(const FaceEdge& edge, double depth, double longer) {
   const double first = edge.first(), last = edge.last(), near = 1e-5 * std::abs(depth);
   const auto at = [&](double share) { return edge.inside(first + share * (last - first), depth); };
@@ -164,7 +148,7 @@ Handle(Geom_Curve) moved(const FaceEdge& edge, double depth, double longer) {
     if (stays && edge.closed()) return new Geom_TrimmedCurve(new Geom_Circle(circle), first, last);
     if (stays) return new Geom_TrimmedCurve(new Geom_Circle(circle), first - angle, last + angle);
   }
-  return interpolated(edge, depth, longer);
+  return interpolated(edge, depth);
 }
 
 /// The circle that a curve is an arc of.
