@@ -275,6 +275,23 @@ TopoDS_Shape rounded_housing_with_ribs() {
                BRepAlgoAPI_Common(box(0.3, 29.4, 16, 99.4, 1.2, 13), outside).Shape(), boss});
 }
 
+/// A solid from one rectangle with round corners to another above it, all of B-splines.
+TopoDS_Shape lofted_box(const Outline& low, const Outline& high, double height) {
+  BRepOffsetAPI_ThruSections loft(Standard_True, Standard_False);
+  gp_Trsf lift;
+  lift.SetTranslation(gp_Vec(0, 0, height));
+  loft.AddWire(rounded(low));
+  loft.AddWire(TopoDS::Wire(BRepBuilderAPI_Transform(rounded(high), lift).Shape()));
+  loft.Build();
+  return loft.Shape();
+}
+
+/// A housing of 2 mm with draft, made of lofts: its flat sides are B-splines too.
+TopoDS_Shape lofted_housing() {
+  return cut(lofted_box(rectangle(0, 0, 100, 60, 8), rectangle(1, 1, 98, 58, 7.5), 30),
+             {lofted_box(rectangle(2, 2, 96, 56, 6), rectangle(3, 3, 94, 54, 5.5), 28)});
+}
+
 /// A cylinder with half-spheres as heads.
 TopoDS_Shape tank() {
   const auto capsule = [](double radius) {
@@ -544,6 +561,23 @@ const std::vector<JoinedModel>& joined_models() {
   return models;
 }
 
+TopoDS_Shape blended_housing() {
+  const auto rounded_lid = [](const TopoDS_Shape& loft, double radius) {
+    BRepFilletAPI_MakeFillet fillet(loft);
+    TopTools_IndexedMapOfShape edges;
+    TopExp::MapShapes(loft, TopAbs_EDGE, edges);
+    for (int i = 1; i <= edges.Extent(); ++i) {
+      const BRepAdaptor_Curve curve(TopoDS::Edge(edges(i)));
+      const double low = curve.Value(curve.FirstParameter()).Z(),
+                   high = curve.Value(curve.LastParameter()).Z();
+      if (std::min(low, high) > 20) fillet.Add(radius, TopoDS::Edge(edges(i)));
+    }
+    return fillet.Shape();
+  };
+  return cut(rounded_lid(lofted_box(rectangle(0, 0, 100, 60, 8), rectangle(1, 1, 98, 58, 7.5), 30), 4),
+             {rounded_lid(lofted_box(rectangle(2, 2, 96, 56, 6), rectangle(3, 3, 94, 54, 5.5), 28), 2)});
+}
+
 TopoDS_Shape plate_on_block() {
   return fuse({box(0, 0, 0, 40, 40, 40), box(18, 0, 40, 3, 40, 60)});
 }
@@ -584,7 +618,12 @@ const std::vector<ThinModel>& thin_models() {
       {"t_beam", [] { return t_beam(0); }, 200 * (60 + 58), {4}, 0.03, 1},
       {"t_beam_with_fillets", [] { return t_beam(4); }, 200 * (60 + 58), {4}, 0.03, 1},
       {"box_beam", [] { return box_beam(0, 0); }, 200 * 2 * (57 + 76), {3, 4}, 0.01, 2},
-      {"box_beam_with_fillets", [] { return box_beam(0, 4); }, 200 * 2 * (57 + 76), {3, 3.29, 4, 4.31}, 1e-6, 2},
+      {"box_beam_with_fillets",
+       [] { return box_beam(0, 4); },
+       200 * 2 * (57 + 76),
+       {3, 3.29, 4, 4.31},
+       1e-6,
+       2},
       {"sharp_l", sharp_l, 100 * (39 + 58.5), {2, 3}, 0.01, 1},
       {"folded_sheet", folded_sheet, 80 * (50 + 50), {2}, 0.01, 1},
       {"ribbed_plate", [] { return ribbed_plate(2); }, 200 * 200 + 4 * 200 * 23.5, {2, 3}, 0.02, 1},
@@ -598,6 +637,7 @@ const std::vector<ThinModel>& thin_models() {
       {"housing", housing, 0, {1.3, 1.4, 1.7, 2}, 0.02, 4},
       {"rounded_housing", rounded_housing, 0, {2}, 0.01, 1},
       {"rounded_housing_with_ribs", rounded_housing_with_ribs, 0, {1.2, 1.5, 2}, 0.02, 4},
+      {"lofted_housing", lofted_housing, 0, {2}, 0.01, 1},
       {"tank", tank, 80 * 2 * M_PI * 30 + 4 * M_PI * 900, {2}, 0.01, 0},
       {"nozzle", nozzle, 0, {2, 3}, 0.03, 3},
       {"joggle", joggle, 60 * (80 + 20 * M_SQRT2 - 4 * 4 * std::tan(M_PI / 8) + M_PI * 2), {2}, 0.01, 1},
