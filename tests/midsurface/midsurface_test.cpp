@@ -2,20 +2,28 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepGProp.hxx>
+#include <BRepOffsetAPI_MakeThickSolid.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <IntCurvesFace_ShapeIntersector.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <algorithm>
@@ -408,6 +416,36 @@ TEST(MidSurface, OfSewnSolids) {
   for (std::size_t i = 0; i < after.faces.size(); ++i) {
     EXPECT_EQ(after.faces[i].solid_faces, before.faces[i].solid_faces);
     EXPECT_NEAR(after.faces[i].area, before.faces[i].area, 1e-6);
+  }
+}
+
+/// A tray with rounded edges, all of whose faces are B-splines: its bends are fitted, and edges of walls that
+/// should be shared may lie beside each other. Either they are, or that is told.
+TEST(MidSurface, NeverTakesEdgesBesideEachOtherForShared) {
+  const TopoDS_Shape block = BRepPrimAPI_MakeBox(100, 60, 30).Shape();
+  BRepFilletAPI_MakeFillet fillet(block);
+  for (TopExp_Explorer it(block, TopAbs_EDGE); it.More(); it.Next()) {
+    const BRepAdaptor_Curve curve(TopoDS::Edge(it.Current()));
+    const double low =
+        std::min(curve.Value(curve.FirstParameter()).Z(), curve.Value(curve.LastParameter()).Z());
+    if (low < 29) fillet.Add(6, TopoDS::Edge(it.Current()));
+  }
+  TopTools_ListOfShape open;
+  for (TopExp_Explorer it(fillet.Shape(), TopAbs_FACE); it.More(); it.Next()) {
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(it.Current(), properties);
+    if (properties.CentreOfMass().Z() > 29.9) open.Append(it.Current());
+  }
+  ASSERT_EQ(open.Extent(), 1);
+  BRepOffsetAPI_MakeThickSolid tray;
+  tray.MakeThickSolidByJoin(fillet.Shape(), open, -2, 1e-3);
+  const TopoDS_Shape splines = BRepBuilderAPI_NurbsConvert(tray.Shape(), Standard_True).Shape();
+  try {
+    const MidSurface middle = middle_of(splines);
+    EXPECT_EQ(free_loops(middle.model), 1);
+    EXPECT_NEAR(middle.shell_volume / middle.volume, 1, 0.01);
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("end inside the material"), std::string::npos) << error.what();
   }
 }
 
