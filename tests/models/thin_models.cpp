@@ -429,6 +429,22 @@ TopoDS_Shape ribbed_plate(int ribs) {
   return fuse(parts);
 }
 
+/// The same with fillets of 1 mm, where the ribs stand on the plate and where they cross.
+TopoDS_Shape ribbed_plate_with_fillets() {
+  const TopoDS_Shape sharp = ribbed_plate(2);
+  BRepFilletAPI_MakeFillet fillet(sharp);
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(sharp, TopAbs_EDGE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const BRepAdaptor_Curve curve(TopoDS::Edge(edges(i)));
+    const gp_Pnt at = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+    const bool inside = at.X() > 1 && at.X() < 199 && at.Y() > 1 && at.Y() < 199;
+    const bool upright = std::abs(at.Z() - 14) < 1e-6;
+    if (inside && (upright || std::abs(at.Z() - 3) < 1e-6)) fillet.Add(1, TopoDS::Edge(edges(i)));
+  }
+  return fillet.Shape();
+}
+
 TopoDS_Shape thick_block() {
   return box(0, 0, 0, 30, 20, 10);
 }
@@ -627,6 +643,7 @@ const std::vector<ThinModel>& thin_models() {
       {"sharp_l", sharp_l, 100 * (39 + 58.5), {2, 3}, 0.01, 1},
       {"folded_sheet", folded_sheet, 80 * (50 + 50), {2}, 0.01, 1},
       {"ribbed_plate", [] { return ribbed_plate(2); }, 200 * 200 + 4 * 200 * 23.5, {2, 3}, 0.02, 1},
+      {"ribbed_plate_with_fillets", ribbed_plate_with_fillets, 200 * 200 + 4 * 200 * 23.5, {2, 3}, 0.02, 1},
       {"short_rib", short_rib, 100 * 60 + 50 * 18.5, {2, 3}, 0.02, 2},
       {"stepped_sheet", stepped_sheet, 100 * 50 + 0.5 * 50, {2, 3}, 0.01, 1},
       {"leaning_step", leaning_step, 100 * 50 + 0.5 * 50, {2, 3}, 0.01, 1},
