@@ -405,6 +405,7 @@ std::vector<CantileverModel> cantilevers() {
                     {60, 40}, {30 - t, 40, R}, {30 - t, t, r},  {0, t}};
   return {{"i_beam_with_fillets", {i_outline(60, 100, 4, 6, 5)}, 600},
           {"h_beam", {i_outline(100, 100, 5, 7, 0)}, 600},
+          {"ipe_200", {i_outline(100, 200, 5.6, 8.5, 12)}, 800},
           {"t_beam_with_fillets",
            {{{0, 0}, {60, 0}, {60, 4}, {32, 4, 4}, {32, 60}, {28, 60}, {28, 4, 4}, {0, 4}}},
            500},
