@@ -161,7 +161,11 @@ py::list list_of(const std::vector<ShellMesh::Group>& groups) {
   return result;
 }
 
-std::vector<ShellMesh::Group> groups_of(const py::handle& list) {
+py::list groups_of(const py::object& self) {
+  return list_of(mesh_of(self).mesh.groups);
+}
+
+std::vector<ShellMesh::Group> groups_in(const py::handle& list) {
   std::vector<ShellMesh::Group> result;
   for (const py::handle entry : list) {
     auto [name, dimension, number, entities] =
@@ -199,8 +203,8 @@ PythonMesh from_state(const py::tuple& state) {
                                  q_min, seconds, off, off_max});
   }
   result.mesh.thicknesses = state[8].cast<std::vector<double>>();
-  result.mesh.groups = groups_of(state[9]);
-  result.mesh.solid_faces = groups_of(state[11]);
+  result.mesh.groups = groups_in(state[9]);
+  result.mesh.solid_faces = groups_in(state[11]);
   for (const py::handle entry : state[10]) {
     auto [face, thinnest, thickest, nodes, thicknesses] =
         entry.cast<std::tuple<int, double, double, std::vector<int>, std::vector<double>>>();
