@@ -19,7 +19,7 @@ import subprocess
 import tempfile
 
 FORCE, YOUNG, DENSITY = 100.0, 210000.0, 7.85e-9
-BEAMS = ("i_beam_with_fillets", "h_beam", "t_beam_with_fillets", "box_beam_with_fillets", "square_tube", "round_tube",
+BEAMS = ("i_beam_with_fillets", "h_beam", "ipe_200", "t_beam_with_fillets", "box_beam_with_fillets", "square_tube", "round_tube",
          "channel_with_bends", "l_section", "z_section", "hat_section")
 MATERIAL = f"*MATERIAL, NAME=Material\n*ELASTIC\n{YOUNG}, 0.3\n*DENSITY\n{DENSITY}"
 

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -536,10 +537,30 @@ std::vector<int> nodes_of_face(const ShellMesh& mesh, int face) {
   return nodes;
 }
 
+/// The middle faces and the rims that belong to each face of the solid: loads and supports that were meant
+/// for it.
+std::vector<ShellMesh::Group> groups_of_solid_faces(const MidSurface& middle) {
+  std::map<int, std::vector<int>> faces, rims;
+  for (std::size_t i = 0; i < middle.faces.size(); ++i) {
+    if (middle.faces[i].step) continue;  // stands across
+    for (const int face : middle.faces[i].solid_faces) faces[face].push_back(static_cast<int>(i) + 1);
+  }
+  for (const MiddleRim& rim : middle.rims) {
+    for (const int face : rim.solid_faces) rims[face].push_back(rim.edge);
+  }
+  std::vector<ShellMesh::Group> result;
+  for (auto& [face, numbers] : faces)
+    result.push_back({fmt::format("SolidFace{}", face), 2, 0, std::move(numbers)});
+  for (auto& [face, numbers] : rims)
+    result.push_back({fmt::format("SolidFace{}Rim", face), 1, 0, std::move(numbers)});
+  return result;
+}
+
 }  // namespace
 
 ShellMesh mesh(const MidSurface& middle, const MeshOptions& options, ExecutionContext& context) {
   ShellMesh result = mesh(middle.model, options, context);
+  result.solid_faces = groups_of_solid_faces(middle);
   for (const MiddleFace& face : middle.faces) {
     result.thicknesses.push_back(face.thickness);
     if (!varies(face) || !middle.thickness_at) continue;

@@ -154,11 +154,25 @@ py::array triangle_face_ids(const py::object& self) {
 }
 
 /// (name, dimension, number, entities) of each.
+py::list list_of(const std::vector<ShellMesh::Group>& groups) {
+  py::list result;
+  for (const ShellMesh::Group& group : groups)
+    result.append(py::make_tuple(group.name, group.dimension, group.number, group.entities));
+  return result;
+}
+
 py::list groups_of(const py::object& self) {
-  py::list groups;
-  for (const ShellMesh::Group& group : mesh_of(self).mesh.groups)
-    groups.append(py::make_tuple(group.name, group.dimension, group.number, group.entities));
-  return groups;
+  return list_of(mesh_of(self).mesh.groups);
+}
+
+std::vector<ShellMesh::Group> groups_in(const py::handle& list) {
+  std::vector<ShellMesh::Group> result;
+  for (const py::handle entry : list) {
+    auto [name, dimension, number, entities] =
+        entry.cast<std::tuple<std::string, int, int, std::vector<int>>>();
+    result.push_back({std::move(name), dimension, number, std::move(entities)});
+  }
+  return result;
 }
 
 /// What pickle keeps: the arguments of the constructor, and what became of the faces.
@@ -174,8 +188,8 @@ py::tuple state_of(const py::object& self) {
                                 face.off_geometry_max));
   return py::make_tuple(self.attr("points"), self.attr("quads"), self.attr("triangles"),
                         self.attr("face_ids"), self.attr("triangle_face_ids"), self.attr("segments"),
-                        self.attr("corners"), faces, mesh_of(self).mesh.thicknesses, groups_of(self),
-                        varying);
+                        self.attr("corners"), faces, mesh_of(self).mesh.thicknesses,
+                        list_of(mesh_of(self).mesh.groups), varying, list_of(mesh_of(self).mesh.solid_faces));
 }
 
 PythonMesh from_state(const py::tuple& state) {
@@ -189,11 +203,8 @@ PythonMesh from_state(const py::tuple& state) {
                                  q_min, seconds, off, off_max});
   }
   result.mesh.thicknesses = state[8].cast<std::vector<double>>();
-  for (const py::handle entry : state[9]) {
-    auto [name, dimension, number, entities] =
-        entry.cast<std::tuple<std::string, int, int, std::vector<int>>>();
-    result.mesh.groups.push_back({std::move(name), dimension, number, std::move(entities)});
-  }
+  result.mesh.groups = groups_in(state[9]);
+  result.mesh.solid_faces = groups_in(state[11]);
   for (const py::handle entry : state[10]) {
     auto [face, thinnest, thickest, nodes, thicknesses] =
         entry.cast<std::tuple<int, double, double, std::vector<int>, std::vector<double>>>();

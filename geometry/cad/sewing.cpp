@@ -1,10 +1,11 @@
 #include "geometry/cad/sewing.hpp"
 
 #include <BRepBuilderAPI_Sewing.hxx>
-#include <BRep_Builder.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
-#include <TopoDS_Compound.hxx>
+#include <vector>
+
+#include "geometry/cad/face_exchange.hpp"
 
 namespace quadrille {
 
@@ -16,15 +17,11 @@ TopoDS_Shape sew(const TopoDS_Shape& shape, double tolerance, int& joined) {
   sewing.SetNonManifoldMode(Standard_True);
   for (int i = 1; i <= faces.Extent(); ++i) sewing.Add(faces(i));
   sewing.Perform();
-  // The sewn shells order faces as they come: a compound of the faces has the order of the model.
-  TopoDS_Compound result;
-  const BRep_Builder builder;
-  builder.MakeCompound(result);
-  for (int i = 1; i <= faces.Extent(); ++i) {
-    const TopoDS_Shape face =
-        sewing.IsModified(faces(i)) ? sewing.Modified(faces(i)) : TopoDS_Shape(faces(i));
-    builder.Add(result, face);
-  }
+  // The sewn shells order faces as they come: the model with new faces keeps its order, and its solids.
+  std::vector<TopoDS_Shape> sewn;
+  for (int i = 1; i <= faces.Extent(); ++i)
+    sewn.push_back(sewing.IsModified(faces(i)) ? sewing.Modified(faces(i)) : TopoDS_Shape(faces(i)));
+  const TopoDS_Shape result = with_faces(shape, faces, sewn);
   TopExp::MapShapes(result, TopAbs_EDGE, edges_after);
   joined = edges_before.Extent() - edges_after.Extent();
   return result;

@@ -188,22 +188,28 @@ std::optional<double> off_along(int direction, const Handle(Geom_BSplineSurface)
 std::optional<FittedMiddle> fit(MiddlePoints& points, const std::array<ParameterRange, 2>& ranges,
                                 double tolerance) {
   constexpr int most_spans = 128;
+  constexpr double good_enough = 10;  // tolerances, where sides have kinks and finer grids gain little
+  constexpr double gain = 0.1;        // of smooth sides it is a sixteenth
   std::array<GridLine, 2> grid{GridLine(ranges[0], 1), GridLine(ranges[1], 1)};
+  std::array<double, 2> before{HUGE_VAL, HUGE_VAL};
   for (;;) {
     const auto surface = interpolate(points, grid);
     if (!surface) return std::nullopt;
-    FittedMiddle result{*surface, 0};
+    const auto first = off_along(0, *surface, points, grid), second = off_along(1, *surface, points, grid);
+    if (!first || !second) return std::nullopt;
+    const std::array<double, 2> off{*first, *second};
     bool finer = false;
     for (int direction = 0; direction < 2; ++direction) {
-      const auto off = off_along(direction, *surface, points, grid);
-      if (!off) return std::nullopt;
-      result.off = std::max(result.off, *off);
       const int spans = grid[direction].spans();
-      if (*off <= tolerance || spans >= most_spans) continue;
+      const bool pays = off[direction] < gain * before[direction];
+      const bool is_good =
+          off[direction] <= tolerance || (off[direction] <= good_enough * tolerance && !pays);
+      if (is_good || spans >= most_spans) continue;
+      before[direction] = off[direction];
       grid[direction] = GridLine(ranges[direction], std::max(4, 2 * spans));
       finer = true;
     }
-    if (!finer) return result;
+    if (!finer) return FittedMiddle{*surface, std::max(off[0], off[1])};
   }
 }
 

@@ -61,13 +61,16 @@ TopoDS_Compound compound_of(const std::vector<TopoDS_Face>& faces) {
   return result;
 }
 
-/// What an argument of the fuse has become.
+}  // namespace
+
 TopTools_ListOfShape images(const BOPAlgo_Builder& fuse, const TopoDS_Shape& face) {
   if (fuse.Images().IsBound(face)) return fuse.Images().Find(face);
   TopTools_ListOfShape itself;
   itself.Append(face);
   return itself;
 }
+
+namespace {
 
 /// The pieces, cut at each other.
 struct Images {
@@ -235,7 +238,9 @@ TopoDS_Face without_edges(const TopoDS_Face& face, const TopTools_MapOfShape& ed
   return changed ? TopoDS::Face(result) : TopoDS_Face();
 }
 
-/// Where pieces that hang over have left their traces: edges inside one face that no other face uses.
+}  // namespace
+
+// They are where pieces that hang over were.
 void drop_traces(std::vector<JoinedFace>& faces) {
   const EdgeUses uses(faces);
   TopTools_MapOfShape traces;
@@ -252,6 +257,8 @@ void drop_traces(std::vector<JoinedFace>& faces) {
     if (!clean.IsNull()) face.face = clean;
   }
 }
+
+namespace {
 
 /// The faces of one wall, joined over edges that no other wall uses.
 void merge_wall(int wall, const Skin& skin, const std::vector<Wall>& walls,
@@ -304,7 +311,8 @@ std::vector<JoinedFace> merged_faces(const Skin& skin, const std::vector<Wall>& 
   return result;
 }
 
-/// Turns faces so that across each edge with two faces they show the same side, as far as that can be.
+}  // namespace
+
 void orient_alike(std::vector<JoinedFace>& faces) {
   const EdgeUses uses(faces);
   std::vector<std::vector<std::pair<int, bool>>> neighbors(faces.size());  // and whether they differ
@@ -335,8 +343,6 @@ void orient_alike(std::vector<JoinedFace>& faces) {
   }
 }
 
-}  // namespace
-
 std::vector<int> connected_parts(const std::vector<JoinedFace>& faces) {
   const EdgeUses uses(faces);
   std::vector<int> part(faces.size());
@@ -365,6 +371,7 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
                                    const std::vector<std::vector<TopoDS_Face>>& pieces) {
   BOPAlgo_Builder fuse;
   fuse.SetNonDestructive(Standard_True);
+  fuse.SetUseOBB(Standard_True);
   for (const auto& of_wall : pieces) {
     if (!of_wall.empty()) fuse.AddArgument(compound_of(of_wall));
   }

@@ -29,6 +29,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/midsurface/joining.hpp"
+#include "geometry/midsurface/plain_faces.hpp"
 #include "geometry/midsurface/skin.hpp"
 #include "geometry/midsurface/solids.hpp"
 #include "geometry/midsurface/wall_pieces.hpp"
@@ -44,6 +45,7 @@ struct SolidMiddle {
   std::vector<JoinedFace> faces;
   std::vector<Wall> walls;
   double volume = 0;
+  std::string problem;  ///< what was left out, and why; empty if nothing
 };
 
 double volume_of(const TopoDS_Shape& shape) {
@@ -123,6 +125,38 @@ Error not_thin(const std::string& name, const MidSurfaceOptions& options) {
                              name, options.thickest));
 }
 
+std::string face_names(const std::vector<int>& numbers) {
+  std::vector<std::string> names;
+  constexpr std::size_t most = 12;
+  for (std::size_t i = 0; i < std::min(most, numbers.size()); ++i) {
+    names.push_back(fmt::format("Face{}", numbers[i]));
+  }
+  if (numbers.size() > most) names.push_back(fmt::format("{} more", numbers.size() - most));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Of the walls whose middle is fitted, those that go on into others of these. OpenCASCADE takes seconds to
+/// cut each of them, since they are nearly tangent to each other along curves, and loses some.
+std::set<int> blended_walls(const std::vector<Wall>& walls, const std::vector<WallEnd>& ends) {
+  std::set<int> result;
+  for (const WallEnd& end : ends) {
+    if (walls[end.wall].ends && walls[end.next].ends) result.insert({end.wall, end.next});
+  }
+  return result;
+}
+
+/// One sentence.
+std::string cannot_join(const std::string& name, const Skin& skin, const std::vector<Wall>& walls,
+                        const std::set<int>& blended) {
+  std::vector<int> faces;
+  for (const int wall : blended) {
+    for (const int face : both_sides(walls[wall])) faces.push_back(skin.faces()[face].number());
+  }
+  std::sort(faces.begin(), faces.end());
+  return fmt::format("{}: {} free-form walls go on into each other, which cannot be joined yet: {}", name,
+                     blended.size(), face_names(faces));
+}
+
 /// \param told is told the fraction that is done.
 SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const MidSurfaceOptions& options,
                             const ExecutionContext& context, const std::function<void(double)>& told) {
@@ -132,15 +166,24 @@ SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const Mid
   result.walls = find_walls(skin, surfaces, options.tolerance, context);
   if (result.walls.empty()) throw not_thin(name, options);
   const std::vector<WallEnd> ends = find_wall_ends(skin, result.walls, surfaces);
+  constexpr std::size_t most_blended = 4;
+  std::set<int> blended = blended_walls(result.walls, ends);
+  if (blended.size() <= most_blended) blended.clear();
+  if (!blended.empty()) {
+    result.problem = cannot_join(name, skin, result.walls, blended);
+    if (!options.partial) throw failure(name, result.problem + "; `partial` gives what could be paired");
+  }
   std::vector<WallEnd> fences = find_rim_ends(skin, result.walls, surfaces);
   fences.insert(fences.end(), ends.begin(), ends.end());
   std::vector<std::vector<TopoDS_Face>> pieces(result.walls.size());
   for (std::size_t wall = 0; wall < pieces.size(); ++wall) {
     told(0.5 + 0.4 * static_cast<double>(wall) / static_cast<double>(pieces.size()));
-    pieces[wall] = wall_pieces(skin, result.walls, static_cast<int>(wall), fences);
+    if (blended.count(static_cast<int>(wall)) == 0)
+      pieces[wall] = wall_pieces(skin, result.walls, static_cast<int>(wall), fences);
   }
   told(0.9);
   result.faces = join_walls(skin, result.walls, ends, pieces);
+  add_fillets(skin, result.walls, result.volume, result.faces);
   if (thick_share(result, ends, options.thickest) > 0.5) throw not_thin(name, options);
   return result;
 }
@@ -299,16 +342,6 @@ void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_Inde
   }
 }
 
-std::string face_names(const std::vector<int>& numbers) {
-  std::vector<std::string> names;
-  constexpr std::size_t most = 12;
-  for (std::size_t i = 0; i < std::min(most, numbers.size()); ++i) {
-    names.push_back(fmt::format("Face{}", numbers[i]));
-  }
-  if (numbers.size() > most) names.push_back(fmt::format("{} more", numbers.size() - most));
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 /// What the checks found wrong, one sentence each.
 std::vector<std::string> find_problems(const MidSurface& result, const std::string& name) {
   std::vector<std::string> problems;
@@ -414,7 +447,7 @@ std::shared_ptr<const ThicknessSource> thickness_source(const std::vector<SolidM
 
 MidSurface make(const CadModel& model, const MidSurfaceOptions& options, ExecutionContext& context) {
   const std::string& name = model.shape().name;
-  const TopoDS_Shape shape = BRepBuilderAPI_Copy(model.shape().shape).Shape();
+  const TopoDS_Shape shape = with_plain_faces(BRepBuilderAPI_Copy(model.shape().shape).Shape());
   const auto kept_skins = std::make_shared<const std::deque<Skin>>(skins_of(shape, options.join));
   const std::deque<Skin>& skins = *kept_skins;
   if (skins.empty())
@@ -438,6 +471,8 @@ MidSurface make(const CadModel& model, const MidSurfaceOptions& options, Executi
   const auto thickness = thickness_source(middles, kept_skins, result);
   result.thickness_at = [thickness](int face, const Vector3& point) { return thickness->at(face, point); };
   result.problems = find_problems(result, name);
+  for (const SolidMiddle& middle : middles)
+    if (!middle.problem.empty()) result.problems.insert(result.problems.begin(), middle.problem);
   if (!options.partial && !result.problems.empty())
     throw failure(name, result.problems.front() + "; `partial` gives what could be paired");
   return result;

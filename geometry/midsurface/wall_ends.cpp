@@ -27,12 +27,14 @@
 #include <gp_Circ.hxx>
 #include <gp_Cone.hxx>
 #include <gp_Cylinder.hxx>
+#include <gp_Lin.hxx>
 #include <gp_Pln.hxx>
 #include <map>
 #include <optional>
 #include <utility>
 
 #include "geometry/midsurface/wall_pieces.hpp"
+#include "geometry/midsurface/widths.hpp"
 
 namespace quadrille {
 
@@ -130,11 +132,11 @@ Handle(Geom_Curve) interpolated(const FaceEdge& edge, double depth) {
 Handle(Geom_Curve) moved(const FaceEdge& edge, double depth, double longer) {
   const double first = edge.first(), last = edge.last(), near = 1e-5 * std::abs(depth);
   const auto at = [&](double share) { return edge.inside(first + share * (last - first), depth); };
-  if (edge.curve().GetType() == GeomAbs_Line) {
-    const gp_Pnt middle(0.5 * (at(0).XYZ() + at(1).XYZ()));
-    if (middle.Distance(at(0.5)) < near)
-      return new Geom_TrimmedCurve(new Geom_Line(at(0), gp_Dir(gp_Vec(at(0), at(1)))), -longer,
-                                   at(0).Distance(at(1)) + longer);
+  if (const double length = at(0).Distance(at(1)); length > near) {
+    const gp_Lin line(at(0), gp_Dir(gp_Vec(at(0), at(1))));
+    const auto is_on_line = [&](double share) { return line.Distance(at(share)) < near; };
+    if (is_on_line(0.25) && is_on_line(0.5) && is_on_line(0.75))  // B-splines too
+      return new Geom_TrimmedCurve(new Geom_Line(line), -longer, length + longer);
   }
   if (edge.curve().GetType() == GeomAbs_Circle) {
     gp_Ax2 frame = edge.curve().Circle().Position();
@@ -580,7 +582,60 @@ class WallEnds {
   std::vector<int> sides_;  ///< see push()
 };
 
+/// The wall that a face is a side of; -1 = none.
+int wall_of(const std::vector<Wall>& walls, int face) {
+  for (std::size_t wall = 0; wall < walls.size(); ++wall) {
+    for (const auto& side : walls[wall].sides) {
+      if (std::find(side.begin(), side.end(), face) != side.end()) return static_cast<int>(wall);
+    }
+  }
+  return -1;
+}
+
+/// Whether the face beside goes on tangent to the edge's own, and bends away from the material.
+bool is_hollow_fillet(const FaceEdge& edge, const SkinFace& face, const SkinFace& beside) {
+  const gp_Pnt at = edge.curve().Value(0.5 * (edge.first() + edge.last()));
+  const auto own = face.outward(face.closest(at)), other = beside.outward(beside.closest(at));
+  if (!own || !other || own->Dot(*other) < std::cos(5 * M_PI / 180)) return false;
+  double above = 0;
+  for (const FaceSample& sample : beside.samples(8))
+    above += sample.area * gp_Vec(at, sample.point).Dot(gp_Vec(*own));
+  return above > 0;
+}
+
 }  // namespace
+
+std::vector<FilletBorder> find_fillet_borders(const Skin& skin, const std::vector<Wall>& walls) {
+  std::map<int, std::vector<FilletBorder>> of_fillets;
+  TopTools_IndexedDataMapOfShapeListOfShape neighbors;
+  TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, neighbors);
+  for (std::size_t index = 0; index < skin.faces().size(); ++index) {
+    const int wall = wall_of(walls, static_cast<int>(index));
+    const SkinFace& face = skin.faces()[index];
+    for (TopExp_Explorer it(face.face(), TopAbs_EDGE); wall >= 0 && it.More(); it.Next()) {
+      const TopoDS_Edge& border = TopoDS::Edge(it.Current());
+      for (const TopoDS_Shape& next : neighbors.FindFromKey(border)) {
+        const int fillet = skin.index_of(TopoDS::Face(next));
+        const SkinFace& beside = skin.faces()[fillet];
+        const FaceEdge edge(face, beside, border);
+        if (wall_of(walls, fillet) >= 0 || BRep_Tool::Degenerated(border) ||
+            !is_hollow_fillet(edge, face, beside))
+          continue;
+        const double t = walls[wall].thickness;
+        const TopoDS_Face fence = face_between(moved(edge, 0.3 * t, 0), moved(edge, 0.7 * t, 0));
+        const gp_Dir outward = edge.outward(0.5 * (edge.first() + edge.last()));
+        of_fillets[fillet].push_back({wall, fillet, fence, outward, length_of(border)});
+      }
+    }
+  }
+  std::vector<FilletBorder> result;
+  for (const auto& [fillet, borders] : of_fillets) {
+    const auto same = [&](const FilletBorder& border) { return border.wall == borders.front().wall; };
+    if (!std::all_of(borders.begin(), borders.end(), same))
+      result.insert(result.end(), borders.begin(), borders.end());
+  }
+  return result;
+}
 
 std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,
                                     const std::vector<int>& surfaces) {

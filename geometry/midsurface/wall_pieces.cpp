@@ -64,14 +64,22 @@ void keep_regular(const GeomAdaptor_Surface& surface, ParameterRange& v) {
     v.high = std::min(v.high, apex);
 }
 
-/// A sphere whose seam and poles are away from the points, where they allow that.
-Handle(Geom_Surface) turned_away(const Handle(Geom_Surface) & surface, const std::vector<gp_Pnt>& points) {
-  const auto sphere = Handle(Geom_SphericalSurface)::DownCast(surface);
-  if (sphere.IsNull()) return surface;
+/// A sphere whose seam and poles are away from the wall's sides, where they are less than half of one: near
+/// them OpenCASCADE loses parts.
+Handle(Geom_Surface) turned_away(const Skin& skin, const Wall& wall) {
+  const auto sphere = Handle(Geom_SphericalSurface)::DownCast(wall.middle);
+  if (sphere.IsNull()) return wall.middle;
   const gp_Pnt center = sphere->Location();
   gp_Vec middle;
-  for (const gp_Pnt& point : points) middle += gp_Vec(center, point) / static_cast<double>(points.size());
-  if (middle.Magnitude() < 0.8 * sphere->Radius()) return surface;
+  double area = 0;
+  for (const int face : both_sides(wall)) {
+    for (const FaceSample& sample : skin.faces()[face].samples(24)) {
+      middle += sample.area * gp_Vec(center, sample.point).Normalized();
+      area += sample.area;
+    }
+  }
+  constexpr double half = 0.5, margin = 0.05;  // of half a sphere the middle lies there, over the radius
+  if (middle.Magnitude() < (half + margin) * area) return wall.middle;
   const gp_Dir ahead(middle);
   const gp_Dir up = std::abs(ahead.Dot(sphere->Axis().Direction())) < 0.7 ? sphere->Axis().Direction()
                                                                           : sphere->Position().XDirection();
@@ -84,7 +92,7 @@ TopoDS_Face middle_patch(const Skin& skin, const std::vector<Wall>& walls, int w
   for (const Wall& other : walls) margin = std::max(margin, 1.5 * other.thickness);
   if (walls[wall].ends) return BRepBuilderAPI_MakeFace(walls[wall].middle, Precision::Confusion()).Face();
   const auto points = points_on_edges(skin, faces_to_cover(skin, walls, wall));
-  const Handle(Geom_Surface) middle = turned_away(walls[wall].middle, points);
+  const Handle(Geom_Surface) middle = turned_away(skin, walls[wall]);
   const gp_Pnt2d uv = ShapeAnalysis_Surface(middle).ValueOfUV(points.front(), Precision::Confusion());
   gp_Pnt at;
   gp_Vec du, dv;
@@ -172,6 +180,7 @@ std::vector<TopoDS_Face> cut_by(const TopoDS_Face& face, const std::vector<TopoD
   if (others.empty()) return {face};
   BOPAlgo_Builder cutter;
   cutter.SetNonDestructive(Standard_True);
+  cutter.SetUseOBB(Standard_True);
   cutter.AddArgument(face);
   for (const TopoDS_Shape& other : others) cutter.AddArgument(other);
   cutter.Perform();

@@ -1,5 +1,6 @@
 #include "geometry/midsurface/widths.hpp"
 
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
@@ -17,7 +18,11 @@ double length_of(const TopoDS_Edge& edge) {
 
 double area_of(const TopoDS_Face& face) {
   GProp_GProps properties;
-  BRepGProp::SurfaceProperties(face, properties, 1e-6);
+  // Of B-splines span by span: adaptively it takes seconds, and gives nothing more.
+  if (BRepAdaptor_Surface(face, Standard_False).GetType() >= GeomAbs_BezierSurface)
+    BRepGProp::SurfaceProperties(face, properties);
+  else
+    BRepGProp::SurfaceProperties(face, properties, 1e-6);
   return std::abs(properties.Mass());
 }
 

@@ -32,15 +32,19 @@ int msh_element_type(const ElementNodes& element, int dimension) {
   }
 }
 
-PhysicalNumbers::PhysicalNumbers(const OutputMesh& mesh, bool thicknesses) {
+PhysicalNumbers::PhysicalNumbers(const OutputMesh& mesh, bool several) {
   const int first[] = {mesh.cad_face_count() + largest_number(mesh.edges()), mesh.cad_face_count(), 0};
-  int last = 0;
+  int last = mesh.groups_were_read() ? 0 : first[0] + largest_number(mesh.vertices());
   for (int dimension = 0; dimension < 3; ++dimension)
     for (const NamedGroup& group : mesh.groups(dimension)) last = std::max(last, group.number);
   for (const int dimension : {2, 1, 0}) {
     for (const NamedGroup& group : mesh.groups(dimension)) {
+      if (group.of_solid && !several) {
+        numbers_[dimension].push_back(0);
+        continue;
+      }
       int number = group.number;
-      if (!mesh.groups_were_read()) number = first[dimension] + group.entities.front();
+      if (!mesh.groups_were_read() && !group.of_solid) number = first[dimension] + group.entities.front();
       if (number == 0) number = ++last;
       numbers_[dimension].push_back(number);
       for (const int entity : group.entities) of_entities_[dimension][entity].push_back(number);
@@ -48,7 +52,7 @@ PhysicalNumbers::PhysicalNumbers(const OutputMesh& mesh, bool thicknesses) {
   }
   last = std::max(last, first[0] + largest_number(mesh.vertices()));
   for (const ThicknessGroup& group : mesh.thicknesses()) {
-    if (!thicknesses) break;
+    if (!several) break;
     of_thicknesses_.push_back(++last);
     for (const int face : group.faces) of_entities_[2][face].push_back(last);
   }
@@ -67,7 +71,8 @@ void write_physical_names(const OutputMesh& mesh, const PhysicalNumbers& physica
     for (int dimension = 0; dimension < 3; ++dimension) {
       const std::vector<NamedGroup>& groups = mesh.groups(dimension);
       for (std::size_t i = 0; i < groups.size(); ++i)
-        if (groups[i].has_name) visit(dimension, physical.of_group(dimension, i), groups[i].name);
+        if (groups[i].has_name && physical.of_group(dimension, i) > 0)
+          visit(dimension, physical.of_group(dimension, i), groups[i].name);
     }
     for (std::size_t i = 0; i < physical.of_thicknesses().size(); ++i)
       visit(2, physical.of_thicknesses()[i], mesh.thicknesses()[i].name);

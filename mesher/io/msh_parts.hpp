@@ -14,13 +14,13 @@ int msh_element_type(const ElementNodes& element, int dimension);
 
 /// Numbers of physical groups: those that the mesh was read with. Else a face's is its CAD number; edges
 /// follow after the last face of the model, and vertices after the last edge: several programs take groups of
-/// one number for one group, whatever their dimensions. Thicknesses come last.
+/// one number for one group, whatever their dimensions. The solid's faces come next, thicknesses last.
 class PhysicalNumbers {
  public:
-  /// \param thicknesses whether they are groups too: in version 2.2 an element that is in two groups is
-  /// there twice, which few programs take.
-  PhysicalNumbers(const OutputMesh& mesh, bool thicknesses);
-  /// \param group its place in OutputMesh::groups(dimension).
+  /// \param several whether an element may be in more groups than its entity's own: in version 2.2 it is
+  /// there twice then, which few programs take. If not, thicknesses and the solid's faces are no groups.
+  PhysicalNumbers(const OutputMesh& mesh, bool several);
+  /// 0 where it is no physical group. \param group its place in OutputMesh::groups(dimension).
   int of_group(int dimension, std::size_t group) const { return numbers_[dimension][group]; }
   /// Of each of OutputMesh::thicknesses(), where they are groups.
   const std::vector<int>& of_thicknesses() const { return of_thicknesses_; }

@@ -62,6 +62,8 @@ void OutputMesh::name_groups(int dimension) {
     for (const CadGroup& entity : entities(dimension))
       if (entity.number > 0)
         named.push_back({kind_names[dimension] + std::to_string(entity.number), true, 0, {entity.number}});
+    for (const ShellMesh::Group& group : mesh_.solid_faces)
+      if (group.dimension == dimension) named.push_back({group.name, true, 0, group.entities, true});
     return;
   }
   for (const ShellMesh::Group& group : mesh_.groups) {
@@ -84,7 +86,6 @@ std::vector<int> OutputMesh::members(int dimension, const NamedGroup& group) con
 
 std::vector<std::string> OutputMesh::set_names() const {
   std::vector<std::string> names;
-  if (!groups_were_read()) return names;
   for (const int dimension : {2, 1, 0}) {
     for (const NamedGroup& group : named_[dimension]) {
       const bool is_told = group.entities.size() == 1 &&

@@ -33,6 +33,7 @@ struct NamedGroup {
   bool has_name = true;       ///< else the name is made of the number: PhysicalSurface7
   int number = 0;             ///< in the file that it was read from; 0 = none
   std::vector<int> entities;  ///< CAD numbers, ascending
+  bool of_solid = false;      ///< what of the middle surface belongs to one face of the solid
 };
 
 /// The faces that are shells of one thickness, or of one range of thicknesses, to the digits that the

@@ -134,6 +134,9 @@ struct ShellMesh {
   std::vector<double> thicknesses;
   /// Of the faces whose thickness varies, ascending; `thicknesses` has the mean of such a face.
   std::vector<VaryingThickness> varying_thicknesses;
+  /// Of middle surfaces: the faces that lie on each face of the solid, and the edges, where its rim is one of
+  /// them. Besides the groups of entities, in files that have groups.
+  std::vector<Group> solid_faces;
 };
 
 }  // namespace quadrille

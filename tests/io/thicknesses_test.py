@@ -74,8 +74,8 @@ def read_bdf(path):
     nodes, elements, properties, sets, thickness = {}, {}, {}, {}, {}
     cards, name = [], None
     for line in path.read_text().splitlines():
-        if found := re.match(r"\$ (\S+): elements", line):
-            name = found.group(1)
+        if found := re.match(r"\$ (\S+): (elements|grids)", line):
+            name = found.group(1) if found.group(2) == "elements" else None
         elif name and line.startswith("SET "):
             sets[name] = line.split("=")[1]
         elif name and line[:1] in (" ", ",") or (name and re.match(r"[\d ,THRU]+$", line)):
@@ -146,6 +146,19 @@ class Thicknesses(unittest.TestCase):
         self.assertEqual({name for name, _ in named}, {"Thickness2", "Thickness3"})
         for name, number in named:
             self.check_step(middle(nodes, elements[number]), float(name.removeprefix("Thickness")))
+        self.check_solid_faces({name: [middle(nodes, elements[number]) for number in numbers if number in elements]
+                                for name, numbers in groups.items()},
+                               [middle(nodes, own) for own in elements.values()])
+
+    def check_solid_faces(self, groups, every):
+        """The bottom of the sheet is one face, what is above it two; what stands across between them belongs to none.
+        Both arguments tell the middles of elements."""
+        def rounded(points):
+            return sorted(tuple(round(float(x), 6) for x in point) for point in points)
+        flat = [point for point in every if abs(point[0] - 50) > 1e-6]
+        parts = [flat, [point for point in flat if point[0] < 50], [point for point in flat if point[0] > 50]]
+        found = [rounded(points) for name, points in groups.items() if re.fullmatch(r"SolidFace\d+", name)]
+        self.assertEqual(sorted(found), sorted(map(rounded, parts)) if not self.groups else [])
 
     def test_sections_and_sets_of_abaqus(self):
         for order in ("1", "2"):
@@ -153,6 +166,18 @@ class Thicknesses(unittest.TestCase):
             self.check_groups(sets, elements, nodes)
             self.assertEqual(sections, {"Thickness3": (3, False), "Thickness2": (2, False)})
             self.assertEqual(nodal, {})
+
+    def test_rims_on_faces_of_the_solid(self):
+        inp, = self.mesh("thin_stepped_sheet", ["inp"], "--size", "8", "--order", "2")
+        nodes, on = read_inp(inp)[0], {"x": set(), "y": set()}
+        rims = [body for head, body in blocks(inp.read_text(), "NSET") if re.search(r"NSET=SolidFace\d+Rim$", head)]
+        for body in rims:
+            points = numpy.array([nodes[int(word)] for word in re.split(r"[,\s]+", body) if word])
+            self.assertGreater(len(points), 10)
+            axis = int(numpy.ptp(points[:, 0]) > 1e-6)
+            self.assertLess(numpy.ptp(points[:, axis]), 1e-6)
+            on["xy"[axis]].add(round(float(points[0, axis]), 6))
+        self.assertEqual(on, {"x": {0, 100}, "y": {0, 50}} if not self.groups else {"x": set(), "y": set()})
 
     def test_groups_of_universal_files(self):
         nodes, elements, named = read_unv(*self.mesh("thin_stepped_sheet", ["unv"], "--size", "8"))
@@ -196,7 +221,7 @@ class Thicknesses(unittest.TestCase):
 
     def test_families_of_med(self):
         mesh = meshio.read(*self.mesh("thin_stepped_sheet", ["med"], "--size", "8"))
-        checked = 0
+        checked, groups, every = 0, {}, []
         for block, families in zip(mesh.cells, mesh.cell_data["cell_tags"]):
             if len(block.data[0]) < 4:
                 continue
@@ -204,8 +229,12 @@ class Thicknesses(unittest.TestCase):
                 thickness = [name for name in mesh.cell_tags[family] if name.startswith("Thickness")]
                 self.assertEqual(len(thickness), 1)
                 self.check_step(mesh.points[own[:4]].mean(axis=0), float(thickness[0].removeprefix("Thickness")))
+                every.append(mesh.points[own[:4]].mean(axis=0))
+                for name in mesh.cell_tags[family]:
+                    groups.setdefault(name, []).append(every[-1])
                 checked += 1
         self.assertGreater(checked, 50)
+        self.check_solid_faces(groups, every)
 
     def test_arrays_of_vtk(self):
         for path in self.mesh("thin_stepped_sheet", ["vtu", "vtk"], "--size", "8"):
@@ -217,6 +246,16 @@ class Thicknesses(unittest.TestCase):
                     self.check_step(mesh.points[own[:4]].mean(axis=0), float(numpy.ravel(thickness)[0]))
                     checked += 1
             self.assertGreater(checked, 50, path)
+            groups, every = {}, []
+            for i, block in enumerate(mesh.cells):
+                for k, own in enumerate(block.data):
+                    if len(own) < 4:
+                        continue
+                    every.append(mesh.points[own[:4]].mean(axis=0))
+                    for name, values in mesh.cell_data.items():
+                        if name.startswith("SolidFace") and float(numpy.ravel(values[i][k])[0]) == 1:
+                            groups.setdefault(name, []).append(every[-1])
+            self.check_solid_faces(groups, every)
 
     def test_thickness_that_varies(self):
         """From 4 at x = 0 evenly to 2 at x = 100, measured across the middle, which leans by half of the sides' angle."""

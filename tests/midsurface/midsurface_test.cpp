@@ -2,14 +2,28 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAlgoAPI_Common.hxx>
+#include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepGProp.hxx>
+#include <BRepOffsetAPI_MakeThickSolid.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <Geom_BSplineSurface.hxx>
 #include <IntCurvesFace_ShapeIntersector.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <algorithm>
@@ -370,8 +384,129 @@ TEST(MidSurface, TellsWhatIsFittedAndHowFarItIsOff) {
       EXPECT_EQ(face.off > 0, face.fitted);
       EXPECT_LT(face.off, 2e-3 * face.thickness);
     }
+    // Drawn along a line: of one span that way, and of one beyond either end.
+    for (TopExp_Explorer it(middle_of(model.make()).model.shape().shape, TopAbs_FACE); it.More(); it.Next()) {
+      const auto spline =
+          Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(TopoDS::Face(it.Current())));
+      if (!spline.IsNull()) {
+        EXPECT_LE(std::min(spline->NbUKnots(), spline->NbVKnots()), 4);
+      }
+    }
   }
   EXPECT_EQ(fitted, 1);
+}
+
+/// Sewing keeps solids, the same one at two places too.
+TEST(MidSurface, OfSewnSolids) {
+  const TopoDS_Shape sheet = thin_model("l_section");
+  gp_Trsf aside;
+  aside.SetTranslation(gp_Vec(200, 0, 0));
+  TopoDS_Compound both;
+  const BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, sheet);
+  builder.Add(both, sheet.Moved(TopLoc_Location(aside)));
+  const CadModel model = model_of(both), sewn = model.sewn(1e-3);
+  EXPECT_EQ(sewn.edge_count(), model.edge_count());
+  ExecutionContext context;
+  const MidSurface before = midsurface(model, {}, context), after = midsurface(sewn, {}, context);
+  EXPECT_EQ(after.solids, 2);
+  EXPECT_NEAR(after.volume, before.volume, 1e-6);
+  ASSERT_EQ(after.faces.size(), before.faces.size());
+  for (std::size_t i = 0; i < after.faces.size(); ++i) {
+    EXPECT_EQ(after.faces[i].solid_faces, before.faces[i].solid_faces);
+    EXPECT_NEAR(after.faces[i].area, before.faces[i].area, 1e-6);
+  }
+}
+
+/// A tray with rounded edges, all of whose faces are B-splines: its bends are fitted, and edges of walls that
+/// should be shared may lie beside each other. Either they are, or that is told.
+TEST(MidSurface, NeverTakesEdgesBesideEachOtherForShared) {
+  const TopoDS_Shape block = BRepPrimAPI_MakeBox(100, 60, 30).Shape();
+  BRepFilletAPI_MakeFillet fillet(block);
+  for (TopExp_Explorer it(block, TopAbs_EDGE); it.More(); it.Next()) {
+    const BRepAdaptor_Curve curve(TopoDS::Edge(it.Current()));
+    const double low =
+        std::min(curve.Value(curve.FirstParameter()).Z(), curve.Value(curve.LastParameter()).Z());
+    if (low < 29) fillet.Add(6, TopoDS::Edge(it.Current()));
+  }
+  TopTools_ListOfShape open;
+  for (TopExp_Explorer it(fillet.Shape(), TopAbs_FACE); it.More(); it.Next()) {
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(it.Current(), properties);
+    if (properties.CentreOfMass().Z() > 29.9) open.Append(it.Current());
+  }
+  ASSERT_EQ(open.Extent(), 1);
+  BRepOffsetAPI_MakeThickSolid tray;
+  tray.MakeThickSolidByJoin(fillet.Shape(), open, -2, 1e-3);
+  const TopoDS_Shape splines = BRepBuilderAPI_NurbsConvert(tray.Shape(), Standard_True).Shape();
+  try {
+    const MidSurface middle = middle_of(splines);
+    EXPECT_EQ(free_loops(middle.model), 1);
+    EXPECT_NEAR(middle.shell_volume / middle.volume, 1, 0.01);
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("end inside the material"), std::string::npos) << error.what();
+  }
+}
+
+/// Of a shell between spheres, cut by a plane, wherever the spheres' seams and poles are.
+TEST(MidSurface, OfSphericalCaps) {
+  const double outer = 30, inner = 28, height = 12, middle_radius = 29;
+  for (const gp_Dir& up :
+       {gp_Dir(1, 0, 0), gp_Dir(-1, 0, 0), gp_Dir(0, 0, 1), gp_Dir(1, 1, 1), gp_Dir(1, 0.1, 0.4)}) {
+    const gp_Ax2 seam(gp_Pnt(0, 0, 0), gp::DZ());
+    const TopoDS_Shape shell = BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(seam, outer).Shape(),
+                                               BRepPrimAPI_MakeSphere(seam, inner).Shape())
+                                   .Shape();
+    const gp_Ax2 above(gp_Pnt(height * gp_Vec(up).XYZ()), up);
+    const TopoDS_Shape tool = BRepPrimAPI_MakeCylinder(above, 50, 50).Shape();
+    SCOPED_TRACE(up.X() + 10 * up.Y() + 100 * up.Z());
+    const MidSurface middle = middle_of(BRepAlgoAPI_Common(shell, tool).Shape(), true);
+    EXPECT_TRUE(middle.problems.empty());
+    EXPECT_EQ(middle.faces.size(), 1U);
+    EXPECT_NEAR(area_of(middle), 2 * M_PI * middle_radius * (middle_radius - height), 1e-3);
+  }
+}
+
+/// Whether a wall is thin is asked of each of its pieces: together, many short ones would seem narrow.
+TEST(MidSurface, OfACorrugatedSheet) {
+  constexpr int waves = 8;
+  constexpr double wide = 30, high = 15, thick = 3;
+  std::vector<Corner2d> below, above;
+  for (int i = 0; i < 2 * waves; ++i) {
+    const double base = i % 2 == 0 ? 0 : high, x = i * wide;
+    below.push_back({x, base});
+    below.push_back({x + wide, base});
+    above.push_back({x, base + thick});
+    above.push_back({x + wide, base + thick});
+  }
+  // The risers of the upper side stand beside those of the lower one, by the thickness.
+  for (int i = 0; i + 1 < 2 * waves; ++i) {
+    const bool rises = i % 2 == 0;
+    above[2 * i + 1].x += rises ? -thick : 0;
+    above[2 * i + 2].x += rises ? -thick : 0;
+    below[2 * i + 1].x += rises ? 0 : -thick;
+    below[2 * i + 2].x += rises ? 0 : -thick;
+  }
+  below.insert(below.end(), above.rbegin(), above.rend());
+  const MidSurface middle = middle_of(profile({below}, 20));
+  EXPECT_TRUE(middle.problems.empty());
+  EXPECT_EQ(middle.faces.size(), 4U * waves - 1);
+}
+
+TEST(MidSurface, NamesTheFreeFormWallsThatItCannotJoin) {
+  try {
+    middle_of(blended_housing());
+    FAIL() << "its bends are of free form, and go on into each other";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("12 free-form walls go on into each other"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find(": Face1, "), std::string::npos) << error.what();
+  }
+  const MidSurface middle = middle_of(blended_housing(), true);
+  EXPECT_EQ(middle.faces.size(), 5U);  // the flat sides and the lid
+  ASSERT_FALSE(middle.problems.empty());
+  EXPECT_NE(middle.problems[0].find("free-form walls"), std::string::npos);
 }
 
 TEST(MidSurface, NeedsASolid) {

@@ -275,6 +275,23 @@ TopoDS_Shape rounded_housing_with_ribs() {
                BRepAlgoAPI_Common(box(0.3, 29.4, 16, 99.4, 1.2, 13), outside).Shape(), boss});
 }
 
+/// A solid from one rectangle with round corners to another above it, all of B-splines.
+TopoDS_Shape lofted_box(const Outline& low, const Outline& high, double height) {
+  BRepOffsetAPI_ThruSections loft(Standard_True, Standard_False);
+  gp_Trsf lift;
+  lift.SetTranslation(gp_Vec(0, 0, height));
+  loft.AddWire(rounded(low));
+  loft.AddWire(TopoDS::Wire(BRepBuilderAPI_Transform(rounded(high), lift).Shape()));
+  loft.Build();
+  return loft.Shape();
+}
+
+/// A housing of 2 mm with draft, made of lofts: its flat sides are B-splines too.
+TopoDS_Shape lofted_housing() {
+  return cut(lofted_box(rectangle(0, 0, 100, 60, 8), rectangle(1, 1, 98, 58, 7.5), 30),
+             {lofted_box(rectangle(2, 2, 96, 56, 6), rectangle(3, 3, 94, 54, 5.5), 28)});
+}
+
 /// A cylinder with half-spheres as heads.
 TopoDS_Shape tank() {
   const auto capsule = [](double radius) {
@@ -388,6 +405,7 @@ std::vector<CantileverModel> cantilevers() {
                     {60, 40}, {30 - t, 40, R}, {30 - t, t, r},  {0, t}};
   return {{"i_beam_with_fillets", {i_outline(60, 100, 4, 6, 5)}, 600},
           {"h_beam", {i_outline(100, 100, 5, 7, 0)}, 600},
+          {"ipe_200", {i_outline(100, 200, 5.6, 8.5, 12)}, 800},
           {"t_beam_with_fillets",
            {{{0, 0}, {60, 0}, {60, 4}, {32, 4, 4}, {32, 60}, {28, 60}, {28, 4, 4}, {0, 4}}},
            500},
@@ -410,6 +428,22 @@ TopoDS_Shape ribbed_plate(int ribs) {
     parts.push_back(box(0, x - 1, 0, 200, 2, 25));
   }
   return fuse(parts);
+}
+
+/// The same with fillets of 1 mm, where the ribs stand on the plate and where they cross.
+TopoDS_Shape ribbed_plate_with_fillets() {
+  const TopoDS_Shape sharp = ribbed_plate(2);
+  BRepFilletAPI_MakeFillet fillet(sharp);
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(sharp, TopAbs_EDGE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const BRepAdaptor_Curve curve(TopoDS::Edge(edges(i)));
+    const gp_Pnt at = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+    const bool inside = at.X() > 1 && at.X() < 199 && at.Y() > 1 && at.Y() < 199;
+    const bool upright = std::abs(at.Z() - 14) < 1e-6;
+    if (inside && (upright || std::abs(at.Z() - 3) < 1e-6)) fillet.Add(1, TopoDS::Edge(edges(i)));
+  }
+  return fillet.Shape();
 }
 
 TopoDS_Shape thick_block() {
@@ -544,6 +578,23 @@ const std::vector<JoinedModel>& joined_models() {
   return models;
 }
 
+TopoDS_Shape blended_housing() {
+  const auto rounded_lid = [](const TopoDS_Shape& loft, double radius) {
+    BRepFilletAPI_MakeFillet fillet(loft);
+    TopTools_IndexedMapOfShape edges;
+    TopExp::MapShapes(loft, TopAbs_EDGE, edges);
+    for (int i = 1; i <= edges.Extent(); ++i) {
+      const BRepAdaptor_Curve curve(TopoDS::Edge(edges(i)));
+      const double low = curve.Value(curve.FirstParameter()).Z(),
+                   high = curve.Value(curve.LastParameter()).Z();
+      if (std::min(low, high) > 20) fillet.Add(radius, TopoDS::Edge(edges(i)));
+    }
+    return fillet.Shape();
+  };
+  return cut(rounded_lid(lofted_box(rectangle(0, 0, 100, 60, 8), rectangle(1, 1, 98, 58, 7.5), 30), 4),
+             {rounded_lid(lofted_box(rectangle(2, 2, 96, 56, 6), rectangle(3, 3, 94, 54, 5.5), 28), 2)});
+}
+
 TopoDS_Shape plate_on_block() {
   return fuse({box(0, 0, 0, 40, 40, 40), box(18, 0, 40, 3, 40, 60)});
 }
@@ -584,10 +635,16 @@ const std::vector<ThinModel>& thin_models() {
       {"t_beam", [] { return t_beam(0); }, 200 * (60 + 58), {4}, 0.03, 1},
       {"t_beam_with_fillets", [] { return t_beam(4); }, 200 * (60 + 58), {4}, 0.03, 1},
       {"box_beam", [] { return box_beam(0, 0); }, 200 * 2 * (57 + 76), {3, 4}, 0.01, 2},
-      {"box_beam_with_fillets", [] { return box_beam(0, 4); }, 200 * 2 * (57 + 76), {3, 4}, 0.03, 2},
+      {"box_beam_with_fillets",
+       [] { return box_beam(0, 4); },
+       200 * 2 * (57 + 76),
+       {3, 3.29, 4, 4.31},
+       1e-6,
+       2},
       {"sharp_l", sharp_l, 100 * (39 + 58.5), {2, 3}, 0.01, 1},
       {"folded_sheet", folded_sheet, 80 * (50 + 50), {2}, 0.01, 1},
       {"ribbed_plate", [] { return ribbed_plate(2); }, 200 * 200 + 4 * 200 * 23.5, {2, 3}, 0.02, 1},
+      {"ribbed_plate_with_fillets", ribbed_plate_with_fillets, 200 * 200 + 4 * 200 * 23.5, {2, 3}, 0.02, 1},
       {"short_rib", short_rib, 100 * 60 + 50 * 18.5, {2, 3}, 0.02, 2},
       {"stepped_sheet", stepped_sheet, 100 * 50 + 0.5 * 50, {2, 3}, 0.01, 1},
       {"leaning_step", leaning_step, 100 * 50 + 0.5 * 50, {2, 3}, 0.01, 1},
@@ -598,6 +655,7 @@ const std::vector<ThinModel>& thin_models() {
       {"housing", housing, 0, {1.3, 1.4, 1.7, 2}, 0.02, 4},
       {"rounded_housing", rounded_housing, 0, {2}, 0.01, 1},
       {"rounded_housing_with_ribs", rounded_housing_with_ribs, 0, {1.2, 1.5, 2}, 0.02, 4},
+      {"lofted_housing", lofted_housing, 0, {2}, 0.01, 1},
       {"tank", tank, 80 * 2 * M_PI * 30 + 4 * M_PI * 900, {2}, 0.01, 0},
       {"nozzle", nozzle, 0, {2, 3}, 0.03, 3},
       {"joggle", joggle, 60 * (80 + 20 * M_SQRT2 - 4 * 4 * std::tan(M_PI / 8) + M_PI * 2), {2}, 0.01, 1},

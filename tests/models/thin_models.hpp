@@ -39,6 +39,9 @@ TopoDS_Shape thick_block();
 /// A plate that stands on a block: thin in places only.
 TopoDS_Shape plate_on_block();
 
+/// A housing made of lofts whose lid is rounded: twelve walls of free form that go on into each other.
+TopoDS_Shape blended_housing();
+
 /// Three box profiles that touch, a solid each: two columns of 40 x 40 x 3, 200 mm high, and between them,
 /// 160 mm long, a beam of 30 x 30 x 2. \param gap between the beam and either column, by which the beam is
 /// shorter. \param wide of the beam; 40: its sides are flush with those of the columns.

@@ -1,0 +1,141 @@
+/// The material of fillets, which lies beside the middle surfaces' corners, as thickness of strips along
+/// them.
+
+#include <BOPAlgo_Builder.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_MapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "geometry/midsurface/joining.hpp"
+#include "geometry/midsurface/widths.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// What the fillet that the borders belong to adds to the corner between its walls: the sum of what it would
+/// be between the first border and each other one, as an arc.
+double volume_of(const Skin& skin, const std::vector<FilletBorder>& borders) {
+  double turn = 0, length = 0;
+  for (const FilletBorder& border : borders) {
+    turn = std::max(turn, border.outward.Angle(borders.front().outward));
+    length += border.length / static_cast<double>(borders.size());
+  }
+  constexpr double least = 0.1, most = 3;  // radians; beyond it is no corner
+  if (turn < least || turn > most) return 0;
+  const double width = skin.faces()[borders.front().fillet].area() / length, radius = width / turn;
+  return radius * radius * (std::tan(0.5 * turn) - 0.5 * turn) * length;
+}
+
+using Fillets = std::map<int, std::vector<FilletBorder>>;
+
+Fillets fillets_of(const Skin& skin, const std::vector<Wall>& walls) {
+  Fillets result;
+  for (const FilletBorder& border : find_fillet_borders(skin, walls)) result[border.fillet].push_back(border);
+  return result;
+}
+
+double shell_volume(const std::vector<JoinedFace>& faces) {
+  double volume = 0;
+  for (const JoinedFace& face : faces) volume += face.step ? 0 : area_of(face.face) * face.coverage.mean;
+  return volume;
+}
+
+/// The faces, cut where the fillets begin. \param strips for each whether it lies along a corner, where its
+/// wall has no side.
+std::vector<JoinedFace> cut_faces(const BOPAlgo_Builder& fuse, const Skin& skin,
+                                  const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
+                                  std::vector<char>& strips) {
+  constexpr double least_share = 0.25;
+  std::vector<JoinedFace> result;
+  for (const JoinedFace& whole : faces) {
+    const TopTools_ListOfShape pieces = images(fuse, whole.face);
+    for (const TopoDS_Shape& piece : pieces) {
+      JoinedFace part = whole;
+      part.face = TopoDS::Face(piece);
+      bool strip = false;
+      if (pieces.Extent() > 1 && !whole.step) {
+        triangulate(part.face, 0.2 * walls[whole.wall].thickness);
+        const Coverage coverage = coverage_of(part.face, walls[whole.wall], skin);
+        strip = coverage.share < least_share;
+        if (!strip) part.coverage = coverage;
+      }
+      result.push_back(part);
+      strips.push_back(strip ? 1 : 0);
+    }
+  }
+  return result;
+}
+
+bool touches(const TopoDS_Face& face, const TopTools_MapOfShape& edges) {
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    if (edges.Contains(it.Current())) return true;
+  }
+  return false;
+}
+
+/// The strips of the border's wall, by index, that end at it.
+std::vector<std::size_t> strips_at(const BOPAlgo_Builder& fuse, const FilletBorder& border,
+                                   const std::vector<JoinedFace>& faces, const std::vector<char>& strips) {
+  TopTools_MapOfShape edges;
+  for (const TopoDS_Shape& image : images(fuse, border.fence)) {
+    for (TopExp_Explorer it(image, TopAbs_EDGE); it.More(); it.Next()) edges.Add(it.Current());
+  }
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (strips[i] != 0 && faces[i].wall == border.wall && touches(faces[i].face, edges)) result.push_back(i);
+  }
+  return result;
+}
+
+/// Makes the strips thicker by a volume.
+void thicken(const std::vector<std::size_t>& strips, double volume, int fillet,
+             std::vector<JoinedFace>& faces) {
+  double area = 0;
+  for (const std::size_t i : strips) area += area_of(faces[i].face);
+  for (const std::size_t i : strips) {
+    Coverage& coverage = faces[i].coverage;
+    coverage.mean += volume / area;
+    coverage.thinnest = coverage.thickest = coverage.mean;
+    coverage.faces.insert(fillet);
+  }
+}
+
+}  // namespace
+
+void add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
+                 std::vector<JoinedFace>& faces) {
+  constexpr double worth_it = 0.01;
+  const double missing = volume - shell_volume(faces);
+  if (missing < worth_it * volume) return;
+  const Fillets fillets = fillets_of(skin, walls);
+  double held = 0;
+  for (const auto& [fillet, borders] : fillets) held += volume_of(skin, borders);
+  if (held < 0.5 * worth_it * volume) return;
+  BOPAlgo_Builder fuse;
+  fuse.SetNonDestructive(Standard_True);
+  fuse.SetUseOBB(Standard_True);
+  for (const JoinedFace& face : faces) fuse.AddArgument(face.face);
+  for (const auto& [fillet, borders] : fillets) {
+    for (const FilletBorder& border : borders) fuse.AddArgument(border.fence);
+  }
+  fuse.Perform();
+  if (fuse.HasErrors()) return;  // as it is where fillets are small
+  std::vector<char> strips;
+  std::vector<JoinedFace> cut = cut_faces(fuse, skin, walls, faces, strips);
+  const double share = std::min(1.0, missing / held);
+  for (const auto& [fillet, borders] : fillets) {
+    const double each = share * volume_of(skin, borders) / static_cast<double>(borders.size());
+    for (const FilletBorder& border : borders)
+      thicken(strips_at(fuse, border, cut, strips), each, fillet, cut);
+  }
+  drop_traces(cut);
+  orient_alike(cut);
+  faces = std::move(cut);
+}
+
+}  // namespace quadrille

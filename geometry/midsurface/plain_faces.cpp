@@ -1,0 +1,66 @@
+#include "geometry/midsurface/plain_faces.hpp"
+
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepBndLib.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GeomLib_IsPlanarSurface.hxx>
+#include <Geom_Plane.hxx>
+#include <Precision.hxx>
+#include <TopExp.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Iterator.hxx>
+#include <algorithm>
+#include <cmath>
+#include <gp_Pln.hxx>
+#include <vector>
+
+#include "geometry/cad/face_exchange.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// Whether the plane's normal is on the side of the surface's, at the middle of the face.
+bool same_side(const BRepAdaptor_Surface& surface, const gp_Pln& plane) {
+  const double u = 0.5 * (surface.FirstUParameter() + surface.LastUParameter());
+  const double v = 0.5 * (surface.FirstVParameter() + surface.LastVParameter());
+  gp_Pnt at;
+  gp_Vec du, dv;
+  surface.D1(u, v, at, du, dv);
+  return du.Crossed(dv).Dot(gp_Vec(plane.Axis().Direction())) > 0;
+}
+
+/// The face on the plane that its surface is; itself where that is none.
+TopoDS_Face plain_face(const TopoDS_Face& face, double near) {
+  const BRepAdaptor_Surface surface(face);
+  if (surface.GetType() == GeomAbs_Plane) return face;
+  const GeomLib_IsPlanarSurface flat(BRep_Tool::Surface(face), near);
+  if (!flat.IsPlanar()) return face;
+  const BRep_Builder builder;
+  TopoDS_Face result;
+  gp_Pln plane = flat.Plan();
+  if (!same_side(surface, plane)) plane.SetAxis(plane.Axis().Reversed());
+  builder.MakeFace(result, new Geom_Plane(plane), BRep_Tool::Tolerance(face));
+  for (TopoDS_Iterator wire(face.Oriented(TopAbs_FORWARD)); wire.More(); wire.Next())
+    builder.Add(result, wire.Value());
+  return BRepCheck_Analyzer(result).IsValid() ? TopoDS::Face(result.Oriented(face.Orientation())) : face;
+}
+
+}  // namespace
+
+TopoDS_Shape with_plain_faces(const TopoDS_Shape& shape) {
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, Standard_False);
+  const double near = std::max(1e-7 * std::sqrt(box.SquareExtent()), Precision::Confusion());
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  std::vector<TopoDS_Shape> plain;
+  for (int i = 1; i <= faces.Extent(); ++i) plain.push_back(plain_face(TopoDS::Face(faces(i)), near));
+  return with_faces(shape, faces, plain);
+}
+
+}  // namespace quadrille
