@@ -90,7 +90,7 @@ struct SizingOptions {
   double proximity = 0;               ///< elements across a gap inside a face; 0 = any number
   double proximity_walls = 0;         ///< elements through the thickness of a wall; 0 = any number
   double growth = 0.3;                ///< gradation: largest |grad size|
-  Gradation gradation = Gradation::space;  ///< which way sizes grow
+  Gradation gradation = Gradation::surface;  ///< which way sizes grow
   std::map<int, double> face_sizes;        ///< CAD face -> size on it
   std::map<int, double> edge_sizes;        ///< CAD edge -> size on it
   std::map<int, double> vertex_sizes;      ///< CAD vertex -> size at it
