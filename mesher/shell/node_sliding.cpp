@@ -435,7 +435,9 @@ class NodeSliding {
     face.mended = false;
     if (face.mesh->grid || std::none_of(face.objective.begin(), face.objective.end(), outside)) return;
     FaceMesh& mesh = *face.mesh;
-    SurfaceMesh work = surface_mesh(mesh);
+    // Flipped faces are to have the same quads, in the other direction.
+    const bool reversed = face.cad_face->reversed;
+    SurfaceMesh work = surface_mesh(mesh, reversed);
     std::vector<char> changed;
     try {
       if (mend_quads(work, MovedOnFace(face), outside_objective, changed, context_) == 0) return;
@@ -445,22 +447,29 @@ class NodeSliding {
     face.mended = face.touched = true;
     mesh.points = std::move(work.mesh.points);
     mesh.quads = std::move(work.mesh.quads);
+    if (reversed) turn_over(mesh.quads);
     mesh.uv = std::move(work.parameters);
     mesh.pole.resize(mesh.points.size(), 0);
     prepare(face);
     for (std::size_t i = 0; i < changed.size(); ++i) face.active[i] &= changed[i];
   }
 
-  static SurfaceMesh surface_mesh(const FaceMesh& mesh) {
+  static void turn_over(std::vector<std::array<int, 4>>& quads) {
+    for (auto& quad : quads) std::swap(quad[1], quad[3]);
+  }
+
+  /// \param reversed its quads run the other way round
+  static SurfaceMesh surface_mesh(const FaceMesh& mesh, bool reversed) {
     SurfaceMesh result;
     result.mesh.points = mesh.points;
     result.mesh.quads = mesh.quads;
+    if (reversed) turn_over(result.mesh.quads);
     result.parameters = mesh.uv;
     result.fixed.assign(mesh.points.size(), 0);
     std::fill_n(result.fixed.begin(), mesh.nodes.size(), 1);
     result.normals.assign(mesh.points.size(), Vector3::Zero());
     const auto& p = mesh.points;
-    for (const auto& quad : mesh.quads) {
+    for (const auto& quad : result.mesh.quads) {
       const auto& [a, b, c, d] = quad;
       const Vector3 normal = (p[c] - p[a]).cross(p[d] - p[b]).normalized();
       for (const int node : quad) result.normals[node] += normal;

@@ -78,6 +78,7 @@ TEST(SizingField, GrowsFromASourceAsBruteForceSays) {
   SizingOptions options;
   options.size = model.diagonal() / 8;
   options.elements_per_circle = 0;
+  options.gradation = Gradation::space;
   for (const double growth : {0.1, 0.3, 0.6}) {
     SCOPED_TRACE(growth);
     options.growth = growth;
