@@ -100,10 +100,10 @@ class AdaptTest(unittest.TestCase):
             last = adaption.adapt(mesh, error=0.03)
             self.assertEqual(mesh.Status, state.UP_TO_DATE)
         self.assertLess(last.error, 0.036)
-        # Small at the corner alone.
+        # Small at the corner, where 3 % of the plate lies, and at the ends of the support.
         nodes = mesh.FemMesh.Nodes
         near = sum((point - Vector(20, 20, 0)).Length < 4 for point in nodes.values())
-        self.assertGreater(near, len(nodes) / 8)
+        self.assertGreater(near, len(nodes) / 12)
 
     def test_bending_counts(self):
         """A cantilever: without its bending there would be no error at all."""
