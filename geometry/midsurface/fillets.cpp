@@ -17,9 +17,8 @@ namespace quadrille {
 
 namespace {
 
-/// What the fillet that the borders belong to adds to the corner between its walls: the sum of what it would
-/// be between the first border and each other one, as an arc.
-double volume_of(const Skin& skin, const std::vector<FilletBorder>& borders) {
+/// What a fillet adds to the corner between its walls, as an arc between its borders.
+double volume_of(const SkinFace& fillet, const std::vector<FilletBorder>& borders) {
   double turn = 0, length = 0;
   for (const FilletBorder& border : borders) {
     turn = std::max(turn, border.outward.Angle(borders.front().outward));
@@ -27,16 +26,8 @@ double volume_of(const Skin& skin, const std::vector<FilletBorder>& borders) {
   }
   constexpr double least = 0.1, most = 3;  // radians; beyond it is no corner
   if (turn < least || turn > most) return 0;
-  const double width = skin.faces()[borders.front().fillet].area() / length, radius = width / turn;
+  const double width = fillet.area() / length, radius = width / turn;
   return radius * radius * (std::tan(0.5 * turn) - 0.5 * turn) * length;
-}
-
-using Fillets = std::map<int, std::vector<FilletBorder>>;
-
-Fillets fillets_of(const Skin& skin, const std::vector<Wall>& walls) {
-  Fillets result;
-  for (const FilletBorder& border : find_fillet_borders(skin, walls)) result[border.fillet].push_back(border);
-  return result;
 }
 
 double shell_volume(const std::vector<JoinedFace>& faces) {
@@ -112,9 +103,9 @@ void add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume
   constexpr double worth_it = 0.01;
   const double missing = volume - shell_volume(faces);
   if (missing < worth_it * volume) return;
-  const Fillets fillets = fillets_of(skin, walls);
+  const std::map<int, std::vector<FilletBorder>> fillets = find_fillet_borders(skin, walls);
   double held = 0;
-  for (const auto& [fillet, borders] : fillets) held += volume_of(skin, borders);
+  for (const auto& [fillet, borders] : fillets) held += volume_of(skin.faces()[fillet], borders);
   if (held < 0.5 * worth_it * volume) return;
   BOPAlgo_Builder fuse;
   fuse.SetNonDestructive(Standard_True);
@@ -129,7 +120,8 @@ void add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume
   std::vector<JoinedFace> cut = cut_faces(fuse, skin, walls, faces, strips);
   const double share = std::min(1.0, missing / held);
   for (const auto& [fillet, borders] : fillets) {
-    const double each = share * volume_of(skin, borders) / static_cast<double>(borders.size());
+    const double each =
+        share * volume_of(skin.faces()[fillet], borders) / static_cast<double>(borders.size());
     for (const FilletBorder& border : borders)
       thicken(strips_at(fuse, border, cut, strips), each, fillet, cut);
   }

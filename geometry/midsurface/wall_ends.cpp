@@ -582,14 +582,15 @@ class WallEnds {
   std::vector<int> sides_;  ///< see push()
 };
 
-/// The wall that a face is a side of; -1 = none.
-int wall_of(const std::vector<Wall>& walls, int face) {
-  for (std::size_t wall = 0; wall < walls.size(); ++wall) {
+/// (faces of the skin) the wall that each is a side of; -1 = none.
+std::vector<int> walls_of_faces(const Skin& skin, const std::vector<Wall>& walls) {
+  std::vector<int> result(skin.faces().size(), -1);
+  for (std::size_t wall = walls.size(); wall-- > 0;) {
     for (const auto& side : walls[wall].sides) {
-      if (std::find(side.begin(), side.end(), face) != side.end()) return static_cast<int>(wall);
+      for (const int face : side) result[face] = static_cast<int>(wall);
     }
   }
-  return -1;
+  return result;
 }
 
 /// Whether the face beside goes on tangent to the edge's own, and bends away from the material.
@@ -605,12 +606,14 @@ bool is_hollow_fillet(const FaceEdge& edge, const SkinFace& face, const SkinFace
 
 }  // namespace
 
-std::vector<FilletBorder> find_fillet_borders(const Skin& skin, const std::vector<Wall>& walls) {
-  std::map<int, std::vector<FilletBorder>> of_fillets;
+std::map<int, std::vector<FilletBorder>> find_fillet_borders(const Skin& skin,
+                                                             const std::vector<Wall>& walls) {
+  std::map<int, std::vector<FilletBorder>> result;
+  const std::vector<int> wall_of = walls_of_faces(skin, walls);
   TopTools_IndexedDataMapOfShapeListOfShape neighbors;
   TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, neighbors);
   for (std::size_t index = 0; index < skin.faces().size(); ++index) {
-    const int wall = wall_of(walls, static_cast<int>(index));
+    const int wall = wall_of[index];
     const SkinFace& face = skin.faces()[index];
     for (TopExp_Explorer it(face.face(), TopAbs_EDGE); wall >= 0 && it.More(); it.Next()) {
       const TopoDS_Edge& border = TopoDS::Edge(it.Current());
@@ -618,22 +621,20 @@ std::vector<FilletBorder> find_fillet_borders(const Skin& skin, const std::vecto
         const int fillet = skin.index_of(TopoDS::Face(next));
         const SkinFace& beside = skin.faces()[fillet];
         const FaceEdge edge(face, beside, border);
-        if (wall_of(walls, fillet) >= 0 || BRep_Tool::Degenerated(border) ||
-            !is_hollow_fillet(edge, face, beside))
+        if (wall_of[fillet] >= 0 || BRep_Tool::Degenerated(border) || !is_hollow_fillet(edge, face, beside))
           continue;
         const double t = walls[wall].thickness;
         const TopoDS_Face fence = face_between(moved(edge, 0.3 * t, 0), moved(edge, 0.7 * t, 0));
         const gp_Dir outward = edge.outward(0.5 * (edge.first() + edge.last()));
-        of_fillets[fillet].push_back({wall, fillet, fence, outward, length_of(border)});
+        result[fillet].push_back({wall, fence, outward, length_of(border)});
       }
     }
   }
-  std::vector<FilletBorder> result;
-  for (const auto& [fillet, borders] : of_fillets) {
-    const auto same = [&](const FilletBorder& border) { return border.wall == borders.front().wall; };
-    if (!std::all_of(borders.begin(), borders.end(), same))
-      result.insert(result.end(), borders.begin(), borders.end());
-  }
+  std::erase_if(result, [](const auto& fillet) {
+    const std::vector<FilletBorder>& borders = fillet.second;
+    return std::all_of(borders.begin(), borders.end(),
+                       [&](const FilletBorder& border) { return border.wall == borders.front().wall; });
+  });
   return result;
 }
 

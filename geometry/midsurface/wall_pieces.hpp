@@ -3,6 +3,7 @@
 
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS_Face.hxx>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -39,15 +40,15 @@ std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& wa
 
 /// Where a fillet begins on a wall's side: a small face across the wall there.
 struct FilletBorder {
-  int wall = 0;    ///< index of the wall
-  int fillet = 0;  ///< index into Skin::faces()
+  int wall = 0;  ///< index of the wall
   TopoDS_Face fence;
   gp_Dir outward;     ///< of the wall and the fillet, half way along the border
   double length = 0;  ///< of the border
 };
 
-/// The borders of all fillets in corners between walls, two or more each.
-std::vector<FilletBorder> find_fillet_borders(const Skin& skin, const std::vector<Wall>& walls);
+/// By index into Skin::faces(): the borders of each fillet in a corner between walls, two or more.
+std::map<int, std::vector<FilletBorder>> find_fillet_borders(const Skin& skin,
+                                                             const std::vector<Wall>& walls);
 
 /// What lies of a wall's middle surface in the material, cut at the skin and at the wall's ends. It runs on
 /// where the wall runs into others, as far as the material goes. Pieces that do not lie between the sides

@@ -10,6 +10,7 @@
 #include <queue>
 
 #include "geometry/sizing/sizing_field.hpp"
+#include "geometry/sizing/vdb_module.hpp"
 
 namespace quadrille {
 
@@ -37,10 +38,9 @@ Coord corner_of(const Coord& base, int k) {
   return base.offsetBy(k & 1, k >> 1 & 1, k >> 2);
 }
 
-/// What the k-th corner of a voxel counts at a place in it.
-double weight_of(const Vector3& index, const Coord& base, int k) {
-  const Vector3 t(index.x() - base.x(), index.y() - base.y(), index.z() - base.z());
-  return ((k & 1) ? t.x() : 1 - t.x()) * ((k >> 1 & 1) ? t.y() : 1 - t.y()) * ((k >> 2) ? t.z() : 1 - t.z());
+/// Where in its voxel a place is.
+Vector3 place_in(const Vector3& index, const Coord& base) {
+  return index - Vector3(base.x(), base.y(), base.z());
 }
 
 }  // namespace
@@ -119,8 +119,9 @@ void SizeCascade::add_means(const std::vector<SizePoint>& points, BlockCount& bl
       if (at.size > coverage * frame_.size(level)) continue;
       const Vector3 index = at.point / frame_.voxel(level);
       const Coord base = floor_of(index);
+      const Vector3 within = place_in(index, base);
       for (int k = 0; k < 8; ++k) {
-        const double weight = weight_of(index, base, k);
+        const double weight = corner_weight(within, k);
         if (weight > 0) shares.push_back({level, corner_of(base, k), weight, std::log(at.size)});
       }
     }
@@ -221,12 +222,13 @@ double SizeCascade::Lookup::operator()(const Vector3& point) {
   for (auto& [scale, limit, coarsest, accessor] : levels_) {
     const Vector3 index = point * scale;
     const Coord base = floor_of(index);
+    const Vector3 within = place_in(index, base);
     double value = 0;
     int active = 0;
     for (int k = 0; k < 8; ++k) {
       float corner = 0;
       active += accessor.probe(corner_of(base, k), corner);
-      value += weight_of(index, base, k) * corner;
+      value += corner_weight(within, k) * corner;
     }
     if (coarsest || (active == 8 && value <= limit)) return std::min(value, size_max_);
   }

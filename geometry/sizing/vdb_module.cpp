@@ -40,16 +40,14 @@ struct ExternalField {
   double between(const Vector3& p) const {
     for (const auto& [grid, unit, limit] : grids) {
       Coord base;
-      openvdb::Vec3d t;
-      if (!enter(*grid, p, base, t)) continue;
+      Vector3 within;
+      if (!enter(*grid, p, base, within)) continue;
       double size = 0;
       int active = 0;
       for (int k = 0; k < 8; ++k) {
-        const double weight =
-            ((k & 1) ? t[0] : 1 - t[0]) * ((k >> 1 & 1) ? t[1] : 1 - t[1]) * ((k >> 2) ? t[2] : 1 - t[2]);
         float value = 0;
         active += grid->tree().probeValue(base.offsetBy(k & 1, k >> 1 & 1, k >> 2), value);
-        size += weight * value;
+        size += corner_weight(within, k) * value;
       }
       const bool coarsest = &grid == &grids.back().grid;
       if (active > 0 && (coarsest || (active == 8 && size <= limit))) return unit * size;
@@ -62,8 +60,8 @@ struct ExternalField {
     double result = std::numeric_limits<double>::infinity();
     for (const auto& [grid, unit, limit] : grids) {
       Coord base;
-      openvdb::Vec3d t;
-      if (!enter(*grid, p, base, t)) continue;
+      Vector3 within;
+      if (!enter(*grid, p, base, within)) continue;
       for (int k = 0; k < 8; ++k) {
         float value = 0;
         if (grid->tree().probeValue(base.offsetBy(k & 1, k >> 1 & 1, k >> 2), value))
@@ -75,14 +73,14 @@ struct ExternalField {
 
   /// The voxel that a point is in, and where in it; false where voxels have no numbers, to where damaged
   /// transforms lead.
-  static bool enter(const FloatGrid& grid, const Vector3& p, Coord& base, openvdb::Vec3d& within) {
+  static bool enter(const FloatGrid& grid, const Vector3& p, Coord& base, Vector3& within) {
     const openvdb::Vec3d index = grid.worldToIndex(openvdb::Vec3d(p.x(), p.y(), p.z()));
     constexpr double farthest = 1e9;
     for (int i = 0; i < 3; ++i) {
       if (!(std::abs(index[i]) < farthest)) return false;
     }
     base = Coord::floor(index);
-    within = index - base.asVec3d();
+    within = Vector3(index[0], index[1], index[2]) - Vector3(base.x(), base.y(), base.z());
     return true;
   }
 

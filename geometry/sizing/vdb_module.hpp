@@ -11,6 +11,12 @@
 
 namespace quadrille {
 
+/// What the k-th corner of a voxel counts at a place in it, by the bits of k; coordinates 0 to 1 within.
+inline double corner_weight(const Vector3& within, int k) {
+  const auto along = [&](int axis) { return (k >> axis & 1) != 0 ? within[axis] : 1 - within[axis]; };
+  return along(0) * along(1) * along(2);
+}
+
 /// One level of a sizing field as plain values.
 struct VdbLevel {
   std::string name;

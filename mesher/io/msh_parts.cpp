@@ -34,7 +34,8 @@ int msh_element_type(const ElementNodes& element, int dimension) {
 
 PhysicalNumbers::PhysicalNumbers(const OutputMesh& mesh, bool several) {
   const int first[] = {mesh.cad_face_count() + largest_number(mesh.edges()), mesh.cad_face_count(), 0};
-  int last = mesh.groups_were_read() ? 0 : first[0] + largest_number(mesh.vertices());
+  const int last_entity = first[0] + largest_number(mesh.vertices());
+  int last = mesh.groups_were_read() ? 0 : last_entity;
   for (int dimension = 0; dimension < 3; ++dimension)
     for (const NamedGroup& group : mesh.groups(dimension)) last = std::max(last, group.number);
   for (const int dimension : {2, 1, 0}) {
@@ -50,7 +51,7 @@ PhysicalNumbers::PhysicalNumbers(const OutputMesh& mesh, bool several) {
       for (const int entity : group.entities) of_entities_[dimension][entity].push_back(number);
     }
   }
-  last = std::max(last, first[0] + largest_number(mesh.vertices()));
+  last = std::max(last, last_entity);
   for (const ThicknessGroup& group : mesh.thicknesses()) {
     if (!several) break;
     of_thicknesses_.push_back(++last);

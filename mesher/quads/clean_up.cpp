@@ -106,19 +106,7 @@ class CleanUp : private EditedMesh {
   };
   const QuadState& state_of(int quad);
   bool try_patch(const SmallPatch& patch);
-  /// A template laid into an outline: where its corners are and which nodes they are to be.
-  struct Filling {
-    const PatchTemplate& filling;
-    std::array<Vector3, PatchTemplate::max_sides + PatchTemplate::max_interior> x;
-    std::array<int, PatchTemplate::max_sides + PatchTemplate::max_interior> nodes;
-    Vector3 normal;  ///< the sum of those at the outline
-    /// The least scaled Jacobian, negative where a quad is folded.
-    double worst() const;
-  };
-
   bool fill(const SmallPatch& patch, const Outline& outline, const PatchTemplate& filling);
-  /// The template with its inner corners relaxed from the middle of the outline.
-  Filling relaxed(const Outline& outline, const PatchTemplate& filling) const;
   int add_node(int donor);
   void push(int node);
 
@@ -389,16 +377,7 @@ bool CleanUp::try_patch(const SmallPatch& patch) {
   Outline outline;
   if (!trace(patch, outline)) return false;
   FillingCosts costs;
-  double cost = 0;
-  for (int i = 0; i < outline.length; ++i) {
-    const int node = outline.ring[i], inside = outline.uses[i];
-    const int beyond = topology_.valence(outline.sides[i]) - inside;
-    const bool is_inner = inner(node);
-    for (int uses = 1; uses <= PatchTemplate::max_uses; ++uses)
-      costs.uses[i][uses] = is_inner ? inner_cost(beyond + uses) : node_cost(node, beyond + uses);
-    cost += costs.uses[i][std::min(inside, PatchTemplate::max_uses)];
-  }
-  for (int i = 0; i < outline.inside_count; ++i) cost += cost_at(outline.inside[i]);
+  const double cost = find_costs(outline, costs);
   if (cost < worth_trying) return false;
 
   // Where two fillings gain alike, the one that brings the number of quads back to the first count.
@@ -420,42 +399,6 @@ bool CleanUp::try_patch(const SmallPatch& patch) {
   return false;
 }
 
-CleanUp::Filling CleanUp::relaxed(const Outline& outline, const PatchTemplate& filling) const {
-  Filling result{filling, {}, {}, Vector3::Zero()};
-  const int n = outline.length;
-  auto& x = result.x;
-  Vector3 center = Vector3::Zero();
-  for (int i = 0; i < n; ++i) {
-    result.nodes[i] = outline.ring[i];
-    x[i] = point(outline.ring[i]);
-    center += x[i] / n;
-    result.normal += mesh_.normals[outline.ring[i]];
-  }
-  for (int i = 0; i < filling.interior; ++i) x[n + i] = center;
-  for (int sweep = 0; sweep < 6; ++sweep)
-    for (int i = n; i < n + filling.interior; ++i) {
-      Vector3 sum = Vector3::Zero();
-      int neighbors = 0;
-      for (int k = 0; k < filling.quads; ++k)
-        for (int j = 0; j < 4; ++j)
-          if (filling.corners[k][j] == i) {
-            sum += x[filling.corners[k][(j + 1) & 3]];
-            ++neighbors;
-          }
-      x[i] = sum / neighbors;
-    }
-  return result;
-}
-
-double CleanUp::Filling::worst() const {
-  double least = 1;
-  for (int k = 0; k < filling.quads; ++k) {
-    const auto& c = filling.corners[k];
-    least = std::min(least, folded_scaled_jacobian(x[c[0]], x[c[1]], x[c[2]], x[c[3]], normal));
-  }
-  return least;
-}
-
 int CleanUp::add_node(int donor) {
   doubtful_.push_back(0);
   return add_node_like(donor);
@@ -470,7 +413,7 @@ bool CleanUp::fill(const SmallPatch& patch, const Outline& outline, const PatchT
   }
   const std::span<const Quad> before(old.data(), patch.count);
   const double floor = std::min(worst(before), mendable);
-  Filling filled = relaxed(outline, filling);
+  Filling filled = laid(outline, filling);
   if (!(filled.worst() > floor)) return false;
 
   // Only now the surface is asked.

@@ -108,6 +108,57 @@ bool EditedMesh::trace(const SmallPatch& patch, Outline& outline) const {
   return patch.count == outline.length / 2 - 1 + outline.inside_count;
 }
 
+double EditedMesh::find_costs(const Outline& outline, FillingCosts& costs) const {
+  double cost = 0;
+  for (int i = 0; i < outline.length; ++i) {
+    const int node = outline.ring[i], inside = outline.uses[i];
+    const int beyond = topology_.valence(outline.sides[i]) - inside;
+    const bool is_inner = inner(node);
+    for (int uses = 1; uses <= PatchTemplate::max_uses; ++uses)
+      costs.uses[i][uses] = is_inner ? inner_cost(beyond + uses) : node_cost(node, beyond + uses);
+    cost += costs.uses[i][std::min(inside, PatchTemplate::max_uses)];
+  }
+  for (int i = 0; i < outline.inside_count; ++i)
+    cost += node_cost(outline.inside[i], topology_.valence(topology_.side_of(outline.inside[i])));
+  return cost;
+}
+
+Filling EditedMesh::laid(const Outline& outline, const PatchTemplate& filling) const {
+  Filling result{filling, {}, {}, Vector3::Zero()};
+  const int n = outline.length;
+  auto& x = result.x;
+  Vector3 center = Vector3::Zero();
+  for (int i = 0; i < n; ++i) {
+    result.nodes[i] = outline.ring[i];
+    x[i] = point(outline.ring[i]);
+    center += x[i] / n;
+    result.normal += mesh_.normals[outline.ring[i]];
+  }
+  for (int i = 0; i < filling.interior; ++i) x[n + i] = center;
+  for (int sweep = 0; sweep < 6; ++sweep)
+    for (int i = n; i < n + filling.interior; ++i) {
+      Vector3 sum = Vector3::Zero();
+      int neighbors = 0;
+      for (int k = 0; k < filling.quads; ++k)
+        for (int j = 0; j < 4; ++j)
+          if (filling.corners[k][j] == i) {
+            sum += x[filling.corners[k][(j + 1) & 3]];
+            ++neighbors;
+          }
+      x[i] = sum / neighbors;
+    }
+  return result;
+}
+
+double Filling::worst() const {
+  double least = 1;
+  for (int k = 0; k < filling.quads; ++k) {
+    const auto& c = filling.corners[k];
+    least = std::min(least, folded_scaled_jacobian(x[c[0]], x[c[1]], x[c[2]], x[c[3]], normal));
+  }
+  return least;
+}
+
 int EditedMesh::add_node_like(int donor) {
   const int node = topology_.add_node();
   // Copies first: the arrays may move.

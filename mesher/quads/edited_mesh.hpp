@@ -43,6 +43,17 @@ struct SmallPatch {
   }
 };
 
+/// A template laid into an outline: where its corners are and which nodes they are to be.
+struct Filling {
+  static constexpr int max_corners = PatchTemplate::max_sides + PatchTemplate::max_interior;
+  const PatchTemplate& filling;
+  std::array<Vector3, max_corners> x;
+  std::array<int, max_corners> nodes;  ///< known at the outline only
+  Vector3 normal;                      ///< the sum of those at the outline
+  /// The least scaled Jacobian, negative where a quad is folded.
+  double worst() const;
+};
+
 /// A surface mesh with its topology. write_back() puts the mesh in order again.
 class EditedMesh {
  public:
@@ -82,6 +93,10 @@ class EditedMesh {
   }
   /// The polygon round a patch; false if it is not a disc, too long, or holds nodes that must stay.
   bool trace(const SmallPatch& patch, Outline& outline) const;
+  /// What valences cost round a patch with any filling (`costs.uses`). \return what they cost as they are.
+  double find_costs(const Outline& outline, FillingCosts& costs) const;
+  /// A template with its inner corners at the mean of their neighbors.
+  Filling laid(const Outline& outline, const PatchTemplate& filling) const;
   bool may_move(int node) const { return !mesh_.fixed[node] && !on_triangle_[node]; }
   /// A new free node at the place of another; returns its number.
   int add_node_like(int donor);

@@ -247,15 +247,7 @@ class Mending : private EditedMesh {
     Outline& outline = candidate.outline;
     if (!trace(patch, outline)) return;
     FillingCosts costs;
-    double cost = 0;
-    for (int i = 0; i < outline.length; ++i) {
-      const int node = outline.ring[i], beyond = topology_.valence(outline.sides[i]) - outline.uses[i];
-      for (int uses = 1; uses <= PatchTemplate::max_uses; ++uses)
-        costs.uses[i][uses] = node_cost(node, beyond + uses);
-      cost += node_cost(node, beyond + outline.uses[i]);
-    }
-    for (int i = 0; i < outline.inside_count; ++i)
-      cost += node_cost(outline.inside[i], topology_.valence(topology_.side_of(outline.inside[i])));
+    const double cost = find_costs(outline, costs);
     for (int i = 0; i < patch.count; ++i) candidate.before += std::min(most, measure(patch.quads[i]).value);
     costs.resize.fill(0);
     costs.drift.fill(0);
@@ -275,32 +267,16 @@ class Mending : private EditedMesh {
   /// The filling, with nodes inside at the mean of their neighbors.
   void lay(const Candidate& candidate, Trial& trial) const {
     const Outline& outline = candidate.outline;
-    const PatchTemplate& filling = *candidate.filling;
-    Vector3 center = Vector3::Zero();
-    for (int i = 0; i < outline.length; ++i) {
-      const int node = outline.ring[i];
-      add_point(trial, node, point(node), inner(node));
-      trial.up += normal(node);
-      center += point(node) / outline.length;
-    }
-    for (int i = 0; i < filling.interior; ++i)
-      add_point(trial, i < outline.inside_count ? outline.inside[i] : -1, center, true);
-    for (int k = 0; k < filling.quads; ++k) {
-      const auto& c = filling.corners[k];
+    const Filling filled = laid(outline, *candidate.filling);
+    trial.up = filled.normal;
+    for (int i = 0; i < outline.length; ++i)
+      add_point(trial, outline.ring[i], filled.x[i], inner(outline.ring[i]));
+    for (int i = 0; i < filled.filling.interior; ++i)
+      add_point(trial, i < outline.inside_count ? outline.inside[i] : -1, filled.x[outline.length + i], true);
+    for (int k = 0; k < filled.filling.quads; ++k) {
+      const auto& c = filled.filling.corners[k];
       trial.quads.push_back({c[0], c[1], c[2], c[3]});
     }
-    for (int sweep = 0; sweep < 6; ++sweep)
-      for (int i = outline.length; i < static_cast<int>(trial.points.size()); ++i) {
-        Vector3 sum = Vector3::Zero();
-        int neighbors = 0;
-        for (const Quad& q : trial.quads)
-          for (int k = 0; k < 4; ++k) {
-            if (q[k] != i) continue;
-            sum += trial.points[q[(k + 1) & 3]];
-            ++neighbors;
-          }
-        trial.points[i] = sum / neighbors;
-      }
     trial.measure();
   }
 
