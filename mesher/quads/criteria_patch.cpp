@@ -64,7 +64,7 @@ struct Plane {
 
 /// The plane of a quad's diagonals, the first of which is its x axis.
 struct Frame {
-  Vector3 x, y, normal;
+  Vector3 x{0, 0, 0}, y{0, 0, 0}, normal;
   double length = 0;  // of the first diagonal
 
   Frame(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
@@ -94,6 +94,42 @@ QuadObjective measure_objective(const Vector3& a, const Vector3& b, const Vector
   return {std::min(plane.value, most), plane.sine2 < 0 ? -1 : std::sqrt(plane.sine2), frame.normal};
 }
 
+FlatQuad::FlatQuad(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d, const Vector3& up,
+                   const Vector3& u, const Vector3& v) {
+  Frame frame(a, b, c, d);
+  if (!(frame.normal.dot(up) > 0.5)) {
+    frame.x = u;
+    frame.y = v;
+  }
+  const std::array<Vector3, 4> along{Vector3::Zero(), b - a, c - a, d - a};
+  for (int k = 0; k < 4; ++k) {
+    x_[k] = frame.x.dot(along[k]);
+    y_[k] = frame.y.dot(along[k]);
+  }
+  ux_ = frame.x.dot(u);
+  uy_ = frame.y.dot(u);
+  vx_ = frame.x.dot(v);
+  vy_ = frame.y.dot(v);
+}
+
+void FlatQuad::move(int corner, double x, double y) {
+  x_[corner] += x * ux_ + y * vx_;
+  y_[corner] += x * uy_ + y * vy_;
+}
+
+QuadObjective FlatQuad::measure() const {
+  const Plane plane(x_[0], y_[0], x_[1], y_[1], x_[2], y_[2], x_[3], y_[3]);
+  return {std::min(plane.value, most), plane.sine2 < 0 ? -1 : std::sqrt(plane.sine2), Vector3::Zero()};
+}
+
+std::array<double, 2> FlatQuad::sides_at(int corner) const {
+  const auto side = [&](int other) {
+    const double x = x_[other & 3] - x_[corner], y = y_[other & 3] - y_[corner];
+    return std::sqrt(x * x + y * y);
+  };
+  return {side(corner + 1), side(corner + 3)};
+}
+
 bool CriteriaPatch::add(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
   const Frame frame(a, b, c, d);
   if (count_ == max_quads || frame.length == 0) return false;
@@ -101,6 +137,14 @@ bool CriteriaPatch::add(const Vector3& a, const Vector3& b, const Vector3& c, co
   quads_[count_++] = {frame.x.dot(ab), frame.y.dot(ab), frame.length,    0,
                       frame.x.dot(ad), frame.y.dot(ad), frame.x.dot(u_), frame.y.dot(u_),
                       frame.x.dot(v_), frame.y.dot(v_)};
+  return true;
+}
+
+bool CriteriaPatch::add(const FlatQuad& quad, int corner) {
+  if (count_ == max_quads) return false;
+  const auto x = [&](int k) { return quad.x_[(corner + k) & 3] - quad.x_[corner]; };
+  const auto y = [&](int k) { return quad.y_[(corner + k) & 3] - quad.y_[corner]; };
+  quads_[count_++] = {x(1), y(1), x(2), y(2), x(3), y(3), quad.ux_, quad.uy_, quad.vx_, quad.vy_};
   return true;
 }
 
@@ -126,13 +170,13 @@ std::array<double, 2> CriteriaPatch::lowest(double shortest, double longest) con
   double xx = (f[1] + f[2] - 2 * f[0]) / (h * h), yy = (f[3] + f[4] - 2 * f[0]) / (h * h);
   const double xy = (f[5] + f[6] + 2 * f[0] - f[1] - f[2] - f[3] - f[4]) / (2 * h * h);
   // Made positive definite by a shift of the lower eigenvalue.
-  const double middle = 0.5 * (xx + yy), radius = std::hypot(0.5 * (xx - yy), xy);
+  const double middle = 0.5 * (xx + yy), radius = std::sqrt(square(0.5 * (xx - yy)) + square(xy));
   const double wanted = 0.1 * (std::abs(middle) + radius), shift = std::max(0.0, wanted - (middle - radius));
   xx += shift;
   yy += shift;
   const double determinant = xx * yy - xy * xy;
   double sx = -(yy * gx - xy * gy) / determinant, sy = -(xx * gy - xy * gx) / determinant;
-  const double length = std::hypot(sx, sy);
+  const double length = std::sqrt(square(sx) + square(sy));
   const auto best = std::min_element(f.begin(), f.end()) - f.begin();
   if (!std::isfinite(length) || length == 0) return {x[best], y[best]};
   if (length > longest) {

@@ -20,6 +20,25 @@ struct QuadObjective {
 /// taper at which the Jacobian ratio is 0.6. In the plane of the quad's mean normal.
 QuadObjective measure_objective(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
 
+/// A quad whose nodes move along two directions, in a plane that stays.
+class FlatQuad {
+ public:
+  /// In the plane of the quad's diagonals, unless that turns away from `up`. \param u,v the directions
+  FlatQuad(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d, const Vector3& up,
+           const Vector3& u, const Vector3& v);
+  /// Moves the corner by x u + y v.
+  void move(int corner, double x, double y);
+  /// As measure_objective(), without the normal.
+  QuadObjective measure() const;
+  /// Lengths of the two sides at a corner.
+  std::array<double, 2> sides_at(int corner) const;
+
+ private:
+  friend class CriteriaPatch;
+  std::array<double, 4> x_, y_;
+  double ux_, uy_, vx_, vy_;  ///< the directions
+};
+
 /// The quads round one node, each in its own plane, judged for several places of the node at once.
 class CriteriaPatch {
  public:
@@ -32,6 +51,8 @@ class CriteriaPatch {
 
   /// Adds the quad with the node at `a`. False where the patch is full or the quad has no area.
   bool add(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
+  /// Adds a quad with the node at a corner. False where the patch is full.
+  bool add(const FlatQuad& quad, int corner);
 
   /// The sum of the objectives with the node moved by x u + y v; huge where a quad would not be convex.
   Lanes evaluate(const Lanes& x, const Lanes& y) const;

@@ -29,13 +29,17 @@ constexpr double per_cost = 0.2;
 constexpr double slack = 8;
 /// No sine of a corner falls below this and below the least of those before.
 constexpr double floor_sine = 0.3;
+
 constexpr int max_attempts = 40;  ///< for a quad
+/// A filling whose objective is so much above that of the patch before its nodes move is not tried.
+constexpr double hopeless = 20;
 constexpr int sweeps = 3;
 /// An attempt is given up where so many times the gain of the last sweep would not make it the best.
 constexpr double follow = 1;
 constexpr int passes = 2;  ///< over all quads
 
-/// The quads of a filling and those next to them, apart from the mesh.
+/// The quads of a filling and those next to them, apart from the mesh. Nodes move along the patch's plane,
+/// and each quad is judged in its own.
 class Trial {
  public:
   static constexpr int max_points = 64, max_quads = 48;
@@ -46,12 +50,28 @@ class Trial {
   List<int, max_points> nodes;     ///< of the mesh; -1 = new
   List<char, max_points> movable;  ///< (points)
   List<Quad, max_quads> quads;     ///< by point; those of the filling first
-  Vector3 up = Vector3::Zero();    ///< normal of the patch
   double floor = floor_sine;       ///< no corner's sine is to be less
 
+  void set_up(const Vector3& normal) {
+    up_ = normal.normalized();
+    u_ = up_.unitOrthogonal();
+    v_ = up_.cross(u_);
+  }
+
+  void add_point(int node, const Vector3& place, bool may_move) {
+    nodes.push_back(node);
+    points.push_back(place);
+    movable.push_back(may_move ? 1 : 0);
+  }
+
+  /// Judges the quads by their points in space.
   void measure() {
     values_.resize(quads.size());
-    for (std::size_t i = 0; i < quads.size(); ++i) measure(i);
+    for (std::size_t i = 0; i < quads.size(); ++i) {
+      const Quad& q = quads[i];
+      const QuadObjective of = measure_objective(points[q[0]], points[q[1]], points[q[2]], points[q[3]]);
+      values_[i] = judge(of, of.normal.dot(up_) > 0);
+    }
   }
 
   /// A quad of the mesh that is as it was.
@@ -71,6 +91,22 @@ class Trial {
     return std::all_of(values_.begin(), values_.end(), [](const auto& value) { return value.sound; });
   }
 
+  /// To be called before relax(), once all quads are there.
+  void flatten() {
+    uses_.resize(points.size());
+    for (int i = 0; i < static_cast<int>(quads.size()); ++i) {
+      const Quad& q = quads[i];
+      flat_.emplace_back(points[q[0]], points[q[1]], points[q[2]], points[q[3]], up_, u_, v_);
+      for (int k = 0; k < 4; ++k) {
+        if (uses_[q[k]].size() == uses_[q[k]].capacity())
+          movable[q[k]] = 0;
+        else if (movable[q[k]])
+          uses_[q[k]].emplace_back(i, k);
+      }
+    }
+  }
+
+  /// Moves each node once.
   void relax() {
     for (int i = 0; i < static_cast<int>(points.size()); ++i)
       if (movable[i]) relax(i);
@@ -82,42 +118,36 @@ class Trial {
     bool sound;
   };
 
-  void measure(std::size_t quad) {
-    const Quad& q = quads[quad];
-    const QuadObjective of = measure_objective(points[q[0]], points[q[1]], points[q[2]], points[q[3]]);
-    const bool sound = of.least_sine > 0 && of.least_sine >= floor && of.normal.dot(up) > 0;
-    values_[quad] = {sound ? std::min(most, of.value) : most, sound};
+  Value judge(const QuadObjective& of, bool upright) const {
+    const bool sound = upright && of.least_sine > 0 && of.least_sine >= floor;
+    return {sound ? std::min(most, of.value) : most, sound};
   }
 
   void relax(int node) {
-    List<std::pair<int, int>, CriteriaPatch::max_quads> uses;  // quad, corner
     double worst = 0;
-    for (int i = 0; i < static_cast<int>(quads.size()); ++i)
-      for (int k = 0; k < 4; ++k) {
-        if (quads[i][k] != node) continue;
-        if (uses.size() == uses.capacity()) return;
-        uses.emplace_back(i, k);
-        worst = std::max(worst, values_[i].value);
-      }
+    for (const auto& [quad, k] : uses_[node]) worst = std::max(worst, values_[quad].value);
     if (worst < fine) return;
-    const Vector3 u = up.unitOrthogonal(), v = up.normalized().cross(u);
-    CriteriaPatch patch(u, v);
+    CriteriaPatch patch(u_, v_);
     double shortest = std::numeric_limits<double>::max(), sum = 0;
-    for (const auto& [quad, k] : uses) {
-      const Quad& q = quads[quad];
-      const Vector3 &here = points[node], &next = points[q[(k + 1) & 3]], &last = points[q[(k + 3) & 3]];
-      if (!patch.add(here, next, points[q[(k + 2) & 3]], last)) return;
-      for (const double side : {(next - here).norm(), (last - here).norm()}) {
+    for (const auto& [quad, k] : uses_[node]) {
+      patch.add(flat_[quad], k);
+      for (const double side : flat_[quad].sides_at(k)) {
         shortest = std::min(shortest, side);
         sum += side;
       }
     }
     if (!(shortest > 0)) return;
-    const auto [x, y] = patch.lowest(shortest, sum / (4.0 * static_cast<double>(uses.size())));
-    points[node] += x * u + y * v;
-    for (const auto& [quad, k] : uses) measure(quad);
+    const auto [x, y] = patch.lowest(shortest, sum / (4.0 * static_cast<double>(uses_[node].size())));
+    points[node] += x * u_ + y * v_;
+    for (const auto& [quad, k] : uses_[node]) {
+      flat_[quad].move(k, x, y);
+      values_[quad] = judge(flat_[quad].measure(), true);
+    }
   }
 
+  Vector3 up_, u_, v_;  ///< the patch's normal, and two directions across it
+  List<FlatQuad, max_quads> flat_;
+  List<List<std::pair<int, int>, CriteriaPatch::max_quads>, max_points> uses_;  ///< (points) quad, corner
   List<Value, max_quads> values_;
 };
 
@@ -255,35 +285,37 @@ class Mending : private EditedMesh {
     const CheapestFillings cheapest = cheapest_fillings(outline.length, costs);
     for (int i = 0; i < cheapest.count; ++i) {
       candidate.filling = cheapest.fillings[i];
+      if (is_there(outline, *candidate.filling)) continue;
       candidate.cost = candidate.filling->interior_cost - cost;
       for (int k = 0; k < outline.length; ++k) candidate.cost += costs.uses[k][candidate.filling->uses[k]];
       Trial trial;
       lay(candidate, trial);
       candidate.quick = trial.sum() - candidate.before;
+      if (candidate.quick + per_cost * candidate.cost > hopeless) continue;
       candidates.push_back(candidate);
     }
+  }
+
+  /// Whether a filling connects its nodes as the patch does already.
+  static bool is_there(const Outline& outline, const PatchTemplate& filling) {
+    return filling.interior == outline.inside_count &&
+           std::equal(outline.uses.begin(), outline.uses.begin() + outline.length, filling.uses.begin());
   }
 
   /// The filling, with nodes inside at the mean of their neighbors.
   void lay(const Candidate& candidate, Trial& trial) const {
     const Outline& outline = candidate.outline;
     const Filling filled = laid(outline, *candidate.filling);
-    trial.up = filled.normal;
+    trial.set_up(filled.normal);
     for (int i = 0; i < outline.length; ++i)
-      add_point(trial, outline.ring[i], filled.x[i], inner(outline.ring[i]));
+      trial.add_point(outline.ring[i], filled.x[i], inner(outline.ring[i]));
     for (int i = 0; i < filled.filling.interior; ++i)
-      add_point(trial, i < outline.inside_count ? outline.inside[i] : -1, filled.x[outline.length + i], true);
+      trial.add_point(i < outline.inside_count ? outline.inside[i] : -1, filled.x[outline.length + i], true);
     for (int k = 0; k < filled.filling.quads; ++k) {
       const auto& c = filled.filling.corners[k];
       trial.quads.push_back({c[0], c[1], c[2], c[3]});
     }
     trial.measure();
-  }
-
-  static void add_point(Trial& trial, int node, const Vector3& place, bool movable) {
-    trial.nodes.push_back(node);
-    trial.points.push_back(place);
-    trial.movable.push_back(movable ? 1 : 0);
   }
 
   /// Adds the quads next to the patch; false where they are too many.
@@ -302,7 +334,7 @@ class Mending : private EditedMesh {
           const int node = topology_.quad(quad)[j];
           const auto at = std::find(trial.nodes.begin(), trial.nodes.end(), node);
           local[j] = static_cast<int>(at - trial.nodes.begin());
-          if (at == trial.nodes.end()) add_point(trial, node, point(node), false);
+          if (at == trial.nodes.end()) trial.add_point(node, point(node), false);
         }
         trial.add_old(local, measure(quad));
       }
@@ -345,6 +377,7 @@ class Mending : private EditedMesh {
     if (!surround(candidate.patch, candidate.outline, trial)) return false;
     now.before += trial.sum();
     now.weigh();
+    trial.flatten();
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       const double last = now.gain;
       trial.relax();
