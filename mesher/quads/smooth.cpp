@@ -13,6 +13,7 @@
 
 #include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/quads/improve.hpp"
+#include "mesher/quads/tangent_plan.hpp"
 
 namespace quadrille {
 namespace {
@@ -241,60 +242,12 @@ class Smoother {
     return points_[node] + shift - normals_[node].dot(shift) * normals_[node];
   }
 
-  /// The quads round a node, in the tangent plane at it: sweeps are judged there, with a third of the
-  /// arithmetic.
-  struct Plan {
-    static constexpr int max_quads = 16;
-    struct Corner {
-      double bx, by, cx, cy, dx, dy;  ///< the next, opposite and previous corner, from the node
-    };
-    int count = 0;
-    std::array<Corner, max_quads> corners;
-    std::array<double, max_quads> quality;  ///< of the quads, for the place judged last
-    Vector3 u, v;
-  };
-
-  /// False where the node has too many quads.
-  bool draw(int node, Plan& plan) const {
-    plan.count = first_[node + 1] - first_[node];
-    if (plan.count > Plan::max_quads) return false;
-    const Vector3 &origin = points_[node], &normal = normals_[node];
-    // Duff et al., Building an orthonormal basis, revisited (2017).
-    const double sign = std::copysign(1.0, normal.z()), a = -1 / (sign + normal.z());
-    const double b = normal.x() * normal.y() * a;
-    plan.u = {1 + sign * normal.x() * normal.x() * a, sign * b, -sign * normal.x()};
-    plan.v = {b, sign + normal.y() * normal.y() * a, -normal.y()};
-    for (int i = 0; i < plan.count; ++i) {
-      const int corner = corners_[first_[node] + i], j = corner & 3;
-      const auto& q = quads_[corner >> 2];
-      const Vector3 b3 = points_[q[(j + 1) & 3]] - origin, c3 = points_[q[(j + 2) & 3]] - origin,
-                    d3 = points_[q[(j + 3) & 3]] - origin;
-      plan.corners[i] = {plan.u.dot(b3), plan.v.dot(b3), plan.u.dot(c3),
-                         plan.v.dot(c3), plan.u.dot(d3), plan.v.dot(d3)};
-    }
-    return true;
-  }
-
-  /// Whether all quads round the node stay above the floor with the node at (x, y); their qualities go to the
-  /// plan.
-  static bool fits(Plan& plan, double x, double y, double floor) {
-    // Sines are compared by their signed squares, which needs no root.
-    const double bound = floor * std::abs(floor);
-    for (int i = 0; i < plan.count; ++i) {
-      const auto& [bx, by, cx, cy, dx, dy] = plan.corners[i];
-      const double ux = bx - x, uy = by - y, vx = cx - bx, vy = cy - by;
-      const double wx = dx - cx, wy = dy - cy, tx = x - dx, ty = y - dy;
-      const double uu = ux * ux + uy * uy, vv = vx * vx + vy * vy, ww = wx * wx + wy * wy,
-                   tt = tx * tx + ty * ty;
-      const double tu = tx * uy - ty * ux, uv = ux * vy - uy * vx, vw = vx * wy - vy * wx,
-                   wt = wx * ty - wy * tx;
-      const auto square = [](double sine, double lengths) {
-        return sine * std::abs(sine) / std::max(lengths, std::numeric_limits<double>::min());
-      };
-      const double least = std::min(std::min(square(tu, tt * uu), square(uv, uu * vv)),
-                                    std::min(square(vw, vv * ww), square(wt, ww * tt)));
-      if (least < bound) return false;
-      plan.quality[i] = least;
+  /// \return whether the plan has all quads of the node
+  bool draw(int node, TangentPlan& plan) const {
+    for (int i = first_[node]; i < first_[node + 1]; ++i) {
+      const auto& q = quads_[corners_[i] >> 2];
+      const int j = corners_[i] & 3;
+      if (!plan.add(points_[q[(j + 1) & 3]], points_[q[(j + 2) & 3]], points_[q[(j + 3) & 3]])) return false;
     }
     return true;
   }
@@ -304,47 +257,43 @@ class Smoother {
   /// 3 sweeps the mean quality that plain averages of neighbors reach in 8; weights by length or area, and
   /// parallelogram targets, gave less.
   bool relax(int node) {
-    Plan plan;
-    if (!draw(node, plan) || plan.count == 0) return false;
+    TangentPlan plan(points_[node], normals_[node]);
+    if (!draw(node, plan) || plan.count() == 0) return false;
     double x = 0, y = 0, size2 = 0;
-    for (int i = 0; i < plan.count; ++i) {
-      const auto& [bx, by, cx, cy, dx, dy] = plan.corners[i];
+    for (int i = 0; i < plan.count(); ++i) {
+      const auto& [bx, by, cx, cy, dx, dy] = plan.corner(i);
       x += bx + dx + opposite_weight * cx;
       y += by + dy + opposite_weight * cy;
       size2 += bx * bx + by * by;
     }
-    const double share = overshoot / ((2 + opposite_weight) * plan.count);
+    const double share = overshoot / ((2 + opposite_weight) * plan.count());
     x *= share;
     y *= share;
-    size2 /= plan.count;
+    size2 /= plan.count();
     if (x * x + y * y < still_share * still_share * size2) return false;
     const double floor = std::min(least_round(node), good_jacobian);
-    if (!fits(plan, x, y, floor)) {
+    if (!plan.fits(x, y, floor)) {
       x *= 0.5;
       y *= 0.5;
-      if (!fits(plan, x, y, floor)) return false;
+      if (!plan.fits(x, y, floor)) return false;
     }
     return settle_sweep(node, plan, x, y, floor, size2);
   }
 
   /// Puts the node on the surface near the place in its tangent plane that was found fit.
-  bool settle_sweep(int node, Plan& plan, double x, double y, double floor, double size2) {
+  bool settle_sweep(int node, TangentPlan& plan, double x, double y, double floor, double size2) {
     Vector2 uv = parameters_[node];
     Vector3 normal = normals_[node];
-    const Vector3 place = surface_.move(uv, points_[node] + x * plan.u + y * plan.v, normal);
-    const Vector3 shift = place - points_[node];
-    const double px = plan.u.dot(shift), py = plan.v.dot(shift);
+    const Vector3 place = surface_.move(uv, plan.place(x, y), normal);
+    const auto [px, py] = plan.coordinates(place);
     const double off2 = (px - x) * (px - x) + (py - y) * (py - y);
     // Off by more than a little (or not a number), the place is judged anew.
-    if (!(off2 < near_share * near_share * size2) && !(place.allFinite() && fits(plan, px, py, floor)))
+    if (!(off2 < near_share * near_share * size2) && !(place.allFinite() && plan.fits(px, py, floor)))
       return false;
     points_[node] = place;
     parameters_[node] = uv;
     normals_[node] = normal;
-    for (int i = 0; i < plan.count; ++i) {
-      const double square = plan.quality[i];
-      quality_[corners_[first_[node] + i] >> 2] = std::copysign(std::sqrt(std::abs(square)), square);
-    }
+    for (int i = 0; i < plan.count(); ++i) quality_[corners_[first_[node] + i] >> 2] = plan.quality(i);
     return true;
   }
 
