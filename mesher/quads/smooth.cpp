@@ -183,15 +183,14 @@ class Smoother {
     return least;
   }
 
-  /// Least scaled Jacobian round the node if it were at `p`; stops early below `enough`.
-  double least_at(int node, const Vector3& p, const Vector3& normal, double enough) const {
+  /// Least scaled Jacobian round the node if it were at `p`.
+  double least_at(int node, const Vector3& p, const Vector3& normal) const {
     double least = 1;
     for (int i = first_[node]; i < first_[node + 1]; ++i) {
       const auto& q = quads_[corners_[i] >> 2];
       const int j = corners_[i] & 3;
       least = std::min(least, folded_scaled_jacobian(p, points_[q[(j + 1) & 3]], points_[q[(j + 2) & 3]],
                                                      points_[q[(j + 3) & 3]], normal));
-      if (least < enough) break;
     }
     return least;
   }
@@ -213,9 +212,9 @@ class Smoother {
 
   /// What the search raises: the least scaled Jacobian, less where a side gets short beside the others. The
   /// worst angle alone would often be best at a neighbor's place.
-  double merit_at(int node, const Vector3& p, const Vector3& normal, double enough) const {
-    const double least = least_at(node, p, normal, enough);
-    if (least < enough || least <= 0) return least;
+  double merit_at(int node, const Vector3& p, const Vector3& normal) const {
+    const double least = least_at(node, p, normal);
+    if (least <= 0) return least;
     double shortest = std::numeric_limits<double>::max(), sum = 0;
     for (int i = first_[node]; i < first_[node + 1]; ++i) {
       const double side = (points_[quads_[corners_[i] >> 2][((corners_[i] & 3) + 1) & 3]] - p).squaredNorm();
@@ -316,47 +315,46 @@ class Smoother {
 
   /// Compass search in the tangent plane for the place where the worst element round the node is best.
   bool search(int node, Goal goal) {
-    const Vector3 origin = points_[node], normal = normals_[node];
+    using Lanes = TangentPlan::Lanes;
     const double size = mean_side(node);
-    if (!(size > 0)) return false;
-    const auto value_at = [&](const Vector3& p, double best) {
-      return goal == Goal::raise ? merit_at(node, p, normal, best) : tangle_at(node, p, normal, size);
+    TangentPlan plan(points_[node], normals_[node]);
+    if (!(size > 0) || !draw(node, plan)) return false;
+    const auto values_at = [&](const Lanes& x, const Lanes& y) {
+      if (goal == Goal::raise) return plan.merits(x, y, short_side);
+      Lanes result;
+      for (int k = 0; k < TangentPlan::lanes; ++k)
+        result[k] = tangle_at(node, plan.place(x[k], y[k]), normals_[node], size);
+      return result;
     };
-    const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
-    Vector3 best = middle_of(node);
-    const double start = value_at(origin, -2);
-    double value = value_at(best, start);
-    if (value <= start) {
-      value = start;
-      best = origin;
+    const auto [middle_x, middle_y] = plan.coordinates(middle_of(node));
+    const Lanes first = values_at({0, middle_x}, {0, middle_y});
+    double value = first[0], best_x = 0, best_y = 0;
+    if (first[1] > value) {
+      value = first[1];
+      best_x = middle_x;
+      best_y = middle_y;
     }
-    constexpr double diagonal_step = 0.70710678118654752;
-    constexpr double compass[8][2] = {{1, 0},
-                                      {0, 1},
-                                      {-1, 0},
-                                      {0, -1},
-                                      {diagonal_step, diagonal_step},
-                                      {-diagonal_step, diagonal_step},
-                                      {-diagonal_step, -diagonal_step},
-                                      {diagonal_step, -diagonal_step}};
+    constexpr double diagonal = 0.70710678118654752;
+    constexpr Lanes compass_x{1, 0, -1, 0, diagonal, -diagonal, -diagonal, diagonal};
+    constexpr Lanes compass_y{0, 1, 0, -1, diagonal, diagonal, -diagonal, -diagonal};
     double step = 0.25 * size;
     for (int halvings = 0; halvings < 4; ++halvings, step *= 0.5) {
-      for (int tries = 0, moved = 1; moved && tries < 3; ++tries) {
-        moved = 0;
-        const Vector3 center = best;
-        for (const auto& way : compass) {
-          const Vector3 p = center + step * (way[0] * u + way[1] * v);
-          const double candidate = value_at(p, value);
-          if (candidate > value) {
-            value = candidate;
-            best = p;
-            moved = 1;
-          }
+      for (int tries = 0; tries < 3; ++tries) {
+        Lanes x, y;
+        for (int k = 0; k < TangentPlan::lanes; ++k) {
+          x[k] = best_x + step * compass_x[k];
+          y[k] = best_y + step * compass_y[k];
         }
+        const Lanes values = values_at(x, y);
+        const auto best = std::max_element(values.begin(), values.end()) - values.begin();
+        if (!(values[best] > value)) break;
+        value = values[best];
+        best_x = x[best];
+        best_y = y[best];
       }
     }
-    if (value <= start || best == origin) return false;
-    return settle(node, best, goal, size);
+    if (value <= first[0] || (best_x == 0 && best_y == 0)) return false;
+    return settle(node, plan.place(best_x, best_y), goal, size);
   }
 
   /// The corner areas are linear in the node's place, so the least of them is concave: golden sections, one
@@ -397,7 +395,7 @@ class Smoother {
     Vector2 uv = parameters_[node];
     Vector3 moved_normal = normal;
     const Vector3 place = surface_.move(uv, origin + x * u + best_y(x) * v, moved_normal);
-    if (!place.allFinite() || !(least_at(node, place, moved_normal, -2) > least_round(node))) return false;
+    if (!place.allFinite() || !(least_at(node, place, moved_normal) > least_round(node))) return false;
     put(node, place, uv, moved_normal);
     return true;
   }
@@ -435,7 +433,7 @@ class Smoother {
     if (!place.allFinite()) return false;
     const Vector3& p = points_[node];
     const bool better = goal == Goal::raise
-                            ? merit_at(node, place, normal, -2) > merit_at(node, p, normals_[node], -2)
+                            ? merit_at(node, place, normal) > merit_at(node, p, normals_[node])
                             : tangle_at(node, place, normal, size) > tangle_at(node, p, normals_[node], size);
     if (better) put(node, place, uv, normal);
     return better;
