@@ -13,6 +13,8 @@ constexpr double huge = 1e30;
 constexpr double tiny = std::numeric_limits<double>::min();
 /// Beyond this a quad that the CAD forces out of shape no longer outweighs its neighbors.
 constexpr double most = 1000;
+/// A quad whose plane is steeper than this (cosine) is drawn in another.
+constexpr double facing = 0.1;
 constexpr double sin2_corner = 0.586824;  // of 50 degrees, squared
 constexpr double sin2_skew = 0.413176;    // of 40 degrees, squared
 constexpr double aspect2 = 25;
@@ -26,6 +28,7 @@ double square(double x) {
 /// A plane quad p, b, c, d. Written without branches: compilers take several at once.
 struct Plane {
   double sine2, value;  // signed square of the least corner's sine
+  double side2;         // squared length from p to b
 
   Plane(double px, double py, double bx, double by, double cx, double cy, double dx, double dy) {
     const double sx = bx - px, sy = by - py, tx = cx - bx, ty = cy - by;
@@ -49,6 +52,7 @@ struct Plane {
         (std::abs(cb + cc - cp - cd) + std::abs(cc + cd - cp - cb)) / (std::abs(mean) + tiny);
     const double sum = corners * (1 / square(sin2_corner)) + square(skew * (1 / sin2_skew)) +
                        square(aspect * (1 / aspect2)) + square(taper * taper * (1 / taper2));
+    side2 = ss;
     const double least = std::min(std::min(cp, cb), std::min(cc, cd));
     sine2 = least > 0 ? std::min(std::min(qp, qb), std::min(qc, qd)) : -1;
     value = least > 0 ? sum / (1 + sum * (1 / most)) : huge;
@@ -90,7 +94,7 @@ QuadObjective measure_objective(const Vector3& a, const Vector3& b, const Vector
 FlatQuad::FlatQuad(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d, const Vector3& up,
                    const Vector3& u, const Vector3& v) {
   Frame frame(a, b, c, d);
-  if (!(frame.normal.dot(up) > 0.5)) {
+  if (!(frame.normal.dot(up) > facing)) {
     frame.x = u;
     frame.y = v;
   }
@@ -151,6 +155,29 @@ CriteriaPatch::Lanes CriteriaPatch::evaluate(const Lanes& x, const Lanes& y) con
                         q.dy);
       result[k] += plane.value;
     }
+  }
+  return result;
+}
+
+QUADRILLE_FOR_WIDER_REGISTERS
+CriteriaPatch::Lanes CriteriaPatch::merits(const Lanes& x, const Lanes& y, double short_side) const {
+  Lanes least, shortest, sum{};
+  least.fill(1);
+  shortest.fill(std::numeric_limits<double>::max());
+  for (int i = 0; i < count_; ++i) {
+    const Quad& q = quads_[i];
+    for (int k = 0; k < lanes; ++k) {
+      const Plane plane(x[k] * q.ux + y[k] * q.vx, x[k] * q.uy + y[k] * q.vy, q.bx, q.by, q.cx, q.cy, q.dx,
+                        q.dy);
+      least[k] = std::min(least[k], plane.sine2);
+      shortest[k] = std::min(shortest[k], plane.side2);
+      sum[k] += std::sqrt(plane.side2);
+    }
+  }
+  Lanes result;
+  for (int k = 0; k < lanes; ++k) {
+    const double share = std::sqrt(shortest[k]) * count_ / (short_side * sum[k] + tiny);
+    result[k] = least[k] > 0 ? std::sqrt(least[k]) * std::min(1.0, share) : least[k];
   }
   return result;
 }

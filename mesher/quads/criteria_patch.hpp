@@ -23,7 +23,7 @@ QuadObjective measure_objective(const Vector3& a, const Vector3& b, const Vector
 /// A quad whose nodes move along two directions, in a plane that stays.
 class FlatQuad {
  public:
-  /// In the plane of the quad's diagonals, unless that turns away from `up`. \param u,v the directions
+  /// In the plane of the quad's diagonals, unless that does not face `up`. \param u,v the directions
   FlatQuad(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d, const Vector3& up,
            const Vector3& u, const Vector3& v);
   /// Moves the corner by x u + y v.
@@ -56,6 +56,10 @@ class CriteriaPatch {
 
   /// The sum of the objectives with the node moved by x u + y v; huge where a quad would not be convex.
   Lanes evaluate(const Lanes& x, const Lanes& y) const;
+
+  /// With the node moved so: the least scaled Jacobian, negative where a quad is folded; where positive, less
+  /// if a side at the node is shorter than `short_side` times their mean.
+  Lanes merits(const Lanes& x, const Lanes& y, double short_side) const;
 
   /// The best move (x, y) found by a step of Newton's method, whose derivatives are differences over places
   /// that are judged together, and by shares of that step. \param shortest side at the node: derivatives are

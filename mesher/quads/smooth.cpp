@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/improve.hpp"
 #include "mesher/quads/tangent_plan.hpp"
 
@@ -251,6 +252,16 @@ class Smoother {
     return true;
   }
 
+  /// \return whether the patch has all quads of the node
+  bool draw(int node, const Vector3& u, const Vector3& v, CriteriaPatch& patch) const {
+    for (int i = first_[node]; i < first_[node + 1]; ++i) {
+      const auto& q = quads_[corners_[i] >> 2];
+      const FlatQuad flat(points_[q[0]], points_[q[1]], points_[q[2]], points_[q[3]], normals_[node], u, v);
+      if (!patch.add(flat, corners_[i] & 3)) return false;
+    }
+    return true;
+  }
+
   /// One step of a sweep: towards the mean of the nodes of the quads round the node, overshot. Corners
   /// opposite count half as much as neighbors: measured on graded meshes, that and the overshooting reach in
   /// 3 sweeps the mean quality that plain averages of neighbors reach in 8; weights by length or area, and
@@ -313,20 +324,23 @@ class Smoother {
       for (const int other : quads_[corners_[i] >> 2]) active[other] = 1;
   }
 
-  /// Compass search in the tangent plane for the place where the worst element round the node is best.
+  /// Compass search along the tangent plane for the place where the worst element round the node is best.
   bool search(int node, Goal goal) {
-    using Lanes = TangentPlan::Lanes;
+    using Lanes = CriteriaPatch::Lanes;
+    const Vector3 origin = points_[node], normal = normals_[node];
     const double size = mean_side(node);
-    TangentPlan plan(points_[node], normals_[node]);
-    if (!(size > 0) || !draw(node, plan)) return false;
+    const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
+    CriteriaPatch patch(u, v);
+    if (!(size > 0) || !draw(node, u, v, patch)) return false;
     const auto values_at = [&](const Lanes& x, const Lanes& y) {
-      if (goal == Goal::raise) return plan.merits(x, y, short_side);
+      if (goal == Goal::raise) return patch.merits(x, y, short_side);
       Lanes result;
-      for (int k = 0; k < TangentPlan::lanes; ++k)
-        result[k] = tangle_at(node, plan.place(x[k], y[k]), normals_[node], size);
+      for (int k = 0; k < CriteriaPatch::lanes; ++k)
+        result[k] = tangle_at(node, origin + x[k] * u + y[k] * v, normal, size);
       return result;
     };
-    const auto [middle_x, middle_y] = plan.coordinates(middle_of(node));
+    const Vector3 to_middle = middle_of(node) - origin;
+    const double middle_x = u.dot(to_middle), middle_y = v.dot(to_middle);
     const Lanes first = values_at({0, middle_x}, {0, middle_y});
     double value = first[0], best_x = 0, best_y = 0;
     if (first[1] > value) {
@@ -341,7 +355,7 @@ class Smoother {
     for (int halvings = 0; halvings < 4; ++halvings, step *= 0.5) {
       for (int tries = 0; tries < 3; ++tries) {
         Lanes x, y;
-        for (int k = 0; k < TangentPlan::lanes; ++k) {
+        for (int k = 0; k < CriteriaPatch::lanes; ++k) {
           x[k] = best_x + step * compass_x[k];
           y[k] = best_y + step * compass_y[k];
         }
@@ -354,7 +368,7 @@ class Smoother {
       }
     }
     if (value <= first[0] || (best_x == 0 && best_y == 0)) return false;
-    return settle(node, plan.place(best_x, best_y), goal, size);
+    return settle(node, origin + best_x * u + best_y * v, goal, size);
   }
 
   /// The corner areas are linear in the node's place, so the least of them is concave: golden sections, one

@@ -11,8 +11,6 @@ namespace quadrille {
 class TangentPlan {
  public:
   static constexpr int max_quads = 16;
-  static constexpr int lanes = 8;
-  using Lanes = std::array<double, lanes>;
   struct Corner {
     double bx, by, cx, cy, dx, dy;  ///< the next, opposite and previous corner of a quad, from the node
   };
@@ -33,10 +31,6 @@ class TangentPlan {
   bool fits(double x, double y, double floor);
   /// Scaled Jacobian of a quad at the place that fits() judged last.
   double quality(int quad) const;
-
-  /// For eight places at once: the least scaled Jacobian of the quads, negative where one is folded; the
-  /// positive ones less where a side at the node is shorter than `short_side` times their mean.
-  Lanes merits(const Lanes& x, const Lanes& y, double short_side) const;
 
  private:
   Vector3 origin_, u_, v_;
