@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the sample CAD models in examples/models/.
+"""Makes the sample part, examples/freecad/sheet_bracket.step, and the models in examples/models/.
 
     freecadcmd examples/make_samples.py < /dev/null
 
@@ -204,11 +204,11 @@ def sheet_bracket():
     return shape.Solids[0]
 
 
-def write(name, shape, ending):
-    """Checks a shape and writes it."""
+def write(name, shape, ending, folder=MODELS):
+    """Checks a shape and writes it to a folder."""
     if not shape.isValid() or not shape.Faces:
         raise RuntimeError(f"{name} is not a valid shape")
-    path = MODELS / (name + ending)
+    path = folder / (name + ending)
     if ending == ".step":
         shape.exportStep(str(path))
         text = path.read_text()
@@ -227,7 +227,7 @@ def main():
     """Makes all models."""
     MODELS.mkdir(exist_ok=True)
     write("bracket", bracket(), ".step")
-    write("sheet_bracket", sheet_bracket(), ".step")
+    write("sheet_bracket", sheet_bracket(), ".step", Path(__file__).resolve().parent / "freecad")
     for make in (box, cylinder, cone, sphere, torus, disc, plate_with_holes, bezier_patch, wing, t_junction,
                  two_solids, tube_with_hole):
         write(make.__name__, make(), ".brep")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A bracket bent of sheet, from its solid to the stresses of a shell; this is what ./run.sh runs.
 
-    scripts/freecad_python examples/freecad/sheet_bracket.py [--size 2] [--out out/sample]
+    scripts/freecad_python examples/freecad/sheet_bracket.py [--size 3] [--out out/sample]
 
 In FreeCAD: the solid, its middle surface with the thickness, supports and loads that were picked on the solid's faces and move to
 the middle surface, a mirror-symmetric mesh of quads, CalculiX. Writes out/sample.FCStd, out/sample.inp (for CalculiX, complete) and
@@ -9,6 +9,7 @@ out/sample.png. Four bolts hold the foot; 100 N pull at the four screws in the w
 """
 
 import argparse
+import re
 import shutil
 import subprocess
 import sys
@@ -56,7 +57,8 @@ def make_analysis(document, part):
 
 
 def solve(analysis, solver, inp):
-    """Writes CalculiX's input; returns the result object, None where there is no CalculiX."""
+    """Writes CalculiX's input and solves; returns the result object and the force that the bolts hold, N; None and None where there
+    is no CalculiX."""
     from femtools import ccxtools
 
     fea = ccxtools.FemToolsCcx(analysis, solver)
@@ -66,14 +68,17 @@ def solve(analysis, solver, inp):
         fea.write_inp_file()
         shutil.copyfile(fea.inp_file_name, inp)
         if not shutil.which("ccx"):
-            return None
+            return None, None
         fea.setup_ccx()
         problem = fea.check_prerequisites()
         if problem:
             raise SystemExit(f"error: FreeCAD refuses the analysis: {problem}")
         fea.ccx_run()
         fea.load_results()
-    return next(member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject"))
+        text = Path(fea.inp_file_name).with_suffix(".dat").read_text(encoding="ascii")
+    held = re.search(r"total force .*for set BOLTS.*\n\s*(\S+)\s+(\S+)\s+(\S+)", text)
+    result = next(member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject"))
+    return result, np.array([float(word) for word in held.groups()])
 
 
 def as_arrays(fem_mesh):
@@ -106,26 +111,22 @@ def skin_of(hexahedra):
 
 def draw(part, surface, mesh, result, path):
     """The solid, the middle surface with its mesh and the stresses, side by side."""
-    data = {}
-    data["edge_points"], data["edge_pairs"] = outlines(part.Shape)
+    data = {"solid_title": "A solid of sheet metal", "solid_text": f"{len(part.Shape.Faces)} faces",
+            "mesh_title": "Its middle surface, meshed",
+            "mesh_text": f"{mesh.QuadCount} quads, {' and '.join(f'{mm:g}' for mm in thicknesses(surface))} mm thick"}
     points, triangles = part.Shape.tessellate(0.02)
     data["solid_points"], data["solid_triangles"] = np.array([tuple(point) for point in points]), np.array(triangles)
-    data["solid_title"], data["solid_text"] = "A solid of sheet metal", f"{len(part.Shape.Faces)} faces"
+    data["edge_points"], data["edge_pairs"] = outlines(part.Shape)
     data["rim_points"], data["rim_pairs"] = outlines(surface.Shape)
     _, data["mesh_points"], data["mesh_quads"], _ = as_arrays(mesh.FemMesh)
-    data["mesh_title"] = "Its middle surface, meshed"
-    thicknesses = sorted({f"{thickness:g}" for thickness in surface.Thicknesses}, key=float)
-    data["mesh_text"] = f"{mesh.QuadCount} quads, {' and '.join(thicknesses)} mm thick"
     if result is not None:
         numbers, points, _, hexahedra = as_arrays(result.Mesh.FemMesh)
         rows = {number: row for row, number in enumerate(result.NodeNumbers)}
         order = [rows[number] for number in numbers]
         moves = np.array([tuple(vector) for vector in result.DisplacementVectors])[order]
-        scale = 0.1 * part.Shape.BoundBox.DiagonalLength / np.linalg.norm(moves, axis=1).max()
-        scale = float(f"{scale:.1g}")
+        scale = float(f"{0.1 * part.Shape.BoundBox.DiagonalLength / np.linalg.norm(moves, axis=1).max():.1g}")
         data["moved_points"], data["skin"] = points + scale * moves, skin_of(hexahedra)
         data["stress"] = np.array(result.vonMises)[order]
-        data["largest"] = data["stress"].max()
         data["stress_title"] = "Stresses in the shell, by CalculiX"
         data["stress_text"] = f"von Mises, deformed {scale:g} times; {FORCE:g} N pull at the wall"
     with tempfile.TemporaryDirectory() as folder:
@@ -135,35 +136,47 @@ def draw(part, surface, mesh, result, path):
                         str(file), str(path)], check=True)
 
 
-def reaction(dat):
-    """The sum of the forces at the supports that CalculiX wrote, N."""
+def thicknesses(surface):
+    """Of a middle surface, mm, ascending."""
+    return sorted({float(f"{thickness:.6g}") for thickness in surface.Thicknesses})
 
 
-def main():
-    """Solid in, stresses out."""
-    parser = argparse.ArgumentParser(prog="./run.sh", description=__doc__.split("\n", 1)[0])
-    parser.add_argument("--size", type=float, default=2.0, help="target edge length in mm (2)")
-    parser.add_argument("--out", default="out/sample", help=argparse.SUPPRESS)
-    parser.add_argument("--part", default=str(ROOT / "examples/models/sheet_bracket.step"))
-    arguments = parser.parse_args()
-    out = Path(arguments.out)
-    out.parent.mkdir(parents=True, exist_ok=True)
+def job(out, size):
+    """From the solid to the picture. Returns the middle surface, the mesh, the result and the force that the bolts hold."""
     document = FreeCAD.newDocument("Bracket")
     part = document.addObject("Part::Feature", "Bracket")
-    part.Shape = Part.read(arguments.part)
+    part.Shape = Part.read(str(Path(__file__).with_suffix(".step")))
     analysis, solver = make_analysis(document, part)
     document.recompute()
     surface = quadrille.middle.make_middle(part, analysis=analysis, move_loads=True)
-    mesh = quadrille.freecad.mesh_object(surface, size=arguments.size, order=2, symmetry=True, elements_per_circle=20, analysis=analysis)
+    mesh = quadrille.freecad.mesh_object(surface, size=size, symmetry=True, elements_per_circle=20, analysis=analysis)
     document.recompute()
-    result = solve(analysis, solver, f"{out}.inp")
+    result, held = solve(analysis, solver, f"{out}.inp")
     document.saveAs(f"{out}.FCStd")
     draw(part, surface, mesh, result, f"{out}.png")
-    print(f"{mesh.QuadCount} quads, {mesh.NodeCount} nodes, q {mesh.WorstQuality:.2f} at worst, {mesh.MeanQuality:.2f} mean")
+    return surface, mesh, result, held
+
+
+def main():
+    """Command line."""
+    parser = argparse.ArgumentParser(prog="./run.sh", description=__doc__.split("\n", 1)[0])
+    parser.add_argument("--size", type=float, default=3.0, help="target edge length in mm (3)")
+    parser.add_argument("--out", default="out/sample", help=argparse.SUPPRESS)
+    arguments = parser.parse_args()
+    Path(arguments.out).parent.mkdir(parents=True, exist_ok=True)
+    try:
+        surface, mesh, result, held = job(arguments.out, arguments.size)
+    except quadrille.Error as error:
+        sys.exit(f"error: {error}")
+    sheet = " and ".join(f"{mm:g}" for mm in thicknesses(surface))
+    print(f"\nThe middle surface: {len(surface.Shape.Faces)} faces, {sheet} mm thick; area x thickness "
+          f"{100 * surface.VolumeShare:.2f} % of the volume")
+    print(f"Its mesh: {mesh.QuadCount} quads, {mesh.NodeCount} nodes, q {mesh.WorstQuality:.2f} at worst, {mesh.MeanQuality:.2f} mean")
     if result is None:
-        print("CalculiX (ccx) is not installed: nothing is solved")
+        print("CalculiX (ccx) is not installed: the input is written, nothing is solved")
     else:
-        print(f"largest stress {max(result.vonMises):.1f} MPa")
+        print(f"CalculiX: the bolts hold {np.linalg.norm(held):.1f} N of {FORCE:g} N; the wall moves by "
+              f"{max(vector.Length for vector in result.DisplacementVectors):.4f} mm; largest stress {max(result.vonMises):.1f} MPa")
 
 
 if __name__ == "__main__":

@@ -127,7 +127,7 @@ def panels(data):
     found = [(solid, str(data["solid_title"]), str(data["solid_text"])), (shell, str(data["mesh_title"]), str(data["mesh_text"]))]
     if "stress" in data:
         points, skin, stress = data["moved_points"], data["skin"], data["stress"]
-        colors = rainbow(float(data["largest"]))
+        colors = rainbow(data["stress"].max())
         found.append(([surface(points, skin, scalars=stress, colors=colors), lines(points, sides(skin), 1.2, 0.4)],
                       str(data["stress_title"]), str(data["stress_text"])))
     return found
@@ -179,7 +179,7 @@ def main():
         aimed(renderer.GetActiveCamera(), points, WIDTH / HEIGHT)
         renderer.ResetCameraClippingRange()
     if "stress" in data:
-        viewport(window, end, end + BAR, [color_bar(rainbow(float(data["largest"])))])
+        viewport(window, end, end + BAR, [color_bar(rainbow(data["stress"].max()))])
     window.Render()
     grab, writer = vtk.vtkWindowToImageFilter(), vtk.vtkPNGWriter()
     grab.SetInput(window)
