@@ -507,6 +507,15 @@ TopoDS_Shape braced_frame() {
   return together({column, beam, BRepAlgoAPI_Common(brace, box(-50, 50.3, 0, 100, 400, 179.7)).Shape()});
 }
 
+TopoDS_Shape tube(double z, double length, double outer, double inner) {
+  return cut(drill(0, 0, z, gp::DZ(), outer, length), {drill(0, 0, z - 1, gp::DZ(), inner, length + 2)});
+}
+
+/// The area of a ring.
+double ring(double outer, double inner) {
+  return M_PI * (outer * outer - inner * inner);
+}
+
 const std::vector<JoinedModel>& joined_models() {
   const double columns = 2 * 4 * 37 * 200;
   static const std::vector<JoinedModel> models{
@@ -574,6 +583,39 @@ const std::vector<JoinedModel>& joined_models() {
        2,
        0,
        {1.5, 3}},
+      // Gaps between bent faces; where both walls face each other they are one with what fills the gap.
+      {"tube_in_sleeve",
+       [] {
+         return together({tube(0, 100, 30, 27), tube(20, 60, 34, 31)});
+       },
+       2,
+       2 * M_PI * (28.5 * 40 + 30.5 * 60) + 2 * ring(30.5, 28.5),
+       {3, 7}},
+      {"sleeve_at_end",
+       [] {
+         return together({tube(0, 100, 30, 27), tube(60, 100, 34, 31)});
+       },
+       2,
+       2 * M_PI * (28.5 * 60 + 30.5 * 40 + 32.5 * 60) + ring(30.5, 28.5) + ring(32.5, 30.5),
+       {3, 7}},
+      {"tube_through_plate",
+       [] {
+         return together({tube(0, 100, 30, 27),
+                          cut(box(-50, -50, 48, 100, 100, 4), {drill(0, 0, 40, gp::DZ(), 31, 20)})});
+       },
+       2,
+       2 * M_PI * 28.5 * 100 + 100 * 100 - M_PI * 28.5 * 28.5,
+       {3, 4}},
+      {"saddle_on_tube",
+       [] {
+         const gp_Ax2 place(gp_Pnt(0, 0, 20), gp::DZ());
+         return together(
+             {tube(0, 100, 30, 27), cut(BRepPrimAPI_MakeCylinder(place, 34, 60, 0.5 * M_PI).Shape(),
+                                        {drill(0, 0, 0, gp::DZ(), 31, 100)})});
+       },
+       2,
+       2 * M_PI * (28.5 * 100 + 0.25 * (30.5 - 28.5) * 60) + 0.5 * ring(30.5, 28.5) + 2 * 2 * 60,
+       {3, 7}},
   };
   return models;
 }
