@@ -81,26 +81,31 @@ bool is_flat(const SkinFace& face) {
   return face.surface().GetType() == GeomAbs_Plane;
 }
 
-/// What stands beside a face half way along one of its edges.
+/// What stands beside a face at a point of its border.
 struct Beside {
-  double length = 0;
+  double length = 0;    ///< of the border that the point stands for
   gp_Vec own, outward;  ///< of the face, and of what stands beside it
 };
 
-/// The longest edges of a face, a dozen at most.
+/// Along the longest edges of a face, a dozen points at most; half way along each, and of bent faces at two
+/// more.
 std::vector<Beside> beside(const Skin& skin, const Neighbors& neighbors, const SkinFace& face) {
   std::vector<Beside> result;
+  const auto places = is_flat(face) ? std::vector<double>{0.5} : std::vector<double>{0.2, 0.5, 0.9};
   for (TopExp_Explorer it(face.face(), TopAbs_EDGE); it.More(); it.Next()) {
     const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
     if (BRep_Tool::Degenerated(edge)) continue;
     const BRepAdaptor_Curve curve(edge);
-    const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-    const auto own = face.outward(face.closest(middle));
     for (const TopoDS_Shape& next : neighbors.FindFromKey(edge)) {
       if (next.IsSame(face.face())) continue;
       const SkinFace& other = skin.faces()[skin.index_of(TopoDS::Face(next))];
-      const auto outward = other.outward(other.closest(middle));
-      if (own && outward) result.push_back({length_of(edge), gp_Vec(*own), gp_Vec(*outward)});
+      for (const double place : places) {
+        const gp_Pnt at = curve.Value((1 - place) * curve.FirstParameter() + place * curve.LastParameter());
+        const auto own = face.outward(face.closest(at)), outward = other.outward(other.closest(at));
+        if (own && outward)
+          result.push_back(
+              {length_of(edge) / static_cast<double>(places.size()), gp_Vec(*own), gp_Vec(*outward)});
+      }
     }
   }
   std::stable_sort(result.begin(), result.end(),
@@ -110,12 +115,17 @@ std::vector<Beside> beside(const Skin& skin, const Neighbors& neighbors, const S
   return result;
 }
 
-/// The direction in which what stands beside a flat face runs on past it: most of it, measured along the
-/// border; the face's normal where nothing speaks for another one.
-gp_Dir running_on(const std::vector<Beside>& around, const gp_Dir& outward) {
+/// The direction in which what stands beside a face runs on past it.
+struct RunningOn {
+  gp_Dir along;  ///< for most of the border; the normal that was given where nothing speaks for another one
+  double share = 0;  ///< of the border
+};
+
+RunningOn running_on(const std::vector<Beside>& around, const gp_Dir& outward) {
   const gp_Vec normal(outward);
   gp_Vec best = normal;
-  double most = 0;
+  double most = 0, whole = 0;
+  for (const Beside& side : around) whole += side.length;
   const auto attempt = [&](gp_Vec along) {
     if (along.Magnitude() < 0.1) return;
     along.Normalize();
@@ -131,7 +141,7 @@ gp_Dir running_on(const std::vector<Beside>& around, const gp_Dir& outward) {
     attempt(normal - normal.Dot(around[i].outward) * around[i].outward);
     for (std::size_t j = 0; j < i; ++j) attempt(around[i].outward.Crossed(around[j].outward));
   }
-  return best;
+  return {best, whole > 0 ? most / whole : 0};
 }
 
 /// Whether what stands beside a face runs on past it along the face's normals, but for a tenth of the border.
@@ -284,20 +294,44 @@ class Outlook {
   void add_gaps(const FaceOf& from, std::vector<Gap>& gaps) const {
     const std::vector<int> others = solids_near(from);
     const auto samples = others.empty() ? std::vector<FaceSample>() : face(from).samples(24);
-    if (samples.empty() || !goes_on(from)) return;
-    const auto outward = face(from).outward(samples.front().uv);
-    if (!outward) return;
-    std::optional<gp_Dir> straight;
-    if (is_flat(face(from)))
-      straight = running_on(beside(solids_[from.solid], neighbors_[from.solid], face(from)), *outward);
+    if (samples.empty()) return;
+    const auto straight = straight_on(from, samples);
+    if (!straight && !goes_on(from)) return;
     std::map<FaceOf, Across> seen;
     double area = 0;
     for (const FaceSample& sample : samples) {
       area += sample.area;
       const auto along = straight ? straight : face(from).outward(sample.uv);
-      if (along) look(from, others, sample, *along, seen);
+      // Straight ends may meet what leans; sides are near each other all along.
+      if (along) look(from, others, sample, *along, straight ? 0.5 : std::cos(30 * M_PI / 180), seen);
     }
     for (const auto& [to, across] : seen) gaps.push_back({from, to, straight, across, across.area / area});
+  }
+
+  /// The way on from a flat face, and from the bent end of what runs straight, such as a tube that was cut to
+  /// fit round another.
+  std::optional<gp_Dir> straight_on(const FaceOf& from, const std::vector<FaceSample>& samples) const {
+    const auto outward = face(from).outward(samples.front().uv);
+    if (!outward || (!is_flat(face(from)) && goes_on(from))) return std::nullopt;
+    const RunningOn on =
+        running_on(beside(solids_[from.solid], neighbors_[from.solid], face(from)), *outward);
+    if (is_flat(face(from))) return on.along;
+    const bool ahead = std::all_of(samples.begin(), samples.end(), [&](const FaceSample& sample) {
+      const auto normal = face(from).outward(sample.uv);
+      return normal && normal->Dot(on.along) > 0.3;
+    });
+    return on.share > 0.9 && ahead ? std::optional(on.along) : std::nullopt;
+  }
+
+  /// The whole solid of a face, moved: what runs straight there goes on so.
+  DrawnFace moved(const FaceOf& of, const gp_Vec& way) const {
+    gp_Trsf move;
+    move.SetTranslation(way);
+    BRepBuilderAPI_Transform moved(solids_[of.solid].solid(), move, Standard_True);
+    DrawnFace result{moved.Shape(), {}};
+    for (const SkinFace& face : solids_[of.solid].faces())
+      result.numbers.emplace_back(moved.ModifiedShape(face.face()), face.number());
+    return result;
   }
 
   /// Whether more material before a face carries on what is there. Flat faces go on straight, bent ones along
@@ -380,8 +414,9 @@ class Outlook {
     return result;
   }
 
+  /// \param facing least cosine between the way along and the normal of what is seen.
   void look(const FaceOf& from, const std::vector<int>& others, const FaceSample& sample, const gp_Dir& along,
-            std::map<FaceOf, Across>& seen) const {
+            double facing, std::map<FaceOf, Across>& seen) const {
     const auto own = solids_[from.solid].first_hit(sample.point, along);
     std::optional<Skin::Hit> nearest;
     FaceOf to;
@@ -394,7 +429,7 @@ class Outlook {
     }
     if (!nearest) return;
     const auto opposite = face(to).outward(nearest->uv);
-    if (!opposite || opposite->Dot(along) > -0.5) return;  // met from inside, or grazed
+    if (!opposite || opposite->Dot(along) > -facing) return;  // met from inside, or grazed
     const double thickness =
         std::min(thickness_at(solids_[from.solid], face(from), widths_[from.solid][from.face], sample.uv),
                  thickness_at(solids_[to.solid], face(to), widths_[to.solid][to.face], nearest->uv));
@@ -454,18 +489,22 @@ GapFillers fill_gaps(const std::deque<Skin>& solids) {
   constexpr double all = 0.999;
   const Outlook outlook(solids);
   GapFillers result;
+  std::set<std::pair<int, FaceOf>> moved;
   for (const Gap& gap : find_gaps(solids, outlook)) {
     const double depth = into * gap.across.thickness, length = gap.across.widest + depth;
-    const auto whole = outlook.drawn(gap.from, gap.along, 0, length);
-    if (gap.along && (gap.share > all || !is_flat(outlook.face(gap.to)))) {
-      for (const DrawnFace& part : whole) add(part, result);
-      continue;
-    }
-    if (!outlook.goes_on(gap.to)) continue;
-    const auto back = gap.along ? std::optional(gap.along->Reversed()) : std::nullopt;
-    const auto others = outlook.drawn(gap.to, back, depth, 2 * length);
-    for (const DrawnFace& part : whole) {
-      for (const DrawnFace& other : others) add_common(part, other, result);
+    const bool flat = is_flat(outlook.face(gap.from));
+    std::vector<DrawnFace> parts;
+    if (flat || !gap.along)
+      parts = outlook.drawn(gap.from, gap.along, 0, length);
+    else if (moved.insert({gap.from.solid, gap.to}).second)  // an end may have several faces
+      parts.push_back(outlook.moved(gap.from, length * gp_Vec(*gap.along)));
+    if (flat && (gap.share > all || !is_flat(outlook.face(gap.to)))) {
+      add(parts.front(), result);
+    } else if (outlook.goes_on(gap.to)) {
+      const auto back = flat ? std::optional(gap.along->Reversed()) : std::nullopt;
+      for (const DrawnFace& other : outlook.drawn(gap.to, back, depth, 2 * length)) {
+        for (const DrawnFace& part : parts) add_common(part, other, result);
+      }
     }
   }
   return result;

@@ -606,6 +606,15 @@ const std::vector<JoinedModel>& joined_models() {
        2,
        2 * M_PI * 28.5 * 100 + 100 * 100 - M_PI * 28.5 * 28.5,
        {3, 4}},
+      {"tube_cut_to_fit",
+       [] {
+         const gp_Dir up(1, 0, 1);
+         const TopoDS_Shape brace = cut(drill(0, 0, 30, up, 15, 150), {drill(-1, 0, 29, up, 13, 153)});
+         return together({tube(0, 150, 30, 27), cut(brace, {drill(0, 0, -50, gp::DZ(), 31, 250)})});
+       },
+       2,
+       0,
+       {2, 3}},
       {"saddle_on_tube",
        [] {
          const gp_Ax2 place(gp_Pnt(0, 0, 20), gp::DZ());
