@@ -28,8 +28,8 @@ sys.path.insert(0, str(ROOT / "examples" / "freecad"))
 from known_answers.solver import displacements, quad_shape, stresses  # noqa: E402
 
 FORCE, YOUNG, DENSITY = 100.0, 210000.0, 7.85e-9
-BEAMS = ("i_beam_with_fillets", "h_beam", "ipe_200", "t_beam_with_fillets", "box_beam_with_fillets", "square_tube", "round_tube",
-         "channel_with_bends", "l_section", "z_section", "hat_section")
+BEAMS = ("i_beam_with_fillets", "h_beam", "ipe_200", "t_beam_with_fillets", "box_beam_with_fillets", "box_beam_rounded_outside",
+         "square_tube", "round_tube", "channel_with_bends", "l_section", "z_section", "hat_section")
 MATERIAL = f"*MATERIAL, NAME=Material\n*ELASTIC\n{YOUNG}, 0.3\n*DENSITY\n{DENSITY}"
 
 
