@@ -191,6 +191,19 @@ TEST(MidSurface, NamesTheFacesWithoutAPartner) {
   EXPECT_GE(middle.unpaired.size(), 4U);
 }
 
+TEST(MidSurface, NamesWhatIsThick) {
+  try {
+    middle_of(plate_on_block(24));
+    FAIL() << "the block under the plate is not thin";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("are further apart than 0.2 of their width"), std::string::npos);
+  }
+  const MidSurface middle = middle_of(plate_on_block(24), true);
+  ASSERT_EQ(middle.faces.size(), 1U);
+  EXPECT_NEAR(middle.faces[0].thickness, 3, 1e-9);
+  EXPECT_NE(middle.problems.front().find("thin in places only"), std::string::npos);
+}
+
 TEST(MidSurface, TellsTheRangeOfAThicknessThatVaries) {
   for (const ThinModel& model : thin_models()) {
     if (model.name != "tapering_web") continue;

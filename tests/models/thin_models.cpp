@@ -647,8 +647,8 @@ TopoDS_Shape blended_housing() {
              {rounded_lid(lofted_box(rectangle(2, 2, 96, 56, 6), rectangle(3, 3, 94, 54, 5.5), 28), 2)});
 }
 
-TopoDS_Shape plate_on_block() {
-  return fuse({box(0, 0, 0, 40, 40, 40), box(18, 0, 40, 3, 40, 60)});
+TopoDS_Shape plate_on_block(double height) {
+  return fuse({box(0, 0, 0, 40, 40, height), box(18, 0, height, 3, 40, 60)});
 }
 
 const std::vector<ThinModel>& thin_models() {
@@ -678,6 +678,26 @@ const std::vector<ThinModel>& thin_models() {
       {"round_tube", round_tube, 120 * 2 * M_PI * 23.5, {3}, 0.01, 2},
       {"i_beam", i_beam(0), 200 * (2 * 60 + 94), {4, 6}, 0.03, 1},
       {"i_beam_with_fillets", i_beam(5), 200 * (2 * 60 + 94), {4, 6}, 0.03, 1},
+      {"i_beam_with_tapered_flanges",
+       [] {
+         return profile({{{0, 0},
+                          {60, 0},
+                          {60, 5},
+                          {32, 8},
+                          {32, 92},
+                          {60, 95},
+                          {60, 100},
+                          {0, 100},
+                          {0, 95},
+                          {28, 92},
+                          {28, 8},
+                          {0, 5}}},
+                        200);
+       },
+       0,
+       {4, 6.6},
+       0.03,
+       1},
       {"h_beam",
        [] { return profile({i_outline(100, 100, 5, 7, 0)}, 200); },
        200 * (2 * 100 + 93),
