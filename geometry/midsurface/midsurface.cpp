@@ -376,7 +376,9 @@ void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_Inde
   std::set<int> numbers;
   for (const int face : accounted) numbers.insert(skin.faces()[face].number());
   for (const SkinFace& face : skin.faces()) {
-    if (numbers.count(face.number()) == 0 && !across_a_wall(skin, middle, face))
+    // Bevels, and strips that are left where solids were joined, are of no wall.
+    const bool narrow = width_of(face.face()) < 0.5 * thinnest;
+    if (numbers.count(face.number()) == 0 && !narrow && !across_a_wall(skin, middle, face))
       result.unpaired.push_back(face.number());
   }
 }
