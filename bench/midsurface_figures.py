@@ -172,9 +172,9 @@ def beams(folder, build, names):
 
 def bracket_mesh(folder, build, size, layers):
     """Nodes and C3D20R elements of the sample part, which is as thick everywhere: the quads of its middle surface, drawn along their
-    normals. In each row of nodes the one in the middle of the sheet comes first."""
-    run(build / "quadrille", "mesh", ROOT / "examples" / "freecad" / "sheet_bracket.step", "--thin", "--order", 2, "--size", size, "--curvature", 20, "--symmetry", "--quiet",
-        "-o", folder / "shell.inp", folder=folder)
+    normals. Returns the nodes of the middle surface, those of the solid by row and level, their numbers (-1: none), and the elements."""
+    run(build / "quadrille", "mesh", ROOT / "examples" / "freecad" / "sheet_bracket.step", "--thin", "--order", 2, "--size", size,
+        "--curvature", 20, "--symmetry", "--quiet", "-o", folder / "shell.inp", folder=folder)
     text = (folder / "shell.inp").read_text()
     flat, quads = nodes_of(text), [quad for quad, _ in quads_of(text)]
     (thickness,) = set(thicknesses_of(text).values())
@@ -192,8 +192,9 @@ def bracket_mesh(folder, build, size, layers):
     number[:, ::2] = 0
     number[corners] = 0
     number[number == 0] = np.arange(1, np.count_nonzero(number == 0) + 1)
-    elements = [np.concatenate([number[quads[:, :4], k], number[quads[:, :4], k + 2], number[quads[:, 4:], k], number[quads[:, 4:], k + 2],
-                                number[quads[:, :4], k + 1]], axis=1) for k in range(0, 2 * layers, 2)]
+    corner, middle = quads[:, :4], quads[:, 4:]
+    elements = [np.concatenate([number[corner, k], number[corner, k + 2], number[middle, k], number[middle, k + 2],
+                                number[corner, k + 1]], axis=1) for k in range(0, 2 * layers, 2)]
     return points, nodes, number, np.concatenate(elements)
 
 

@@ -58,6 +58,7 @@ double volume_of(const TopoDS_Shape& shape) {
 /// when their width is asked for.
 std::vector<int> width_groups(const std::vector<Wall>& walls, const std::vector<WallEnd>& ends) {
   std::vector<std::pair<int, int>> together;
+  together.reserve(ends.size());
   for (const WallEnd& end : ends) together.emplace_back(end.wall, end.next);
   std::map<int, int> first;  // wall of each face
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
