@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Quadrille's main job: installs what is missing, builds, and turns a CAD part into an all-quad mesh inside FreeCAD.
+# Quadrille's main job: installs what is missing, builds, and works inside FreeCAD: the sample, a bracket of sheet metal, from its
+# solid over its middle surface and a mesh of quads to its stresses, or a part of yours to a mesh.
 #
-#   ./run.sh                          the sample part        -> out/sample.FCStd, out/sample.inp, out/sample.png
+#   ./run.sh                          the sample             -> out/sample.FCStd, out/sample.inp, out/sample.png
 #   ./run.sh PART.step --size 2       a part of yours        -> out/PART.FCStd, out/PART.inp, out/PART.png
 #   ./run.sh PART.step --help         all options
 set -euo pipefail
@@ -15,18 +16,19 @@ if [[ -n "$part" && "$part" != -* ]]; then
   fi
   part=$(readlink -f "$part")
   name=$(basename "${part%.*}")
+  job=(examples/mesh_part.py "$part")
 else
   part=""
   name=sample
+  job=(examples/freecad/sheet_bracket.py)
 fi
 cd "$(dirname "$(readlink -f "$0")")"
-: "${part:=$PWD/examples/models/bracket.step}"
 
 scripts/install_dependencies.sh
 scripts/build.sh release quadrille quadrille_python
 
-echo "Meshing $part inside FreeCAD"
+echo "Working on ${part:-the sample} inside FreeCAD"
 export QUADRILLE_COMMAND="$PWD/build/quadrille"
-scripts/freecad_python examples/mesh_part.py "$part" --out "out/$name" "$@"
+scripts/freecad_python "${job[@]}" --out "out/$name" "$@"
 build/quadrille quality "out/$name.inp"
 ls -l "out/$name.FCStd" "out/$name.inp" "out/$name.png"

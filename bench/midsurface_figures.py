@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Measures middle surfaces: the tables of docs/midsurface.md.
 
-    bench/midsurface_figures.py [--build BUILD] [--beams [NAME...] [--check]]
+    bench/midsurface_figures.py [--build BUILD] [--beams [NAME...] [--check] | --bracket]
 
 Without --beams: each thin model of tests/models, its area times thickness over its volume, connection, free edges inside
 the material, CPU seconds. With --beams: cantilevers, meshed with S8R on the middle surface by Quadrille, against
 C3D20R of the same solid: deflection under an even load on the section at the tip, and the first frequency of bending, both by CalculiX (ccx on the PATH).
+With --bracket: the sample part, examples/freecad/sheet_bracket.step, as C3D20R: what its shell is compared with.
 """
 
 import argparse
@@ -16,11 +17,19 @@ import re
 import resource
 import shutil
 import subprocess
+import sys
 import tempfile
 
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "examples" / "freecad"))
+
+from known_answers.solver import displacements, quad_shape, stresses  # noqa: E402
+
 FORCE, YOUNG, DENSITY = 100.0, 210000.0, 7.85e-9
-BEAMS = ("i_beam_with_fillets", "h_beam", "ipe_200", "t_beam_with_fillets", "box_beam_with_fillets", "square_tube", "round_tube",
-         "channel_with_bends", "l_section", "z_section", "hat_section")
+BEAMS = ("i_beam_with_fillets", "h_beam", "ipe_200", "t_beam_with_fillets", "box_beam_with_fillets", "box_beam_rounded_outside",
+         "square_tube", "round_tube", "channel_with_bends", "l_section", "z_section", "hat_section")
 MATERIAL = f"*MATERIAL, NAME=Material\n*ELASTIC\n{YOUNG}, 0.3\n*DENSITY\n{DENSITY}"
 
 
@@ -161,6 +170,69 @@ def beams(folder, build, names):
     return off
 
 
+def bracket_mesh(folder, build, size, layers):
+    """Nodes and C3D20R elements of the sample part, which is as thick everywhere: the quads of its middle surface, drawn along their
+    normals. Returns the nodes of the middle surface, those of the solid by row and level, their numbers (-1: none), and the elements."""
+    run(build / "quadrille", "mesh", ROOT / "examples" / "freecad" / "sheet_bracket.step", "--thin", "--order", 2, "--size", size,
+        "--curvature", 20, "--symmetry", "--quiet", "-o", folder / "shell.inp", folder=folder)
+    text = (folder / "shell.inp").read_text()
+    flat, quads = nodes_of(text), [quad for quad, _ in quads_of(text)]
+    (thickness,) = set(thicknesses_of(text).values())
+    points = np.array([flat[number] for number in sorted(flat)])
+    quads = np.array(quads) - 1
+    normals = np.zeros_like(points)
+    for place, (x, y) in enumerate(((-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0))):
+        normal = np.cross(*(np.tensordot(slope, points[quads], (0, 1)) for slope in quad_shape(x, y)[1]))
+        np.add.at(normals, quads[:, place], normal / np.linalg.norm(normal, axis=1, keepdims=True))
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    levels = np.linspace(-0.5, 0.5, 2 * layers + 1) * thickness
+    nodes = points[:, None] + levels[:, None] * normals[:, None]
+    corners = np.unique(quads[:, :4])
+    number = np.full(nodes.shape[:2], -1)
+    number[:, ::2] = 0
+    number[corners] = 0
+    number[number == 0] = np.arange(1, np.count_nonzero(number == 0) + 1)
+    corner, middle = quads[:, :4], quads[:, 4:]
+    elements = [np.concatenate([number[corner, k], number[corner, k + 2], number[middle, k], number[middle, k + 2],
+                                number[corner, k + 1]], axis=1) for k in range(0, 2 * layers, 2)]
+    return points, nodes, number, np.concatenate(elements)
+
+
+def bracket(folder, build):
+    """Prints how far the sample part moves as a solid, and its largest stresses: everywhere, and in the bend."""
+    print("| size | C3D20R | largest movement (mm) | largest stress in the bend (MPa) | everywhere (MPa) |")
+    print("| --- | --- | --- | --- | --- |")
+    for size, layers in ((3, 2), (1.5, 2)):
+        points, nodes, number, elements = bracket_mesh(folder, build, size, layers)
+
+        def at_holes(axes, centers, radius):
+            away = np.min([np.hypot(*(points[:, axes] - center).T) for center in centers], axis=0)
+            return np.flatnonzero(np.abs(away - radius) < 1e-6)
+
+        bolts = at_holes([0, 1], [(x, y) for x in (26, 60) for y in (-21, 21)], 4)
+        screws = at_holes([1, 2], [(y, z) for y in (-20, 20) for z in (27, 67)], 2.75)
+        held, pulled = (number[rows][number[rows] > 0] for rows in (bolts, screws))
+        lines = ["*NODE, NSET=Nall"]
+        lines += [f"{number[i, k]}, " + ", ".join(f"{x:.12g}" for x in nodes[i, k]) for i, k in zip(*np.nonzero(number > 0))]
+        lines.append("*ELEMENT, TYPE=C3D20R, ELSET=Eall")
+        for i, element in enumerate(elements, 1):
+            lines.append(", ".join(map(str, [i, *element[:10]])) + ",\n" + ", ".join(map(str, element[10:])))
+        lines += [MATERIAL, "*SOLID SECTION, ELSET=Eall, MATERIAL=Material", "*NSET, NSET=Held", *(f"{n}," for n in held)]
+        lines += ["*BOUNDARY\nHeld, 1, 3", "*STEP\n*STATIC\n*CLOAD", *(f"{n}, 1, {100 / len(pulled):.12g}" for n in pulled)]
+        lines.append("*NODE PRINT, NSET=Nall\nU\n*EL FILE\nS\n*END STEP\n")
+        (folder / "solid.inp").write_text("\n".join(lines))
+        run("ccx", "solid", folder=folder)
+        count = number.max()
+        places = np.empty((count, 3))
+        places[number[number > 0] - 1] = nodes[number > 0]
+        moves = displacements((folder / "solid.dat").read_text(), count)
+        xx, yy, zz, xy, yz, zx = stresses((folder / "solid.frd").read_text(), count).T
+        von_mises = np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (xy**2 + yz**2 + zx**2))
+        bend = (np.abs(places) < (5, 25, 5)).all(axis=1)
+        print(f"| {size} | {len(elements)} | {np.linalg.norm(moves, axis=1).max():.5g} | {von_mises[bend].max():.4g} | "
+              f"{von_mises.max():.4g} |", flush=True)
+
+
 def surfaces(folder, build):
     print("| model | faces | middle | area x thickness / volume | parts | edges inside | CPU (s) |")
     print("| --- | --- | --- | --- | --- | --- | --- |")
@@ -178,15 +250,19 @@ def surfaces(folder, build):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent / "build")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build")
     parser.add_argument("--beams", nargs="*", metavar="NAME", choices=BEAMS)
+    parser.add_argument("--bracket", action="store_true")
     parser.add_argument("--check", action="store_true", help="exit code 1 where a beam is off by more than was asked for")
     arguments = parser.parse_args()
-    if arguments.beams is not None and shutil.which("ccx") is None:
+    if (arguments.beams is not None or arguments.bracket) and shutil.which("ccx") is None:
         print("NOT TESTED: ccx is not installed")
         return
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
+        if arguments.bracket:
+            bracket(folder, arguments.build)
+            return
         run(arguments.build / "tests" / "write_models", folder, folder=folder)
         if arguments.beams is None:
             surfaces(folder, arguments.build)

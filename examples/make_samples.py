@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the sample CAD models in examples/models/, and the tutorial's part in examples/freecad/.
+"""Makes the sample part, examples/freecad/sheet_bracket.step, and the models in examples/models/.
 
     freecadcmd examples/make_samples.py < /dev/null
 
@@ -165,15 +165,43 @@ def tube_with_hole():
     return tube.cut(drill).Faces[0]
 
 
+def bent(corner, first, second, lengths, width, thickness=2.0, inside=3.0):
+    """Two legs of sheet that meet in a bend: from the corner outside along two directions, drawn along `width`."""
+    outside, flat = inside + thickness, 1 - math.sqrt(0.5)
+
+    def at(a, b):
+        return corner + first * a + second * b
+
+    (a, b), t, middle = lengths, thickness, (outside * flat, thickness + inside * flat)
+    edges = [Part.makeLine(at(outside, 0), at(a, 0)), Part.makeLine(at(a, 0), at(a, t)), Part.makeLine(at(a, t), at(outside, t)),
+             Part.Arc(at(outside, t), at(middle[1], middle[1]), at(t, outside)).toShape(), Part.makeLine(at(t, outside), at(t, b)),
+             Part.makeLine(at(t, b), at(0, b)), Part.makeLine(at(0, b), at(0, outside)),
+             Part.Arc(at(0, outside), at(middle[0], middle[0]), at(outside, 0)).toShape()]
+    return Part.Face(Part.Wire(edges)).extrude(width)
+
+
 def sheet_bracket():
-    """The middle surface of an L of sheet: two bolt holes in its foot, one for a pin in its wall."""
-    foot = Part.makePlane(50, 40).cut(
-        Part.makeShell([Part.Face(Part.Wire(Part.makeCircle(4, Vector(15, y, 0)))) for y in (10, 30)]))
-    bend = Part.Arc(Vector(50, 0, 0), Vector(50 + 6 * math.sin(math.pi / 4), 0, 6 - 6 * math.cos(math.pi / 4)),
-                    Vector(56, 0, 6)).toShape().extrude(Vector(0, 40, 0))
-    wall = Part.makeLine(Vector(56, 0, 6), Vector(56, 0, 46)).extrude(Vector(0, 40, 0))
-    wall = wall.cut(Part.Face(Part.Wire(Part.makeCircle(6, Vector(56, 20, 30), X))))
-    return Part.makeShell(foot.Faces[0].generalFuse([bend.Faces[0], wall.Faces[0]])[0].Faces)
+    """A bracket bent of 2 mm sheet: foot with four bolt holes and two flanges, wall with a bore and four screw holes."""
+    half = 35.0
+    shape = bent(Vector(0, -half, 0), X, Z, (74, 80), Y * 2 * half)
+    for side in (-1, 1):  # a flange's bend starts where the foot's edge would be
+        shape = shape.fuse(bent(Vector(20, side * (half + 5), 0), Y * -side, Z, (6, 16), X * 54))
+    shape = shape.removeSplitter()
+
+    def drill(point, axis, radius):
+        return Part.makeCylinder(radius, 20, point - axis * 10, axis)
+
+    sides = (-1, 1)
+    holes = [drill(Vector(0, 0, 47), X, 14)]
+    holes += [drill(Vector(0, y * 20, 47 + z * 20), X, 2.75) for y in sides for z in sides]
+    holes += [drill(Vector(x, y * 21, 0), Z, 4) for x in (26, 60) for y in sides]
+    holes += [drill(Vector(18, y * half, 0), Z, 2) for y in sides]  # where flanges end: relief
+    for hole in holes:
+        shape = shape.cut(hole)
+    for direction, height, radius in ((X, 79, 12), (Y, 15, 9)):
+        shape = shape.makeFillet(radius, [edge for edge in shape.Edges
+                                          if is_along(edge, direction) and edge.Length < 3 and edge.CenterOfMass.z > height])
+    return shape.Solids[0]
 
 
 def write(name, shape, ending, folder=MODELS):

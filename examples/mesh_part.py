@@ -3,7 +3,8 @@
 
     scripts/freecad_python examples/mesh_part.py PART.step --size 2 --out out/part
 
-writes out/part.FCStd (an analysis with the part and its FEM mesh), out/part.inp and out/part.png.
+writes out/part.FCStd (an analysis with the part and its FEM mesh), out/part.inp and out/part.png. With --thin the middle surface of a
+thin solid is meshed, with its thicknesses in the analysis.
 """
 
 import argparse
@@ -17,6 +18,7 @@ import ObjectsFem
 import Part
 
 import quadrille.freecad
+from quadrille import middle
 
 
 def size_on(text):
@@ -41,6 +43,7 @@ def parse():
     parser.add_argument("--faces", default="", help="mesh these faces only: Face1,Face7")
     parser.add_argument("--size-on", type=size_on, action="append", default=[], help="Face3=0.5; may be repeated")
     parser.add_argument("--threads", type=int, default=0, help="0 = all cores")
+    parser.add_argument("--thin", action="store_true", help="mesh the middle surface of a thin solid, with its thicknesses")
     parser.add_argument("--partial", action="store_true", help="keep what could be meshed when a face fails")
     return parser.parse_args()
 
@@ -67,7 +70,10 @@ def main():
     document = FreeCAD.newDocument("Quadrille")
     part = read(Path(arguments.part), document)
     analysis = ObjectsFem.makeAnalysis(document, "Analysis")
+    thickness = None if arguments.thin else middle.looks_thin(part.Shape)
     try:
+        if arguments.thin:
+            part = middle.make_middle(part, analysis=analysis)
         mesh = quadrille.freecad.mesh_object(
             part,
             size=arguments.size,
@@ -91,6 +97,9 @@ def main():
     groups = mesh.FemMesh.GroupCount
     print(f"\nFreeCAD {'.'.join(FreeCAD.Version()[:2])}: {mesh.TypeId} with {mesh.FemMesh.FaceCount} quads, "
           f"{mesh.FemMesh.NodeCount} nodes and {groups} groups, in {document.Name}/{analysis.Label}")
+    if thickness:
+        print(f"{part.Label} looks like a thin solid, of about {thickness:.2g} mm: its skin, meshed here, is a hollow box, and shell "
+              "stresses on it mean nothing; --thin meshes its middle surface")
 
 
 main()

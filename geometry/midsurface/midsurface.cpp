@@ -54,16 +54,25 @@ double volume_of(const TopoDS_Shape& shape) {
   return std::abs(properties.Mass());
 }
 
-/// Walls that bend into each other count as one when their width is asked for.
-std::vector<int> bent_groups(std::size_t walls, const std::vector<WallEnd>& ends) {
-  std::vector<int> group(walls);
-  for (std::size_t i = 0; i < walls; ++i) group[i] = static_cast<int>(i);
+/// Walls that bend into each other, or lie on one face as the halves of a tapered flange do, count as one
+/// when their width is asked for.
+std::vector<int> width_groups(const std::vector<Wall>& walls, const std::vector<WallEnd>& ends) {
+  std::vector<std::pair<int, int>> together;
+  together.reserve(ends.size());
+  for (const WallEnd& end : ends) together.emplace_back(end.wall, end.next);
+  std::map<int, int> first;  // wall of each face
+  for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
+    for (const int face : both_sides(walls[wall]))
+      together.emplace_back(first.try_emplace(face, wall).first->second, wall);
+  }
+  std::vector<int> group(walls.size());
+  for (std::size_t i = 0; i < walls.size(); ++i) group[i] = static_cast<int>(i);
   for (bool changed = true; changed;) {
     changed = false;
-    for (const WallEnd& end : ends) {
-      const int least = std::min(group[end.wall], group[end.next]);
-      changed = changed || group[end.wall] != least || group[end.next] != least;
-      group[end.wall] = group[end.next] = least;
+    for (const auto& [a, b] : together) {
+      const int least = std::min(group[a], group[b]);
+      changed = changed || group[a] != least || group[b] != least;
+      group[a] = group[b] = least;
     }
   }
   return group;
@@ -96,25 +105,29 @@ Extent extent_of(const std::vector<JoinedFace>& faces, const std::vector<int>& p
   return result;
 }
 
-/// Area of the faces that are thicker than `thickest` times their width, over the area of all.
-double thick_share(const SolidMiddle& middle, const std::vector<WallEnd>& ends, double thickest) {
-  const std::vector<int> group = bent_groups(middle.walls.size(), ends);
-  double all = 0, thick = 0;
+/// The faces whose connected part is thicker than `thickest` times its width: 1, others 0.
+std::vector<char> find_thick(const SolidMiddle& middle, const std::vector<WallEnd>& ends, double thickest) {
+  const std::vector<int> group = width_groups(middle.walls, ends);
+  std::vector<char> result(middle.faces.size(), 0);
   for (std::size_t g = 0; g < middle.walls.size(); ++g) {
     std::vector<JoinedFace> faces;
-    for (const JoinedFace& face : middle.faces) {
-      if (group[face.wall] == static_cast<int>(g)) faces.push_back(face);
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < middle.faces.size(); ++i) {
+      if (group[middle.faces[i].wall] != static_cast<int>(g)) continue;
+      faces.push_back(middle.faces[i]);
+      indices.push_back(i);
     }
     const std::vector<int> part = connected_parts(faces);
     const int parts = part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end());
     for (int p = 0; p < parts; ++p) {
       const Extent extent = extent_of(faces, part, p);
-      all += extent.area;
-      if (extent.volume > thickest * width_of(extent.area, extent.perimeter) * extent.area)
-        thick += extent.area;
+      const bool thick = extent.volume > thickest * width_of(extent.area, extent.perimeter) * extent.area;
+      for (std::size_t i = 0; i < faces.size(); ++i) {
+        if (part[i] == p && thick) result[indices[i]] = 1;
+      }
     }
   }
-  return all > 0 ? thick / all : 1;
+  return result;
 }
 
 /// Refused with one sentence.
@@ -157,6 +170,33 @@ std::string cannot_join(const std::string& name, const Skin& skin, const std::ve
                      blended.size(), face_names(faces));
 }
 
+/// Where most of the volume of the middle surface is thick, that is refused; with options.partial what is
+/// thin is kept, and the rest told.
+void drop_thick(const Skin& skin, const std::string& name, const std::vector<WallEnd>& ends,
+                const MidSurfaceOptions& options, SolidMiddle& middle) {
+  const std::vector<char> thick = find_thick(middle, ends, options.thickest);
+  double all = 0, thick_volume = 0;
+  std::set<int> numbers;
+  std::vector<JoinedFace> thin;
+  for (std::size_t i = 0; i < thick.size(); ++i) {
+    const JoinedFace& face = middle.faces[i];
+    const double volume = area_of(face.face) * face.coverage.mean;
+    all += volume;
+    if (thick[i] == 0) {
+      thin.push_back(face);
+      continue;
+    }
+    thick_volume += volume;
+    for (const int index : face.coverage.faces) numbers.insert(skin.faces()[index].number());
+  }
+  if (thick_volume <= 0.5 * all && all > 0) return;
+  if (thin.empty()) throw not_thin(name, options);
+  middle.problem = fmt::format("{} is thin in places only: {} are further apart than {:g} of their width",
+                               name, face_names({numbers.begin(), numbers.end()}), options.thickest);
+  if (!options.partial) throw failure(name, middle.problem + "; `partial` gives what could be paired");
+  middle.faces = std::move(thin);
+}
+
 /// \param told is told the fraction that is done.
 SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const MidSurfaceOptions& options,
                             const ExecutionContext& context, const std::function<void(double)>& told) {
@@ -184,7 +224,7 @@ SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const Mid
   told(0.9);
   result.faces = join_walls(skin, result.walls, ends, pieces);
   add_fillets(skin, result.walls, result.volume, result.faces);
-  if (thick_share(result, ends, options.thickest) > 0.5) throw not_thin(name, options);
+  drop_thick(skin, name, ends, options, result);
   return result;
 }
 
@@ -337,7 +377,9 @@ void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_Inde
   std::set<int> numbers;
   for (const int face : accounted) numbers.insert(skin.faces()[face].number());
   for (const SkinFace& face : skin.faces()) {
-    if (numbers.count(face.number()) == 0 && !across_a_wall(skin, middle, face))
+    // Bevels, and strips that are left where solids were joined, are of no wall.
+    const bool narrow = width_of(face.face()) < 0.5 * thinnest;
+    if (numbers.count(face.number()) == 0 && !narrow && !across_a_wall(skin, middle, face))
       result.unpaired.push_back(face.number());
   }
 }

@@ -63,7 +63,8 @@ struct MidSurface {
   int parts = 0;                    ///< connected parts of the middle surface
   int free_edges = 0;               ///< edges that bound one face only
   std::vector<int> stray_edges{};   ///< of these, the ones that do not lie on the skin of the solid
-  std::vector<int> unpaired{};      ///< numbers of solid faces that are neither side nor rim of a wall
+  /// Numbers of solid faces that are neither side nor rim of a wall, and wider than half the thinnest one.
+  std::vector<int> unpaired{};
   std::vector<std::string> problems{};  ///< with options.partial: what would have been an error
   /// The thickness at a point of a face, from 1, whose thickness varies; of others the constant one.
   /// Called by one thread at a time.

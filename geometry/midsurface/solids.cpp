@@ -7,6 +7,8 @@
 #include <TopExp.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
+#include <optional>
+#include <vector>
 
 #include "geometry/base/error.hpp"
 #include "geometry/midsurface/gaps.hpp"
@@ -52,9 +54,38 @@ std::deque<Skin> skins_of(const Solids& solids) {
   return result;
 }
 
+/// Points in the material, one behind each face.
+std::vector<gp_Pnt> points_inside(const std::deque<Skin>& skins) {
+  std::vector<gp_Pnt> result;
+  for (const Skin& skin : skins) {
+    for (const SkinFace& face : skin.faces()) {
+      for (const FaceSample& sample : face.samples(1)) {
+        const auto outward = face.outward(sample.uv);
+        const auto hit = outward ? skin.first_hit(sample.point, outward->Reversed()) : std::nullopt;
+        if (!hit) continue;
+        result.push_back(sample.point.Translated(0.5 * gp_Vec(sample.point, hit->point)));
+        break;
+      }
+    }
+  }
+  return result;
+}
+
+/// Whether all points are in the solids: OpenCASCADE may lose some where surfaces are nearly tangent.
+bool hold(const Solids& solids, std::vector<gp_Pnt> points) {
+  for (int i = 1; i <= solids.solids.Extent(); ++i) {
+    BRepClass3d_SolidClassifier classifier(solids.solids(i));
+    std::erase_if(points, [&](const gp_Pnt& point) {
+      classifier.Perform(point, Precision::Confusion());
+      return classifier.State() != TopAbs_OUT;
+    });
+  }
+  return points.empty();
+}
+
 /// Adds what closes the gaps to the solids.
-void close_gaps(Solids& solids) {
-  const GapFillers fillers = fill_gaps(skins_of(solids));
+void close_gaps(const std::deque<Skin>& skins, Solids& solids) {
+  const GapFillers fillers = fill_gaps(skins);
   for (const TopoDS_Shape& filler : fillers.solids) solids.solids.Add(right_way_out(filler));
   for (TopTools_DataMapOfShapeInteger::Iterator it(fillers.numbers); it.More(); it.Next())
     solids.numbers.Bind(it.Key(), it.Value());
@@ -87,11 +118,12 @@ Solids fused(const Solids& apart) {
 
 std::deque<Skin> skins_of(const TopoDS_Shape& shape, bool join) {
   Solids solids = solids_of(shape);
-  if (join && solids.solids.Extent() > 1) {
-    close_gaps(solids);
-    solids = fused(solids);
-  }
-  return skins_of(solids);
+  std::deque<Skin> skins = skins_of(solids);
+  if (!join || skins.size() < 2) return skins;
+  close_gaps(skins, solids);
+  const Solids whole = fused(solids);
+  if (!hold(whole, points_inside(skins))) throw failure("", "the solids cannot be joined to one");
+  return skins_of(whole);
 }
 
 }  // namespace quadrille

@@ -6,6 +6,7 @@
 #include <TopoDS.hxx>
 #include <algorithm>
 #include <cmath>
+#include <gp_Cylinder.hxx>
 #include <map>
 #include <set>
 #include <utility>
@@ -163,6 +164,30 @@ std::optional<Wall> wall_of(const Skin& skin, const std::vector<SurfacePair>& pa
   return std::nullopt;
 }
 
+/// The radius of a cylinder, positive where the material is inside; 0 for other faces.
+double bulge(const SkinFace& face) {
+  if (face.surface().GetType() != GeomAbs_Cylinder) return 0;
+  const gp_Cylinder cylinder = face.surface().Cylinder();
+  const FaceSample sample = face.samples(1).front();
+  const gp_Vec from_axis(cylinder.Location(), sample.point);
+  return from_axis.Dot(gp_Vec(*face.outward(sample.uv))) > 0 ? cylinder.Radius() : -cylinder.Radius();
+}
+
+/// Whether what seems to be a bend is a corner of two flat walls with a fillet in it: it is not rounded
+/// outside, or by a smaller radius. The middle of such a bend would have a kink.
+bool is_filleted_corner(const Skin& skin, const Wall& wall) {
+  double outer = 0, inner = 0;
+  int flat = 0;
+  for (const int index : both_sides(wall)) {
+    const SkinFace& face = skin.faces()[index];
+    flat += face.surface().GetType() == GeomAbs_Plane ? 1 : 0;
+    const double radius = bulge(face);
+    if (radius > 0) outer = std::max(outer, radius);
+    if (radius < 0) inner = std::max(inner, -radius);
+  }
+  return flat > 1 && outer < 0.999 * inner;
+}
+
 /// Makes walls of pairs, the largest groups round one surface first; that surface is the first side.
 std::vector<Wall> group_pairs(const Skin& skin, std::vector<SurfacePair> pairs, const Touching& touching) {
   std::vector<Wall> walls;
@@ -223,6 +248,7 @@ std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
   std::erase_if(pairs, [](const SurfacePair& pair) { return !pair.middle.IsNull(); });
   for (Wall& wall : group_pairs(skin, std::move(pairs), touching_surfaces(skin, surfaces))) {
     context.check();
+    if (is_filleted_corner(skin, wall)) continue;
     const auto middle = fit_middle(skin, wall.sides, tolerance * wall.thickness, 3 * thickest);
     if (!middle) continue;
     wall.middle = middle->surface;

@@ -410,6 +410,7 @@ std::vector<CantileverModel> cantilevers() {
            {{{0, 0}, {60, 0}, {60, 4}, {32, 4, 4}, {32, 60}, {28, 60}, {28, 4, 4}, {0, 4}}},
            500},
           {"box_beam_with_fillets", {rectangle(0, 0, 60, 80), rectangle(3, 4, 54, 72, 4)}, 600},
+          {"box_beam_rounded_outside", {rectangle(0, 0, 60, 80, 3), rectangle(3, 4, 54, 72, 6)}, 600},
           {"square_tube", {rectangle(0, 0, 50, 50, 6), rectangle(3, 3, 44, 44, 3)}, 500},
           {"round_tube", {rectangle(0, 0, 50, 50, 25), rectangle(3, 3, 44, 44, 22)}, 500},
           {"channel_with_bends",
@@ -507,6 +508,15 @@ TopoDS_Shape braced_frame() {
   return together({column, beam, BRepAlgoAPI_Common(brace, box(-50, 50.3, 0, 100, 400, 179.7)).Shape()});
 }
 
+TopoDS_Shape tube(double z, double length, double outer, double inner) {
+  return cut(drill(0, 0, z, gp::DZ(), outer, length), {drill(0, 0, z - 1, gp::DZ(), inner, length + 2)});
+}
+
+/// The area of a ring.
+double ring(double outer, double inner) {
+  return M_PI * (outer * outer - inner * inner);
+}
+
 const std::vector<JoinedModel>& joined_models() {
   const double columns = 2 * 4 * 37 * 200;
   static const std::vector<JoinedModel> models{
@@ -574,6 +584,48 @@ const std::vector<JoinedModel>& joined_models() {
        2,
        0,
        {1.5, 3}},
+      // Gaps between bent faces; where both walls face each other they are one with what fills the gap.
+      {"tube_in_sleeve",
+       [] {
+         return together({tube(0, 100, 30, 27), tube(20, 60, 34, 31)});
+       },
+       2,
+       2 * M_PI * (28.5 * 40 + 30.5 * 60) + 2 * ring(30.5, 28.5),
+       {3, 7}},
+      {"sleeve_at_end",
+       [] {
+         return together({tube(0, 100, 30, 27), tube(60, 100, 34, 31)});
+       },
+       2,
+       2 * M_PI * (28.5 * 60 + 30.5 * 40 + 32.5 * 60) + ring(30.5, 28.5) + ring(32.5, 30.5),
+       {3, 7}},
+      {"tube_through_plate",
+       [] {
+         return together({tube(0, 100, 30, 27),
+                          cut(box(-50, -50, 48, 100, 100, 4), {drill(0, 0, 40, gp::DZ(), 31, 20)})});
+       },
+       2,
+       2 * M_PI * 28.5 * 100 + 100 * 100 - M_PI * 28.5 * 28.5,
+       {3, 4}},
+      {"tube_cut_to_fit",
+       [] {
+         const gp_Dir up(1, 0, 1);
+         const TopoDS_Shape brace = cut(drill(0, 0, 30, up, 15, 150), {drill(-1, 0, 29, up, 13, 153)});
+         return together({tube(0, 150, 30, 27), cut(brace, {drill(0, 0, -50, gp::DZ(), 31, 250)})});
+       },
+       2,
+       0,
+       {2, 3}},
+      {"saddle_on_tube",
+       [] {
+         const gp_Ax2 place(gp_Pnt(0, 0, 20), gp::DZ());
+         return together(
+             {tube(0, 100, 30, 27), cut(BRepPrimAPI_MakeCylinder(place, 34, 60, 0.5 * M_PI).Shape(),
+                                        {drill(0, 0, 0, gp::DZ(), 31, 100)})});
+       },
+       2,
+       2 * M_PI * (28.5 * 100 + 0.25 * (30.5 - 28.5) * 60) + 0.5 * ring(30.5, 28.5) + 2 * 2 * 60,
+       {3, 7}},
   };
   return models;
 }
@@ -595,8 +647,8 @@ TopoDS_Shape blended_housing() {
              {rounded_lid(lofted_box(rectangle(2, 2, 96, 56, 6), rectangle(3, 3, 94, 54, 5.5), 28), 2)});
 }
 
-TopoDS_Shape plate_on_block() {
-  return fuse({box(0, 0, 0, 40, 40, 40), box(18, 0, 40, 3, 40, 60)});
+TopoDS_Shape plate_on_block(double height) {
+  return fuse({box(0, 0, 0, 40, 40, height), box(18, 0, height, 3, 40, 60)});
 }
 
 const std::vector<ThinModel>& thin_models() {
@@ -626,6 +678,26 @@ const std::vector<ThinModel>& thin_models() {
       {"round_tube", round_tube, 120 * 2 * M_PI * 23.5, {3}, 0.01, 2},
       {"i_beam", i_beam(0), 200 * (2 * 60 + 94), {4, 6}, 0.03, 1},
       {"i_beam_with_fillets", i_beam(5), 200 * (2 * 60 + 94), {4, 6}, 0.03, 1},
+      {"i_beam_with_tapered_flanges",
+       [] {
+         return profile({{{0, 0},
+                          {60, 0},
+                          {60, 5},
+                          {32, 8},
+                          {32, 92},
+                          {60, 95},
+                          {60, 100},
+                          {0, 100},
+                          {0, 95},
+                          {28, 92},
+                          {28, 8},
+                          {0, 5}}},
+                        200);
+       },
+       0,
+       {4, 6.6},
+       0.03,
+       1},
       {"h_beam",
        [] { return profile({i_outline(100, 100, 5, 7, 0)}, 200); },
        200 * (2 * 100 + 93),
@@ -639,6 +711,12 @@ const std::vector<ThinModel>& thin_models() {
        [] { return box_beam(0, 4); },
        200 * 2 * (57 + 76),
        {3, 3.29, 4, 4.31},
+       1e-6,
+       2},
+      {"box_beam_rounded_outside",
+       [] { return box_beam(3, 6); },
+       200 * 2 * (57 + 76),
+       {3, 3.36, 4, 4.39},
        1e-6,
        2},
       {"sharp_l", sharp_l, 100 * (39 + 58.5), {2, 3}, 0.01, 1},

@@ -36,8 +36,9 @@ std::vector<CantileverModel> cantilevers();
 /// A block, which is not thin.
 TopoDS_Shape thick_block();
 
-/// A plate that stands on a block: thin in places only.
-TopoDS_Shape plate_on_block();
+/// A plate of 3 mm that stands on a block of 40 x 40 mm: thin in places only. Where the block is lower than
+/// wide it has two sides that face each other.
+TopoDS_Shape plate_on_block(double height = 40);
 
 /// A housing made of lofts whose lid is rounded: twelve walls of free form that go on into each other.
 TopoDS_Shape blended_housing();

@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
     write("cantilever_" + model.name, [&] { return quadrille::profile(model.outlines, model.length); });
   }
   write("thick_block", quadrille::thick_block);
-  write("plate_on_block", quadrille::plate_on_block);
+  write("plate_on_block", [] { return quadrille::plate_on_block(); });
   write("ribbed_plate_200", [] { return quadrille::ribbed_plate(6); });
   return failed == 0 ? 0 : 1;
 }

@@ -17,6 +17,7 @@ from PySide import QtCore, QtGui
 
 from case import ROOT, GuiCase, picture, run, type_into
 from driver import Boxes, find, process, wait_for, window
+from quadrille.middle import is_middle, thickness_objects
 from quadrille.state import is_quad_mesh
 
 
@@ -145,8 +146,8 @@ class TutorialTest(GuiCase):
         if not shutil.which("ccx"):
             self.skipTest("CalculiX is not installed")
         part = self.open_the_part()
-        solver = self.make_analysis(part)
-        mesh = self.mesh(part)
+        solver, surface = self.make_analysis(part)
+        mesh = self.mesh(surface)
         mesh.ViewObject.hide()
         largest = self.solve(solver)
         named = float(re.search(r"about (\d+) MPa", STEPS[11]).group(1))
@@ -172,7 +173,7 @@ class TutorialTest(GuiCase):
         return self.document.Objects[0]
 
     def make_analysis(self, part):
-        """Steps 2 to 6; returns the solver."""
+        """Steps 2 to 6; returns the solver and the middle surface."""
         self.choose(2)
         solvers = [obj for obj in self.document.Objects if obj.isDerivedFrom("Fem::FemSolverObject")]
         if not solvers:
@@ -182,14 +183,18 @@ class TutorialTest(GuiCase):
         self.choose(3)
         self.choose_card(re.findall(r"card \*([^*]+)\*", STEPS[3])[0])
         self.press(3, "OK")
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(part)
         self.choose(4)
-        self.fill_in(("if_thickness", "qsb_thickness"), self.values(4)[0])
-        self.press(4, "OK")
+        surface, = (obj for obj in self.document.Objects if is_middle(obj))
+        self.assertFalse(part.ViewObject.Visibility)
+        sheet, = thickness_objects(surface)
+        self.assertIn(f"{sheet.Thickness.getValueAs('mm').Value:g} mm", STEPS[4])
         self.choose(5)
         self.press(5, "Add")
-        holes = self.rims(part, 4)
-        self.assertEqual(len(holes), 2)
-        self.click(part, *holes)
+        holes = self.rims(surface, 4)
+        self.assertEqual(len(holes), 4)
+        self.click(surface, *holes)
         picture("tutorial_5")
         self.press(5, "OK")
         self.choose(6)
@@ -197,14 +202,14 @@ class TutorialTest(GuiCase):
         shown = task_dock().findChild(QtGui.QAbstractSpinBox, "spinForce").text()
         self.fill_in(("spinForce",), unit if "N" in shown else bare)
         self.press(6, "Add")
-        self.click(part, *self.rims(part, 6))
+        self.click(surface, *self.rims(surface, 2.75))
         self.press(6, "Add")
-        wall = next(f"Face{i}" for i, face in enumerate(part.Shape.Faces, 1) if face.CenterOfMass.x > 55.9)
-        self.click(part, wall)
+        wall = next(f"Face{i}" for i, face in enumerate(surface.Shape.Faces, 1) if face.BoundBox.XLength < 1e-6)
+        self.click(surface, wall)
         self.press(6, "Direction")
         picture("tutorial_6")
         self.press(6, "OK")
-        return solvers[0]
+        return solvers[0], surface
 
     def choose_card(self, card):
         """In the panel for materials: a list in 0.20, a tree behind an arrow in 1.0."""
@@ -225,10 +230,10 @@ class TutorialTest(GuiCase):
         tree.setCurrentIndex(found[0])
         process(0.5)
 
-    def mesh(self, part):
+    def mesh(self, surface):
         """Steps 7 to 9; returns the mesh object."""
         FreeCADGui.Selection.clearSelection()
-        FreeCADGui.Selection.addSelection(part)
+        FreeCADGui.Selection.addSelection(surface)
         self.choose(7)
         mesh = [obj for obj in self.document.Objects if is_quad_mesh(obj)][-1]
         type_into("QuadrilleSize", self.values(7)[0])
@@ -241,8 +246,8 @@ class TutorialTest(GuiCase):
         find("QuadrilleColor").setChecked(True)
         picture("tutorial_8")
         find("QuadrilleColor").setChecked(False)
-        bend = next(f"Face{i}" for i, face in enumerate(part.Shape.Faces, 1) if "Cylinder" in str(face.Surface))
-        self.click(part, bend)
+        bend = next(f"Face{i}" for i, face in enumerate(surface.Shape.Faces, 1) if face.BoundBox.XMax < 6 and face.BoundBox.ZMax < 6)
+        self.click(surface, bend)
         find("QuadrilleRefinements").setChecked(True)
         self.press(9, "Refine selection")
         type_into("QuadrilleRefinedSize0", self.values(9)[0])
