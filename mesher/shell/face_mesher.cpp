@@ -67,13 +67,16 @@ class FaceMesher {
     if (has_kept_edge(shape_.faces[face_], nodes_)) return std::move(*grid);  // flat rows are what is wanted
     const bool is_stepped = nodes_.sides[face_].outline == FaceSides::Outline::stepped;
     const double much = is_stepped ? 0.01 : 0.05, better = is_stepped ? 1 : 2;
+    constexpr double fewer = 0.8;  // of the quads, for what is wasted
     const double outside = is_stepped || has_rows(*grid) ? share_outside(*grid) : 0;
     const bool wasteful = !has_divided_edge(shape_.faces[face_], nodes_) && wastes_quads(*grid);
     if (wasteful || outside > much) {  // the nodes that one side has for its neighbors' sake squeeze the rows
       try {
         FaceMesh free = mesh_without_grid();
         const double left = share_outside(free);
-        if (wasteful ? left <= std::max(outside, much) : better * left < outside) return free;
+        const bool saves =
+            static_cast<double>(free.quads.size()) < fewer * static_cast<double>(grid->quads.size());
+        if (better * left < outside || (wasteful && saves && left <= std::max(outside, much))) return free;
       } catch (const FaceProblem&) {
         context_.check();  // the grid has none
       }
