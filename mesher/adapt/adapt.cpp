@@ -57,6 +57,7 @@ class SizePlan {
         context_(context),
         now_(sizes_of(mesh)),
         even_(even_sizes(mesh, estimate)),
+        singular_(singular_corners(mesh, estimate)),
         at_points_(mesh.points.size(), 0) {
     std::vector<double> quads(mesh.points.size(), 0);
     for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
@@ -159,7 +160,11 @@ class SizePlan {
 
   double size_at_corner(int node, double factor) const {
     constexpr double most = 4;  // that a size changes at once
-    const double size = std::clamp(factor * even_[node], at_points_[node] / most, at_points_[node] * most);
+    double ratio = factor * even_[node] / at_points_[node];
+    // Where stresses have no end the square of a quad's error goes with the second power of its size at most,
+    // and is taken to go with that.
+    if (singular_[node] && ratio < 1) ratio = std::pow(ratio, order_of(mesh_) + 1);
+    const double size = at_points_[node] * std::clamp(ratio, 1 / most, most);
     const double largest =
         options_.size_max > 0 ? options_.size_max : std::numeric_limits<double>::infinity();
     return std::clamp(size, options_.size_min, largest);
@@ -171,6 +176,7 @@ class SizePlan {
   ExecutionContext& context_;
   std::vector<double> now_;        // (quads) sizes
   std::vector<double> even_;       // (points) sizes wanted, to a factor
+  std::vector<char> singular_;     // (points)
   std::vector<double> at_points_;  // (points) sizes
 };
 

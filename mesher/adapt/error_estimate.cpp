@@ -173,4 +173,29 @@ std::vector<double> even_sizes(const ShellMesh& mesh, const ErrorEstimate& estim
   return sizes;
 }
 
+std::vector<char> singular_corners(const ShellMesh& mesh, const ErrorEstimate& estimate) {
+  constexpr double much = 4;  // times as much a quad, of the square
+  std::vector<std::vector<int>> quads_at(mesh.points.size());
+  for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
+    for (const int node : mesh.quads[quad]) quads_at[node].push_back(static_cast<int>(quad));
+  }
+  const auto mean_of = [&](const std::set<int>& quads) {
+    double sum = 0;
+    for (const int quad : quads) sum += estimate.squares[quad];
+    return sum / static_cast<double>(quads.size());
+  };
+  std::vector<char> singular(mesh.points.size(), 0);
+  for (std::size_t node = 0; node < singular.size(); ++node) {
+    const std::set<int> own(quads_at[node].begin(), quads_at[node].end());
+    std::set<int> round;
+    for (const int quad : own) {
+      for (const int corner : mesh.quads[quad])
+        round.insert(quads_at[corner].begin(), quads_at[corner].end());
+    }
+    for (const int quad : own) round.erase(quad);
+    singular[node] = !own.empty() && !round.empty() && mean_of(own) > much * mean_of(round);
+  }
+  return singular;
+}
+
 }  // namespace quadrille

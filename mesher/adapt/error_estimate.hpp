@@ -37,4 +37,8 @@ std::vector<double> sizes_of(const ShellMesh& mesh);
 /// that are no corners. What a single quad says is noise: each corner goes by all quads about it.
 std::vector<double> even_sizes(const ShellMesh& mesh, const ErrorEstimate& estimate);
 
+/// (points) 1 = stresses seem to have no end there: the quads about it have far more of the error than those
+/// round them.
+std::vector<char> singular_corners(const ShellMesh& mesh, const ErrorEstimate& estimate);
+
 }  // namespace quadrille

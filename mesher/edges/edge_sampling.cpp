@@ -222,11 +222,16 @@ class EdgeSampler {
 
   /// Where users ask for a spacing, nodes stay: on the edge and on those of its chord.
   void keep_spacing(const Chords& chords) {
-    std::vector<char> kept(n_, 0);
+    std::vector<char> divided(n_, 0), kept(n_, 0);
     for (int i = 0; i < n_; ++i) {
-      if (is_prescribed(i) && !plan_.prescribed[i]->shares.empty()) kept[chords.of(i)] = 1;
+      if (!is_prescribed(i)) continue;
+      divided[chords.of(i)] = 1;
+      if (!plan_.prescribed[i]->shares.empty()) kept[chords.of(i)] = 1;
     }
-    for (int i = 0; i < n_; ++i) result_.edges[i].kept = kept[chords.of(i)] != 0;
+    for (int i = 0; i < n_; ++i) {
+      result_.edges[i].divided = divided[chords.of(i)] != 0;
+      result_.edges[i].kept = kept[chords.of(i)] != 0;
+    }
   }
 
   bool along_chord(int edge) const { return plan_.bare[edge] && !plan_.tiny.closed(shape_.edges[edge]); }

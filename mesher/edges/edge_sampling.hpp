@@ -20,7 +20,8 @@ struct BoundaryNodes {
     std::vector<int> nodes;          ///< indices into `points`; the ends are the vertices' nodes
     int stride = 1;                  ///< segments to one of the mesh that is recombined
     bool borrowed = false;           ///< the nodes are those of another edge (TinyFeatures)
-    bool kept = false;               ///< users ask for its spacing: its nodes stay where they are
+    bool divided = false;            ///< users ask for its number, or for that of an edge it runs along with
+    bool kept = false;               ///< they ask for its spacing: its nodes stay where they are
     int segments() const { return static_cast<int>(nodes.size()) - 1; }
   };
   std::vector<Vector3> points;

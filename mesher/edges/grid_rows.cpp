@@ -237,11 +237,23 @@ GridRows find_grid_rows(const CadShape& shape, const std::vector<FaceSides>& sid
   return RowFinder(shape, sides, std::move(prescribed), options, size).run();
 }
 
-bool has_kept_edge(const CadFace& face, const BoundaryNodes& nodes) {
+namespace {
+
+bool has_edge(const CadFace& face, const BoundaryNodes& nodes, bool BoundaryNodes::Edge::*is) {
   return std::any_of(face.wires.begin(), face.wires.end(), [&](const CadWire& wire) {
     return std::any_of(wire.coedges.begin(), wire.coedges.end(),
-                       [&](const Coedge& coedge) { return nodes.edges[coedge.edge - 1].kept; });
+                       [&](const Coedge& coedge) { return nodes.edges[coedge.edge - 1].*is; });
   });
+}
+
+}  // namespace
+
+bool has_kept_edge(const CadFace& face, const BoundaryNodes& nodes) {
+  return has_edge(face, nodes, &BoundaryNodes::Edge::kept);
+}
+
+bool has_divided_edge(const CadFace& face, const BoundaryNodes& nodes) {
+  return has_edge(face, nodes, &BoundaryNodes::Edge::divided);
 }
 
 }  // namespace quadrille

@@ -33,4 +33,7 @@ GridRows find_grid_rows(const CadShape& shape, const std::vector<FaceSides>& sid
 /// Whether users ask for the spacing of an edge of the face (BoundaryNodes::Edge::kept).
 bool has_kept_edge(const CadFace& face, const BoundaryNodes& nodes);
 
+/// Whether users ask for the number of segments on an edge of the face (BoundaryNodes::Edge::divided).
+bool has_divided_edge(const CadFace& face, const BoundaryNodes& nodes);
+
 }  // namespace quadrille

@@ -40,7 +40,7 @@ class GridMaker {
         if (!make_four()) return std::nullopt;
         break;
       case Outline::stepped:
-        if (!make_stepped() || wastes_quads()) return std::nullopt;
+        if (!make_stepped()) return std::nullopt;
         break;
       case Outline::ring:
         if (!make_ring()) return std::nullopt;
@@ -464,20 +464,6 @@ class GridMaker {
       if (!(cross(a, b, d) > 0) || !(cross(c, d, b) > 0)) return false;
     }
     return true;
-  }
-
-  /// Whether rows that are fine for one corner's sake go on through places that want larger quads: more of
-  /// them than the sizes ask for, but for half of the segments on the boundary.
-  bool wastes_quads() {
-    constexpr double most = 1.3;
-    double wanted = 0;
-    for (const auto& [a, b, c, d] : grid_.quads) {
-      check_();
-      const auto& p = grid_.points;
-      const double size = size_at_(0.25 * (p[a] + p[b] + p[c] + p[d]));
-      wanted += 0.5 * (p[c] - p[a]).cross(p[d] - p[b]).norm() / (size * size);
-    }
-    return static_cast<double>(grid_.quads.size()) > most * wanted + 0.5 * boundary_count_;
   }
 
   /// Whether nearly all inner sides are of about the size wanted, or of that of the boundary where this has

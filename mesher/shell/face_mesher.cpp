@@ -67,11 +67,16 @@ class FaceMesher {
     if (has_kept_edge(shape_.faces[face_], nodes_)) return std::move(*grid);  // flat rows are what is wanted
     const bool is_stepped = nodes_.sides[face_].outline == FaceSides::Outline::stepped;
     const double much = is_stepped ? 0.01 : 0.05, better = is_stepped ? 1 : 2;
+    constexpr double fewer = 0.8;  // of the quads, for what is wasted
     const double outside = is_stepped || has_rows(*grid) ? share_outside(*grid) : 0;
-    if (outside > much) {  // the nodes that one side has for its neighbors' sake squeeze the rows
+    const bool wasteful = !has_divided_edge(shape_.faces[face_], nodes_) && wastes_quads(*grid);
+    if (wasteful || outside > much) {  // the nodes that one side has for its neighbors' sake squeeze the rows
       try {
         FaceMesh free = mesh_without_grid();
-        if (better * share_outside(free) < outside) return free;
+        const double left = share_outside(free);
+        const bool saves =
+            static_cast<double>(free.quads.size()) < fewer * static_cast<double>(grid->quads.size());
+        if (better * left < outside || (wasteful && saves && left <= std::max(outside, much))) return free;
       } catch (const FaceProblem&) {
         context_.check();  // the grid has none
       }
@@ -98,6 +103,22 @@ class FaceMesher {
       }
     }
     return static_cast<double>(outside) / std::max(1, measured);
+  }
+
+  /// Whether rows that are fine for one edge's sake go on through places that want larger quads: there are
+  /// far more of them than the sizes ask for, half of the segments on the boundary apart.
+  bool wastes_quads(const FaceMesh& grid) {
+    constexpr double most = 1.5;
+    double wanted = 0;
+    SparseCheck check(context_);
+    for (const auto& [a, b, c, d] : grid.quads) {
+      check();
+      const auto& p = grid.points;
+      const double size = size_at_(0.25 * (p[a] + p[b] + p[c] + p[d]));
+      wanted += 0.5 * (p[c] - p[a]).cross(p[d] - p[b]).norm() / (size * size);
+    }
+    return static_cast<double>(grid.quads.size()) >
+           most * wanted + 0.5 * static_cast<double>(grid.nodes.size());
   }
 
   /// Whether a grid has three rows or more.

@@ -22,13 +22,16 @@ SizeFidelity summary(std::vector<double> ratios) {
                                 histogram_low * std::exp2((bin + 1.0) / bins_a_factor), 0});
   result.sides = static_cast<int>(ratios.size());
   if (ratios.empty()) return result;
-  int within = 0;
+  int below = 0, above = 0;
   for (const double ratio : ratios) {
-    within += ratio >= SizeFidelity::low && ratio <= SizeFidelity::high;
+    below += ratio < SizeFidelity::low;
+    above += ratio > SizeFidelity::high;
     const double place = std::floor(bins_a_factor * std::log2(ratio / histogram_low));
     ++result.histogram[static_cast<std::size_t>(std::clamp(place, 0.0, bins - 1.0))].count;
   }
-  result.within_percent = 100.0 * within / result.sides;
+  result.below_percent = 100.0 * below / result.sides;
+  result.above_percent = 100.0 * above / result.sides;
+  result.within_percent = 100 - result.below_percent - result.above_percent;
   const auto middle = ratios.begin() + result.sides / 2;
   std::nth_element(ratios.begin(), middle, ratios.end());
   result.median = *middle;
@@ -40,8 +43,14 @@ SizeFidelity summary(std::vector<double> ratios) {
 nlohmann::ordered_json SizeFidelity::json() const {
   nlohmann::ordered_json bars = nlohmann::ordered_json::array();
   for (const Bin& bin : histogram) bars.push_back({{"from", bin.from}, {"to", bin.to}, {"count", bin.count}});
-  return {{"sides", sides}, {"median", median}, {"within_percent", within_percent},
-          {"low", low},     {"high", high},     {"histogram", bars}};
+  return {{"sides", sides},
+          {"median", median},
+          {"within_percent", within_percent},
+          {"below_percent", below_percent},
+          {"above_percent", above_percent},
+          {"low", low},
+          {"high", high},
+          {"histogram", bars}};
 }
 
 SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field) {

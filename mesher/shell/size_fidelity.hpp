@@ -19,6 +19,8 @@ struct SizeFidelity {
   int sides = 0;
   double median = 0;
   double within_percent = 0;   ///< of the sides, between low and high
+  double below_percent = 0;    ///< shorter than low times what is wanted
+  double above_percent = 0;    ///< longer than high times
   std::vector<Bin> histogram;  ///< four bins to a factor of two; the first and the last hold all beyond
 
   nlohmann::ordered_json json() const;

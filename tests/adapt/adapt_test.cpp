@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -329,6 +330,24 @@ TEST(Adapt, ASmallerErrorTakesMoreQuads) {
   // Not below the half of what it takes where all sizes become smaller alike.
   EXPECT_GT(finer.result.quads_wanted, 200);
   EXPECT_LT(finer.result.quads_wanted, 400);
+}
+
+TEST(ErrorEstimate, TellsWhereItIsConcentrated) {
+  constexpr int n = 8;
+  const ShellMesh mesh = grid(n, flat);
+  ErrorEstimate estimate;
+  estimate.squares.assign(mesh.quads.size(), 1);
+  const int node = 4 * (n + 1) + 4;
+  for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
+    if (std::count(mesh.quads[quad].begin(), mesh.quads[quad].end(), node) > 0) estimate.squares[quad] = 8;
+  }
+  std::vector<char> wanted(mesh.points.size(), 0);
+  wanted[node] = 1;
+  EXPECT_EQ(singular_corners(mesh, estimate), wanted);
+  // A slope is none, nor a rough field.
+  for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad)
+    estimate.squares[quad] = std::pow(1.3, static_cast<double>(quad % n)) * (1 + quad % 3);
+  EXPECT_EQ(singular_corners(mesh, estimate), std::vector<char>(mesh.points.size(), 0));
 }
 
 TEST(FrdReader, SaysWhatIsWrong) {

@@ -305,7 +305,7 @@ TEST(Command, MeshesTheBox) {
   const TemporaryFolder folder;
   const auto result = stdout_of(
       folder, "mesh " + box +
-                  " -o a.msh -o a.inp --order 1 --size 1 --report r.json --size-on Face1=0.5,Edge2=0.5"
+                  " -o a.msh -o a.inp --order 1 --size 1 --report r.json --size-on Face1=0.7,Edge2=0.7"
                   " --threads 1 --write-size-field s.vdb");
   ASSERT_EQ(result.exit_code, 0);
   EXPECT_PRED2(contains, result.out, "scaled Jacobian");

@@ -122,7 +122,9 @@ class BatchTest(unittest.TestCase):
         arguments = " ".join(batch.setting_arguments(options))
         self.assertIn("--size-in sphere:0,0,0,1=1 --size-in box:0,0,0,1,1,1=1", arguments)
         self.assertIn("--partial", arguments)
-        self.assertIn(f"--time-limit {batch.TIME_LIMIT}", arguments)
+        self.assertIn(f" --time-limit {batch.TIME_LIMIT} --read-time-limit {batch.TIME_LIMIT}", arguments)
+        options = batch.parser().parse_args(["f", "-o", "o", "--read-time-limit", "9"])
+        self.assertEqual(batch.setting_arguments(options), ["--read-time-limit", "9", "--time-limit", str(batch.TIME_LIMIT)])
 
 
 if __name__ == "__main__":

@@ -50,5 +50,25 @@ TEST(SizeFidelity, GradedMeshesKeepTheirSizes) {
   EXPECT_GT(found.within_percent, 85);
 }
 
+TEST(SizeFidelity, FineEdgesDoNotMakeWholeGridsFine) {
+  const CadModel box = CadModel::read(sample_model("box").path());
+  MeshOptions options;
+  options.sizing.size = 4;
+  for (int edge = 1; edge <= 12; ++edge) options.sizing.edge_sizes[edge] = 0.5;
+  ExecutionContext context;
+  SizeFidelity found;
+  options.inspect = [&](const ShellMesh& mesh, const SizingField& field) {
+    found = size_fidelity(mesh, field);
+  };
+  const ShellMesh mesh = quadrille::mesh(box, options, context);
+  EXPECT_LT(mesh.quads.size(), 4500u);  // grids between such edges have 8800
+  EXPECT_GT(found.within_percent, 70);  // and 28 % within
+  EXPECT_NEAR(found.below_percent + found.within_percent + found.above_percent, 100, 1e-9);
+  // Where users ask for the division itself, rows go through.
+  options.sizing.edge_sizes.clear();
+  for (int edge = 1; edge <= 12; ++edge) options.sizing.spacings[edge].segments = 24;
+  EXPECT_EQ(quadrille::mesh(box, options, context).quads.size(), 6u * 24 * 24);
+}
+
 }  // namespace
 }  // namespace quadrille

@@ -27,7 +27,7 @@ from .setting_table import SETTINGS
 
 ENDINGS = (".step", ".stp", ".iges", ".igs", ".brep")
 FORMATS = ("msh", "inp", "unv", "med", "vtu", "vtk", "bdf")
-#: Seconds for a part, unless --time-limit says otherwise.
+#: Seconds for a part, and for reading it, unless --time-limit and --read-time-limit say otherwise.
 TIME_LIMIT = 300
 #: The columns of the report.
 COLUMNS = ("part", "status", "quads", "q_mean", "q_min", "outside_percent", "seconds", "reason")
@@ -127,8 +127,9 @@ def setting_arguments(options: argparse.Namespace) -> List[str]:
         elif value:
             for text in value if isinstance(value, list) else [value]:
                 arguments += [setting["option"], text]
-    if getattr(options, "time_limit", None) is None:
-        arguments += ["--time-limit", str(TIME_LIMIT)]
+    for limit in ("time_limit", "read_time_limit"):
+        if getattr(options, limit, None) is None:
+            arguments += ["--" + limit.replace("_", "-"), str(TIME_LIMIT)]
     return arguments
 
 
