@@ -91,17 +91,17 @@ struct SizingOptions {
   double proximity_walls = 0;         ///< elements through the thickness of a wall; 0 = any number
   double growth = 0.3;                ///< gradation: largest |grad size|
   Gradation gradation = Gradation::surface;  ///< which way sizes grow
-  std::map<int, double> face_sizes;        ///< CAD face -> size on it
-  std::map<int, double> edge_sizes;        ///< CAD edge -> size on it
-  std::map<int, double> vertex_sizes;      ///< CAD vertex -> size at it
-  std::vector<SizeRegion> regions;         ///< parts of space with sizes
-  ByElement<SizeLayers> layers;            ///< sizes by the distance from elements
-  std::map<int, EdgeSpacing> spacings;     ///< CAD edge -> how it is divided, whatever else is asked for
-  std::filesystem::path size_field;        ///< external .vdb grid that caps the size; empty = none
-  double size_field_scale = 1;             ///< on the sizes in it
-  double size_field_unit = 1;              ///< millimeters to a unit of length in it, of places and sizes
-  std::filesystem::path size_points;       ///< .csv with lines x,y,z,size; empty = none
-  Budget budget;                           ///< what may be spent
+  std::map<int, double> face_sizes;          ///< CAD face -> size on it
+  std::map<int, double> edge_sizes;          ///< CAD edge -> size on it
+  std::map<int, double> vertex_sizes;        ///< CAD vertex -> size at it
+  std::vector<SizeRegion> regions;           ///< parts of space with sizes
+  ByElement<SizeLayers> layers;              ///< sizes by the distance from elements
+  std::map<int, EdgeSpacing> spacings;       ///< CAD edge -> how it is divided, whatever else is asked for
+  std::filesystem::path size_field;          ///< external .vdb grid that caps the size; empty = none
+  double size_field_scale = 1;               ///< on the sizes in it
+  double size_field_unit = 1;                ///< millimeters to a unit of length in it, of places and sizes
+  std::filesystem::path size_points;         ///< .csv with lines x,y,z,size; empty = none
+  Budget budget;                             ///< what may be spent
 };
 
 }  // namespace quadrille

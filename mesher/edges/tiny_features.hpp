@@ -31,8 +31,8 @@ bool lies_along(const CadEdge& edge, const CadEdge& other, double reach);
 
 /// Edges marked for it, and edges shorter than `length`, become points; faces between two edges that are then
 /// left with the same ends, less than `length` apart, become edges, and faces without edges vanish. \param
-/// used (faces) 1 = the face is meshed. \param collapse (edges) 1 = marked \param length model units; 0 = none.
-/// \param slivers further faces that may become edges.
+/// used (faces) 1 = the face is meshed. \param collapse (edges) 1 = marked \param length model units; 0 =
+/// none. \param slivers further faces that may become edges.
 TinyFeatures find_tiny_features(const CadShape& shape, const std::vector<char>& used,
                                 const std::vector<char>& collapse, double length,
                                 const SliverLimits& slivers = {});
