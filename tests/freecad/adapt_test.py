@@ -95,10 +95,12 @@ class AdaptTest(unittest.TestCase):
         self.assertGreater(first.error, 0.08)
         self.assertEqual(mesh.Status, state.UP_TO_DATE)
         self.assertEqual([(member.Name, member.References) for member in analysis.Group if hasattr(member, "References")], loads)
-        for _ in range(4):  # the inner corner and the ends of the support have no finite stress
+        for _ in range(6):  # the inner corner and the ends of the support have no finite stress: mostly three or four
             self.solve(analysis)
             last = adaption.adapt(mesh, error=0.03)
             self.assertEqual(mesh.Status, state.UP_TO_DATE)
+            if last.error < 0.036:
+                break
         self.assertLess(last.error, 0.036)
         # Small at the corner, where 3 % of the plate lies, and at the ends of the support.
         nodes = mesh.FemMesh.Nodes

@@ -246,6 +246,7 @@ class SizesTest(GuiCase):
     def test_closing_ends_the_work(self):
         part = self.bracket()
         self.open_panel(part)
+        type_into("QuadrilleSize", "0.2 mm")  # takes longer than the wait below
         find("QuadrillePreview").click()
         process(0.05)
         started = []
@@ -257,6 +258,7 @@ class SizesTest(GuiCase):
 
     def test_a_closed_document_ends_the_work(self):
         self.open_panel(self.bracket())
+        type_into("QuadrilleSize", "0.2 mm")  # takes longer than the wait below
         find("QuadrillePreview").click()
         process(0.05)
         FreeCAD.closeDocument(self.document.Name)
