@@ -159,7 +159,8 @@ class TutorialTest(GuiCase):
         FreeCADGui.activateWorkbench("PartWorkbench")
         def answer(box):
             if isinstance(box, QtGui.QFileDialog):
-                box.selectFile(str(ROOT / self.values(1)[0]))
+                # selectFile() waits for the folder to be listed, which may come after the box is accepted.
+                box.findChild(QtGui.QLineEdit, "fileNameEdit").setText(str(ROOT / self.values(1)[0]))
 
         with Boxes(answer) as boxes:
             self.choose(1)
