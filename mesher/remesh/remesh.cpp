@@ -129,6 +129,20 @@ std::vector<int> numbers_of(const std::vector<int>& inputs) {
   return result;
 }
 
+/// The nodes that sides begin at which two quads have in the same direction: tubes that too few triangles go
+/// round close on themselves.
+std::vector<int> doubled_sides(const std::vector<std::array<int, 4>>& quads) {
+  std::vector<std::pair<int, int>> sides;
+  sides.reserve(4 * quads.size());
+  for (const auto& quad : quads)
+    for (int k = 0; k < 4; ++k) sides.emplace_back(quad[k], quad[(k + 1) & 3]);
+  std::sort(sides.begin(), sides.end());
+  std::vector<int> nodes;
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    if (sides[i] == sides[i - 1]) nodes.push_back(sides[i].first);
+  return nodes;
+}
+
 class Remesher {
  public:
   Remesher(const ShellMesh& input, const RemeshOptions& options, std::vector<std::string>& notes,
@@ -272,13 +286,15 @@ class Remesher {
                                   targets_, context_);
   }
 
-  /// Nodes of quads that are turned over.
+  /// Nodes of quads that are turned over, or lie on others.
   std::vector<Vector3> inverted_places() const {
     std::vector<Vector3> places;
-    for (const PatchQuads& patch : quads_)
+    for (const PatchQuads& patch : quads_) {
+      const auto& p = patch.points;
       for (const auto& [a, b, c, d] : patch.quads)
-        if (const auto& p = patch.points; quad_scaled_jacobian(p[a], p[b], p[c], p[d]) <= 0)
-          places.push_back(p[a]);
+        if (quad_scaled_jacobian(p[a], p[b], p[c], p[d]) <= 0) places.push_back(p[a]);
+      for (const int node : doubled_sides(patch.quads)) places.push_back(p[node]);
+    }
     return places;
   }
 
@@ -485,6 +501,13 @@ class Remesher {
       for (const auto& [a, b, c, d] : patch.quads) {
         mesh.quads.push_back({patch.nodes[a], patch.nodes[b], patch.nodes[c], patch.nodes[d]});
         mesh.quad_faces.push_back(face_numbers_[patch.patch]);
+      }
+      if (const std::vector<int> doubled = doubled_sides(patch.quads); !doubled.empty()) {
+        const int face = face_numbers_[patch.patch];
+        throw failure(fmt::format("Face{}", face),
+                      fmt::format("quads of Face{} lie on one another at this size, the first at {}: try a "
+                                  "smaller `size`, or another feature angle",
+                                  face, text_of(patch.points[doubled.front()])));
       }
     }
     check_inverted(mesh);
