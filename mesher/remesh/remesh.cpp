@@ -155,13 +155,11 @@ class Remesher {
     if (!options_.force) hold_budget();
     // Where quads stay inverted the surface wants smaller ones.
     constexpr int most_attempts = 4;
-    std::size_t before = std::numeric_limits<std::size_t>::max();
     for (int attempt = 1;; ++attempt) {
       make_triangles();
       make_quads();
       const std::vector<Vector3> inverted = inverted_places();
-      if (inverted.empty() || inverted.size() >= before || attempt == most_attempts) break;
-      before = inverted.size();
+      if (inverted.empty() || attempt == most_attempts) break;
       refine_near(inverted);
     }
     tell_off_surface();

@@ -240,7 +240,7 @@ TEST(Remesh, ANoisyScanOfATorusStaysATorus) {
 }
 
 TEST(Remesh, SizesBeyondASmoothSurfaceGiveSmallerElements) {
-  const ShellMesh mesh = remeshed(torus(10, 80, 30, [] { return 2.0; }), with_size(12));
+  const ShellMesh mesh = remeshed(torus(10, 80, 30, [] { return 1.0; }), with_size(6));
   EXPECT_EQ(check_and_count_rim(mesh), 0);
   EXPECT_EQ(euler_characteristic(mesh), 0);
 }
