@@ -17,6 +17,7 @@
 #include <TopoDS_Shell.hxx>
 #include <algorithm>
 #include <array>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <deque>
 #include <map>
@@ -57,24 +58,15 @@ double volume_of(const TopoDS_Shape& shape) {
 /// Walls that bend into each other, or lie on one face as the halves of a tapered flange do, count as one
 /// when their width is asked for.
 std::vector<int> width_groups(const std::vector<Wall>& walls, const std::vector<WallEnd>& ends) {
-  std::vector<std::pair<int, int>> together;
-  together.reserve(ends.size());
-  for (const WallEnd& end : ends) together.emplace_back(end.wall, end.next);
+  boost::disjoint_sets_with_storage<> together(walls.size());
+  for (const WallEnd& end : ends) together.union_set(end.wall, end.next);
   std::map<int, int> first;  // wall of each face
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
     for (const int face : both_sides(walls[wall]))
-      together.emplace_back(first.try_emplace(face, wall).first->second, wall);
+      together.union_set(first.try_emplace(face, wall).first->second, wall);
   }
   std::vector<int> group(walls.size());
-  for (std::size_t i = 0; i < walls.size(); ++i) group[i] = static_cast<int>(i);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const auto& [a, b] : together) {
-      const int least = std::min(group[a], group[b]);
-      changed = changed || group[a] != least || group[b] != least;
-      group[a] = group[b] = least;
-    }
-  }
+  for (std::size_t i = 0; i < walls.size(); ++i) group[i] = static_cast<int>(together.find_set(i));
   return group;
 }
 

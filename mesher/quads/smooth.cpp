@@ -331,7 +331,7 @@ class Smoother {
     const double size = mean_side(node);
     const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
     CriteriaPatch patch(u, v);
-    if (!(size > 0) || !draw(node, u, v, patch)) return false;
+    if (!(size > 0) || (goal == Goal::raise && !draw(node, u, v, patch))) return false;
     const auto values_at = [&](const Lanes& x, const Lanes& y) {
       if (goal == Goal::raise) return patch.merits(x, y, short_side);
       Lanes result;
