@@ -27,6 +27,9 @@ constexpr double sin2_skew = 0.413176;    // of 40 degrees, squared
 constexpr double aspect2 = 25;
 /// With taper t the Jacobian ratio of a plane quad is (1 - t / root 3) / (1 + t / root 3).
 constexpr double taper2 = 0.1875;
+/// Of the squared aspect, beside the squared cosines of the corners, in what is added for squareness: without
+/// it rows would close up where that turns corners.
+constexpr double evenness = 0.02;
 
 double square(double x) {
   return x * x;
@@ -37,7 +40,8 @@ struct Plane {
   double sine2, value;  // signed square of the least corner's sine
   double side2;         // squared length from p to b
 
-  Plane(double px, double py, double bx, double by, double cx, double cy, double dx, double dy) {
+  Plane(double px, double py, double bx, double by, double cx, double cy, double dx, double dy,
+        double squareness) {
     const double sx = bx - px, sy = by - py, tx = cx - bx, ty = cy - by;
     const double wx = dx - cx, wy = dy - cy, zx = px - dx, zy = py - dy;
     const double ss = sx * sx + sy * sy, tt = tx * tx + ty * ty, ww = wx * wx + wy * wy,
@@ -48,6 +52,7 @@ struct Plane {
     const double qp = cp / (zz * ss + tiny) * cp, qb = cb / (ss * tt + tiny) * cb,
                  qc = cc / (tt * ww + tiny) * cc, qd = cd / (ww * zz + tiny) * cd;
     const double corners = square(1 - qp) + square(1 - qb) + square(1 - qc) + square(1 - qd);
+    const double turned = 4 - qp - qb - qc - qd;
     const double longest = std::max(std::max(ss, tt), std::max(ww, zz));
     const double shortest = std::min(std::min(ss, tt), std::min(ww, zz));
     const double aspect = longest / (shortest + tiny);
@@ -58,7 +63,8 @@ struct Plane {
     const double taper =
         (std::abs(cb + cc - cp - cd) + std::abs(cc + cd - cp - cb)) / (std::abs(mean) + tiny);
     const double sum = corners * (1 / square(sin2_corner)) + square(skew * (1 / sin2_skew)) +
-                       square(aspect * (1 / aspect2)) + square(taper * taper * (1 / taper2));
+                       square(aspect * (1 / aspect2)) + square(taper * taper * (1 / taper2)) +
+                       squareness * (turned + evenness * (aspect - 1));
     side2 = ss;
     const double least = std::min(std::min(cp, cb), std::min(cc, cd));
     sine2 = least > 0 ? std::min(std::min(qp, qb), std::min(qc, qd)) : -1;
@@ -89,12 +95,13 @@ struct Frame {
 
 }  // namespace
 
-QuadObjective measure_objective(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+QuadObjective measure_objective(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d,
+                                double squareness) {
   const Frame frame(a, b, c, d);
   if (frame.length == 0) return {most, -1, frame.normal};
   const Vector3 ab = b - a, ad = d - a;
-  const Plane plane(0, 0, frame.x.dot(ab), frame.y.dot(ab), frame.length, 0, frame.x.dot(ad),
-                    frame.y.dot(ad));
+  const Plane plane(0, 0, frame.x.dot(ab), frame.y.dot(ab), frame.length, 0, frame.x.dot(ad), frame.y.dot(ad),
+                    squareness);
   return {std::min(plane.value, most), plane.sine2 < 0 ? -1 : std::sqrt(plane.sine2), frame.normal};
 }
 
@@ -122,7 +129,7 @@ void FlatQuad::move(int corner, double x, double y) {
 }
 
 QuadObjective FlatQuad::measure() const {
-  const Plane plane(x_[0], y_[0], x_[1], y_[1], x_[2], y_[2], x_[3], y_[3]);
+  const Plane plane(x_[0], y_[0], x_[1], y_[1], x_[2], y_[2], x_[3], y_[3], 0);
   return {std::min(plane.value, most), plane.sine2 < 0 ? -1 : std::sqrt(plane.sine2), Vector3::Zero()};
 }
 
@@ -159,7 +166,7 @@ CriteriaPatch::Lanes CriteriaPatch::evaluate(const Lanes& x, const Lanes& y) con
     const Quad& q = quads_[i];
     for (int k = 0; k < lanes; ++k) {
       const Plane plane(x[k] * q.ux + y[k] * q.vx, x[k] * q.uy + y[k] * q.vy, q.bx, q.by, q.cx, q.cy, q.dx,
-                        q.dy);
+                        q.dy, squareness_);
       result[k] += plane.value;
     }
   }
@@ -175,7 +182,7 @@ CriteriaPatch::Lanes CriteriaPatch::merits(const Lanes& x, const Lanes& y, doubl
     const Quad& q = quads_[i];
     for (int k = 0; k < lanes; ++k) {
       const Plane plane(x[k] * q.ux + y[k] * q.vx, x[k] * q.uy + y[k] * q.vy, q.bx, q.by, q.cx, q.cy, q.dx,
-                        q.dy);
+                        q.dy, squareness_);
       least[k] = std::min(least[k], plane.sine2);
       shortest[k] = std::min(shortest[k], plane.side2);
       sum[k] += std::sqrt(plane.side2);

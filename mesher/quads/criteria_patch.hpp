@@ -18,7 +18,10 @@ struct QuadObjective {
 /// The sum over the criteria of (value / limit)^4: aspect / 5, sine of the skew / sine of 40 degrees, for
 /// each corner the sine of its deviation from 90 degrees / sine of 50 degrees, taper at Gauss points / the
 /// taper at which the Jacobian ratio is 0.6. In the plane of the quad's mean normal.
-QuadObjective measure_objective(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
+/// \param squareness the weight of the squared cosines of the corners, and of a little of the aspect, which
+/// are added: the fourth powers alone leave corners 20 degrees from right angles as they are.
+QuadObjective measure_objective(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d,
+                                double squareness = 0);
 
 /// A quad whose nodes move along two directions, in a plane that stays.
 class FlatQuad {
@@ -47,7 +50,9 @@ class CriteriaPatch {
   using Lanes = std::array<double, lanes>;
 
   /// \param u,v the two directions that the node can move in; v is zero where it has one only.
-  CriteriaPatch(const Vector3& u, const Vector3& v) : u_(u), v_(v) {}
+  /// \param squareness as for measure_objective()
+  CriteriaPatch(const Vector3& u, const Vector3& v, double squareness = 0)
+      : u_(u), v_(v), squareness_(squareness) {}
 
   /// Adds the quad with the node at `a`. False where the patch is full or the quad has no area.
   bool add(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
@@ -72,6 +77,7 @@ class CriteriaPatch {
     double ux, uy, vx, vy;          ///< the directions
   };
   Vector3 u_, v_;
+  double squareness_;
   int count_ = 0;
   std::array<Quad, max_quads> quads_;
 };

@@ -20,8 +20,13 @@
 namespace quadrille {
 namespace {
 
-/// Nodes of quads above this objective are moved.
-constexpr double poor = 0.01;
+/// What nodes slide for.
+struct Aim {
+  double squareness;  ///< see measure_objective()
+  double poor;        ///< nodes of quads above this objective are moved
+};
+/// First for right angles everywhere, then for the quads that lie outside the limits with that.
+constexpr Aim right_angles{3, 0.1}, limits{0, outside_objective};
 /// What no corner's sine falls below unless one of a quad round the same node was. At the limit of corner
 /// angles (sin 40 degrees) it would hold up nodes that many quads need to pass.
 constexpr double floor_sine = 0.5;
@@ -61,8 +66,8 @@ struct FaceState {
 
   const Vector3& corner(int quad, int k) const { return mesh->points[mesh->quads[quad][k & 3]]; }
 
-  QuadObjective measure(int quad) const {
-    return measure_objective(corner(quad, 0), corner(quad, 1), corner(quad, 2), corner(quad, 3));
+  QuadObjective measure(int quad, double squareness = 0) const {
+    return measure_objective(corner(quad, 0), corner(quad, 1), corner(quad, 2), corner(quad, 3), squareness);
   }
 };
 
@@ -94,26 +99,40 @@ class NodeSliding {
     find_slidable();
   }
 
+  /// Moves the active nodes to where quads have right angles, then those of quads outside the limits.
   void run(int sweeps) {
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-      int moves = slide_edges();
-      for_each_face([&](FaceState& face) { relax_face(face); });
-      for (const FaceState& face : states_) moves += face.moves;
-      if (moves == 0) break;
-    }
-    for_each_face([&](FaceState& face) { finish(face); });
+    slide((sweeps + 2) / 3, right_angles);  // later sweeps gain little
+    for (FaceState& face : states_) std::fill(face.active.begin(), face.active.end(), 1);
+    slide(sweeps, limits);
   }
 
-  /// Fills patches round quads outside the limits anew. \return whether some were.
+  /// Fills patches round quads outside the limits anew, whose nodes are active then. \return whether some
+  /// were.
   bool mend() {
     for_each_face([&](FaceState& face) { mend(face); });
     return std::any_of(states_.begin(), states_.end(), [](const FaceState& face) { return face.mended; });
+  }
+
+  /// Parameters and qualities follow the nodes.
+  void finish() {
+    for_each_face([&](FaceState& face) { finish(face); });
   }
 
  private:
   struct Instance {
     int face, point;
   };
+
+  void slide(int sweeps, const Aim& aim) {
+    aim_ = aim;
+    for_each_face([&](FaceState& face) { measure(face); });
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      int moves = slide_edges();
+      for_each_face([&](FaceState& face) { relax_face(face); });
+      for (const FaceState& face : states_) moves += face.moves;
+      if (moves == 0) break;
+    }
+  }
 
   /// The quads round a node before a move.
   struct Round {
@@ -164,19 +183,28 @@ class NodeSliding {
     std::vector<int> place(face.first.begin(), face.first.end() - 1);
     face.objective.resize(mesh.quads.size());
     face.least_sine.resize(mesh.quads.size());
-    face.active.assign(mesh.points.size(), 0);
+    face.active.assign(mesh.points.size(), 1);
     face.slid.resize(mesh.nodes.size(), 0);
     for (int quad = 0; quad < static_cast<int>(mesh.quads.size()); ++quad) {
       check();
-      const QuadObjective measured = face.measure(quad);
+      for (int k = 0; k < 4; ++k) face.corners[place[mesh.quads[quad][k]]++] = 4 * quad + k;
+    }
+  }
+
+  /// Active nodes stay so where a quad is poor.
+  void measure(FaceState& face) {
+    const FaceMesh& mesh = *face.mesh;
+    SparseCheck check(context_);
+    std::vector<char> poor(mesh.points.size(), 0);
+    for (int quad = 0; quad < static_cast<int>(mesh.quads.size()); ++quad) {
+      check();
+      const QuadObjective measured = face.measure(quad, aim_.squareness);
       face.objective[quad] = measured.value;
       face.least_sine[quad] = measured.least_sine;
-      for (int k = 0; k < 4; ++k) {
-        const int node = mesh.quads[quad][k];
-        face.corners[place[node]++] = 4 * quad + k;
-        if (measured.value > poor) face.active[node] = 1;
-      }
+      if (measured.value <= aim_.poor) continue;
+      for (const int node : mesh.quads[quad]) poor[node] = 1;
     }
+    for (std::size_t i = 0; i < poor.size(); ++i) face.active[i] &= poor[i];
   }
 
   /// Where each node of the boundary comes up in the faces, in compressed rows.
@@ -270,7 +298,7 @@ class NodeSliding {
                     &next = state.corner(use.quad, use.corner + 1),
                     &opposite = state.corner(use.quad, use.corner + 2),
                     &previous = state.corner(use.quad, use.corner + 3);
-      const QuadObjective quad = measure_objective(trial.point, next, opposite, previous);
+      const QuadObjective quad = measure_objective(trial.point, next, opposite, previous, aim_.squareness);
       trial.objective += quad.value;
       if (!(trial.objective <= enough) || !(quad.least_sine >= floor) || !(quad.least_sine > 0)) return false;
       // Not turned over, against what it was: surfaces bend less than that from quad to quad.
@@ -338,7 +366,7 @@ class NodeSliding {
     round.clear();
     for (int i = first_instance_[node]; i < first_instance_[node + 1]; ++i)
       gather(instances_[i].face, instances_[i].point, round);
-    if (round.uses.empty() || round.worst_objective <= poor) return false;
+    if (round.uses.empty() || round.worst_objective <= aim_.poor) return false;
     measure_sides(round);
     if (round.is_fine()) return false;
     const double t = edge.parameters[k];
@@ -346,7 +374,7 @@ class NodeSliding {
         range_of(index, k, curve.straight() ? longest_interval : longest_curved_interval);
     const Vector3 derivative = curve.derivative(t);
     const double speed = derivative.norm();
-    CriteriaPatch patch(derivative / speed, Vector3::Zero());
+    CriteriaPatch patch(derivative / speed, Vector3::Zero(), aim_.squareness);
     if (!(speed > 0) || !(low < high) || !draw(round, patch)) return false;
     CriteriaPatch::Lanes steps{-0.4, -0.2, -0.08, -0.02, 0.02, 0.08, 0.2, 0.4};
     for (double& step : steps) step *= round.mean;
@@ -403,7 +431,7 @@ class NodeSliding {
     auto& [round, trial] = buffers;
     round.clear();
     gather(index, node, round);
-    if (round.uses.empty() || round.worst_objective <= poor) return false;
+    if (round.uses.empty() || round.worst_objective <= aim_.poor) return false;
     measure_sides(round);
     if (round.is_fine()) return false;
     const Vector3& here = face.mesh->points[node];
@@ -412,7 +440,7 @@ class NodeSliding {
       normal += (face.corner(use.quad, 2) - face.corner(use.quad, 0))
                     .cross(face.corner(use.quad, 3) - face.corner(use.quad, 1));
     const Vector3 u = normal.unitOrthogonal(), v = normal.normalized().cross(u);
-    CriteriaPatch patch(u, v);
+    CriteriaPatch patch(u, v, aim_.squareness);
     if (!draw(round, patch)) return false;
     const auto [x, y] = patch.lowest(round.shortest, 0.5 * round.mean);
     for (const double share : {1.0, 0.5}) {
@@ -451,7 +479,7 @@ class NodeSliding {
     mesh.uv = std::move(work.parameters);
     mesh.pole.resize(mesh.points.size(), 0);
     prepare(face);
-    for (std::size_t i = 0; i < changed.size(); ++i) face.active[i] &= changed[i];
+    face.active = std::move(changed);
   }
 
   static void turn_over(std::vector<std::array<int, 4>>& quads) {
@@ -497,6 +525,7 @@ class NodeSliding {
   const CadShape& shape_;
   BoundaryNodes& nodes_;
   ExecutionContext& context_;
+  Aim aim_ = limits;
   std::vector<FaceState> states_;
   std::vector<std::vector<double>> sampled_;  // (edges) parameters before
   std::vector<int> first_instance_;
@@ -514,6 +543,7 @@ void slide_nodes(const CadShape& shape, BoundaryNodes& nodes, std::vector<std::o
   NodeSliding sliding(shape, nodes, faces, context);
   sliding.run(options.sliding_sweeps);
   if (options.clean_up && sliding.mend()) sliding.run(options.sliding_sweeps);
+  sliding.finish();
 }
 
 }  // namespace quadrille

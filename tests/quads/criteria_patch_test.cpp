@@ -34,19 +34,38 @@ TEST(CriteriaPatch, EachCriterionCountsOneAtItsLimit) {
               1e-12);
 }
 
+TEST(CriteriaPatch, SquarenessCountsEachCorner) {
+  const auto of = [](const Vector3& c, double squareness) {
+    return measure_objective({0, 0, 0}, {1, 0, 0}, c, {0, 1, 0}, squareness).value;
+  };
+  EXPECT_NEAR(of({1, 1, 0}, 3), of({1, 1, 0}, 0), 1e-12);
+  // A parallelogram whose corners are 10 degrees off, with sides of one.
+  const double s = std::sin(10 * M_PI / 180), c = std::cos(10 * M_PI / 180);
+  const auto leaning = [&](double squareness) {
+    return measure_objective({0, 0, 0}, {1, 0, 0}, {1 + s, c, 0}, {s, c, 0}, squareness).value;
+  };
+  EXPECT_LT(leaning(0), 0.02);
+  EXPECT_NEAR(leaning(3) - leaning(0), 3 * 4 * s * s, 1e-3);
+}
+
 TEST(CriteriaPatch, LanesAgreeWithTheExactMeasure) {
   const Vector3 a(0.1, 0.05, 0), b(1, 0.1, 0), c(1.2, 1.1, 0), d(-0.1, 0.9, 0), e(-1, 0, 0), f(-0.9, 1, 0);
   const Vector3 u(1, 0, 0), v(0, 1, 0);
-  CriteriaPatch patch(u, v);
-  ASSERT_TRUE(patch.add(a, b, c, d));
-  ASSERT_TRUE(patch.add(a, d, f, e));
-  const CriteriaPatch::Lanes x{0, 0.1, -0.1, 0.2, 0, 0, 0.1, 5}, y{0, 0, 0, 0, 0.1, -0.1, 0.1, 5};
-  const auto values = patch.evaluate(x, y);
-  for (int k = 0; k + 1 < CriteriaPatch::lanes; ++k) {
-    const Vector3 p = a + x[k] * u + y[k] * v;
-    EXPECT_NEAR(values[k], measure_objective(p, b, c, d).value + measure_objective(p, d, f, e).value, 1e-12);
+  for (const double squareness : {0.0, 3.0}) {
+    CriteriaPatch patch(u, v, squareness);
+    ASSERT_TRUE(patch.add(a, b, c, d));
+    ASSERT_TRUE(patch.add(a, d, f, e));
+    const CriteriaPatch::Lanes x{0, 0.1, -0.1, 0.2, 0, 0, 0.1, 5}, y{0, 0, 0, 0, 0.1, -0.1, 0.1, 5};
+    const auto values = patch.evaluate(x, y);
+    for (int k = 0; k + 1 < CriteriaPatch::lanes; ++k) {
+      const Vector3 p = a + x[k] * u + y[k] * v;
+      EXPECT_NEAR(
+          values[k],
+          measure_objective(p, b, c, d, squareness).value + measure_objective(p, d, f, e, squareness).value,
+          1e-12);
+    }
+    EXPECT_GT(values[7], 1e29);  // not convex
   }
-  EXPECT_GT(values[7], 1e29);  // not convex
 }
 
 }  // namespace
