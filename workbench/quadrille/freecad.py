@@ -206,16 +206,15 @@ def start(mesh, command: Optional[str] = None, outputs: Sequence[Union[str, Path
     running = _running.get(_key(mesh))
     if running is not None and running.running:
         raise Error(f"{mesh.Label}: is being meshed already; wait for it, or cancel it first", "usage", mesh.Name)
-    if mesh.Shape is None:
-        raise Error(f"{mesh.Label}: the part that it meshes is gone", "usage", mesh.Name)
+    part = state.part_of(mesh)
     old_documents.mesh_regions(mesh)
     wanted = wanted or state.wanted_of(mesh)
     found = links.follow(mesh, wanted.anew)
     flipped = state.flipped(mesh, found)
-    shape = shapes.with_reversed_faces(shape_of(mesh.Shape), flipped)
+    shape = shapes.with_reversed_faces(shape_of(part), flipped)
     job = ShapeJob(shape, state.settings_to_use(mesh, wanted, found), command, outputs, brep=_brep_as_meshed(mesh, flipped))
     # What is changed while the child works makes the mesh stale when it comes.
-    job.made_of = (shapes.fingerprint(mesh.Shape.Shape), state.settings_key(mesh, wanted, found))
+    job.made_of = (shapes.fingerprint(part.Shape), state.settings_key(mesh, wanted, found))
     job.found = found
     _running[_key(mesh)] = job.start()
     return job

@@ -36,7 +36,7 @@ STATUSES = (NOT_MESHED, UP_TO_DATE, PART_CHANGED, SETTINGS_CHANGED, PART_GONE, L
 class Refinement(NamedTuple):
     """A size of its own for faces, edges, vertices."""
 
-    region: Any  #: FreeCAD's mesh region; None while there is none yet
+    region: str  #: the name of FreeCAD's mesh region, which may go while a panel shows it; empty while there is none yet
     references: links.Links
     size: float  #: mm
 
@@ -68,8 +68,8 @@ def wanted_of(mesh) -> Wanted:
     """What a mesh object asks for."""
     values = {setting["property"]: getattr(mesh, setting["property"]) for setting in SETTINGS if setting["property"]}
     values.update((name, getattr(mesh, name, default)) for name, default in ((ADAPTED, ""), (FOLLOWS, False)))
-    refinements = [Refinement(region, region.References, _length(region)) for region in mesh.MeshRegionList]
-    refinements += [Refinement(None, links.link(mesh.Shape, names), size)
+    refinements = [Refinement(region.Name, region.References, _length(region)) for region in mesh.MeshRegionList]
+    refinements += [Refinement("", links.link(mesh.Shape, names), size)
                     for size, names in old_documents.sizes_of(mesh).items()]
     return Wanted(values, tuple(refinements))
 
@@ -77,6 +77,13 @@ def wanted_of(mesh) -> Wanted:
 def _length(region) -> float:
     length = region.CharacteristicLength
     return float(getattr(length, "Value", length))
+
+
+def part_of(mesh):
+    """The part that a mesh object meshes; raises Error when it is gone."""
+    if mesh.Shape is None:
+        raise Error(f"{mesh.Label}: the part that it meshes is gone", "usage", mesh.Name)
+    return mesh.Shape
 
 
 def shape_of(doc_object):
@@ -108,11 +115,10 @@ def sizes_wanted(mesh, wanted: Wanted, found: Dict[links.Key, str]) -> Dict[str,
     sizes: Dict[str, float] = {}
     shape = shape_of(mesh.Shape)
     for region, references, size in wanted.refinements:
-        source = region.Name if region is not None else ""
         if not size > 0:
-            label = region.Label if region is not None else "Refinement"
-            raise Error(f"{label}: a mesh region needs a length larger than 0", "usage", source)
-        for name in shapes.references_to_names(shape, mesh.Shape, links.renamed(source, references, found)):
+            label = getattr(mesh.Document.getObject(region), "Label", "Refinement")
+            raise Error(f"{label}: a mesh region needs a length larger than 0", "usage", region)
+        for name in shapes.references_to_names(shape, mesh.Shape, links.renamed(region, references, found)):
             sizes[name] = min(size, sizes.get(name, size))
     return sizes
 

@@ -13,7 +13,7 @@ import quadrille_commands
 from .. import freecad as core
 from .. import adaption, middle, picks, surfaces
 from ..errors import Error
-from ..state import is_quad_mesh, is_surface_mesh, source_of
+from ..state import is_quad_mesh, is_surface_mesh, part_of, source_of
 from . import QT_TRANSLATE_NOOP, do, icon, links_text, overlays, path_of, preferences, tell, transaction, translate
 from .length_field import LengthField
 
@@ -275,7 +275,7 @@ class RefineCommand(_Command):
 
     def run(self) -> None:
         mesh = mesh_in_question()
-        references = [entry for entry in picks.references_on(mesh.Shape, picked(mesh.Document))
+        references = [entry for entry in picks.references_on(part_of(mesh), picked(mesh.Document))
                       if not is_quad_mesh(entry[0])]
         if not references:
             raise Error(translate("Quadrille", "select faces, edges or vertices of the part first"), "usage")
@@ -356,7 +356,7 @@ class FlipCommand(_Command):
                                   "again").format(mesh.Label, mesh.Surface.Label if mesh.Surface else "its surface"), "usage",
                         mesh.Name)
         chosen = [pick for pick in picked(mesh.Document) if pick[1].split(".")[-1]]
-        faces = [name for name in picks.elements_of(mesh.Shape, chosen) if name.startswith("Face")]
+        faces = [name for name in picks.elements_of(part_of(mesh), chosen) if name.startswith("Face")]
         if chosen and not faces:
             raise Error(translate("Quadrille", "none of what is selected is a face of {}: select its faces, or nothing to flip "
                                   "all of them").format(mesh.Shape.Label), "usage")

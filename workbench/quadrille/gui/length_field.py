@@ -25,6 +25,7 @@ class LengthField(QtGui.QLineEdit):
         # Narrow panels may make it narrow: it scrolls.
         self.setMinimumWidth(70)
         self.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
+        self.editingFinished.connect(self._write_unit)
 
     def show_length(self, millimeters: float) -> None:
         """Shows a length in the user's units; in millimeters and in full where those would round it."""
@@ -38,6 +39,15 @@ class LengthField(QtGui.QLineEdit):
             exact = False
         self.setText(text if exact else f"{millimeters:.10g} mm")
         self.setCursorPosition(0)
+
+    def _write_unit(self) -> None:
+        """A bare number is in the user's unit of now: with the unit it stays that length when another schema comes, as with
+        another document in FreeCAD 1.0."""
+        try:
+            if _quantity(self.text()).Unit == FreeCAD.Units.Unit():
+                self.show_length(self.length())
+        except Error:  # of which those tell who ask for the length
+            pass
 
     def length(self, label: str = "") -> float:
         """The length in millimeters; raises Error when it is none."""
@@ -59,14 +69,18 @@ class LengthField(QtGui.QLineEdit):
     rawValue = QtCore.Property(float, _raw, show_length)
 
 
-def _parsed(text: str) -> float:
-    """A length in millimeters; a bare number is in the unit that the user's schema has for lengths of about a millimeter."""
+def _quantity(text: str):
     if not text.strip():  # of which FreeCAD makes 2e-308
         raise Error(text, "usage")
     try:
-        quantity = FreeCAD.Units.Quantity(text)
+        return FreeCAD.Units.Quantity(text)
     except Exception as error:  # FreeCAD versions raise different ones
         raise Error(text, "usage") from error
+
+
+def _parsed(text: str) -> float:
+    """A length in millimeters; a bare number is in the unit that the user's schema has for lengths of about a millimeter."""
+    quantity = _quantity(text)
     if quantity.Unit == FreeCAD.Units.Unit():
         factor = FreeCAD.Units.schemaTranslate(FreeCAD.Units.Quantity("1 mm"), FreeCAD.Units.getSchema())[1]
         value = quantity.Value * factor

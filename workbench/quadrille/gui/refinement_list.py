@@ -14,7 +14,7 @@ from .row_list import RowList
 class _Row(NamedTuple):
     """One refinement as it is shown."""
 
-    region: Any
+    region: str
     references: Links
     box: Any  #: of the size
     shown: Tuple[float, float]  #: the size, and what the box made of it
@@ -44,17 +44,31 @@ class RefinementList(RowList):
 
     def _add_row(self, refinement: Refinement) -> None:
         text = ", ".join(names_in(refinement.references))
+        label = f"{refinement.region}: " if refinement.region else ""
         box = LengthField(f"QuadrilleRefinedSize{len(self._rows)}")
         box.show_length(refinement.size)
         self._show_row(_Row(refinement.region, refinement.references, box, (refinement.size, box.length())), text,
-                       text if refinement.region is None else f"{refinement.region.Label}: {text}", box, "QuadrilleRefined")
+                       label + text, box, "QuadrilleRefined")
 
     def add(self, references: Links, size: float) -> None:
         """One more."""
-        self._add_row(Refinement(None, references, size))
+        self._add_row(Refinement("", references, size))
         self._changed()
 
+    def drop(self, region: str) -> bool:
+        """Removes the row of a mesh region that is being deleted; tells whether there was one."""
+        numbers = [number for number, row in enumerate(self._rows) if row.region == region]
+        for number in numbers:
+            self._take_away(number)
+        return bool(numbers)
+
     def _remove(self, number: int) -> None:
-        rest = [refinement for index, refinement in enumerate(self.refinements()) if index != number]
-        self.show_all(tuple(rest))
+        self._take_away(number)
         self._changed()
+
+    def _take_away(self, number: int) -> None:
+        rest = [row for index, row in enumerate(self._rows) if index != number]
+        texts = [row.box.text() for row in rest]  # as they are, readable or not
+        self.show_all(tuple(Refinement(row.region, row.references, row.shown[0]) for row in rest))
+        for row, text in zip(self._rows, texts):
+            row.box.setText(text)

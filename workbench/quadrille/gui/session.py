@@ -4,7 +4,7 @@
 from contextlib import contextmanager
 from typing import Any, Dict, List
 
-from .. import state, undo
+from .. import links, state, undo
 from . import transaction
 
 
@@ -18,7 +18,7 @@ class Session:
         self._own: List[str] = [made_by] if made_by else []  # names of the steps taken, the last one first
         self._whole = bool(self._document.UndoMode)  # FreeCAD keeps all of them
         self._before: Dict[str, Any] = {name: getattr(mesh, name) for name in mesh.PropertiesList if _is_ours(mesh, name)}
-        self._regions = [(entry.region.Name, entry.references, entry.size) for entry in state.wanted_of(mesh).refinements]
+        self._regions = state.wanted_of(mesh).refinements
         undo.hold(mesh)
 
     @contextmanager
@@ -54,22 +54,26 @@ class Session:
                 document.removeObject(region.Name)
             document.removeObject(mesh.Name)
             return
-        from ..freecad import refine
-
-        kept = {name for name, _, _ in self._regions}
         for region in list(mesh.MeshRegionList):
-            if region.Name not in kept:
+            if region.Name not in {entry.region for entry in self._regions}:
                 document.removeObject(region.Name)
-        for region_name, references, size in self._regions:
-            region = document.getObject(region_name)
-            if region is None:
-                refine(mesh, references, size)
-            else:
-                region.CharacteristicLength = size
+        links_too = mesh.Shape is not None  # nothing can be linked to a part that is gone
+        if links_too:
+            self._restore_regions()
         for name, value in self._before.items():
-            if name != "MeshRegionList":
+            if name != "MeshRegionList" and (links_too or name not in ("Shape", *links.OWN)):
                 setattr(mesh, name, value)
         undo.bring_back(mesh)
+
+    def _restore_regions(self) -> None:
+        from ..freecad import refine
+
+        for name, references, size in self._regions:
+            region = self._document.getObject(name)
+            if region is None:
+                refine(self._mesh, references, size)
+            else:
+                region.CharacteristicLength = size
 
 
 def _is_ours(mesh, name: str) -> bool:

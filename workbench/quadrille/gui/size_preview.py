@@ -148,8 +148,8 @@ class SizePreview(QtGui.QWidget):
     def _hide_part(self) -> None:
         """The part and the mesh are under the colors, and would shine through."""
         for obj in (self._mesh.Shape, self._mesh):
-            view = obj.ViewObject
-            if view.Visibility:
+            view = getattr(obj, "ViewObject", None)  # the part may be gone by now
+            if view is not None and view.Visibility:
                 view.hide()
                 self._hidden.append(view)
 

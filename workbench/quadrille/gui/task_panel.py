@@ -162,6 +162,7 @@ class MeshPanel:
     def _wanted(self) -> state.Wanted:
         """What the panel shows; raises Error where a field cannot be read."""
         self._measuring.finish()
+        part = state.part_of(self.mesh)
         values = dict(state.wanted_of(self.mesh).values)
         anew = set(self._anew)
         for name, setting in self.settings.items():
@@ -169,7 +170,7 @@ class MeshPanel:
             if name not in links.OWN:
                 values[name] = shown
             elif shown != links.names_in(values[name]):
-                values[name] = links.link(self.mesh.Shape, shown)
+                values[name] = links.link(part, shown)
                 anew.add(name)
         values.update(self.entries.values(), **{state.FOLLOWS: self.follows.isChecked()})
         return state.Wanted(values, self.refinements.refinements(), frozenset(anew))
@@ -185,14 +186,14 @@ class MeshPanel:
                     lines.append(f"{path_of(mesh)}.{name} = {links_text(value)}")
             elif getattr(value, "Value", value) != stored:
                 lines.append(f"{path_of(mesh)}.{name} = {getattr(value, 'Value', value)!r}")
-        sizes = {entry.region.Name: entry.size for entry in present.refinements}
-        kept = {entry.region.Name for entry in wanted.refinements if entry.region is not None}
+        sizes = {entry.region: entry.size for entry in present.refinements}
+        kept = {entry.region for entry in wanted.refinements}
         lines += [f"App.getDocument({mesh.Document.Name!r}).removeObject({name!r})" for name in sizes if name not in kept]
         for region, references, size in wanted.refinements:
-            if region is None:
+            if not region:
                 lines.append(f"quadrille.freecad.refine({path_of(mesh)}, {links_text(references)}, {size!r})")
-            elif size != sizes.get(region.Name):
-                lines.append(f"{path_of(region)}.CharacteristicLength = {size!r}")
+            elif size != sizes.get(region, size):  # one that was deleted meanwhile stays so
+                lines.append(f"{path_of(mesh.Document.getObject(region))}.CharacteristicLength = {size!r}")
         surfaces = self.surfaces.isChecked()
         lines += [f"{path_of(solver)}.{solvers.SURFACE_RESULTS} = {surfaces!r}" for solver in self._solvers()
                   if getattr(solver, solvers.SURFACE_RESULTS) != surfaces]
@@ -214,7 +215,7 @@ class MeshPanel:
                 size = self._suggestion()
                 do(f"{path_of(self.mesh)}.Size = {size!r}")
                 self.settings["Size"].show(size)
-            hint = thin_hint(self.mesh.Shape, self.reject)
+            hint = thin_hint(state.part_of(self.mesh), self.reject)
             if hint is not None:
                 self._hint.addWidget(hint)
         except FAILURES:  # the estimate tells of it
@@ -230,8 +231,9 @@ class MeshPanel:
             wanted = self._wanted()
             found = links.follow(self.mesh, wanted.anew)
             settings = state.settings_to_use(self.mesh, wanted, found)
-            estimate = shapes.estimate_of(self.mesh.Shape.Shape)
-            size = settings.get("size") or self.mesh.Shape.Shape.BoundBox.DiagonalLength / 60
+            shape = state.part_of(self.mesh).Shape
+            estimate = shapes.estimate_of(shape)
+            size = settings.get("size") or shape.BoundBox.DiagonalLength / 60
             count = estimate.quads(size, settings.get("size_min"), settings["elements_per_circle"], settings.get("sizes"),
                                    settings.get("faces", ()), settings["growth"])
         except FAILURES as error:
@@ -250,19 +252,20 @@ class MeshPanel:
 
     def _suggestion(self) -> float:
         per_circle = self.settings["ElementsPerCircle"].value()
-        return shapes.estimate_of(self.mesh.Shape.Shape).suggested(preferences.suggested_quads(), per_circle)
+        return shapes.estimate_of(state.part_of(self.mesh).Shape).suggested(preferences.suggested_quads(), per_circle)
 
     def _picked(self, *kinds: str) -> list:
         """The names of what is selected on the part."""
         selection = FreeCADGui.Selection.getSelectionEx(self._document_name, 0)
         try:
-            names = picks.elements_of(self.mesh.Shape, picks.picks_of(selection))
+            part = state.part_of(self.mesh)
+            names = picks.elements_of(part, picks.picks_of(selection))
         except Error as error:
             tell(str(error))
             return []
         found = [name for name in names if name.startswith(kinds)]
         if not found:
-            tell(translate("Quadrille", "Select them on {} in the 3-D view first.").format(self.mesh.Shape.Label))
+            tell(translate("Quadrille", "Select them on {} in the 3-D view first.").format(part.Label))
         return found
 
     def _take_selection(self) -> None:
@@ -290,7 +293,7 @@ class MeshPanel:
     def _usual_size(self) -> Optional[float]:
         """The size that holds where no other is asked for; None, and a box, where it cannot be read."""
         try:
-            return self.settings["Size"].value() or self.mesh.Shape.Shape.BoundBox.DiagonalLength / 60
+            return self.settings["Size"].value() or state.part_of(self.mesh).Shape.BoundBox.DiagonalLength / 60
         except Error as error:
             tell(str(error))
             return None
@@ -354,7 +357,8 @@ class MeshPanel:
         self._say(translate("Quadrille", "{} quads: mesher {:.2f} s, into FreeCAD {:.2f} s").format(
             self.mesh.QuadCount, ended - self._started, time.monotonic() - ended))
         self.mesh.ViewObject.show()
-        self.mesh.Shape.ViewObject.hide()
+        if self.mesh.Shape is not None:  # deleted while the mesher worked
+            self.mesh.Shape.ViewObject.hide()
         self.quality.refresh()
         if preferences.color_after_meshing():
             self.quality.color.setChecked(True)
@@ -375,7 +379,8 @@ class MeshPanel:
     def accept(self) -> bool:
         """OK: keeps mesh and settings, ends the mesher."""
         try:
-            lines = self._commands(self._wanted())
+            # Where the part has been deleted meanwhile there is nothing to set.
+            lines = self._commands(self._wanted()) if self.mesh.Shape is not None else []
         except Error as error:
             tell(str(error))
             return False
@@ -432,6 +437,7 @@ class MeshPanel:
         if job is not None:
             job.cancel()
             core.forget(self._document_name, self._name)
+        self._session.keep()
         self._leave()
 
     def slotDeletedDocument(self, document) -> None:
@@ -454,8 +460,16 @@ class MeshPanel:
 
     def slotDeletedObject(self, obj) -> None:
         """FreeCAD calls this before an object is deleted (or its making undone)."""
-        if obj.Name == self._name and obj.Document.Name == self._document_name:
+        if obj.Document.Name != self._document_name:
+            return
+        if obj.Name == self._name:
             self._abandon()
+        elif self.refinements.drop(obj.Name) or obj == self.mesh.Shape:
+            QtCore.QTimer.singleShot(0, self._after_deletion)  # when it is gone
+
+    def _after_deletion(self) -> None:
+        if self._observing:
+            self._update_estimate()
 
 
 def _button(name: str, text: str, tip: str):

@@ -71,7 +71,11 @@ class MeshViewProvider:
         return True
 
     def doubleClicked(self, vobj) -> bool:
-        """A double click edits."""
+        """A double click edits. FreeCAD would end the panel that is open, with what it has not stored and its mesher."""
+        if FreeCADGui.Control.activeDialog():
+            if vobj.Document.getInEdit() != vobj:
+                tell(translate("Quadrille", "Another task panel is open: close it first."))
+            return True
         vobj.Document.setEdit(vobj.Object.Name)
         return True
 
