@@ -19,8 +19,13 @@ LEFT_OUT = {"membrane-patch"}  # exact at every size: nothing to draw
 
 
 def error(row):
-    """In percent; absolute where the reference is 0."""
-    return abs(row["value"]) if row["reference"] == 0 else 100 * abs(row["value"] / row["reference"] - 1)
+    """In percent, with its sign; absolute where the reference is 0."""
+    return abs(row["value"]) if row["reference"] == 0 else 100 * (row["value"] / row["reference"] - 1)
+
+
+def cell(row):
+    """One answer in the table."""
+    return f"{row['nodes']}: {error(row):.2g}" if row["reference"] == 0 else f"{row['nodes']}: {error(row):+.2f} %"
 
 
 def main():
@@ -31,14 +36,14 @@ def main():
     figure, axes = plt.subplots(rows_of_plots, 5, figsize=(15, 3 * rows_of_plots), constrained_layout=True)
     for axis, case in zip(axes.flat, cases):
         for mesher, (label, color, marker) in STYLES.items():
-            found = sorted((row["elements"], max(error(row), 1e-3 if row["reference"] else 0)) for row in rows
+            found = sorted((row["nodes"], max(abs(error(row)), 1e-3 if row["reference"] else 0)) for row in rows
                            if (row["case"], row["mesher"]) == (case, mesher))
             if found:
                 axis.loglog(*zip(*found), marker=marker, color=color, label=label)
         relative = all(row["reference"] == 0 for row in rows if row["case"] == case)
         axis.axhline(1e-6 if relative else 1, color="0.7", linewidth=0.8)
         axis.set_title(case)
-        axis.set_xlabel("elements")
+        axis.set_xlabel("nodes")
         axis.set_ylabel("error over largest" if relative else "error, %")
         axis.grid(True, which="major", alpha=0.3)
     for axis in axes.flat[len(cases):]:
@@ -51,7 +56,7 @@ def main():
         cells = []
         for mesher in STYLES:
             found = [row for row in rows if (row["case"], row["mesher"]) == (case, mesher)]
-            cells.append("<br>".join(f"{row['elements']}: {row['value']:.5g}" for row in found))
+            cells.append("<br>".join(map(cell, found)))
         reference = next(row["reference"] for row in rows if row["case"] == case)
         print(f"| {case} | {reference:g} | " + " | ".join(cells) + " |")
 

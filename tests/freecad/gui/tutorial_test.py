@@ -181,14 +181,17 @@ class TutorialTest(GuiCase):
             self.choose(2, 1)
             solvers = [obj for obj in self.document.Objects if obj.isDerivedFrom("Fem::FemSolverObject")]
         self.assertEqual(len(solvers), 1)
+        picture("tutorial_2")
         self.choose(3)
         self.choose_card(re.findall(r"card \*([^*]+)\*", STEPS[3])[0])
+        picture("tutorial_3")
         self.press(3, "OK")
         FreeCADGui.Selection.clearSelection()
         FreeCADGui.Selection.addSelection(part)
         self.choose(4)
         surface, = (obj for obj in self.document.Objects if is_middle(obj))
         self.assertFalse(part.ViewObject.Visibility)
+        picture("tutorial_4")
         sheet, = thickness_objects(surface)
         self.assertIn(f"{sheet.Thickness.getValueAs('mm').Value:g} mm", STEPS[4])
         self.choose(5)
@@ -238,6 +241,7 @@ class TutorialTest(GuiCase):
         self.choose(7)
         mesh = [obj for obj in self.document.Objects if is_quad_mesh(obj)][-1]
         type_into("QuadrilleSize", self.values(7)[0])
+        picture("tutorial_7")
         find("QuadrilleSurfaces").setChecked(True)
         self.assertIn(f"*{find('QuadrilleSurfaces').text()}*", STEPS[8])
         self.press(8, "Mesh")
@@ -275,6 +279,7 @@ class TutorialTest(GuiCase):
         wait_for(lambda: results() and (not newer or said in task_dock().findChild(QtGui.QTextEdit).toPlainText()), 120,
                  "CalculiX")
         process(1)
+        picture("tutorial_10")
         self.press(10, "OK" if newer else "Close")
         result = results()[0]
         FreeCADGui.activeDocument().setEdit(result.Name)
