@@ -12,6 +12,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.ticker import NullFormatter
 
 STYLES = {"quadrille": ("Quadrille", "#1f5fa8", "o"), "gmsh-quads": ("Gmsh, quads", "#d1751b", "s"),
           "gmsh-triangles": ("Gmsh, triangles", "#6b6b6b", "^"), "grid": ("structured grid", "#3a8f4e", "D")}
@@ -44,6 +45,7 @@ def main():
         axis.axhline(1e-6 if relative else 1, color="0.7", linewidth=0.8)
         axis.set_title(case)
         axis.set_xlabel("nodes")
+        axis.xaxis.set_minor_formatter(NullFormatter())  # labels would lie on one another
         axis.set_ylabel("error over largest" if relative else "error, %")
         axis.grid(True, which="major", alpha=0.3)
     for axis in axes.flat[len(cases):]:
