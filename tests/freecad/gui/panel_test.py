@@ -77,6 +77,9 @@ class PanelTest(GuiCase):
         mesh = self.open_panel(self.box())
         type_into("QuadrilleSize", "1e400 mm")
         self.assertIn("is not a length", find("QuadrilleEstimate").text())
+        for text in ("\u0662", "\u0662 mm", "2 mm^2"):  # a two in Arabic, of which FreeCAD makes 2e-308
+            type_into("QuadrilleSize", text)
+            self.assertIn("is not a length", find("QuadrilleEstimate").text())
         type_into("QuadrilleSize", "1e-300 mm")
         self.assertIn("too small for a part of", find("QuadrilleEstimate").text())
         self.select(self.document.Box, "Face1")

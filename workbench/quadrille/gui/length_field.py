@@ -5,6 +5,7 @@ FreeCAD's own boxes round to the decimals of the preferences, or to sixteenths o
 with them changes sizes by opening."""
 
 import math
+import sys
 
 import FreeCAD
 from PySide import QtCore, QtGui
@@ -70,12 +71,13 @@ class LengthField(QtGui.QLineEdit):
 
 
 def _quantity(text: str):
-    if not text.strip():  # of which FreeCAD makes 2e-308
-        raise Error(text, "usage")
     try:
-        return FreeCAD.Units.Quantity(text)
+        quantity = FreeCAD.Units.Quantity(text)
     except Exception as error:  # FreeCAD versions raise different ones
         raise Error(text, "usage") from error
+    if quantity.Value == sys.float_info.min:  # what FreeCAD makes of no text, and of digits that it does not know
+        raise Error(text, "usage")
+    return quantity
 
 
 def _parsed(text: str) -> float:
