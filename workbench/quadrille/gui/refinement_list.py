@@ -2,7 +2,7 @@
 """The refinements of a mesh in its panel: what each is on, and its size, edited in place. Nothing reaches the document
 before the panel stores it."""
 
-from typing import Any, Callable, List, NamedTuple, Tuple
+from typing import Any, Callable, NamedTuple, Tuple
 
 from ..links import Links, names_in
 from ..state import Refinement
