@@ -82,6 +82,8 @@ class PanelTest(GuiCase):
             self.assertIn("is not a length", find("QuadrilleEstimate").text())
         type_into("QuadrilleSize", "1e-300 mm")
         self.assertIn("too small for a part of", find("QuadrilleEstimate").text())
+        type_into("QuadrilleSize", "1e300 mm")
+        self.assertIn("larger than the model", find("QuadrilleEstimate").text())
         self.select(self.document.Box, "Face1")
         find("QuadrilleRefinements").setChecked(True)
         find("QuadrilleMore").setChecked(True)
