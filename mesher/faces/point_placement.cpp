@@ -17,18 +17,21 @@ namespace quadrille {
 
 namespace {
 
-/// Points in buckets by cell and size level. Buckets may hold strangers: the caller tests the distance.
+/// Points in buckets by cell and size level: each on its own level and on those near it, so that a search
+/// looks at the few cells of one level. Buckets may hold strangers: the caller tests the distance.
 class PointGrid {
  public:
   PointGrid(std::size_t expected, const ExecutionContext& context) : check_(context) { rebuild(expected); }
 
   void insert(const Vector3& p, double size) {
-    if (4 * (entries_.size() + 1) > 3 * heads_.size()) rebuild(2 * heads_.size());
+    constexpr int levels_near = 2;
+    points_.push_back(p);
     const int level = level_of(size);
-    low_level_ = std::min(low_level_, level);
-    high_level_ = std::max(high_level_, level);
-    entries_.push_back({p, level, -1});
-    link(static_cast<int>(entries_.size()) - 1);
+    for (int k = level - levels_near; k <= level + levels_near; ++k) {
+      if (4 * (entries_.size() + 1) > 3 * heads_.size()) rebuild(2 * heads_.size());
+      entries_.push_back({static_cast<int>(points_.size()) - 1, k, -1});
+      link(static_cast<int>(entries_.size()) - 1);
+    }
   }
 
   /// True if `visit(index)` is true for some point that may lie within `radius` of p, among those of about
@@ -36,16 +39,14 @@ class PointGrid {
   template <class Visit>
   bool any_near(const Vector3& p, double radius, double size, Visit&& visit) const {
     const int level = level_of(size);
-    for (int k = std::max(level - 2, low_level_); k <= std::min(level + 2, high_level_); ++k) {
-      const double inverse = std::ldexp(1.0, -k - 1);
-      const std::array<long, 3> low = cell_of(p - Vector3::Constant(radius), inverse);
-      const std::array<long, 3> high = cell_of(p + Vector3::Constant(radius), inverse);
-      for (long z = low[2]; z <= high[2]; ++z) {
-        for (long y = low[1]; y <= high[1]; ++y) {
-          for (long x = low[0]; x <= high[0]; ++x) {
-            for (int i = heads_[bucket({x, y, z}, k)]; i >= 0; i = entries_[i].next) {
-              if (visit(i)) return true;
-            }
+    const double inverse = inverse_width(level);
+    const std::array<long, 3> low = cell_of(p - Vector3::Constant(radius), inverse);
+    const std::array<long, 3> high = cell_of(p + Vector3::Constant(radius), inverse);
+    for (long z = low[2]; z <= high[2]; ++z) {
+      for (long y = low[1]; y <= high[1]; ++y) {
+        for (long x = low[0]; x <= high[0]; ++x) {
+          for (int i = heads_[bucket({x, y, z}, level)]; i >= 0; i = entries_[i].next) {
+            if (entries_[i].level == level && visit(entries_[i].point)) return true;
           }
         }
       }
@@ -53,16 +54,17 @@ class PointGrid {
     return false;
   }
 
-  const Vector3& point(int entry) const { return entries_[entry].point; }
+  const Vector3& point(int index) const { return points_[index]; }
 
  private:
   struct Entry {
-    Vector3 point;
+    int point;
     int level;
     int next;
   };
 
   static int level_of(double size) { return std::ilogb(size); }
+  static double inverse_width(int level) { return std::ldexp(1.0, -level - 1); }
   static std::array<long, 3> cell_of(const Vector3& p, double inverse) {
     return {std::lround(std::floor(p.x() * inverse)), std::lround(std::floor(p.y() * inverse)),
             std::lround(std::floor(p.z() * inverse))};
@@ -76,7 +78,7 @@ class PointGrid {
   }
   void link(int i) {
     Entry& entry = entries_[i];
-    int& head = heads_[bucket(cell_of(entry.point, std::ldexp(1.0, -entry.level - 1)), entry.level)];
+    int& head = heads_[bucket(cell_of(points_[entry.point], inverse_width(entry.level)), entry.level)];
     entry.next = head;
     head = i;
   }
@@ -91,9 +93,9 @@ class PointGrid {
   }
 
   SparseCheck check_;
-  std::vector<Entry> entries_;
+  std::vector<Vector3> points_;
+  std::vector<Entry> entries_;  ///< one for each level of a point
   std::vector<int> heads_;
-  int low_level_ = 10000, high_level_ = -10000;
 };
 
 /// Damaged files have faces without end.
@@ -314,7 +316,7 @@ class Placer {
   ExecutionContext& context_;
   std::vector<FrontPoint> front_;
   PointGrid grid_;
-  std::vector<int> grid_index_;    // entry of the grid -> front point, or -1 - blocker
+  std::vector<int> grid_index_;    // point of the grid -> front point, or -1 - blocker
   std::vector<Vector2> blockers_;  // their parameters
 };
 
