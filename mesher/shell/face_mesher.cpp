@@ -67,16 +67,16 @@ class FaceMesher {
     if (has_kept_edge(shape_.faces[face_], nodes_)) return std::move(*grid);  // flat rows are what is wanted
     const bool is_stepped = nodes_.sides[face_].outline == FaceSides::Outline::stepped;
     const double much = is_stepped ? 0.01 : 0.05, better = is_stepped ? 1 : 2;
-    constexpr double fewer = 0.8;  // of the quads, for what is wasted
+    constexpr double fewer = 0.8, few_outside = 0.05;  // of the grid's quads, for what is wasted
     const double outside = is_stepped || has_rows(*grid) ? share_outside(*grid) : 0;
     const bool wasteful = !has_divided_edge(shape_.faces[face_], nodes_) && wastes_quads(*grid);
     if (wasteful || outside > much) {  // the nodes that one side has for its neighbors' sake squeeze the rows
       try {
         FaceMesh free = mesh_without_grid();
         const double left = share_outside(free);
-        const bool saves =
-            static_cast<double>(free.quads.size()) < fewer * static_cast<double>(grid->quads.size());
-        if (better * left < outside || (wasteful && saves && left <= std::max(outside, much))) return free;
+        const double share = static_cast<double>(free.quads.size()) / static_cast<double>(grid->quads.size());
+        const bool pays = share < fewer && share * left <= std::max(outside, few_outside);
+        if (better * left < outside || (wasteful && pays)) return free;
       } catch (const FaceProblem&) {
         context_.check();  // the grid has none
       }
@@ -147,23 +147,57 @@ class FaceMesher {
     return finish(std::move(quads));
   }
 
-  /// Where the parts of quads of twice the size are poor, as in faces of few, elements of the final size may
-  /// be better.
+  /// Quads of twice the size see sizes grow twice as fast: where they do, elements of the final size keep to
+  /// them. Faces of few quads have those where the parts of larger quads are poor.
   FaceQuads mesh_freely(const FaceBoundary& boundary, const TrimmedDomain& domain) {
     constexpr std::size_t few = 200;
     constexpr double poor = 0.1, gain = 0.6;
-    FaceQuads quads = mesh_once(boundary, domain);
+    FaceTriangulation triangulation = triangulate(boundary, domain);
+    const bool may_be_direct = boundary.stride == 2 && recipe_.clean_up;
+    if (may_be_direct && 2 * triangulation.mesh.triangles.size() > few && sizes_grow(triangulation.mesh)) {
+      try {
+        return mesh_direct(boundary, domain);
+      } catch (const FaceProblem&) {
+        context_.check();  // the others then
+      }
+    }
+    FaceQuads quads = make_quads(boundary, std::move(triangulation));
     const std::size_t count = quads.surface_mesh.mesh.quads.size();
-    if (boundary.stride != 2 || !recipe_.clean_up || count > few) return quads;
+    if (!may_be_direct || count > few) return quads;
     const double bad = badness(quads.surface_mesh.mesh);
     if (bad < poor * static_cast<double>(count)) return quads;
     try {
-      FaceQuads direct = mesh_once(halved(boundary), domain);
+      FaceQuads direct = mesh_direct(boundary, domain);
       if (badness(direct.surface_mesh.mesh) < gain * bad) return direct;
     } catch (const FaceProblem&) {
       context_.check();  // the others then
     }
     return quads;
+  }
+
+  /// With elements of the final size.
+  FaceQuads mesh_direct(const FaceBoundary& boundary, const TrimmedDomain& domain) {
+    const FaceBoundary fine = halved(boundary);
+    return make_quads(fine, triangulate(fine, domain));
+  }
+
+  /// Whether the sizes wanted grow along the sides of a mesh, by a twentieth of their lengths in the mean.
+  bool sizes_grow(const TriangleMesh& mesh) {
+    constexpr double little = 0.05;
+    SparseCheck check(context_);
+    std::vector<double> sizes;
+    for (const Vector3& point : mesh.points) {
+      check();
+      sizes.push_back(size_at_(point));
+    }
+    double growth = 0;
+    for (const auto& triangle : mesh.triangles) {
+      for (int k = 0; k < 3; ++k) {
+        const int a = triangle[k], b = triangle[(k + 1) % 3];
+        growth += std::abs(sizes[a] - sizes[b]) / (mesh.points[a] - mesh.points[b]).norm();
+      }
+    }
+    return growth > 3 * little * static_cast<double>(mesh.triangles.size());
   }
 
   /// How far the quads are beyond the limits of industry, all in all; one counts up to `most`.
@@ -176,8 +210,7 @@ class FaceMesher {
     return sum;
   }
 
-  FaceQuads mesh_once(const FaceBoundary& boundary, const TrimmedDomain& domain) {
-    FaceTriangulation triangulation = triangulate(boundary, domain);
+  FaceQuads make_quads(const FaceBoundary& boundary, FaceTriangulation triangulation) {
     if (boundary.stride == 2)
       tie_across_gaps(triangulation.mesh, triangulation.normals, triangulation.segments);
     FaceQuads quads = recombine_face(triangulation, boundary.stride);
