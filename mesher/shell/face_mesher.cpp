@@ -156,7 +156,8 @@ class FaceMesher {
     const bool may_be_direct = boundary.stride == 2 && recipe_.clean_up;
     if (may_be_direct && 2 * triangulation.mesh.triangles.size() > few && sizes_grow(triangulation.mesh)) {
       try {
-        return mesh_direct(boundary, domain);
+        FaceQuads direct = mesh_direct(boundary, domain);
+        if (!is_folded(direct.surface_mesh.mesh)) return direct;
       } catch (const FaceProblem&) {
         context_.check();  // the others then
       }
@@ -224,15 +225,17 @@ class FaceMesher {
     return quads;
   }
 
+  static bool is_folded(const QuadMesh& mesh) {
+    const auto& p = mesh.points;
+    return std::any_of(mesh.quads.begin(), mesh.quads.end(), [&](const std::array<int, 4>& q) {
+      return quad_scaled_jacobian(p[q[0]], p[q[1]], p[q[2]], p[q[3]]) <= 0;
+    });
+  }
+
   /// Where moving nodes left quads turned over.
   void mend_folded(FaceQuads& quads) {
     const StageTimer timer(context_, Stage::improve);
-    const auto& mesh = quads.surface_mesh.mesh;
-    const auto& p = mesh.points;
-    if (std::none_of(mesh.quads.begin(), mesh.quads.end(), [&](const std::array<int, 4>& q) {
-          return quad_scaled_jacobian(p[q[0]], p[q[1]], p[q[2]], p[q[3]]) <= 0;
-        }))
-      return;
+    if (!is_folded(quads.surface_mesh.mesh)) return;
     std::vector<char> changed;
     mend_quads(quads.surface_mesh, CadSmoothingSurface(surface_), folded_objective, changed, context_);
     keep_poles(quads);
