@@ -133,7 +133,7 @@ class BoundaryWalker {
       segment.b = point;
       segment.edge = coedge.edge;
       segment.coedge = &coedge;
-      segment.from = edge.parameters[i + (coedge.forward ? -nodes_.stride : nodes_.stride)];
+      segment.from = edge.parameters[i + (coedge.forward ? -boundary_.stride : boundary_.stride)];
       segment.to = edge.parameters[i];
       segment.internal = coedge.internal;
       if (boundary_.stride == 2) {
