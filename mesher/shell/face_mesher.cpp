@@ -69,7 +69,8 @@ class FaceMesher {
     const double much = is_stepped ? 0.01 : 0.05, better = is_stepped ? 1 : 2;
     constexpr double fewer = 0.8, few_outside = 0.05;  // of the grid's quads, for what is wasted
     const double outside = is_stepped || has_rows(*grid) ? share_outside(*grid) : 0;
-    const bool wasteful = !has_divided_edge(shape_.faces[face_], nodes_) && wastes_quads(*grid);
+    const bool wasteful = !has_divided_edge(shape_.faces[face_], nodes_) &&
+                          wastes_quads(grid->points, grid->quads, grid->nodes.size(), 1.5);
     if (wasteful || outside > much) {  // the nodes that one side has for its neighbors' sake squeeze the rows
       try {
         FaceMesh free = mesh_without_grid();
@@ -105,20 +106,18 @@ class FaceMesher {
     return static_cast<double>(outside) / std::max(1, measured);
   }
 
-  /// Whether rows that are fine for one edge's sake go on through places that want larger quads: there are
-  /// far more of them than the sizes ask for, half of the segments on the boundary apart.
-  bool wastes_quads(const FaceMesh& grid) {
-    constexpr double most = 1.5;
+  /// Whether there are more than `most` times the quads that the sizes ask for, half of the `rim` segments on
+  /// the boundary apart: rows that are fine for one edge's sake go on through places that want larger quads.
+  bool wastes_quads(const std::vector<Vector3>& p, const std::vector<std::array<int, 4>>& quads,
+                    std::size_t rim, double most) {
     double wanted = 0;
     SparseCheck check(context_);
-    for (const auto& [a, b, c, d] : grid.quads) {
+    for (const auto& [a, b, c, d] : quads) {
       check();
-      const auto& p = grid.points;
       const double size = size_at_(0.25 * (p[a] + p[b] + p[c] + p[d]));
       wanted += 0.5 * (p[c] - p[a]).cross(p[d] - p[b]).norm() / (size * size);
     }
-    return static_cast<double>(grid.quads.size()) >
-           most * wanted + 0.5 * static_cast<double>(grid.nodes.size());
+    return static_cast<double>(quads.size()) > most * wanted + 0.5 * static_cast<double>(rim);
   }
 
   /// Whether a grid has three rows or more.
@@ -147,58 +146,29 @@ class FaceMesher {
     return finish(std::move(quads));
   }
 
-  /// Quads of twice the size see sizes grow twice as fast: where they do, elements of the final size keep to
-  /// them. Faces of few quads have those where the parts of larger quads are poor.
+  /// Quads of twice the size see sizes grow twice as fast, and clean-up leaves rows that go on where they
+  /// should end: large faces with too many quads get those of the final size. So do faces of few quads, where
+  /// the parts of larger quads are poor.
   FaceQuads mesh_freely(const FaceBoundary& boundary, const TrimmedDomain& domain) {
     constexpr std::size_t few = 200;
-    constexpr double poor = 0.1, gain = 0.6;
-    FaceTriangulation triangulation = triangulate(boundary, domain);
-    const bool may_be_direct = boundary.stride == 2 && recipe_.clean_up;
-    if (may_be_direct && 2 * triangulation.mesh.triangles.size() > few && sizes_grow(triangulation.mesh)) {
-      try {
-        FaceQuads direct = mesh_direct(boundary, domain);
-        if (!is_folded(direct.surface_mesh.mesh)) return direct;
-      } catch (const FaceProblem&) {
-        context_.check();  // the others then
-      }
-    }
-    FaceQuads quads = make_quads(boundary, std::move(triangulation));
-    const std::size_t count = quads.surface_mesh.mesh.quads.size();
-    if (!may_be_direct || count > few) return quads;
-    const double bad = badness(quads.surface_mesh.mesh);
-    if (bad < poor * static_cast<double>(count)) return quads;
+    constexpr double too_many = 1.1, poor = 0.1, gain = 0.6;
+    FaceQuads quads = make_quads(boundary, triangulate(boundary, domain));
+    if (boundary.stride != 2 || !recipe_.clean_up) return quads;
+    const QuadMesh& mesh = quads.surface_mesh.mesh;
+    const bool is_large = mesh.quads.size() > few;
+    const double bad = is_large ? 0 : badness(mesh);
+    if (is_large ? !wastes_quads(mesh.points, mesh.quads, 2 * boundary.segments.size(), too_many)
+                 : bad < poor * static_cast<double>(mesh.quads.size()))
+      return quads;
     try {
-      FaceQuads direct = mesh_direct(boundary, domain);
-      if (badness(direct.surface_mesh.mesh) < gain * bad) return direct;
+      const FaceBoundary fine = halved(boundary);
+      FaceQuads direct = make_quads(fine, triangulate(fine, domain));
+      const QuadMesh& other = direct.surface_mesh.mesh;
+      if (is_large ? !is_folded(other) : badness(other) < gain * bad) return direct;
     } catch (const FaceProblem&) {
       context_.check();  // the others then
     }
     return quads;
-  }
-
-  /// With elements of the final size.
-  FaceQuads mesh_direct(const FaceBoundary& boundary, const TrimmedDomain& domain) {
-    const FaceBoundary fine = halved(boundary);
-    return make_quads(fine, triangulate(fine, domain));
-  }
-
-  /// Whether the sizes wanted grow along the sides of a mesh, by a twentieth of their lengths in the mean.
-  bool sizes_grow(const TriangleMesh& mesh) {
-    constexpr double little = 0.05;
-    SparseCheck check(context_);
-    std::vector<double> sizes;
-    for (const Vector3& point : mesh.points) {
-      check();
-      sizes.push_back(size_at_(point));
-    }
-    double growth = 0;
-    for (const auto& triangle : mesh.triangles) {
-      for (int k = 0; k < 3; ++k) {
-        const int a = triangle[k], b = triangle[(k + 1) % 3];
-        growth += std::abs(sizes[a] - sizes[b]) / (mesh.points[a] - mesh.points[b]).norm();
-      }
-    }
-    return growth > 3 * little * static_cast<double>(mesh.triangles.size());
   }
 
   /// How far the quads are beyond the limits of industry, all in all; one counts up to `most`.
