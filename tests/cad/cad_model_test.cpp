@@ -2,13 +2,22 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRep_Builder.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
+#include <TopoDS.hxx>
+#include <gp_Pln.hxx>
+#include <memory>
+#include <vector>
 
+#include "geometry/cad/cad_shape.hpp"
 #include "tests/support/process.hpp"
 
 namespace quadrille {
@@ -50,6 +59,55 @@ TEST(CadModel, LengthsAreMillimetersWhateverTheFilesUnit) {
     EXPECT_NEAR(extent.y(), 50.8, 1e-5);
     EXPECT_NEAR(extent.z(), 101.6, 1e-5);
     EXPECT_EQ(model.face_count(), 6);
+  }
+}
+
+/// A plane face with one wire: from corner A of a quadrangle along a slit to B, round a hole that touches the
+/// quadrangle's corner C, back along the slit, and round the quadrangle.
+TopoDS_Face face_whose_wire_touches_itself() {
+  std::vector<TopoDS_Vertex> corners;
+  for (const gp_Pnt& p : {gp_Pnt(0, 0, 0), gp_Pnt(8, 0, 0), gp_Pnt(14, 3, 0), gp_Pnt(20, 0, 0),
+                          gp_Pnt(14, -3, 0), gp_Pnt(10, -10, 0), gp_Pnt(10, 10, 0)})
+    corners.push_back(BRepBuilderAPI_MakeVertex(p).Vertex());
+  const auto edge = [&](int from, int to) {
+    return BRepBuilderAPI_MakeEdge(corners[from], corners[to]).Edge();
+  };
+  enum { a, b, g, c, h, e, d };
+  const TopoDS_Edge slit = edge(a, b);
+  const BRep_Builder builder;
+  TopoDS_Wire wire;
+  builder.MakeWire(wire);
+  for (const TopoDS_Edge& next :
+       {slit, edge(b, g), edge(g, c), edge(c, h), edge(h, b), TopoDS::Edge(slit.Reversed()), edge(a, e),
+        edge(e, c), edge(c, d), edge(d, a)})
+    builder.Add(wire, next);
+  wire.Closed(Standard_True);
+  return BRepBuilderAPI_MakeFace(gp_Pln(), wire).Face();
+}
+
+TEST(CadModel, WiresThatTouchThemselvesAreReadTheSameWhereverTheyLieInMemory) {
+  const test::TemporaryFolder folder;
+  STEPControl_Controller::Init();
+  STEPControl_Writer writer;
+  writer.Transfer(face_whose_wire_touches_itself(), STEPControl_AsIs);
+  ASSERT_EQ(writer.Write((folder / "slit.step").c_str()), IFSelect_RetDone);
+  const auto starts = [&] {
+    const CadModel model = CadModel::read(folder / "slit.step");
+    std::vector<Vector3> points;
+    for (const CadEdge& edge : model.shape().edges)
+      points.push_back(model.shape().vertices[edge.first_vertex - 1]);
+    for (const CadWire& wire : model.shape().faces.at(0).wires) {
+      for (const Coedge& coedge : wire.coedges)
+        points.emplace_back(coedge.edge, coedge.forward, wire.ordered);
+    }
+    return points;
+  };
+  const std::vector<Vector3> first = starts();
+  EXPECT_EQ(first.size(), 9U + 10U);
+  std::vector<std::unique_ptr<char[]>> used;  // so that what is read next lies elsewhere
+  for (int i = 1; i <= 24; ++i) {
+    used.push_back(std::make_unique<char[]>(16 + 48 * i));
+    EXPECT_EQ(starts(), first) << "reading " << i;
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include <IGESControl_Reader.hxx>
 
-#include "geometry/cad/readers/exchange_module.hpp"
+#include "geometry/cad/readers/transfer.hpp"
 
 QUADRILLE_EXPORT const char* quadrille_iges_version() {
   return QUADRILLE_VERSION;

@@ -3,7 +3,7 @@
 #include <STEPControl_Reader.hxx>
 #include <STEPControl_Writer.hxx>
 
-#include "geometry/cad/readers/exchange_module.hpp"
+#include "geometry/cad/readers/transfer.hpp"
 
 QUADRILLE_EXPORT const char* quadrille_step_version() {
   return QUADRILLE_VERSION;

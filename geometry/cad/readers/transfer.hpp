@@ -1,0 +1,115 @@
+#pragma once
+/// Reading with OpenCASCADE's readers of exchange formats, the same in every run.
+
+#include <BRep_Tool.hxx>
+#include <IFSelect_ReturnStatus.hxx>
+#include <Interface_Static.hxx>
+#include <ShapeAlgo.hxx>
+#include <ShapeAlgo_AlgoContainer.hxx>
+#include <ShapeAlgo_ToolContainer.hxx>
+#include <ShapeFix_Face.hxx>
+#include <ShapeFix_Shape.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_DataMapOfShapeInteger.hxx>
+#include <TopTools_MapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "geometry/base/module_loader.hpp"
+
+namespace quadrille {
+
+/// Shape healing that leaves wires that touch themselves as the file has them.
+class HealingWithoutLoops : public ShapeAlgo_ToolContainer {
+ public:
+  Handle(ShapeFix_Shape) FixShape() const override {
+    const Handle(ShapeFix_Shape) fix = ShapeAlgo_ToolContainer::FixShape();
+    fix->FixFaceTool()->FixLoopWiresMode() = Standard_False;
+    return fix;
+  }
+};
+
+/// While it lives, readers heal with HealingWithoutLoops: not for ever, since a program around the library
+/// may read files too.
+class HealingScope {
+ public:
+  HealingScope() {
+    ShapeAlgo::Init();
+    before_ = ShapeAlgo::AlgoContainer()->ToolContainer();
+    ShapeAlgo::AlgoContainer()->SetToolContainer(new HealingWithoutLoops);
+  }
+  ~HealingScope() { ShapeAlgo::AlgoContainer()->SetToolContainer(before_); }
+  HealingScope(const HealingScope&) = delete;
+  HealingScope& operator=(const HealingScope&) = delete;
+
+ private:
+  Handle(ShapeAlgo_ToolContainer) before_;
+};
+
+/// Whether wires of a face touch at a vertex, itself or each other, and an edge bounds it from both sides (a
+/// seam or a slit). ShapeFix_Face::FixLoopWire then joins pieces by ends that TopExp::Vertices takes from a
+/// hash map of addresses: edges change their order, and with it their numbers, from run to run.
+inline bool touches_beside_seam(const TopoDS_Face& face) {
+  TopTools_MapOfShape once, twice;
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    if (!BRep_Tool::Degenerated(TopoDS::Edge(it.Current())) && !once.Add(it.Current()))
+      twice.Add(it.Current());
+  }
+  if (twice.IsEmpty()) return false;
+  TopTools_DataMapOfShapeInteger ends;
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    if (!once.Contains(it.Current()) || twice.Contains(it.Current())) continue;
+    TopoDS_Vertex first, last;
+    TopExp::Vertices(TopoDS::Edge(it.Current()), first, last);
+    for (const TopoDS_Vertex& vertex : {first, last}) {
+      if (vertex.IsNull()) continue;
+      if (!ends.IsBound(vertex)) ends.Bind(vertex, 0);
+      if (++ends.ChangeFind(vertex) > 2) return true;
+    }
+  }
+  return false;
+}
+
+inline bool has_faces_that_touch_beside_seam(const TopoDS_Shape& shape) {
+  for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next()) {
+    if (touches_beside_seam(TopoDS::Face(it.Current()))) return true;
+  }
+  return false;
+}
+
+/// \returns whether the file was readable.
+template <class Reader>
+bool read_file(const std::string& path, TopoDS_Shape& shape) {
+  Reader reader;
+  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) return false;
+  reader.TransferRoots();
+  shape = reader.OneShape();
+  return true;
+}
+
+/// Reads a file; a second time where healing gives another shape in every run, without the healing that does.
+/// \returns an empty string, or the sentence that says what went wrong.
+template <class Reader>
+std::string transfer(const std::string& path, const char* format, TopoDS_Shape& shape) {
+  try {
+    bool readable = read_file<Reader>(path, shape);
+    if (readable && has_faces_that_touch_beside_seam(shape)) {
+      const HealingScope healing;
+      readable = read_file<Reader>(path, shape);
+    }
+    return readable ? std::string() : fmt::format("{} is not a readable {} file", path, format);
+  } catch (const Standard_Failure& problem) {
+    return fmt::format("{} could not be read as {} ({})", path, format, problem.GetMessageString());
+  }
+}
+
+}  // namespace quadrille
