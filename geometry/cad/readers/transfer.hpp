@@ -19,6 +19,8 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <array>
+#include <cstddef>
 #include <string>
 
 #include <fmt/format.h>
@@ -37,21 +39,31 @@ class HealingWithoutLoops : public ShapeAlgo_ToolContainer {
   }
 };
 
-/// While it lives, readers heal with HealingWithoutLoops: not for ever, since a program around the library
-/// may read files too.
+/// While it lives, readers heal with HealingWithoutLoops, whatever a file of settings says (CSF_STEPDefaults
+/// and CSF_IGESDefaults): not for ever, since a program around the library may read files too.
 class HealingScope {
  public:
   HealingScope() {
     ShapeAlgo::Init();
-    before_ = ShapeAlgo::AlgoContainer()->ToolContainer();
+    tools_ = ShapeAlgo::AlgoContainer()->ToolContainer();
     ShapeAlgo::AlgoContainer()->SetToolContainer(new HealingWithoutLoops);
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      before_[i] = Interface_Static::CVal(settings[i]);
+      Interface_Static::SetCVal(settings[i], "none");
+    }
   }
-  ~HealingScope() { ShapeAlgo::AlgoContainer()->SetToolContainer(before_); }
+  ~HealingScope() {
+    for (std::size_t i = 0; i < settings.size(); ++i)
+      Interface_Static::SetCVal(settings[i], before_[i].c_str());
+    ShapeAlgo::AlgoContainer()->SetToolContainer(tools_);
+  }
   HealingScope(const HealingScope&) = delete;
   HealingScope& operator=(const HealingScope&) = delete;
 
  private:
-  Handle(ShapeAlgo_ToolContainer) before_;
+  static constexpr std::array settings{"read.step.resource.name", "read.iges.resource.name"};
+  Handle(ShapeAlgo_ToolContainer) tools_;
+  std::array<std::string, settings.size()> before_;
 };
 
 /// Whether wires of a face touch at a vertex, itself or each other, and an edge bounds it from both sides (a
