@@ -30,6 +30,9 @@ constexpr double taper2 = 0.1875;
 /// Of the squared aspect, beside the squared cosines of the corners, in what is added for squareness: without
 /// it rows would close up where that turns corners.
 constexpr double evenness = 0.02;
+/// Of the squared taper: grids that are sheared as a whole stay so, in place of some quads becoming squares
+/// at the cost of the others.
+constexpr double parallelism = 3;
 
 double square(double x) {
   return x * x;
@@ -64,7 +67,7 @@ struct Plane {
         (std::abs(cb + cc - cp - cd) + std::abs(cc + cd - cp - cb)) / (std::abs(mean) + tiny);
     const double sum = corners * (1 / square(sin2_corner)) + square(skew * (1 / sin2_skew)) +
                        square(aspect * (1 / aspect2)) + square(taper * taper * (1 / taper2)) +
-                       squareness * (turned + evenness * (aspect - 1));
+                       squareness * (turned + evenness * (aspect - 1) + parallelism * taper * taper);
     side2 = ss;
     const double least = std::min(std::min(cp, cb), std::min(cc, cd));
     sine2 = least > 0 ? std::min(std::min(qp, qb), std::min(qc, qd)) : -1;

@@ -18,8 +18,8 @@ struct QuadObjective {
 /// The sum over the criteria of (value / limit)^4: aspect / 5, sine of the skew / sine of 40 degrees, for
 /// each corner the sine of its deviation from 90 degrees / sine of 50 degrees, taper at Gauss points / the
 /// taper at which the Jacobian ratio is 0.6. In the plane of the quad's mean normal.
-/// \param squareness the weight of the squared cosines of the corners, and of a little of the aspect, which
-/// are added: the fourth powers alone leave corners 20 degrees from right angles as they are.
+/// \param squareness the weight of the squared cosines of the corners, of the taper and a little of the
+/// aspect, which are added: the fourth powers alone leave corners 20 degrees from right angles as they are.
 QuadObjective measure_objective(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d,
                                 double squareness = 0);
 
