@@ -92,6 +92,7 @@ class NodeSliding {
       if (!faces[i]) continue;
       states_[i].mesh = &*faces[i];
       states_[i].cad_face = &shape.faces[i];
+      turn_as_surface(states_[i]);
     }
     for_each_face([&](FaceState& face) { prepare(face); });
     for (const auto& edge : nodes.edges) sampled_.push_back(edge.parameters);
@@ -463,9 +464,7 @@ class NodeSliding {
     face.mended = false;
     if (face.mesh->grid || std::none_of(face.objective.begin(), face.objective.end(), outside)) return;
     FaceMesh& mesh = *face.mesh;
-    // Flipped faces are to have the same quads, in the other direction.
-    const bool reversed = face.cad_face->reversed;
-    SurfaceMesh work = surface_mesh(mesh, reversed);
+    SurfaceMesh work = surface_mesh(mesh);
     std::vector<char> changed;
     try {
       if (mend_quads(work, MovedOnFace(face), outside_objective, changed, context_) == 0) return;
@@ -475,23 +474,23 @@ class NodeSliding {
     face.mended = face.touched = true;
     mesh.points = std::move(work.mesh.points);
     mesh.quads = std::move(work.mesh.quads);
-    if (reversed) turn_over(mesh.quads);
     mesh.uv = std::move(work.parameters);
     mesh.pole.resize(mesh.points.size(), 0);
     prepare(face);
     face.active = std::move(changed);
   }
 
-  static void turn_over(std::vector<std::array<int, 4>>& quads) {
-    for (auto& quad : quads) std::swap(quad[1], quad[3]);
+  /// Flipped faces are to have the same quads, in the other direction: all run as the surface does until the
+  /// end.
+  static void turn_as_surface(FaceState& face) {
+    if (!face.cad_face->reversed) return;
+    for (auto& quad : face.mesh->quads) std::swap(quad[1], quad[3]);
   }
 
-  /// \param reversed its quads run the other way round
-  static SurfaceMesh surface_mesh(const FaceMesh& mesh, bool reversed) {
+  static SurfaceMesh surface_mesh(const FaceMesh& mesh) {
     SurfaceMesh result;
     result.mesh.points = mesh.points;
     result.mesh.quads = mesh.quads;
-    if (reversed) turn_over(result.mesh.quads);
     result.parameters = mesh.uv;
     result.fixed.assign(mesh.points.size(), 0);
     std::fill_n(result.fixed.begin(), mesh.nodes.size(), 1);
@@ -509,6 +508,7 @@ class NodeSliding {
   // ---- after ----
 
   void finish(FaceState& face) {
+    turn_as_surface(face);
     if (!face.touched) return;
     FaceMesh& mesh = *face.mesh;
     for (std::size_t i = 0; i < face.slid.size(); ++i)
