@@ -27,8 +27,8 @@ TEST(StripCounts, KeepsTheQuadsOfAThinRimWithinTheLimits) {
   for (const double thickness : {0.9, 0.7, 0.5}) {
     const ShellMesh mesh = mesh_of_plate(thickness, 5);
     EXPECT_EQ(validate(mesh, true), std::vector<std::string>{});
-    // One beside an irregular vertex of the plate itself may fail; where rims keep the size, dozens do.
-    EXPECT_LE(check_criteria(mesh).failing, 1) << thickness;
+    // One beside an irregular vertex of either large face may fail; where rims keep the size, dozens do.
+    EXPECT_LE(check_criteria(mesh).failing, 2) << thickness;
   }
 }
 
