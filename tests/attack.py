@@ -13,6 +13,7 @@ import argparse
 import concurrent.futures
 import itertools
 import json
+import math
 import os
 import random
 import resource
@@ -158,8 +159,8 @@ def problem_of_file(path):
 
 
 def problem_of_mesh(path):
-    """What is wrong with the elements of a .msh 2.2 file: in a face, each side comes once in each direction, and no two
-    nodes lie on one place (bodies may touch)."""
+    """What is wrong with the elements of a .msh 2.2 file: in a face, each side comes once in each direction, no two
+    nodes lie on one place (bodies may touch), and no side is shorter than 1e-9 of the mesh's largest extent."""
     lines = iter(path.read_text().splitlines())
     points, sides, node_at, quads = {}, set(), {}, 0
     for line in lines:
@@ -184,6 +185,10 @@ def problem_of_mesh(path):
                     if (face, side) in sides:
                         return f"the side {side} twice on face {face}"
                     sides.add((face, side))
+    least = 1e-9 * largest_extent(points.values()) if points else 0
+    for face, (a, b) in sides:
+        if math.dist(points[a], points[b]) < least:
+            return f"the side {a} {b} of face {face} has no length"
     if quads == 0:
         return "holds no quad"
     finite = all(abs(x) < 1e300 for place in points.values() for x in place)

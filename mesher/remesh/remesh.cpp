@@ -34,6 +34,9 @@ namespace quadrille {
 
 namespace {
 
+/// Nodes closer than this, over the surface's diagonal, are on one place.
+constexpr double same_place = 1e-9;
+
 void check(const RemeshOptions& options) {
   if (!(options.size > 0) || !std::isfinite(options.size))
     throw usage_error("size", fmt::format("`size` must be a positive number, not {:g}", options.size));
@@ -108,13 +111,16 @@ std::vector<double> diagonals(const Surface& surface) {
   return result;
 }
 
-void check_size(const Surface& surface, const RemeshOptions& options) {
+/// \return the surface's diagonal.
+double check_size(const Surface& surface, const RemeshOptions& options) {
   Eigen::AlignedBox3d box;
   for (const auto& triangle : surface.mesh.triangles)
     for (const int v : triangle) box.extend(surface.mesh.points[v]);
-  if (options.size > box.diagonal().norm())
+  const double diagonal = box.diagonal().norm();
+  if (options.size > diagonal)
     throw usage_error("size", fmt::format("`size` is {:g}, larger than the surface, whose diagonal is {:.6g}",
-                                          options.size, box.diagonal().norm()));
+                                          options.size, diagonal));
+  return diagonal;
 }
 
 /// The numbers that faces or edges have in the result: the first one with a number of the input keeps it.
@@ -184,7 +190,7 @@ class Remesher {
       notes_.push_back(
           "the mesh is of second order: the surface is taken to be flat between its corner nodes");
     surface_ = oriented_surface(std::move(triangles.mesh), notes_);
-    check_size(surface_, options_);
+    least_side_ = same_place * check_size(surface_, options_);
     context_.check();
     FeatureRules rules;
     rules.angle = options_.feature_angle;
@@ -284,14 +290,20 @@ class Remesher {
                                   targets_, context_);
   }
 
-  /// Nodes of quads that are turned over, or lie on others.
+  /// Turned over, or shrunk to nothing: unfolding looks at shapes, which have no size.
+  bool is_spoiled(const std::vector<Vector3>& p, const std::array<int, 4>& quad) const {
+    for (int k = 0; k < 4; ++k)
+      if ((p[quad[(k + 1) % 4]] - p[quad[k]]).norm() < least_side_) return true;
+    return quad_scaled_jacobian(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]) <= 0;
+  }
+
+  /// Nodes of quads that are spoiled, or lie on others.
   std::vector<Vector3> inverted_places() const {
     std::vector<Vector3> places;
     for (const PatchQuads& patch : quads_) {
-      const auto& p = patch.points;
-      for (const auto& [a, b, c, d] : patch.quads)
-        if (quad_scaled_jacobian(p[a], p[b], p[c], p[d]) <= 0) places.push_back(p[a]);
-      for (const int node : doubled_sides(patch.quads)) places.push_back(p[node]);
+      for (const auto& quad : patch.quads)
+        if (is_spoiled(patch.points, quad)) places.push_back(patch.points[quad[0]]);
+      for (const int node : doubled_sides(patch.quads)) places.push_back(patch.points[node]);
     }
     return places;
   }
@@ -516,18 +528,16 @@ class Remesher {
     int count = 0;
     std::size_t first = 0;
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-      const auto& [a, b, c, d] = mesh.quads[q];
-      const auto& p = mesh.points;
-      if (quad_scaled_jacobian(p[a], p[b], p[c], p[d]) > 0) continue;
+      if (!is_spoiled(mesh.points, mesh.quads[q])) continue;
       if (count++ == 0) first = q;
     }
     if (count == 0) return;
     const int face = mesh.quad_faces[first];
-    throw failure(
-        fmt::format("Face{}", face),
-        fmt::format("{} quads stay inverted at this size, the first on Face{} at {}: try a smaller `size`, "
-                    "or another feature angle",
-                    count, face, text_of(mesh.points[mesh.quads[first][0]])));
+    throw failure(fmt::format("Face{}", face),
+                  fmt::format("{} quads stay inverted or without area at this size, the first on Face{} at "
+                              "{}: try a smaller `size`, "
+                              "or another feature angle",
+                              count, face, text_of(mesh.points[mesh.quads[first][0]])));
   }
 
   void place_midsides(ShellMesh& mesh) {
@@ -604,6 +614,7 @@ class Remesher {
   std::optional<SurfaceLocator> locator_;
   std::optional<TriangulatedSurface> reference_;
   std::vector<double> targets_;  // by point of the surface
+  double least_side_ = 0;        // of a quad
   RemeshedTriangles triangles_;
   std::vector<Vector3> middle_places_;  // by side
   std::vector<PatchQuads> quads_;
