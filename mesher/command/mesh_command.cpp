@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -76,22 +77,29 @@ void warn_off_geometry(const ShellMesh& mesh, std::vector<std::string>& warnings
                   mesh.off_geometry.size(), worst->face, worst->off_geometry_max));
 }
 
+struct Measured {
+  MeshMeasures elements;
+  std::vector<std::string> area_differences;
+};
+
+/// In a thread of its own, if there is one to spare: the files are written meanwhile.
+std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& model, int threads) {
+  const auto policy =
+      std::launch::deferred | (usable_threads(threads) > 1 ? std::launch::async : std::launch::deferred);
+  return std::async(policy, [&mesh, &model, threads] {
+    return on_threads(threads, [&] { return Measured{measure(mesh), area_differences(model, mesh)}; });
+  });
+}
+
 /// The table on stdout, warnings on stderr and the report, as far as they are wanted.
-void tell_quality(const ShellMesh& result, const CadModel& model, const std::optional<MidSurface>& middle,
+void tell_quality(const ShellMesh& result, const Measured& measured, std::vector<std::string> warnings,
                   const std::optional<SizeFidelity>& sizes, const MeshArguments& arguments,
                   ExecutionContext& context) {
-  if (arguments.quiet && arguments.report.empty()) return;
-  QualitySummary summary;
-  std::vector<std::string> warnings = model.problems();
   warn_off_geometry(result, warnings);
   if (!result.symmetry.note.empty()) warnings.push_back("symmetry: " + result.symmetry.note);
-  if (middle) warnings.insert(warnings.end(), middle->problems.begin(), middle->problems.end());
-  on_threads(arguments.settings.threads, [&] {
-    summary = quality(result);
-    for (std::string& warning : area_differences(model, result)) warnings.push_back(std::move(warning));
-  });
+  warnings.insert(warnings.end(), measured.area_differences.begin(), measured.area_differences.end());
   if (!arguments.report.empty()) {
-    nlohmann::json report = make_report(result, summary, context, arguments.input, warnings);
+    nlohmann::json report = make_report(result, measured.elements, context, arguments.input, warnings);
     if (sizes) report["sizes"] = sizes->json();
     // File names need not be UTF-8, JSON must.
     constexpr auto replace = nlohmann::json::error_handler_t::replace;
@@ -99,7 +107,7 @@ void tell_quality(const ShellMesh& result, const CadModel& model, const std::opt
   }
   if (arguments.quiet) return;
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
-  print(quality_table(summary));
+  print(quality_table(measured.elements.quality));
   if (!result.symmetry.planes.empty())
     print(fmt::format("symmetric in {}\n", fmt::join(result.symmetry.planes, ", ")));
 }
@@ -140,10 +148,17 @@ void run(const MeshArguments& arguments) {
     };
   const ShellMesh result = middle ? mesh(*middle, options, context) : mesh(model, options, context);
   context.check();
+  std::future<Measured> measured;
+  if (!arguments.quiet || !arguments.report.empty())
+    measured = start_to_measure(result, model, settings.threads);
   write_outputs(result, {arguments.input, arguments.outputs, arguments.picture}, arguments.settings, context,
                 cancel);
   list_left_out(result);
-  tell_quality(result, model, middle, sizes, arguments, context);
+  if (measured.valid()) {
+    std::vector<std::string> warnings = model.problems();
+    if (middle) warnings.insert(warnings.end(), middle->problems.begin(), middle->problems.end());
+    tell_quality(result, measured.get(), std::move(warnings), sizes, arguments, context);
+  }
   // Last: what fails can be looked at then.
   if (arguments.limits.given())
     arguments.limits.hold(arguments.outputs.front(), check_criteria(result, limits));

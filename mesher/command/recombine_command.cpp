@@ -76,11 +76,11 @@ void run(const RecombineArguments& arguments) {
     const StageTimer timer(context, Stage::write);
     write_mesh(result, arguments.output, arguments.options.settings.write);
   }
-  const QualitySummary summary = quality(result);
+  const MeshMeasures measures = measure(result);
   if (!arguments.report.empty())
-    write_report(result, summary, context, arguments.input, arguments.report, notes);
+    write_report(result, measures, context, arguments.input, arguments.report, notes);
   for (const std::string& note : notes) fmt::print(stderr, "{}: {}\n", name, note);
-  if (!arguments.quiet) print(quality_table(summary));
+  if (!arguments.quiet) print(quality_table(measures.quality));
 }
 
 /// CLI11 takes what is too large for the largest, and gives a range of 300 digits.

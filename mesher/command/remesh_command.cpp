@@ -72,15 +72,15 @@ void tell(const ShellMesh& mesh, const RemeshFidelity& fidelity, const std::vect
           const RemeshArguments& arguments, ExecutionContext& context) {
   for (const std::string& note : notes) fmt::print(stderr, "{}: {}\n", arguments.input.string(), note);
   if (arguments.quiet && arguments.report.empty()) return;
-  const QualitySummary summary = on_threads(arguments.settings.threads, [&] { return quality(mesh); });
+  const MeshMeasures measures = on_threads(arguments.settings.threads, [&] { return measure(mesh); });
   if (!arguments.report.empty()) {
-    nlohmann::json report = make_report(mesh, summary, context, arguments.input, notes);
+    nlohmann::json report = make_report(mesh, measures, context, arguments.input, notes);
     report["fidelity"] = fidelity_json(fidelity);
     // File names need not be UTF-8, JSON must.
     constexpr auto replace = nlohmann::json::error_handler_t::replace;
     write_file(arguments.report, report.dump(2, ' ', false, replace) + "\n");
   }
-  if (!arguments.quiet) print(quality_table(summary) + fidelity_line(fidelity));
+  if (!arguments.quiet) print(quality_table(measures.quality) + fidelity_line(fidelity));
 }
 
 void run(const RemeshArguments& arguments) {

@@ -1,6 +1,7 @@
 #include "mesher/io/report.hpp"
 
 #include <CGAL/version.h>
+#include <oneapi/tbb/parallel_invoke.h>
 #include <openvdb/version.h>
 
 #include <Standard_Version.hxx>
@@ -115,14 +116,22 @@ json let_go_to_json(const ShellMesh& mesh) {
 
 }  // namespace
 
-json make_report(const ShellMesh& mesh, const QualitySummary& summary, const ExecutionContext& context,
+MeshMeasures measure(const ShellMesh& mesh) {
+  MeshMeasures measures;
+  oneapi::tbb::parallel_invoke([&] { measures.quality = quality(mesh); },
+                               [&] { measures.criteria = check_criteria(mesh); });
+  return measures;
+}
+
+json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const ExecutionContext& context,
                  const std::filesystem::path& input, const std::vector<std::string>& warnings) {
   const ProcessUsage usage = process_usage();
+  const QualitySummary& summary = measures.quality;
   return {{"input", input.string()},
           {"order", mesh.order},
           {"counts", {{"nodes", summary.nodes}, {"quads", summary.quads}, {"triangles", summary.triangles}}},
           {"quality", quality_to_json(summary)},
-          {"criteria", criteria_to_json(check_criteria(mesh), {})},
+          {"criteria", criteria_to_json(measures.criteria, {})},
           {"seconds", seconds_to_json(context)},
           {"cpu_seconds", usage.cpu_seconds},
           {"peak_bytes", usage.peak_bytes},
@@ -148,12 +157,12 @@ std::string quality_json(const ShellMesh& mesh, const CriteriaLimits& limits) {
   return result.dump();
 }
 
-void write_report(const ShellMesh& mesh, const QualitySummary& summary, const ExecutionContext& context,
+void write_report(const ShellMesh& mesh, const MeshMeasures& measures, const ExecutionContext& context,
                   const std::filesystem::path& input, const std::filesystem::path& path,
                   const std::vector<std::string>& warnings) {
   // File names need not be UTF-8, JSON must.
   constexpr auto replace = json::error_handler_t::replace;
-  write_file(path, make_report(mesh, summary, context, input, warnings).dump(2, ' ', false, replace) + "\n");
+  write_file(path, make_report(mesh, measures, context, input, warnings).dump(2, ' ', false, replace) + "\n");
 }
 
 }  // namespace quadrille

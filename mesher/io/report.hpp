@@ -5,10 +5,20 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "geometry/base/execution_context.hpp"
+#include "mesher/mesh/criteria.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 #include "mesher/mesh/quality.hpp"
 
 namespace quadrille {
+
+/// What a report tells of the elements.
+struct MeshMeasures {
+  QualitySummary quality;
+  CriteriaSummary criteria;  ///< by the usual limits
+};
+
+/// On all threads.
+MeshMeasures measure(const ShellMesh& mesh);
 
 /// counts (nodes, quads, triangles), quality (q_min, q_mean, sj_min, sj_mean, jacobian_min, inverted,
 /// irregular_percent, histogram, ...), criteria (how many quads fail the usual limits, by criterion and face,
@@ -16,12 +26,12 @@ namespace quadrille {
 /// q_min, note, off_geometry: how many of its midside nodes are, and how far), off_geometry (node, distance)
 /// of all of them, let_go, symmetry (the mirror planes used, and why not more), warnings, versions of the
 /// libraries.
-nlohmann::json make_report(const ShellMesh& mesh, const QualitySummary& summary,
+nlohmann::json make_report(const ShellMesh& mesh, const MeshMeasures& measures,
                            const ExecutionContext& context, const std::filesystem::path& input,
                            const std::vector<std::string>& warnings = {});
 
 /// Writes make_report() to a file that appears whole or not at all. Throws Error (failure).
-void write_report(const ShellMesh& mesh, const QualitySummary& summary, const ExecutionContext& context,
+void write_report(const ShellMesh& mesh, const MeshMeasures& measures, const ExecutionContext& context,
                   const std::filesystem::path& input, const std::filesystem::path& path,
                   const std::vector<std::string>& warnings = {});
 

@@ -1,11 +1,19 @@
 #include "mesher/shell/size_fidelity.hpp"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <optional>
-#include <utility>
+#include <unordered_map>
+#include <vector>
+
+#include "mesher/mesh/side_key.hpp"
 
 namespace quadrille {
 
@@ -54,28 +62,42 @@ nlohmann::ordered_json SizeFidelity::json() const {
 }
 
 SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field) {
-  std::vector<std::pair<std::pair<int, int>, int>> sides;  // nodes, face
-  for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
-    for (int k = 0; k < 4; ++k) {
-      const int a = mesh.quads[quad][k], b = mesh.quads[quad][(k + 1) % 4];
-      sides.push_back({{std::min(a, b), std::max(a, b)}, mesh.quad_faces[quad]});
+  // Quads of a face go round their shared sides in opposite directions: one of the two counts a side. On the
+  // rim, where faces meet, the first quad does.
+  std::vector<char> on_rim(mesh.points.size(), 0);
+  std::unordered_map<std::uint64_t, std::size_t> first;  // side of the rim -> quad
+  for (const ShellMesh::Segment& segment : mesh.segments) {
+    for (const int node : segment.nodes) on_rim[node] = 1;
+    first.emplace(side_key(segment.nodes[0], segment.nodes[1]), mesh.quads.size());
+  }
+  const auto rim_side = [&](int a, int b) {
+    return on_rim[a] && on_rim[b] ? first.find(side_key(a, b)) : first.end();
+  };
+  for (std::size_t quad = mesh.quads.size(); quad-- > 0;)
+    for (int k = 0; k < 4; ++k)
+      if (const auto side = rim_side(mesh.quads[quad][k], mesh.quads[quad][(k + 1) % 4]); side != first.end())
+        side->second = quad;
+  std::vector<std::array<double, 4>> by_quad(mesh.quads.size());
+  const oneapi::tbb::blocked_range<std::size_t> all(0, mesh.quads.size());
+  oneapi::tbb::parallel_for(all, [&](const auto& range) {
+    std::optional<SizingField::Sampler> size_at;
+    for (std::size_t quad = range.begin(); quad < range.end(); ++quad) {
+      const int face = mesh.quad_faces[quad];
+      if (quad == range.begin() || face != mesh.quad_faces[quad - 1]) size_at.emplace(field, face - 1);
+      for (int k = 0; k < 4; ++k) {
+        const int a = mesh.quads[quad][k], b = mesh.quads[quad][(k + 1) % 4];
+        const auto rim = rim_side(a, b);
+        const bool counts = rim == first.end() ? a < b : rim->second == quad;
+        const Vector3 &p = mesh.points[a], &q = mesh.points[b];
+        by_quad[quad][k] = counts ? (q - p).norm() / (*size_at)(0.5 * (p + q)) : -1;
+      }
     }
-  }
-  std::sort(sides.begin(), sides.end());
-  sides.erase(std::unique(sides.begin(), sides.end(),
-                          [](const auto& one, const auto& other) { return one.first == other.first; }),
-              sides.end());
-  std::stable_sort(sides.begin(), sides.end(),
-                   [](const auto& one, const auto& other) { return one.second < other.second; });
-  std::optional<SizingField::Sampler> size_at;
-  int face = 0;
+  });
   std::vector<double> ratios;
-  for (const auto& [nodes, on] : sides) {
-    if (on != face) size_at.emplace(field, on - 1);
-    face = on;
-    const Vector3 &a = mesh.points[nodes.first], &b = mesh.points[nodes.second];
-    ratios.push_back((b - a).norm() / (*size_at)(0.5 * (a + b)));
-  }
+  ratios.reserve(2 * by_quad.size());
+  for (const auto& quad : by_quad)
+    std::copy_if(quad.begin(), quad.end(), std::back_inserter(ratios),
+                 [](double ratio) { return ratio >= 0; });
   return summary(std::move(ratios));
 }
 
