@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <numeric>
 
 namespace quadrille {
 
@@ -24,21 +25,22 @@ std::uint32_t spread(std::uint32_t x) {
   return (x | x << 2) & 0x09249249U;
 }
 
-/// The triangles along a Morton curve through cells, by their first corners; those of a cell in the order of
-/// the mesh.
-std::vector<int> along_curve(const TriangleMesh& mesh) {
-  Vector3 low = mesh.points[mesh.triangles[0][0]], high = low;
-  for (const auto& t : mesh.triangles) {
-    low = low.cwiseMin(mesh.points[t[0]]);
-    high = high.cwiseMax(mesh.points[t[0]]);
+/// Elements along a Morton curve through cells, by their first corners; those of a cell in the order that
+/// they had. \param cells along an axis, a power of two, 128 at most.
+template <std::size_t n>
+std::vector<int> along_curve(const std::vector<Vector3>& points,
+                             const std::vector<std::array<int, n>>& elements, int cells) {
+  Vector3 low = points[elements[0][0]], high = low;
+  for (const auto& element : elements) {
+    low = low.cwiseMin(points[element[0]]);
+    high = high.cwiseMax(points[element[0]]);
   }
   const double extent = (high - low).maxCoeff();
-  constexpr int cells = 128;  // along an axis: some hundred triangles in each, whose own order hardly matters
   const double scale = extent > 0 ? (cells - 1e-6) / extent : 0;
-  std::vector<std::uint32_t> keys(mesh.triangles.size());
+  std::vector<std::uint32_t> keys(elements.size());
   std::vector<int> start(cells * cells * cells + 1, 0);
   for (std::size_t t = 0; t < keys.size(); ++t) {
-    const Vector3 at = scale * (mesh.points[mesh.triangles[t][0]] - low);
+    const Vector3 at = scale * (points[elements[t][0]] - low);
     const auto bits = [&](int k) { return spread(static_cast<std::uint32_t>(at[k])); };
     keys[t] = bits(0) | bits(1) << 1 | bits(2) << 2;
     ++start[keys[t] + 1];
@@ -69,7 +71,8 @@ bool is_scattered(const TriangleMesh& mesh) {
 RenumberedMesh order_by_place(const TriangleMesh& mesh, const ExecutionContext& context) {
   SparseCheck check(context);
   RenumberedMesh result;
-  const std::vector<int> order = along_curve(mesh);
+  constexpr int cells = 128;  // some hundred triangles in each, whose own order hardly matters
+  const std::vector<int> order = along_curve(mesh.points, mesh.triangles, cells);
   std::vector<int> number(mesh.points.size(), -1);
   result.mesh.triangles.reserve(mesh.triangles.size());
   result.old_point.reserve(mesh.points.size());
@@ -90,6 +93,29 @@ RenumberedMesh order_by_place(const TriangleMesh& mesh, const ExecutionContext& 
   result.mesh.points.reserve(result.old_point.size());
   for (int old : result.old_point) result.mesh.points.push_back(mesh.points[old]);
   return result;
+}
+
+std::vector<int> order_by_place(const std::vector<Vector3>& points, std::size_t fixed,
+                                std::vector<std::array<int, 4>>& quads) {
+  int cells = 1;
+  while (cells < 128 && 16 * cells * cells < static_cast<int>(quads.size())) cells *= 2;
+  std::vector<int> old_point(fixed), number(points.size(), -1);
+  std::iota(old_point.begin(), old_point.end(), 0);
+  std::copy_n(old_point.begin(), fixed, number.begin());
+  std::vector<std::array<int, 4>> ordered;
+  ordered.reserve(quads.size());
+  for (const int at : along_curve(points, quads, cells)) {
+    std::array<int, 4>& quad = ordered.emplace_back(quads[at]);
+    for (int& v : quad) {
+      if (number[v] < 0) {
+        number[v] = static_cast<int>(old_point.size());
+        old_point.push_back(v);
+      }
+      v = number[v];
+    }
+  }
+  quads = std::move(ordered);
+  return old_point;
 }
 
 }  // namespace quadrille

@@ -1,6 +1,7 @@
 #pragma once
 /// Large triangulations in an order in which neighbors are near each other in memory. Internal.
 
+#include <array>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
@@ -22,5 +23,10 @@ bool is_scattered(const TriangleMesh& mesh);
 /// triangles use them first; points that no triangle uses are left out. Deterministic. Time: linear. Indices
 /// must have been checked.
 RenumberedMesh order_by_place(const TriangleMesh& mesh, const ExecutionContext& context = {});
+
+/// The same for quads: puts them along the curve and numbers their points anew, but for the first `fixed`.
+/// \return the index that each point had before. All points are to be used.
+std::vector<int> order_by_place(const std::vector<Vector3>& points, std::size_t fixed,
+                                std::vector<std::array<int, 4>>& quads);
 
 }  // namespace quadrille

@@ -19,6 +19,7 @@
 #include "mesher/mesh/criteria.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/renumbering.hpp"
 #include "mesher/pairing/recombine.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/improve.hpp"
@@ -316,7 +317,22 @@ class FaceMesher {
     if (!inverted.empty()) throw inverted_problem(result, inverted);
     if (const auto side = wrong_boundary_side(chart_.boundary, result.nodes, result.quads))
       throw boundary_problem(nodes_.points[side->first], nodes_.points[side->second]);
+    order(result);
     return result;
+  }
+
+  /// What works through a mesh, here, in solvers and in windows, finds neighbors near each other in memory.
+  static void order(FaceMesh& mesh) {
+    const std::vector<int> before = order_by_place(mesh.points, mesh.nodes.size(), mesh.quads);
+    const auto permute = [&](auto& values) {
+      auto ordered = values;
+      ordered.resize(before.size());
+      for (std::size_t i = 0; i < before.size(); ++i) ordered[i] = values[before[i]];
+      values = std::move(ordered);
+    };
+    permute(mesh.points);
+    permute(mesh.uv);
+    permute(mesh.pole);
   }
 
   FaceProblem boundary_problem(const Vector3& a, const Vector3& b) const {

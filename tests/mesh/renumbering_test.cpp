@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <random>
+
 #include "geometry/base/error.hpp"
 #include "geometry/base/execution_context.hpp"
 #include "mesher/pairing/recombine.hpp"
@@ -51,6 +56,38 @@ TEST(Renumbering, KeepsEveryTriangleAndBringsNeighborsTogether) {
     ASSERT_EQ(back, mesh.triangles[ordered.mesh.tags[t]]);
   }
   EXPECT_FALSE(is_scattered(ordered.mesh));
+}
+
+TEST(Renumbering, QuadsStayWhereTheyAreAndComeByPlace) {
+  constexpr int across = 60, fixed = 3;
+  std::vector<Vector3> points;
+  for (int v = 0; v < (across + 1) * (across + 1); ++v)
+    points.emplace_back(v % (across + 1), v / (across + 1), 0);
+  std::mt19937 generator(6);
+  std::vector<int> to(points.size());
+  std::iota(to.begin(), to.end(), 0);
+  std::shuffle(to.begin(), to.end(), generator);
+  std::vector<Vector3> scattered(points.size());
+  for (std::size_t v = 0; v < to.size(); ++v) scattered[to[v]] = points[v];
+  std::vector<std::array<int, 4>> quads;
+  for (int v = 0; v < (across + 1) * across; ++v)
+    if (v % (across + 1) < across)
+      quads.push_back({to[v], to[v + 1], to[v + across + 2], to[v + across + 1]});
+  std::shuffle(quads.begin(), quads.end(), generator);
+  std::vector<std::array<int, 4>> before = quads;
+  const std::vector<int> old_point = order_by_place(scattered, fixed, quads);
+  ASSERT_EQ(old_point.size(), scattered.size());
+  double apart = 0;  // numbers of a quad's nodes
+  for (auto& quad : quads) {
+    const auto [low, high] = std::minmax_element(quad.begin(), quad.end());
+    apart += *high - *low;
+    for (int& v : quad) v = old_point[v];
+  }
+  EXPECT_LT(apart / static_cast<double>(quads.size()), 0.1 * static_cast<double>(points.size()));
+  for (int v = 0; v < fixed; ++v) EXPECT_EQ(old_point[v], v);
+  std::sort(before.begin(), before.end());
+  std::sort(quads.begin(), quads.end());
+  EXPECT_EQ(quads, before);
 }
 
 TEST(Renumbering, QuadsOfAScatteredMeshAreFaultless) {
