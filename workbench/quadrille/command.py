@@ -13,6 +13,7 @@ import subprocess
 import tempfile
 import threading
 import time
+import uuid
 from pathlib import Path
 from typing import Callable, Dict, List, Optional, Sequence, Tuple, Union
 
@@ -40,42 +41,37 @@ def on_host(arguments: Sequence[str]) -> List[str]:
     return [*_OUT_OF_FLATPAK, *arguments] if FLATPAK_INFO.exists() else list(arguments)
 
 
-_SCRATCH = "quadrille-scratch-"
+#: Waits until its input closes, which it does with the process that holds the other end, and removes what begins with $1:
+#: more than once, since a mesher that ends at the same time may still make a file.
+_REMOVE_AT_END = 'cat; for i in 1 2 3; do rm -rf -- "$1"*; sleep 1; done'
+#: What scratch folders begin with, and the shell that waits for the end, by process and place.
+_scratch: Dict[Tuple[int, str], Tuple[str, subprocess.Popen]] = {}
 
 
 def scratch_folder() -> "tempfile.TemporaryDirectory":
-    """A temporary folder that the command sees too. Those that killed processes of this user have left go."""
+    """A temporary folder that the command sees too. It goes with this process, even if that is killed."""
     place = "the folder for temporary files"
     try:
         place = tempfile.gettempdir()
         if FLATPAK_INFO.exists():
-            # The sandbox has a /tmp and process numbers of its own; its cache folder has the same path outside.
+            # The sandbox has a /tmp of its own; its cache folder has the same path outside.
             place = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
             os.makedirs(place, exist_ok=True)
-        else:
-            _sweep(Path(place))
-        return tempfile.TemporaryDirectory(prefix=f"{_SCRATCH}{os.getpid()}-", dir=place)
+        return tempfile.TemporaryDirectory(prefix=_scratch_prefix(place), dir=place)
     except OSError as error:
         raise Error(f"{place}: no temporary folder can be made there ({error.strerror}); set the environment variable TMPDIR to "
                     "a folder that can be written", "failure", place) from error
 
 
-def _sweep(place: Path) -> None:
-    for folder in place.glob(f"{_SCRATCH}*"):
-        owner = re.match(r"(\d+)-", folder.name[len(_SCRATCH):])
-        if owner and _is_left_behind(folder, int(owner.group(1))):
-            shutil.rmtree(folder, ignore_errors=True)
-
-
-def _is_left_behind(folder: Path, process: int) -> bool:
-    """Whether the folder is this user's, and the process that made it is gone."""
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return folder.stat().st_uid == os.getuid()
-    except PermissionError:
-        pass
-    return False
+def _scratch_prefix(place: str) -> str:
+    key = (os.getpid(), place)
+    if key not in _scratch:
+        prefix = f"quadrille-{os.getpid()}-{uuid.uuid4().hex[:8]}-"
+        shell = subprocess.Popen(["sh", "-c", _REMOVE_AT_END, "sh", os.path.join(place, prefix)], stdin=subprocess.PIPE,
+                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=child_environment(),
+                                 start_new_session=True)
+        _scratch[key] = (prefix, shell)
+    return _scratch[key][0]
 
 
 def _which(path: str) -> Optional[str]:

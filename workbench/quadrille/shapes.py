@@ -90,7 +90,11 @@ class SizeEstimate:
         widening = np.bincount(face, length * self._sides[:, 2], self._areas.size) / 2
         return 2 * self._areas / np.maximum(border + np.sqrt(border**2 + 4 * widening * self._areas), 1e-300)
 
-    def quads(
+    def quads(self, *asked, **named) -> int:
+        """The number of quads to expect, see quads_by_face()."""
+        return round(sum(self.quads_by_face(*asked, **named).values()))
+
+    def quads_by_face(
         self,
         size: float,
         size_min: Optional[float] = None,
@@ -98,8 +102,9 @@ class SizeEstimate:
         sizes: Optional[Mapping[str, float]] = None,
         faces: Sequence[str] = (),
         growth: float = 0.3,
-    ) -> int:
-        """The number of quads to expect. Raises Error for sizes that make no sense on this shape."""
+    ) -> Dict[str, float]:
+        """The number of quads to expect on each face that is meshed. Raises Error for sizes that make no sense on this
+        shape."""
         smallest = size_min or size / 8
         sizes = sizes or {}
         least = min([size, *sizes.values()])
@@ -129,9 +134,8 @@ class SizeEstimate:
         border = np.bincount(face, length / np.minimum(fine, coarse[face]), count)
         inside += np.bincount(face, margins, count)
         counts = np.maximum(4.0, np.maximum(border, inside))  # two rows of quads on the narrowest strip
-        if faces:
-            counts = counts[[index for index in range(count) if f"Face{index + 1}" in faces]]
-        return round(float(counts.sum()))
+        names = {f"Face{index + 1}": float(quads) for index, quads in enumerate(counts)}
+        return {name: names[name] for name in names if name in faces} if faces else names
 
     def suggested(self, quads: int = 5000, elements_per_circle: float = 12) -> float:
         """The size that gives about so many quads, to two digits."""

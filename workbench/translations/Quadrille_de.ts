@@ -459,6 +459,10 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <source>Say how many elements the selected edges get</source>
         <translation>Wie viele Elemente die gewählten Kanten bekommen</translation>
     </message>
+    <message>
+        <source>Expected by face</source>
+        <translation>Erwartet je Fläche</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>

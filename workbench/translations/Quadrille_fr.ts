@@ -459,6 +459,10 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <source>Say how many elements the selected edges get</source>
         <translation>Dire combien d’éléments les arêtes choisies reçoivent</translation>
     </message>
+    <message>
+        <source>Expected by face</source>
+        <translation>Attendus par face</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>

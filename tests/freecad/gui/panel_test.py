@@ -126,13 +126,13 @@ class PanelTest(GuiCase):
         mesh = self.open_panel(self.bracket())
         self.press_mesh()
         self.select(self.document.Bracket, "Face1", "Face2")
-        for name in ("QuadrilleRefinements", "QuadrilleMore"):
+        for name in ("QuadrilleByFace", "QuadrilleRefinements", "QuadrilleMore"):
             find(name).setChecked(True)
         find("QuadrilleAddRefinement").click()
         close_panel()
         panel = MeshPanel(mesh)
         form = panel.form
-        for name in ("QuadrilleRefinements", "QuadrilleMore"):
+        for name in ("QuadrilleByFace", "QuadrilleRefinements", "QuadrilleMore"):
             form.findChild(QtGui.QToolButton, name).setChecked(True)
         self.assertLessEqual(form.minimumSizeHint().width(), 250)
         outside = QtGui.QWidget()
@@ -368,6 +368,36 @@ class PanelTest(GuiCase):
         self.assertEqual(mesh.MeshRegionList, [first])
         self.assertGreater(mesh.QuadCount, before)
         self.assertEqual(mesh.Status, "up to date")
+
+    def test_the_estimate_by_face(self):
+        mesh = quadrille.freecad.make_mesh(self.box(), size=2, sizes={"Face3": 0.5})
+        self.edit(mesh)
+        self.assertFalse(find("QuadrilleFaceCounts").isVisible())
+        find("QuadrilleByFace").setChecked(True)
+        rows = self.expected_rows()
+        self.assertEqual(set(rows), {f"Face{number}" for number in range(1, 7)})
+        self.assertEqual(next(iter(rows)), "Face3")  # the finest face is the first row
+        total = shapes.estimate_of(self.document.Box.Shape).quads(2, sizes={"Face3": 0.5})
+        self.assertAlmostEqual(sum(rows.values()), total, delta=len(rows))
+        picture("by_face")
+        FreeCADGui.Selection.clearSelection()
+        counts = find("QuadrilleFaceCounts")
+        counts.itemClicked.emit(counts.item(0))
+        self.assertEqual(FreeCADGui.Selection.getSelectionEx()[0].SubElementNames, ("Face3",))
+        find("QuadrilleTakeSelection").click()
+        self.assertEqual(list(self.expected_rows()), ["Face3"])
+        type_into("QuadrilleSize", "nonsense")
+        self.assertEqual(self.expected_rows(), {})
+        type_into("QuadrilleSize", "2 mm")
+        self.press_mesh()
+        self.assertAlmostEqual(mesh.QuadCount / rows["Face3"], 1, delta=0.3)
+        close_panel()
+
+    def expected_rows(self):
+        """The quads to expect that the panel lists, by face."""
+        counts = find("QuadrilleFaceCounts")
+        rows = (counts.item(row).text().split(": ") for row in range(counts.count()))
+        return {name: int(quads) for name, quads in rows}
 
     def test_a_lost_face_is_taken_again(self):
         part = self.document.addObject("Part::Feature", "Part")

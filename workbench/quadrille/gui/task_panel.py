@@ -18,6 +18,7 @@ from ..errors import Error
 from . import do, icon, links_text, path_of, preferences, standard_buttons, tell, translate
 from .entry_rows import PROPERTIES as ENTRIES
 from .entry_rows import EntryRows
+from .face_counts import FaceCounts
 from .measuring import FAILURES, Measuring
 from .mesher_choice import MesherChoice, is_missing
 from .quality_view import QualityWidget
@@ -27,7 +28,7 @@ from .setting_widgets import setting_widgets
 from .size_preview import SizePreview
 from .thin_hint import thin_hint
 
-_POLL_MILLISECONDS = 50
+_POLL_MILLISECONDS = 10
 #: Properties that are always in sight; the others are under "More settings".
 _IN_SIGHT = ("Size", "ElementOrder", "Faces")
 
@@ -77,6 +78,7 @@ class MeshPanel:
         self.estimate = QtGui.QLabel()
         self.estimate.setObjectName("QuadrilleEstimate")
         self.estimate.setWordWrap(True)
+        self.by_face = FaceCounts(self.mesh)
         self.refinements = RefinementList(self._refine_selection, self._update_estimate)
         self.follows = QtGui.QCheckBox(translate("Quadrille", "Follow results"))
         self.follows.setObjectName("QuadrilleFollows")
@@ -122,6 +124,7 @@ class MeshPanel:
         self._hint = QtGui.QVBoxLayout()
         layout.addLayout(self._hint)
         layout.addLayout(basic)
+        layout.addWidget(_section("QuadrilleByFace", translate("Quadrille", "Expected by face"), self.by_face, False))
         layout.addWidget(self.preview)
         layout.addWidget(_beside(self.mesh_button, self.stop_button))
         layout.addWidget(self.bar)
@@ -234,12 +237,15 @@ class MeshPanel:
             shape = state.part_of(self.mesh).Shape
             estimate = shapes.estimate_of(shape)
             size = settings.get("size") or shape.BoundBox.DiagonalLength / 60
-            count = estimate.quads(size, settings.get("size_min"), settings["elements_per_circle"], settings.get("sizes"),
-                                   settings.get("faces", ()), settings["growth"])
+            counts = estimate.quads_by_face(
+                size, settings.get("size_min"), settings["elements_per_circle"], settings.get("sizes"), settings.get("faces", ()),
+                settings["growth"])
         except FAILURES as error:
             self.estimate.setText(str(error))
+            self.by_face.show_counts({})
             return
-        self._show_count(count)
+        self.by_face.show_counts(counts)
+        self._show_count(sum(counts.values()))
 
     def _show_count(self, count: float) -> None:
         self.estimate.setText(translate("Quadrille", "about {} quads").format(_rounded(round(count))))
