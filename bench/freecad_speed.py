@@ -25,11 +25,12 @@ import FreeCADGui
 import Fem
 import ObjectsFem
 import Part
+from PySide import QtCore
 
 import quadrille.freecad
 from quadrille import jobs, undo
 from quadrille.gui import quality_view
-from driver import Boxes, close_panel, find, prepare, process, trigger, wait_for
+from driver import Boxes, close_panel, find, prepare, process, trigger
 
 
 class Stopwatch:
@@ -63,11 +64,12 @@ def quadrille_run(document, part, size, order):
     find("QuadrilleSize").setProperty("rawValue", size)
     find("QuadrilleElementOrder").setCurrentText(order)
     process(0.3)
-    mesh = document.Objects[-1]
+    mesh, button = document.Objects[-1], find("QuadrilleMesh")
     started = time.perf_counter()
     with Stopwatch(jobs, "read_mesh") as read, Stopwatch(undo, "put") as put:
-        find("QuadrilleMesh").click()
-        wait_for(lambda: find("QuadrilleMesh").isEnabled(), 300, "meshing")
+        button.click()
+        while not button.isEnabled():  # as FreeCAD's own loop waits
+            QtCore.QCoreApplication.processEvents(QtCore.QEventLoop.WaitForMoreEvents)
     stored = time.perf_counter()
     process(0)
     FreeCADGui.activeDocument().activeView().redraw()

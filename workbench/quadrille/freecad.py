@@ -213,10 +213,11 @@ def start(mesh, command: Optional[str] = None, outputs: Sequence[Union[str, Path
     flipped = state.flipped(mesh, found)
     shape = shapes.with_reversed_faces(shape_of(part), flipped)
     job = ShapeJob(shape, state.settings_to_use(mesh, wanted, found), command, outputs, brep=_brep_as_meshed(mesh, flipped))
-    # What is changed while the child works makes the mesh stale when it comes.
-    job.made_of = (shapes.fingerprint(part.Shape), state.settings_key(mesh, wanted, found))
+    settings = state.settings_key(mesh, wanted, found)
     job.found = found
     _running[_key(mesh)] = job.start()
+    # What is changed from now on, while the child works, makes the mesh stale when it comes.
+    job.made_of = (shapes.fingerprint(part.Shape), settings)
     return job
 
 
