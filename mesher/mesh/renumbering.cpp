@@ -29,7 +29,7 @@ std::uint32_t spread(std::uint32_t x) {
 /// they had. \param cells along an axis, a power of two, 128 at most.
 template <std::size_t n>
 std::vector<int> along_curve(const std::vector<Vector3>& points,
-                             const std::vector<std::array<int, n>>& elements, int cells) {
+                             const std::vector<std::array<int, n>>& elements, int cells, SparseCheck& check) {
   Vector3 low = points[elements[0][0]], high = low;
   for (const auto& element : elements) {
     low = low.cwiseMin(points[element[0]]);
@@ -40,6 +40,7 @@ std::vector<int> along_curve(const std::vector<Vector3>& points,
   std::vector<std::uint32_t> keys(elements.size());
   std::vector<int> start(cells * cells * cells + 1, 0);
   for (std::size_t t = 0; t < keys.size(); ++t) {
+    check();
     const Vector3 at = scale * (points[elements[t][0]] - low);
     const auto bits = [&](int k) { return spread(static_cast<std::uint32_t>(at[k])); };
     keys[t] = bits(0) | bits(1) << 1 | bits(2) << 2;
@@ -47,7 +48,10 @@ std::vector<int> along_curve(const std::vector<Vector3>& points,
   }
   for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
   std::vector<int> order(keys.size());
-  for (std::size_t t = 0; t < keys.size(); ++t) order[start[keys[t]]++] = static_cast<int>(t);
+  for (std::size_t t = 0; t < keys.size(); ++t) {
+    check();
+    order[start[keys[t]]++] = static_cast<int>(t);
+  }
   return order;
 }
 
@@ -72,7 +76,7 @@ RenumberedMesh order_by_place(const TriangleMesh& mesh, const ExecutionContext& 
   SparseCheck check(context);
   RenumberedMesh result;
   constexpr int cells = 128;  // some hundred triangles in each, whose own order hardly matters
-  const std::vector<int> order = along_curve(mesh.points, mesh.triangles, cells);
+  const std::vector<int> order = along_curve(mesh.points, mesh.triangles, cells, check);
   std::vector<int> number(mesh.points.size(), -1);
   result.mesh.triangles.reserve(mesh.triangles.size());
   result.old_point.reserve(mesh.points.size());
@@ -96,7 +100,8 @@ RenumberedMesh order_by_place(const TriangleMesh& mesh, const ExecutionContext& 
 }
 
 std::vector<int> order_by_place(const std::vector<Vector3>& points, std::size_t fixed,
-                                std::vector<std::array<int, 4>>& quads) {
+                                std::vector<std::array<int, 4>>& quads, const ExecutionContext& context) {
+  SparseCheck check(context);
   int cells = 1;
   while (cells < 128 && 16 * cells * cells < static_cast<int>(quads.size())) cells *= 2;
   std::vector<int> old_point(fixed), number(points.size(), -1);
@@ -104,7 +109,8 @@ std::vector<int> order_by_place(const std::vector<Vector3>& points, std::size_t 
   std::copy_n(old_point.begin(), fixed, number.begin());
   std::vector<std::array<int, 4>> ordered;
   ordered.reserve(quads.size());
-  for (const int at : along_curve(points, quads, cells)) {
+  for (const int at : along_curve(points, quads, cells, check)) {
+    check();
     std::array<int, 4>& quad = ordered.emplace_back(quads[at]);
     for (int& v : quad) {
       if (number[v] < 0) {

@@ -27,6 +27,6 @@ RenumberedMesh order_by_place(const TriangleMesh& mesh, const ExecutionContext& 
 /// The same for quads: puts them along the curve and numbers their points anew, but for the first `fixed`.
 /// \return the index that each point had before. All points are to be used.
 std::vector<int> order_by_place(const std::vector<Vector3>& points, std::size_t fixed,
-                                std::vector<std::array<int, 4>>& quads);
+                                std::vector<std::array<int, 4>>& quads, const ExecutionContext& context = {});
 
 }  // namespace quadrille

@@ -322,12 +322,13 @@ class FaceMesher {
   }
 
   /// What works through a mesh, here, in solvers and in windows, finds neighbors near each other in memory.
-  static void order(FaceMesh& mesh) {
-    const std::vector<int> before = order_by_place(mesh.points, mesh.nodes.size(), mesh.quads);
+  void order(FaceMesh& mesh) const {
+    const std::vector<int> before = order_by_place(mesh.points, mesh.nodes.size(), mesh.quads, context_);
     const auto permute = [&](auto& values) {
       auto ordered = values;
       ordered.resize(before.size());
       for (std::size_t i = 0; i < before.size(); ++i) ordered[i] = values[before[i]];
+      context_.check();
       values = std::move(ordered);
     };
     permute(mesh.points);
