@@ -103,29 +103,36 @@ double QuadEstimate::quads(const MeshOptions& options) {
 }
 
 QuadEstimate::Suggestion QuadEstimate::size_for(double quads) {
-  constexpr int most_steps = 24;
-  constexpr double close = 1.02;
+  constexpr int most_steps = 12;
+  constexpr double close = 1.05;   // far within the estimate's own error
+  constexpr double narrow = 1.02;  // sizes between which the count jumps
   const auto rounded = [](double size) { return std::stod(fmt::format("{:.3g}", size)); };
-  double low = 0, high = 0.1 * model_.diagonal(), area = 0;  // sizes that give too many quads, and too few
+  const double largest = rounded(0.1 * model_.diagonal());
+  double area = 0;
   for (const auto& face : samples_) {
     for (const FaceSample& sample : face) area += sample.area;
   }
-  Suggestion best;
-  double size = std::min(high, std::sqrt(area / quads));
+  Suggestion best, fine, coarse;  // the last two: the nearest that give too many quads, and too few
+  double size = std::min(largest, std::sqrt(area / quads));
   for (int step = 0; step < most_steps; ++step) {
-    size = rounded(size);
     MeshOptions options;
-    options.sizing.size = size;
-    const double count = this->quads(options);
-    const bool better =
-        best.size == 0 || std::abs(std::log(count / quads)) < std::abs(std::log(best.quads / quads));
-    if (better) best = {size, count};
-    if (std::max(count / quads, quads / count) < close || size == low || size == high) break;
-    (count > quads ? low : high) = size;
-    // Counts fall with the square of the size at most.
-    const double guess = std::isfinite(count) ? size * std::sqrt(count / quads) : 2 * size;
-    size = low > 0 ? std::clamp(guess, low + 0.1 * (high - low), high - 0.1 * (high - low))
-                   : std::min(guess, high);
+    options.sizing.size = rounded(size);
+    const Suggestion found{options.sizing.size, this->quads(options)};
+    const auto error = [&](const Suggestion& one) { return std::abs(std::log(one.quads / quads)); };
+    if (best.size == 0 || error(found) < error(best)) best = found;
+    const bool too_many = found.quads > quads;
+    if (error(found) < std::log(close) || (too_many && found.size >= largest)) break;
+    (too_many ? fine : coarse) = found;
+    if (fine.size == 0 || coarse.size == 0) {
+      // Counts fall with the square of the size at most: this goes too far rather than not far enough.
+      const double factor = std::isfinite(found.quads) ? found.quads / quads : 2;
+      size = std::min(largest, found.size * factor);
+      continue;
+    }
+    if (coarse.size < narrow * fine.size) break;
+    const double share =
+        std::isfinite(fine.quads) ? std::log(fine.quads / quads) / std::log(fine.quads / coarse.quads) : 0.5;
+    size = fine.size * std::pow(coarse.size / fine.size, std::clamp(share, 0.1, 0.9));
   }
   return best;
 }
