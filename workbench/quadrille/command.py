@@ -67,7 +67,7 @@ def _scratch_prefix(place: str) -> str:
     key = (os.getpid(), place)
     if key not in _scratch:
         prefix = f"quadrille-{os.getpid()}-{uuid.uuid4().hex[:8]}-"
-        shell = subprocess.Popen(["sh", "-c", _REMOVE_AT_END, "sh", os.path.join(place, prefix)], stdin=subprocess.PIPE,
+        shell = subprocess.Popen(["/bin/sh", "-c", _REMOVE_AT_END, "sh", os.path.join(place, prefix)], stdin=subprocess.PIPE,
                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=child_environment(),
                                  start_new_session=True)
         _scratch[key] = (prefix, shell)
