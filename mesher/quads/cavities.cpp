@@ -18,13 +18,18 @@ namespace {
 constexpr int max_quads = 150;   ///< in a patch, before and after
 constexpr int max_growths = 8;   ///< of a patch
 constexpr int max_search = 600;  ///< quads looked at for the nearest irregular node
-constexpr int max_rounds = 2;    ///< over all nodes
+/// The same, for patches that choose the nodes that they grow to.
+constexpr int few_growths = 4, near_search = 100;
+constexpr int max_rounds = 2;  ///< over all nodes
 /// A filling has that share of the quads before at least and at most, and no more of all quads than that come
 /// or go: sizes are to stay.
 constexpr double least_share = 0.7, most_share = 1.35, most_drift = 0.08;
 constexpr int few_quads = 8;  ///< that may come or go in any face
 /// Quads may be this badly shaped at first: smoothing mends them.
 constexpr double mendable = 0.2;
+/// What a unit of what valences cost is worth of the sum over the quads of their objectives: nodes have been
+/// smoothed before, and those of a filling not yet.
+constexpr double per_cost = 1;
 
 class Cavities : private EditedMesh {
  public:
@@ -59,10 +64,8 @@ class Cavities : private EditedMesh {
     return std::max(1, static_cast<int>(std::lround(angles_[node] / (std::numbers::pi / 2))));
   }
 
-  int cost(int node) const {
-    const int excess = valence(node) - (inner(node) ? 4 : wanted(node));
-    return excess * excess;
-  }
+  int excess(int node) const { return valence(node) - (inner(node) ? 4 : wanted(node)); }
+  int cost(int node) const { return excess(node) * excess(node); }
 
   bool in_patch(int quad) const { return in_patch_[quad] != 0; }
 
@@ -95,23 +98,33 @@ class Cavities : private EditedMesh {
     for (const int quad : patch) add(quad);
   }
 
+  /// Tries patches that grow to the nearest irregular nodes, then others: the first of those is left out, and
+  /// they grow to nodes that bring them nearer to four corners.
   bool mend(int node) {
     in_patch_.resize(topology_.size(), 0);
     reached_.resize(topology_.size(), 0);
     tried_.clear();
-    const bool done = add_fan(node) && grow_until_filled();
-    if (!done) clear();
-    return done;
+    chooses_ = false;
+    if (add_fan(node) && grow_until_filled()) return true;
+    clear();
+    if (tried_.empty()) return false;
+    tried_.erase(tried_.begin() + 1, tried_.end());
+    chooses_ = true;
+    if (add_fan(node) && grow_until_filled()) return true;
+    clear();
+    return false;
   }
 
   bool grow_until_filled() {
     std::vector<int> last;  // the patch before it grew to what did not fit
-    for (int growth = 0; growth < max_growths; ++growth) {
+    last_corners_ = 4;
+    for (int growth = 0; growth < (chooses_ ? few_growths : max_growths); ++growth) {
       const bool fits = make_convex() && trace();
       if (fits && fill()) return true;
-      if (fits)
+      if (fits) {
         last = patch_;
-      else if (last.empty())
+        last_corners_ = static_cast<int>(corners_.size());
+      } else if (last.empty())
         return false;
       else
         restore(last);
@@ -140,15 +153,22 @@ class Cavities : private EditedMesh {
     return true;
   }
 
-  /// Adds the quads of the nearest irregular node that was not tried, and those on the way to it.
+  /// Whether a patch is to grow to a node. One of too many quads inside gives it one more corner.
+  bool suits(int node) const {
+    return !chooses_ || last_corners_ == 4 || (excess(node) > 0) == (last_corners_ < 4);
+  }
+
+  /// Adds the quads of the nearest irregular node that suits and was not tried, and those on the way to it.
   bool grow() {
     ++search_;
     std::vector<int> queue = patch_, from(patch_.size(), -1);
     for (const int quad : patch_) reached_[quad] = search_;
-    for (std::size_t i = 0; i < queue.size() && queue.size() < max_search; ++i) {
+    const std::size_t most = chooses_ ? near_search : max_search;
+    for (std::size_t i = 0; i < queue.size() && queue.size() < most; ++i) {
       for (const int node : topology_.quad(queue[i])) {
         if (topology_.openings(node) > 1 || cost(node) == 0 || uses_[node] == valence(node)) continue;
         if (!inner(node) && wanted(node) > 2) continue;
+        if (!suits(node)) continue;
         if (std::find(tried_.begin(), tried_.end(), node) != tried_.end()) continue;
         tried_.push_back(node);
         for (int at = static_cast<int>(i); at >= 0; at = from[at])
@@ -274,8 +294,10 @@ class Cavities : private EditedMesh {
     std::vector<Quad> quads = filling.quads;
     for (Quad& quad : quads)
       for (int& node : quad) node = nodes[node];
-    const bool done = !too_long(before, quads) && worst(quads) > std::min(worst(before), mendable) &&
-                      mean_objective(quads) < mean_objective(before);
+    const auto count = static_cast<double>(quads.size());
+    const bool done =
+        !too_long(before, quads) && worst(quads) > std::min(worst(before), mendable) &&
+        mean_objective(quads) < mean_objective(before) + per_cost * (cost_ - filling.irregular) / count;
     const std::vector<int> old = patch_;
     clear();
     if (done && topology_.replace(old, quads)) {
@@ -320,6 +342,8 @@ class Cavities : private EditedMesh {
   std::vector<int> uses_;       ///< by node: quads of the patch
   std::vector<int> ring_, corners_, inside_;
   int cost_ = 0;              ///< of the patch as it is
+  bool chooses_ = false;      ///< whether patches grow only to nodes that suit their corners
+  int last_corners_ = 4;      ///< of the patch when it was last a polygon
   std::vector<int> tried_;    ///< irregular nodes that the patch has grown to
   std::vector<int> met_;      ///< by node: the trace that met it last
   std::vector<int> reached_;  ///< by quad: the search that met it last
