@@ -29,7 +29,7 @@ constexpr int few_quads = 8;  ///< that may come or go in any face
 constexpr double mendable = 0.2;
 /// What a unit of what valences cost is worth of the sum over the quads of their objectives: nodes have been
 /// smoothed before, and those of a filling not yet.
-constexpr double per_cost = 1;
+constexpr double per_cost = 0.3;
 
 class Cavities : private EditedMesh {
  public:
