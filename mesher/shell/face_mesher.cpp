@@ -68,7 +68,9 @@ class FaceMesher {
     if (has_kept_edge(shape_.faces[face_], nodes_)) return std::move(*grid);  // flat rows are what is wanted
     const bool is_stepped = nodes_.sides[face_].outline == FaceSides::Outline::stepped;
     const double much = is_stepped ? 0.01 : 0.05, better = is_stepped ? 1 : 2;
-    constexpr double fewer = 0.8, far_fewer = 0.4;  // of the grid's quads, for what is wasted
+    // Of the grid's quads: how many there may be in place of wasted ones, and how many of these outside.
+    // Nodes that slide mend most of them later.
+    constexpr double fewer = 0.8, most_outside = 0.05;
     const double outside = is_stepped || has_rows(*grid) ? share_outside(*grid) : 0;
     const bool wasteful = !has_divided_edge(shape_.faces[face_], nodes_) &&
                           wastes_quads(grid->points, grid->quads, grid->nodes.size(), 1.5);
@@ -77,7 +79,7 @@ class FaceMesher {
         FaceMesh free = mesh_without_grid();
         const double left = share_outside(free);
         const double share = static_cast<double>(free.quads.size()) / static_cast<double>(grid->quads.size());
-        const double bound = std::max(outside, share < far_fewer ? much / share : much);
+        const double bound = std::max(outside, most_outside / share);
         if (better * left < outside || (wasteful && share < fewer && left <= bound)) return free;
       } catch (const FaceProblem&) {
         context_.check();  // the grid has none

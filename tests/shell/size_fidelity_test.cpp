@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "mesher/mesh/criteria.hpp"
 #include "mesher/quadrille.hpp"
 #include "tests/support/sample_models.hpp"
 
@@ -64,6 +65,11 @@ TEST(SizeFidelity, FineEdgesDoNotMakeWholeGridsFine) {
   EXPECT_LT(mesh.quads.size(), 3000u);  // grids between such edges have 8800, four parts of larger quads 3692
   EXPECT_GT(found.within_percent, 88);  // and 28 % within, or 76
   EXPECT_NEAR(found.below_percent + found.within_percent + found.above_percent, 100, 1e-9);
+  // Here more than a twentieth of the free quads lie outside the limits before nodes slide, and none after.
+  for (int edge = 1; edge <= 12; ++edge) options.sizing.edge_sizes[edge] = 0.75;
+  const ShellMesh coarser = quadrille::mesh(box, options, context);
+  EXPECT_GT(found.within_percent, 90);  // grids have 80
+  EXPECT_EQ(check_criteria(coarser).failing_but_warp, 0);
   // Where users ask for the division itself, rows go through.
   options.sizing.edge_sizes.clear();
   for (int edge = 1; edge <= 12; ++edge) options.sizing.spacings[edge].segments = 24;
