@@ -14,7 +14,6 @@
 #include <ext/stdio_filebuf.h>
 #include <fstream>
 #include <istream>
-#include <iterator>
 #include <new>
 #include <ostream>
 #include <sstream>
@@ -155,8 +154,8 @@ std::string listen(Child& child, int pipe, const IsolatedWork& options) {
   }
 }
 
-void take_result(const IsolatedWork& options, std::string bytes,
-                 const std::function<void(std::istream&)>& take) {
+/// What the child has written; throws what it has thrown.
+std::string result_of(const IsolatedWork& options, std::string bytes) {
   const std::size_t length = end_of_answer.size() + 1;
   const std::string_view all = bytes;
   if (all.size() < length || !all.substr(all.size() - length).starts_with(end_of_answer))
@@ -165,14 +164,10 @@ void take_result(const IsolatedWork& options, std::string bytes,
   bytes.resize(bytes.size() - length);
   if (given == failure_sentence) throw failure(options.subject, bytes);
   if (given == usage_sentence) throw usage_error(options.subject, bytes);
-  std::istringstream in(std::move(bytes));
-  take(in);
+  return bytes;
 }
 
-}  // namespace
-
-void run_isolated(const IsolatedWork& options, const std::function<void(std::ostream&)>& work,
-                  const std::function<void(std::istream&)>& take) {
+std::string run_in_child(const IsolatedWork& options, const std::function<void(std::ostream&)>& work) {
   if (options.context != nullptr) options.context->check();
   std::array<int, 2> ends{-1, -1};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw no_process(options.subject);
@@ -183,17 +178,19 @@ void run_isolated(const IsolatedWork& options, const std::function<void(std::ost
   if (id == 0) work_as_child(options, work, told);
   Child child(id);
   told.close();
-  take_result(options, listen(child, heard, options), take);
+  return result_of(options, listen(child, heard, options));
+}
+
+}  // namespace
+
+void run_isolated(const IsolatedWork& options, const std::function<void(std::ostream&)>& work,
+                  const std::function<void(std::istream&)>& take) {
+  std::istringstream in(run_in_child(options, work));
+  take(in);
 }
 
 std::string isolated_bytes(const IsolatedWork& options, const std::function<std::string()>& make) {
-  std::string bytes;
-  run_isolated(
-      options, [&](std::ostream& out) { out << make(); },
-      [&](std::istream& in) {
-        bytes = {std::istreambuf_iterator<char>(in), {}};
-      });
-  return bytes;
+  return run_in_child(options, [&](std::ostream& out) { out << make(); });
 }
 
 }  // namespace quadrille

@@ -233,11 +233,17 @@ def _curvatures(face, area: float, samples: int) -> List[Tuple[float, float]]:
     return [(area * weight / total, curvature) for weight, curvature in found]
 
 
+_last_fingerprint: List[Tuple[object, List[float]]] = []
+
+
 def fingerprint(shape) -> List[float]:
     """Numbers that change when a shape does: its corners, the lengths of its edges, areas and centers of its faces.
 
-    BREP text would not do: it holds the triangulation for the screen and flags of checks.
+    BREP text would not do: it holds the triangulation for the screen and flags of checks. Those of the shape asked for last
+    are kept.
     """
+    if _last_fingerprint and _last_fingerprint[0][0].isEqual(shape):
+        return list(_last_fingerprint[0][1])
     numbers = [float(len(shape.Faces)), float(len(shape.Edges)), float(len(shape.Vertexes))]
     for vertex in shape.Vertexes:
         numbers += tuple(vertex.Point)
@@ -245,6 +251,7 @@ def fingerprint(shape) -> List[float]:
         numbers.append(0.0 if edge.Degenerated else edge.Length)
     for face in shape.Faces:
         numbers += [face.Area, *tuple(face.CenterOfMass), -1.0 if face.Orientation == "Reversed" else 1.0]
+    _last_fingerprint[:] = [(shape, list(numbers))]
     return numbers
 
 
