@@ -82,13 +82,13 @@ struct Measured {
   std::vector<std::string> area_differences;
 };
 
-/// Begins work in a thread of its own, if there is one to spare; otherwise it is done when its result is
-/// asked for.
-template <class Work>
-auto meanwhile(int threads, Work work) {
+/// In a thread of its own, if there is one to spare: the files are written meanwhile.
+std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& model, int threads) {
   const auto policy =
       std::launch::deferred | (usable_threads(threads) > 1 ? std::launch::async : std::launch::deferred);
-  return std::async(policy, std::move(work));
+  return std::async(policy, [&mesh, &model, threads] {
+    return on_threads(threads, [&] { return Measured{measure(mesh), area_differences(model, mesh)}; });
+  });
 }
 
 /// The table on stdout, warnings on stderr and the report, as far as they are wanted.
@@ -131,9 +131,6 @@ void run(const MeshArguments& arguments) {
   if (partial) context.limit_time(settings.time_limit);
   if (arguments.end_with_input) end_with_input();
   cancel.reading(arguments.input, settings.read_time_limit);
-  const std::future<void> prepared = meanwhile(settings.threads, [&] {
-    for (const std::filesystem::path& output : arguments.outputs) prepare_format(output);
-  });
   const CadModel source = read_model(arguments, context);
   cancel.reading_is_done();
   report_crashes(arguments.input, "meshing");
@@ -153,11 +150,7 @@ void run(const MeshArguments& arguments) {
   context.check();
   std::future<Measured> measured;
   if (!arguments.quiet || !arguments.report.empty())
-    measured = meanwhile(settings.threads, [&] {
-      return on_threads(settings.threads, [&] {
-        return Measured{measure(result), area_differences(model, result)};
-      });
-    });
+    measured = start_to_measure(result, model, settings.threads);
   write_outputs(result, {arguments.input, arguments.outputs, arguments.picture}, arguments.settings, context,
                 cancel);
   list_left_out(result);

@@ -82,14 +82,6 @@ bool is_solver_format(const std::filesystem::path& path) {
          std::end(read_by_solvers);
 }
 
-void prepare_format(const std::filesystem::path& path) noexcept {
-  try {
-    open_module_for(lower_ending(path));
-  } catch (const std::exception&) {
-    return;  // write_mesh() tries again, and tells
-  }
-}
-
 void check_format(const std::filesystem::path& path, int quad_nodes) {
   if (!is_mesh_format(path))
     throw usage_error(path.string(),

@@ -22,10 +22,6 @@ namespace quadrille {
 QUADRILLE_API void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path,
                               const WriteOptions& options = {});
 
-/// Opens what write_mesh() needs for this file, for threads that have nothing else to do meanwhile. What is
-/// missing is told when the file is written.
-QUADRILLE_API void prepare_format(const std::filesystem::path& path) noexcept;
-
 /// Throws Error (usage) where no such file can hold the mesh: for unknown endings, for quads of nine nodes in
 /// .inp, .unv and .bdf files, for .med files with names of more than 64 bytes without the ending.
 /// \param quad_nodes 4, 8 or 9.

@@ -30,11 +30,6 @@ void check(const std::string& problem) {
 
 }  // namespace
 
-void open_module_for(std::string_view ending) {
-  if (ending == ".med") med_module();
-  if (ending == ".vtu") vtk_module();
-}
-
 std::string vtu_file(const OutputMesh& mesh, const std::vector<double>& qualities) {
   std::string bytes;
   check(vtk_module().function<VtkFileFunction>("_file")(mesh, qualities, bytes));

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "mesher/io/mesh_builder.hpp"
@@ -61,8 +60,5 @@ SolverResult vtk_result(const std::string& path);
 /// \param name of the mesh in the file; FreeCAD reads only a mesh that is named as its file, without the
 /// ending. Throws Error (failure).
 std::string med_file(const OutputMesh& mesh, const std::string& name, const std::string& description);
-
-/// Opens what a file with this ending needs. Throws Error (failure) where it is missing.
-void open_module_for(std::string_view ending);
 
 }  // namespace quadrille
