@@ -69,6 +69,8 @@ def quadrille_run(document, part, size, order):
     with Stopwatch(jobs, "read_mesh") as read, Stopwatch(undo, "put") as put:
         button.click()
         while not button.isEnabled():  # as FreeCAD's own loop waits
+            if time.perf_counter() - started > 300:
+                raise AssertionError("meshing: not within 300 s")
             QtCore.QCoreApplication.processEvents(QtCore.QEventLoop.WaitForMoreEvents)
     stored = time.perf_counter()
     process(0)

@@ -535,8 +535,7 @@ class Remesher {
     const int face = mesh.quad_faces[first];
     throw failure(fmt::format("Face{}", face),
                   fmt::format("{} quads stay inverted or without area at this size, the first on Face{} at "
-                              "{}: try a smaller `size`, "
-                              "or another feature angle",
+                              "{}: try a smaller `size`, or another feature angle",
                               count, face, text_of(mesh.points[mesh.quads[first][0]])));
   }
 

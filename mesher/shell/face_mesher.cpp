@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -327,8 +328,7 @@ class FaceMesher {
   void order(FaceMesh& mesh) const {
     const std::vector<int> before = order_by_place(mesh.points, mesh.nodes.size(), mesh.quads, context_);
     const auto permute = [&](auto& values) {
-      auto ordered = values;
-      ordered.resize(before.size());
+      std::remove_cvref_t<decltype(values)> ordered(before.size());
       for (std::size_t i = 0; i < before.size(); ++i) ordered[i] = values[before[i]];
       context_.check();
       values = std::move(ordered);
