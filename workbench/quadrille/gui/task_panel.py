@@ -318,7 +318,7 @@ class MeshPanel:
             tell(str(error))
             return
         self._started = time.monotonic()
-        self.bar.setValue(0)
+        self._show_progress(0)
         self.mesh_button.setEnabled(False)
         self.stop_button.setEnabled(True)
         self._say(translate("Quadrille", "meshing"))
@@ -329,8 +329,7 @@ class MeshPanel:
             self._timer.stop()
             return
         for stage, fraction in self._job.poll():
-            self.bar.setValue(round(100 * fraction))
-            self.bar.setFormat(f"{stage} %p %")
+            self._show_progress(fraction, stage)
         if self._job.running:
             return
         self._end()
@@ -350,7 +349,7 @@ class MeshPanel:
                 do(f"quadrille.freecad.remesh({path_of(self.mesh)})")
         except Error as error:
             core.forget(self._document_name, self._name)
-            self.bar.setValue(0)
+            self._show_progress(0)
             self._say(str(error))
             if error.kind != "cancelled":
                 tell(str(error))
@@ -358,8 +357,7 @@ class MeshPanel:
         self.preview.button.setChecked(False)
         for line in job.messages:
             self._say(line)
-        self.bar.setFormat("%p %")
-        self.bar.setValue(100)
+        self._show_progress(1)
         self._say(translate("Quadrille", "{} quads: mesher {:.2f} s, into FreeCAD {:.2f} s").format(
             self.mesh.QuadCount, ended - self._started, time.monotonic() - ended))
         self.mesh.ViewObject.show()
@@ -368,6 +366,12 @@ class MeshPanel:
         self.quality.refresh()
         if preferences.color_after_meshing():
             self.quality.color.setChecked(True)
+
+    def _show_progress(self, fraction: float, stage: str = "") -> None:
+        self.bar.setUpdatesEnabled(False)  # a new value repaints at once, and with it Qt composes the whole window anew
+        self.bar.setValue(round(100 * fraction))
+        self.bar.setFormat(f"{stage} %p %".lstrip())
+        self.bar.setUpdatesEnabled(True)
 
     def _stop(self) -> None:
         if self._job is not None:
