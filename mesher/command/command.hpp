@@ -15,7 +15,9 @@
 
 namespace quadrille::command {
 
-/// The command as a whole, with the arguments of main(): gives its exit code, throws nothing.
+/// The command as a whole, with the arguments of main(): gives its exit code, throws nothing. With the single
+/// argument "standby" it opens what it needs ahead of time and waits; the first line of its input is then the
+/// arguments, as a JSON list of strings, and the end of its input without one ends it.
 int run(int argc, char** argv);
 
 void add_mesh_command(CLI::App& app);

@@ -1,15 +1,20 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "geometry/base/printable.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/recombine_command.hpp"
 #include "mesher/command/setting_options.hpp"
+#include "mesher/io/modules.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille::command {
@@ -71,24 +76,43 @@ int answer(const CLI::App& app, const CLI::ParseError& error) {
   return complain(sentence_of(error) + " (see quadrille --help)", bad_use);
 }
 
-int parse_and_work(int argc, char** argv) {
+int parse_and_work(std::vector<std::string> arguments) {
   // OpenCASCADE reports to it, where results of ours are expected; those are written without it.
   std::cout.setstate(std::ios::badbit);
   CLI::App app("All-quad shell meshes of CAD models", "quadrille");
   try {
     add_commands(app);
-    app.parse(argc, argv);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+    app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
     return answer(app, error);
   }
   return success;
 }
 
+/// What a process that stands by is to do: the first line of its input, once that comes.
+std::vector<std::string> awaited_arguments() {
+  open_med_module();
+  std::string line;
+  if (!std::getline(std::cin, line)) return {};
+  try {
+    return nlohmann::json::parse(line).get<std::vector<std::string>>();
+  } catch (const nlohmann::json::exception&) {
+    throw usage_error("standby", "standby: the first line of its input is no JSON list of arguments");
+  }
+}
+
+int work(const std::vector<std::string>& arguments) {
+  if (arguments != std::vector<std::string>{"standby"}) return parse_and_work(arguments);
+  const std::vector<std::string> awaited = awaited_arguments();
+  return awaited.empty() ? success : parse_and_work(awaited);
+}
+
 }  // namespace
 
 int run(int argc, char** argv) {
   try {
-    return parse_and_work(argc, argv);
+    return work({argv + 1, argv + argc});
   } catch (const Error& error) {
     return complain(error);
   } catch (const std::bad_alloc&) {

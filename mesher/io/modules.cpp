@@ -1,5 +1,7 @@
 #include "mesher/io/modules.hpp"
 
+#include <exception>
+
 #include "geometry/base/error.hpp"
 #include "geometry/base/isolated_work.hpp"
 #include "geometry/base/module_loader.hpp"
@@ -65,6 +67,14 @@ SolverResult vtk_result(const std::string& path) {
   SolverResult result;
   check(vtk_module().function<VtkResultFunction>("_result")(path, result));
   return result;
+}
+
+void open_med_module() noexcept {
+  try {
+    med_module();
+  } catch (const std::exception&) {
+    return;
+  }
 }
 
 std::string med_file(const OutputMesh& mesh, const std::string& name, const std::string& description) {

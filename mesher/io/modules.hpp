@@ -56,6 +56,9 @@ ImportedMesh vtk_mesh(const std::string& path, const std::string& ending);
 /// What a solver found, from a .vtu file. Throws Error (failure) that does not name the file.
 SolverResult vtk_result(const std::string& path);
 
+/// Opens what .med files need ahead of time; where it cannot be opened, med_file() says why.
+void open_med_module() noexcept;
+
 /// The bytes of a .med file.
 /// \param name of the mesh in the file; FreeCAD reads only a mesh that is named as its file, without the
 /// ending. Throws Error (failure).

@@ -400,6 +400,29 @@ TEST(Command, SaysOneSentenceWhereLibmedHasNoMemory) {
   EXPECT_GT(refused, 0);
 }
 
+/// Started ahead of its work, which is the first line of its input.
+TEST(Command, StandsBy) {
+  const TemporaryFolder folder;
+  const auto given = [&](const std::string& line) {
+    return test::run(fmt::format("cd {} && printf '{}' | timeout 60 {} standby 2>&1", folder.path().string(),
+                                 line, program));
+  };
+  const auto meshed = given(fmt::format(R"(["mesh", "{}", "-o", "a.med", "--size", "3", "--quiet"]\n)", box));
+  EXPECT_EQ(meshed.exit_code, 0) << meshed.out;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "a.med"));
+  const auto mistaken = given(R"(["mesh", "a b.brep", "-o", "b.med", "--size", "3"]\n)");
+  EXPECT_EQ(mistaken.exit_code, 1);
+  EXPECT_TRUE(contains(mistaken.out, "a b.brep: ")) << mistaken.out;
+  for (const std::string nonsense : {"mesh\\n", "\\n", R"({"mesh": 1}\n)", R"([1]\n)"}) {
+    const auto refused = given(nonsense);
+    EXPECT_EQ(refused.exit_code, 2) << nonsense;
+    EXPECT_EQ(std::count(refused.out.begin(), refused.out.end(), '\n'), 1) << refused.out;
+  }
+  const auto dismissed = given("");
+  EXPECT_EQ(dismissed.exit_code, 0);
+  EXPECT_EQ(dismissed.out, "");
+}
+
 /// Nor of folders above its own, such as the `lib` beside a `bin`.
 TEST(Command, OpensNoModuleOfFoldersAboveItsOwn) {
   const TemporaryFolder folder;

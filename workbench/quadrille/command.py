@@ -4,6 +4,7 @@
 Knows nothing of FreeCAD and needs only the standard library.
 """
 
+import contextlib
 import json
 import os
 import queue
@@ -168,10 +169,73 @@ def check_version(path: str) -> None:
     _checked[path] = modified
 
 
+def _child(arguments: Sequence[str]) -> subprocess.Popen:
+    return subprocess.Popen(
+        on_host(arguments),
+        stdin=subprocess.PIPE,  # closes when this process ends, however it does, and the child ends then
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        errors="replace",
+        env=child_environment(),
+    )
+
+
+#: The command that stands by, and its process.
+_standby: Optional[Tuple[str, subprocess.Popen]] = None
+
+
+def stand_by(command: str) -> None:
+    """Starts a child process that waits for the next MeshJob of this command, its libraries loaded by then. One that cannot
+    be started is none."""
+    global _standby
+    if _standby is not None and _standby[0] == command and _standby[1].poll() is None:
+        return
+    dismiss()
+    try:
+        _standby = (command, _child([command, "standby"]))
+    except OSError:
+        pass
+
+
+def dismiss() -> None:
+    """Ends the child process that stands by, if there is one."""
+    global _standby
+    if _standby is None:
+        return
+    _, process = _standby
+    _standby = None
+    process.kill()
+    process.wait()
+    with contextlib.suppress(OSError):  # what it did not read
+        process.stdin.close()
+    process.stderr.close()
+
+
+def _given_to_standby(arguments: Sequence[str]) -> Optional[subprocess.Popen]:
+    """The child process that stands by, with its work given; None where there is none for this command."""
+    global _standby
+    if _standby is None or _standby[0] != arguments[0]:
+        return None
+    _, process = _standby
+    if process.poll() is not None:
+        dismiss()
+        return None
+    try:
+        process.stdin.write(json.dumps(list(arguments[1:])) + "\n")
+        process.stdin.flush()
+    except OSError:  # it has ended just now
+        dismiss()
+        return None
+    _standby = None
+    return process
+
+
 class CommandJob:
     """One run of a subcommand that writes a report. Start it, then either wait() for it or poll() it from a timer."""
 
     _work = "the work"  #: what was cancelled, for users
+    _stands_by = False  #: whether the process that stands by is meant for such jobs
 
     def __init__(self, arguments: Sequence[str], command: Optional[str] = None) -> None:
         """arguments: the name of the subcommand and what follows it, without --report."""
@@ -186,17 +250,9 @@ class CommandJob:
         self.messages: List[str] = []  #: what the command said on stderr, without the progress
 
     def start(self) -> "CommandJob":
-        """Starts the child process."""
+        """Starts the child process, or gives the work to the one that stands by."""
         try:
-            self._process = subprocess.Popen(
-                on_host(self._arguments),
-                stdin=subprocess.PIPE,  # closes when this process ends, however it does, and the child ends then
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.PIPE,
-                text=True,
-                errors="replace",
-                env=child_environment(),
-            )
+            self._process = self._stands_by and _given_to_standby(self._arguments) or _child(self._arguments)
         except OSError as error:
             raise Error(f"{self._arguments[0]}: cannot be started: {error.strerror}", "failure",
                         self._arguments[0]) from error
@@ -302,6 +358,7 @@ class MeshJob(CommandJob):
     """One run of `quadrille mesh`, or of another command that makes a mesh."""
 
     _work = "the meshing"
+    _stands_by = True
 
     def __init__(
         self,

@@ -9,6 +9,7 @@ from typing import Dict, List, Optional, Sequence, Tuple, Union
 import FreeCAD
 import Fem
 
+from . import command as child
 from .command import MeshJob, Progress, check_version, find_command, scratch_folder
 from .errors import Error
 from .setting_table import MeshSettings, in_words_of_properties
@@ -22,6 +23,14 @@ def find_mesher(command: Optional[str] = None) -> str:
     path = find_command(command, preference or None)
     check_version(path)
     return path
+
+
+def stand_by() -> None:
+    """Has a mesher ready for the next meshing, if there is one; child.dismiss() ends it."""
+    try:
+        child.stand_by(find_mesher())
+    except Error:
+        pass
 
 
 class FemJob:

@@ -21,7 +21,7 @@ from PySide import QtCore, QtGui
 import quadrille.freecad
 from case import GuiCase, picture, run, type_into
 from driver import Boxes, close_panel, find, process, trigger, wait_for, window
-from quadrille import links, quality, shapes, state
+from quadrille import command, links, quality, shapes, state
 from quadrille.gui import commands, overlays, preferences
 from quadrille.gui.task_panel import MeshPanel
 from quadrille.setting_table import SETTINGS
@@ -245,6 +245,26 @@ class PanelTest(GuiCase):
         close_panel(CANCEL)
         self.assertEqual([obj.Name for obj in self.document.Objects], ["Box"])
         self.assertEqual(quadrille.freecad._running, {})
+
+    def test_a_mesher_stands_by(self):
+        self.open_panel(self.box())
+        wait_for(lambda: command._standby, what="a mesher that stands by")
+        first = command._standby[1]
+        self.press_mesh()
+        self.assertEqual(first.wait(), 0, "it has meshed")
+        wait_for(lambda: command._standby, what="the next mesher")
+        second = command._standby[1]
+        self.assertIsNone(second.poll())
+        close_panel()
+        self.assertIsNotNone(second.poll(), "nobody needs it any more")
+        self.assertIsNone(command._standby)
+
+    def test_a_mesher_that_stood_by_and_died_is_no_loss(self):
+        mesh = self.open_panel(self.box())
+        wait_for(lambda: command._standby, what="a mesher that stands by")
+        command._standby[1].kill()
+        self.press_mesh()
+        self.assertEqual(mesh.Status, "up to date")
 
     def test_ok_keeps_all(self):
         mesh = self.open_panel(self.box())

@@ -13,7 +13,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from .. import freecad as core
-from .. import groups, links, old_documents, picks, shapes, solvers, state
+from .. import command, groups, jobs, links, old_documents, picks, shapes, solvers, state
 from ..errors import Error
 from . import do, icon, links_text, path_of, preferences, standard_buttons, tell, translate
 from .entry_rows import PROPERTIES as ENTRIES
@@ -29,6 +29,8 @@ from .size_preview import SizePreview
 from .thin_hint import thin_hint
 
 _POLL_MILLISECONDS = 10
+#: After opening and meshing, which it would slow down.
+_STAND_BY_MILLISECONDS = 500
 #: Properties that are always in sight; the others are under "More settings".
 _IN_SIGHT = ("Size", "ElementOrder", "Faces")
 
@@ -56,6 +58,7 @@ class MeshPanel:
         self.form.destroyed.connect(self._form_gone)
         FreeCAD.addDocumentObserver(self)
         self._observing = True
+        QtCore.QTimer.singleShot(_STAND_BY_MILLISECONDS, self._stand_by)
         self._update_estimate()
         self._measuring.start()
 
@@ -338,6 +341,7 @@ class MeshPanel:
         """Takes the result of a job that has ended."""
         job, self._job = self._job, None
         self._timer.stop()
+        QtCore.QTimer.singleShot(_STAND_BY_MILLISECONDS, self._stand_by)
         self.mesh_button.setEnabled(True)
         self.stop_button.setEnabled(False)
         ended = time.monotonic()
@@ -372,6 +376,11 @@ class MeshPanel:
         self.bar.setValue(round(100 * fraction))
         self.bar.setFormat(f"{stage} %p %".lstrip())
         self.bar.setUpdatesEnabled(True)
+
+    def _stand_by(self) -> None:
+        """A mesher starts and loads its libraries before Mesh is pressed."""
+        if self._observing and self._job is None:
+            jobs.stand_by()
 
     def _stop(self) -> None:
         if self._job is not None:
@@ -425,6 +434,7 @@ class MeshPanel:
 
     def _leave(self) -> None:
         self._timer.stop()
+        command.dismiss()
         self._measuring.release()
         self.preview.release()
         if self._observing:
