@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -80,9 +81,12 @@ class Child {
   pid_t id_;
 };
 
-/// What signal handlers and open streams the program has are none of the child's business.
-void become_worker() {
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGALRM})
+/// What signal handlers and open streams the program has are none of the child's business. It ends with its
+/// parent, even one that is killed.
+void become_worker(pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);  // it was killed before
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGALRM, SIGPIPE})
     std::signal(signal, SIG_DFL);
   std::signal(SIGINT, SIG_IGN);  // Ctrl-C reaches the whole group; the parent decides
   const rlimit no_core{0, 0};
@@ -118,7 +122,6 @@ Answer answer(const std::string& subject, const std::function<void(std::ostream&
 
 [[noreturn]] void work_as_child(const IsolatedWork& options, const std::function<void(std::ostream&)>& work,
                                 int pipe) {
-  become_worker();
   if (options.memory > 0) limit_memory(options.memory);
   __gnu_cxx::stdio_filebuf<char> buffer(pipe, std::ios::out | std::ios::binary);
   std::ostream out(&buffer);
@@ -174,12 +177,16 @@ std::string run_in_child(const IsolatedWork& options, const std::function<void(s
   if (options.context != nullptr) options.context->check();
   std::array<int, 2> ends{-1, -1};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw no_process(options.subject);
-  const Descriptor heard(ends[0]);
+  Descriptor heard(ends[0]);
   Descriptor told(ends[1]);
   ::fcntl(heard, F_SETPIPE_SZ, pipe_bytes);  // where that is not allowed it stays as it is
-  const pid_t id = ::fork();
+  const pid_t parent = ::getpid(), id = ::fork();
   if (id < 0) throw no_process(options.subject);
-  if (id == 0) work_as_child(options, work, told);
+  if (id == 0) {
+    become_worker(parent);
+    heard.close();  // or writing would wait for itself to read
+    work_as_child(options, work, told);
+  }
   Child child(id);
   told.close();
   return result_of(options, listen(child, heard, options));

@@ -1,0 +1,74 @@
+/// Work in a child process: it ends with the process that wants it.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "geometry/base/isolated_work.hpp"
+#include "tests/support/process.hpp"
+
+namespace quadrille {
+namespace {
+
+using Work = std::function<void(std::ostream&)>;
+
+bool within_seconds(double seconds, const std::function<bool()>& holds) {
+  const auto start = std::chrono::steady_clock::now();
+  while (std::chrono::steady_clock::now() - start < std::chrono::duration<double>(seconds)) {
+    if (holds()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+/// One that has ended and was not waited for is left as a zombie where nobody adopts it.
+bool is_running(pid_t process) {
+  std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
+  std::string number, name, state;
+  return stat >> number >> name >> state && state != "Z";
+}
+
+/// Kills a process whose isolated work is at work; true if that ends too.
+bool ends_with_its_parent(const Work& work) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path started = folder.path() / "started";
+  const pid_t parent = ::fork();
+  if (parent == 0) {
+    IsolatedWork options;
+    options.subject = "work";
+    const Work told = [&](std::ostream& out) {
+      std::ofstream(started) << ::getpid() << std::endl;
+      work(out);
+    };
+    run_isolated(options, told, [](std::istream&) {});
+    ::_exit(0);
+  }
+  pid_t worker = 0;
+  const bool is_told = within_seconds(10, [&] { return std::ifstream(started) >> worker && worker > 0; });
+  ::kill(parent, SIGKILL);
+  ::waitpid(parent, nullptr, 0);
+  const bool ended = is_told && within_seconds(10, [&] { return !is_running(worker); });
+  if (is_told && !ended) ::kill(worker, SIGKILL);
+  return ended;
+}
+
+TEST(IsolatedWork, EndsWhereItsParentIsKilled) {
+  EXPECT_TRUE(
+      ends_with_its_parent([](std::ostream&) { std::this_thread::sleep_for(std::chrono::minutes(1)); }));
+  EXPECT_TRUE(ends_with_its_parent([](std::ostream& out) {
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    out << std::string(100'000'000, 'a');  // far more than a pipe holds
+    std::this_thread::sleep_for(std::chrono::minutes(1));
+  }));
+}
+
+}  // namespace
+}  // namespace quadrille
