@@ -454,6 +454,9 @@ void check(const Settings& settings, const CadModel& model) {
   for (const auto& [edge, spacing] : sizing.spacings) {
     const char* name = spacing.segments > 0 ? "segments" : spacing.bias != 1 ? "bias" : "bias_both";
     check_names(entry(name), {edge}, "Edge", model.edge_count());
+    if (spacing.bias != 1 && spacing.bias_both != 1)
+      throw refused(entry("bias_both"),
+                    fmt::format("names Edge{}, which has a bias from one end: give one of them", edge));
   }
 }
 

@@ -107,6 +107,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"mesh IN OUT --elements-per-diagonal 0", 2, "--elements-per-diagonal"},
         Mistake{"mesh IN OUT --size-min 0", 2, "--size-min"},
         Mistake{"mesh IN OUT --size 1 --size-min 2", 2, "--size-min"},
+        Mistake{"mesh IN OUT --size 3 --bias Edge4=1.2 --bias-both Edge4=1.2", 2, "--bias-both names Edge4"},
         Mistake{"mesh IN OUT --growth 0", 2, "--growth"},
         Mistake{"mesh IN OUT --curvature -3", 2, "--curvature"},
         Mistake{"mesh IN OUT --order 3", 2, "--order"}, Mistake{"mesh IN OUT --order 0", 2, "--order"},
