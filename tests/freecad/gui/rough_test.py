@@ -24,6 +24,16 @@ from quadrille.jobs import find_mesher
 from quadrille.state import PART_CHANGED, PART_GONE, SETTINGS_CHANGED, UP_TO_DATE
 
 CANCEL = QtGui.QDialogButtonBox.Cancel
+_MESHER_AT_A_GATE = """#!/usr/bin/env python3
+import json, os, sys, time
+arguments = sys.argv[1:]
+if arguments == ["standby"]:
+    arguments = json.loads(sys.stdin.readline() or "[]")
+while arguments[:1] == ["mesh"] and os.path.exists({gate!r}):
+    time.sleep(0.02)
+if arguments:
+    os.execv({mesher!r}, [{mesher!r}, *arguments])
+"""
 
 
 def report():
@@ -41,8 +51,7 @@ class RoughTest(GuiCase):
         self.addCleanup(folder.cleanup)
         self.folder, self.gate = Path(folder.name), Path(folder.name) / "gate"
         command = self.folder / "quadrille"
-        command.write_text(f'#!/bin/sh\n[ "$1" = mesh ] && while [ -e "{self.gate}" ]; do sleep 0.02; done\n'
-                           f'exec "{find_mesher()}" "$@"\n')
+        command.write_text(_MESHER_AT_A_GATE.format(gate=str(self.gate), mesher=find_mesher()))
         command.chmod(0o755)
         self.raised, self.reported = [], len(report())
         for patch in (mock.patch.dict(os.environ, QUADRILLE_COMMAND=str(command)),
