@@ -112,7 +112,7 @@ int work(const std::vector<std::string>& arguments) {
 
 int run(int argc, char** argv) {
   try {
-    return work({argv + 1, argv + argc});
+    return work({argv + std::min(argc, 1), argv + argc});
   } catch (const Error& error) {
     return complain(error);
   } catch (const std::bad_alloc&) {

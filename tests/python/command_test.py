@@ -48,6 +48,25 @@ class CommandTest(unittest.TestCase):
         with self.assertRaises(TypeError):
             MeshSettings(seed=1)
 
+    def test_a_mesher_stands_by_for_the_place_where_it_was_started(self):
+        self.addCleanup(quadrille.command.dismiss)
+        self.addCleanup(os.chdir, os.getcwd())
+        quadrille.command.stand_by(find_command())
+        first = quadrille.command._standby[1]
+        box = MeshJob(MODELS.resolve() / "box.brep", [self.folder / "a.msh"], MeshSettings(size=5.0)).start()
+        self.assertIs(box._process, first)
+        self.assertGreater(box.wait()["counts"]["quads"], 0)
+        quadrille.command.stand_by(find_command())
+        second = quadrille.command._standby[1]
+        os.chdir(self.folder)
+        elsewhere = MeshJob(MODELS / "box.brep", ["b.msh"], MeshSettings(size=5.0)).start()
+        self.assertIsNot(elsewhere._process, second)
+        elsewhere.wait()
+        self.assertEqual(sorted(os.listdir(self.folder)), ["a.msh", "b.msh"])
+        self.assertIsNone(second.poll())
+        quadrille.command.dismiss()
+        self.assertIsNotNone(second.poll())
+
     def test_no_display_is_told_once(self):
         """Neither a display nor Xvfb, as where nothing but the package is installed."""
         with tempfile.TemporaryDirectory() as folder:

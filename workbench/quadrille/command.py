@@ -181,19 +181,26 @@ def _child(arguments: Sequence[str]) -> subprocess.Popen:
     )
 
 
-#: The command that stands by, and its process.
-_standby: Optional[Tuple[str, subprocess.Popen]] = None
+#: What a child process has from its start: command, current folder, environment.
+_Start = Tuple[str, str, Dict[str, str]]
+#: The child process that stands by.
+_standby: Optional[Tuple[_Start, subprocess.Popen]] = None
+
+
+def _start_of(command: str) -> _Start:
+    return command, os.getcwd(), child_environment()
 
 
 def stand_by(command: str) -> None:
     """Starts a child process that waits for the next MeshJob of this command, its libraries loaded by then. One that cannot
     be started is none."""
     global _standby
-    if _standby is not None and _standby[0] == command and _standby[1].poll() is None:
-        return
-    dismiss()
     try:
-        _standby = (command, _child([command, "standby"]))
+        start = _start_of(command)
+        if _standby is not None and _standby[0] == start and _standby[1].poll() is None:
+            return
+        dismiss()
+        _standby = (start, _child([command, "standby"]))
     except OSError:
         pass
 
@@ -213,13 +220,17 @@ def dismiss() -> None:
 
 
 def _given_to_standby(arguments: Sequence[str]) -> Optional[subprocess.Popen]:
-    """The child process that stands by, with its work given; None where there is none for this command."""
+    """The child process that stands by, with its work given; None where there is none that would do it alike."""
     global _standby
-    if _standby is None or _standby[0] != arguments[0]:
+    if _standby is None or _standby[0] != _start_of(arguments[0]):
         return None
     _, process = _standby
     if process.poll() is not None:
         dismiss()
+        return None
+    try:
+        "".join(arguments).encode()  # paths may have bytes that are no text
+    except UnicodeEncodeError:
         return None
     try:
         process.stdin.write(json.dumps(list(arguments[1:])) + "\n")
