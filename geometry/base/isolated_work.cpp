@@ -131,13 +131,10 @@ Answer answer(const std::string& subject, const std::function<void(std::ostream&
   ::_exit(0);
 }
 
-/// Meshes come through it, which are megabytes: the fewer turns the better.
-constexpr int pipe_bytes = 1 << 20;
-
 /// All that the child writes, until it ends.
 std::string listen(Child& child, int pipe, const IsolatedWork& options) {
   constexpr int interval = 20;  // milliseconds
-  std::vector<char> chunk(pipe_bytes);
+  std::vector<char> chunk(1 << 16);
   std::string bytes;
   const auto start = std::chrono::steady_clock::now();
   for (bool ended = false;;) {
@@ -179,7 +176,6 @@ std::string run_in_child(const IsolatedWork& options, const std::function<void(s
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw no_process(options.subject);
   Descriptor heard(ends[0]);
   Descriptor told(ends[1]);
-  ::fcntl(heard, F_SETPIPE_SZ, pipe_bytes);  // where that is not allowed it stays as it is
   const pid_t parent = ::getpid(), id = ::fork();
   if (id < 0) throw no_process(options.subject);
   if (id == 0) {

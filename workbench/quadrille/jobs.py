@@ -26,7 +26,7 @@ def find_mesher(command: Optional[str] = None) -> str:
 
 
 def stand_by() -> None:
-    """Has a mesher ready for the next meshing, if there is one; child.dismiss() ends it."""
+    """Has a mesher ready for the next meshing, if there is one; dismiss() of command.py ends it."""
     try:
         child.stand_by(find_mesher())
     except Error:
