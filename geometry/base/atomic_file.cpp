@@ -19,7 +19,7 @@ namespace quadrille {
 
 namespace {
 
-/// Names of the files being written, for signal handlers: no locks, no allocation.
+/// Names of the temporary files being written. Signal handlers read them: no locks, no allocation.
 std::array<std::atomic<const char*>, 8> unfinished{};
 
 void note_unfinished(const char* name) {
@@ -49,7 +49,7 @@ std::string own_descriptor(int descriptor) {
 }  // namespace
 
 std::filesystem::path written_file(const std::filesystem::path& name) {
-  constexpr int most_links = 40;  // as the kernel has it
+  constexpr int most_links = 40;  // the kernel's limit
   std::filesystem::path file = name;
   for (int links = 0; links < most_links; ++links) {
     std::error_code none;
@@ -77,7 +77,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target), f
       return descriptor_ >= 0;
     });
   }
-  // An overwritten file keeps its permissions; where that is refused the usual ones do.
+  // An overwritten file keeps its permissions. Where that is refused, it gets the default ones.
   if (exists && ::fchmod(descriptor_, status.st_mode & 07777) != 0) errno = 0;
 }
 
@@ -88,7 +88,7 @@ AtomicFile::~AtomicFile() {
   ::unlink(temporary_.c_str());
 }
 
-/// False where the file system has no unnamed files, or none that can get a name.
+/// False where the file system has no unnamed files, or cannot give them a name later.
 bool AtomicFile::open_unnamed(const std::filesystem::path& folder) {
   descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor_ < 0) return false;
@@ -100,8 +100,8 @@ bool AtomicFile::open_unnamed(const std::filesystem::path& folder) {
 
 template <class Attempt>
 void AtomicFile::with_random_name(const std::filesystem::path& folder, Attempt&& attempt) {
-  // Independent of the target's name, which may already be as long as the file system allows; and not of the
-  // process's number, which is that of others in other containers.
+  // The name does not contain the target's name, which may already be as long as the file system allows. Nor
+  // does it contain the process ID, which processes in other containers may share.
   constexpr int attempts = 100;
   std::random_device random;
   for (int i = 0; i < attempts; ++i) {
@@ -136,7 +136,7 @@ void AtomicFile::commit() {
       return ::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
     };
     if (link_to(final_.c_str())) return close();
-    // What has a name can be replaced only by what has one.
+    // Only a file with a name can replace the existing file.
     if (errno != EEXIST) fail(errno);
     with_random_name(final_.has_parent_path() ? final_.parent_path() : ".", link_to);
   }

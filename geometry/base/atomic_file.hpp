@@ -6,14 +6,14 @@
 
 namespace quadrille {
 
-/// The file that writing to a name changes: symbolic links followed, also those that lead to no file yet.
-/// Throws Error (failure) when they lead nowhere, in a circle.
+/// The file that writing to `name` changes: symbolic links are followed, including those whose target does
+/// not exist yet. Throws Error (failure) when the links form a loop.
 std::filesystem::path written_file(const std::filesystem::path& name);
 
-/// A file written without a name in the target's folder, or under a random one where the file system lacks
-/// unnamed files, and put in its place by commit(). Without commit() (an exception on the way, a kill) an
-/// older file of the same name stays as it was. Targets that are not regular files (a named pipe, a device)
-/// are written in place.
+/// A file that is written without a name in the target's folder and put in place by commit(). On file systems
+/// that lack unnamed files it is written under a random name. Without commit() (because of an exception or a
+/// kill) an older file of the same name stays as it was. Targets that are not regular files (a named pipe, a
+/// device) are written in place.
 class AtomicFile {
  public:
   /// Opens the file. Throws Error (failure) with one sentence when the folder does not allow it.
@@ -22,8 +22,8 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Appends bytes. Throws Error (failure) when the disk is full, the file too large for the limit of the
-  /// process (where SIGXFSZ is ignored), or the pipe's reader has gone.
+  /// Appends bytes. Throws Error (failure) when the disk is full, when the file exceeds the size limit of the
+  /// process (where SIGXFSZ is ignored), or when the reader of the pipe has closed it.
   void write(std::string_view bytes);
 
   /// Makes the file appear under its name.
@@ -31,24 +31,24 @@ class AtomicFile {
 
  private:
   bool open_unnamed(const std::filesystem::path& folder);
-  /// Calls `attempt` with random names in the folder until one was free; it then names the file.
+  /// Calls `attempt` with random names in the folder until one succeeds; the file then has that name.
   template <class Attempt>
   void with_random_name(const std::filesystem::path& folder, Attempt&& attempt);
   void close();
   [[noreturn]] void fail(int error_number) const;
 
-  std::filesystem::path target_;     // as the caller named it, for messages
-  std::filesystem::path final_;      // the file that it means
-  std::filesystem::path temporary_;  // name of the file until it is in its place; empty: none
+  std::filesystem::path target_;     // as the caller gave it, for messages
+  std::filesystem::path final_;      // with symbolic links followed
+  std::filesystem::path temporary_;  // name of the file until it is put in place; empty = unnamed
   bool in_place_ = false;
   int descriptor_ = -1;
 };
 
-/// Removes the temporaries of all files not yet committed. Safe in a signal handler; for a process about to
-/// end.
+/// Removes the temporary files of all files not yet committed. Safe in a signal handler; for a process about
+/// to end.
 void remove_unfinished_files() noexcept;
 
-/// Writes a whole file at once. Throws as AtomicFile does.
+/// Writes a whole file. Throws as AtomicFile does.
 void write_file(const std::filesystem::path& target, std::string_view bytes);
 
 }  // namespace quadrille

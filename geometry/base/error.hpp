@@ -9,10 +9,10 @@
 
 namespace quadrille {
 
-/// What went wrong, as one sentence for the user (`what()`), with the thing it concerns.
+/// An error: one sentence for the user (`what()`) and the thing that it concerns.
 class QUADRILLE_API Error : public std::runtime_error {
  public:
-  /// What went wrong, by whose doing.
+  /// The cause of an error.
   enum class Kind {
     usage,     ///< the caller asked for something that makes no sense (the command exits with 2)
     failure,   ///< the input or the machine made it impossible (the command exits with 1)
@@ -23,19 +23,19 @@ class QUADRILLE_API Error : public std::runtime_error {
   Error(Kind kind, std::string subject, const std::string& sentence)
       : std::runtime_error(sentence), kind_(kind), subject_(std::move(subject)) {}
 
-  Kind kind() const noexcept { return kind_; }                      ///< of what went wrong
-  const std::string& subject() const noexcept { return subject_; }  ///< what it is about
+  Kind kind() const noexcept { return kind_; }                      ///< cause of the error
+  const std::string& subject() const noexcept { return subject_; }  ///< what it concerns
 
  private:
   Kind kind_;
   std::string subject_;
 };
 
-/// An Error of bad use.
+/// An Error of kind `usage`.
 inline Error usage_error(std::string subject, const std::string& sentence) {
   return {Error::Kind::usage, std::move(subject), sentence};
 }
-/// An Error of what could not be done.
+/// An Error of kind `failure`.
 inline Error failure(std::string subject, const std::string& sentence) {
   return {Error::Kind::failure, std::move(subject), sentence};
 }

@@ -20,8 +20,8 @@
 
 namespace quadrille {
 
-/// What a run does, in order. Reports give seconds by these names, and progress is told in them; faces are
-/// triangulated, recombined and improved within `mesh`, several at once.
+/// The stages of a run, in order. Reports list seconds by stage, and progress names the current stage. Within
+/// `mesh` the faces are triangulated, recombined and improved, several at once.
 enum class Stage {
   read,
   midsurface,
@@ -38,22 +38,22 @@ enum class Stage {
 };
 
 inline constexpr std::array<std::string_view, 12> stage_names{
-    ///< by Stage
+    ///< indexed by Stage
     "read",  "midsurface", "size",    "sample", "mesh",     "triangulate",
     "color", "recombine",  "improve", "slide",  "assemble", "write"};
 
-/// As progress and reports have it.
+/// The name of a stage in progress and reports.
 inline std::string_view name_of(Stage stage) {
   return stage_names[static_cast<std::size_t>(stage)];
 }
 
-/// Passed by reference through every stage. Thread-safe. Granularity: stages check for cancellation at least
-/// once a face and once in some milliseconds of work.
+/// Passed by reference through every stage. Thread-safe. Stages check for cancellation at least once per face
+/// and every few milliseconds of work.
 class ExecutionContext {
  public:
-  /// Called with a stage's name and the fraction of all the work done, in [0, 1], which never falls;
-  /// returning false cancels the work. Calls are serialised; they come from whichever thread does the work.
-  /// Where a stage takes long, the same is told again: twenty times a second at most (see ask_every()).
+  /// Called with a stage's name and the fraction of all work done, in [0, 1], which never decreases.
+  /// Returning false cancels the work. Calls are serialized, on whichever thread does the work. During a long
+  /// stage the same values are repeated, twenty times a second at most by default (see ask_every()).
   using Progress = std::function<bool(std::string_view stage, double fraction)>;
 
   ExecutionContext() = default;
@@ -61,44 +61,42 @@ class ExecutionContext {
   explicit ExecutionContext(int threads, Progress progress = {})
       : threads_(threads), progress_(std::move(progress)) {}
 
-  /// A share of the work of another context, which must outlive it: progress, cancellation and stage times
-  /// are the other's. Checks are counted; the time limit here is the share's own, beside the other's.
+  /// A share of the work of another context, which must outlive the share. Progress, cancellation and stage
+  /// times are those of the other context. Checks are counted per share; its own time limit applies as well.
   explicit ExecutionContext(ExecutionContext& whole) : threads_(whole.threads_), whole_(&whole) {}
 
-  /// The subject of the Error that ends work whose time is over.
+  /// The subject of the Error that ends work at its time limit.
   static constexpr const char* time_subject = "time_limit";
-  /// The subject of the Error that ends a share with more checks than it may have.
+  /// The subject of the Error that ends a share at its limit of checks.
   static constexpr const char* work_subject = "work";
 
-  int threads() const noexcept { return threads_; }  ///< that work
+  int threads() const noexcept { return threads_; }  ///< number of threads to use; 0 = all cores
 
-  /// Ends the work with an Error (failure, work_subject) at the first check after so many.
+  /// Ends the work with an Error (failure, work_subject) at the first check beyond this number of checks.
   void limit_work(std::int64_t checks) noexcept { most_checks_ = checks; }
-  /// How often a share was checked: a measure of its work that is the same in each run.
+  /// The number of checks so far: a measure of work that is the same in every run.
   std::int64_t work() const noexcept { return checks_; }
 
   bool has_time_limit() const noexcept { return limit_seconds_ > 0; }  ///< whether one was set
   double time_limit() const noexcept { return limit_seconds_; }        ///< seconds; 0 = none
-  /// Until the time limit; infinite without one.
+  /// Seconds until the time limit; infinite without one.
   double seconds_left() const {
     if (limit_seconds_ <= 0) return std::numeric_limits<double>::infinity();
     return std::chrono::duration<double>(deadline_ - std::chrono::steady_clock::now()).count();
   }
-  /// For what is done with the results of work that its time limit has ended.
+  /// Removes the time limit, so that the results of work that it has ended can still be processed.
   void lift_time_limit() noexcept { limit_seconds_ = 0; }
 
-  /// Asks the progress function again at the first check later than this since it was asked last; 0 asks at
-  /// every check.
+  /// The least time between two calls of the progress function from check(); 0 = call it at every check.
   void ask_every(std::chrono::milliseconds interval) noexcept { interval_ = interval.count(); }
 
-  /// The stages that there will be, of which fractions are told; those of mesh() unless told otherwise.
+  /// Sets the stages to come, over which progress is computed. The default is the stages of mesh().
   void expect(std::vector<Stage> stages) {
     const std::lock_guard lock(mutex_);
     expected_ = std::move(stages);
   }
 
-  /// Ends the work with an Error (failure, time_subject) at the first check later than so many
-  /// seconds from now.
+  /// Ends the work with an Error (failure, time_subject) at the first check more than `seconds` from now.
   void limit_time(double seconds) {
     limit_seconds_ = seconds;
     deadline_ =
@@ -106,10 +104,10 @@ class ExecutionContext {
                                                std::chrono::duration<double>(seconds));
   }
 
-  void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }  ///< asks for the end
-  bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }  ///< asked to end
+  void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }  ///< requests cancellation
+  bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }  ///< requested?
 
-  /// Throws Error (cancelled) once the work has been cancelled, Error (failure) once its time is over.
+  /// Throws Error: cancelled once the work was cancelled, failure once its time or checks are used up.
   void check() const {
     ++checks_;
     if (whole_ != nullptr) whole_->check();
@@ -119,7 +117,7 @@ class ExecutionContext {
     if (cancelled()) throw Error(Error::Kind::cancelled, "", "the work was cancelled");
   }
 
-  /// Reports the fraction of a stage that is done, then behaves as check().
+  /// Reports the fraction of a stage that is done, then behaves as check() of the whole context.
   void report(Stage stage, double fraction) {
     if (whole_ != nullptr) return whole_->report(stage, fraction);
     if (progress_) {
@@ -131,7 +129,7 @@ class ExecutionContext {
     check();
   }
 
-  /// Adds to the wall-clock seconds of a stage.
+  /// Adds wall-clock seconds to a stage.
   void add_seconds(Stage stage, double seconds) {
     if (whole_ != nullptr) return whole_->add_seconds(stage, seconds);
     const std::lock_guard lock(mutex_);
@@ -148,7 +146,7 @@ class ExecutionContext {
     return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::milliseconds(1);
   }
 
-  /// The fraction of all that is expected: stages count by the time that they usually take.
+  /// The fraction done of all expected stages, each weighted by the time that it usually takes.
   double overall(Stage stage, double fraction) const {
     constexpr std::array<double, stage_names.size()> shares{5, 50, 5, 5, 50, 20, 5, 15, 35, 20, 10, 10};
     double before = 0, here = 0, all = 0;
@@ -169,7 +167,7 @@ class ExecutionContext {
 
   void ask_again() const {
     if (now() - asked_.load(std::memory_order_relaxed) < interval_) return;
-    const std::unique_lock lock(mutex_, std::try_to_lock);  // another thread that asks now does it for all
+    const std::unique_lock lock(mutex_, std::try_to_lock);  // whoever holds the lock asks for all
     if (lock && !stage_.empty()) ask();
   }
 
@@ -186,23 +184,23 @@ class ExecutionContext {
   double limit_seconds_ = 0;    // 0 = none
   std::chrono::steady_clock::time_point deadline_;
   mutable std::atomic<bool> cancelled_{false};
-  mutable std::atomic<std::int64_t> asked_{0};  // when, in milliseconds
+  mutable std::atomic<std::int64_t> asked_{0};  // time of the last progress call, milliseconds
   mutable std::mutex mutex_;
   std::vector<Stage> expected_{Stage::size, Stage::sample, Stage::mesh, Stage::slide, Stage::assemble};
   std::string_view stage_;  // last reported
-  double fraction_ = 0;     // of all
+  double fraction_ = 0;     // of all work
   std::map<std::string, double> seconds_;
 };
 
-/// Checks a context once in so many calls: for loops whose turns are too short for a check in each. Not
+/// Checks a context once in a number of calls, for loops whose iterations are too short for a check each. Not
 /// thread-safe.
 class SparseCheck {
  public:
-  /// \param calls one check in so many.
+  /// \param calls number of calls per check.
   explicit SparseCheck(const ExecutionContext& context, int calls = 1024)
       : context_(context), calls_(calls), left_(calls) {}
 
-  void operator()() {  ///< Checks, now and then.
+  void operator()() {  ///< Counts a call and checks the context when it is due.
     if (--left_ > 0) return;
     left_ = calls_;
     context_.check();
@@ -213,10 +211,10 @@ class SparseCheck {
   int calls_, left_;
 };
 
-/// Adds its own lifetime to a stage of the context.
+/// Adds the time from its construction to its destruction to a stage of the context.
 class StageTimer {
  public:
-  /// Begins to count.
+  /// Starts the clock.
   StageTimer(ExecutionContext& context, Stage stage)
       : context_(context), stage_(stage), start_(std::chrono::steady_clock::now()) {}
   ~StageTimer() {

@@ -6,11 +6,10 @@
 
 namespace quadrille {
 
-/// Why the file or folder cannot be read, in the system's words; empty where it can be. Opens nothing: a pipe
-/// may be asked about.
+/// The system's message why the path cannot be read; empty if it can be. Opens nothing: safe for pipes.
 std::string why_unreadable(const std::filesystem::path& path);
 
-/// Why no file can be made in the folder, in the system's words; empty where one can be.
+/// The system's message why no file can be created in the folder; empty if one can be.
 std::string why_unwritable(const std::filesystem::path& folder);
 
 }  // namespace quadrille

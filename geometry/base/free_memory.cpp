@@ -14,7 +14,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
-/// The number that a file holds; unknown if it holds none.
+/// The number that a file holds; `unknown` if it holds none.
 double number_in(const std::string& path) {
   double number = 0;
   return std::ifstream(path) >> number ? number : unknown;
@@ -29,8 +29,8 @@ double available_on_machine() {
   return unknown;
 }
 
-/// What the limits of the process's control group and those around it leave (version 2; a container sees its
-/// own as the root).
+/// What the memory limits of the process's control group and of its parent groups leave (cgroup version 2; a
+/// container sees its own group as the root).
 double left_in_group() {
   std::string group;
   std::ifstream file("/proc/self/cgroup");

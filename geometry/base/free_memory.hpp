@@ -3,8 +3,8 @@
 
 namespace quadrille {
 
-/// Bytes: the least of what the machine has available, what the control group's limit leaves and what
-/// the limit on the address space (ulimit -v) leaves; infinite where nothing tells.
+/// Bytes: the least of the memory available on the machine, what the control group's limit leaves, and what
+/// the limit on the address space (ulimit -v) leaves. Infinite where none of these is known.
 double free_memory();
 
 }  // namespace quadrille

@@ -30,7 +30,7 @@ namespace quadrille {
 
 namespace {
 
-/// What a child has handed over, told at the end: one that crashes does not come so far.
+/// The kind of a child's answer, which it writes at the very end. A child that crashes does not get there.
 enum Answer : char { result = 'R', failure_sentence = 'F', usage_sentence = 'U' };
 constexpr std::string_view end_of_answer = "\nquadrille has answered: ";
 
@@ -55,7 +55,7 @@ Error no_process(const std::string& name) {
       name, fmt::format("{}: cannot be worked on in a process of its own: {}", name, std::strerror(errno)));
 }
 
-/// A child of this process; ended and waited for when it goes.
+/// A child of this process. The destructor kills it and waits for it.
 class Child {
  public:
   explicit Child(pid_t id) : id_(id) {}
@@ -71,7 +71,7 @@ class Child {
   bool ended() {
     int status = 0;
     const pid_t answer = ::waitpid(id_, &status, WNOHANG);
-    // An error: the program around us waits for all its children, and has this one.
+    // An error: the surrounding program waits for all of its children and has already reaped this one.
     if (answer == 0 || (answer < 0 && errno == EINTR)) return false;
     id_ = 0;
     return true;
@@ -81,11 +81,11 @@ class Child {
   pid_t id_;
 };
 
-/// What signal handlers and open streams the program has are none of the child's business. It ends with its
-/// parent, even one that is killed.
+/// Detaches the child from the program's signal handlers and standard streams. It ends with its parent, even
+/// if the parent is killed.
 void become_worker(pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it was killed before
+  if (::getppid() != parent) ::_exit(1);  // the parent had already been killed
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGALRM, SIGPIPE})
     std::signal(signal, SIG_DFL);
   std::signal(SIGINT, SIG_IGN);  // Ctrl-C reaches the whole group; the parent decides
@@ -96,7 +96,7 @@ void become_worker(pid_t parent) {
   }
 }
 
-/// Beyond what is mapped now.
+/// Limits the address space to what is mapped now plus `bytes`.
 void limit_memory(std::size_t bytes) {
   std::size_t pages = 0;
   if (!(std::ifstream("/proc/self/statm") >> pages)) return;
@@ -131,7 +131,7 @@ Answer answer(const std::string& subject, const std::function<void(std::ostream&
   ::_exit(0);
 }
 
-/// All that the child writes, until it ends.
+/// Everything that the child writes until it ends.
 std::string listen(Child& child, int pipe, const IsolatedWork& options) {
   constexpr int interval = 20;  // milliseconds
   std::vector<char> chunk(1 << 16);
@@ -157,7 +157,7 @@ std::string listen(Child& child, int pipe, const IsolatedWork& options) {
   }
 }
 
-/// What the child has written; throws what it has thrown.
+/// What the child has written. Throws the Error that the child has thrown.
 std::string result_of(const IsolatedWork& options, std::string bytes) {
   const std::size_t length = end_of_answer.size() + 1;
   const std::string_view all = bytes;
@@ -180,7 +180,7 @@ std::string run_in_child(const IsolatedWork& options, const std::function<void(s
   if (id < 0) throw no_process(options.subject);
   if (id == 0) {
     become_worker(parent);
-    heard.close();  // or writing would wait for itself to read
+    heard.close();  // otherwise a write to a full pipe would wait for this process itself to read
     work_as_child(options, work, told);
   }
   Child child(id);

@@ -15,8 +15,8 @@ namespace quadrille {
 
 namespace {
 
-/// The folder of the program or shared library that holds this code. Only the kernel knows it for sure: a
-/// name, as the loader keeps it, may mean another file in the current folder.
+/// The folder of the program or shared library that contains this code. Only the kernel knows it for sure:
+/// the name that the loader keeps may be relative and match another file in the current folder.
 std::filesystem::path own_folder() {
   static const char anchor = 0;
   const auto address = reinterpret_cast<std::uintptr_t>(&anchor);
@@ -34,13 +34,13 @@ std::filesystem::path own_folder() {
   return {};
 }
 
-/// Where modules may lie, the first place that has one counts.
+/// The folders in which modules are searched for, in order.
 std::vector<std::filesystem::path> module_folders(const std::filesystem::path& own) {
-  // Whoever links the library into a program that lies elsewhere names the folder; not heeded by programs
-  // that run with more rights than their user has.
+  // Programs that lie elsewhere and link the library name the folder. secure_getenv ignores the variable in
+  // programs that run with more rights than their user has.
   if (const char* named = ::secure_getenv("QUADRILLE_MODULES"); named != nullptr && named[0] == '/')
     return {named};
-  // Beside the program or library in the build tree and in bundles; installed, beneath the library's folder.
+  // In the build tree and in bundles: beside the program or library. Installed: below the library's folder.
   return {own, own / "quadrille", QUADRILLE_MODULES_FOLDER};
 }
 
@@ -67,7 +67,7 @@ void* open_library(const std::string& name) {
 
 Module::Module(const std::string& prefix) : prefix_(prefix), file_("lib" + prefix + ".so") {
   handle_ = open_library(file_);
-  // C++ types cross the border: both sides must come from one build.
+  // C++ types cross the interface, so both sides must be of the same version.
   if (std::string(function<ModuleVersionFunction>("_version")()) != QUADRILLE_VERSION) throw mismatch();
 }
 

@@ -1,23 +1,22 @@
 #pragma once
-/// Shared objects of ours that are opened on demand, since loading the libraries behind them costs more time
-/// than meshing a small part.
+/// Our own shared objects, opened on demand: loading their libraries takes longer than meshing a small part.
 
 #include <string>
 
 #include "geometry/base/error.hpp"
 
-/// Makes a module's function visible.
+/// Exports a function of a module.
 #define QUADRILLE_EXPORT extern "C" __attribute__((visibility("default")))
 
 namespace quadrille {
 
-/// An open module. It stays open until the program ends: VTK and HDF5 do not survive being unloaded.
+/// An open module. It stays open until the program ends, since VTK and HDF5 cannot be unloaded safely.
 class Module {
  public:
-  /// Opens lib<prefix>.so of the folder of the program or library that holds this code or, where it is not
-  /// there, of the folder that modules are installed to: never from the current folder. The environment
-  /// variable QUADRILLE_MODULES, a whole path, names another folder, which is then the only one. Throws Error
-  /// (failure) when it is missing or of another version.
+  /// Opens lib<prefix>.so in the folder of the program or library that contains this code. If it is not
+  /// there, opens it in the folder that modules are installed to, never in the current folder. The
+  /// environment variable QUADRILLE_MODULES, an absolute path, names another folder, which is then the only
+  /// one searched. Throws Error (failure) when the module is missing or of another version.
   explicit Module(const std::string& prefix);
 
   /// The function <prefix><name>, exported with C linkage. Throws Error (failure) when the module lacks it.
@@ -34,7 +33,7 @@ class Module {
   void* handle_ = nullptr;
 };
 
-/// Each module exports <prefix>_version of this type; it gives the QUADRILLE_VERSION that it was built with.
+/// Each module exports <prefix>_version of this type. It returns the QUADRILLE_VERSION of the module's build.
 using ModuleVersionFunction = const char*();
 
 }  // namespace quadrille

@@ -1,12 +1,12 @@
 #pragma once
-/// Names of files, which may hold any byte but '/' and 0, in text that others read line by line.
+/// File names, which may contain any byte except '/' and 0, made safe for text that is read line by line.
 
 #include <algorithm>
 #include <string>
 
 namespace quadrille {
 
-/// The text with the stand-in for each control character: one line, whatever it is made of.
+/// The text with every control character replaced by `stand_in`, so that it is always one line.
 inline std::string printable(std::string text, char stand_in = '?') {
   constexpr unsigned char first = ' ', erase = 0x7f;
   std::replace_if(

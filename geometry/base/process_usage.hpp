@@ -1,16 +1,16 @@
 #pragma once
-/// What this process has used of the machine.
+/// CPU time and memory that this process has used.
 
 #include <cstdint>
 
 namespace quadrille {
 
 struct ProcessUsage {
-  double cpu_seconds = 0;       ///< of all threads, in the program and in the system for it
-  std::int64_t peak_bytes = 0;  ///< the most memory that was resident at a time
+  double cpu_seconds = 0;       ///< user and system time of all threads
+  std::int64_t peak_bytes = 0;  ///< largest resident memory
 };
 
-/// Since the process began.
+/// The usage since the process began.
 ProcessUsage process_usage();
 
 }  // namespace quadrille

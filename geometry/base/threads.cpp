@@ -9,7 +9,7 @@
 
 namespace quadrille {
 
-// oneTBB ends the program where a thread cannot be made: so it is tried.
+// oneTBB ends the program when it cannot create a thread, so creating them is tried here first.
 int makeable_threads(int wanted) {
   std::promise<void> end;
   const std::shared_future<void> ended = end.get_future().share();
@@ -18,7 +18,7 @@ int makeable_threads(int wanted) {
   try {
     while (static_cast<int>(others.size()) + 1 < wanted) others.emplace_back([ended] { ended.wait(); });
   } catch (const std::system_error&) {  // a limit on processes
-  } catch (const std::bad_alloc&) {     // or on memory: as many as there are
+  } catch (const std::bad_alloc&) {     // or on memory: count those created so far
   }
   end.set_value();
   for (std::thread& other : others) other.join();

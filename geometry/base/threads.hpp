@@ -8,14 +8,14 @@
 
 namespace quadrille {
 
-/// The threads that can work at once here: as many as asked for (0 = all cores), no more than there are cores
-/// or than the system lets this process make (a limit on processes or memory), and one at least.
+/// The number of threads that can run at once: as many as wanted (0 = all cores), but no more than there are
+/// cores or than the system lets this process create (a limit on processes or memory), and at least one.
 int usable_threads(int wanted);
 
-/// How many of so many threads, this one among them, the system lets this process have at once now.
+/// How many of the wanted threads, including this one, the system lets this process have at once now.
 int makeable_threads(int wanted);
 
-/// Calls `work` where oneTBB's loops use so many threads, or as many as there can be; 0 = all cores.
+/// Calls `work` with oneTBB's loops limited to usable_threads(threads) threads.
 template <class Work>
 auto on_threads(int threads, Work&& work) {
   threads = usable_threads(threads);

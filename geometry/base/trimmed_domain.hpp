@@ -7,8 +7,8 @@
 
 namespace quadrille {
 
-/// A planar domain bounded by segments in any order, inside by the even-odd rule. Queries cost the number of
-/// segments that cross one of as many horizontal slabs as there are segments: a few.
+/// A planar domain bounded by segments in any order, with the even-odd rule. It is divided into horizontal
+/// slabs, as many as segments (at most 2^20). A query costs the segments that cross one slab: usually a few.
 class TrimmedDomain {
  public:
   /// A side of the outline.
@@ -17,12 +17,12 @@ class TrimmedDomain {
   };
 
   TrimmedDomain() = default;
-  explicit TrimmedDomain(std::vector<Segment> segments);  ///< of the sides of its outline
+  explicit TrimmedDomain(std::vector<Segment> segments);  ///< segments: the sides of the outline
 
-  bool inside(const Vector2& p) const;              ///< whether the point lies in it
+  bool inside(const Vector2& p) const;              ///< whether the point lies in the domain
   bool empty() const { return segments_.empty(); }  ///< whether it has no outline
-  const Vector2& low() const { return low_; }       ///< corner of the box round it
-  const Vector2& high() const { return high_; }     ///< corner of the box round it
+  const Vector2& low() const { return low_; }       ///< lowest corner of the bounding box
+  const Vector2& high() const { return high_; }     ///< highest corner of the bounding box
 
  private:
   int slab(double y) const;

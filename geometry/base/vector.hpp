@@ -10,7 +10,7 @@ namespace quadrille {
 using Vector2 = Eigen::Vector2d;  ///< (2) in a plane
 using Vector3 = Eigen::Vector3d;  ///< (3) in space, millimeters
 
-/// Between two vectors of any length, 0 to pi; exact for small angles too.
+/// The angle between two vectors of any length, 0 to pi; accurate for small angles too.
 inline double angle_between(const Vector3& a, const Vector3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }

@@ -58,7 +58,7 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-/// OpenCASCADE prints its transfer log to standard output otherwise.
+/// Without this, OpenCASCADE prints its transfer log to standard output.
 void silence_opencascade() {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
 }
@@ -72,7 +72,7 @@ TopoDS_Shape read_exchange(const std::filesystem::path& path, const std::string&
   return shape;
 }
 
-/// OpenCASCADE prints to standard output when a file does not begin as a BREP does.
+/// Whether the stream begins as a BREP file does. OpenCASCADE would print to standard output if it did not.
 bool begins_as_brep(std::istream& stream) {
   std::string line;
   for (int i = 0; i < 5 && std::getline(stream, line); ++i) {
@@ -89,7 +89,7 @@ TopoDS_Shape read_brep(std::istream& stream, const std::string& name) {
   if (!begins_as_brep(stream)) throw failure(name, fmt::format("{} is not a readable BREP file", name));
   TopoDS_Shape shape;
   const BRep_Builder builder;
-  // OpenCASCADE's reader looks for its next word for ever where the text ends too early.
+  // OpenCASCADE's reader loops forever when the text ends too early.
   stream.exceptions(std::ios::failbit | std::ios::badbit);
   try {
     BRepTools::Read(shape, stream, builder);
@@ -100,7 +100,7 @@ TopoDS_Shape read_brep(std::istream& stream, const std::string& name) {
   return shape;
 }
 
-/// Millimeters, a light hour: costs of elements are kept in single precision.
+/// Millimeters, about a light hour. The costs of elements are kept in single precision.
 constexpr double largest_diagonal = 1e15;
 
 CadModel build(const TopoDS_Shape& shape, const std::string& name) {
@@ -114,7 +114,7 @@ CadModel build(const TopoDS_Shape& shape, const std::string& name) {
   return CadModel(std::move(result));
 }
 
-/// The reading behind one guard: OpenCASCADE's own exceptions become one sentence.
+/// Reads and builds the model, in a child process if asked for. OpenCASCADE's exceptions become an Error.
 template <class Read>
 CadModel guarded(const std::string& name, const ReadOptions& options, Read read) {
   silence_opencascade();

@@ -61,7 +61,7 @@ void CadShape::read_topology() {
   const int own_edges = edge_map.Extent(), own_vertices = vertex_map.Extent();
   std::vector<EdgePiece> pieces;
   if (seams_lack) pieces = add_seams(sources, problems);
-  // What is new comes after the model's own edges and vertices, whose numbers stay.
+  // New edges and vertices come after the model's own ones, whose numbers stay the same.
   for (const TopoDS_Face& face : sources) {
     TopExp::MapShapes(face, TopAbs_EDGE, edge_map);
     TopExp::MapShapes(face, TopAbs_VERTEX, vertex_map);
@@ -138,7 +138,7 @@ void CadShape::measure_edges() {
 
 namespace {
 
-/// The edges of a wire, each once a use, in the order of the wire if one can be found.
+/// The edges of a wire, one entry per use, in the order of the wire if one can be found.
 std::vector<TopoDS_Edge> ordered_edges(const TopoDS_Wire& wire, const TopoDS_Face& face, bool& ordered) {
   std::vector<TopoDS_Edge> plain;
   for (TopoDS_Iterator it(wire); it.More(); it.Next()) {
@@ -152,7 +152,7 @@ std::vector<TopoDS_Edge> ordered_edges(const TopoDS_Wire& wire, const TopoDS_Fac
   return ordered ? result : plain;
 }
 
-/// Where a vertex lies in the parameter plane of a face.
+/// The point of a vertex in the parameter plane of a face.
 Vector2 parameters_on(const TopoDS_Face& face, const TopoDS_Vertex& vertex) {
   ShapeAnalysis_Surface surface(BRep_Tool::Surface(face));
   const gp_Pnt2d uv = surface.ValueOfUV(BRep_Tool::Pnt(vertex), Precision::Confusion());
@@ -199,7 +199,7 @@ void CadShape::read_face(int index, const TopoDS_Face& source, const TopTools_In
 void CadShape::measure() {
   Bnd_Box box;
   BRepBndLib::Add(shape, box, Standard_False);  // AddOptimal takes longer than reading the file
-  // The boxes of some trimmed surfaces (tori that meet their axis) miss what bounds them.
+  // The boxes of some trimmed surfaces (tori that meet their axis) do not contain the bounding edges.
   for (const CadEdge& edge : edges) {
     if (edge.degenerate || !(edge.length > 0)) continue;
     const BRepAdaptor_Curve curve(edge.edge);

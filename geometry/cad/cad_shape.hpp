@@ -28,7 +28,7 @@ inline Vector3 to_vector(const gp_Vec& p) {
 /// A CAD edge: a curve between two vertices. Numbers start at 1.
 struct CadEdge {
   TopoDS_Edge edge;      ///< oriented forward: its parameter runs from `first` to `last`
-  int number = 0;        ///< the CAD file's: a piece of an edge that was split has that of the whole
+  int number = 0;        ///< number in the CAD file; a piece of a split edge has that of the whole edge
   int first_vertex = 0;  ///< vertex at the parameter `first`; 0 on an edge without vertices
   int last_vertex = 0;
   double first = 0, last = 0;
@@ -36,9 +36,9 @@ struct CadEdge {
   double tolerance = 0;
   bool degenerate = false;  ///< a single point in space (pole, apex)
   bool closed() const { return first_vertex == last_vertex; }
-  std::vector<int> faces;  ///< the faces that use it, a seam's face twice, ascending
+  std::vector<int> faces;  ///< faces that use the edge, ascending; a seam's face twice
 
-  /// Whether a face of these uses it. \param used (faces) 1 = one of them.
+  /// Whether one of these faces uses the edge. \param used (faces) 1 = one of these.
   bool is_used(const std::vector<char>& used) const {
     return std::any_of(faces.begin(), faces.end(), [&](int face) { return used[face - 1] != 0; });
   }
@@ -47,13 +47,13 @@ struct CadEdge {
 /// The use of an edge by a face.
 struct Coedge {
   int edge = 0;
-  bool forward = true;                    ///< the wire runs along the edge's parameter
-  bool internal = false;                  ///< lies inside the face (a crack), both sides belong to the face
+  bool forward = true;                    ///< the wire runs in the direction of the edge's parameter
+  bool internal = false;                  ///< the edge is a crack: the face lies on both sides of it
   Handle(Geom2d_Curve) parametric_curve;  ///< same parameter as the edge's curve
-  TopoDS_Edge source;                     ///< as the wire has it
+  TopoDS_Edge source;                     ///< the edge with its orientation in the wire
 };
 
-/// Where a coedge lies in the parameter plane at the edge's parameter t.
+/// The point of a coedge in the parameter plane at the edge's parameter t.
 inline Vector2 parametric_point(const Coedge& coedge, double t) {
   const gp_Pnt2d p = coedge.parametric_curve->Value(t);
   return {p.X(), p.Y()};
@@ -72,7 +72,7 @@ struct InnerVertex {
 
 struct CadFace {
   TopoDS_Face face;       ///< oriented forward: its normal is the surface's
-  bool reversed = false;  ///< the model uses the other side
+  bool reversed = false;  ///< the model uses the face with the opposite normal
   std::vector<CadWire> wires;
   std::vector<InnerVertex> inner_vertices;
   double u_min = 0, u_max = 0, v_min = 0, v_max = 0;  ///< bounds of the trimmed face in the parameter plane
@@ -85,7 +85,7 @@ class CadShape {
   CadShape(const TopoDS_Shape& shape, std::string name);
 
   std::string name;
-  std::vector<std::string> problems;  ///< found and mended while reading, one sentence each
+  std::vector<std::string> problems;  ///< found while reading, one sentence each
   TopoDS_Shape shape;
   std::vector<CadFace> faces;
   std::vector<CadEdge> edges;
@@ -99,8 +99,8 @@ class CadShape {
  private:
   void read_topology();
   void read_vertices(const TopTools_IndexedMapOfShape& vertex_map);
-  /// (vertices in the map, from 1) their numbers: where a new one has taken the place of one of the model's
-  /// own, that one's.
+  /// (vertices in the map, from 1) vertex numbers. A new vertex that replaces one of the model's own vertices
+  /// gets the number of that vertex.
   std::vector<int> vertex_numbers(const TopTools_IndexedMapOfShape& vertex_map, int own_vertices,
                                   const std::vector<TopoDS_Face>& sources) const;
   void read_edges(const TopTools_IndexedMapOfShape& edge_map, const TopTools_IndexedMapOfShape& vertex_map,

@@ -43,13 +43,13 @@ class CurveEndMender {
   }
 
  private:
-  /// Whether its one vertex holds all of it but not its ends.
+  /// Whether the edge lies within the tolerance of its only vertex, but its ends do not lie at the vertex.
   bool is_swallowed(const CadEdge& edge) const {
     if (edge.degenerate || !edge.closed() || edge.first_vertex == 0 || !(edge.length > 0)) return false;
     const Vector3& vertex = shape_.vertices[edge.first_vertex - 1];
     const double reach = shape_.vertex_tolerances[edge.first_vertex - 1];
     const auto distance = [&](double share) { return (point_on(edge, share) - vertex).norm(); };
-    constexpr double near = 1e-3;  // of its length
+    constexpr double near = 1e-3;  // share of the edge's length
     if (std::max(distance(0), distance(1)) <= std::max(near * edge.length, edge.tolerance)) return false;
     constexpr int samples = 8;
     for (int i = 0; i <= samples; ++i) {
@@ -58,7 +58,7 @@ class CurveEndMender {
     return true;
   }
 
-  /// Those from which all curves that should end there end farther than the shortest of them is long.
+  /// Finds vertices that all their curves miss by more than the shortest of these curves is long.
   void find_far_vertices() {
     struct Near {
       double distance = std::numeric_limits<double>::infinity(), shortest = distance;
@@ -95,9 +95,9 @@ class CurveEndMender {
     return ends;
   }
 
-  /// Makes a vertex of each place where curves end; the one where most do keeps the number.
+  /// Makes one vertex of each place where curves end. The place with the most ends keeps the number.
   void split(int vertex) {
-    constexpr double near = 0.01;  // of the shortest edge there
+    constexpr double near = 0.01;  // share of the length of the shortest edge there
     std::vector<CurveEnd> left = ends_at(vertex);
     double shortest = shape_.edges[left.front().edge - 1].length, tolerance = 0;
     for (const CurveEnd& end : left) {
@@ -139,7 +139,7 @@ class CurveEndMender {
                        tolerance);
   }
 
-  /// \param vertex from 1; 0 = a new one.
+  /// \param vertex from 1; 0 = a new vertex.
   void place_vertex(int vertex, const std::vector<CurveEnd>& ends, double tolerance) {
     if (vertex == 0) {
       shape_.vertices.emplace_back();
@@ -159,7 +159,7 @@ class CurveEndMender {
     shape_.vertex_tolerances[vertex - 1] = tolerance;
   }
 
-  /// Edges one end of which no other edge shares leave all wires, one after the other.
+  /// Removes dangling edges (no other edge shares one of their ends) from all wires, one at a time.
   void drop_dangling() {
     for (bool changed = true; changed;) {
       changed = false;
@@ -197,8 +197,7 @@ class CurveEndMender {
     return coedge.forward ? edge.last_vertex : edge.first_vertex;
   }
 
-  /// Where a coedge does not begin at the end of the one before, an edge that was at a split vertex may lead
-  /// there.
+  /// Closes gaps between the end of a coedge and the start of the next one by an edge of a split vertex.
   void close_wires(CadFace& face) {
     for (CadWire& wire : face.wires) {
       for (std::size_t i = 0; i < wire.coedges.size(); ++i) {
@@ -218,7 +217,7 @@ class CurveEndMender {
     }
   }
 
-  /// An edge of other faces from one vertex to another that lies on the face; edge 0 if there is none.
+  /// An edge of a split vertex that lies on the face and joins these two vertices; edge 0 if there is none.
   Coedge link_between(const CadFace& face, int from, int to) const {
     for (const int number : touched_) {
       const CadEdge& edge = shape_.edges[number - 1];
@@ -244,7 +243,7 @@ class CurveEndMender {
   }
 
   CadShape& shape_;
-  std::set<int> wrong_;    ///< vertices
+  std::set<int> wrong_;    ///< vertices to split
   std::set<int> touched_;  ///< edges whose vertices changed
 };
 

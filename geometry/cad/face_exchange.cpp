@@ -14,7 +14,7 @@ TopoDS_Shape with_faces(const TopoDS_Shape& shape, const TopTools_IndexedMapOfSh
   }
   if (shape.ShapeType() > TopAbs_FACE) return shape;
   TopoDS_Shape result = shape.EmptyCopied();
-  result.Location(TopLoc_Location());  // which the parts have, with the orientation
+  result.Location(TopLoc_Location());  // the iterated parts already contain location and orientation
   result.Orientation(TopAbs_FORWARD);
   const BRep_Builder builder;
   for (TopoDS_Iterator part(shape); part.More(); part.Next())

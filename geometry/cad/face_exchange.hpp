@@ -1,5 +1,5 @@
 #pragma once
-/// Shapes made of other faces. Internal.
+/// Exchanges the faces of a shape. Internal.
 
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Shape.hxx>
@@ -7,8 +7,8 @@
 
 namespace quadrille {
 
-/// The same solids and shells, in the same order, of other faces. \param faces of the shape. \param others
-/// what stands for each of them, oriented as they are.
+/// The same solids and shells, in the same order, built of other faces. \param faces the faces of the shape.
+/// \param others the replacement of each face, oriented as that face is.
 TopoDS_Shape with_faces(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces,
                         const std::vector<TopoDS_Shape>& others);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Reading CAD files in a child process, which may crash without harm.
+/// Reading CAD files in a child process, where a crash does no harm.
 
 #include <TopoDS_Shape.hxx>
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace quadrille {
 
-/// What is said of a file whose reading takes longer than the limit, in seconds.
+/// The error message for a file whose reading takes longer than `time_limit` seconds.
 std::string reading_too_long(const std::string& name, double time_limit);
 
-/// Runs `read` in a child process and gives the shape that it returned; composed placements may differ in
-/// their last digits. Throws as run_isolated(). \param name of the file, for messages. \param context asked
-/// every few hundredths of a second whether to go on; may be null. \param time_limit seconds; 0 = none.
-/// \param memory bytes that the child may take beyond what this process has; 0 = no limit.
+/// Runs `read` in a child process and returns its shape; composed placements may differ in their last digits.
+/// Throws as run_isolated(). \param name of the file, for messages. \param context checked every few
+/// hundredths of a second; may be null. \param time_limit seconds; 0 = none. \param memory bytes that the
+/// child may take beyond what this process has; 0 = no limit.
 TopoDS_Shape read_isolated(const std::string& name, const std::function<TopoDS_Shape()>& read,
                            ExecutionContext* context, double time_limit = 0, std::size_t memory = 0);
 

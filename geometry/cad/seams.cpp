@@ -1,6 +1,5 @@
-/// Seams that are missing are made by OpenCASCADE's shape healing (ShapeFix_Face), after which faces that
-/// need it are found here. Holes over a seam are cut here: healing finds their crossings on one side of the
-/// seam only.
+/// OpenCASCADE's shape healing (ShapeFix_Face) makes missing seams; the faces that need it are found here.
+/// Holes across a seam are cut here, since healing finds their crossings on one side of the seam only.
 
 #include "geometry/cad/seams.hpp"
 
@@ -37,22 +36,22 @@ namespace quadrille {
 
 namespace {
 
-constexpr int samples = 16;  // of a parametric curve
+constexpr int samples = 16;  // intervals of a sampled parametric curve
 
 using Polyline = std::array<Vector2, samples + 1>;
 
 struct SampledWire {
   TopoDS_Wire wire;
   std::vector<TopoDS_Edge> edges;
-  std::vector<Polyline> lines;  ///< of the edges, along the wire
-  bool has_seam = false;        ///< or a pole
+  std::vector<Polyline> lines;  ///< the edges' polylines, in the direction of the wire
+  bool has_seam = false;        ///< or a pole (a degenerate edge)
   Vector2 low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
-  Vector2 advance{0, 0};      ///< from start to end, jumps between edges left out
-  double area = 0;            ///< enclosed, positive where the wire runs anticlockwise
-  bool crosses_seam = false;  ///< a hole that crosses a seam, or has a piece of one in it
+  Vector2 advance{0, 0};      ///< sum of the edges' end minus start, without the jumps between edges
+  double area = 0;            ///< enclosed area, positive for a counterclockwise wire
+  bool crosses_seam = false;  ///< a hole that crosses a seam or contains a piece of one
 };
 
-/// What a wire goes round, its edges joined end to start.
+/// The region that a wire encloses; each edge's end is joined to the next one's start.
 TrimmedDomain enclosed_by(const SampledWire& wire) {
   std::vector<Vector2> loop;
   for (const Polyline& line : wire.lines) loop.insert(loop.end(), line.begin(), line.end() - 1);
@@ -83,7 +82,7 @@ class ClosedSurfaceFace {
            });
   }
 
-  /// Nothing but holes on a surface without borders.
+  /// Whether there are only holes on a surface without a boundary of its own.
   bool has_holes_only() const {
     if (!usable() || !all_round_ || wires_.empty()) return false;
     const SampledWire* widest = nullptr;
@@ -135,7 +134,7 @@ class ClosedSurfaceFace {
       sampled.lines.push_back(line);
       if (BRep_Tool::Degenerated(edge) || BRep_Tool::IsClosed(edge, face_)) sampled.has_seam = true;
     }
-    // What is not a chain of edges is beyond this test.
+    // The test works only for wires whose edges form a chain.
     if (edges > 0) {
       complete_ = false;
       return;
@@ -194,13 +193,13 @@ void move_curve(const TopoDS_Edge& edge, const TopoDS_Face& face, const Vector2&
   BRep_Builder().UpdateEdge(edge, Handle(Geom2d_Curve)::DownCast(moved), face, BRep_Tool::Tolerance(edge));
 }
 
-/// Where an edge is to be split.
+/// A place where an edge is to be split.
 struct Cut {
   double parameter = 0;
   TopoDS_Vertex vertex;
 };
 
-/// The edges that holes and seams have in common points inside both, and those points.
+/// The edges of holes and seams that intersect between their ends, and their intersection points.
 std::vector<std::pair<TopoDS_Edge, std::vector<Cut>>> crossings(const TopoDS_Face& face) {
   const ClosedSurfaceFace sampled(face);
   std::vector<std::pair<TopoDS_Edge, std::vector<Cut>>> cuts;
@@ -247,7 +246,7 @@ std::vector<std::pair<TopoDS_Edge, std::vector<Cut>>> crossings(const TopoDS_Fac
   return cuts;
 }
 
-/// The pieces of an edge, with its curves, as a wire.
+/// Splits an edge into pieces that keep its curves. \returns them as a wire.
 TopoDS_Wire split(const TopoDS_Edge& edge, std::vector<Cut> cuts) {
   TopoDS_Vertex first, last;
   TopExp::Vertices(edge, first, last);
@@ -270,7 +269,7 @@ TopoDS_Wire split(const TopoDS_Edge& edge, std::vector<Cut> cuts) {
   return wire;
 }
 
-/// Puts edges together to wires, each edge followed by the one that starts nearest to its end.
+/// Chains edges into wires: each edge is followed by the one that starts nearest to its end.
 std::vector<TopoDS_Wire> chained(std::vector<TopoDS_Edge> edges, const TopoDS_Face& face) {
   const auto end_of = [&](const TopoDS_Edge& edge, bool last) {
     double from = 0, to = 0;
@@ -305,14 +304,14 @@ std::vector<TopoDS_Wire> chained(std::vector<TopoDS_Edge> edges, const TopoDS_Fa
   return wires;
 }
 
-/// A face whose seam was split where holes cross it: what of the seam lies in a hole goes, and what of the
-/// holes lies beyond the seam goes to its other side, so that seam and holes are one wire.
+/// For a face whose seam was split where holes cross it: removes the pieces of the seam inside holes and
+/// moves the pieces of holes beyond the seam by a period, so that seam and holes become one wire.
 TopoDS_Face joined_with_seam(const TopoDS_Face& source) {
   const TopoDS_Face face = TopoDS::Face(source.Oriented(TopAbs_FORWARD));
   const ClosedSurfaceFace sampled(face);
   TopTools_IndexedMapOfShape left_out;
   std::vector<TopoDS_Edge> edges;
-  Vector2 low(-INFINITY, -INFINITY), high(INFINITY, INFINITY);  // between the sides of the seam
+  Vector2 low(-INFINITY, -INFINITY), high(INFINITY, INFINITY);  // range between the sides of the seam
   for (const SampledWire& hole : sampled.wires()) {
     if (!hole.crosses_seam) continue;
     const TrimmedDomain enclosed = enclosed_by(hole);
@@ -357,7 +356,7 @@ TopoDS_Face joined_with_seam(const TopoDS_Face& source) {
   return TopoDS::Face(result.Oriented(source.Orientation()));
 }
 
-/// The face with its seam, as far as that succeeds; changes are recorded in `context`.
+/// The face with its seam, as far as that can be made. Changes are recorded in `context`.
 TopoDS_Shape mended(const TopoDS_Face& face, const Handle(ShapeBuild_ReShape) & context) {
   TopoDS_Shape result = face;
   const ClosedSurfaceFace sampled(face);
@@ -379,7 +378,7 @@ TopoDS_Shape mended(const TopoDS_Face& face, const Handle(ShapeBuild_ReShape) & 
   return joined;
 }
 
-/// Whether mending helps, tried on a copy of the face alone.
+/// Whether the repair succeeds, tried on a copy of the face alone.
 bool can_be_mended(const TopoDS_Face& face) {
   try {
     const TopoDS_Face copy = TopoDS::Face(BRepBuilderAPI_Copy(face, Standard_True).Shape());

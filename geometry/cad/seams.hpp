@@ -8,9 +8,9 @@
 
 namespace quadrille {
 
-/// Whether the wires of a face on a closed surface bound no region of its parameter plane: a wire goes once
-/// round without a seam, a hole crosses the seam, or nothing but holes lies on a sphere or a torus.
-/// Linear in the edges of the face, but for holes near a seam.
+/// Whether the wires of a face on a closed surface bound no region of its parameter plane. Either a wire runs
+/// once around the surface without a seam, or a hole crosses the seam, or a sphere or torus has only holes.
+/// Linear in the edges of the face, except for holes near a seam.
 bool lacks_seam(const TopoDS_Face& face);
 
 /// An edge that was split, and one of its pieces.
@@ -18,10 +18,10 @@ struct EdgePiece {
   TopoDS_Edge whole, piece;
 };
 
-/// Gives faces that lack a seam one, and splits edges where they cross a seam, there and in the other faces
-/// that use them. What belongs to the faces is changed in place: they must be a copy. Faces that cannot be
-/// mended stay as they are.
-/// \param problems is told what was done, a sentence a face.
+/// Adds a seam to faces that lack one. Edges that cross a seam are split there, also in the other faces that
+/// use them. The faces' contents are changed in place, so the faces must be a copy. Faces that cannot be
+/// repaired stay as they are.
+/// \param problems gets one sentence per changed face.
 /// \returns the pieces of the edges that were split.
 std::vector<EdgePiece> add_seams(std::vector<TopoDS_Face>& faces, std::vector<std::string>& problems);
 

@@ -17,7 +17,7 @@ TopoDS_Shape sew(const TopoDS_Shape& shape, double tolerance, int& joined) {
   sewing.SetNonManifoldMode(Standard_True);
   for (int i = 1; i <= faces.Extent(); ++i) sewing.Add(faces(i));
   sewing.Perform();
-  // The sewn shells order faces as they come: the model with new faces keeps its order, and its solids.
+  // Sewn shells have their faces in another order. Exchanging the faces keeps the model's order and solids.
   std::vector<TopoDS_Shape> sewn;
   for (int i = 1; i <= faces.Extent(); ++i)
     sewn.push_back(sewing.IsModified(faces(i)) ? sewing.Modified(faces(i)) : TopoDS_Shape(faces(i)));

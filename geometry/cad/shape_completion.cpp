@@ -37,7 +37,7 @@ bool lacks_curves(const TopoDS_Face& face) {
 void add_curves(const TopoDS_Face& face) {
   for (TopExp_Explorer it(face, TopAbs_WIRE); it.More(); it.Next()) {
     ShapeFix_Wire fix(TopoDS::Wire(it.Current()), face, BRep_Tool::Tolerance(face));
-    fix.FixEdgeCurves();  // those of the edges, in place
+    fix.FixEdgeCurves();  // changes the edges in place
   }
 }
 
@@ -71,7 +71,7 @@ CadFace with_new_curves(const CadFace& face) {
   const BRep_Builder builder;
   try {
     result.face = TopoDS::Face(BRepBuilderAPI_Copy(face.face, Standard_False).Shape());
-    // The copy has its edges in the order of the original.
+    // The copy has its edges in the original order.
     TopTools_IndexedMapOfShape edges, copies;
     TopExp::MapShapes(face.face, TopAbs_EDGE, edges);
     TopExp::MapShapes(result.face, TopAbs_EDGE, copies);

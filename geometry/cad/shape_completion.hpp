@@ -1,5 +1,5 @@
 #pragma once
-/// What CAD files leave out and meshing needs. Internal.
+/// Adds what meshing needs but CAD files leave out. Internal.
 
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
@@ -10,17 +10,17 @@
 
 namespace quadrille {
 
-/// The shape with a parametric curve for every edge on every face, made where it was missing. Faces, edges
-/// and vertices keep their order. Where nothing is missing the shape itself comes back, else a copy; what was
-/// done is added to `problems`, one sentence each.
+/// The shape with a parametric curve for every edge on every face; missing ones are made by projection where
+/// possible. Faces, edges and vertices keep their order. If nothing is missing, returns the shape itself,
+/// otherwise a copy. Each change adds a sentence to `problems`.
 TopoDS_Shape with_parametric_curves(const TopoDS_Shape& shape, std::vector<std::string>& problems);
 
-/// A face without wires gets the bounds of its surface for a wire; others, and those that a surface without
-/// end leaves unbounded, come back as they are.
+/// For a face without wires: the face bounded by the natural bounds of its surface. Faces that have wires,
+/// and those on infinite surfaces, are returned unchanged.
 TopoDS_Face with_natural_bounds(const TopoDS_Face& face);
 
-/// The face with parametric curves made anew by projection of its edges (ShapeFix_Wire), on a copy; the
-/// coedges stay as they are otherwise. Throws Error (failure) where that cannot be done.
+/// A copy of the face whose parametric curves are recomputed by projecting its edges (ShapeFix_Wire).
+/// Otherwise the coedges stay the same. Throws Error (failure) when an edge cannot be projected.
 CadFace with_new_curves(const CadFace& face);
 
 }  // namespace quadrille

@@ -1,5 +1,5 @@
-/// The material of fillets, which lies beside the middle surfaces' corners, as thickness of strips along
-/// them.
+/// Adds the material of fillets, which lies beside the corners of middle surfaces, to the thickness of strips
+/// along these corners.
 
 #include <BOPAlgo_Builder.hxx>
 #include <TopExp.hxx>
@@ -17,14 +17,14 @@ namespace quadrille {
 
 namespace {
 
-/// What a fillet adds to the corner between its walls, as an arc between its borders.
+/// The volume that a fillet adds to the corner between its walls. Its section is taken as an arc.
 double volume_of(const SkinFace& fillet, const std::vector<FilletBorder>& borders) {
   double turn = 0, length = 0;
   for (const FilletBorder& border : borders) {
     turn = std::max(turn, border.outward.Angle(borders.front().outward));
     length += border.length / static_cast<double>(borders.size());
   }
-  constexpr double least = 0.1, most = 3;  // radians; beyond it is no corner
+  constexpr double least = 0.1, most = 3;  // radians; outside of this range it is not a corner
   if (turn < least || turn > most) return 0;
   const double width = fillet.area() / length, radius = width / turn;
   return radius * radius * (std::tan(0.5 * turn) - 0.5 * turn) * length;
@@ -36,8 +36,8 @@ double shell_volume(const std::vector<JoinedFace>& faces) {
   return volume;
 }
 
-/// The faces, cut where the fillets begin. \param strips for each whether it lies along a corner, where its
-/// wall has no side.
+/// The faces, cut where the fillets begin. \param strips set to 1 for each face of the result that lies along
+/// a corner, where its wall has no side; to 0 for others.
 std::vector<JoinedFace> cut_faces(const BOPAlgo_Builder& fuse, const Skin& skin,
                                   const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
                                   std::vector<char>& strips) {
@@ -69,7 +69,7 @@ bool touches(const TopoDS_Face& face, const TopTools_MapOfShape& edges) {
   return false;
 }
 
-/// The strips of the border's wall, by index, that end at it.
+/// The strips, by index into `faces`, of the border's wall that end at the border.
 std::vector<std::size_t> strips_at(const BOPAlgo_Builder& fuse, const FilletBorder& border,
                                    const std::vector<JoinedFace>& faces, const std::vector<char>& strips) {
   TopTools_MapOfShape edges;
@@ -83,7 +83,7 @@ std::vector<std::size_t> strips_at(const BOPAlgo_Builder& fuse, const FilletBord
   return result;
 }
 
-/// Makes the strips thicker by a volume.
+/// Distributes a volume over the strips as additional thickness.
 void thicken(const std::vector<std::size_t>& strips, double volume, int fillet,
              std::vector<JoinedFace>& faces) {
   double area = 0;
@@ -115,7 +115,7 @@ void add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume
     for (const FilletBorder& border : borders) fuse.AddArgument(border.fence);
   }
   fuse.Perform();
-  if (fuse.HasErrors()) return;  // as it is where fillets are small
+  if (fuse.HasErrors()) return;  // the faces stay as they are
   std::vector<char> strips;
   std::vector<JoinedFace> cut = cut_faces(fuse, skin, walls, faces, strips);
   const double share = std::min(1.0, missing / held);

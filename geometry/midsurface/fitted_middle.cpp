@@ -19,7 +19,7 @@ namespace quadrille {
 
 namespace {
 
-/// The faces of the side that lies across, and where their parameters end.
+/// The faces of the opposite side, with the bounds of their parameters.
 class Opposite {
  public:
   Opposite(const Skin& skin, const std::vector<int>& faces) {
@@ -30,7 +30,7 @@ class Opposite {
     }
   }
 
-  /// The nearest point of the faces; of the surface of the nearest face where that ends before.
+  /// The nearest foot in the faces; without one, the closest point of the nearest untrimmed surface.
   gp_Pnt nearest(const gp_Pnt& from) const {
     gp_Pnt inside, outside;
     double least_inside = -1, least_outside = -1;
@@ -60,7 +60,7 @@ class Opposite {
   std::vector<Part> parts_;
 };
 
-/// One direction of the grid: the values interpolated at, knots of the B-spline through them.
+/// One direction of the grid: the parameters of the interpolated points and the knots of the B-spline.
 class GridLine {
  public:
   GridLine(const ParameterRange& range, int spans) : range_(range), spans_(spans) {}
@@ -69,12 +69,12 @@ class GridLine {
   int degree() const { return spans_ == 1 ? 1 : 3; }
   int count() const { return spans_ + degree(); }
   double knot(int i) const { return range_.low + range_.length() * i / spans_; }
-  double value(int i) const {  // Greville's abscissae
+  double value(int i) const {  // Greville abscissa
     double sum = 0;
     for (int j = 1; j <= degree(); ++j) sum += knot(std::clamp(i + j - degree(), 0, spans_));
     return sum / degree();
   }
-  /// Values to look at between the i-th and the next: more of them where a straight line is tried.
+  /// Parameters to check between the i-th value and the next one; more of them for a straight line.
   std::vector<double> between(int i) const {
     std::vector<double> result;
     const auto shares =
@@ -115,7 +115,7 @@ class MiddlePoints {
   MiddlePoints(const Skin& skin, const std::array<std::vector<int>, 2>& sides)
       : base_(skin.faces()[sides[0].front()]), across_(skin, sides[1]), size_(skin.size()) {}
 
-  /// The point along the normal at (u, v) that is as far from the other side.
+  /// The point on the normal at (u, v) of the first side that is equally far from the other side.
   std::optional<gp_Pnt> at(double u, double v) {
     const auto [entry, is_new] = known_.try_emplace({u, v});
     if (is_new) entry->second = find({u, v});
@@ -129,7 +129,7 @@ class MiddlePoints {
     const gp_Pnt foot = base_.point(uv);
     const gp_Vec inward(outward->Reversed());
     double depth = 0;
-    for (int step = 0; step < 40; ++step) {  // Newton's, on a distance that is nearly linear
+    for (int step = 0; step < 40; ++step) {  // Newton iteration on a nearly linear function
       const gp_Pnt point = foot.Translated(depth * inward);
       const gp_Vec from_other(across_.nearest(point), point);
       const double distance = from_other.Magnitude();
@@ -166,7 +166,7 @@ std::optional<Handle(Geom_BSplineSurface)> interpolate(MiddlePoints& points,
                                  grid[1].multiplicities(), grid[0].degree(), grid[1].degree());
 }
 
-/// How far the surface is off half way between grid points along one direction.
+/// The largest error of the surface between grid points along one direction.
 std::optional<double> off_along(int direction, const Handle(Geom_BSplineSurface) & surface,
                                 MiddlePoints& points, const std::array<GridLine, 2>& grid) {
   const GridLine &along = grid[direction], &across = grid[1 - direction];
@@ -188,8 +188,8 @@ std::optional<double> off_along(int direction, const Handle(Geom_BSplineSurface)
 std::optional<FittedMiddle> fit(MiddlePoints& points, const std::array<ParameterRange, 2>& ranges,
                                 double tolerance) {
   constexpr int most_spans = 128;
-  constexpr double good_enough = 10;  // tolerances, where sides have kinks and finer grids gain little
-  constexpr double gain = 0.1;        // of smooth sides it is a sixteenth
+  constexpr double good_enough = 10;  // tolerances, if sides have kinks and finer grids gain little
+  constexpr double gain = 0.1;        // error ratio below which refining pays; 1/16 on smooth sides
   std::array<GridLine, 2> grid{GridLine(ranges[0], 1), GridLine(ranges[1], 1)};
   std::array<double, 2> before{HUGE_VAL, HUGE_VAL};
   for (;;) {
@@ -213,7 +213,7 @@ std::optional<FittedMiddle> fit(MiddlePoints& points, const std::array<Parameter
   }
 }
 
-/// The parameters of the first side's surface between which both sides lie.
+/// The ranges of the first side's surface parameters that both sides cover.
 std::array<ParameterRange, 2> common_range(const Skin& skin, const std::array<std::vector<int>, 2>& sides) {
   const Handle(Geom_Surface) base = BRep_Tool::Surface(skin.faces()[sides[0].front()].face());
   auto ranges = range_of(base, points_on_edges(skin, sides[0]), {0, 0});
@@ -227,7 +227,7 @@ std::array<ParameterRange, 2> common_range(const Skin& skin, const std::array<st
   return ranges;
 }
 
-/// Straight on at the ends that are not closed.
+/// Extends a surface straight by the margin at the ends that are not closed.
 Handle(Geom_BSplineSurface) run_on(const Handle(Geom_BSplineSurface) & surface, double margin) {
   Handle(Geom_BoundedSurface) result(surface);
   for (const bool in_u : {true, false}) {

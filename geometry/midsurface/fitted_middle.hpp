@@ -1,5 +1,5 @@
 #pragma once
-/// The middle between surfaces that have no exact middle surface, as a B-spline. Internal.
+/// The middle of two sides that have no exact middle surface, as a B-spline. Internal.
 
 #include <Geom_BSplineSurface.hxx>
 #include <array>
@@ -12,14 +12,15 @@ namespace quadrille {
 
 struct FittedMiddle {
   Handle(Geom_BSplineSurface) surface;
-  double off = 0;  ///< largest distance found from the points as far from one side as from the other
+  double off = 0;  ///< largest distance found from the true middle
 };
 
-/// Interpolates points as far from one side as from the other, found over a grid on the first side, which is
-/// made finer until the surface between them is off by less than the tolerance; then runs on straight past
-/// its bounds. \param sides indices into Skin::faces(), those of the first side on one surface. \param
-/// tolerance and \param margin lengths. \return nothing where the sides do not face each other over the
-/// whole grid. Time: that of some five projections a point, at most 129 * 129 points.
+/// Interpolates a grid of points that are equally far from both sides. The grid lies in the parameters of the
+/// first side. It is refined until the surface between its points is within the tolerance, or within ten
+/// times the tolerance if refinement gains little; at most to 128 spans per direction. The surface is then
+/// extended straight past its bounds. \param sides indices into Skin::faces(); the faces of the first side
+/// lie on one surface. \param tolerance a length. \param margin length of the extension. \return nothing if
+/// the sides do not face each other over the whole grid. Time: about five projections per point.
 std::optional<FittedMiddle> fit_middle(const Skin& skin, const std::array<std::vector<int>, 2>& sides,
                                        double tolerance, double margin);
 

@@ -41,7 +41,7 @@ namespace {
 
 using Neighbors = TopTools_IndexedDataMapOfShapeListOfShape;
 
-/// A face of one of the solids.
+/// A face of one of the solids, by indices.
 struct FaceOf {
   int solid = 0, face = 0;
   bool operator<(const FaceOf& other) const {
@@ -49,7 +49,7 @@ struct FaceOf {
   }
 };
 
-/// A face drawn along a way, and the numbers of the faces that the solid's sides carry on.
+/// A solid swept from a face or moved as a whole, and for its faces the model's faces that they extend.
 struct DrawnFace {
   TopoDS_Shape solid;
   std::vector<std::pair<TopoDS_Shape, int>> numbers;
@@ -57,19 +57,19 @@ struct DrawnFace {
 
 /// What was seen of another solid's face across a gap.
 struct Across {
-  double widest = 0;     ///< of the gap
-  double thickness = 0;  ///< of the thinner of the two walls there
-  double area = 0;       ///< of the samples that face it
+  double widest = 0;     ///< largest width of the gap
+  double thickness = 0;  ///< least thickness of the two walls there
+  double area = 0;       ///< area of the samples that face it
 };
 
 struct Gap {
   FaceOf from, to;
-  std::optional<gp_Dir> along;  ///< the way across; each point's own normal where there is none
+  std::optional<gp_Dir> along;  ///< direction across the gap; empty = along the normal at each point
   Across across;
-  double share = 0;  ///< of the first face that faces the other
+  double share = 0;  ///< share of the area of `from` that faces `to`
 };
 
-/// How thick a wall is at a point of its skin: into the material, or the width of a rim.
+/// The thickness of a wall at a point of its skin: through the material, but at most the width of the face.
 double thickness_at(const Skin& skin, const SkinFace& face, double width, const gp_Pnt2d& uv) {
   const auto outward = face.outward(uv);
   if (!outward) return 0;
@@ -81,14 +81,14 @@ bool is_flat(const SkinFace& face) {
   return face.surface().GetType() == GeomAbs_Plane;
 }
 
-/// What stands beside a face at a point of its border.
+/// A face and its neighbor at a point of their common edge.
 struct Beside {
-  double length = 0;    ///< of the border that the point stands for
-  gp_Vec own, outward;  ///< of the face, and of what stands beside it
+  double length = 0;    ///< length of the edge that the point represents
+  gp_Vec own, outward;  ///< outward normals of the face and of its neighbor
 };
 
-/// Along the longest edges of a face, a dozen points at most; half way along each, and of bent faces at two
-/// more.
+/// At most a dozen points on the longest edges of a face: half way along each edge, and at two more places if
+/// the face is curved.
 std::vector<Beside> beside(const Skin& skin, const Neighbors& neighbors, const SkinFace& face) {
   std::vector<Beside> result;
   const auto places = is_flat(face) ? std::vector<double>{0.5} : std::vector<double>{0.2, 0.5, 0.9};
@@ -115,10 +115,10 @@ std::vector<Beside> beside(const Skin& skin, const Neighbors& neighbors, const S
   return result;
 }
 
-/// The direction in which what stands beside a face runs on past it.
+/// The direction in which the neighbors of a face would continue past it.
 struct RunningOn {
-  gp_Dir along;  ///< for most of the border; the normal that was given where nothing speaks for another one
-  double share = 0;  ///< of the border
+  gp_Dir along;      ///< direction that fits most of the border; the face's normal if no other fits better
+  double share = 0;  ///< share of the border that it fits
 };
 
 RunningOn running_on(const std::vector<Beside>& around, const gp_Dir& outward) {
@@ -144,7 +144,7 @@ RunningOn running_on(const std::vector<Beside>& around, const gp_Dir& outward) {
   return {best, whole > 0 ? most / whole : 0};
 }
 
-/// Whether what stands beside a face runs on past it along the face's normals, but for a tenth of the border.
+/// Whether the neighbors of a face would continue along its normals, on at least nine tenths of the border.
 bool runs_on_along_normals(const std::vector<Beside>& around) {
   double all = 0, runs = 0;
   for (const Beside& side : around) {
@@ -154,7 +154,7 @@ bool runs_on_along_normals(const std::vector<Beside>& around) {
   return runs >= 0.9 * all;
 }
 
-/// The axes of a surface that closes in itself.
+/// The local axes of a plane, cylinder, cone, sphere or torus.
 std::optional<gp_Ax3> frame_of(const BRepAdaptor_Surface& surface) {
   switch (surface.GetType()) {
     case GeomAbs_Plane:
@@ -172,9 +172,9 @@ std::optional<gp_Ax3> frame_of(const BRepAdaptor_Surface& surface) {
   }
 }
 
-/// A face in two halves, so that no edge of them is closed. Empty where it is not known how to cut it.
+/// Cuts a face in two, so that no edge of the halves is closed. Empty if its surface has no local axes.
 std::list<BRepAlgoAPI_Common> halves(const SkinFace& face) {
-  std::list<BRepAlgoAPI_Common> result;  // which must not be copied
+  std::list<BRepAlgoAPI_Common> result;  // a list, since its elements must not be copied
   const auto frame = frame_of(face.surface());
   if (!frame) return result;
   const gp_Vec axis(frame->Direction());
@@ -190,7 +190,7 @@ std::list<BRepAlgoAPI_Common> halves(const SkinFace& face) {
   return result;
 }
 
-/// What lies a distance from a face, along its normals: the same borders on its surface, moved.
+/// A face offset along its normals: the same parametric curves on the offset surface.
 class OffsetFace {
  public:
   OffsetFace(const TopoDS_Face& face, double distance) : face_(face) {
@@ -231,7 +231,7 @@ class OffsetFace {
   Handle(Geom_Surface) surface_;
 };
 
-/// The face of straight lines between two edges that have the same parameters; a plane where it can be.
+/// The ruled face between two edges with the same parameters; on a plane if possible.
 TopoDS_Face ruled_face(const TopoDS_Edge& a, const TopoDS_Edge& b) {
   std::array<Handle(Geom_Curve), 2> curves;
   std::array<gp_Pnt, 4> ends;
@@ -253,8 +253,8 @@ TopoDS_Face ruled_face(const TopoDS_Edge& a, const TopoDS_Edge& b) {
   return BRepBuilderAPI_MakeFace(GeomFill::Surface(curves[0], curves[1]), Precision::Confusion());
 }
 
-/// The solid between two distances from a face, along its normals. \param numbers of its edges; the sides on
-/// others and the two ends have the number `own`. Null where the face has a pole.
+/// The solid between two distances along a face's normals. \param numbers by edge, for the sides; other sides
+/// and the two ends get `own`. Null if the face has a pole or its parts cannot be sewn to a closed solid.
 DrawnFace thick_face(const TopoDS_Face& face, double from, double to,
                      const TopTools_DataMapOfShapeInteger& numbers, int own) {
   const OffsetFace start(face, from), end(face, to);
@@ -276,7 +276,7 @@ DrawnFace thick_face(const TopoDS_Face& face, double from, double to,
   return result;
 }
 
-/// Looks from faces at the other solids.
+/// Looks from the faces of each solid toward the other solids.
 class Outlook {
  public:
   explicit Outlook(const std::deque<Skin>& solids) : solids_(solids) {
@@ -290,7 +290,7 @@ class Outlook {
 
   const SkinFace& face(const FaceOf& of) const { return solids_[of.solid].faces()[of.face]; }
 
-  /// Adds the gaps before a face that are narrow enough.
+  /// Adds the gaps in front of a face that are narrow enough.
   void add_gaps(const FaceOf& from, std::vector<Gap>& gaps) const {
     const std::vector<int> others = solids_near(from);
     const auto samples = others.empty() ? std::vector<FaceSample>() : face(from).samples(24);
@@ -302,14 +302,14 @@ class Outlook {
     for (const FaceSample& sample : samples) {
       area += sample.area;
       const auto along = straight ? straight : face(from).outward(sample.uv);
-      // Straight ends may meet what leans; sides are near each other all along.
+      // A straight end may meet a slanted face; sides must be nearly parallel.
       if (along) look(from, others, sample, *along, straight ? 0.5 : std::cos(30 * M_PI / 180), seen);
     }
     for (const auto& [to, across] : seen) gaps.push_back({from, to, straight, across, across.area / area});
   }
 
-  /// The way on from a flat face, and from the bent end of what runs straight, such as a tube that was cut to
-  /// fit round another.
+  /// The direction in which to extend a flat face, or the curved end of a straight part, such as a tube that
+  /// was cut to fit around another.
   std::optional<gp_Dir> straight_on(const FaceOf& from, const std::vector<FaceSample>& samples) const {
     const auto outward = face(from).outward(samples.front().uv);
     if (!outward || (!is_flat(face(from)) && goes_on(from))) return std::nullopt;
@@ -323,7 +323,7 @@ class Outlook {
     return on.share > 0.9 && ahead ? std::optional(on.along) : std::nullopt;
   }
 
-  /// The whole solid of a face, moved: what runs straight there goes on so.
+  /// The whole solid of a face, moved. This extends a straight part.
   DrawnFace moved(const FaceOf& of, const gp_Vec& way) const {
     gp_Trsf move;
     move.SetTranslation(way);
@@ -334,9 +334,9 @@ class Outlook {
     return result;
   }
 
-  /// Whether more material before a face carries on what is there. Flat faces go on straight, bent ones along
-  /// their normals: sides of walls do so, and rims round which the sides do, as of a hole in a plate; not
-  /// that of a tube which was cut to fit round another.
+  /// Whether a face can be extended so that its part continues: flat faces straight, curved ones along their
+  /// normals. This suits curved sides of walls, and rims whose neighbors follow the normals, as at a hole in
+  /// a plate. It does not suit the end of a tube that was cut to fit around another.
   bool goes_on(const FaceOf& of) const {
     if (is_flat(face(of))) return true;
     const auto samples = face(of).samples(1);
@@ -346,8 +346,8 @@ class Outlook {
             runs_on_along_normals(beside(solids_[of.solid], neighbors_[of.solid], face(of))));
   }
 
-  /// A face, moved into the material by a depth and drawn out of it again and on: along a way, or in several
-  /// parts along its normals. Empty where it cannot be drawn.
+  /// Sweeps a face, starting at a depth inside the material, over a length outward: along a direction, or in
+  /// several parts along its normals. Empty if that fails.
   std::vector<DrawnFace> drawn(const FaceOf& of, const std::optional<gp_Dir>& along, double depth,
                                double length) const {
     if (!along) return thickened(of, depth, length);
@@ -370,7 +370,7 @@ class Outlook {
     return result;
   }
 
-  /// Along the normals.
+  /// drawn() along the normals.
   std::vector<DrawnFace> thickened(const FaceOf& of, double depth, double length) const {
     std::vector<DrawnFace> result;
     for (BRepAlgoAPI_Common& half : halves(face(of))) {
@@ -389,7 +389,7 @@ class Outlook {
     return result;
   }
 
-  /// Tells the edges of a face and the numbers of the faces beside it there.
+  /// Calls `tell` with each edge of a face and the number of the neighbor there.
   template <class Tell>
   void for_each_neighbor(const FaceOf& of, const Tell& tell) const {
     const Skin& skin = solids_[of.solid];
@@ -401,10 +401,10 @@ class Outlook {
     }
   }
 
-  /// The solids that come near a face.
+  /// The other solids near a face.
   std::vector<int> solids_near(const FaceOf& from) const {
     Bnd_Box box = face(from).box();
-    box.Enlarge(2 * widths_[from.solid][from.face]);  // no gap is wider, along a normal or aslant
+    box.Enlarge(2 * widths_[from.solid][from.face]);  // no gap is wider, not even at a slant
     std::vector<int> result;
     for (int other = 0; other < static_cast<int>(solids_.size()); ++other) {
       const auto& faces = solids_[other].faces();
@@ -414,7 +414,7 @@ class Outlook {
     return result;
   }
 
-  /// \param facing least cosine between the way along and the normal of what is seen.
+  /// Records the face that is met from a sample. \param facing least cosine of `along` and its inward normal.
   void look(const FaceOf& from, const std::vector<int>& others, const FaceSample& sample, const gp_Dir& along,
             double facing, std::map<FaceOf, Across>& seen) const {
     const auto own = solids_[from.solid].first_hit(sample.point, along);
@@ -441,11 +441,11 @@ class Outlook {
   }
 
   const std::deque<Skin>& solids_;
-  std::vector<std::vector<double>> widths_;  ///< of each face of each solid
+  std::vector<std::vector<double>> widths_;  ///< for each solid, the widths of its faces
   std::vector<Neighbors> neighbors_;
 };
 
-/// The narrow gaps, one for two faces: from the one that faces the other with the larger share of it.
+/// The narrow gaps, one for each pair of faces, seen from the face of which the larger share faces the other.
 std::vector<Gap> find_gaps(const std::deque<Skin>& solids, const Outlook& outlook) {
   std::vector<Gap> gaps;
   for (int solid = 0; solid < static_cast<int>(solids.size()); ++solid) {
@@ -465,10 +465,10 @@ void add(const DrawnFace& prism, GapFillers& fillers) {
   }
 }
 
-/// What two prisms have in common.
+/// Adds the common part of two solids.
 void add_common(const DrawnFace& a, const DrawnFace& b, GapFillers& fillers) {
   BRepAlgoAPI_Common common(a.solid, b.solid);
-  if (common.HasErrors()) return;  // told as parts that are not connected
+  if (common.HasErrors()) return;  // reported later as parts that are not connected
   for (TopExp_Explorer it(common.Shape(), TopAbs_SOLID); it.More(); it.Next())
     fillers.solids.push_back(it.Current());
   for (const DrawnFace& prism : {a, b}) {
@@ -485,7 +485,7 @@ void add_common(const DrawnFace& a, const DrawnFace& b, GapFillers& fillers) {
 }  // namespace
 
 GapFillers fill_gaps(const std::deque<Skin>& solids) {
-  constexpr double into = 0.25;  // of the thickness: surfaces that only touch are harder to fuse
+  constexpr double into = 0.25;  // over the thickness; surfaces that only touch are harder to fuse
   constexpr double all = 0.999;
   const Outlook outlook(solids);
   GapFillers result;

@@ -1,5 +1,5 @@
 #pragma once
-/// Gaps between solids that are to be one part. Internal.
+/// Fills the gaps between solids that are to become one part. Internal.
 
 #include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopoDS_Shape.hxx>
@@ -10,19 +10,19 @@
 
 namespace quadrille {
 
-/// Material between solids.
+/// Solids that fill gaps.
 struct GapFillers {
   std::vector<TopoDS_Shape> solids;
-  TopTools_DataMapOfShapeInteger numbers;  ///< of each of their faces: the model's face that it carries on
+  TopTools_DataMapOfShapeInteger numbers;  ///< by face of a filler: the model's face that it extends
 };
 
-/// What closes the gaps between solids that come near each other, so that a fuse makes one of them: faces run
-/// on to the faces of other solids that they face, and a quarter of the thickness into them, as far as the
-/// two face each other. Flat faces run on along the walls that end there; so do bent ends of what runs
-/// straight, such as a tube cut to fit round another; other bent faces along their normals, but for spheres
-/// round a pole and free forms. A gap is closed where it is not wider than the thinner of the two walls.
-/// Solids that touch need nothing. Time: a ray for each of some 24 points of a face that has another solid
-/// near it.
+/// Makes solids that close the narrow gaps between other solids, so that a fuse makes one solid of all. A
+/// face is extended to the face of the other solid opposite to it, and a quarter of the thickness into that
+/// solid, as far as the two face each other. Flat faces are extended along the walls that end there. So are
+/// curved ends of straight parts, such as a tube cut to fit around another. Other curved faces are extended
+/// along their normals, except spheres around a pole and free-form faces. A gap is closed if it is not wider
+/// than the thinner wall. Solids that touch need no filler. Time: a ray for each of about 24 points of every
+/// face near another solid.
 GapFillers fill_gaps(const std::deque<Skin>& solids);
 
 }  // namespace quadrille

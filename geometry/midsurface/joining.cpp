@@ -74,8 +74,8 @@ namespace {
 
 /// The pieces, cut at each other.
 struct Images {
-  std::vector<JoinedFace> between;    ///< the sides of their wall
-  std::vector<JoinedFace> hung_over;  ///< inside other walls
+  std::vector<JoinedFace> between;    ///< faces between the sides of their wall
+  std::vector<JoinedFace> hung_over;  ///< faces past the sides of their wall, inside other walls
 };
 
 Images cut_pieces(const BOPAlgo_Builder& fuse, const Skin& skin, const std::vector<Wall>& walls,
@@ -96,9 +96,9 @@ Images cut_pieces(const BOPAlgo_Builder& fuse, const Skin& skin, const std::vect
   return result;
 }
 
-/// Moves what hangs over back where it was cut off by nothing but another wall's surface that hangs over
-/// there itself: in the corner of a beam that is flush with a thicker column, the middle of the column's side
-/// runs on inside the beam's walls beside their own corner.
+/// Moves faces back to `between` if only another wall's surface, which hangs over there itself, has cut them
+/// off. An example is the corner of a beam that is flush with a thicker column: the middle of the
+/// column's side continues inside the beam's walls beside their own corner.
 void take_back(Images& images) {
   constexpr double least_share = 0.5;
   for (bool changed = true; changed;) {
@@ -127,7 +127,7 @@ void take_back(Images& images) {
   }
 }
 
-/// Of the two ends at a step the fence of the thicker wall's joins.
+/// Whether the fence of this end joins the step: that of the thicker wall does, of equal ones the first.
 bool joins_step(const WallEnd& end, const std::vector<Wall>& walls) {
   const double t = walls[end.wall].thickness, next = walls[end.next].thickness;
   return end.step && (t > next || (t == next && end.wall < end.next));
@@ -144,7 +144,7 @@ JoinedFace step_face(const TopoDS_Face& face, int wall, const std::vector<Wall>&
   return {face, wall, true, whole_coverage(wall, walls)};
 }
 
-/// Of the fences at steps, the parts between the two middle surfaces.
+/// Adds the parts of the fences at steps that lie between the two middle surfaces.
 void add_steps(const BOPAlgo_Builder& fuse, const std::vector<Wall>& walls, const std::vector<WallEnd>& ends,
                std::vector<JoinedFace>& faces) {
   const EdgeUses uses(faces);
@@ -182,9 +182,9 @@ bool on_skin(const Skin& skin, const gp_Pnt& point, double near) {
   });
 }
 
-/// Where a wall ends in a corner of others beside the middle of the next one, as a beam's side does that is
-/// flush with a thicker column's: what hangs over of the third wall, from one middle to the other, joins
-/// them.
+/// Joins a wall that ends in a corner of other walls beside the middle of the next one, as a beam's side does
+/// that is flush with a thicker column. The part of the third wall that hangs over, from one middle to the
+/// other, joins them.
 void add_bridges(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& hung_over,
                  std::vector<JoinedFace>& faces) {
   const EdgeUses uses(faces);
@@ -199,7 +199,7 @@ void add_bridges(const Skin& skin, const std::vector<Wall>& walls, const std::ve
   std::vector<JoinedFace> bridges;
   for (const JoinedFace& strip : hung_over) {
     std::set<int> ended, met;
-    double length = 0;  // of the edges to be joined
+    double length = 0;  // total length of the edges to be joined
     for (TopExp_Explorer it(strip.face, TopAbs_EDGE); it.More(); it.Next()) {
       const int edge = uses.find(it.Current());
       if (edge < 0) continue;
@@ -218,7 +218,7 @@ void add_bridges(const Skin& skin, const std::vector<Wall>& walls, const std::ve
   faces.insert(faces.end(), bridges.begin(), bridges.end());
 }
 
-/// The face without some of its edges, which lie inside it. \return null where there are none of them.
+/// The face without those of its edges that are in `edges`. \return null if there are none.
 TopoDS_Face without_edges(const TopoDS_Face& face, const TopTools_MapOfShape& edges) {
   const BRep_Builder builder;
   TopoDS_Shape result = face.EmptyCopied();
@@ -240,7 +240,7 @@ TopoDS_Face without_edges(const TopoDS_Face& face, const TopTools_MapOfShape& ed
 
 }  // namespace
 
-// They are where pieces that hang over were.
+// Such edges remain where pieces that hung over were dropped.
 void drop_traces(std::vector<JoinedFace>& faces) {
   const EdgeUses uses(faces);
   TopTools_MapOfShape traces;
@@ -260,7 +260,7 @@ void drop_traces(std::vector<JoinedFace>& faces) {
 
 namespace {
 
-/// The faces of one wall, joined over edges that no other wall uses.
+/// Merges the faces of one wall across edges that no other wall uses.
 void merge_wall(int wall, const Skin& skin, const std::vector<Wall>& walls,
                 const std::vector<JoinedFace>& all, const TopTools_MapOfShape& kept_edges,
                 std::vector<JoinedFace>& merged) {
@@ -315,7 +315,7 @@ std::vector<JoinedFace> merged_faces(const Skin& skin, const std::vector<Wall>& 
 
 void orient_alike(std::vector<JoinedFace>& faces) {
   const EdgeUses uses(faces);
-  std::vector<std::vector<std::pair<int, bool>>> neighbors(faces.size());  // and whether they differ
+  std::vector<std::vector<std::pair<int, bool>>> neighbors(faces.size());  // and whether one must be reversed
   for (int i = 0; i < uses.count(); ++i) {
     const auto& around = uses.uses(i);
     if (around.size() != 2 || around[0].face == around[1].face) continue;
@@ -379,7 +379,7 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
     if (joins_step(end, walls)) fuse.AddArgument(end.fence);
   }
   for (const Wall& wall : walls) {
-    // Two that are fitted end apart by what either is off; at least what fitting aims at.
+    // The ends of two fitted surfaces are apart by the errors of both. Allow at least what fitting aims at.
     if (!wall.fitted) continue;
     const double least = 1e-3 * wall.thickness;
     fuse.SetFuzzyValue(std::max({fuse.FuzzyValue(), 4 * wall.off, least}));

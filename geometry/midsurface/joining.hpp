@@ -14,33 +14,34 @@ namespace quadrille {
 struct JoinedFace {
   TopoDS_Face face;
   int wall = 0;
-  bool step = false;  ///< stands across the wall and joins it to the next one, whose middle lies elsewhere
+  bool step = false;  ///< stands across a wall and joins two middle surfaces that do not meet
   Coverage coverage;
 };
 
-/// Cuts the pieces of all walls at each other, so that they share edges, leaves out what hangs over, and
-/// makes faces one again that were cut for nothing. Faces that meet two by two are oriented alike. \param
-/// pieces of each wall. Throws Error (failure) where OpenCASCADE cannot intersect them.
+/// Cuts the pieces of all walls at each other, so that they share edges. Drops the parts that extend past the
+/// sides of their wall, and merges faces that were cut without need. Orients faces alike where two meet.
+/// \param pieces for each wall, the pieces of its middle surface. Throws Error (failure) if OpenCASCADE
+/// cannot intersect them.
 std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& walls,
                                    const std::vector<WallEnd>& ends,
                                    const std::vector<std::vector<TopoDS_Face>>& pieces);
 
-/// What an argument of a fuse has become.
+/// The parts into which a fuse has cut one of its arguments; the argument itself if it was not cut.
 TopTools_ListOfShape images(const BOPAlgo_Builder& fuse, const TopoDS_Shape& face);
 
-/// Leaves out edges inside one face that no other face uses.
+/// Removes edges that lie inside one face and that no other face uses.
 void drop_traces(std::vector<JoinedFace>& faces);
 
-/// Turns faces so that across each edge with two faces they show the same side, as far as that can be.
+/// Reverses faces so that the two faces of an edge show the same side, as far as that is possible.
 void orient_alike(std::vector<JoinedFace>& faces);
 
-/// Where the fillets in corners hold more of the volume than the middle surfaces count twice there, by more
-/// than a hundredth of it, their material is given to strips of the walls beside the corner, as thickness:
-/// the faces are cut where the fillets begin. \param volume of the solid.
+/// Adds the material of fillets in corners, as thickness, to the strips of the walls between the fillet and
+/// the corner. The faces are cut where the fillets begin. Does nothing unless the middle surfaces lack more
+/// than a hundredth of the volume and the fillets hold at least half of that. \param volume of the solid.
 void add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
                  std::vector<JoinedFace>& faces);
 
-/// Number of the connected part that each face belongs to, from 0.
+/// For each face, the number of the connected part that it belongs to, from 0.
 std::vector<int> connected_parts(const std::vector<JoinedFace>& faces);
 
 }  // namespace quadrille

@@ -30,7 +30,7 @@ bool same_axis(const gp_Ax1& a, const gp_Ax1& b, double size) {
          gp_Lin(a).Distance(b.Location()) < same_length * size;
 }
 
-/// Where the apex of a cone lies on an axis that it shares.
+/// The position of a cone's apex along an axis on which the cone is centered.
 double apex_along(const gp_Cone& cone, const gp_Ax1& axis) {
   return gp_Vec(axis.Location(), cone.Apex()).Dot(gp_Vec(axis.Direction()));
 }
@@ -76,14 +76,13 @@ bool same_surfaces(const SkinFace& a, const SkinFace& b, double size) {
   }
 }
 
-/// The middle of a face's range of parameters, and whether the material's outside is to the side of du x dv
-/// of the elementary surface there.
+/// The middle of a face's parameter range.
 gp_Pnt2d middle_of_range(const BRepAdaptor_Surface& surface) {
   return {0.5 * (surface.FirstUParameter() + surface.LastUParameter()),
           0.5 * (surface.FirstVParameter() + surface.LastVParameter())};
 }
 
-/// A point that moves outwards with the material: the outside of `a` above it, below it for `b`.
+/// Whether two faces on one surface have their outward normals on the same side.
 bool same_outside(const SkinFace& a, const SkinFace& b) {
   const auto samples = a.samples(1);
   if (samples.empty()) return false;
@@ -96,8 +95,8 @@ Handle(Geom_Surface) between_planes(const SkinFace& a, const SkinFace& b) {
   const auto n = a.outward(middle_of_range(a.surface()));
   const auto m = b.outward(middle_of_range(b.surface()));
   const gp_Pln p = a.surface().Plane(), q = b.surface().Plane();
-  const gp_XYZ difference =
-      n->XYZ() - m->XYZ();  // as far from one as from the other: difference * x = offset
+  // The points that are equally far from both: difference * x = offset.
+  const gp_XYZ difference = n->XYZ() - m->XYZ();
   const double offset = n->XYZ().Dot(p.Location().XYZ()) - m->XYZ().Dot(q.Location().XYZ());
   const gp_Pnt at(p.Location().XYZ() +
                   difference * ((offset - difference.Dot(p.Location().XYZ())) / difference.SquareModulus()));
@@ -109,12 +108,12 @@ Handle(Geom_Surface) between_cones(const gp_Cone& a, const gp_Cone& b) {
   const double apex = 0.5 * (apex_along(a, axis) + apex_along(b, axis));
   const double radius = -apex * std::tan(a.SemiAngle());
   if (radius >= 0) return new Geom_ConicalSurface(a.Position(), a.SemiAngle(), radius);
-  gp_Ax3 moved = a.Position();  // the radius of reference must not be negative
+  gp_Ax3 moved = a.Position();  // the reference radius must not be negative
   moved.SetLocation(gp_Pnt(axis.Location().XYZ() + apex * axis.Direction().XYZ()));
   return new Geom_ConicalSurface(moved, a.SemiAngle(), 0);
 }
 
-/// The torus that a surface is, or that turning a circle round an axis in its plane makes of it.
+/// The torus of a surface that is one, or that is a circle revolved around an axis in its plane.
 std::optional<gp_Torus> torus_of(const BRepAdaptor_Surface& surface, double size) {
   if (surface.GetType() == GeomAbs_Torus) return surface.Torus();
   if (surface.GetType() != GeomAbs_SurfaceOfRevolution) return std::nullopt;
@@ -174,8 +173,8 @@ Handle(Geom_Surface) middle_surface(const SkinFace& a, const SkinFace& b, double
 
 namespace {
 
-/// \param apart from the first center to the second, across the axis. \return how far points round the
-/// middle, with the mean of the radii, are from being as far from one as from the other.
+/// The largest error of the mean circle as the middle of two circles: half the difference of a point's
+/// distances from both. \param apart distance between the centers. \param first, second the radii.
 double off_between_rounds(double apart, double first, double second) {
   const double radius = 0.5 * (first + second);
   double off = 0;

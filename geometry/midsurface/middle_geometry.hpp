@@ -1,5 +1,5 @@
 #pragma once
-/// Surfaces in the middle of two others. Internal.
+/// Surfaces in the middle between two others. Internal.
 
 #include <Geom_Surface.hxx>
 
@@ -7,24 +7,23 @@
 
 namespace quadrille {
 
-/// Whether two faces lie on one surface (plane, cylinder, cone, sphere or torus; others: the same object)
-/// with the material on the same side of it. \param size of the solid, which coincidence is measured by.
+/// Whether two faces lie on one surface (plane, cylinder, cone, sphere or torus; others: the same object),
+/// with the material on the same side of it. \param size size of the solid; tolerances are relative to it.
 bool on_one_surface(const SkinFace& a, const SkinFace& b, double size);
 
-/// The surface of the points that are as far from the surface of one face as from that of the other: exact
-/// for two planes, coaxial cylinders, parallel coaxial cones, concentric spheres, tori about one circle. Null
-/// where there is none of these kinds.
+/// The surface of the points that are equally far from both faces' surfaces. Exact for two planes, coaxial
+/// cylinders, parallel coaxial cones, concentric spheres, and tori about one circle. Null for other pairs.
 Handle(Geom_Surface) middle_surface(const SkinFace& a, const SkinFace& b, double size);
 
-/// A surface that is nearly the middle, and how far it is off.
+/// A surface that is nearly the middle.
 struct NearMiddle {
   Handle(Geom_Surface) surface;
-  double off = 0;
+  double off = 0;  ///< distance from the true middle
 };
 
-/// Between two cylinders with parallel axes, or two spheres, that nearly share their axis or center, such as
-/// the two sides of a bend in a wall with draft: the mean of the two, which is off by the square of what they
-/// are apart. Null where it is off by more than the tolerance.
+/// The mean of two cylinders with parallel axes, or of two spheres, that nearly share their axis or center,
+/// such as the two sides of a bend in a wall with draft. Its error is of second order in the distance of the
+/// axes or centers. Null if the error exceeds the tolerance, and for all other pairs.
 NearMiddle near_middle_surface(const SkinFace& a, const SkinFace& b, double tolerance);
 
 }  // namespace quadrille

@@ -41,7 +41,7 @@ namespace quadrille {
 
 namespace {
 
-/// What one solid gives.
+/// The middle surface of one solid.
 struct SolidMiddle {
   std::vector<JoinedFace> faces;
   std::vector<Wall> walls;
@@ -55,8 +55,8 @@ double volume_of(const TopoDS_Shape& shape) {
   return std::abs(properties.Mass());
 }
 
-/// Walls that bend into each other, or lie on one face as the halves of a tapered flange do, count as one
-/// when their width is asked for.
+/// A group number for each wall. Walls that bend into each other, or share a face as the halves of a tapered
+/// flange do, form one group and have one width.
 std::vector<int> width_groups(const std::vector<Wall>& walls, const std::vector<WallEnd>& ends) {
   boost::disjoint_sets_with_storage<> together(walls.size());
   for (const WallEnd& end : ends) together.union_set(end.wall, end.next);
@@ -70,13 +70,13 @@ std::vector<int> width_groups(const std::vector<Wall>& walls, const std::vector<
   return group;
 }
 
-/// Of some faces that are connected.
+/// The extent of some connected faces.
 struct Extent {
   double area = 0, volume = 0;
-  double perimeter = 0;  ///< without their holes
+  double perimeter = 0;  ///< without holes
 };
 
-/// \param part of each face; those of part `p` count.
+/// The extent of the faces whose `part` is `p`.
 Extent extent_of(const std::vector<JoinedFace>& faces, const std::vector<int>& part, int p) {
   TopTools_IndexedMapOfShape rims;
   std::vector<int> uses;
@@ -97,7 +97,7 @@ Extent extent_of(const std::vector<JoinedFace>& faces, const std::vector<int>& p
   return result;
 }
 
-/// The faces whose connected part is thicker than `thickest` times its width: 1, others 0.
+/// 1 for each face whose connected part is thicker than `thickest` times its width, 0 for others.
 std::vector<char> find_thick(const SolidMiddle& middle, const std::vector<WallEnd>& ends, double thickest) {
   const std::vector<int> group = width_groups(middle.walls, ends);
   std::vector<char> result(middle.faces.size(), 0);
@@ -122,7 +122,7 @@ std::vector<char> find_thick(const SolidMiddle& middle, const std::vector<WallEn
   return result;
 }
 
-/// Refused with one sentence.
+/// The error for a solid that is not thin.
 Error not_thin(const std::string& name, const MidSurfaceOptions& options) {
   return failure(name,
                  fmt::format("{} is not a thin solid: no wall whose thickness is under {:g} of its width "
@@ -140,8 +140,8 @@ std::string face_names(const std::vector<int>& numbers) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Of the walls whose middle is fitted, those that go on into others of these. OpenCASCADE takes seconds to
-/// cut each of them, since they are nearly tangent to each other along curves, and loses some.
+/// The walls with a B-spline middle that continue into others of that kind. They are nearly tangent to each
+/// other along curves: OpenCASCADE takes seconds to cut each of them, and loses some.
 std::set<int> blended_walls(const std::vector<Wall>& walls, const std::vector<WallEnd>& ends) {
   std::set<int> result;
   for (const WallEnd& end : ends) {
@@ -150,7 +150,7 @@ std::set<int> blended_walls(const std::vector<Wall>& walls, const std::vector<Wa
   return result;
 }
 
-/// One sentence.
+/// The sentence that names the walls that cannot be joined.
 std::string cannot_join(const std::string& name, const Skin& skin, const std::vector<Wall>& walls,
                         const std::set<int>& blended) {
   std::vector<int> faces;
@@ -162,8 +162,8 @@ std::string cannot_join(const std::string& name, const Skin& skin, const std::ve
                      blended.size(), face_names(faces));
 }
 
-/// Where most of the volume of the middle surface is thick, that is refused; with options.partial what is
-/// thin is kept, and the rest told.
+/// If most of the volume of the middle surface is in walls that are not thin, throws an error; with
+/// options.partial keeps the thin walls and reports the others.
 void drop_thick(const Skin& skin, const std::string& name, const std::vector<WallEnd>& ends,
                 const MidSurfaceOptions& options, SolidMiddle& middle) {
   const std::vector<char> thick = find_thick(middle, ends, options.thickest);
@@ -189,7 +189,7 @@ void drop_thick(const Skin& skin, const std::string& name, const std::vector<Wal
   middle.faces = std::move(thin);
 }
 
-/// \param told is told the fraction that is done.
+/// \param told called with the fraction that is done.
 SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const MidSurfaceOptions& options,
                             const ExecutionContext& context, const std::function<void(double)>& told) {
   SolidMiddle result;
@@ -220,7 +220,7 @@ SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const Mid
   return result;
 }
 
-/// Shells where the faces meet two by two, else faces that share edges.
+/// A compound with a shell for each connected part; with single faces if more than two of them share an edge.
 TopoDS_Compound assemble(const std::vector<JoinedFace>& faces) {
   TopoDS_Compound result;
   const BRep_Builder builder;
@@ -246,11 +246,11 @@ TopoDS_Compound assemble(const std::vector<JoinedFace>& faces) {
       if (part[i] == p) builder.Add(result, faces[i].face);
     }
   }
-  BRepTools::Clean(result);  // without the triangles that were sampled
+  BRepTools::Clean(result);  // removes the triangles used for sampling
   return result;
 }
 
-/// The faces of the skin that a point lies on.
+/// Indices of the skin's faces that a point lies on.
 std::vector<int> skin_at(const Skin& skin, const gp_Pnt& point, double tolerance) {
   std::vector<int> result;
   for (std::size_t i = 0; i < skin.faces().size(); ++i) {
@@ -261,7 +261,7 @@ std::vector<int> skin_at(const Skin& skin, const gp_Pnt& point, double tolerance
   return result;
 }
 
-/// How far a point is from the nearest surface of either side of a wall.
+/// The distance of a point from the nearest surface of each side of a wall; skin.size() if none is near.
 std::array<double, 2> distances_to_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
   std::array<double, 2> result{skin.size(), skin.size()};
   for (int side = 0; side < 2; ++side) {
@@ -274,8 +274,8 @@ std::array<double, 2> distances_to_sides(const Skin& skin, const Wall& wall, con
   return result;
 }
 
-/// Whether the point lies between the surfaces of a wall's sides, with one of its sides above or below it:
-/// where another wall stands on it the other side is interrupted.
+/// Whether the point lies between the surfaces of a wall's sides, with a face of at least one side above or
+/// below it. Where another wall stands on this one, the other side is interrupted.
 bool between_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
   const auto [first, second] = distances_to_sides(skin, wall, point);
   if (first + second >= 1.05 * wall.thickness) return false;
@@ -288,8 +288,8 @@ bool between_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
 
 /// How a point of a free edge lies in walls other than its face's own.
 struct InOthers {
-  bool within = false;      ///< one of them: a rib's rim goes on to the middle of the plate
-  std::set<int> halfway{};  ///< these, on their middle, where the edge should be theirs too
+  bool within = false;      ///< inside one of them, as where a rib's rim continues to the plate's middle
+  std::set<int> halfway{};  ///< the walls on whose middle the point lies; they should share the edge
 };
 
 InOthers in_others(const Skin& skin, const SolidMiddle& middle, int own, const gp_Pnt& point) {
@@ -305,7 +305,7 @@ InOthers in_others(const Skin& skin, const SolidMiddle& middle, int own, const g
   return result;
 }
 
-/// Whether most of a face lies across a wall: the riser of a step, which no free edge lies on.
+/// Whether most of a face lies inside walls, as the riser of a step does. No free edge lies on a riser.
 bool across_a_wall(const Skin& skin, const SolidMiddle& middle, const SkinFace& face) {
   double across = 0;
   for (const FaceSample& sample : face.samples(8)) {
@@ -320,8 +320,8 @@ void sort_unique(std::vector<int>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// Checks the free edges against the skin, tells where they lie, and names the faces that no wall accounts
-/// for.
+/// Checks the free edges against the skin, records the faces that they lie on, and finds the faces that
+/// belong to no wall.
 void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_IndexedMapOfShape& edge_numbers,
                 MidSurface& result) {
   double thinnest = skin.size();
@@ -345,8 +345,8 @@ void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_Inde
     const BRepAdaptor_Curve curve(edge);
     const double length = curve.LastParameter() - curve.FirstParameter();
     bool stray = false;
-    std::map<int, int> halfway;  // how many of the points lie on the middle of a wall
-    std::map<int, int> rims;     // how many of the points lie on a face
+    std::map<int, int> halfway;  // by wall: number of points on its middle
+    std::map<int, int> rims;     // by face: number of points on it
     for (const double share : {0.5, 0.2, 0.8}) {
       const gp_Pnt point = curve.Value(curve.FirstParameter() + share * length);
       const auto on = skin_at(skin, point, tolerance);
@@ -369,19 +369,19 @@ void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_Inde
   std::set<int> numbers;
   for (const int face : accounted) numbers.insert(skin.faces()[face].number());
   for (const SkinFace& face : skin.faces()) {
-    // Bevels, and strips that are left where solids were joined, are of no wall.
+    // Bevels, and strips that are left where solids were joined, belong to no wall.
     const bool narrow = width_of(face.face()) < 0.5 * thinnest;
     if (numbers.count(face.number()) == 0 && !narrow && !across_a_wall(skin, middle, face))
       result.unpaired.push_back(face.number());
   }
 }
 
-/// What the checks found wrong, one sentence each.
+/// One sentence for each check that failed.
 std::vector<std::string> find_problems(const MidSurface& result, const std::string& name) {
   std::vector<std::string> problems;
   constexpr double most_missing = 0.05;
   const double share = result.shell_volume / result.volume;
-  constexpr double most_twice = 0.1;  // where walls meet, the corner counts for either
+  constexpr double most_twice = 0.1;  // where walls meet, the corner counts for both
   if (share < 1 - most_missing || share > 1 + most_twice) {
     std::string sentence = fmt::format(
         "{} is thin in places only: area times thickness of its middle surface is {:.1f} % of its volume",
@@ -426,7 +426,7 @@ void describe_faces(const std::vector<SolidMiddle>& middles, const std::deque<Sk
       for (const int index : coverage.faces) {
         face.solid_faces.push_back(skins[solid].faces()[index].number());
       }
-      sort_unique(face.solid_faces);  // joining cuts faces
+      sort_unique(face.solid_faces);  // joining cuts faces, whose parts have one number
       if (!face.step) result.shell_volume += face.area * face.thickness;
     }
     result.volume += middle.volume;
@@ -437,7 +437,7 @@ void describe_faces(const std::vector<SolidMiddle>& middles, const std::deque<Sk
   sort_unique(result.unpaired);
 }
 
-/// What thicknesses are asked of, long after the surface was made.
+/// Evaluates thicknesses after the surface was made.
 struct ThicknessSource {
   struct Face {
     const Skin* skin = nullptr;

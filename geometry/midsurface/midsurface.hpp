@@ -1,5 +1,5 @@
 #pragma once
-/// Thin solids become shells: the middle surface of a solid with its thickness.
+/// Turns thin solids into shells: the middle surface of a solid, with its thickness.
 
 #include <functional>
 #include <string>
@@ -12,17 +12,17 @@
 
 namespace quadrille {
 
-/// How middle surfaces are found.
+/// Options of midsurface().
 struct MidSurfaceOptions {
-  /// Give what could be paired where a part of the solid is not thin, and say what is left out. Otherwise
+  /// If a part of the solid is not thin, return the middle of the rest and report what is left out. Otherwise
   /// that is an error.
   bool partial = false;
-  /// Take solids that touch or overlap for one part, as if welded: their middle surfaces share edges.
+  /// Treat solids that touch, overlap or leave a narrow gap as welded: their middle surfaces share edges.
   bool join = false;
-  /// Largest thickness of a wall over its width that still counts as thin.
+  /// Largest ratio of thickness to width at which a wall still counts as thin.
   double thickest = 0.2;
-  /// How far a middle surface that has to be fitted may lie off the true one, over the thickness; ten times
-  /// that where its sides have kinks and more points gain little.
+  /// Largest distance of a fitted middle surface from the true one, over the thickness. Ten times as much is
+  /// allowed where the sides have kinks and more points gain little.
   double tolerance = 1e-3;
 };
 
@@ -34,50 +34,50 @@ struct MiddleFace {
   double area = 0;               ///< square millimeters
   std::vector<int> solid_faces;  ///< numbers of the solid's faces that it lies between
   int solid = 0;                 ///< from 1, in the order of the model
-  /// It joins two middle surfaces that pass each other where the thickness steps; it has the smaller
+  /// The face joins two middle surfaces that do not meet where the thickness steps. It has the smaller
   /// thickness of the two.
   bool step = false;
-  bool fitted = false;  ///< a B-spline: there is no exact middle surface
+  bool fitted = false;  ///< there is no exact middle surface
   double off = 0;       ///< largest distance found from the true middle; 0 where exact
 };
 
-/// Whether the thickness of a face varies, by more than a thousandth.
+/// Whether the thickness of a face varies by more than a thousandth.
 inline bool varies(const MiddleFace& face) {
   return face.thickest > 1.001 * face.thinnest;
 }
 
 /// A free edge of the middle surface.
 struct MiddleRim {
-  int edge = 0;                  ///< of the middle surface, from 1
-  std::vector<int> solid_faces;  ///< numbers of the solid's faces that it lies on, ascending
+  int edge = 0;                  ///< number in the middle surface, from 1
+  std::vector<int> solid_faces;  ///< numbers of the solid's faces that the edge lies on, ascending
 };
 
-/// The middle surfaces of the solids of a model, and what the program found when it checked them.
+/// The middle surfaces of the solids of a model, and the results of the checks on them.
 struct MidSurface {
-  CadModel model;                   ///< its faces, which share their edges where they meet
+  CadModel model;                   ///< the middle surfaces; their faces share edges where they meet
   std::vector<MiddleFace> faces{};  ///< by face number minus 1
-  std::vector<MiddleRim> rims{};    ///< the free edges, ascending
-  double volume = 0;                ///< of the solids
-  double shell_volume = 0;          ///< sum of area times mean thickness
-  int solids = 0;                   ///< of the model; with options.join, after those that touch became one
-  int parts = 0;                    ///< connected parts of the middle surface
-  int free_edges = 0;               ///< edges that bound one face only
-  std::vector<int> stray_edges{};   ///< of these, the ones that do not lie on the skin of the solid
-  /// Numbers of solid faces that are neither side nor rim of a wall, and wider than half the thinnest one.
+  std::vector<MiddleRim> rims{};    ///< the free edges that lie on the skin, ascending
+  double volume = 0;                ///< volume of the solids
+  double shell_volume = 0;          ///< sum of area times mean thickness, without steps
+  int solids = 0;                   ///< number of solids; with options.join, after joining
+  int parts = 0;                    ///< number of connected parts of the middle surface
+  int free_edges = 0;               ///< number of edges that bound one face only
+  std::vector<int> stray_edges{};   ///< numbers of the free edges that end inside the material
+  /// Numbers of the solid's faces that are neither a side nor a rim of a wall nor the riser of a step, and
+  /// that are not narrower than half the thickness of the thinnest wall.
   std::vector<int> unpaired{};
   std::vector<std::string> problems{};  ///< with options.partial: what would have been an error
-  /// The thickness at a point of a face, from 1, whose thickness varies; of others the constant one.
-  /// Called by one thread at a time.
+  /// The thickness of a face (from 1) at a point; the mean if it does not vary. One thread at a time.
   std::function<double(int face, const Vector3& point)> thickness_at{};
 };
 
-/// The middle surface of each solid of the model: faces that face each other through the material are paired;
-/// the surface in the middle of a pair is exact for planes, cylinders, cones, spheres and tori that belong
-/// together, else fitted; surfaces run on to where they meet and share edges there. Solids are kept apart
-/// unless options.join. Throws Error (failure) with a sentence: where the model holds no solid, a solid is
-/// not thin, or, without options.partial, where more than a twentieth of the volume is not in walls, or the
-/// result is checked and found not connected or with free edges inside the material; cancelled.
-/// Deterministic.
+/// Makes the middle surface of each solid of the model. Faces that face each other through the material are
+/// paired. The surface in the middle of a pair is exact for planes, and for coaxial or concentric cylinders,
+/// cones, spheres and tori; otherwise it is fitted. Surfaces are extended to where they meet and share edges
+/// there. Solids are kept apart unless options.join. Throws Error (failure, with one sentence) if the model
+/// has no solid, a solid is not thin, or solids or surfaces cannot be joined. Without options.partial also if
+/// a part is not thin, area times thickness is not 95 to 110 % of the volume, the numbers of parts and solids
+/// differ, or free edges end inside the material. Throws Error (cancelled). Deterministic.
 QUADRILLE_API MidSurface midsurface(const CadModel& model, const MidSurfaceOptions& options,
                                     ExecutionContext& context);
 

@@ -19,7 +19,7 @@ ParameterRange plain_range(const std::vector<double>& values, double margin) {
   return {*low - margin, *high + margin};
 }
 
-/// All round, unless the values leave a wide gap.
+/// The whole period, unless the values leave a wide gap.
 ParameterRange periodic_range(std::vector<double> values, double margin, double period, double start) {
   for (double& value : values) value -= period * std::floor((value - start) / period);
   std::sort(values.begin(), values.end());

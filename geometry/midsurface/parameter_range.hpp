@@ -1,5 +1,5 @@
 #pragma once
-/// Ranges of surface parameters that hold faces. Internal.
+/// Ranges of surface parameters that contain faces. Internal.
 
 #include <Geom_Surface.hxx>
 #include <array>
@@ -15,12 +15,12 @@ struct ParameterRange {
   double length() const { return high - low; }
 };
 
-/// Points on the edges of these faces, ends included. \param faces indices into skin.faces().
+/// Points on the edges of faces, including the ends. \param faces indices into skin.faces().
 std::vector<gp_Pnt> points_on_edges(const Skin& skin, const std::vector<int>& faces);
 
-/// The range of u and that of v that hold the feet of the points on a surface, each widened by a margin at
-/// both ends. In a periodic direction all round, unless the points leave a wide gap. \param margins
-/// in units of the parameters. \param points at least one.
+/// The ranges of u and v that contain the projections of the points onto a surface, each widened by a margin
+/// at both ends. In a periodic direction the whole period, unless the points leave a wide gap. \param points
+/// at least one. \param margins for u and v, in units of the parameters.
 std::array<ParameterRange, 2> range_of(const Handle(Geom_Surface) & surface,
                                        const std::vector<gp_Pnt>& points,
                                        const std::array<double, 2>& margins);

@@ -24,7 +24,7 @@ namespace quadrille {
 
 namespace {
 
-/// Whether the plane's normal is on the side of the surface's, at the middle of the face.
+/// Whether the plane's normal points to the same side as the surface's at the middle of its parameters.
 bool same_side(const BRepAdaptor_Surface& surface, const gp_Pln& plane) {
   const double u = 0.5 * (surface.FirstUParameter() + surface.LastUParameter());
   const double v = 0.5 * (surface.FirstVParameter() + surface.LastVParameter());
@@ -34,7 +34,7 @@ bool same_side(const BRepAdaptor_Surface& surface, const gp_Pln& plane) {
   return du.Crossed(dv).Dot(gp_Vec(plane.Axis().Direction())) > 0;
 }
 
-/// The face on the plane that its surface is; itself where that is none.
+/// The face on a plane if its surface is flat; otherwise the face itself.
 TopoDS_Face plain_face(const TopoDS_Face& face, double near) {
   const BRepAdaptor_Surface surface(face);
   if (surface.GetType() == GeomAbs_Plane) return face;

@@ -5,8 +5,8 @@
 
 namespace quadrille {
 
-/// The shape with faces on planes in place of those whose surfaces are planes within a ten-millionth of the
-/// shape's size, however they are written: lofts and many exports have B-splines only.
+/// The shape, in which each face whose surface is flat within a ten-millionth of the shape's size lies on a
+/// plane. Lofts and many exporters write flat faces as B-splines.
 TopoDS_Shape with_plain_faces(const TopoDS_Shape& shape);
 
 }  // namespace quadrille

@@ -50,7 +50,7 @@ gp_Pnt2d blend(const std::array<gp_Pnt2d, 3>& corners, double a, double b) {
           a * corners[0].Y() + b * corners[1].Y() + c * corners[2].Y()};
 }
 
-/// The centers of the n * n equal triangles that a triangle divides into. \param area that they stand for.
+/// Adds the centers of the n * n equal parts of a triangle. \param area that they represent together.
 void add_centers(const Triangle& triangle, double area, int n, const BRepAdaptor_Surface& surface,
                  std::vector<FaceSample>& samples) {
   const auto add = [&](double a, double b) {
@@ -74,7 +74,7 @@ std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least) {
   std::vector<FaceSample> result;
   if (!(area > 0)) return result;
   const BRepAdaptor_Surface surface(face, Standard_False);
-  double left_out = 0;  // small triangles are stood for by the next one
+  double left_out = 0;  // area of small triangles, which the next one represents
   for (const Triangle& triangle : triangles) {
     left_out += triangle.area;
     if (left_out < 0.5 * area / at_least && &triangle != &triangles.back()) continue;
@@ -133,7 +133,7 @@ std::vector<RayFace::Hit> RayFace::hits(const gp_Lin& line) const {
   std::vector<Hit> result;
   const gp_Vec along(line.Direction());
   for (const Flat& flat : triangles_) {
-    // Barycentric, a little beyond the triangle: neighbors overlap, and what both give is one hit.
+    // Barycentric coordinates, with a small margin. A line through a shared edge may give a hit twice.
     const gp_Vec normal = along.Crossed(flat.ac);
     const double volume = flat.ab.Dot(normal);
     if (std::abs(volume) < 1e-12 * flat.ab.Magnitude() * flat.ac.Magnitude()) continue;
@@ -151,7 +151,7 @@ std::vector<RayFace::Hit> RayFace::hits(const gp_Lin& line) const {
 
 std::optional<RayFace::Hit> RayFace::polished(const gp_Lin& line, gp_Pnt2d uv, double along) const {
   const gp_Vec direction(line.Direction());
-  for (int step = 0; step < 12; ++step) {  // Newton's
+  for (int step = 0; step < 12; ++step) {  // Newton iteration
     gp_Pnt at;
     gp_Vec du, dv;
     surface_.D1(uv.X(), uv.Y(), at, du, dv);

@@ -1,6 +1,6 @@
 #pragma once
-/// The skin of a solid: its faces with the directions out of the material, sample points on them, and rays
-/// through the material. Internal.
+/// The skin of a solid: its faces with their outward normals, sample points on them, and rays through the
+/// material. Internal.
 
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepTopAdaptor_FClass2d.hxx>
@@ -20,23 +20,23 @@
 
 namespace quadrille {
 
-/// A point of a face that stands for a part of its area.
+/// A point of a face that represents a part of its area.
 struct FaceSample {
   gp_Pnt2d uv;
   gp_Pnt point;
   double area = 0;
 };
 
-/// Points inside a face, some `at_least` of them or more, spread over its triangulation, which it must carry.
+/// Points inside a face, about `at_least` or more, spread over the triangulation that the face must carry.
 std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least);
 
-/// Gives the faces of a shape triangles to sample from. \param deflection largest distance from the shape.
+/// Triangulates the faces of a shape for sampling. \param deflection largest distance from the shape.
 void triangulate(const TopoDS_Shape& shape, double deflection);
 
-/// One face of a solid. Evaluation caches inside: one object a thread.
+/// One face of a solid. Evaluation uses internal caches: threads must not share an object.
 class SkinFace {
  public:
-  /// \param face oriented as the solid has it. \param number in the model, from 1.
+  /// \param face oriented as in the solid. \param number in the model, from 1.
   SkinFace(const TopoDS_Face& face, int number);
 
   const TopoDS_Face& face() const { return face_; }
@@ -45,10 +45,10 @@ class SkinFace {
   double area() const { return area_; }
   /// Unit normal out of the material; none where the surface is singular.
   std::optional<gp_Dir> outward(const gp_Pnt2d& uv) const;
-  /// The closest point of the (untrimmed) surface.
+  /// Parameters of the closest point of the (untrimmed) surface.
   gp_Pnt2d closest(const gp_Pnt& point) const;
   gp_Pnt point(const gp_Pnt2d& uv) const { return adaptor_->Value(uv.X(), uv.Y()); }
-  /// The foot of the perpendicular from the point, if it lies in the face.
+  /// The closest point of the surface, if it lies in the face.
   std::optional<gp_Pnt> foot(const gp_Pnt& point) const;
   const Bnd_Box& box() const { return box_; }
 
@@ -64,25 +64,25 @@ class SkinFace {
   std::shared_ptr<BRepTopAdaptor_FClass2d> inside_;
 };
 
-/// Where lines meet a face: on its triangles first, then exactly, which is some hundred times faster than
-/// OpenCASCADE on tori and B-splines.
+/// Intersects lines with a face: with its triangles first, then with its exact surface. On tori and B-splines
+/// this is about a hundred times faster than OpenCASCADE.
 class RayFace {
  public:
   struct Hit {
     gp_Pnt2d uv;
     double along = 0;  ///< parameter on the line
   };
-  /// \param face with triangles. \param near distance from the line within which a point is on it.
+  /// \param face with triangles. \param near points closer to a line than this lie on it.
   RayFace(const SkinFace& face, double near);
   std::vector<Hit> hits(const gp_Lin& line) const;
 
  private:
   struct Flat {
     gp_Pnt corner;
-    gp_Vec ab, ac;  ///< sides that leave it
+    gp_Vec ab, ac;  ///< the sides that start at the corner
     std::array<gp_Pnt2d, 3> uv;
   };
-  /// The point of the surface on the line, from a guess.
+  /// The point of the surface on the line, starting from a guess.
   std::optional<Hit> polished(const gp_Lin& line, gp_Pnt2d uv, double along) const;
 
   const BRepAdaptor_Surface& surface_;
@@ -111,9 +111,9 @@ class Skin {
   int index_of(const TopoDS_Face& face) const { return map_.FindIndex(face) - 1; }
   double size() const { return size_; }  ///< diagonal of the bounding box
 
-  /// What a ray into the material meets first.
+  /// The first face that a ray meets.
   std::optional<Hit> first_hit(const gp_Pnt& from, const gp_Dir& direction) const;
-  /// Whether a face lies within `reach` of the point, along the direction or against it.
+  /// Whether a face lies within the distance `reach` of the point, along the direction or opposite to it.
   bool meets_face(const gp_Pnt& from, const gp_Dir& direction, double reach) const;
 
  private:
@@ -124,8 +124,8 @@ class Skin {
   TopTools_IndexedMapOfShape map_;
   std::vector<SkinFace> faces_;
   double size_ = 0;
-  std::vector<RayFace> rays_;                   ///< a face
-  std::vector<std::array<gp_Pnt, 2>> corners_;  ///< of each face's box
+  std::vector<RayFace> rays_;                   ///< one for each face
+  std::vector<std::array<gp_Pnt, 2>> corners_;  ///< for each face: lowest and highest corner of its box
 };
 
 }  // namespace quadrille

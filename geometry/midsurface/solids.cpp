@@ -23,7 +23,7 @@ struct Solids {
   TopTools_DataMapOfShapeInteger numbers;
 };
 
-/// The same solid with the material inside.
+/// The solid, oriented with the material inside.
 TopoDS_Solid right_way_out(const TopoDS_Shape& shape) {
   TopoDS_Solid solid = TopoDS::Solid(shape);
   BRepClass3d_SolidClassifier classifier(solid);
@@ -71,7 +71,7 @@ std::vector<gp_Pnt> points_inside(const std::deque<Skin>& skins) {
   return result;
 }
 
-/// Whether all points are in the solids: OpenCASCADE may lose some where surfaces are nearly tangent.
+/// Whether the solids contain all points. OpenCASCADE may lose solids where surfaces are nearly tangent.
 bool hold(const Solids& solids, std::vector<gp_Pnt> points) {
   for (int i = 1; i <= solids.solids.Extent(); ++i) {
     BRepClass3d_SolidClassifier classifier(solids.solids(i));
@@ -83,7 +83,7 @@ bool hold(const Solids& solids, std::vector<gp_Pnt> points) {
   return points.empty();
 }
 
-/// Adds what closes the gaps to the solids.
+/// Adds the solids that fill the gaps.
 void close_gaps(const std::deque<Skin>& skins, Solids& solids) {
   const GapFillers fillers = fill_gaps(skins);
   for (const TopoDS_Shape& filler : fillers.solids) solids.solids.Add(right_way_out(filler));
@@ -106,7 +106,7 @@ Solids fused(const Solids& apart) {
     TopTools_ListOfShape parts = fuse.Modified(it.Key());
     if (parts.IsEmpty()) parts.Append(it.Key());
     for (const TopoDS_Shape& part : parts) {
-      // Where two lie in one place the lower number counts, whatever the order of the map.
+      // Where two faces coincide the lower number counts, whatever the order of the map.
       if (!result.numbers.IsBound(part) || result.numbers.Find(part) > it.Value())
         result.numbers.Bind(part, it.Value());
     }

@@ -1,5 +1,5 @@
 #pragma once
-/// The solids of a model, each with the skin that walls are looked for in. Internal.
+/// The skins of a model's solids, in which walls are searched for. Internal.
 
 #include <TopoDS_Shape.hxx>
 #include <deque>
@@ -8,10 +8,10 @@
 
 namespace quadrille {
 
-/// The solids of the shape, with the material inside and triangles to sample from; their faces have the
-/// shape's numbers. \param join make one solid of those that touch or overlap: of a face that is cut, each
-/// part has its number, and of faces inside the material nothing is left. Throws Error (failure) where
-/// OpenCASCADE cannot fuse them.
+/// The solids of the shape, oriented with the material inside and triangulated for sampling. Their faces have
+/// the numbers of the shape's faces. \param join fuse solids that touch, overlap or leave only a narrow gap.
+/// The parts of a face that is cut keep its number; faces inside the material disappear. Throws Error
+/// (failure) if OpenCASCADE cannot fuse the solids.
 std::deque<Skin> skins_of(const TopoDS_Shape& shape, bool join);
 
 }  // namespace quadrille

@@ -55,7 +55,7 @@ class Material {
 
 const double nearly_parallel = std::cos(45 * M_PI / 180);
 
-/// One edge of a face, with the direction into the material and the one that leads away from the face.
+/// One edge of a face, with the directions into the material and away from the face.
 class FaceEdge {
  public:
   /// \param beside the face on the other side of the edge.
@@ -69,7 +69,7 @@ class FaceEdge {
 
   double first() const { return first_; }
   double last() const { return last_; }
-  /// The same edge between two of its parameters.
+  /// The part of the edge between two parameters.
   FaceEdge stretch(double first, double last) const {
     FaceEdge result = *this;
     result.first_ = first;
@@ -88,13 +88,13 @@ class FaceEdge {
   gp_Pnt inside(double t, double depth) const {
     return curve_.Value(t).Translated(-depth * gp_Vec(outward(t)));
   }
-  /// Whether the other face rises from the edge, out of this one.
+  /// Whether the other face rises outward from this one at the edge.
   bool in_corner() const {
     const double middle = 0.5 * (first_ + last_);
     const auto other = beside_.outward(beside_.closest(curve_.Value(middle)));
     return other && gp_Vec(*other).Dot(away(middle)) < -0.1;
   }
-  /// In the face's tangent plane, across the edge.
+  /// Unit vector in the face's tangent plane, across the edge and out of the face.
   gp_Vec away(double t) const {
     gp_Pnt at;
     gp_Vec along;
@@ -127,15 +127,15 @@ Handle(Geom_Curve) interpolated(const FaceEdge& edge, double depth) {
   return Handle(Geom_Curve)(spline.Curve());
 }
 
-/// The edge moved into the material: lines stay lines, arcs arcs, where all its points do. \param longer by
-/// so much at both ends, where it stays a line or an arc.
+/// The edge moved into the material by a depth: a line or an arc if all its points lie on one, otherwise
+/// interpolated. \param longer length by which a line or an arc is extended at both ends.
 Handle(Geom_Curve) moved(const FaceEdge& edge, double depth, double longer) {
   const double first = edge.first(), last = edge.last(), near = 1e-5 * std::abs(depth);
   const auto at = [&](double share) { return edge.inside(first + share * (last - first), depth); };
   if (const double length = at(0).Distance(at(1)); length > near) {
     const gp_Lin line(at(0), gp_Dir(gp_Vec(at(0), at(1))));
     const auto is_on_line = [&](double share) { return line.Distance(at(share)) < near; };
-    if (is_on_line(0.25) && is_on_line(0.5) && is_on_line(0.75))  // B-splines too
+    if (is_on_line(0.25) && is_on_line(0.5) && is_on_line(0.75))  // also straight B-splines
       return new Geom_TrimmedCurve(new Geom_Line(line), -longer, length + longer);
   }
   if (edge.curve().GetType() == GeomAbs_Circle) {
@@ -151,15 +151,15 @@ Handle(Geom_Curve) moved(const FaceEdge& edge, double depth, double longer) {
   return interpolated(edge, depth);
 }
 
-/// The circle that a curve is an arc of.
+/// The circle of which a curve is an arc.
 std::optional<gp_Circ> circle_of(const Handle(Geom_Curve) & curve) {
   const auto arc = Handle(Geom_TrimmedCurve)::DownCast(curve);
   const auto circle = arc.IsNull() ? Handle(Geom_Circle)() : Handle(Geom_Circle)::DownCast(arc->BasisCurve());
   return circle.IsNull() ? std::nullopt : std::optional(circle->Circ());
 }
 
-/// The cone between two arcs round one axis, which OpenCASCADE intersects far sooner than what it makes of
-/// two curves itself. Null where they are no such arcs.
+/// The cone or cylinder between two arcs around one axis. OpenCASCADE intersects it much faster than the
+/// surface that it makes of two curves itself. Null if the curves are not such arcs.
 TopoDS_Face cone_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
   const auto first = circle_of(a), second = circle_of(b);
   if (!first || !second) return {};
@@ -180,8 +180,8 @@ TopoDS_Face cone_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) 
       .Face();
 }
 
-/// The plane between two arcs round one center, as at the end of a bend that goes on into a rounded corner.
-/// Null where they are no such arcs.
+/// The plane face between two arcs around one center, as at the end of a bend that continues into a rounded
+/// corner. Null if the curves are not such arcs.
 TopoDS_Face plane_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
   const auto first = circle_of(a), second = circle_of(b);
   if (!first || !second) return {};
@@ -198,7 +198,7 @@ TopoDS_Face plane_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve)
   return face.IsDone() ? face.Face() : TopoDS_Face();
 }
 
-/// What lies between two curves.
+/// The face between two curves.
 TopoDS_Face face_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
   for (const TopoDS_Face& simple : {cone_between(a, b), plane_between(a, b)}) {
     if (!simple.IsNull()) return simple;
@@ -206,7 +206,7 @@ TopoDS_Face face_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) 
   return BRepBuilderAPI_MakeFace(GeomFill::Surface(a, b), Precision::Confusion()).Face();
 }
 
-/// Whether the wall is there at a point, running nearly along the plane across the direction.
+/// Whether the wall contains the point and its thickness direction there is nearly parallel to `across`.
 bool runs_through(const Wall& wall, const Skin& skin, const gp_Pnt& point, const gp_Dir& across) {
   const auto position = position_in(wall, skin, point);
   if (!position || position->thickness() < Precision::Confusion()) return false;
@@ -215,14 +215,14 @@ bool runs_through(const Wall& wall, const Skin& skin, const gp_Pnt& point, const
 
 /// The wall that begins where another one ends at an edge.
 struct NextWall {
-  int wall = -1;    ///< -1 = none
-  double away = 0;  ///< how far from the edge it was met: behind the riser of a step that leans or is rounded
-  double depth = 0;  ///< below the edge
+  int wall = -1;     ///< -1 = none
+  double away = 0;   ///< distance from the edge at which it was found; large if a riser leans or is rounded
+  double depth = 0;  ///< depth below the edge at which it was found
 };
 
 constexpr double close_by = 0.05;  // over the thickness
 
-/// Whether a wall begins behind a point of an edge.
+/// Whether a wall begins behind a point of an edge, at the distance and depth of `next`.
 bool begins_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, double at,
                    const NextWall& next) {
   const gp_Pnt beyond = edge.inside(at, next.depth).Translated(next.away * edge.away(at));
@@ -232,12 +232,12 @@ bool begins_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, dou
 NextWall next_wall(const Skin& skin, const std::vector<Wall>& walls, int wall, const FaceEdge& edge) {
   const double t = walls[wall].thickness;
   const bool corner = edge.in_corner();
-  // Half way down first: what begins there is the wall's own continuation. Of two sheets that lie on each
-  // other the thinner one does not reach there.
+  // Half way down first: what begins there continues the wall itself. Where two sheets lie on each other, the
+  // thinner one does not reach that depth.
   for (const double depth : {0.5, 0.85, 0.15}) {
     for (const double away : {close_by, 0.3, 0.6, 1.0}) {
       if (corner && away > close_by)
-        break;  // what is met further on is not behind a riser, but behind a wall
+        break;  // what is found farther away is behind a wall, not behind a riser
       for (const double share : {0.5, 0.25, 0.75}) {
         const double at = edge.first() + share * (edge.last() - edge.first());
         for (int other = 0; other < static_cast<int>(walls.size()); ++other) {
@@ -250,13 +250,13 @@ NextWall next_wall(const Skin& skin, const std::vector<Wall>& walls, int wall, c
   return {};
 }
 
-/// How deep below the edge the middle of a wall lies, a little before the edge (`step` negative) or behind
-/// it. \param guess of the depth, which is given back where the wall is not there.
+/// The depth of a wall's middle below the edge, a little before the edge (`step` negative) or behind it.
+/// \param guess of the depth, which is returned if the wall is not there.
 double depth_at(const Skin& skin, const Wall& wall, const FaceEdge& edge, double step, double guess) {
   const double at = 0.5 * (edge.first() + edge.last());
   const gp_Pnt start = edge.curve().Value(at).Translated(step * edge.away(at));
   double depth = guess;
-  for (int i = 0; i < 4; ++i) {  // where the sides are not parallel their middle lies a little aside
+  for (int i = 0; i < 4; ++i) {  // if the sides are not parallel their middle lies a little aside
     const gp_Pnt point = start.Translated(-depth * gp_Vec(edge.outward(at)));
     const auto position = position_in(wall, skin, point);
     if (!position) break;
@@ -280,13 +280,13 @@ WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, con
   const double other = depth_at(skin, walls[next.wall], edge, step_over, next.depth);
   const bool step = std::abs(own - other) > 1e-2 * t;
   const double high = std::min(own, other) - 0.1 * t, low = std::max(own, other) + 0.1 * t;
-  // A rib across the bend interrupts the edge, not the wall: the fence runs on through the rib.
+  // A rib across the bend interrupts the edge, not the wall: the fence is extended through the rib.
   const double longer = step ? 0 : thickest_of(walls);
   return {wall, next.wall, face_between(moved(edge, high, longer), moved(edge, low, longer)), step};
 }
 
-/// The stretches of an edge behind which a wall begins: of a bar that lies across another one, and whose
-/// side's edge is longer, the width of the other. What stands on the wall there does not interrupt them.
+/// The stretches of an edge behind which a wall begins. If a bar lies across another one, a stretch is only
+/// as long as the other bar is wide. What stands on the wall there does not interrupt a stretch.
 std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const FaceEdge& edge,
                                       const NextWall& next, Material& material) {
   constexpr int count = 32;
@@ -314,11 +314,11 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
     result.push_back(edge.stretch(low, high));
     i = last;
   }
-  if (result.empty()) result.push_back(edge);  // narrower than a sample
+  if (result.empty()) result.push_back(edge);  // the wall is narrower than the spacing of samples
   return result;
 }
 
-/// Whether a point lies near one of the others; if not, it becomes one of them.
+/// Whether a point lies near one of the others. If not, adds it to them.
 bool is_near(const gp_Pnt& point, double distance, std::vector<gp_Pnt>& others) {
   for (const gp_Pnt& other : others) {
     if (other.Distance(point) < distance) return true;
@@ -327,7 +327,7 @@ bool is_near(const gp_Pnt& point, double distance, std::vector<gp_Pnt>& others) 
   return false;
 }
 
-/// Which edges of the skin part two surfaces.
+/// The edges of the skin that separate two surfaces.
 class Borders {
  public:
   Borders(const Skin& skin, const std::vector<int>& surfaces) : skin_(skin), surfaces_(surfaces) {
@@ -378,13 +378,13 @@ std::vector<EdgeEnd> ends_at(const gp_Pnt& vertex, const std::vector<FaceEdge>& 
   return result;
 }
 
-/// Whether the wall's middle runs on past the edge, into material.
+/// Whether the wall's middle continues past the edge inside the material.
 bool runs_on(const FaceEdge& edge, double thickness, Material& material) {
   const double at = 0.5 * (edge.first() + edge.last());
   return material.holds(edge.inside(at, 0.5 * thickness).Translated(0.05 * thickness * edge.away(at)));
 }
 
-/// The edges of a solid by their ends.
+/// The ends of a solid's edges, with the directions in which the edges leave them.
 class EdgeEnds {
  public:
   explicit EdgeEnds(const TopoDS_Solid& solid) {
@@ -404,8 +404,8 @@ class EdgeEnds {
     }
   }
 
-  /// The direction in which an edge leaves a point most nearly along a wanted one; that itself where there is
-  /// none within 45 degrees.
+  /// The direction of the edge that leaves a point most nearly along a wanted direction; the wanted direction
+  /// if there is no edge within 45 degrees of it.
   gp_Dir leaving(const gp_Pnt& point, const gp_Dir& wanted) const {
     gp_Dir best = wanted;
     double most = nearly_parallel;
@@ -421,13 +421,13 @@ class EdgeEnds {
   std::vector<std::pair<gp_Pnt, gp_Dir>> ends_;
 };
 
-/// Finds where a wall that runs into others has a rim that stops short of them.
+/// Finds where a wall runs into others but its rim stops at their skin.
 class RimEnds {
  public:
   explicit RimEnds(const Skin& skin) : skin_(skin), edges_(skin.solid()), material_(skin) {}
 
-  /// The fences at the vertices of one face where an edge that the wall runs on past meets its rim. \param
-  /// t thickness of the wall. \param centers of the fences that it has already, with those that are added.
+  /// Adds the fences at the vertices of one face where an edge past which the wall continues meets its rim.
+  /// \param t thickness of the wall. \param edges of the face. \param centers of its fences, old and new.
   void add(int wall, double t, const std::vector<FaceEdge>& edges, std::vector<gp_Pnt>& centers,
            std::vector<WallEnd>& ends) {
     std::map<const FaceEdge*, bool> known;
@@ -455,9 +455,9 @@ class RimEnds {
   }
 
  private:
-  /// A rectangle across the wall, from the vertex along the way that the rim would run on. It holds the edge
-  /// that leads from the vertex to the other side: where the side leans, its normal would miss that edge, and
-  /// with it the end of the rim.
+  /// A rectangle across the wall, from the vertex in the direction in which the rim would continue. It
+  /// contains the edge that leads from the vertex to the other side. If the side leans, a rectangle along its
+  /// normal would miss that edge, and with it the end of the rim.
   TopoDS_Face fence(const EdgeEnd& end, const EdgeEnd& rim, double t) const {
     const gp_Vec straight = end.edge->away(end.at);
     const bool onward = rim.outward_along.Dot(straight) > 0.3;
@@ -476,16 +476,16 @@ class RimEnds {
   Material material_;
 };
 
-/// From a fence to a point.
+/// The shortest vector from a fence to a point.
 std::optional<gp_Vec> way_from(const TopoDS_Face& fence, const gp_Pnt& point) {
   const BRepExtrema_DistShapeShape distance(fence, BRepBuilderAPI_MakeVertex(point).Vertex());
   if (!distance.IsDone() || distance.NbSolution() == 0) return std::nullopt;
   return gp_Vec(distance.PointOnShape1(1), point);
 }
 
-/// The end of a wall before another one whose fence stands along an edge already, by index; -1 = none. The
-/// edges of the two sides of a bend are not of one length where it goes on into rounded corners, and not
-/// quite at one place where its radii have two centers.
+/// The index of the end between `wall` and `next` whose fence already stands along the edge; -1 = none. The
+/// edges of the two sides of a bend differ in length if the bend continues into rounded corners. They are not
+/// exactly opposite to each other if the two radii have different centers.
 int fence_along(const std::vector<WallEnd>& ends, int wall, int next, const FaceEdge& edge,
                 double thickness) {
   constexpr double near = 0.02;
@@ -503,7 +503,7 @@ int fence_along(const std::vector<WallEnd>& ends, int wall, int next, const Face
   return -1;
 }
 
-/// Moves a fence half way to the edge on the other side of the wall.
+/// Moves a fence half way toward the edge on the other side of the wall.
 void move_between(TopoDS_Face& fence, const FaceEdge& edge, double thickness) {
   const auto way = way_from(fence, edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * thickness));
   if (!way || way->Magnitude() < Precision::Confusion()) return;
@@ -512,7 +512,8 @@ void move_between(TopoDS_Face& fence, const FaceEdge& edge, double thickness) {
   fence = TopoDS::Face(BRepBuilderAPI_Transform(fence, half, Standard_True).Shape());
 }
 
-/// Of two walls at a step whether the fence stands at the end of the first: the thicker one.
+/// Whether the fence at a step stands at the end of `wall`: it stands at the thicker one, of equal ones the
+/// first.
 bool stands_on(const std::vector<Wall>& walls, int wall, int next) {
   const double t = walls[wall].thickness, other = walls[next].thickness;
   return t > other || (t == other && wall < next);
@@ -526,7 +527,7 @@ class WallEnds {
 
   const std::vector<WallEnd>& found() const { return ends_; }
 
-  /// Looks behind an edge of a wall's side.
+  /// Looks behind an edge of a wall's side and adds the ends found there.
   void add(int wall, int side, const FaceEdge& edge) {
     const double t = walls_[wall].thickness;
     const NextWall next = next_wall(skin_, walls_, wall, edge);
@@ -548,16 +549,16 @@ class WallEnds {
  private:
   static constexpr int between = -1;
 
-  /// \param side of the wall on whose edge the fence stands, or between both.
+  /// \param side of the wall at whose edge the fence stands, or `between`.
   void push(const WallEnd& end, bool riser, int side) {
     ends_.push_back(end);
-    // Behind a riser the other wall runs on below it, to the same fence.
+    // The other wall continues below the riser, up to the same fence.
     if (riser) ends_.push_back({end.next, end.wall, end.fence, end.step});
     sides_.resize(ends_.size(), side);
   }
 
-  /// Whether a fence stands along the edge, made from the other side of the wall or from the other wall,
-  /// which are given one.
+  /// Whether a fence already stands along the edge. One made from the other side of the wall is moved to half
+  /// way between both sides. One made for the other wall is used for this wall too.
   bool stands_already(int wall, int next, int side, const FaceEdge& edge) {
     const double t = walls_[wall].thickness;
     const int own = fence_along(ends_, wall, next, edge, t);
@@ -577,7 +578,7 @@ class WallEnds {
   const Skin& skin_;
   const std::vector<Wall>& walls_;
   Material material_;
-  std::vector<std::vector<gp_Pnt>> middles_;  ///< of each wall's fences
+  std::vector<std::vector<gp_Pnt>> middles_;  ///< for each wall, points on its middle at edges with fences
   std::vector<WallEnd> ends_;
   std::vector<int> sides_;  ///< see push()
 };
@@ -593,7 +594,7 @@ std::vector<int> walls_of_faces(const Skin& skin, const std::vector<Wall>& walls
   return result;
 }
 
-/// Whether the face beside goes on tangent to the edge's own, and bends away from the material.
+/// Whether `beside` continues tangent to `face` at the edge and bends away from the material.
 bool is_hollow_fillet(const FaceEdge& edge, const SkinFace& face, const SkinFace& beside) {
   const gp_Pnt at = edge.curve().Value(0.5 * (edge.first() + edge.last()));
   const auto own = face.outward(face.closest(at)), other = beside.outward(beside.closest(at));

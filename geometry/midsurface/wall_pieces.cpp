@@ -26,8 +26,8 @@ namespace quadrille {
 
 namespace {
 
-/// The faces that a wall's middle surface may have to reach over: its sides, and the faces next to them that
-/// belong to no wall, such as fillets.
+/// The faces that a wall's middle surface may have to cover: its sides, and adjacent faces that belong to no
+/// wall, such as fillets.
 std::vector<int> faces_to_cover(const Skin& skin, const std::vector<Wall>& walls, int wall) {
   TopTools_IndexedDataMapOfShapeListOfShape neighbors;
   TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, neighbors);
@@ -49,7 +49,7 @@ std::vector<int> faces_to_cover(const Skin& skin, const std::vector<Wall>& walls
   return {result.begin(), result.end()};
 }
 
-/// Cones and spheres end where they become a point.
+/// Limits v where a cone or a sphere shrinks to a point.
 void keep_regular(const GeomAdaptor_Surface& surface, ParameterRange& v) {
   if (surface.GetType() == GeomAbs_Sphere) {
     v.low = std::max(v.low, -0.5 * M_PI);
@@ -64,8 +64,8 @@ void keep_regular(const GeomAdaptor_Surface& surface, ParameterRange& v) {
     v.high = std::min(v.high, apex);
 }
 
-/// A sphere whose seam and poles are away from the wall's sides, where they are less than half of one: near
-/// them OpenCASCADE loses parts.
+/// The wall's middle. A sphere is turned so that its seam and poles are away from the wall's sides if these
+/// are less than half a sphere: near seam and poles OpenCASCADE loses parts.
 Handle(Geom_Surface) turned_away(const Skin& skin, const Wall& wall) {
   const auto sphere = Handle(Geom_SphericalSurface)::DownCast(wall.middle);
   if (sphere.IsNull()) return wall.middle;
@@ -78,7 +78,8 @@ Handle(Geom_Surface) turned_away(const Skin& skin, const Wall& wall) {
       area += sample.area;
     }
   }
-  constexpr double half = 0.5, margin = 0.05;  // of half a sphere the middle lies there, over the radius
+  constexpr double half = 0.5,
+                   margin = 0.05;  // half a sphere has its centroid there, over the radius
   if (middle.Magnitude() < (half + margin) * area) return wall.middle;
   const gp_Dir ahead(middle);
   const gp_Dir up = std::abs(ahead.Dot(sphere->Axis().Direction())) < 0.7 ? sphere->Axis().Direction()
@@ -86,7 +87,7 @@ Handle(Geom_Surface) turned_away(const Skin& skin, const Wall& wall) {
   return new Geom_SphericalSurface(gp_Ax3(center, ahead.Crossed(up), ahead.Reversed()), sphere->Radius());
 }
 
-/// The wall's middle surface, bounded so that it reaches past all that it may have to meet.
+/// The wall's middle surface, bounded so that it extends past everything that it may have to meet.
 TopoDS_Face middle_patch(const Skin& skin, const std::vector<Wall>& walls, int wall) {
   double margin = 0;
   for (const Wall& other : walls) margin = std::max(margin, 1.5 * other.thickness);
@@ -104,9 +105,9 @@ TopoDS_Face middle_patch(const Skin& skin, const std::vector<Wall>& walls, int w
   return BRepBuilderAPI_MakeFace(middle, u.low, u.high, v.low, v.high, Precision::Confusion()).Face();
 }
 
-/// The faces that need not cut a wall: its own sides, which its middle cannot meet, and those of walls that
-/// go on behind its fences, which it meets beyond them only, nearly tangent, where OpenCASCADE looks long and
-/// may lose all.
+/// The faces that need not cut a wall's middle: the wall's own sides, which it cannot meet, and the sides of
+/// walls that continue behind its fences. It meets the latter only beyond the fences and nearly tangent,
+/// where OpenCASCADE takes long and may lose everything.
 std::set<int> left_out(const std::vector<Wall>& walls, int wall, const std::vector<WallEnd>& ends) {
   std::set<int> result;
   const auto leave_out = [&](int other) {
@@ -120,7 +121,7 @@ std::set<int> left_out(const std::vector<Wall>& walls, int wall, const std::vect
   return result;
 }
 
-/// The faces of the skin that the patch may meet, as one argument: OpenCASCADE then does not look for
+/// The faces of the skin that the patch may meet, as one argument, so that OpenCASCADE does not look for
 /// intersections among them.
 std::vector<TopoDS_Shape> near_faces(const Skin& skin, const std::set<int>& left_out,
                                      const TopoDS_Face& patch) {
@@ -139,7 +140,7 @@ std::vector<TopoDS_Shape> near_faces(const Skin& skin, const std::set<int>& left
   return {result};
 }
 
-/// The samples lie inside the face: where the thickness varies, it has its extremes at corners.
+/// Adds the corners to the thickness range: there a varying thickness has its extremes, outside the samples.
 void widen_to_corners(const TopoDS_Face& face, const Wall& wall, const Skin& skin, Coverage& coverage) {
   for (TopExp_Explorer it(face, TopAbs_VERTEX); it.More(); it.Next()) {
     const gp_Pnt corner = BRep_Tool::Pnt(TopoDS::Vertex(it.Current()));
@@ -174,8 +175,7 @@ Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin
 
 namespace {
 
-/// The pieces into which others cut a face; the face where they do not meet it, none where OpenCASCADE
-/// cannot.
+/// The pieces into which others cut a face; the face if they do not meet it, none if OpenCASCADE fails.
 std::vector<TopoDS_Face> cut_by(const TopoDS_Face& face, const std::vector<TopoDS_Shape>& others) {
   if (others.empty()) return {face};
   BOPAlgo_Builder cutter;
@@ -191,7 +191,7 @@ std::vector<TopoDS_Face> cut_by(const TopoDS_Face& face, const std::vector<TopoD
   return result;
 }
 
-/// Those that lie between the sides of the wall somewhere.
+/// The pieces that lie, at least in part, between the sides of the wall.
 std::vector<TopoDS_Face> between_sides(const std::vector<TopoDS_Face>& pieces, const Wall& wall,
                                        const Skin& skin) {
   constexpr double least_share = 0.02;
@@ -211,7 +211,7 @@ std::vector<TopoDS_Face> wall_pieces(const Skin& skin, const std::vector<Wall>& 
   for (const WallEnd& end : ends) {
     if (end.wall == wall) fences.push_back(end.fence);
   }
-  // The fences first, which the surface meets clearly: of the skin there is little left then to meet.
+  // The fences first, which the surface meets at clear angles. The parts then meet little of the skin.
   std::vector<TopoDS_Face> result;
   const std::set<int> never_met = left_out(walls, wall, ends);
   for (const TopoDS_Face& part : cut_by(middle_patch(skin, walls, wall), fences)) {

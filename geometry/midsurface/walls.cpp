@@ -19,17 +19,17 @@ namespace quadrille {
 namespace {
 
 constexpr int samples_a_face = 24;
-const double most_slope = std::cos(30 * M_PI / 180);  // between the sides of a wall
-constexpr double least_share = 0.1;                   // of the smaller face that must be paired
+const double most_slope = std::cos(30 * M_PI / 180);  // cosine of the largest angle between sides
+constexpr double least_share = 0.1;                   // share of the smaller face that must be paired
 
-/// What was seen of the faces `first` and `second` facing each other.
+/// How large a part of each of two faces faces the other.
 struct Facing {
-  std::array<double, 2> areas{0, 0};  ///< of the samples on either face that meet the other
-  double thickness_area = 0;
+  std::array<double, 2> areas{0, 0};  ///< area of the samples on each face that meet the other
+  double thickness_area = 0;          ///< sum of thickness times area over these samples
 };
 using Facings = std::map<std::pair<int, int>, Facing>;
 
-/// Whether the ball round the middle of a wall touches the wall's sides before anything else.
+/// Whether a ball around the middle of a wall touches the wall's sides before anything else.
 bool widest_across(const Skin& skin, const gp_Pnt& middle, const gp_Dir& across, double thickness) {
   const gp_Ax2 frame(middle, across);
   for (const double angle : {0.0, 0.25, 0.5, 0.75}) {
@@ -69,13 +69,13 @@ void add_once(std::vector<int>& list, int value) {
   if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
 }
 
-/// Two surfaces, the first with the lower number, that face each other.
+/// Two surfaces that face each other, the one with the lower number first.
 struct SurfacePair {
   std::array<int, 2> surfaces{};
   std::array<std::vector<int>, 2> faces;
-  Handle(Geom_Surface) middle;        ///< if there is an exact one
-  std::array<double, 2> areas{0, 0};  ///< of the samples on either that meet the other
-  double thickness_area = 0;
+  Handle(Geom_Surface) middle;        ///< null if there is no exact one
+  std::array<double, 2> areas{0, 0};  ///< area of the samples on each surface that meet the other
+  double thickness_area = 0;          ///< sum of thickness times area over these samples
   double area() const { return areas[0] + areas[1]; }
 };
 
@@ -103,7 +103,7 @@ std::vector<SurfacePair> pair_surfaces(const Skin& skin, const std::vector<int>&
 
 using Touching = std::set<std::pair<int, int>>;
 
-/// The surfaces whose faces have an edge in common.
+/// The pairs of surfaces whose faces have an edge in common.
 Touching touching_surfaces(const Skin& skin, const std::vector<int>& surfaces) {
   TopTools_IndexedDataMapOfShapeListOfShape around;
   TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, around);
@@ -117,8 +117,8 @@ Touching touching_surfaces(const Skin& skin, const std::vector<int>& surfaces) {
   return result;
 }
 
-/// The pairs, by index, that have a surface in common with the one that starts and whose other surfaces lie
-/// one behind the other. \param side of the starting pair that is common.
+/// Indices of the pairs that have a surface in common with the starting pair and whose other surfaces are
+/// connected through common edges. \param side of the starting pair whose surface is the common one.
 std::vector<std::size_t> pairs_around(const std::vector<SurfacePair>& pairs, std::size_t start, int side,
                                       const Touching& touching) {
   const int center = pairs[start].surfaces[side];
@@ -142,8 +142,8 @@ double area_of(const Skin& skin, const std::vector<int>& faces) {
   return area;
 }
 
-/// The wall that pairs round one surface make. None where neither side is paired all over: a fillet at a
-/// junction faces the walls at its two ends, and beyond them the inside of the junction.
+/// The wall formed by pairs that share the surface `center`. Nothing if neither side is paired over three
+/// quarters: a fillet at a junction faces the walls at its two ends, and between them the junction's inside.
 std::optional<Wall> wall_of(const Skin& skin, const std::vector<SurfacePair>& pairs, int center) {
   constexpr double least_covered = 0.75;
   Wall wall;
@@ -164,7 +164,7 @@ std::optional<Wall> wall_of(const Skin& skin, const std::vector<SurfacePair>& pa
   return std::nullopt;
 }
 
-/// The radius of a cylinder, positive where the material is inside; 0 for other faces.
+/// The radius of a cylinder, negative if the material is outside; 0 for other faces.
 double bulge(const SkinFace& face) {
   if (face.surface().GetType() != GeomAbs_Cylinder) return 0;
   const gp_Cylinder cylinder = face.surface().Cylinder();
@@ -173,8 +173,8 @@ double bulge(const SkinFace& face) {
   return from_axis.Dot(gp_Vec(*face.outward(sample.uv))) > 0 ? cylinder.Radius() : -cylinder.Radius();
 }
 
-/// Whether what seems to be a bend is a corner of two flat walls with a fillet in it: it is not rounded
-/// outside, or by a smaller radius. The middle of such a bend would have a kink.
+/// Whether an apparent bend is a corner of two flat walls with a fillet inside it: the outside is not
+/// rounded, or has a smaller radius. The middle of such a bend would have a kink.
 bool is_filleted_corner(const Skin& skin, const Wall& wall) {
   double outer = 0, inner = 0;
   int flat = 0;
@@ -188,7 +188,7 @@ bool is_filleted_corner(const Skin& skin, const Wall& wall) {
   return flat > 1 && outer < 0.999 * inner;
 }
 
-/// Makes walls of pairs, the largest groups round one surface first; that surface is the first side.
+/// Makes walls of groups of pairs that share one surface, the largest first. That surface is the first side.
 std::vector<Wall> group_pairs(const Skin& skin, std::vector<SurfacePair> pairs, const Touching& touching) {
   std::vector<Wall> walls;
   while (!pairs.empty()) {
@@ -262,7 +262,7 @@ std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
 std::optional<WallPosition> position_in(const Wall& wall, const Skin& skin, const gp_Pnt& point) {
   WallPosition result;
   const Bnd_Box at(point, point);
-  const double reach = 2.11 * wall.thickness;  // a foot further off is refused below
+  const double reach = 2.11 * wall.thickness;  // a foot farther away is rejected below
   for (int side = 0; side < 2; ++side) {
     bool found = false;
     for (const int face : wall.sides[side]) {

@@ -18,7 +18,7 @@ double length_of(const TopoDS_Edge& edge) {
 
 double area_of(const TopoDS_Face& face) {
   GProp_GProps properties;
-  // Of B-splines span by span: adaptively it takes seconds, and gives nothing more.
+  // B-splines are integrated span by span. Adaptive integration takes seconds and is no better.
   if (BRepAdaptor_Surface(face, Standard_False).GetType() >= GeomAbs_BezierSurface)
     BRepGProp::SurfaceProperties(face, properties);
   else

@@ -6,15 +6,14 @@
 
 namespace quadrille {
 
-/// Of an edge.
 double length_of(const TopoDS_Edge& edge);
 
 double area_of(const TopoDS_Face& face);
 
-/// The shorter side of the rectangle of that area and perimeter.
+/// The shorter side of the rectangle with that area and perimeter.
 double width_of(double area, double perimeter);
 
-/// The same of a face with all its borders: of a ring, how wide it is.
+/// The same for a face; the perimeter includes its holes, so that the width of a ring is that of its band.
 double width_of(const TopoDS_Face& face);
 
 }  // namespace quadrille

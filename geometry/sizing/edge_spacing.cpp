@@ -11,7 +11,7 @@ namespace quadrille {
 
 namespace {
 
-/// Shares of the whole at which parts begin and end that follow each other by ratios.
+/// Shares of the whole length at which segments in the given ratios begin and end; empty if all are equal.
 std::vector<double> shares_of(int segments, const EdgeSpacing& spacing) {
   if (spacing.bias == 1 && spacing.bias_both == 1) return {};
   std::vector<double> shares{0};
@@ -23,8 +23,7 @@ std::vector<double> shares_of(int segments, const EdgeSpacing& spacing) {
   return shares;
 }
 
-/// The pieces of a CAD edge, in the order in which they follow each other from its start as far as vertices
-/// tell.
+/// The pieces of a CAD edge, from 0, in the order of the edge's parameter.
 std::vector<int> pieces_of(const CadShape& shape, int number) {
   std::vector<int> pieces;
   for (std::size_t i = 0; i < shape.edges.size(); ++i) {
@@ -36,7 +35,7 @@ std::vector<int> pieces_of(const CadShape& shape, int number) {
   return pieces;
 }
 
-/// Segments of each piece: at least one, otherwise as their lengths are.
+/// The number of segments of each piece: in proportion to its length, but at least one.
 std::vector<int> split_count(const CadShape& shape, const std::vector<int>& pieces, int segments) {
   double length = 0, before = 0;
   for (const int piece : pieces) length += shape.edges[piece].length;
@@ -73,7 +72,7 @@ std::vector<std::optional<PrescribedEdge>> prescribed_edges(const CadShape& shap
       const double cap = own == options.edge_sizes.end() ? size : std::min(size, own->second);
       double length = 0;
       for (const int piece : pieces) length += shape.edges[piece].length;
-      // Even, so that subdivision can give it.
+      // An even number, so that subdivision can produce it.
       segments = 2 * std::max(1, static_cast<int>(std::lround(0.5 * length / cap)));
     }
     if (segments < static_cast<int>(pieces.size()))

@@ -1,5 +1,5 @@
 #pragma once
-/// Edges whose division users prescribe. Internal.
+/// Edges whose division the user prescribes. Internal.
 
 #include <optional>
 #include <vector>
@@ -9,20 +9,20 @@
 
 namespace quadrille {
 
-/// How one edge is divided, whatever the sizes are.
+/// The division of one edge, independent of the sizing field.
 struct PrescribedEdge {
-  int segments = 0;  ///< of the final mesh
-  /// Of the edge's length from its start, that nodes stand at: ascending, segments + 1; empty where only the
-  /// number is prescribed.
+  int segments = 0;  ///< number of segments in the final mesh
+  /// Positions of the nodes as shares of the edge's length from its start: ascending, segments + 1 of them.
+  /// Empty where only the number of segments is prescribed.
   std::vector<double> shares;
 
-  /// The mean or, where the shares are known, the longest length of the segments at a share.
+  /// The length of the segment at a share of an edge of this length; the mean length if `shares` is empty.
   double size_at(double share, double length) const;
 };
 
-/// (edges) what options.spacings prescribes, pieces of a divided CAD edge together having its number.
-/// \param size that edges with a bias but no number have by themselves, beside options.edge_sizes. Throws
-/// Error (usage) where an edge in pieces has fewer segments than those.
+/// (edges) what options.spacings prescribes; the pieces of a divided CAD edge have its number of segments
+/// together. \param size the size of edges with a bias but no number, unless options.edge_sizes gives a
+/// smaller one. Throws Error (usage) when an edge in pieces has fewer segments than pieces, or a bias.
 std::vector<std::optional<PrescribedEdge>> prescribed_edges(const CadShape& shape,
                                                             const SizingOptions& options, double size);
 

@@ -20,8 +20,8 @@ namespace quadrille {
 
 namespace {
 
-/// About how many elements faces can take at most: of each those of two squares over its box's diagonal (a
-/// sphere takes a little more than one).
+/// About the largest possible number of elements: each face counts as two squares over the diagonal of its
+/// bounding box (a sphere needs a little more than one).
 double most_elements(const CadShape& shape, const std::vector<char>& used, double size, double limit,
                      const ExecutionContext& context) {
   const double all = std::pow(shape.diagonal() / size, 2) * static_cast<double>(shape.faces.size());
@@ -54,7 +54,7 @@ std::vector<FaceSample> sample_face(const CadShape& shape, const CadFace& face) 
   return samples;
 }
 
-/// What regions ask for on a face, summed over cells of its parameter plane that are halved at their borders.
+/// What regions ask for on a face, by cells of its parameter plane. Cells at borders of regions are halved.
 class RegionSum {
  public:
   RegionSum(const CadShape& shape, const CadFace& face, const std::vector<SizeRegion>& regions, double least)
@@ -70,7 +70,7 @@ class RegionSum {
   }
 
  private:
-  /// The least size of the regions that a point is no farther from than this; infinite where there is none.
+  /// The least size of the regions within `distance` of a point; infinite where there is none.
   double size_near(const Vector3& p, double distance) const {
     double size = std::numeric_limits<double>::infinity();
     for (const SizeRegion& region : regions_) {
@@ -80,8 +80,8 @@ class RegionSum {
   }
 
   void add(const Vector2& low, const Vector2& extent, int depth) {
-    constexpr int first = 4, last = 8;  // halvings: for the face's own border, and for those of regions
-    constexpr double bulge = 1.3;       // of a cell beyond a flat one
+    constexpr int first = 4, last = 8;  // halvings: least (for the face's border), most (for regions')
+    constexpr double bulge = 1.3;       // allowance for curved cells
     const SurfacePoint at = surface_.evaluate(low + 0.5 * extent);
     const double reach = 0.5 * bulge * (at.du.norm() * extent.x() + at.dv.norm() * extent.y());
     if (depth > 2 && !std::isfinite(size_near(at.point, reach))) return;
@@ -95,7 +95,7 @@ class RegionSum {
       add(low + 0.5 * extent.cwiseProduct(Vector2(k & 1, k >> 1)), 0.5 * extent, depth + 1);
   }
 
-  /// Whether the corners of a cell have the size of its middle, too: regions are convex.
+  /// Whether all corners of a cell have the size of its middle. Regions are convex.
   bool is_alike(const Vector2& low, const Vector2& extent, double size) const {
     for (int k = 0; k < 4; ++k) {
       if (size_near(surface_.point(low + extent.cwiseProduct(Vector2(k & 1, k >> 1))), 0) != size)
@@ -111,11 +111,11 @@ class RegionSum {
   std::vector<std::pair<double, double>> pieces_;  // area, size
 };
 
-/// Blocks of the sizing field that a square of one voxel of a surface takes: the field about it is some six
-/// voxels thick, lies at all angles to the blocks, and is taken over by the coarser levels, each a quarter.
+/// Blocks of the sizing field per voxel-sized square of a surface. The field around a surface is some six
+/// voxels thick and at any angle to the blocks; each coarser level repeats it with a quarter of the blocks.
 constexpr double blocks_a_square = 3.3 / 64;
 
-/// The size asked for by itself on a face, or by its layers, where that is less than everywhere.
+/// The size asked for on a face itself or by its layers, at most the global one. \param face from 0
 double size_on(const SizingOptions& options, const SizeLimits& limits, int face) {
   double size = limits.largest;
   if (const auto own = options.face_sizes.find(face + 1); own != options.face_sizes.end())
@@ -125,8 +125,7 @@ double size_on(const SizingOptions& options, const SizeLimits& limits, int face)
   return size;
 }
 
-/// Whether blocks about the faces that have sizes of their own could be more than the budget has, by the
-/// faces' boxes.
+/// Whether, by the faces' bounding boxes, the blocks around faces with their own sizes may exceed the budget.
 bool may_pass_blocks(const CadShape& shape, const SizingOptions& options) {
   double squares = 0;
   const auto add = [&](int face, double size) {
@@ -139,7 +138,7 @@ bool may_pass_blocks(const CadShape& shape, const SizingOptions& options) {
   return squares * blocks_a_square > options.budget.blocks;
 }
 
-/// Throws Error (usage) where regions ask for more elements or blocks on the faces used than there may be.
+/// Throws Error (usage) if regions ask for more elements or blocks on the used faces than allowed.
 void hold_regions(const CadShape& shape, const SizingOptions& options, const SizeLimits& limits,
                   const std::vector<char>& used, double free, const ExecutionContext& context) {
   const double most = std::min(options.budget.elements, options.budget.blocks / blocks_a_square);

@@ -11,9 +11,9 @@ namespace quadrille {
 
 namespace {
 
-/// The cosine of the angle up to which parts of a boundary face each other.
+/// Cosine of the largest angle at which parts of a boundary face each other.
 const double facing = std::cos(40 * M_PI / 180);
-/// Pieces turn by no more than this, radians.
+/// Largest turning of the curve within a piece, radians.
 constexpr double turn_of_piece = 0.26;
 constexpr int most_pieces = 20000;
 
@@ -42,7 +42,7 @@ FaceGaps::FaceGaps(const CadShape& shape, int face, double widest, double narrow
     : widest_(widest), narrowest_(narrowest) {
   const CadFace& cad = shape.faces[face];
   const FaceSurface surface(cad);
-  std::map<int, int> uses;  // a seam is no rim
+  std::map<int, int> uses;  // seams are used twice and do not bound the face
   for (const CadWire& wire : cad.wires) {
     for (const Coedge& coedge : wire.coedges) ++uses[coedge.edge];
   }
@@ -74,7 +74,7 @@ void FaceGaps::add_coedge(const CadEdge& edge, const Coedge& coedge, const FaceS
 }
 
 FaceGaps::Cell FaceGaps::cell_of(const Vector3& point) const {
-  // Pieces are at most half as long as the widest gap: all that is near lies in the next cell.
+  // Pieces are at most half as long as the widest gap, so all near pieces lie in the neighboring cells.
   const Vector3 index = point / (1.5 * widest_);
   return {static_cast<std::int64_t>(std::floor(index.x())), static_cast<std::int64_t>(std::floor(index.y())),
           static_cast<std::int64_t>(std::floor(index.z()))};
@@ -105,7 +105,7 @@ void FaceGaps::find_between(const Piece& piece, std::vector<FaceGap>& gaps, Spar
   check();
   const auto gap = gap_at(0.5 * (piece.a + piece.b), piece.inward);
   if (gap) gaps.push_back(*gap);
-  // Its own halves may be nearer to something by as much as they are long.
+  // Points of a half may be nearer to another piece by up to the length of the half.
   const double length = (piece.b - piece.a).norm();
   const double width = std::max((gap ? gap->width() : widest_) - 0.5 * length, narrowest_);
   if (length <= 0.5 * width) return;

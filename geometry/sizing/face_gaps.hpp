@@ -1,5 +1,5 @@
 #pragma once
-/// How wide a face is between its own loops and rims. Internal.
+/// How wide a face is between opposite parts of its boundary. Internal.
 
 #include <array>
 #include <cstdint>
@@ -19,16 +19,16 @@ struct FaceGap {
   double width() const { return (to - from).norm(); }
 };
 
-/// The width of a face along its boundary: the way straight across it to a part of the boundary that faces
-/// it. Corners are no gaps: only what is within 40 degrees of facing counts, a wedge of less too.
+/// The width of a face along its boundary: the straight distance across the face to a part of the boundary
+/// that faces back. Corners are not gaps: only parts that face each other within 40 degrees count. A wedge
+/// with a smaller angle counts too.
 class FaceGaps {
  public:
-  /// \param face from 0 \param widest no gap wider than this is wanted \param narrowest gaps below this are
-  /// all alike.
+  /// \param face from 0. \param widest wider gaps are ignored. \param narrowest narrower gaps are all alike.
   FaceGaps(const CadShape& shape, int face, double widest, double narrowest);
 
-  /// The gaps at places along the boundary, neighbors on a curve no farther apart than half their widths.
-  /// Time: places times the pieces of the boundary that are near.
+  /// The gaps at places along the boundary. Neighboring places on a curve are no farther apart than half the
+  /// gap width. Time: the number of places times that of the boundary pieces near each.
   std::vector<FaceGap> find(const ExecutionContext& context) const;
 
  private:

@@ -1,5 +1,5 @@
-/// Gradation by Dijkstra's algorithm over the voxels (chamfer distances over 26 neighbors, Borgefors 1986):
-/// a monotone min-update, so that the result is the largest field under the sources with the slope asked for.
+/// Gradation by Dijkstra's algorithm over the voxels (chamfer distances over 26 neighbors, Borgefors 1986).
+/// Values only decrease, and the result is the largest field below the sources that has the slope asked for.
 
 #include "geometry/sizing/size_cascade.hpp"
 
@@ -16,10 +16,10 @@ namespace quadrille {
 
 namespace {
 
-/// A level's grid covers sizes up to this many of its voxels.
+/// A level's tree holds sizes up to this multiple of the level's size.
 constexpr double coverage = 1.3;
-/// Up to this growth a voxel is as wide as it is with it: then sizes change by as much over one whatever the
-/// growth, and its values reach as few voxels far.
+/// Voxels are as wide as the level's size at this growth or more, and wider in proportion below it. So sizes
+/// change by the same amount per voxel however slow the growth, and reach only a few voxels far.
 constexpr double usual_growth = 0.3;
 
 struct Item {
@@ -38,7 +38,7 @@ Coord corner_of(const Coord& base, int k) {
   return base.offsetBy(k & 1, k >> 1 & 1, k >> 2);
 }
 
-/// Where in its voxel a place is.
+/// The position within its voxel, coordinates 0 to 1.
 Vector3 place_in(const Vector3& index, const Coord& base) {
   return index - Vector3(base.x(), base.y(), base.z());
 }
@@ -113,7 +113,7 @@ void SizeCascade::add_means(const std::vector<SizePoint>& points, BlockCount& bl
   };
   std::vector<Share> shares;
   for (const SizePoint& at : points) {
-    // Beside voxels of its own level there may be some of the next ones that want all their corners.
+    // Look-ups nearby may need all corners of voxels of the neighboring levels too.
     const int own = frame_.level_of(at.size);
     for (int level = std::max(own - 1, 0); level <= std::min(own + 1, frame_.finest); ++level) {
       if (at.size > coverage * frame_.size(level)) continue;

@@ -1,9 +1,8 @@
 #pragma once
-/// Sizes in voxels of several widths. Internal.
+/// Sizes stored in voxels of several widths. Internal.
 
-// The tree alone, without what would load leaves from files later: that needs OpenVDB's library, whose
-// loading takes longer than meshing a small part. Files go through the module of vdb_module.hpp, as plain
-// values.
+// Only the tree, without delayed loading of leaves from files: that needs OpenVDB's library, which takes
+// longer to load than meshing a small part. Files go through the module of vdb_module.hpp, as plain values.
 #include <openvdb/version.h>
 #undef OPENVDB_USE_DELAYED_LOADING
 #include <openvdb/tree/InternalNode.h>
@@ -24,18 +23,18 @@ namespace quadrille {
 
 using openvdb::Coord;
 using SizeLeaf = openvdb::tree::LeafNode<float, 3>;
-/// A tree with nodes so small that each face may have some.
+/// A tree with nodes small enough for each face to have its own.
 using SizeTree = openvdb::tree::RootNode<openvdb::tree::InternalNode<SizeLeaf, 2>>;
 
 constexpr int max_size_levels = 32;
 
-/// By how much voxels are wider than the sizes of their level.
+/// The ratio of the voxel width to the size of the level.
 double widening(double growth);
 
-/// The level whose sizes lie between this one and twice it, counted from the coarsest.
+/// The level, counted from the coarsest, whose size is at least `size` and less than twice it.
 int level_for(double size_max, double size);
 
-/// Counts the leaves of a field against its budget. Thread-safe.
+/// Counts the leaves of a field; throws Error (usage) beyond the budget. Thread-safe.
 class BlockCount {
  public:
   explicit BlockCount(double most) : most_(most) {}
@@ -46,11 +45,10 @@ class BlockCount {
   std::atomic<std::int64_t> count_{0};
 };
 
-/// Reads and writes voxels, remembering the leaf it was in.
+/// Reads and writes voxels, caching the last leaf.
 class VoxelAccessor {
  public:
-  /// \param made counts the leaves made; may be null where none is. \param stamp is left on leaves that are
-  /// written to.
+  /// \param made counts new leaves; may be null for reading. \param stamp is put on leaves that are written.
   explicit VoxelAccessor(SizeTree& root, BlockCount* made = nullptr, std::uint32_t stamp = 0)
       : root_(&root), made_(made), stamp_(stamp) {}
 
@@ -74,7 +72,7 @@ class VoxelAccessor {
     leaf_->setValueOn(c, value);
     leaf_->setTransientData(stamp_);
   }
-  /// Of the leaf that a voxel is in; 0 where there is none.
+  /// The stamp of the leaf that contains a voxel; 0 where there is none.
   std::uint32_t stamp(const Coord& c) {
     enter(c);
     return leaf_ ? leaf_->transientData() : 0;
@@ -97,54 +95,54 @@ class VoxelAccessor {
   bool known_ = false;
 };
 
-/// What all cascades of a field have in common.
+/// The parameters that all cascades of a field share.
 struct CascadeFrame {
   double size_max = 0;
-  double growth = 0;  ///< that voxels are made for
-  int finest = 0;     ///< level whose voxels can be numbered all over the model
+  double growth = 0;  ///< gradation that the voxel width is chosen for
+  int finest = 0;     ///< finest level whose voxel indices fit the whole model
 
   double size(int level) const;
   double voxel(int level) const;
   int level_of(double size) const;
 };
 
-/// A cascade of trees with voxels of size_max / 2^k, each active only where the size is about its voxel, so
-/// that small features cost what they need and no more. One thread at a time, except for Lookup.
+/// A cascade of trees for sizes of size_max / 2^k. Each tree's voxels are active only where the size is about
+/// that of its level, so small features cost no more than they need. One thread at a time, but for Lookup.
 class SizeCascade {
  public:
   explicit SizeCascade(const CascadeFrame& frame) : frame_(frame) {}
 
   const CascadeFrame& frame() const { return frame_; }
   int levels() const { return static_cast<int>(trees_.size()); }
-  /// Null where no size is of that level.
+  /// Null if the level has no sizes.
   SizeTree* tree(int level) const { return trees_[level].get(); }
 
-  /// The size at a point and, so that it comes out of the voxels as it went in, at all corners of its voxel,
-  /// is at most this.
+  /// Limits the size at a point. All corners of the voxel around it are limited, so that a look-up at the
+  /// point returns the size unchanged.
   void add(const Vector3& point, double size, BlockCount& blocks);
 
-  /// The same with a size of each corner's own.
+  /// The same, with a separate size for each corner.
   void add_by_corner(const Vector3& point, double size, BlockCount& blocks,
                      const std::function<double(const Vector3& corner)>& size_at);
 
-  /// Puts the mean of the points about it into each voxel's corner, on all levels that look-ups near them may
-  /// come to.
+  /// Sets each voxel corner to the weighted geometric mean of the points around it, on all levels that
+  /// look-ups near the points may read.
   void add_means(const std::vector<SizePoint>& points, BlockCount& blocks);
 
-  /// Whether something was added since it was graded.
+  /// Whether sizes were added since the last grading.
   bool is_fresh() const;
-  /// What leaves are stamped with that the last grading, or what was added before it, has changed.
+  /// The stamp of leaves that the last grading, or additions before it, have changed.
   std::uint32_t stamp() const { return stamp_; }
 
-  /// What voxels are worth having: true at all corners of voxels where sizes will be looked up. Empty = all.
+  /// Which voxels are needed: true at all corners of voxels where sizes will be looked up. Empty = all.
   using Near = std::function<bool(const Vector3& point, double voxel)>;
 
-  /// Lets sizes grow outward from what was added since the last time, by at most `slope` per length, up to
-  /// `most`. Coarser levels take over the values of finer ones.
+  /// Lets sizes grow outward from what was added since the last grading, by at most `slope` per unit of
+  /// length, up to `most`. Coarser levels take over the values of finer ones.
   void grade(double slope, double most, const Near& near, BlockCount& blocks,
              const ExecutionContext& context);
 
-  /// Seconds that the gradings of a level have taken.
+  /// Seconds spent on grading a level.
   double seconds(int level) const { return seconds_[level]; }
 
   /// Visits all active voxels: visit(level, coordinates, value).
@@ -161,14 +159,14 @@ class SizeCascade {
     }
   }
 
-  /// Makes a voxel's value at most this.
+  /// Lowers a voxel's value to `value` if it is larger.
   void lower(int level, const Coord& c, float value, BlockCount& blocks);
 
-  /// Looks sizes up by interpolation; one a thread. The cascade must not change meanwhile.
+  /// Looks up sizes by interpolation. Use one object per thread. The cascade must not change meanwhile.
   class Lookup {
    public:
     explicit Lookup(const SizeCascade& cascade);
-    /// At most size_max.
+    /// The size at a point, at most size_max.
     double operator()(const Vector3& point);
 
    private:
@@ -185,15 +183,15 @@ class SizeCascade {
   SizeTree& make_tree(int level);
   void grade_level(int level, double slope, double most, const Near& near, BlockCount& blocks,
                    const ExecutionContext& context);
-  /// What a level takes over from the next finer one.
+  /// Copies smaller values from the next finer level.
   void take_over(int level, BlockCount& blocks);
 
   CascadeFrame frame_;
   std::vector<std::unique_ptr<SizeTree>> trees_;
-  std::vector<std::vector<Coord>> fresh_;    // (levels) lowered since the last grading
-  std::vector<std::vector<Coord>> changed_;  // (levels) lowered by it
+  std::vector<std::vector<Coord>> fresh_;    // (levels) voxels lowered since the last grading
+  std::vector<std::vector<Coord>> changed_;  // (levels) voxels lowered before or by the current grading
   std::array<double, max_size_levels> seconds_{};
-  std::unique_ptr<VoxelAccessor> accessor_;  // of the level that was added to last
+  std::unique_ptr<VoxelAccessor> accessor_;  // for the level lowered last
   int last_level_ = -1;
   std::uint32_t stamp_ = 0;  // number of gradings
 };

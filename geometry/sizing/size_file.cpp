@@ -20,7 +20,7 @@ namespace quadrille {
 
 namespace {
 
-/// What OpenVDB makes of the field.
+/// The bytes of the .vdb file of a field. \param name of the file, for messages.
 std::string file_of(const VdbField& field, const std::string& name) {
   IsolatedWork options;
   options.subject = name;
@@ -39,7 +39,7 @@ std::string file_of(const VdbField& field, const std::string& name) {
 
 const Module& vdb_module() {
   static const Module module = [] {
-    constexpr int threads = 6;  // it starts four
+    constexpr int threads = 6;  // OpenVDB starts four
     if (makeable_threads(threads) < threads)
       throw failure(
           "OpenVDB",
@@ -70,7 +70,7 @@ void write_cascade(const SizeCascade& cascade, const std::filesystem::path& path
 }
 
 SizeCascade mean_sizes(const std::vector<SizePoint>& points, double growth, const ExecutionContext& context) {
-  // Voxels at the largest size itself would be left out.
+  // Values at size_max would not be stored, so it is a little larger than the largest size.
   constexpr double above = 1.0001;
   CascadeFrame frame{0, growth, max_size_levels - 1};
   double reach = 0;

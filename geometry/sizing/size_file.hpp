@@ -1,5 +1,5 @@
 #pragma once
-/// Sizes as .vdb files. Internal.
+/// Sizes in .vdb files. Internal.
 
 #include <filesystem>
 #include <vector>
@@ -18,20 +18,20 @@ struct SizePoint {
   double size;
 };
 
-/// OpenVDB, to be asked for in a child process first: as it is loaded it starts threads, and ends the program
-/// or never ends itself where it cannot. Throws Error (failure) where there is no room for them.
+/// The OpenVDB module. Use it in a child process first: OpenVDB starts threads while it is loaded, and if it
+/// cannot, it ends the program or hangs. Throws Error (failure) if the threads cannot be created.
 const Module& vdb_module();
 
-/// Seconds that a child process may take with OpenVDB.
+/// Time limit of a child process that uses OpenVDB, seconds.
 inline constexpr double longest_with_vdb = 300;
 
-/// Writes the voxels: `size` (coarsest), `size_1`, ... with metadata unit, growth, size_max, version. Throws
-/// Error (failure) where the file cannot be written.
+/// Writes the voxels as grids `size` (coarsest), `size_1`, ... with metadata unit, growth, size_max, version.
+/// Throws Error (failure) if the file cannot be written.
 void write_cascade(const SizeCascade& cascade, const std::filesystem::path& path);
 
-/// Sizes between those at points, from where they grow by at most `growth` per length, up to the largest of
-/// them. Voxels hold the mean of the points about them, not the least, which would be smaller sizes than were
-/// asked for wherever they change.
+/// A field from sizes at points, growing away from them by at most `growth` per unit of length, up to the
+/// largest size. Voxels hold the mean of the points around them. The least would be smaller than asked for
+/// wherever sizes change.
 SizeCascade mean_sizes(const std::vector<SizePoint>& points, double growth, const ExecutionContext& context);
 
 }  // namespace quadrille

@@ -1,4 +1,4 @@
-/// Size from curvature: 2 pi R / (elements a circle), as in Gmsh's and Netgen's manuals.
+/// Size from curvature: 2 pi R / (elements per circle), as in Gmsh's and Netgen's manuals.
 
 #include "geometry/sizing/size_sources.hpp"
 
@@ -17,19 +17,19 @@ namespace quadrille {
 
 namespace {
 
-/// Blocks that a voxel's length of an edge takes: the field about it is some five voxels wide, and the
-/// coarser levels take it over, each a half.
+/// Blocks of the sizing field per voxel width of an edge's length. The field around an edge is some five
+/// voxels wide; each coarser level repeats it with half of the blocks.
 constexpr double blocks_a_voxel = 0.85;
-/// Of halving an edge or a face's parameters; the budget ends it before.
+/// Limit on halving an edge or a cell of a face; the budget ends the halving before.
 constexpr int max_depth = 40;
-/// Cells of a face along each parameter before any is halved.
+/// Limits on the number of cells of a face along each parameter before any is halved.
 constexpr int fewest_cells = 4, most_cells = 400;
 
 /// A face's parameter plane in equal cells.
 struct Cells {
   int nu, nv;
   Vector2 low, cell;
-  /// Of the k-th, row by row.
+  /// Middle of the k-th cell, counted row by row.
   Vector2 middle(int k) const { return low + Vector2((k % nu + 0.5) * cell.x(), (k / nu + 0.5) * cell.y()); }
 };
 
@@ -57,13 +57,13 @@ SizeSources::SizeSources(const CadShape& shape, const SizingOptions& options, co
   if (options.proximity_walls > 0) rays_.emplace(shape, options.proximity_walls * limits.least, context);
 }
 
-/// The size asked for on an edge by itself and by its length.
+/// The size asked for on an edge itself and by its length.
 double SizeSources::cap_of(const CadEdge& edge) const {
   double cap = limits_.largest;
   if (const auto it = options_.edge_sizes.find(edge.number); it != options_.edge_sizes.end())
     cap = it->second;
   if (!options_.short_edges) return cap;
-  // A short edge is one element: its surroundings are refined towards it.
+  // A short edge is one element, and the mesh around it is refined towards it.
   return std::min(cap, std::max(edge.length, limits_.least));
 }
 
@@ -113,7 +113,7 @@ void SizeSources::edge(int index, const Sink& sink) const {
   sample_edge(curve, edge, cap, !curve.circular(), sink);
 }
 
-/// Faces are as fine beside an edge as the edge is.
+/// Asks for the segment lengths along a prescribed edge, so that the faces beside it are as fine as the edge.
 void SizeSources::prescribed_edge(const CadEdge& edge, const PrescribedEdge& prescribed,
                                   const Sink& sink) const {
   const EdgeCurve curve(edge);
@@ -156,7 +156,7 @@ void SizeSources::sample_edge(const EdgeCurve& curve, const CadEdge& edge, doubl
   }
 }
 
-/// Adds the sample half way between two, and those half way to it, until they are as near as the size there.
+/// Adds samples between two others by halving, until they are no farther apart than the size there.
 template <class SampleAt, class Add>
 void SizeSources::split_interval(const SampleAt& sample, const EdgeSample& first, const EdgeSample& last,
                                  int depth, const Add& add, SparseCheck& check) const {
@@ -227,7 +227,7 @@ void SizeSources::uniform_face(int index, double spacing, const PointSink& sink)
   }
 }
 
-/// So many elements across each gap.
+/// Asks for options.proximity elements across each gap.
 void SizeSources::gaps(int index, const Sink& sink) const {
   const double n = options_.proximity;
   const FaceGaps gaps(shape_, index, n * limits_.largest, n * limits_.least);
@@ -239,7 +239,7 @@ void SizeSources::gaps(int index, const Sink& sink) const {
   }
 }
 
-/// So many elements through the thickness of each wall.
+/// Asks for options.proximity_walls elements through the thickness of each wall.
 void SizeSources::walls(int index, const Sink& sink) const {
   const double n = options_.proximity_walls;
   const CadFace& face = shape_.faces[index];
@@ -260,7 +260,7 @@ void SizeSources::walls(int index, const Sink& sink) const {
   for (int k = 0; k < cells.nu * cells.nv; ++k) split_cell(sample, cells.middle(k), cells.cell, 0);
 }
 
-/// Samples the middle of a cell of the parameter plane, and its parts where the size is below the cell's.
+/// Samples the middle of a cell of the parameter plane, and of its parts if the cell is larger than the size.
 template <class SampleAt>
 void SizeSources::split_cell(const SampleAt& sample, const Vector2& middle, const Vector2& cell,
                              int depth) const {

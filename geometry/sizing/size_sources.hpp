@@ -16,7 +16,7 @@
 
 namespace quadrille {
 
-/// Samples edges and faces as closely as the sizes there are. Thread-safe.
+/// Samples edges and faces at distances of about the local size. Thread-safe.
 class SizeSources {
  public:
   /// Takes a point that asks for a size smaller than the largest.
@@ -25,7 +25,7 @@ class SizeSources {
   SizeSources(const CadShape& shape, const SizingOptions& options, const SizeLimits& limits,
               const UnsizedFeatures& unsized, const SpatialSizes& spatial, const ExecutionContext& context);
 
-  /// Throws Error (usage) if the edges' lengths alone pass the budget of segments, or that of blocks.
+  /// Throws Error (usage) if the sizes asked for on edges alone exceed the budget of segments or of blocks.
   void hold_segments() const;
 
   /// What an edge asks for by its length, its curvature and its own size. \param index from 0
@@ -34,7 +34,7 @@ class SizeSources {
   void face(int index, const Sink& sink) const;
 
   using PointSink = std::function<void(const Vector3& point)>;
-  /// Points of an edge and of a face's inside, as close together as `spacing`.
+  /// Points of an edge, and of the inside of a face (index from 0), about `spacing` apart.
   void uniform_edge(const CadEdge& edge, double spacing, const PointSink& sink) const;
   void uniform_face(int index, double spacing, const PointSink& sink) const;
 
@@ -44,7 +44,7 @@ class SizeSources {
     Vector3 point;
     double size, hint;
   };
-  /// The size in the middle of a cell of the parameter plane, and how long and wide the cell is in space.
+  /// The size in the middle of a cell of the parameter plane, and the cell's length and width in space.
   struct CellSample {
     double size, length, width;
   };
@@ -70,7 +70,7 @@ class SizeSources {
   const SpatialSizes& spatial_;
   const ExecutionContext& context_;
   std::vector<std::optional<PrescribedEdge>> prescribed_;  // (edges)
-  std::optional<WallRays> rays_;                           // where walls ask for sizes
+  std::optional<WallRays> rays_;                           // set if walls ask for sizes
 };
 
 }  // namespace quadrille

@@ -24,7 +24,7 @@ namespace quadrille {
 
 namespace {
 
-/// Slower growth is none: single precision does not tell.
+/// Slower growth is raised to this, since single precision cannot resolve it.
 constexpr double least_growth = 1e-9;
 
 }  // namespace
@@ -34,11 +34,11 @@ class SizingField::Impl {
   CascadeFrame frame;
   double size_min = 0;
   Budget budget;
-  FaceCascades cascades;  // of each face, or one
+  FaceCascades cascades;  // one per face, or one for all
   bool on_surface = false;
 
   int cascade_of(int face) const { return on_surface ? face : 0; }
-  /// The cascades of some faces (from 1), each once.
+  /// The cascades of these faces (from 1), each once.
   std::set<int> cascades_of(const std::vector<int>& faces) const {
     std::set<int> result;
     for (const int face : faces) result.insert(cascade_of(face - 1));
@@ -87,7 +87,7 @@ class Builder {
   }
 
  private:
-  /// Sizes that one thread has found. What is passed on is the least at each voxel, whoever comes first.
+  /// Sizes found by one thread. Each voxel keeps the least one, so the order of threads does not matter.
   class Batch {
    public:
     Batch(Builder& builder, std::set<int> cascades) : builder_(builder), cascades_(std::move(cascades)) {}
@@ -148,7 +148,7 @@ class Builder {
     return field_.cascades_of(faces);
   }
 
-  /// Points in the air; what they ask for on faces is sampled there.
+  /// Adds points anywhere in space. What they ask for on faces is sampled on the faces.
   void add_points() {
     if (field_.on_surface) return;
     for (const auto& [p, size] : spatial_.points()) {
@@ -163,8 +163,8 @@ class Builder {
     return cascades;
   }
 
-  /// Layers grow by their own ratio up to their own end, on grids of their own with the same voxels, which
-  /// the field then takes over.
+  /// Layers grow by their own ratio and end at their own depth. So they are graded in separate cascades with
+  /// the same voxels, which the field then takes over.
   void add_layers() {
     const auto& layers = options_.layers;
     for (const auto& [face, own] : layers.faces) {
@@ -202,7 +202,7 @@ class Builder {
   }
 
   void take_layers(FaceCascades& cascades, const SizeLayers& layers) {
-    // A slope tells where layers of one height end, too.
+    // A small slope also makes layers of equal height end.
     constexpr double least_slope = 1e-3;
     const double slope = std::clamp(layers.ratio - 1, least_slope, std::max(options_.growth, least_slope));
     const double depth =
@@ -229,10 +229,10 @@ class Builder {
   BlockCount blocks_;
   SpatialSizes spatial_;
   SizeSources sources_;
-  std::deque<std::mutex> mutexes_;  // of the cascades
+  std::deque<std::mutex> mutexes_;  // one per cascade
 };
 
-/// The least size that users ask for somewhere.
+/// The smallest size that the user asks for anywhere.
 double smallest(const CadModel& model, const SizingOptions& options, double size) {
   double result = std::numeric_limits<double>::infinity();
   for (const auto* sizes : {&options.face_sizes, &options.edge_sizes, &options.vertex_sizes}) {
@@ -256,7 +256,7 @@ double smallest(const CadModel& model, const SizingOptions& options, double size
 
 CascadeFrame frame_of(const CadModel& model, const SizingOptions& options, const SizeLimits& limits) {
   CascadeFrame frame{limits.largest, std::max(options.growth, least_growth), 0};
-  // The trees number voxels by 32 bits.
+  // The trees use 32-bit voxel indices.
   const double reach = std::max(model.box_min().cwiseAbs().maxCoeff(), model.box_max().cwiseAbs().maxCoeff());
   const int bits = 30 - std::ilogb(reach / frame.voxel(0) + 1);
   if (bits < 0) {
@@ -312,7 +312,7 @@ double size_of_curvature(const SizingOptions& options, const SizeLimits& limits,
   double size = limits.largest;
   if (options.elements_per_circle > 0)
     size = std::min(size, 2 * M_PI / (curvature * options.elements_per_circle));
-  const auto hold = [&](double error) {  // the height of a circle's segment over its chord
+  const auto hold = [&](double error) {  // `error`: height of the arc over its chord
     const double radius = 1 / curvature;
     if (error > 0 && error < radius) size = std::min(size, 2 * std::sqrt(error * (2 * radius - error)));
   };

@@ -1,5 +1,5 @@
 #pragma once
-/// The size wanted at each point of space, in OpenVDB grids.
+/// The size wanted at each point in space, stored in OpenVDB grids.
 
 #include <filesystem>
 #include <memory>
@@ -15,94 +15,94 @@ namespace quadrille {
 
 struct CadEdge;
 
-/// Between which sizes a field lies.
+/// The range of sizes of a field.
 struct SizeLimits {
   double largest;  ///< the global size
-  double least;    ///< that any source may ask for
+  double least;    ///< smallest size that any source may ask for
 };
-SizeLimits size_limits(const CadModel& model, const SizingOptions& options);  ///< of a model
+SizeLimits size_limits(const CadModel& model, const SizingOptions& options);  ///< limits for a model
 
 /// The size that a curvature (1 / length) asks for, within the limits.
 double size_of_curvature(const SizingOptions& options, const SizeLimits& limits, double curvature);
 
-/// What asks for no sizes of its own: too small for the mesh, or kept by rows of flat quads. Empty = nothing.
+/// Features that set no sizes of their own: too small, or meshed by rows of flat quads. Empty = none.
 struct UnsizedFeatures {
   std::vector<char> edges /**< by edge */, faces; /**< by face */
-  std::vector<char> divided;                      ///< (edges) 1 = not by how users divide it
-  std::vector<char> layered;                      ///< (edges) 1 = not by its layers
-  /// Whether an edge, from 0, is one of them.
+  std::vector<char> divided;                      ///< (edges) 1 = its prescribed division asks for no sizes
+  std::vector<char> layered;                      ///< (edges) 1 = its layers ask for no sizes
+  /// Whether an edge, from 0, asks for no sizes.
   bool edge(std::size_t index) const { return index < edges.size() && edges[index] != 0; }
-  /// Whether how users divide an edge, from 0, asks for no sizes.
+  /// Whether the prescribed division of an edge, from 0, asks for no sizes.
   bool is_divided(std::size_t index) const { return index < divided.size() && divided[index] != 0; }
   /// Whether the layers of an edge, from 0, ask for no sizes.
   bool is_layered(std::size_t index) const { return index < layered.size() && layered[index] != 0; }
-  /// Whether a face, from 0, is one of them.
+  /// Whether a face, from 0, asks for no sizes.
   bool face(std::size_t index) const { return index < faces.size() && faces[index] != 0; }
 };
 
 /// The width of the voxels that hold a size in a field whose largest is `size_max`.
 double field_voxel(double size_max, double size, double growth);
 
-/// That a field would take so many blocks (see Budget), or more.
+/// The error for a field that would take so many blocks (see Budget) or more.
 Error too_many_blocks(double blocks);
 
-/// Whether curvature asks for sizes.
+/// Whether the options ask for sizes by curvature.
 bool has_curvature_sizes(const SizingOptions& options);
 
 struct CascadeFrame;
-/// What the voxels of a model's field have in common. Throws Error (usage) where the model is so far from the
-/// origin that its sizes cannot be told apart.
+/// The voxel frame of a model's field. Throws Error (usage) if the model is too far from the origin for
+/// voxels of its sizes to be numbered.
 CascadeFrame frame_of(const CadModel& model, const SizingOptions& options, const SizeLimits& limits);
 
-/// h(x): the largest size that respects every source and the gradation |grad h| <= growth.
+/// h(x): the largest size below every source that satisfies the gradation |grad h| <= growth.
 ///
-/// Sources (global size, curvature of faces and edges, lengths of short edges, sizes asked for on faces,
-/// edges and vertices, gaps inside faces, regions, points, layers, an external grid) are sampled on the
-/// model. Values live in cascades of OpenVDB float grids with voxels of size_max / 2^k: each is active only
-/// where the size is about its voxel, so that small features cost what they need and no more; where sizes
-/// grow slowly, voxels are wider by as much. Each face has a cascade of its own, and sizes grow along faces
-/// and over the edges between them; with Gradation::space all have one, and thin walls see each other's
-/// sizes. Immutable and thread-safe; look-ups go through one Sampler a thread.
+/// Sources are the global size, curvature of faces and edges, lengths of short edges, sizes asked for on
+/// faces, edges and vertices, gaps inside faces, walls, regions, points, layers, and an external grid. They
+/// are sampled on the model. Values are stored in cascades of OpenVDB float grids with voxels of
+/// size_max/2^k. Each grid is active only where the size is about its voxel, so small features cost no more
+/// than they need; where sizes grow slowly, voxels are wider by as much. Each face has its own cascade, and
+/// sizes grow along faces and across their edges. With Gradation::space all faces share one cascade, and thin
+/// walls see each other's sizes. Immutable and thread-safe; look-ups go through one Sampler per thread.
 class SizingField {
  public:
-  /// \param options as mesh() checks them. Throws Error: usage for sizes that pass options.budget, failure
-  /// for an unreadable external grid.
+  /// \param options checked before, as by mesh(). Throws Error: usage for sizes that exceed options.budget,
+  /// failure for an unreadable external grid.
   static SizingField build(const CadModel& model, const SizingOptions& options, ExecutionContext& context,
                            const UnsizedFeatures& unsized = {});
 
   /// Writes the grids as .vdb: `size` (coarsest), `size_1`, ... with metadata unit, growth, size_max,
-  /// version. Where faces have sizes of their own, the least of all holds.
+  /// version. Where faces have their own cascades, the smallest value of all is written.
   void write(const std::filesystem::path& path) const;
 
   double size_max() const;  ///< millimeters
   double size_min() const;  ///< millimeters
 
-  /// One level of voxels, of all faces together.
+  /// One level of voxels, summed over all faces.
   struct Level {
-    double voxel = 0;         ///< width, millimeters
-    std::int64_t blocks = 0;  ///< of 8 x 8 x 8 voxels
-    std::int64_t bytes = 0;   ///< that its trees take
-    double seconds = 0;       ///< of all threads, for the gradation
+    double voxel = 0;         ///< voxel width, millimeters
+    std::int64_t blocks = 0;  ///< number of blocks of 8 x 8 x 8 voxels
+    std::int64_t bytes = 0;   ///< memory of its trees
+    double seconds = 0;       ///< time for the gradation, sum over all threads
   };
-  /// From the coarsest on.
+  /// All levels, coarsest first.
   std::vector<Level> levels() const;
 
   class Impl;
 
-  /// Looks sizes up on one face, on one edge, or anywhere; holds the accessors.
+  /// Looks up sizes on one face, on one edge, or anywhere; owns the accessors.
   class Sampler {
    public:
-    /// The least size of all faces: slow where there are many.
-    explicit Sampler(const SizingField& field);  ///< of a field that must outlive it
-    /// On a face, from 0.
+    /// Takes the smallest size of all faces: slow for many faces.
+    explicit Sampler(const SizingField& field);  ///< the field must outlive it
+    /// Sizes on a face, from 0.
     Sampler(const SizingField& field, int face);
-    /// On an edge: the least of its faces.
+    /// On an edge: the smallest size of its faces.
     Sampler(const SizingField& field, const CadEdge& edge);
     ~Sampler();
     Sampler(const Sampler&) = delete;
     Sampler& operator=(const Sampler&) = delete;
-    double operator()(const Vector3& point);  ///< size wanted there, millimeters
-    const Budget& budget() const;             ///< the field's
+    double operator()(const Vector3& point);  ///< wanted size, millimeters
+    const Budget& budget() const;             ///< the field's budget
 
    private:
     struct Lookups;

@@ -18,7 +18,7 @@ namespace quadrille {
 
 namespace {
 
-/// A slope that halving steps cannot pass over.
+/// A slope slow enough that halving steps cannot miss a size.
 constexpr double slope_of_hints = 0.3;
 
 double distance_to_box(const Vector3& p, const Vector3& low, const Vector3& high) {
@@ -33,7 +33,7 @@ double distance_to_cylinder(const Vector3& p, const Vector3& start, const Vector
 }
 
 bool reaches(const SizeRegion& region, const CadModel& model) {
-  // Boxes are compared; a region that only its box brings near is taken to reach.
+  // Compares bounding boxes, so a region whose box alone reaches the model counts as reaching it.
   const Vector3 &low = model.box_min(), &high = model.box_max();
   const Vector3 radii = Vector3::Constant(region.radius);
   switch (region.shape) {
@@ -53,7 +53,7 @@ bool reaches(const SizeRegion& region, const CadModel& model) {
   return true;
 }
 
-/// The numbers of a line between commas; fewer than four, or none at all, where it has others.
+/// The comma-separated numbers of a line; none if a field is not a number.
 std::vector<double> numbers_of(std::string_view line) {
   std::vector<double> numbers;
   while (true) {
@@ -98,7 +98,7 @@ std::vector<SizePoint> read_size_points(const std::filesystem::path& path) {
   for (std::size_t number = 1; std::getline(file, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::vector<double> values = numbers_of(line);
-    if (values.empty() && number == 1) continue;  // the names of the columns
+    if (values.empty() && number == 1) continue;  // header line
     if (values.size() != 4) throw refused(number, "is not x,y,z,size");
     if (!std::all_of(values.begin(), values.end() - 1, [](double value) { return std::isfinite(value); }))
       throw refused(number, "has a place that is no finite number");
@@ -133,8 +133,8 @@ void SpatialSizes::open_external(const CadModel& model, const SizingOptions& opt
     const std::string problem = vdb_module().function<VdbOpenFunction>("_open")(path, sizes);
     if (!problem.empty()) throw failure(path, problem);
   };
-  // OpenVDB believes whatever lengths a damaged file gives: tried apart, where it may crash or want no end
-  // of memory.
+  // OpenVDB trusts the lengths in a damaged file. So try to open it in a child process first, which may crash
+  // or ask for too much memory.
   constexpr std::size_t room = std::size_t{1} << 30, room_each_byte = 20;
   std::error_code unknown;
   const std::uintmax_t bytes = std::filesystem::file_size(options.size_field, unknown);

@@ -1,5 +1,5 @@
 #pragma once
-/// Sizes that hang on the place in space alone: regions, points, external grids. Internal.
+/// Sizes that depend on the position in space alone: regions, points, external grids. Internal.
 
 #include <functional>
 #include <vector>
@@ -14,10 +14,10 @@
 
 namespace quadrille {
 
-/// Reads lines x,y,z,size, with or without a line of names first. Throws Error (failure) for anything else.
+/// Reads lines x,y,z,size, with or without a header line. Throws Error (failure) for anything else.
 std::vector<SizePoint> read_size_points(const std::filesystem::path& path);
 
-/// The least of all that is asked for by place. Thread-safe.
+/// The smallest size asked for by position. Thread-safe.
 class SpatialSizes {
  public:
   /// Throws Error: failure for files that cannot be read, usage for sources that do not reach the model.
@@ -25,18 +25,17 @@ class SpatialSizes {
                BlockCount& blocks, ExecutionContext& context);
 
   bool empty() const { return regions_.empty() && !external_ && points_.empty(); }
-  /// Within the limits.
+  /// The size at a point, within the limits.
   double at(const Vector3& point) const;
-  /// What a corner of the voxel is given where a point asks for a size: what our own files hold at the
-  /// corner, if that is what asks at the point, so that sizes come out of the field as they are in the file;
-  /// else the point's.
+  /// The size for a corner of the voxel around a point that asks for a size. If the size comes from one of
+  /// our own files, it is the file's size at the corner, so that sizes come out of the field as they are in
+  /// the file. Otherwise it is the size at the point.
   double at_corner(const SizePoint& point, const Vector3& corner) const;
-  /// Whether at_corner() may be another size than the point's.
+  /// Whether at_corner() may differ from the size at the point.
   bool has_corners() const { return between_voxels_; }
-  /// What sizes there may be near a point, so that whoever halves his steps until they are about as long
-  /// passes over nothing.
+  /// A lower estimate of the sizes near a point: sampling whose steps are halved down to it misses nothing.
   double hint(const Vector3& point) const;
-  /// No wider than this should the first steps be.
+  /// The largest initial step of a sampling.
   double spacing() const { return spacing_; }
   const std::vector<SizePoint>& points() const { return points_; }
 
@@ -51,9 +50,9 @@ class SpatialSizes {
   double spacing_;
   std::vector<SizeRegion> regions_;
   std::function<double(const Vector3&)> external_;
-  bool between_voxels_ = false;  // of external_: it changes as slowly as sizes may
+  bool between_voxels_ = false;  // external_ is one of our own files: it interpolates between voxels
   std::vector<SizePoint> points_;
-  SizeCascade cascade_;  // of the points
+  SizeCascade cascade_;  // sizes from the points
 };
 
 }  // namespace quadrille

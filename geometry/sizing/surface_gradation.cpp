@@ -18,13 +18,13 @@ namespace quadrille {
 
 namespace {
 
-/// Where voxels of a face lie: look-ups read the corners of the voxel that a point is in, and points may be
+/// Tells which voxels a face needs. Look-ups read the corners of the voxel around a point, and points may be
 /// a little off the surface.
 class FaceBand {
  public:
   explicit FaceBand(const CadFace& face) : surface_(face) {
     constexpr double off = 0.3;
-    // From the corner of a cube to the plane through its other one.
+    // Largest distance of a voxel corner from a plane through the voxel.
     width_ = off + (surface_.planar() ? surface_.normal({0, 0}).lpNorm<1>() : std::sqrt(3.0));
     Bnd_Box box;
     BRepBndLib::Add(face.face, box, Standard_False);
@@ -39,11 +39,11 @@ class FaceBand {
 
  private:
   FaceSurface surface_;
-  double width_;  // in voxels
+  double width_;  // half width of the band, in voxels
   Vector3 low_{0, 0, 0}, high_{0, 0, 0};
 };
 
-/// Finds the voxels of a cascade that points lie in.
+/// Finds the voxels of a cascade around points.
 class VoxelFinder {
  public:
   explicit VoxelFinder(const SizeCascade& cascade) : cascade_(cascade) {
@@ -56,10 +56,10 @@ class VoxelFinder {
   struct Place {
     int level = -1;  // -1 = nowhere
     Coord base;
-    bool changed = false;  // by the last grading
+    bool changed = false;  // a corner was changed by the last grading
   };
 
-  /// The voxel of the finest level with an active corner there.
+  /// The voxel around a point on the finest level on which it has an active corner.
   Place find(const Vector3& p) {
     for (int level = cascade_.levels() - 1; level >= 0; --level) {
       if (!accessors_[level]) continue;
@@ -105,7 +105,7 @@ class SurfaceGradation {
         lowered_(shape.edges.size()) {}
 
   void run() {
-    // Most of what passes over edges lies at them: it need not be graded first.
+    // Most sizes that pass over edges lie at the edges, so pass them before the first grading.
     for (std::size_t face = 0; face < graded_.size(); ++face) graded_[face] = cascades_[face]->is_fresh();
     do {
       pass_over_edges();
@@ -118,7 +118,7 @@ class SurfaceGradation {
     double t;
     Vector3 point;
   };
-  /// A voxel whose size came over an edge.
+  /// A voxel that gets a smaller size from across an edge.
   struct Lowered {
     int face, level;
     Coord coord;
@@ -158,7 +158,7 @@ class SurfaceGradation {
     });
   }
 
-  /// What a face's sizes ask of its neighbors along an edge.
+  /// Passes a face's sizes to its neighbors along an edge.
   void pass(int index, int from, const std::vector<int>& faces) {
     const CadEdge& edge = shape_.edges[index];
     const SizeCascade& cascade = *cascades_[from];
@@ -190,13 +190,13 @@ class SurfaceGradation {
     samples = std::move(closer);
   }
 
-  /// One face's sizes on the way to others over an edge.
+  /// The state of passing one face's sizes to others across an edge.
   struct Passing {
     int edge, from;
     SizeCascade::Lookup size_at;
     VoxelFinder finder;
     std::vector<std::pair<int, VoxelFinder>> targets;
-    std::vector<Sample> samples;  // along the edge
+    std::vector<Sample> samples;  // samples along the edge
   };
   struct SizedSample {
     Sample at;
@@ -205,11 +205,11 @@ class SurfaceGradation {
 
   static Sample sample(const EdgeCurve& curve, double t) { return {t, curve.point(t)}; }
 
-  /// Passes samples between two until they are as near as voxels are wide.
+  /// Passes sizes at samples between two others, by halving until they are about a voxel apart.
   void split(const EdgeCurve& curve, Passing& passing, const SizedSample& a, const SizedSample& b,
              int depth) {
     constexpr int max_depth = 40;
-    constexpr double share = 0.7;  // of the size, which is at most a voxel
+    constexpr double share = 0.7;  // share of the size, which is at most a voxel width
     if (depth > max_depth || (a.at.point - b.at.point).norm() <= share * std::min(a.size, b.size)) return;
     SizedSample middle{sample(curve, 0.5 * (a.at.t + b.at.t)), 0};
     middle.size = passing.size_at(middle.at.point);
@@ -220,8 +220,8 @@ class SurfaceGradation {
     split(curve, passing, middle, b, depth + 1);
   }
 
-  /// Notes the corners of the voxel at a point that are less on one face than on others. \return whether the
-  /// last grading changed any near it.
+  /// Records the corners of the voxel around a point that are smaller on one face than on others. \return
+  /// whether the last grading changed the voxel.
   bool pass_voxel(Passing& passing, const Vector3& point) {
     const VoxelFinder::Place place = passing.finder.find(point);
     if (place.level < 0 || !place.changed) return false;
@@ -259,9 +259,9 @@ class SurfaceGradation {
   BlockCount& blocks_;
   const ExecutionContext& context_;
   std::vector<std::unique_ptr<FaceBand>> bands_;
-  std::vector<char> graded_;                   // (faces) in this round
-  std::vector<std::vector<Sample>> samples_;   // (edges) along it, as close as sizes were found to be
-  std::vector<std::vector<Lowered>> lowered_;  // (edges)
+  std::vector<char> graded_;                   // (faces) graded in this round
+  std::vector<std::vector<Sample>> samples_;   // (edges) samples along the edge, refined to the sizes there
+  std::vector<std::vector<Lowered>> lowered_;  // (edges) voxels to lower
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// Gradation along faces, and from face to face over the edges that they share. Internal.
+/// Gradation along faces, and from face to face across the edges that they share. Internal.
 
 #include <memory>
 #include <vector>
@@ -10,13 +10,13 @@
 
 namespace quadrille {
 
-/// (faces) the sizes on each face.
+/// (faces) The sizes on each face.
 using FaceCascades = std::vector<std::unique_ptr<SizeCascade>>;
 
-/// Lets the sizes of all faces grow: within a face through the voxels about it, from face to face through the
-/// voxels that an edge of both passes, by at most `slope` per length up to `most`. Voxels of all faces are of
-/// one lattice, so that what passes over an edge is exact; what lies across a gap or a wall is not met. Faces
-/// that only touch at a vertex meet over those between them.
+/// Lets the sizes of all faces grow by at most `slope` per unit of length, up to `most`: within a face
+/// through the voxels around it, and between faces through the voxels along their common edges. The voxels of
+/// all faces lie on one lattice, so sizes pass over an edge exactly. Sizes do not pass across a gap or
+/// through a wall. Faces that touch only at a vertex influence each other through the faces between them.
 void grade_on_surface(const CadShape& shape, FaceCascades& cascades, double slope, double most,
                       BlockCount& blocks, const ExecutionContext& context);
 

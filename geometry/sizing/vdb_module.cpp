@@ -29,14 +29,14 @@ struct ExternalField {
   struct Grid {
     FloatGrid::Ptr grid;
     double unit;
-    double limit = 0;  // sizes above are told by coarser grids
+    double limit = 0;  // larger sizes are left to coarser grids
   };
   std::vector<Grid> grids;
-  bool cascade = false;  // one of ours, finest first: between voxels sizes are what they were
+  bool cascade = false;  // one of our files, grids finest first: sizes are interpolated between voxels
 
   double at(const Vector3& p) const { return cascade ? between(p) : least(p); }
 
-  /// As SizeCascade::Lookup.
+  /// The interpolated size, as in SizeCascade::Lookup.
   double between(const Vector3& p) const {
     for (const auto& [grid, unit, limit] : grids) {
       Coord base;
@@ -55,7 +55,7 @@ struct ExternalField {
     return std::numeric_limits<double>::infinity();
   }
 
-  /// The least active corner of all grids: never larger than asked for, and the background cannot leak in.
+  /// The least active corner of all grids: never larger than asked for, and free of background values.
   double least(const Vector3& p) const {
     double result = std::numeric_limits<double>::infinity();
     for (const auto& [grid, unit, limit] : grids) {
@@ -71,8 +71,8 @@ struct ExternalField {
     return result;
   }
 
-  /// The voxel that a point is in, and where in it; false where voxels have no numbers, to where damaged
-  /// transforms lead.
+  /// Gets the voxel that contains a point, and the position in it. \return false outside the range of voxel
+  /// indices, where damaged transforms may lead.
   static bool enter(const FloatGrid& grid, const Vector3& p, Coord& base, Vector3& within) {
     const openvdb::Vec3d index = grid.worldToIndex(openvdb::Vec3d(p.x(), p.y(), p.z()));
     constexpr double farthest = 1e9;
@@ -84,7 +84,7 @@ struct ExternalField {
     return true;
   }
 
-  /// Finds out whether the grids are those of to_grid(), and puts them in order.
+  /// Detects grids made by to_grid(), and sorts them finest first.
   void recognize() {
     for (Grid& own : grids) {
       const auto largest = own.grid->getMetadata<openvdb::DoubleMetadata>("size_max");
@@ -98,7 +98,7 @@ struct ExternalField {
     cascade = true;
   }
 
-  /// \return the sentence that says what is wrong with the sizes; empty = nothing.
+  /// Checks the sizes and measures their box. \return a sentence that says what is wrong; empty = nothing.
   std::string measure(ExternalSizes& sizes) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     sizes.low.setConstant(infinity);
@@ -129,8 +129,8 @@ struct ExternalField {
   }
 };
 
-/// What openvdb::io::File puts into a file. That class writes the file itself and does not look whether the
-/// disk took it; openvdb::io::Stream leaves out the offsets that readers seek by.
+/// The content of a file as openvdb::io::File writes it. That class writes the file itself and does not check
+/// whether the disk accepted it. openvdb::io::Stream leaves out the offsets that readers seek by.
 class SeekableArchive : public openvdb::io::Archive {
  public:
   void write(std::ostream& out, const openvdb::GridPtrVec& grids) const {
@@ -179,7 +179,7 @@ QUADRILLE_EXPORT std::string quadrille_vdb_open(const std::string& path, Externa
   try {
     openvdb::initialize();
     openvdb::io::File file(path);
-    file.open(false);  // all of it at once: damage shows here, not at some look-up later
+    file.open(false);  // read everything now: damage shows here, not at a later look-up
     const auto field = std::make_shared<ExternalField>();
     const auto grids = file.getGrids();
     for (const auto& grid : *grids) {

@@ -17,9 +17,9 @@ namespace {
 using Box = Eigen::AlignedBox3d;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// The cosine of the angle up to which skins face each other, as inside faces (FaceGaps).
+/// Cosine of the largest angle at which skins face each other, as in FaceGaps.
 const double facing = std::cos(40 * M_PI / 180);
-/// Of the narrowest thickness: how far triangles are from the surface.
+/// Largest distance of triangles from the surface, as a share of the narrowest thickness.
 constexpr double deflection_share = 0.05;
 constexpr double turn_of_triangle = 0.2;
 
@@ -40,16 +40,16 @@ struct WallRays::Tree {
 
 namespace {
 
-/// What a ray leaves the material through first, for Eigen's search of the least value.
+/// The first triangle through which a ray leaves the material, for Eigen's BVMinimize.
 struct Exit {
   using Scalar = double;
   const SurfaceTriangles& surface;
-  Vector3 from, way;  ///< way: unit vector
+  Vector3 from, way;  ///< `way`: unit vector
   bool inside_out;
   double nearest = infinity;
-  double cosine = 0;  ///< between the way and the normal out of the material there
+  double cosine = 0;  ///< cosine of the angle between the ray and the outward normal there
 
-  /// Where the ray enters a box; infinite where it misses it.
+  /// Distance at which the ray enters a box; infinite if it misses the box.
   Scalar minimumOnVolume(const Box& box) const {
     double first = 0, last = infinity;
     for (int axis = 0; axis < 3; ++axis) {
@@ -65,14 +65,14 @@ struct Exit {
     return first <= last ? first : infinity;
   }
 
-  /// Möller and Trumbore (1997); a little beyond the triangle, so that no ray passes between two.
+  /// Möller and Trumbore (1997). Triangles are slightly enlarged, so that no ray passes between two.
   Scalar minimumOnObject(int triangle) {
     const auto& [a, b, c] = surface.triangles[triangle];
     const Vector3 ab = surface.points[b] - surface.points[a], ac = surface.points[c] - surface.points[a];
     const Vector3 normal = ab.cross(ac), aside = way.cross(ac), offset = from - surface.points[a];
     const double volume = ab.dot(aside);
     const double leaving = (inside_out ? -1 : 1) * way.dot(normal);
-    if (!(leaving > 0) || volume == 0) return infinity;  // the skin that it starts from, or edge on
+    if (!(leaving > 0) || volume == 0) return infinity;  // the skin that the ray starts from, or edge-on
     constexpr double beyond = 1e-9;
     const double u = offset.dot(aside) / volume;
     const Vector3 across = offset.cross(ab);

@@ -7,7 +7,7 @@
 
 namespace quadrille {
 
-/// Evaluates an edge's curve in space. One object a thread.
+/// Evaluates an edge's curve in space. Use one object per thread.
 class EdgeCurve {
  public:
   explicit EdgeCurve(const CadEdge& edge) : curve_(edge.edge) {}
@@ -19,7 +19,7 @@ class EdgeCurve {
     curve_.D1(t, p, d);
     return to_vector(d);
   }
-  /// 1 / length; 0 where the curve stands still.
+  /// 1 / length; 0 where the derivative vanishes.
   double curvature(double t) const {
     gp_Pnt p;
     gp_Vec d1, d2;
@@ -28,7 +28,7 @@ class EdgeCurve {
     return speed > 1e-12 ? d1.Crossed(d2).Magnitude() / (speed * speed * speed) : 0;
   }
   bool straight() const { return curve_.GetType() == GeomAbs_Line; }
-  /// Curvature is the same everywhere.
+  /// Whether the curve is a circle or an arc, so that its curvature is constant.
   bool circular() const { return curve_.GetType() == GeomAbs_Circle; }
   /// Number of spans of a piecewise polynomial curve; 1 for others.
   int spans() const {

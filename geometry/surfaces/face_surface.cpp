@@ -1,5 +1,5 @@
-/// Elementary surfaces follow the parametrizations of OpenCASCADE's ElSLib; curvature from the first and
-/// second fundamental forms (do Carmo, Differential Geometry of Curves and Surfaces, 3.3).
+/// Elementary surfaces follow the parametrizations of OpenCASCADE's ElSLib. Curvature comes from the first
+/// and second fundamental forms (do Carmo, Differential Geometry of Curves and Surfaces, 3.3).
 
 #include "geometry/surfaces/face_surface.hpp"
 
@@ -36,15 +36,15 @@ double nearest_period(double angle, double reference, double period) {
 
 }  // namespace
 
-/// A plane from which a surface is looked at, and samples of the surface to start searching from.
+/// A plane onto which a surface is projected, and samples of the surface to start searches from.
 struct FaceSurface::View {
   static constexpr int samples = 48, buckets = 32;
   Vector3 origin, x, y, normal;
-  Vector2 low, high;                        // of the samples, in the plane
-  Vector2 least_uv, greatest_uv;            // where the surface may be evaluated
-  std::vector<Vector2> uv;                  // of the samples that face the plane
-  std::vector<Vector2> xy;                  // where they are seen
-  std::array<int, buckets * buckets> near;  // the sample nearest to the middle of each bucket
+  Vector2 low, high;                        // bounds of the samples in the plane
+  Vector2 least_uv, greatest_uv;            // bounds within which the surface may be evaluated
+  std::vector<Vector2> uv;                  // parameters of the samples that face the plane
+  std::vector<Vector2> xy;                  // coordinates of the same samples in the plane
+  std::array<int, buckets * buckets> near;  // index of the sample nearest to the middle of each bucket
 
   Vector2 at(const Vector3& p) const { return {(p - origin).dot(x), (p - origin).dot(y)}; }
 
@@ -98,7 +98,7 @@ FaceSurface FaceSurface::seen_from_above(const CadFace& face, const std::vector<
   for (const Vector3& p : loop) view->origin += p / static_cast<double>(loop.size());
   if (!(area.norm() > 0)) throw failure("", "the loop encloses no area");
   view->normal = area.normalized();
-  // The parametric curves may be wrong, and the bounds of the face with them: as far as the surface goes.
+  // The parametric curves may be wrong, and with them the face's bounds: use those of the surface.
   const Vector2 span = surface.high_ - surface.low_;
   view->least_uv = surface.low_ - span;
   view->greatest_uv = surface.high_ + span;
@@ -110,7 +110,7 @@ FaceSurface FaceSurface::seen_from_above(const CadFace& face, const std::vector<
     if (!Precision::IsInfinite(first[k])) view->least_uv[k] = first[k];
     if (!Precision::IsInfinite(last[k])) view->greatest_uv[k] = last[k];
   }
-  // The side that most of the surface shows.
+  // Orient the plane's normal to the side that most of the surface shows.
   std::vector<std::pair<Vector2, SurfacePoint>> samples;
   int towards = 0;
   for (int i = 0; i < View::samples * View::samples; ++i) {
@@ -150,7 +150,7 @@ Vector2 FaceSurface::seen_at(const Vector3& point) const {
   return view_->at(point);
 }
 
-/// Newton's method in the parameters of the surface, on what is seen of its points.
+/// Newton's method in the surface's parameters, on the projection of its points onto the plane.
 SurfacePoint FaceSurface::evaluate_view(const Vector2& xy) const {
   constexpr int max_iterations = 20;
   Vector2 uv = view_->uv[view_->nearest(xy)];
@@ -188,7 +188,7 @@ double FaceSurface::distance_at_least(const Vector3& point) const {
       return std::abs(height);
     case Kind::cylinder:
       return std::abs(beside - radius_);
-    case Kind::cone: {  // of both halves
+    case Kind::cone: {  // both nappes
       const double near = (beside - radius_) * cos_angle_ - height * sin_angle_;
       const double far = (-beside - radius_) * cos_angle_ - height * sin_angle_;
       return std::min(std::abs(near), std::abs(far));
@@ -240,7 +240,7 @@ void FaceSurface::recognize() {
   x_ = direction(frame.XDirection());
   y_ = direction(frame.YDirection());
   z_ = direction(frame.Direction());
-  // A scaled placement changes the parametrization: trust the formulas only where they agree with
+  // A scaled placement changes the parametrization, so use the formulas only where they agree with
   // OpenCASCADE.
   const double tolerance = 1e-9 * (1 + (to_vector(adaptor_->Value(low_.x(), low_.y())).norm() + radius_));
   for (const Vector2& uv : {low_, high_, Vector2(0.7 * low_ + 0.3 * high_)}) {
@@ -328,7 +328,7 @@ Vector2 FaceSurface::parameter_step(const SurfacePoint& at, const Vector3& displ
   const double a = at.du.dot(displacement), b = at.dv.dot(displacement);
   const double determinant = e * g - f * f;
   if (determinant > 1e-10 * e * g) return {(g * a - f * b) / determinant, (e * b - f * a) / determinant};
-  // Singular: move along the direction that has a length.
+  // Singular: move only along the longer derivative.
   if (e > g) return {e > 0 ? a / e : 0, 0};
   return {0, g > 0 ? b / g : 0};
 }
@@ -341,7 +341,7 @@ Vector2 FaceSurface::clamp(Vector2 uv) const {
 
 Vector2 FaceSurface::step_towards(const Vector2& uv, const SurfacePoint& at, const Vector3& target) const {
   Vector2 step = parameter_step(at, target - at.point);
-  // Near a pole steps round it may be as long as they like.
+  // Near a pole, steps around it can become arbitrarily long.
   if (u_periodic()) step.x() = std::clamp(step.x(), -0.5 * u_period_, 0.5 * u_period_);
   if (v_periodic()) step.y() = std::clamp(step.y(), -0.5 * v_period_, 0.5 * v_period_);
   return clamp(uv + step);
@@ -357,7 +357,7 @@ Vector2 FaceSurface::inverse(const Vector2& near, const Vector3& target) const {
   const double pi = M_PI;
   if (kind_ == Kind::cylinder) return {nearest_period(u, near.x(), 2 * pi), z};
   if (kind_ == Kind::cone) {
-    // Beyond the apex the radius is negative: the same point has u turned by half a circle.
+    // Beyond the apex the radius is negative: the same point then has u shifted by half a turn.
     double signed_r = r;
     if (radius_ + near.y() * sin_angle_ < 0) {
       signed_r = -r;
@@ -366,7 +366,7 @@ Vector2 FaceSurface::inverse(const Vector2& near, const Vector3& target) const {
     return {nearest_period(u, near.x(), 2 * pi), (signed_r - radius_) * sin_angle_ + z * cos_angle_};
   }
   if (kind_ == Kind::sphere) return {nearest_period(u, near.x(), 2 * pi), std::atan2(z, r)};
-  // Beyond the axis of a torus that meets it the same holds.
+  // The same holds beyond the axis of a torus that meets its axis.
   double signed_r = r;
   if (radius_ + minor_radius_ * std::cos(near.y()) < 0) {
     signed_r = -r;

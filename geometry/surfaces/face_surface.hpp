@@ -1,5 +1,5 @@
 #pragma once
-/// The surface of one CAD face, evaluated fast. Internal.
+/// Fast evaluation of the surface of one CAD face. Internal.
 
 #include <memory>
 #include <vector>
@@ -11,7 +11,7 @@ class BRepAdaptor_Surface;
 
 namespace quadrille {
 
-/// Point, first derivatives at parameters (u, v).
+/// Point and first derivatives at parameters (u, v).
 struct SurfacePoint {
   Vector3 point, du, dv;
 };
@@ -19,22 +19,22 @@ struct SurfacePoint {
 /// Twice the vector area of a closed polygon (Newell's method).
 Vector3 vector_area(const std::vector<Vector3>& loop);
 
-/// Evaluates a face's surface. Planes, cylinders, cones, spheres and tori by their formulas, others through
-/// OpenCASCADE. Evaluation caches inside: one object a thread.
+/// Evaluates a face's surface: planes, cylinders, cones, spheres and tori by their formulas, others through
+/// OpenCASCADE. Evaluation uses internal caches, so use one object per thread.
 class FaceSurface {
  public:
   explicit FaceSurface(const CadFace& face);
 
-  /// The same surface in another parametrization: (u, v) are coordinates in a plane, in the model's unit, and
-  /// stand for the point of the surface that is seen there along the plane's normal. For faces whose own
-  /// parametrization is of no use. The plane is that of the loop's vector area. \param loop points round the
-  /// face. Throws Error (failure) where the surface turns away from the plane's normal by more than 80
-  /// degrees at a point of the loop or between them.
+  /// The same surface in another parametrization, for faces whose own is unusable: (u, v) are coordinates in
+  /// a plane, in the model's unit, of the point of the surface that lies above them along the plane's normal.
+  /// The plane is that of the loop's vector area. \param loop points along the boundary of the face. Throws
+  /// Error (failure) when the loop encloses no area, or when the surface turns away from the plane's normal
+  /// by more than 80 degrees at a point of the loop.
   static FaceSurface seen_from_above(const CadFace& face, const std::vector<Vector3>& loop);
 
   /// Whether (u, v) are coordinates in a plane.
   bool is_view() const { return view_ != nullptr; }
-  /// Where a point lies in that plane.
+  /// The coordinates of a point in that plane.
   Vector2 seen_at(const Vector3& point) const;
   ~FaceSurface();
   FaceSurface(FaceSurface&&) noexcept;
@@ -43,26 +43,26 @@ class FaceSurface {
   SurfacePoint evaluate(const Vector2& uv) const;
   Vector3 point(const Vector2& uv) const { return evaluate(uv).point; }
 
-  /// Unit normal du x dv; at a singular point (pole, apex) the limit from inside the face.
+  /// Unit normal along du x dv. At a singular point (pole, apex) the normal a little inside the face.
   Vector3 normal(const Vector2& uv) const { return normal(evaluate(uv), uv); }
   Vector3 normal(const SurfacePoint& at, const Vector2& uv) const;
 
   /// Largest absolute principal curvature, 1 / length.
   double max_curvature(const Vector2& uv) const;
 
-  /// The change of (u, v) that moves a point by `displacement` in space, to first order, in the least squares
-  /// sense. Directions in which the parametrization is singular stay still.
+  /// The change of (u, v) that moves a point by `displacement` in space, to first order and in the
+  /// least-squares sense. Parameters in whose direction the parametrization is singular do not change.
   static Vector2 parameter_step(const SurfacePoint& at, const Vector3& displacement);
 
   /// The point of the surface near `target`, searched from `uv`, which is updated. Exact for elementary
-  /// surfaces, one Newton step towards it for others; the result is on the surface in any case.
+  /// surfaces, one Newton step for others. The result always lies on the surface.
   SurfacePoint move(Vector2& uv, const Vector3& target) const;
 
-  /// The closest point of the surface to `target` near `uv` (Newton iterations, bounded).
+  /// The point of the surface closest to `target` near `uv`, which is updated (bounded Newton iterations).
   SurfacePoint project(Vector2& uv, const Vector3& target) const;
 
-  /// No more than the distance from a point to the surface, trimmed or not: exact for elementary surfaces
-  /// without their trimming, 0 for others.
+  /// A lower bound of the distance from a point to the surface, trimmed or not. It is the exact distance to
+  /// untrimmed elementary surfaces, and 0 for others.
   double distance_at_least(const Vector3& point) const;
 
   bool planar() const { return kind_ == Kind::plane; }
@@ -70,10 +70,10 @@ class FaceSurface {
   bool v_periodic() const { return v_period_ > 0; }
   double u_period() const { return u_period_; }  ///< 0 = not periodic
   double v_period() const { return v_period_; }
-  /// Mean lengths in space of a unit step in u and in v over the face: scales the parameter plane to be as
-  /// isometric as it can be by two numbers.
+  /// Mean lengths in space of a unit step in u and in v over the face. Scaling the parameter plane by them
+  /// makes it as isometric as two numbers can.
   Vector2 mean_scale() const { return mean_scale_; }
-  /// Whether all of it is one curve or point, as a torus that has lost its smaller radius is.
+  /// Whether the surface degenerates to a curve or a point, as a torus with a minor radius of zero does.
   bool is_curve() const { return is_curve_; }
 
  private:

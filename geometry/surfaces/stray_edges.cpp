@@ -13,8 +13,7 @@ namespace quadrille {
 
 namespace {
 
-/// The box of all surfaces, which an edge's own curve does not enlarge but where it bounds a plane; void
-/// where there is none.
+/// The box of all surfaces; void if there are none. Edge curves enlarge it only where they bound planes.
 Bnd_Box box_of_surfaces(const CadShape& shape) {
   Bnd_Box box;
   BRepBndLib::Add(shape.shape, box, Standard_False);
@@ -57,7 +56,7 @@ std::vector<StrayEdge> stray_edges(const CadShape& shape, const std::vector<char
   const double usual = diagonal_of_vertices(shape);
   for (std::size_t i = 0; i < shape.edges.size(); ++i) {
     const CadEdge& edge = shape.edges[i];
-    // A curve that could not be measured has no length.
+    // Edges whose curves could not be measured have length 0.
     if (edge.is_used(used) && !edge.degenerate && edge.length > spans * usual)
       long_ones.push_back(static_cast<int>(i));
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// Edges that a damaged number has thrown far out of their model.
+/// Edges that run far out of their model because of a damaged number in the file.
 
 #include <string>
 #include <vector>
@@ -10,15 +10,15 @@ namespace quadrille {
 
 struct StrayEdge {
   int edge = 0;         ///< from 1
-  double distance = 0;  ///< from the surfaces' box
-  double span = 0;      ///< that box's diagonal
+  double distance = 0;  ///< largest distance from the bounding box of the surfaces
+  double span = 0;      ///< diagonal of that box
   /// "Edge7 runs 9998 mm away from the model's surfaces, ...".
   std::string sentence() const;
 };
 
-/// The edges of the faces used that leave the model's box, which is that of its surfaces, by ten of its
-/// diagonals and more. No size suits them: their length is no length of the part. \param used (faces) 1 =
-/// wanted. Some ten evaluations an edge.
+/// The edges of the used faces that leave the bounding box of the model's surfaces by more than ten of its
+/// diagonals. No size suits them: their length is not a length of the part. \param used (faces) 1 = wanted.
+/// Time: some ten evaluations per long edge.
 std::vector<StrayEdge> stray_edges(const CadShape& shape, const std::vector<char>& used);
 
 }  // namespace quadrille

@@ -23,12 +23,12 @@ namespace quadrille {
 
 namespace {
 
-/// Adds a triangulated face. \return false if it has no triangles.
+/// Adds the triangles of a face. \return false if it has none.
 bool add_face(const CadShape& shape, int index, const TopoDS_Face& face, SurfaceTriangles& surface) {
   TopLoc_Location place;
   const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
   if (mesh.IsNull() || mesh->NbTriangles() == 0) return false;
-  const int first = static_cast<int>(surface.points.size()) - 1;  // nodes are counted from 1
+  const int first = static_cast<int>(surface.points.size()) - 1;  // OpenCASCADE counts nodes from 1
   const CadFace& cad = shape.faces[index];
   for (int i = 1; i <= mesh->NbNodes(); ++i) {
     surface.points.push_back(to_vector(mesh->Node(i).Transformed(place.Transformation())));
@@ -57,7 +57,7 @@ void add_lines(const TopoDS_Edge& edge, const TopoDS_Face& face, SurfaceTriangle
   }
 }
 
-/// Divides the sides of one round.
+/// One round of dividing sides.
 class Round {
  public:
   Round(SurfaceTriangles& surface, const std::function<double(int, const Vector3&)>& longest)
@@ -108,7 +108,7 @@ class Round {
   static constexpr int whole = -1, to_divide = -2;
 
   struct Side {
-    int middle = whole;  // its point, or a state
+    int middle = whole;  // index of its midpoint, or one of the states above
     std::array<int, 2> triangles{-1, -1};
   };
 
@@ -134,7 +134,7 @@ class Round {
     return best;
   }
 
-  /// Where a side is divided, so is the longest of each triangle that it bounds: angles stay what they are.
+  /// Marks the longest side of every triangle that has a marked side. This keeps angles from degenerating.
   void close() {
     while (!divided_.empty()) {
       const Side& side = *divided_.back();
@@ -152,7 +152,7 @@ class Round {
     return middles_.at(key(a, b));
   }
 
-  /// The point in the middle of a side to be divided; negative for the others.
+  /// The midpoint of a side that is to be divided; negative for the others.
   int point_of(std::size_t triangle, int k) {
     int& point = side_of(triangle, k).middle;
     if (point != to_divide) return point;
@@ -166,7 +166,7 @@ class Round {
   void cut(std::size_t triangle, std::vector<std::array<int, 3>>& out) {
     const int k = longest_side(triangle);
     const auto& nodes = surface_.triangles[triangle];
-    // From the middle of the longest side to the corner across; each half may have one more side divided.
+    // Cut from the middle of the longest side to the opposite corner. Each half may have one more such side.
     const int a = nodes[k], b = nodes[(k + 1) % 3], c = nodes[(k + 2) % 3];
     const int ab = point_of(triangle, k);
     if (ab < 0) {
@@ -190,7 +190,7 @@ class Round {
 
   SurfaceTriangles& surface_;
   std::unordered_map<std::uint64_t, Side> middles_;
-  std::vector<Side*> divided_;  // whose triangles were not looked at
+  std::vector<Side*> divided_;  // marked sides whose triangles still have to be checked
 };
 
 }  // namespace
@@ -205,12 +205,12 @@ SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, d
   for (std::size_t i = 0; i < shape.faces.size(); ++i) {
     if (used[i]) builder.Add(faces, shape.faces[i].face);
   }
-  // The model itself stays as it is: without triangles.
+  // A copy is triangulated, so that the model itself stays without triangles.
   BRepBuilderAPI_Copy copy(faces, Standard_False);
   try {
     BRepMesh_IncrementalMesh(copy.Shape(), deflection, Standard_False, turn, Standard_False);
   } catch (const Standard_Failure&) {
-    // The faces done by then are there.
+    // Keep the faces that were triangulated before the failure.
   }
   context.check();
   for (std::size_t i = 0; i < shape.faces.size(); ++i) {
@@ -225,7 +225,7 @@ SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, d
       for (const Coedge& coedge : wire.coedges) {
         const CadEdge& edge = shape.edges[coedge.edge - 1];
         if (edge.degenerate) continue;
-        // Seams have a polygon on either side, by their orientation.
+        // A seam has one polygon for each side, selected by its orientation.
         const TopoDS_Shape copied = copy.ModifiedShape(coedge.source).Oriented(coedge.source.Orientation());
         add_lines(TopoDS::Edge(copied), face, {{-1, -1}, edge.number, number}, first, surface);
       }

@@ -1,5 +1,5 @@
 #pragma once
-/// Triangles on the faces of a model, for looking at it and for rays. Internal.
+/// Triangles on the faces of a model, for display and for ray casting. Internal.
 
 #include <array>
 #include <cstddef>
@@ -13,31 +13,30 @@ namespace quadrille {
 
 class CadShape;
 
-/// Triangles over points that each face has for itself.
+/// Triangles and their points. Faces share no points.
 struct SurfaceTriangles {
-  /// A piece of a CAD edge, as one of its faces has it.
+  /// A segment of a CAD edge in the triangulation of one of its faces.
   struct Line {
     std::array<int, 2> points{-1, -1};  ///< indices into points
-    int edge = 0;                       ///< as the file numbers it, from 1
+    int edge = 0;                       ///< edge number in the file, from 1
     int face = 0;                       ///< from 1
   };
   std::vector<Vector3> points;                ///< (n) millimeters
   std::vector<int> point_faces;               ///< (n) CAD face of each point, from 1
   std::vector<std::array<int, 3>> triangles;  ///< (m) counter-clockwise seen from outside
   std::vector<int> faces;                     ///< (m) CAD face of each triangle, from 1, ascending
-  std::vector<Line> lines;                    ///< along the faces' boundaries
-  std::vector<int> missing;                   ///< CAD faces that got no triangles, from 1, ascending
+  std::vector<Line> lines;                    ///< segments along the faces' boundaries
+  std::vector<int> missing;                   ///< CAD faces without triangles, from 1, ascending
 };
 
-/// Triangulates a copy of the model by OpenCASCADE. \param deflection largest distance from the surface,
-/// millimeters. \param turn radians between neighboring triangles of a curved face, at most. \param used
-/// (faces) 1 = wanted.
+/// Triangulates a copy of the model with OpenCASCADE. \param deflection largest distance from the surface,
+/// millimeters. \param turn largest angle between neighboring triangles of a curved face, radians.
+/// \param used (faces) 1 = wanted.
 SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, double turn,
                                      const std::vector<char>& used, const ExecutionContext& context);
 
-/// Divides sides that are longer than wanted in their middle, until there are none, or there are `most`
-/// triangles. Sides stay whole where the next triangle has none of it: neighbors share all points. \param
-/// longest(face from 1, point) the length wanted there.
+/// Bisects sides that are longer than wanted, until there are none or there are `most` triangles. The
+/// triangles of a face stay conforming. \param longest(face from 1, point) the longest side wanted there.
 void divide_sides(SurfaceTriangles& surface, const std::function<double(int face, const Vector3&)>& longest,
                   std::size_t most, const ExecutionContext& context);
 

@@ -26,13 +26,13 @@ namespace quadrille {
 
 namespace {
 
-/// What is compared first: a length and a place that mirror with the feature.
+/// What is compared first: the center and length of an edge, face (sum of its edges) or vertex (length 1).
 struct Feature {
   Vector3 center{0, 0, 0};
   double length = 0;
 };
 
-/// Finds the features at a place.
+/// Finds features by their centers.
 class Places {
  public:
   explicit Places(const std::vector<Feature>& features) : features_(features) {
@@ -42,7 +42,7 @@ class Places {
     std::sort(order_.begin(), order_.end(), [&](int a, int b) { return key(a) < key(b); });
   }
 
-  /// Those within a distance of the place, of that length within the same.
+  /// Indices of the features with the center within `reach` and the length within 2 * reach of the wanted.
   std::vector<int> at(const Feature& wanted, double reach) const {
     const double low = direction_.dot(wanted.center) - reach;
     auto it =
@@ -61,7 +61,7 @@ class Places {
   double key(int i) const { return direction_.dot(features_[i].center); }
 
   const std::vector<Feature>& features_;
-  // None that a model is likely to be laid out along.
+  // A direction that models are unlikely to be aligned with.
   const Vector3 direction_ = Vector3(0.61, 0.53, 0.59).normalized();
   std::vector<int> order_;
 };
@@ -84,7 +84,7 @@ class Search {
 
   std::vector<MirrorPlane> run() {
     std::vector<MirrorPlane> found;
-    // A face without edges of its own has no feature to be compared by.
+    // A face that has only seams and poles has no feature to compare.
     if (whole_.Mass() <= 0 ||
         std::any_of(faces_.begin(), faces_.end(), [](const Feature& face) { return !(face.length > 0); }))
       return found;
@@ -123,7 +123,7 @@ class Search {
     if (face.length > 0) face.center /= face.length;
   }
 
-  /// Of a face, each once, without seams and poles; from 0.
+  /// The edges of a face, from 0, each once, without seams and poles.
   std::vector<int> own_edges(int face) const {
     std::vector<int> result;
     for (const CadWire& wire : shape_.faces[face].wires) {
@@ -161,7 +161,8 @@ class Search {
     return result;
   }
 
-  /// Along the coordinate axes, and between the edges of the length that the fewest have, or square to those.
+  /// The coordinate axes, the directions between edges of the least frequent length, and directions at right
+  /// angles to the line from the centroid to the first of these edges.
   std::vector<Vector3> ambiguous_normals() const {
     std::vector<Vector3> result{Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
     const Vector3 middle = to_vector(whole_.CentreOfMass());
@@ -199,8 +200,8 @@ class Search {
 
   double tolerance(double own) const { return std::max(relative_tolerance * shape_.diagonal(), own); }
 
-  /// The plane that fits the edges and their images best, and before it that along a coordinate axis, if
-  /// there is one so near.
+  /// The plane that fits the edges and their images best, preceded by the plane normal to a coordinate axis
+  /// if that is very near. None if an edge has no image.
   std::array<std::optional<MirrorPlane>, 2> refined(const Vector3& normal) const {
     const Vector3 middle = to_vector(whole_.CentreOfMass());
     MirrorPlane plane;
@@ -240,7 +241,7 @@ class Search {
     return {along, plane};
   }
 
-  /// Completes it with what lies where; false if something has no image.
+  /// Completes the plane with the images of faces, edges and vertices; false if one has no image.
   bool accept(MirrorPlane& plane) const {
     std::vector<std::vector<int>> edge_images(edges_.size());
     for (std::size_t i = 0; i < edges_.size(); ++i) {
@@ -256,7 +257,7 @@ class Search {
     return match_faces(plane, edge_images) && match_edges(plane, edge_images) && match_vertices(plane);
   }
 
-  /// Whether an edge's mirror image lies on another.
+  /// Whether the mirror image of an edge coincides with the edge `image`.
   bool is_image(const MirrorPlane& plane, int edge, int image, double reach) const {
     const CadEdge &a = shape_.edges[edge], &b = shape_.edges[image];
     const EdgeCurve from(a), to(b);
@@ -294,7 +295,7 @@ class Search {
       if (plane.faces[i] >= 0) continue;
       context_.check();
       const int face = static_cast<int>(i);
-      // Lengths of a face add up, and so do their errors.
+      // The length of a face is a sum over its edges, whose errors add up.
       const double reach = 10 * tolerance(2 * shape_.faces[i].tolerance);
       std::optional<std::pair<int, char>> best;
       for (const int image : face_places_->at({plane.mirrored(faces_[i].center), faces_[i].length}, reach)) {
@@ -303,7 +304,7 @@ class Search {
         if (turned && (!best || *turned < best->second)) best = {image, *turned};
       }
       if (!best) return false;
-      // A face in the plane itself has no half.
+      // A face that lies in the plane cannot be halved.
       if (best->first == face && best->second != 0) return false;
       for (const auto& [from, to] : {std::pair(face, best->first), std::pair(best->first, face)}) {
         plane.faces[from] = to;
@@ -314,7 +315,7 @@ class Search {
     return true;
   }
 
-  /// Whether the edges of a face have images among those of another, as many as it has.
+  /// Whether each edge of a face has an image among the edges of `image`, and both have equally many edges.
   bool has_edges(int image, int face, const std::vector<std::vector<int>>& edge_images) const {
     const std::vector<int> edges = own_edges(face), others = own_edges(image);
     return edges.size() == others.size() && std::all_of(edges.begin(), edges.end(), [&](int edge) {
@@ -324,8 +325,8 @@ class Search {
            });
   }
 
-  /// Whether a face's mirror image lies on the surface of another, and whether it is turned over; nothing if
-  /// it does not.
+  /// 1 if a face's mirror image lies on the surface of the face `image` and is turned over, 0 if it lies on
+  /// it and is not; nothing if it does not lie on it.
   std::optional<char> mirrors(const MirrorPlane& plane, int face, int image) const {
     const CadFace &from = shape_.faces[face], &to = shape_.faces[image];
     const FaceSurface surface(from), other(to);
@@ -350,7 +351,7 @@ class Search {
     return turned;
   }
 
-  /// Some parameters inside a face, more of them where its surface is free-form.
+  /// Some parameter points inside a face; more if its surface is free-form.
   static std::vector<Vector2> inner_parameters(const CadFace& face) {
     const GeomAbs_SurfaceType type = BRepAdaptor_Surface(face.face, Standard_False).GetType();
     const bool free_form = type == GeomAbs_BSplineSurface || type == GeomAbs_BezierSurface ||
@@ -371,7 +372,7 @@ class Search {
     return result;
   }
 
-  /// Edges that lie on each other belong to different faces, which tell them apart.
+  /// Edges that coincide are told apart by their faces.
   bool match_edges(MirrorPlane& plane, const std::vector<std::vector<int>>& edge_images) const {
     plane.edges.assign(edges_.size(), -1);
     for (std::size_t i = 0; i < edges_.size(); ++i) {
@@ -387,7 +388,7 @@ class Search {
     return true;
   }
 
-  /// By the ends of edges; vertices on closed edges alone by their place.
+  /// Matches vertices by the ends of edges; those that bound no open edge by their place.
   bool match_vertices(MirrorPlane& plane) const {
     plane.vertices.assign(vertices_.size(), -1);
     std::vector<char> needed(vertices_.size(), 0);
@@ -413,7 +414,7 @@ class Search {
     return true;
   }
 
-  /// Vertices from 1.
+  /// Whether the mirror image of a vertex lies at another vertex; numbers from 1.
   bool lies_at(const MirrorPlane& plane, int vertex, int other) const {
     const double own = shape_.vertex_tolerances[vertex - 1] + shape_.vertex_tolerances[other - 1];
     return (plane.mirrored(shape_.vertices[vertex - 1]) - shape_.vertices[other - 1]).norm() <=
@@ -425,7 +426,7 @@ class Search {
   const CadShape& shape_;
   const ExecutionContext& context_;
   GProp_GProps whole_;
-  std::vector<Feature> faces_, edges_, vertices_;  // length 0 = is not compared
+  std::vector<Feature> faces_, edges_, vertices_;  // length 0 = not compared
   std::optional<Places> edge_places_, face_places_, vertex_places_;
 };
 

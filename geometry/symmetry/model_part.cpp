@@ -33,7 +33,7 @@ namespace quadrille {
 
 namespace {
 
-/// Lets OpenCASCADE's cutting be cancelled.
+/// Stops OpenCASCADE's cutting when the work was cancelled.
 class Asking : public Message_ProgressIndicator {
  public:
   explicit Asking(const ExecutionContext& context) : context_(context) {}
@@ -86,7 +86,7 @@ class Cutter {
   }
 
  private:
-  /// What lies where in the image, from 0, -1 = nothing; `turned` of several planes.
+  /// The combined mirror image in all planes of an image, without normal and offset.
   MirrorPlane composed(unsigned image) const {
     MirrorPlane result;
     const auto identity = [](std::size_t n) {
@@ -125,8 +125,8 @@ class Cutter {
     return all;
   }
 
-  /// Faces that share edges or vertices. Each component is cut by itself, so that parts that merely touch
-  /// stay apart.
+  /// Finds the components: faces connected by shared edges or vertices. Each component is cut by itself, so
+  /// that parts that merely touch stay apart.
   void find_components() {
     TopTools_IndexedDataMapOfShapeListOfShape users;
     TopTools_IndexedMapOfShape faces;
@@ -167,7 +167,7 @@ class Cutter {
       const int component = static_cast<int>(i);
       if (component_of_[i] != component) continue;
       for (const MirrorPlane& plane : planes_) {
-        if (component_of_[plane.faces[i]] != component) continue;  // its image is another
+        if (component_of_[plane.faces[i]] != component) continue;  // its image is another component
         const Vector3 foot = middle - plane.distance(middle) * plane.normal;
         const gp_Pln surface(gp_Pnt(foot.x(), foot.y(), foot.z()),
                              gp_Dir(plane.normal.x(), plane.normal.y(), plane.normal.z()));
@@ -199,8 +199,8 @@ class Cutter {
     return splitter.IsDone() && !splitter.HasErrors();
   }
 
-  /// Adds the images of seams and vertices that lie on the kept side and are none of the model's own to the
-  /// tools of the components that they lie on.
+  /// Mirrors the seams and vertices that have no image in the model. Adds the images that lie on the kept
+  /// side to the tools of the components that they lie on.
   void imprint(std::vector<TopTools_ListOfShape>& tools) {
     for (unsigned image = 1; image < images_.size(); ++image) {
       const gp_Trsf move = transformation(image);
@@ -234,7 +234,7 @@ class Cutter {
     imprinted_.push_back({copy, image, source, component});
   }
 
-  /// Whether a point's image lies on the kept side, or in the planes, and is another point.
+  /// Whether the image of a point lies on the kept side, or in the planes, and differs from the point.
   bool is_wanted(const Vector3& point, const gp_Trsf& move) const {
     const gp_Pnt at = gp_Pnt(point.x(), point.y(), point.z()).Transformed(move);
     return (to_vector(at) - point).norm() > near() &&
@@ -263,7 +263,7 @@ class Cutter {
     }
   }
 
-  /// Whether it lies on the positive side of all planes, by the points of it farthest from each.
+  /// Whether a piece lies on the positive side of all planes, decided by its point farthest from each plane.
   bool is_positive(const TopoDS_Face& piece) const {
     std::vector<double> farthest(planes_.size(), 0);
     const auto look = [&](const gp_Pnt& point) {
@@ -325,7 +325,7 @@ class Cutter {
       result.vertices_in.push_back(planes_at({part.vertices[i]}, part.vertex_tolerances[i]));
   }
 
-  /// What each of the part's faces, edges and vertices is in an image of the part.
+  /// The model's numbers of the part's faces, edges and vertices in an image of the part.
   ModelPart::Image named(const CadShape& part, unsigned image, const ModelPart& result) {
     ModelPart::Image names;
     names.faces.assign(part.faces.size(), 0);
@@ -340,7 +340,7 @@ class Cutter {
       names.turned[index] = images_[image].turned[source];
     }
     name_edges_and_vertices(image, names);
-    // What lies in the planes is its own image, a seam too.
+    // What lies in a plane is its own mirror image there, even a seam.
     for (std::size_t i = 0; i < names.edges.size(); ++i) {
       if (names.edges[i] == 0)
         names.edges[i] = of_lower(result, image, i, result.edges_in, &ModelPart::Image::edges);
@@ -357,7 +357,7 @@ class Cutter {
     return names;
   }
 
-  /// By what became of them in the cutting.
+  /// Numbers edges and vertices by tracing the model's through the cut.
   void name_edges_and_vertices(unsigned image, ModelPart::Image& names) {
     TopTools_IndexedMapOfShape edges, vertices;
     TopExp::MapShapes(compound_, TopAbs_EDGE, edges);
@@ -371,7 +371,7 @@ class Cutter {
       }
     };
     for (const Imprint& tool : imprinted_) {
-      // An image of the model's own that is there again in this image.
+      // The copy is the source mirrored by tool.image; mirrored by `image` too it is in image ^ tool.image.
       const MirrorPlane& there = images_[image ^ tool.image];
       const bool is_edge = tool.copy.ShapeType() == TopAbs_EDGE;
       name(tool.copy, tool.component, (is_edge ? there.edges : there.vertices)[tool.source]);
@@ -408,15 +408,15 @@ class Cutter {
     return way.dot(EdgeCurve(whole).derivative(parameter)) < 0;
   }
 
-  /// The name in the image without the planes that it lies in.
+  /// The number of an edge or vertex in the image without the planes that it lies in; 0 if it lies in none.
   static int of_lower(const ModelPart& part, unsigned image, std::size_t index,
                       const std::vector<unsigned>& in, std::vector<int> ModelPart::Image::*names) {
     const unsigned lower = image & ~in[index];
     return lower == image ? 0 : (part.images[lower].*names)[index];
   }
 
-  /// Whether the images' faces have the areas of the model's, all edges and vertices are met, and each edge
-  /// has as many faces.
+  /// Whether the images have the face areas, all the edges and vertices, and at each edge the number of faces
+  /// of the model.
   bool makes_up_model(const CadShape& part, const ModelPart& result) const {
     std::vector<double> area(shape_.faces.size(), 0);
     std::vector<char> edges(shape_.edges.size(), 0), vertices(shape_.vertices.size(), 0);
@@ -465,7 +465,7 @@ class Cutter {
   struct Vertex {
     TopoDS_Shape shape;
     int number = 0;  // from 1; 0 = on no edge
-    int face = 0;    // one that it belongs to, from 0
+    int face = 0;    // one of its faces, from 0
   };
   struct Piece {
     TopoDS_Shape face;
@@ -475,8 +475,8 @@ class Cutter {
   const CadShape& shape_;
   const ExecutionContext& context_;
   std::vector<MirrorPlane> planes_;
-  std::vector<MirrorPlane> images_;  // by number of the image; what lies where only
-  std::vector<int> component_of_;    // (faces) the number of one of the faces that it hangs together with
+  std::vector<MirrorPlane> images_;  // by number of the image, see composed()
+  std::vector<int> component_of_;    // (faces) index of one face of the component, the same for all
   std::vector<Vertex> vertices_;
   std::vector<std::unique_ptr<BRepAlgoAPI_Splitter>> splitters_;  // by component; null = not cut
   std::vector<Imprint> imprinted_;

@@ -75,7 +75,7 @@ class ChordSpacing {
     return !prescribed_[edge].empty() && static_cast<int>(prescribed_[edge].size()) == counts_[edge] + 1;
   }
 
-  /// The first member whose shares are prescribed stands for all.
+  /// The chord takes over the shares of its first member with prescribed ones.
   void prescribe(int chord, const std::vector<int>& members) {
     for (const int edge : members) {
       if (!holds(edge)) continue;
@@ -91,7 +91,7 @@ class ChordSpacing {
     for (double& share : shares) share = 1 - share;
   }
 
-  /// Counts up to equal shares of the members' lengths, the tightest at each.
+  /// Shares that equidistribute the count over a chord, by the densest member at each place.
   std::vector<double> equidistribute(const std::vector<int>& members) const {
     const int n = counts_[members.front()];
     const int cells = std::clamp(8 * n, 64, 4096);
@@ -126,7 +126,7 @@ class ChordSpacing {
     return shares;
   }
 
-  /// A single edge takes over the nodes of several.
+  /// A side that is a single edge takes over the spacing of several opposite edges.
   void follow(const Side& one, const Side& several) {
     if (one.size() != 1 || several.size() < 2) return;
     const int edge = one[0].edge;
@@ -149,7 +149,7 @@ class ChordSpacing {
     followed_[chords_.of(edge)] = true;
   }
 
-  /// Whether no segment would be far longer or shorter than what the edge's own sizes ask for.
+  /// Whether no segment would be far longer than the edge's own sizes ask for.
   bool suits(int edge) const {
     constexpr double most = 2;
     const CountTable& table = tables_[edge];
@@ -168,9 +168,9 @@ class ChordSpacing {
   const std::vector<CountTable>& tables_;
   const std::vector<int>& counts_;
   std::map<int, std::vector<int>> members_;    // chord -> edges
-  std::map<int, std::vector<double>> shares_;  // chord -> of its representative
+  std::map<int, std::vector<double>> shares_;  // chord -> shares of its representative
   const std::vector<std::vector<double>>& prescribed_;
-  std::map<int, bool> followed_, is_prescribed_;
+  std::map<int, bool> followed_, is_prescribed_;  // chord -> shares from opposite edges or users; from users
 };
 
 }  // namespace

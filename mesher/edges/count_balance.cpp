@@ -40,7 +40,7 @@ class Balancer {
   }
 
  private:
-  /// A place on a walk: a node, and what its sum needs; `even` rules need one change either way.
+  /// A stop on a path: a node and the change that its sum needs: +1 or -1, or 0 for either at an `even` rule.
   struct State {
     int node, need;
   };
@@ -58,7 +58,7 @@ class Balancer {
     return problem_.rules[node] == Rule::zero ? sums_[node] != 0 : sums_[node] % 2 != 0;
   }
 
-  /// States are numbered so.
+  /// The number of a state.
   static int key(const State& state) { return 2 * state.node + (state.need > 0); }
   State state(int key) const {
     const int node = key / 2;
@@ -70,16 +70,16 @@ class Balancer {
     const int after = variable.value + change;
     const double possible = std::max(variable.wanted, 1.0 * variable.least);
     if (after < variable.least || after > 2 * possible + 1 || 2 * (after + 1) < possible) return infinity;
-    // Of what is wanted, though it be less than possible: two rows in a strip that wants a fifth of one are
-    // worse than eleven segments for ten.
+    // Relative to the wanted value even if that is below `least`: two rows in a strip that wants a fifth of a
+    // row are worse than eleven segments instead of ten.
     constexpr double smallest_wanted = 0.1;
     const double wanted = std::max(variable.wanted, smallest_wanted);
     const auto deviation = [&](int value) { return std::pow((value - wanted) / wanted, 2); };
-    constexpr double smallest = 1e-6;  // so that walks are short where all else is equal
+    constexpr double smallest = 1e-6;  // prefers short paths where all else is equal
     return variable.weight * std::max(0.0, deviation(after) - deviation(variable.value)) + smallest;
   }
 
-  /// The cheapest walk from a node; false if there is none.
+  /// Applies the cheapest path from a node; false if there is none.
   bool mend(int start) {
     constexpr int tries = 8;
     banned_.clear();
@@ -129,7 +129,8 @@ class Balancer {
     return walk;
   }
 
-  /// The changes by one that give a node what it needs, what node they disturb (-1 = none) and how.
+  /// Visits the changes by one that give a node what it needs, with the node at the variable's other term
+  /// (-1 = none) and the change of its sum.
   template <class Visit>
   void for_each_change(const State& at, Visit&& visit) const {
     for (const int i : at_node_[at.node]) {
@@ -146,7 +147,7 @@ class Balancer {
     }
   }
 
-  /// Whether a walk that comes back to where it started mends two at once.
+  /// Whether a path that returns to its start reduces the error there by two.
   bool closes(const State& start, int effect) const {
     return problem_.rules[start.node] == Rule::zero && std::abs(sums_[start.node]) >= 2 &&
            effect == start.need;
@@ -157,7 +158,7 @@ class Balancer {
     return std::abs(sums_[node] + effect) < std::abs(sums_[node]);
   }
 
-  /// False, and nothing is changed, where a walk that uses a variable twice would take it too low.
+  /// \return false, with nothing changed, if a path that uses a variable twice would take it below `least`.
   bool apply(const std::vector<Step>& walk) {
     std::size_t done = 0;
     bool fits = true;

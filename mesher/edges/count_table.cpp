@@ -27,7 +27,7 @@ class EdgeTabulator {
  private:
   void split(double t, const Vector3& p, int depth) {
     const double chord = (p - point_).norm();
-    constexpr int max_depth = 40;  // a sharp rise of the size is met long before
+    constexpr int max_depth = 40;  // steep changes of the size are resolved long before
     if (depth < max_depth && chord > 0.5 * std::min(size_, size_at_(p))) {
       const double middle = 0.5 * (table.parameters.back() + t);
       split(middle, curve_.point(middle), depth + 1);
@@ -83,7 +83,7 @@ void hold_segments(double segments, const Budget& budget, const CadEdge& edge) {
 
 namespace {
 
-/// The index of a parameter in a table, which gets it if it is not there.
+/// The index of a parameter in a table. Inserts the parameter if it is missing.
 std::size_t split_at(CountTable& table, double t) {
   auto &parameters = table.parameters, &counts = table.counts, &lengths = table.lengths;
   const auto it = std::lower_bound(parameters.begin(), parameters.end(), t);

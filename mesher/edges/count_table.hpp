@@ -1,5 +1,5 @@
 #pragma once
-/// How many segments an edge wants, and where its nodes go. Internal.
+/// The wanted number of segments of an edge, and the places of its nodes. Internal.
 
 #include <algorithm>
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace quadrille {
 
-/// The wanted number of segments as a function of the parameter.
+/// The wanted number of segments from the edge's start, as a function of the parameter.
 struct CountTable {
   std::vector<double> parameters;
   std::vector<double> counts;   // integral of ds / size from the start
-  std::vector<double> lengths;  // of the arc from the start
+  std::vector<double> lengths;  // arc length from the start
   double turning = 0;           // total change of direction, radians
   double total() const { return counts.empty() ? 0 : counts.back(); }
 
@@ -23,10 +23,10 @@ struct CountTable {
   double parameter_at_length(double length) const { return interpolate(lengths, length, parameters); }
   double count_at_length(double length) const { return interpolate(lengths, length, counts); }
 
-  /// Raises the count between two parameters to `least`, evenly; the rest of the edge keeps its own.
+  /// Scales the count between two parameters up to `least`; the rest of the edge keeps its count.
   void make_finer(double from, double to, double least);
 
-  /// Makes it at least so many segments to a length everywhere.
+  /// Raises the number of segments per unit of length to at least `density` everywhere.
   void raise_to(double density);
 
  private:
@@ -39,12 +39,12 @@ struct CountTable {
   }
 };
 
-/// Throws Error (usage) if so many segments are more than the budget has.
-/// \param edge the last one counted.
+/// Throws Error (usage) if the number of segments exceeds the budget.
+/// \param edge the last edge counted, which the message names.
 void hold_segments(double segments, const Budget& budget, const CadEdge& edge);
 
-/// Tabulates an edge by its arc length and the sizing field, as finely as the size asks for. Throws Error
-/// (usage) if it takes more segments than the field's budget has.
+/// Tabulates an edge by its arc length and the sizing field. The samples are at most half the local size
+/// apart. Throws Error (usage) if the edge takes more segments than the field's budget allows.
 CountTable tabulate(const CadEdge& edge, SizingField::Sampler& size_at);
 
 }  // namespace quadrille

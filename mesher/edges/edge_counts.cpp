@@ -18,8 +18,8 @@ namespace quadrille {
 
 namespace {
 
-constexpr double largest_ratio = 2;        // of what the sides of a pair, or the edges of a chord, want
-constexpr double largest_fixed_ratio = 4;  // the same where one of them is fixed
+constexpr double largest_ratio = 2;  // between wanted counts of the sides of a pair, or edges of a chord
+constexpr double largest_fixed_ratio = 4;  // the same if one of them is fixed
 
 class CountChooser {
  public:
@@ -40,7 +40,7 @@ class CountChooser {
       if (!odd.empty()) odd = balance_without_steps();
     }
     if (!odd.empty()) {
-      // Edges of three faces and more, as a rule: without sums, then without chords.
+      // Usually edges of three or more faces. First drop faces with sides of several edges, then all.
       for (std::size_t face = 0; face < sides_.size(); ++face) {
         if (has_sums(sides_[face])) drop(static_cast<int>(face));
       }
@@ -69,7 +69,7 @@ class CountChooser {
                        [](const FacingPair& pair) { return pair.first.size() + pair.second.size() > 2; });
   }
 
-  /// Leaves a face nothing but its parity.
+  /// Reduces a face to a parity condition.
   void drop(int face) {
     FaceSides& sides = sides_[face];
     for (const FacingPair& pair : sides.facing) {
@@ -99,7 +99,7 @@ class CountChooser {
     return high > (has_fixed(pair) ? largest_fixed_ratio : largest_ratio) * low;
   }
 
-  /// Makes two chords one; not where users ask for different numbers.
+  /// Merges two chords, unless users prescribe different numbers for them.
   bool tie(const SideEdge& a, const SideEdge& b, double ratio) {
     const int one = fixed_[chords_.of(a.edge)], other = fixed_[chords_.of(b.edge)];
     if (one > 0 && other > 0 && one != other) return false;
@@ -109,7 +109,7 @@ class CountChooser {
     return true;
   }
 
-  /// The CAD edges of a chord or of a face whose numbers are fixed, as "Edge4, Edge7".
+  /// Names the included edges whose numbers are fixed, as "Edge4, Edge7".
   template <class Includes>
   std::string fixed_edges(Includes&& includes) const {
     std::vector<std::string> names;
@@ -120,7 +120,7 @@ class CountChooser {
     return fmt::format("{}", fmt::join(names, ", "));
   }
 
-  /// Throws where fixed numbers cannot be kept. \param odd faces (from 1) that stay odd.
+  /// Throws if fixed numbers cannot be kept. \param odd faces (from 1) that stay odd.
   void hold_fixed(const std::vector<int>& odd) const {
     for (std::size_t i = 0; i < fixed_.size(); ++i) {
       const int chord = static_cast<int>(i);
@@ -179,7 +179,7 @@ class CountChooser {
     start_values();
   }
 
-  /// Each chord near the mean of what its members want, in elements of the mesh that is recombined.
+  /// Starts each chord near the mean count of its members, in segments of the mesh that is recombined.
   void start_values() {
     units_.assign(effective_.size(), wishes_.stride);
     members_.assign(effective_.size(), {});
@@ -190,7 +190,7 @@ class CountChooser {
     for (std::size_t i = 0; i < effective_.size(); ++i) start_value(static_cast<int>(i));
   }
 
-  /// In segments of the final mesh `units_[chord]` each; the terms stay.
+  /// Sets all of a chord's variable but its terms. One unit is `units_[chord]` segments of the final mesh.
   void start_value(int chord) {
     const std::vector<int>& members = members_[chord];
     if (members.empty()) return;
@@ -219,8 +219,8 @@ class CountChooser {
     }
   }
 
-  /// Chords that only grids have, and that sums tie to such alone, are counted in segments of the final mesh:
-  /// nothing there is cut in two.
+  /// Chords that only grids use, and that sums connect only to other such chords, are counted in segments of
+  /// the final mesh: nothing there is cut in two.
   void choose_units() {
     boost::disjoint_sets_with_storage<> groups(problem_.variables.size());
     std::vector<int> first(problem_.rules.size(), -1);
@@ -242,7 +242,7 @@ class CountChooser {
     }
   }
 
-  /// The rules of all faces as nodes of the problem.
+  /// Turns the rules of all faces into nodes of the problem.
   void set_up_rules() {
     for (auto& variable : problem_.variables) variable.terms.clear();
     problem_.rules.clear();
@@ -260,7 +260,7 @@ class CountChooser {
       }
       add_facing(static_cast<int>(face));
       for (const int edge : sides.rest) is_between_grids_[chords_.of(edge)] = 0;
-      // One node more at the base of a wedge or the end of a strip would make elements far shorter than they
+      // One more node at the base of a wedge or the end of a strip would make elements far shorter than they
       // are wide.
       const bool may_be_odd = !sides.facing.empty() && sides.outline != FaceSides::Outline::holed;
       if (sides.rest.empty() || (may_be_odd && wishes_.stride == 2)) continue;
@@ -280,9 +280,9 @@ class CountChooser {
     }
   }
 
-  /// Faces with steps take part one after the other where that leaves the counts near those wanted; the
-  /// others lose their outline. What other faces have does not suffer for them.
-  /// \return whether there are any.
+  /// Adds the facing sides of stepped faces, one face at a time. A face whose sides would take the counts too
+  /// far from the wanted ones loses its outline instead, so that no other face suffers for it.
+  /// \return whether there are stepped faces.
   bool take_steps() {
     bool any = false;
     for (std::size_t face = 0; face < sides_.size(); ++face) {
@@ -308,8 +308,8 @@ class CountChooser {
     if (std::any_of(facing.begin(), facing.end(), [&](const FacingPair& pair) { return is_far_off(pair); }))
       return false;
     const int rules = static_cast<int>(problem_.rules.size());
-    constexpr double most = 0.25;  // of deviations squared: that of an edge with half as many again
-    // In place of an even sum.
+    constexpr double most = 0.25;  // added squared deviation: that of an edge with 1.5 times its wanted count
+    // The facing sides replace the face's even sum.
     const auto ruled = std::find(faces_of_nodes_.begin(), faces_of_nodes_.end(), face);
     const int even = static_cast<int>(ruled - faces_of_nodes_.begin());
     std::vector<int> values;
@@ -352,7 +352,7 @@ class CountChooser {
     }
   }
 
-  /// As many segments on the sides that face each other.
+  /// Adds the rules that facing sides have equal counts.
   void add_facing(int face) {
     for (const FacingPair& pair : sides_[face].facing) {
       const int node = add_node(face, BalanceProblem::Rule::zero);
@@ -379,7 +379,7 @@ class CountChooser {
     }
   }
 
-  /// Faces whose facing sides cannot be given as many segments are dropped, until the others can.
+  /// Balances all faces. Drops faces whose facing sides cannot have equal counts until the others can.
   /// \return faces (from 1) that stay odd.
   std::vector<int> balance_faces() {
     std::vector<int> odd;
@@ -398,7 +398,7 @@ class CountChooser {
     return odd;
   }
 
-  /// By parity alone.
+  /// Balances faces by parity alone. \return faces (from 1) that stay odd.
   std::vector<int> make_faces_even() {
     start_values();
     set_up_rules();
@@ -422,7 +422,7 @@ class CountChooser {
     return left;
   }
 
-  /// Whether one more or one fewer segment fits the wanted count better.
+  /// The change by one, 1 or -1, that fits the wanted count better.
   static int change_of(const BalanceProblem::Variable& variable) {
     return variable.wanted >= variable.value || variable.value <= variable.least ? 1 : -1;
   }
@@ -435,15 +435,15 @@ class CountChooser {
   const CountWishes& wishes_;
   const TinyFeatures& tiny_;
   std::vector<FaceSides>& sides_;
-  std::vector<double> effective_;  // (edges) what is wanted, not below the least
+  std::vector<double> effective_;  // (edges) wanted count, at least `least`
   Chords chords_;
   std::vector<int> fixed_;                 // (chords) segments of the final mesh; 0 = any number
   std::vector<std::vector<int>> members_;  // (chords) edges
-  std::vector<int> units_;                 // (chords) segments of the final mesh that a count stands for
-  BalanceProblem problem_;  // a variable for each edge, of which those of chords' representatives count
-  std::vector<int> faces_of_nodes_;
-  std::vector<char> is_between_grids_;  // (chords)
-  std::vector<char> is_waiting_;        // (faces) 1 = has steps that do not count yet
+  std::vector<int> units_;                 // (chords) segments of the final mesh per unit of the count
+  BalanceProblem problem_;           // one variable for each edge; only those of chord representatives matter
+  std::vector<int> faces_of_nodes_;  // (nodes) from 0
+  std::vector<char> is_between_grids_;  // (chords) 1 = all its faces are grids
+  std::vector<char> is_waiting_;        // (faces) 1 = stepped, only its even sum counts so far
 };
 
 }  // namespace

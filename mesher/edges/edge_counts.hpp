@@ -1,5 +1,5 @@
 #pragma once
-/// How many segments each edge gets. Internal.
+/// Chooses the number of segments of each edge. Internal.
 
 #include <vector>
 
@@ -10,14 +10,14 @@
 
 namespace quadrille {
 
-/// What is asked of the edges of the faces used.
+/// What the counts of the edges of the faces used should be.
 struct CountWishes {
-  int stride = 1;                   ///< BoundaryNodes::stride, which see
-  std::vector<double> wanted;       ///< (edges) segments by the sizing field, of the mesh that is recombined
-  std::vector<int> least;           ///< (edges) fewest of those; 0 = edge not used
-  std::vector<int> least_of_grids;  ///< (edges) fewest segments of the final mesh between grids
-  std::vector<int> fixed;           ///< (edges) segments of the final mesh that users ask for; 0 = any number
-  std::vector<char> even;  ///< (edges) 1 = an even number of segments, with a stride of 1; may be empty
+  int stride = 1;              ///< see BoundaryNodes::stride
+  std::vector<double> wanted;  ///< (edges) segments by the sizing field, in the mesh that is recombined
+  std::vector<int> least;      ///< (edges) least number in the mesh that is recombined; 0 = edge not used
+  std::vector<int> least_of_grids;  ///< (edges) least number in the final mesh if only grids use the chord
+  std::vector<int> fixed;  ///< (edges) segments of the final mesh that users prescribe; 0 = any number
+  std::vector<char> even;  ///< (edges) 1 = even number of segments though the stride is 1; may be empty
 };
 
 struct EdgeCounts {
@@ -26,14 +26,15 @@ struct EdgeCounts {
   std::vector<int> odd_faces;  ///< faces (from 1) that could not be made even
 };
 
-/// The counts of all edges, near those wanted: one for each chord, as many on sides that face each other, and
-/// an even sum round every face. Faces whose sides would have to go too far from what is wanted lose their
-/// outline. \param sides (faces) in: as found; out: those whose facing sides have as many segments.
-/// Chords that only grids have are counted by themselves, others by the stride; with stride 2, wedges and
-/// strips may keep an odd boundary, since the triangle that is left is cut up. Fixed counts are kept, and by
-/// the edges that run along theirs if those want no more than four times or a quarter as many. Throws Error
-/// (usage, naming the edges) where they cannot be: an odd number on an edge of a face that needs even ones, a
-/// face whose boundary stays odd.
+/// Chooses the counts of all edges near the wanted ones: one count for each chord, equal counts on facing
+/// sides, and an even sum around every face. A face whose sides would get counts too far from the wanted ones
+/// loses its outline. \param sides (faces) in: as found; out: with facing sides only where their counts
+/// match. Chords that only grids use are counted in segments of the final mesh, others in multiples of the
+/// stride. With stride 2, wedges and strips may keep an odd boundary, since the remaining triangle is
+/// subdivided too. Fixed counts are kept. The edges of the same chord take them over if they want at most
+/// four times and at least a quarter as many. Throws Error (usage, naming the edges) if a fixed count cannot
+/// be kept: an odd one on an edge of a face that needs even numbers, or one that leaves the boundary of a
+/// face odd.
 EdgeCounts choose_counts(const CountWishes& wishes, const TinyFeatures& tiny, std::vector<FaceSides>& sides);
 
 }  // namespace quadrille

@@ -22,18 +22,18 @@ namespace quadrille {
 
 namespace {
 
-/// Fewest segments (of the mesh that is recombined) that keep the edge's shape and the face's loop open.
+/// Least number of segments (of the mesh that is recombined) for the edge's shape and an open face loop.
 int least_segments(bool closed, double turning, bool shares_both_ends, bool inner, int stride) {
-  // Holes and pins need more than fillets to keep their area.
+  // Holes and pins need more segments than fillets to keep their area.
   const double turning_a_segment = turning > 2.5 ? 1.3 : 1.8;
   int least = std::max(1, static_cast<int>(std::ceil(turning / turning_a_segment - 0.01)));
   if (shares_both_ends && turning > 1e-3) least = std::max(least, 2);
-  if (inner) least = std::max(least, 2);  // the face is cut open between its ends
+  if (inner) least = std::max(least, 2);  // the face is cut open between the edge's ends
   if (closed) least = std::max(least, stride == 2 ? 3 : 4);
   return least;
 }
 
-/// Edges that have both end vertices in common with another one: as chords they would coincide.
+/// Edges that share both end vertices with another edge: with one segment each, the two would coincide.
 std::vector<char> find_shared_ends(const CadShape& shape, const TinyFeatures& tiny) {
   std::map<std::pair<int, int>, int> count;
   const auto key = [&](const CadEdge& e) -> std::pair<int, int> {
@@ -52,7 +52,7 @@ std::vector<char> find_shared_ends(const CadShape& shape, const TinyFeatures& ti
   return shared;
 }
 
-/// Edges that lie inside a face.
+/// Edges that lie inside a face (cracks).
 std::vector<char> find_inner_edges(const CadShape& shape) {
   std::vector<char> inner(shape.edges.size(), 0);
   for (const CadFace& face : shape.faces) {
@@ -63,7 +63,7 @@ std::vector<char> find_inner_edges(const CadShape& shape) {
   return inner;
 }
 
-/// The edges that have nodes: those of the faces used, and those that share theirs.
+/// The edges that have nodes: those of the faces used, and those that lend their nodes to them.
 std::vector<char> find_used_edges(const CadShape& shape, const std::vector<char>& used,
                                   const TinyFeatures& tiny) {
   std::vector<char> result(shape.edges.size(), 0);
@@ -78,8 +78,8 @@ double chord_of(const CadEdge& edge) {
   return (curve.point(edge.last) - curve.point(edge.first)).norm();
 }
 
-/// The parameter of node k of a curve that may have loops in it: where it comes nearest to a share of its
-/// chord. \param before the parameters of the nodes 0 .. k - 1.
+/// The parameter of node k on a curve that may have loops: where the curve comes nearest to the point that
+/// divides its chord in equal parts. \param before parameters of nodes 0 .. k - 1.
 double parameter_near_chord(const CadEdge& edge, const EdgeCurve& curve, int k, int segments,
                             const std::vector<double>& before) {
   if (k == 0 || k == segments) return k == 0 ? edge.first : edge.last;
@@ -89,7 +89,7 @@ double parameter_near_chord(const CadEdge& edge, const EdgeCurve& curve, int k, 
   const double start = before.back(), reach = edge.last - start;
   double best = 0, nearest = std::numeric_limits<double>::infinity();
   for (int i = 1; i < samples; ++i) {
-    // Room is left for the nodes that follow.
+    // Leave room for the nodes that follow.
     const double t = start + reach * i / samples * (1 - 0.5 * share);
     const double distance = (curve.point(t) - target).norm();
     if (distance < nearest) {
@@ -171,7 +171,7 @@ class EdgeSampler {
       }
       double& wanted = wishes_.wanted[i];
       wanted = tables_[i].total() / result_.stride;
-      // A segment more where there would be one in any case.
+      // An edge has at least one segment, which the factor multiplies.
       if (plan_.factor[i] > 1) wanted = std::max(wanted, 1.0) * plan_.factor[i];
       if (along_chord(i)) wanted *= chord_of(edge) / edge.length;
       segments += result_.stride * wanted;
@@ -179,7 +179,7 @@ class EdgeSampler {
       const double turning = plan_.bare[i] ? 0 : tables_[i].turning;
       wishes_.least[i] =
           least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], result_.stride);
-      // Straight edges between grids may do with one; curves keep their shape as well there as anywhere.
+      // Between grids, one segment may do for a straight edge. Curves keep their shape there as elsewhere.
       wishes_.least_of_grids[i] = turning > 1e-3 ? result_.stride * wishes_.least[i] : 1;
       if (is_prescribed(i)) {
         fix_count(i, shared_ends[i], inner[i]);
@@ -195,7 +195,7 @@ class EdgeSampler {
     return !plan_.prescribed.empty() && plan_.prescribed[edge].has_value();
   }
 
-  /// Fewer than keep an edge's shape may be asked for, but a loop has to stay open.
+  /// Users may prescribe too few segments to keep the edge's shape, but a loop must stay open.
   void fix_count(int i, bool shares_both_ends, bool inner) {
     const int segments = plan_.prescribed[i]->segments;
     const bool closed = plan_.tiny.closed(shape_.edges[i]);
@@ -220,7 +220,7 @@ class EdgeSampler {
     return shares;
   }
 
-  /// Where users ask for a spacing, nodes stay: on the edge and on those of its chord.
+  /// Marks the edges of chords whose count (divided) or spacing (kept) users prescribe.
   void keep_spacing(const Chords& chords) {
     std::vector<char> divided(n_, 0), kept(n_, 0);
     for (int i = 0; i < n_; ++i) {
@@ -241,7 +241,7 @@ class EdgeSampler {
     return static_cast<int>(result_.points.size()) - 1;
   }
 
-  /// The node of a vertex; of the point given where an edge has no vertex.
+  /// The node of a vertex; a new one at `fallback` where the edge has no vertex.
   int vertex_node(int vertex, const Vector3& fallback) {
     if (vertex == 0) return add_point(fallback);
     const int end = plan_.tiny.end(vertex);
@@ -250,7 +250,7 @@ class EdgeSampler {
     return result_.vertex_nodes[vertex - 1] = node;
   }
 
-  /// Vertices first, so that the numbering does not depend on the counts.
+  /// Vertices come first, so that their numbers do not depend on the counts.
   void place_vertices() {
     for (int i = 0; i < n_; ++i) {
       const CadEdge& edge = shape_.edges[i];
@@ -278,7 +278,7 @@ class EdgeSampler {
       if (k == 0) t = edge.first;
       if (k == segments) t = edge.last;
       nodes.parameters.push_back(t);
-      if (plan_.tiny.edges[i] != i) continue;  // the nodes of another edge, see borrow_nodes()
+      if (plan_.tiny.edges[i] != i) continue;  // has the nodes of another edge, see borrow_nodes()
       if (k == 0) {
         nodes.nodes.push_back(vertex_node(edge.first_vertex, curve.point(t)));
       } else if (k == segments) {
@@ -309,9 +309,8 @@ class EdgeSampler {
   std::vector<char> used_edges_;
   std::vector<CountTable> tables_;
   CountWishes wishes_;
-  std::vector<int> counts_;  // segments of the final mesh
-  std::vector<std::vector<double>>
-      shares_;  // of an edge's length that nodes stand at; empty = by its own sizes
+  std::vector<int> counts_;                  // segments of the final mesh
+  std::vector<std::vector<double>> shares_;  // (edges) places of nodes over length; empty = by own sizes
   BoundaryNodes result_;
 };
 

@@ -17,14 +17,14 @@ namespace quadrille {
 namespace {
 
 constexpr double corner_turning = 0.7;  // radians; a right-angled corner turns by pi / 2
-constexpr double smooth_turning = 0.6;  // what other vertices may turn
-constexpr double most_backward = 2.4;   // what the boundary may turn to the right at a corner of an outline
+constexpr double smooth_turning = 0.6;  // radians; largest turn at other vertices
+constexpr double most_backward = 2.4;   // radians; largest turn to the right at a corner of an outline
 
-/// A wire without what is left out of the mesh.
+/// A wire without the edges that are left out of the mesh.
 struct Walk {
   std::vector<int> coedges;  // indices into the wire
   std::vector<SideEdge> edges;
-  std::vector<double> turnings;  // at the start of each, radians, to the left
+  std::vector<double> turnings;  // turn at the start of each edge, radians, positive to the left
 };
 
 class SideFinder {
@@ -44,7 +44,7 @@ class SideFinder {
     return sides;
   }
 
-  /// A narrow face, one long side of which is several edges.
+  /// Adds the facing sides of a narrow face, one long side of which has several edges.
   void take_strip(const SplitStrip& strip, FaceSides& sides) const {
     if (!sides.facing.empty()) return;
     FacingPair& pair = sides.facing.emplace_back();
@@ -57,7 +57,7 @@ class SideFinder {
   }
 
  private:
-  /// The wires; none where one is not an orderly loop.
+  /// The wires; none if one is unordered or has cracks or poles, or if nothing of it is left.
   std::vector<Walk> usable_walks(const CadFace& face) const {
     std::vector<Walk> walks;
     const FaceSurface surface(face);
@@ -93,7 +93,7 @@ class SideFinder {
     return std::atan2(in.cross(out).dot(normal), in.dot(out));
   }
 
-  /// The vertices that turn by a right angle or so; nothing if one is neither that nor smooth.
+  /// The vertices where the boundary turns by about a right angle; nothing if another one is not smooth.
   static std::optional<std::vector<int>> corners_of(const Walk& walk) {
     std::vector<int> corners;
     for (int k = 0; k < static_cast<int>(walk.turnings.size()); ++k) {
@@ -115,7 +115,7 @@ class SideFinder {
     return side;
   }
 
-  /// Three to five corners, or steps.
+  /// Finds outlines with three to five corners, or with steps.
   void take_corners(const Walk& walk, FaceSides& sides) const {
     const auto corners = corners_of(walk);
     if (!corners || corners->size() < 3) return;
@@ -131,14 +131,14 @@ class SideFinder {
     for (int c = 0; c < 2; ++c) add_pairs(four[c], turned(four[c + 2]), sides);
   }
 
-  /// A side of a stepped outline, as long as it is, on the way along its direction.
+  /// A side of a stepped outline as an axis-parallel line.
   struct Tread {
-    double from, to;
-    double level;  // in the other direction
+    double from, to;  // range of its own coordinate
+    double level;     // the other coordinate
     Side side;
   };
 
-  /// Corners that turn by a full turn in all.
+  /// Finds stepped outlines, whose corners add up to one full turn to the left.
   void take_steps(const Walk& walk, const std::vector<int>& corners, FaceSides& sides) const {
     int turns = 0;
     for (const int corner : corners) turns += walk.turnings[corner] > 0 ? 1 : -1;
@@ -166,8 +166,7 @@ class SideFinder {
     for (int d = 0; d < 2; ++d) add_treads(treads[d], treads[d + 2], sides);
   }
 
-  /// Whether treads come so near to each other that rows between them would lean by more than they are high:
-  /// nodes of free meshes are made to face each other there.
+  /// Whether treads come so close that rows between them would lean by more than their height.
   bool is_narrow(const std::vector<Tread>& one, const std::vector<Tread>& other) const {
     constexpr double least = 0.5;
     return std::any_of(one.begin(), one.end(), [&](const Tread& a) {
@@ -183,8 +182,8 @@ class SideFinder {
     return length_of(side) / std::max(1.0, std::max(wanted_of(side), static_cast<double>(side.size())));
   }
 
-  /// Sides one after the other on both sides of the face face each other part by part; others, as those of a
-  /// comb's teeth, all together.
+  /// Treads that follow one another without overlap, on both sides of the face, face each other part by part.
+  /// Others, such as those of a comb's teeth, form a single pair.
   void add_treads(std::vector<Tread> one, std::vector<Tread> other, FaceSides& sides) const {
     const bool in_rows = put_in_order(one) && put_in_order(other);
     FacingPair pair;
@@ -198,7 +197,7 @@ class SideFinder {
     }
   }
 
-  /// Whether none lies beside another.
+  /// Sorts treads along their direction. \return whether none overlaps the next one.
   static bool put_in_order(std::vector<Tread>& treads) {
     std::stable_sort(treads.begin(), treads.end(),
                      [](const Tread& a, const Tread& b) { return a.from < b.from; });
@@ -215,7 +214,7 @@ class SideFinder {
                        [](double turning) { return std::abs(turning) <= smooth_turning; });
   }
 
-  /// Four corners outside, none at the holes.
+  /// Finds outlines with four corners outside and none at the holes.
   void take_holes(const std::vector<Walk>& walks, FaceSides& sides) const {
     const auto outer =
         std::find_if(walks.begin(), walks.end(), [](const Walk& walk) { return !is_smooth(walk); });
@@ -235,7 +234,7 @@ class SideFinder {
     }
   }
 
-  /// Two loops without corners, from their vertices that are nearest to each other.
+  /// Finds two loops without corners. Their sides start at the two vertices that are nearest to each other.
   void take_ring(const Walk& first, const Walk& second, FaceSides& sides) const {
     if (!is_smooth(first) || !is_smooth(second)) return;
     std::size_t a = 0, b = 0;
@@ -259,9 +258,9 @@ class SideFinder {
     add_pairs(one, other, sides);
   }
 
-  /// Whether two loops stay apart, neither touching nor far off center.
+  /// Whether two loops neither touch nor lie far off center.
   bool is_even_ring(const Side& one, const Side& other) const {
-    constexpr double narrowest = 0.3;  // of the widest place
+    constexpr double narrowest = 0.3;  // least width over largest width
     const std::vector<Vector3> a = points_along(one), b = points_along(other);
     double least = std::numeric_limits<double>::infinity(), most = 0;
     for (const Vector3& p : a) {
@@ -286,8 +285,8 @@ class SideFinder {
     return points;
   }
 
-  /// Narrow wedges and crescents, and faces of four edges that are not quite four-sided, have facing sides
-  /// too.
+  /// Narrow or slender wedges, narrow crescents, and faces of four edges without four proper corners have
+  /// facing sides too. All other edges are the rest.
   void take_rest(const CadFace& face, FaceSides& sides) const {
     std::vector<const Coedge*> faced;
     for (const FacingSides& facing : facing_sides(shape_, face)) {
@@ -295,7 +294,7 @@ class SideFinder {
       if (has_unusual_edges(shape_, face)) continue;
       const std::size_t count = face.wires[0].coedges.size();
       const bool is_narrow = facing.width < narrow * segment_length(shape_, wanted_, first);
-      constexpr double slender = 0.5;  // the base of a triangle, which grids allow no other sides then
+      constexpr double slender = 0.5;  // base over long side of a triangle
       const bool is_slender = count == 3 && facing.width < slender * shape_.edges[first].length;
       if (count != 4 && !is_narrow && !is_slender) continue;
       sides.facing.push_back({{{first, facing.first->forward}}, {{second, !facing.second->forward}}});
@@ -321,7 +320,7 @@ class SideFinder {
     return EdgeCurve(edge).point(side.forward ? edge.first : edge.last);
   }
 
-  /// Where the edges of a side end, as shares of its length.
+  /// The ends of a side's edges, as shares of the side's length.
   std::vector<double> ends_of(const Side& side) const {
     std::vector<double> ends;
     for (const SideEdge& edge : side)
@@ -341,7 +340,7 @@ class SideFinder {
                            [&](double sum, const SideEdge& edge) { return sum + wanted_[edge.edge]; });
   }
 
-  /// Cuts two sides where vertices stand opposite each other.
+  /// Cuts two sides into pairs where their vertices face each other.
   void add_pairs(const Side& first, const Side& second, FaceSides& sides) const {
     const std::vector<double> a = ends_of(first), b = ends_of(second);
     constexpr double of_segment = 0.4, of_side = 0.05;
@@ -361,7 +360,7 @@ class SideFinder {
       }
     }
     if (pair.first.empty() && pair.second.empty()) return;
-    // A last edge so short that the one before it stood opposite the other side's end.
+    // The last edge is so short that its start already faced the end of the other side.
     if (sides.facing.empty()) sides.facing.emplace_back();
     auto& last = sides.facing.back();
     last.first.insert(last.first.end(), pair.first.begin(), pair.first.end());

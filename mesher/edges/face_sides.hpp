@@ -1,5 +1,5 @@
 #pragma once
-/// Faces as outlines of grids: which edges run along which. Internal.
+/// Face outlines that suit grids: which edges face each other. Internal.
 
 #include <vector>
 
@@ -16,38 +16,38 @@ struct SideEdge {
 /// Consecutive edges.
 using Side = std::vector<SideEdge>;
 
-/// Two sides that run along each other, in the same direction.
+/// Two sides that face each other across a face, both listed in the same direction.
 struct FacingPair {
   Side first, second;
 };
 
-/// What the counts round a face have to keep.
+/// The outline of a face and the conditions that the counts around it must satisfy.
 struct FaceSides {
   enum class Outline {
     other,
     four,     ///< one loop with four corners
     odd,      ///< one loop with three or five corners
-    stepped,  ///< one loop of right-angled corners both ways, as an L, a T or a comb
+    stepped,  ///< one loop of right-angled corners to the left and right, as an L, a T or a comb
     ring,     ///< two loops without corners
-    holed     ///< one loop with four corners, and holes without
+    holed     ///< one loop with four corners, and holes without corners
   };
   Outline outline = Outline::other;
-  /// As many segments on both sides of each. Sides of a stepped outline that run along each other are pairs
-  /// together, in the order in which they lie.
+  /// Pairs of sides whose counts must be equal. In a stepped outline, one side of a pair may join several
+  /// sides of the face.
   std::vector<FacingPair> facing;
-  std::vector<int> rest;  ///< edges (from 0) whose counts have an even sum
-  int outer = 0;          ///< the wire with the corners
-  /// (four, odd, stepped, holed) the coedges of that wire that the sides start with
+  std::vector<int> rest;  ///< edges (from 0) whose counts must have an even sum
+  int outer = 0;          ///< index of the wire with the corners
+  /// (four, odd, stepped, holed) index of the first coedge of each side in that wire
   std::vector<int> starts;
-  /// (stepped) quarters of a turn from the direction of the first side to that of each, from 0 to 3: sides of
-  /// 0 and 2 run against each other, and so do those of 1 and 3
+  /// (stepped) direction of each side in quarter turns from that of the first side, 0 to 3: sides with 0 and
+  /// 2 run in opposite directions, and so do sides with 1 and 3
   std::vector<int> directions;
 };
 
-/// The outlines of the faces used. A corner is where the boundary turns by about a right angle, to the left
-/// or, in stepped outlines, to the right; a side may be several edges. Opposite sides whose vertices stand
-/// opposite each other are several pairs, so that each part keeps its own count. \param wanted (edges) number
-/// of segments
+/// The outlines of the faces used. A corner is a vertex where the boundary turns by about a right angle, to
+/// the left or, in stepped outlines, to the right. A side may have several edges. Opposite sides are cut into
+/// several pairs where their vertices face each other, so that each part keeps its own count.
+/// \param wanted (edges) number of segments
 std::vector<FaceSides> find_face_sides(const CadShape& shape, const std::vector<char>& used,
                                        const TinyFeatures& tiny, const std::vector<double>& wanted);
 

@@ -9,7 +9,7 @@ namespace quadrille {
 
 namespace {
 
-/// How far it is across the face from the middle of one coedge to that of another.
+/// The distance across the face between the middles of two coedges.
 double distance_across(const CadShape& shape, const CadFace& face, const Coedge& a, const Coedge& b) {
   constexpr int steps = 8;
   const auto middle = [&](const Coedge& coedge) {
@@ -26,7 +26,7 @@ double distance_across(const CadShape& shape, const CadFace& face, const Coedge&
   return length;
 }
 
-/// Whether no part of a strip is as far as `limit` from its whole side.
+/// Whether all parts of a strip lie closer than `limit` to its whole side.
 bool is_narrower(const CadShape& shape, const SplitStrip& strip, double limit) {
   constexpr int places = 8, samples = 256;
   const CadEdge& whole = shape.edges[strip.whole->edge - 1];
@@ -83,7 +83,7 @@ std::vector<FacingSides> facing_sides(const CadShape& shape, const CadFace& face
 
 std::vector<SplitStrip> find_split_strips(const CadShape& shape, const std::vector<char>& used,
                                           const std::vector<double>& wanted) {
-  constexpr double is_short = 0.1;  // of the longest edge
+  constexpr double is_short = 0.1;  // length over that of the longest edge
   std::vector<SplitStrip> strips;
   for (std::size_t i = 0; i < shape.faces.size(); ++i) {
     const CadFace& face = shape.faces[i];

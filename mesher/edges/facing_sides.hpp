@@ -1,5 +1,5 @@
 #pragma once
-/// Sides of faces that run along each other. Internal.
+/// Facing sides of faces, and narrow faces. Internal.
 
 #include <vector>
 
@@ -7,34 +7,34 @@
 
 namespace quadrille {
 
-/// Two sides of a face that run along each other.
+/// Two sides of a face that face each other.
 struct FacingSides {
   const Coedge *first, *second;
-  double width;  ///< between them, at most, about
+  double width;  ///< largest distance between them, approximately
 };
 
-/// Whether the face's only wire has cracks or poles in it.
+/// Whether the first wire of the face contains cracks or poles.
 bool has_unusual_edges(const CadShape& shape, const CadFace& face);
 
-/// The sides that face each other: both pairs of a face of four edges, poles among them, the longer two of a
-/// wedge of three, the two of a crescent.
+/// The sides that face each other: both pairs of a face with four edges (poles count as edges), the longer
+/// two of a wedge with three edges, the two of a crescent. Empty for other faces.
 std::vector<FacingSides> facing_sides(const CadShape& shape, const CadFace& face);
 
-/// A face is narrow where it is less wide than this, of a segment.
+/// A face is narrow if its width is less than this share of a segment's length.
 constexpr double narrow = 0.5;
 
-/// A narrow face, one long side of which is one edge and the other several.
+/// A narrow face with one long side of one edge and another one of several edges.
 struct SplitStrip {
-  int face;
+  int face;  ///< from 0
   const Coedge* whole;
   std::vector<const Coedge*> parts;  ///< in the order of the wire
 };
 
-/// Length of an edge's segments, about.
+/// Approximate length of an edge's segments. \param edge from 0.
 double segment_length(const CadShape& shape, const std::vector<double>& wanted, int edge);
 
-/// The strips of faces whose wire is two runs of long edges between short ones.
-/// \param wanted (edges) number of segments
+/// The narrow faces whose only wire has two runs of long edges, one of them a single edge, between short
+/// ones. \param wanted (edges) number of segments
 std::vector<SplitStrip> find_split_strips(const CadShape& shape, const std::vector<char>& used,
                                           const std::vector<double>& wanted);
 

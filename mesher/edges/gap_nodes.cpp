@@ -20,7 +20,7 @@ using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
 struct Segment {
   int edge;  ///< from 0
   int wire;
-  int first, last;  ///< places of its nodes on the edge
+  int first, last;  ///< indices of its nodes on the edge
   Vector3 a, b;
 
   double length() const { return (b - a).norm(); }
@@ -47,16 +47,16 @@ class GapNodes {
   }
 
  private:
-  /// A node, and the segment across the gap that it stands before.
+  /// A node and the segment that it faces across the gap.
   struct Pair {
     double distance;
-    int edge, place;  ///< the node
-    int other, first;
+    int edge, place;   ///< edge of the node (from 0), index of the node on it
+    int other, first;  ///< edge of the segment (from 0), index of its first node on it
   };
 
-  /// What has become of a node of the mesh that is recombined.
+  /// The current place of a node of the mesh that is recombined.
   struct Tie {
-    bool settled = false;
+    bool settled = false;  ///< the node must not move any more
     double parameter = 0;
   };
 
@@ -96,7 +96,7 @@ class GapNodes {
     return {CGAL::Bbox_3(from[0], from[1], from[2], to[0], to[1], to[2]), number};
   }
 
-  /// Where along a segment from a to b a point stands before it, in shares of it.
+  /// The share of a segment from a to b at which a point projects onto it.
   static double share_along(const Vector3& a, const Vector3& b, const Vector3& point) {
     const Vector3 along = b - a;
     return (point - a).dot(along) / along.squaredNorm();
@@ -149,7 +149,7 @@ class GapNodes {
     }
   }
 
-  /// Moves a node along its edge, if that leaves room on both sides.
+  /// Moves a node along its edge if that leaves room on both sides.
   static bool place(std::vector<Tie>& ties, int k, double parameter) {
     constexpr double room = 0.4;
     const double low = ties[k - 1].parameter, high = ties[k + 1].parameter, at = ties[k].parameter;
@@ -158,7 +158,7 @@ class GapNodes {
     return true;
   }
 
-  /// Nodes beside those that have moved follow by less and less; those between keep their shares.
+  /// Neighbors of moved nodes follow by decreasing amounts. Nodes inside segments keep their shares.
   void move_nodes(int edge) {
     constexpr int fading = 3;
     BoundaryNodes::Edge& own = nodes_.edges[edge];
@@ -192,7 +192,7 @@ class GapNodes {
   const std::vector<char>& used_;
   BoundaryNodes& nodes_;
   std::vector<Pair> pairs_;
-  std::vector<std::vector<Tie>> ties_;  ///< (edges) of their nodes of the mesh that is recombined
+  std::vector<std::vector<Tie>> ties_;  ///< (edges) one per node of the mesh that is recombined
 };
 
 }  // namespace

@@ -8,14 +8,14 @@
 
 namespace quadrille {
 
-/// A gap that one row of quads crosses is at most this wide, in lengths of the segments on its sides.
+/// Largest width of a gap that a single row of quads spans, in lengths of the segments on its sides.
 constexpr double widest_gap = 0.7;
 
-/// Where two parts of a face's boundary come nearer to each other than widest_gap segments, as between two
-/// holes, moves the nodes of one to where they face those of the other, the nearest pairs first: a row of
-/// quads between shifted nodes is sheared beyond use. Nodes of faces that are grids stay, and those of edges
-/// whose spacing is asked for. \param unaligned (faces) 1 = not in that face. O(n log n) in the segments of a
-/// face, where few come close.
+/// Where two wires of a face are closer than widest_gap segments, as between two holes, moves the nodes of
+/// one so that they face those of the other, the nearest pairs first: a row of quads between shifted nodes is
+/// sheared beyond use. Skips faces that are grids, unless these have holes. Nodes on edges with a prescribed
+/// spacing stay. \param unaligned (faces) 1 = skip the face. Time: O(n log n) in the segments of a face if
+/// few of them are close.
 void align_gaps(const CadShape& shape, const std::vector<char>& used, const std::vector<char>& unaligned,
                 BoundaryNodes& nodes);
 

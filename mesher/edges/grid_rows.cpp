@@ -11,9 +11,9 @@ namespace quadrille {
 
 namespace {
 
-/// Members of a chord want no more than so many times the number that they get, or that part of it.
+/// Largest ratio between the number that a member of a chord wants and the number that it gets, either way.
 constexpr double largest_ratio = 4;
-/// Of a side, that layers may take.
+/// Largest share of a side that layers may take.
 constexpr double most_of_side = 0.9;
 
 /// The layers that start at the ends of an edge, in the direction of its parameter; null = none.
@@ -33,7 +33,7 @@ double sum_of(const std::vector<double>& heights) {
   return std::accumulate(heights.begin(), heights.end(), 0.0);
 }
 
-/// Heights along an edge: layers from both ends, between them sizes that grow from theirs.
+/// Row heights along an edge: layers from both ends, and sizes between that grow from the layers.
 class StackedEdge {
  public:
   StackedEdge(double length, const Stacks& stacks, double size, double growth)
@@ -51,7 +51,7 @@ class StackedEdge {
   }
 
   bool has_room() const { return length_ - inner_ <= most_of_side * length_; }
-  /// Even, so that faces that are no grids can have it too.
+  /// An even number, so that it suits faces that are not grids too.
   int segments() const {
     const int wanted = layers() + std::max(1, static_cast<int>(std::lround(counts_.back())));
     return wanted + wanted % 2;
@@ -82,7 +82,7 @@ class StackedEdge {
   double length_;
   std::vector<double> first_, last_;
   double inner_;                // length between the layers
-  std::vector<double> counts_;  // of the segments up to each sample
+  std::vector<double> counts_;  // number of segments up to each sample
 };
 
 class RowFinder {
@@ -124,8 +124,8 @@ class RowFinder {
   }
 
  private:
-  /// Notes the layers of an edge on the edges that run away from it. \return those; nothing where a face has
-  /// no four plain sides.
+  /// Records the layers of an edge on the edges that run away from it. \return those edges; nothing if a face
+  /// is not four-sided, or if one of those sides has several edges or a prescribed division.
   std::optional<std::vector<int>> stack(int index, const SizeLayers& layers,
                                         std::map<int, Stacks>& stacks) const {
     const CadEdge& edge = shape_.edges[index];
@@ -169,7 +169,8 @@ class RowFinder {
     return {shape_.edges[edge].length, stacks, size_on(edge), options_.growth};
   }
 
-  /// An edge gets as many segments as the one of its chord that needs most.
+  /// Divides an edge with layers. It gets as many segments as the edge with layers in its chord that needs
+  /// most, unless one of them has no room.
   void divide(int edge, const std::map<int, Stacks>& stacks, std::map<int, PrescribedEdge>& divided) const {
     int segments = 0;
     for (const int member : chord_of(edge)) {
@@ -183,7 +184,7 @@ class RowFinder {
     if (segments > own.layers()) divided[edge] = {segments, own.shares(segments)};
   }
 
-  /// The edge that runs along another one across a face; -1 where there is no such edge alone.
+  /// The edge opposite another one across a four-sided face or ring; -1 if there is no single such edge.
   int opposite(int face, int edge) const {
     const FaceSides& sides = sides_[face - 1];
     if (sides.outline != FaceSides::Outline::four && sides.outline != FaceSides::Outline::ring) return -1;
@@ -195,7 +196,7 @@ class RowFinder {
     return -1;
   }
 
-  /// The edges that run along one, through faces that have sides; -1 among them where a face has none.
+  /// All edges connected to an edge through opposite(); includes -1 if some face has no opposite edge.
   std::set<int> chord_of(int edge) const {
     std::set<int> chord{edge};
     std::vector<int> open{edge};

@@ -1,5 +1,5 @@
 #pragma once
-/// Divisions of edges that grids carry on as rows, layers among them. Internal.
+/// Prescribed edge divisions and layers that grids continue as rows. Internal.
 
 #include <optional>
 #include <vector>
@@ -13,27 +13,28 @@
 namespace quadrille {
 
 struct GridRows {
-  /// (edges) what users prescribe, and the heights of layers on the edges that run away from theirs; empty =
-  /// nothing at all.
+  /// (edges) what users prescribe, and the heights of layers on the edges that run away from the layers' own.
   std::vector<std::optional<PrescribedEdge>> prescribed;
-  /// (edges) 1 = prescribed, and all faces that it runs through, with what runs along it in them, are
-  /// four-sided or rings: rows of flat quads keep it, and the sizes around need not follow.
+  /// (edges) 1 = prescribed, and all faces along its chord are four-sided or rings: rows of flat quads keep
+  /// the division, and the sizes around need not follow.
   std::vector<char> divided;
-  std::vector<char> layered;  ///< (edges) 1 = its layers are rows on all its faces
+  std::vector<char> layered;  ///< (edges) 1 = its layers become rows on all its faces
 };
 
-/// What of the options' divisions and layers on edges grids can carry. Layers become rows where all faces of
-/// the edge have four sides of one edge each, the layers end before nine tenths of the sides beside it, which
-/// have no other division, and what runs along those has no other number, four times as many or a quarter.
-/// \param sides (faces) outlines \param prescribed (edges) what users prescribe \param size elsewhere.
+/// Finds the divisions and layers in the options that grids can continue. The layers of an edge become rows
+/// if all its faces are four-sided, and the two sides that run away from it are single edges without a
+/// division of their own. The layers may take up to nine tenths of these sides. The edges that run along
+/// these sides must not have another prescribed number, nor want more than four times or less than a quarter
+/// as many. \param sides (faces) outlines \param prescribed (edges) what users prescribe \param size the size
+/// on edges that options.edge_sizes does not name
 GridRows find_grid_rows(const CadShape& shape, const std::vector<FaceSides>& sides,
                         std::vector<std::optional<PrescribedEdge>> prescribed, const SizingOptions& options,
                         double size);
 
-/// Whether users ask for the spacing of an edge of the face (BoundaryNodes::Edge::kept).
+/// Whether users prescribe the spacing of an edge of the face (BoundaryNodes::Edge::kept).
 bool has_kept_edge(const CadFace& face, const BoundaryNodes& nodes);
 
-/// Whether users ask for the number of segments on an edge of the face (BoundaryNodes::Edge::divided).
+/// Whether users prescribe the number of segments on an edge of the face (BoundaryNodes::Edge::divided).
 bool has_divided_edge(const CadFace& face, const BoundaryNodes& nodes);
 
 }  // namespace quadrille

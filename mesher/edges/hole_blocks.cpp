@@ -12,18 +12,18 @@ namespace quadrille {
 
 namespace {
 
-/// Cells beside a hole, both sides together: what is wanted, and what may be.
+/// Cells beside a hole, both sides together: wanted number, and its limits.
 constexpr double wanted_beside = 1, least_beside = 0.2, most_beside = 3;
-/// Holes that take more cells across bend the grid too much.
+/// Holes at least this many cells across bend the grid too much.
 constexpr double largest_hole = 8;
-/// Segments at a hole over those of the sides, by the sizing field: beyond, sizes change too much.
+/// Limits of the segment length at a hole over that on the sides. Beyond them, sizes change too much.
 constexpr double least_ratio = 0.8, largest_ratio = 1.5;
 
 bool has_room(double extent, int cells) {
   return cells >= extent + least_beside && cells <= extent + most_beside;
 }
 
-/// Cells across a hole in one direction, and how far that is from what is best.
+/// Cells across a block in one direction, and the cost of that number.
 struct Across {
   int cells = 0;
   double cost = 0;
@@ -43,17 +43,17 @@ Across across(double low, double high, bool even) {
   return best;
 }
 
-/// Where a block starts that has its middle in that of the hole; towards the middle of the grid where two
-/// places are as good, so that mirrored holes have mirrored blocks.
+/// The first cell of a block centered on the hole. Of two equally good cells, the one that moves the block
+/// towards the center of the grid, so that mirrored holes have mirrored blocks.
 int start_of(double low, double high, int cells, int of) {
   const double middle = 0.5 * (low + high), bias = middle < 0.5 * of ? 1e-3 : -1e-3;
   return static_cast<int>(std::lround(middle - 0.5 * cells + bias));
 }
 
-/// What the wires of a face want.
+/// The counts that fit the holes of a face into its grid.
 struct Fit {
   std::vector<int> around;      // segments of the final mesh, by wire; 0 for the outer one
-  std::array<double, 2> sides;  // times as many as they have along the facing sides
+  std::array<double, 2> sides;  // factors on the counts of the two pairs of facing sides
 };
 
 class HoleFitter {
@@ -91,16 +91,15 @@ class HoleFitter {
   }
 
  private:
-  /// Segments along facing sides: 0 and 2, or 1 and 3.
+  /// Segments along the facing sides 0 and 2 (`which` = 0) or 1 and 3 (1); 0 if sides are cut into parts.
   int count_of(const FaceSides& sides, std::size_t which) const {
-    // Pairs of the first two sides come first.
     if (sides.facing.size() != 2) return 0;
     int sum = 0;
     for (const SideEdge& edge : sides.facing[which].first) sum += chosen_.counts[edge.edge];
     return sum;
   }
 
-  /// The holes as shares of the way between facing sides; empty where the outline has no area.
+  /// The boxes of the holes as shares of the way between facing sides; empty if the outline has no area.
   std::vector<HolePlace> places(const CadFace& face, const FaceSides& sides) const {
     const Vector2 scale = FaceSurface(face).mean_scale();
     std::array<Vector2, 4> corners;
@@ -122,7 +121,7 @@ class HoleFitter {
                       Vector2::Constant(-std::numeric_limits<double>::infinity())};
       for (const Vector2& uv : points_along(face.wires[wire])) place.include(share_of(uv));
       const Vector2 middle = 0.5 * (place.low + place.high);
-      constexpr double straight = 0.05;  // of the hole's size
+      constexpr double straight = 0.05;  // distance from the axis over the hole's size
       for (const Coedge& coedge : face.wires[wire].coedges) {
         const Vector2 off = (share_of(start_of(coedge)) - middle).cwiseQuotient(place.high - place.low);
         place.even |= off.cwiseAbs().minCoeff() < straight;
@@ -137,7 +136,7 @@ class HoleFitter {
     return parametric_point(coedge, coedge.forward ? edge.first : edge.last);
   }
 
-  /// The count near one that suits the holes best. \param axis 0: of columns, 1: of rows
+  /// The count near `now` that suits the holes best. \param axis 0 = columns, 1 = rows
   int best_count(const std::vector<HolePlace>& shares, int axis, int now) const {
     constexpr double of_change = 2;
     constexpr int reach = 2;
@@ -191,7 +190,7 @@ std::optional<HoleBlock> block_of(const HolePlace& hole, int nodes, const GridSi
   block.columns = across(hole.low.x(), hole.high.x(), hole.even).cells;
   block.rows = across(hole.low.y(), hole.high.y(), hole.even).cells;
   if (nodes > 0) {
-    // As much too many or too few each way.
+    // Spread the excess or shortage over both directions.
     const int excess = nodes / 2 - block.columns - block.rows;
     block.columns += excess / 2;
     block.rows = nodes / 2 - block.columns;

@@ -1,5 +1,5 @@
 #pragma once
-/// Holes in grids: which cells give way to a hole. Internal.
+/// Holes in grids: which cells make room for a hole. Internal.
 
 #include <optional>
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace quadrille {
 
-/// A hole in a grid, in cells: from the first column and row on.
+/// The bounding box of a hole in a grid, in cells counted from the first column and row.
 struct HolePlace {
   Vector2 low{0, 0}, high{0, 0};
-  /// It has a vertex straight beside, above or below its middle: the block is to have nodes there too.
+  /// The hole has a vertex straight beside, above or below its center, so the block needs nodes there too.
   bool even = false;
 
   void include(const Vector2& cell) {
@@ -22,33 +22,33 @@ struct HolePlace {
   }
 };
 
-/// Cells of a grid each way.
+/// Numbers of cells of a grid.
 struct GridSize {
   int columns = 0, rows = 0;
 };
 
-/// The cells that a hole takes the place of. A hole with as many nodes as there are round the block needs no
-/// irregular vertices but the block's corners.
+/// The cells that a hole replaces. If the hole has as many nodes as the outline of the block, only the
+/// corners of the block become irregular vertices.
 struct HoleBlock {
-  int column = 0, row = 0;    ///< the first
-  int columns = 0, rows = 0;  ///< how many
+  int column = 0, row = 0;    ///< first column and row
+  int columns = 0, rows = 0;  ///< number of columns and rows
 
-  int around() const { return 2 * (columns + rows); }
+  int around() const { return 2 * (columns + rows); }  ///< number of nodes on the outline
 };
 
-/// The block of about a cell more than the hole each way, its middle near that of the hole. \param nodes
-/// round the hole; 0 = as many as fit. Nothing where the nodes fit no block that is larger than the hole and
-/// no more than a few cells wider.
+/// The block for a hole: about one cell wider and higher than the hole, and centered near its center.
+/// \param nodes number of nodes around the hole; 0 = as many as suit the block. \return nothing if no block
+/// of that many nodes is larger than the hole by no more than a few cells.
 std::optional<HoleBlock> block_of(const HolePlace& hole, int nodes, const GridSize& grid);
 
-/// Whether blocks leave a row of cells between each other, and between them and the outline of the grid.
+/// Whether at least one row of cells lies between any two blocks, and between blocks and the grid's outline.
 bool keep_apart(const std::vector<HoleBlock>& blocks, const GridSize& grid);
 
-/// What the edges of holes want, so that they fit into the grids of faces with four corners: as many segments
-/// as there are round the cells that they take the place of, where these are about as long as those of the
-/// sides. The sides want two more or fewer than they have where the blocks' middles then are those of the
-/// holes. \param sides as choose_counts() left them. \param tables (edges) \return whether anything was
-/// changed, so that counts are to be chosen again.
+/// Changes the wanted counts so that holes fit into the grids of faces with four corners. A hole then wants
+/// as many segments as its block has around it, provided that segments of the hole's size are about as long
+/// as those of the face's sides. Sides want two more or two fewer segments where that centers the blocks
+/// better on the holes. \param sides as choose_counts() left them. \param tables (edges) \return whether
+/// anything changed, so that counts must be chosen again.
 bool fit_holes_to_grids(const CadShape& shape, const std::vector<FaceSides>& sides, const EdgeCounts& chosen,
                         const std::vector<CountTable>& tables, CountWishes& wishes);
 

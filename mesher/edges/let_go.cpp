@@ -1,5 +1,5 @@
-// Based on: Sheffer, Bercovier, Blacker & Clements, Virtual topology operators for meshing (2000), for faces
-// and edges that are taken together where the model divides them finer than elements are.
+// Based on: Sheffer, Bercovier, Blacker & Clements, Virtual topology operators for meshing (2000), for
+// merging faces and edges where the model divides them into parts smaller than the elements.
 
 #include "mesher/edges/let_go.hpp"
 
@@ -15,8 +15,8 @@ namespace quadrille {
 
 namespace {
 
-/// Angles of faces where edges meet that did not before, radians. Below the first quads there are slivers;
-/// beyond the second, edges on both sides of a slot would meet.
+/// Limits of a face's angle (radians) where two edges meet that did not meet before. Below the first limit,
+/// the quads there would be slivers. Above the second, the edges would be the two sides of a slot.
 constexpr double sharpest = 0.9, bluntest = 5.4;
 
 class HarmFinder {
@@ -24,7 +24,7 @@ class HarmFinder {
   HarmFinder(const CadShape& shape, const TinyFeatures& tiny, double reach)
       : shape_(shape), tiny_(tiny), reach_(reach) {}
 
-  /// What was let go on the face and leaves something that has no good quads there.
+  /// What was let go on a face but must be kept, since no good quads fit otherwise.
   struct Harm {
     std::vector<int> points;   // edges that became points
     std::vector<int> slivers;  // edges that share the nodes of others
@@ -47,7 +47,7 @@ class HarmFinder {
  private:
   /// Consecutive edges of a wire that became points.
   struct Gap {
-    std::size_t before = 0, after = 0;  // coedges; where nothing is left, any
+    std::size_t before = 0, after = 0;  // neighboring coedges; any if no edge of the wire is left
     std::vector<int> edges;
   };
 
@@ -72,7 +72,7 @@ class HarmFinder {
     return gaps;
   }
 
-  /// Whether what is left of a loop is too small for elements.
+  /// Whether the rest of a loop is too small for elements.
   bool is_small(const CadWire& wire) const {
     constexpr double least = 4;
     double length = 0;
@@ -85,6 +85,7 @@ class HarmFinder {
     return length < least * reach_ || left == 0 || left == 2;
   }
 
+  /// Whether two edges meet at an angle between the limits.
   bool meet_well(const CadFace& face, const Coedge& from, const Coedge& to) const {
     const CadEdge &before = shape_.edges[from.edge - 1], &after = shape_.edges[to.edge - 1];
     if (before.degenerate || after.degenerate || from.internal || to.internal) return false;
@@ -97,9 +98,9 @@ class HarmFinder {
     return angle > sharpest && angle < bluntest;
   }
 
-  /// Both sides of a slot may not become one.
+  /// Finds edges of a face that share their nodes, since the two sides of a slot must not become one.
   void find_edges_twice(const CadFace& face, Harm& harm) const {
-    std::map<int, int> first;  // leader -> edge
+    std::map<int, int> first;  // edge whose nodes are used -> edge of the face
     for (const CadWire& wire : face.wires) {
       for (const Coedge& coedge : wire.coedges) {
         const int edge = coedge.edge - 1;
@@ -135,7 +136,7 @@ TinyFeatures LetGo::find(const std::vector<char>& collapse, double length) const
   return find_tiny_features(shape_, used_, both, length, {reach_, &kept_faces_});
 }
 
-/// The shortest edges first, as long as the vertices that share a node stay within reach of each other.
+/// Takes edges, the shortest first, if all vertices that then share a node lie within reach of each other.
 void LetGo::choose() {
   std::vector<int> candidates, cluster(shape_.vertices.size());
   for (std::size_t i = 0; i < edges_.size(); ++i) {
@@ -151,7 +152,7 @@ void LetGo::choose() {
   for (std::size_t i = 0; i < members.size(); ++i) members[i] = {static_cast<int>(i)};
   for (const int i : candidates) {
     const int a = cluster[shape_.edges[i].first_vertex - 1], b = cluster[shape_.edges[i].last_vertex - 1];
-    if (a == b) continue;  // the last side of a loop of them
+    if (a == b) continue;  // closes a loop of such edges
     const auto fits = [&](int p) {
       return std::all_of(members[b].begin(), members[b].end(),
                          [&](int q) { return (shape_.vertices[p] - shape_.vertices[q]).norm() <= reach_; });
@@ -164,7 +165,7 @@ void LetGo::choose() {
   }
 }
 
-/// \return whether there was something to keep.
+/// Keeps the features that would harm a face if let go. \return whether there was something to keep.
 bool LetGo::keep_harmed() {
   const TinyFeatures tiny = find(std::vector<char>(edges_.size(), 0), 0);
   const HarmFinder finder(shape_, tiny, reach_);

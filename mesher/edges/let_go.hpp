@@ -8,20 +8,20 @@
 
 namespace quadrille {
 
-/// Chooses the edges that are shorter than the least element and may become points without harm ("virtual
-/// topology"): where two edges that meet then meet at an angle fit for a quad, and faces between two edges
-/// within that length of each other become edges. No node comes to lie further than `reach` from the place
-/// of a vertex that it stands for.
+/// Chooses the edges shorter than `reach` that can become points without harm ("virtual topology"): edges
+/// that meet as a result must meet at an angle fit for a quad. Faces between two edges within `reach` of each
+/// other become edges. No node lies further than `reach` from a vertex that it replaces.
 class LetGo {
  public:
   /// \param used (faces) 1 = the face is meshed. \param reach model units; 0 = nothing is let go.
   LetGo(const CadShape& shape, const std::vector<char>& used, double reach);
 
-  /// What is left out with these and `collapse` (edges) together; see find_tiny_features().
+  /// What is left out of the mesh if edges() and the edges marked in `collapse` become points; see
+  /// find_tiny_features().
   TinyFeatures find(const std::vector<char>& collapse, double length) const;
 
-  /// Keeps what was let go on the face and at its vertices. \param face from 0. \param tiny what find() gave.
-  /// \return false if there was nothing.
+  /// Keeps what was let go on the face, on the faces beside it and at its vertices. \param face from 0.
+  /// \param tiny the result of find(). \return false if nothing was let go there.
   bool keep_around(int face, const TinyFeatures& tiny);
 
   /// (edges) 1 = becomes a point.
@@ -34,8 +34,8 @@ class LetGo {
   const CadShape& shape_;
   const std::vector<char>& used_;
   double reach_;
-  std::vector<char> edges_;       // (edges)
-  std::vector<char> kept_faces_;  // (faces) they may not become edges
+  std::vector<char> edges_;       // (edges) 1 = becomes a point
+  std::vector<char> kept_faces_;  // (faces) 1 = must not become an edge
 };
 
 }  // namespace quadrille

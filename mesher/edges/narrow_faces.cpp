@@ -31,7 +31,7 @@ class NarrowFaces {
     if (a == b || n < 2 || nodes_.edges[b].segments() != n || first.internal || second.internal) return;
     if (edge_a.closed() != edge_b.closed() || nodes_.edges[a].borrowed || nodes_.edges[b].borrowed) return;
     if (!(sides.width < narrow * edge_a.length / n) || (settled_[a] && settled_[b])) return;
-    // Both run round the face, one against the other.
+    // Both coedges run around the face, so across it they run in opposite directions.
     const bool against = first.forward == second.forward;
     const int leader = settled_[b] ? b : a;
     std::vector<int> targets = nodes_.edges[leader].nodes;
@@ -40,7 +40,7 @@ class NarrowFaces {
     settled_[a] = settled_[b] = 1;
   }
 
-  /// The parts have nodes that cannot move, between them: the whole side follows.
+  /// Nodes between the parts of a strip cannot move, so its whole side follows.
   void align(const SplitStrip& strip) {
     const int whole = strip.whole->edge - 1;
     if (nodes_.edges[whole].borrowed || settled_[whole]) return;
@@ -57,9 +57,10 @@ class NarrowFaces {
     if (follow(targets, whole, true)) settled_[whole] = 1;
   }
 
-  /// Moves the nodes of an edge to where it is nearest to the targets, one for each node; false, and nothing
-  /// is moved, if that would put two in one place.
-  /// \param after_moved nodes come after where the one before has moved to, not after where it was.
+  /// Moves each node of an edge to the point of the edge nearest to its target.
+  /// \param targets one node for each node of the edge \param after_moved the lower limit of a node depends
+  /// on the new place of the node before it, not on the old one. \return false, with nothing moved, if a node
+  /// would not come after the one before it.
   bool follow(const std::vector<int>& targets, int follower, bool after_moved) {
     BoundaryNodes::Edge& to = nodes_.edges[follower];
     const EdgeCurve curve(shape_.edges[follower]);
@@ -76,8 +77,8 @@ class NarrowFaces {
     return true;
   }
 
-  /// The parameter nearest to a point by golden sections, no further than four fifths of the way to the nodes
-  /// beside.
+  /// The parameter nearest to a point, by golden section search. It stays within four fifths of the way to
+  /// the neighboring nodes.
   static double nearest(const EdgeCurve& curve, const Vector3& target, double before, double at,
                         double after) {
     constexpr double golden = 0.61803398874989485, reach = 0.8;

@@ -9,9 +9,9 @@
 
 namespace quadrille {
 
-/// Moves the nodes of one side of narrow faces to face those of the other: what shifts them by less than a
-/// segment shears the quads between by more than a right angle where the face is far narrower than that, and
-/// makes the sides of a wedge cross towards its tip.
+/// Moves the nodes on one side of each narrow face so that they face those on the other side. Where a face is
+/// far narrower than a segment, a shift by part of a segment shears the quads between beyond use, and lets
+/// the rows of a wedge cross towards its tip.
 void align_narrow_faces(const CadShape& shape, const std::vector<char>& used,
                         const std::vector<SplitStrip>& strips, BoundaryNodes& nodes);
 

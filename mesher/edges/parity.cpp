@@ -1,5 +1,5 @@
 /// A T-join (Edmonds & Johnson, Matching, Euler tours and the Chinese postman, 1973), approximated by nearest
-/// pairs, and by a minimum-weight basis over GF(2) in general.
+/// pairs or, if these fail, by a minimum-weight basis over GF(2).
 
 #include "mesher/edges/parity.hpp"
 
@@ -14,7 +14,7 @@ namespace quadrille {
 
 namespace {
 
-/// Dijkstra from one odd face to the nearest other odd face or to the outside; exchanges the path.
+/// Dijkstra's algorithm from an odd face to the nearest other one or to the outside. Flips the path's edges.
 class NearestPairs {
  public:
   NearestPairs(const std::vector<ParityEdge>& edges, int faces)
@@ -28,7 +28,7 @@ class NearestPairs {
     }
   }
 
-  /// \return false if no other odd face and no free edge can be reached.
+  /// \return false if no other odd face and no edge of a single face can be reached.
   bool pair_up(int start, std::vector<char>& odd) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     std::vector<double> distance(adjacency_.size(), infinity);
@@ -80,7 +80,7 @@ int lowest_bit(const Bits& bits) {
   return -1;
 }
 
-/// Solves for the odd faces with the cheapest basis of columns; whatever cannot be made even stays odd.
+/// Solves for the odd faces with the cheapest basis of columns. Faces that cannot be made even stay odd.
 std::vector<char> eliminate(const std::vector<ParityEdge>& edges, std::vector<char>& odd) {
   struct Row {
     Bits faces, combination;

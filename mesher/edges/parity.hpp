@@ -1,19 +1,20 @@
 #pragma once
-/// Counts on edges made even round every face. Internal.
+/// Makes the sum of the counts around every face even. Internal.
 
 #include <vector>
 
 namespace quadrille {
 
-/// A model's edges for the parity problem: which faces change parity with the edge's count.
+/// An edge of the parity problem: the faces that change parity with the edge's count.
 struct ParityEdge {
   std::vector<int> faces;  ///< faces (from 0) that use the edge an odd number of times
-  double cost = 0;         ///< of changing the edge's count by one; infinite = must not change
+  double cost = 0;         ///< cost of changing the edge's count by one; infinite = must not change
 };
 
-/// Chooses a cheap set of edges to change by one so that every odd face becomes even (a T-join; by shortest
-/// paths, and by elimination over GF(2) where edges join three faces and more). Faces that cannot be made
-/// even are returned in `left_odd`. \return (edge count) 1 = change the edge.
+/// Chooses a cheap set of edges to change by one so that every odd face becomes even (a T-join). Shortest
+/// paths ignore edges of three faces and more; if they leave a face odd, elimination over GF(2) takes over.
+/// Faces (from 1) that cannot be made even are added to `left_odd`. \return (edges) 1 = change the edge's
+/// count.
 std::vector<char> make_even(const std::vector<ParityEdge>& edges, std::vector<char> odd,
                             std::vector<int>& left_odd);
 

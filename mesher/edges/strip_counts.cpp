@@ -6,10 +6,10 @@ namespace quadrille {
 
 namespace {
 
-constexpr double wanted_aspect = 4;  // the limit is 5
-constexpr double most = 3;           // times as many segments
+constexpr double wanted_aspect = 4;  // the quality limit is 5
+constexpr double most = 3;           // largest factor on the number of segments
 
-/// One direction of a face of four sides: mean length and count of the sides along it.
+/// One direction of a four-sided face: mean length and count of the two sides along it.
 struct Extent {
   double length = 0;
   int count = 0;
@@ -28,8 +28,7 @@ Extent extent_of(const CadShape& shape, const FacingPair& pair, const std::vecto
 
 bool refine_along_strips(const CadShape& shape, const std::vector<FaceSides>& sides, const EdgeCounts& chosen,
                          std::vector<CountTable>& tables, CountWishes& wishes) {
-  std::vector<double> densities(shape.edges.size(),
-                                0);  // (chords) segments to a whole edge, anywhere along it
+  std::vector<double> densities(shape.edges.size(), 0);  // (chords) least segments for each whole edge
   for (const FaceSides& face : sides) {
     if (face.outline != FaceSides::Outline::four || face.facing.size() != 2) continue;
     for (const int k : {0, 1}) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Counts along strips that are narrower than the size. Internal.
+/// Segment counts along strips narrower than the size. Internal.
 
 #include <vector>
 
@@ -9,11 +9,11 @@
 
 namespace quadrille {
 
-/// Raises what edges of four-sided faces want, and what the others of their chords want by as much, until no
-/// quad of the face is longer than four times the width of its rows, which are known once counts are chosen.
-/// Where that would take more than three times as many, all is left as it is. \param sides as choose_counts()
-/// left them. \param tables (edges) \return whether anything was raised, so that counts are to be chosen
-/// again.
+/// Raises the counts that edges of four-sided faces and the rest of their chords want, until quads are at
+/// most four times as long as the rows are wide. The width of the rows is known once counts are chosen. A
+/// face that would need more than three times as many segments is left as it is. \param sides as
+/// choose_counts() left them. \param tables (edges) \return whether anything was raised, so that counts must
+/// be chosen again.
 bool refine_along_strips(const CadShape& shape, const std::vector<FaceSides>& sides, const EdgeCounts& chosen,
                          std::vector<CountTable>& tables, CountWishes& wishes);
 

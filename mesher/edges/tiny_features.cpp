@@ -43,7 +43,7 @@ class Finder {
     std::replace(tiny_.vertices.begin(), tiny_.vertices.end(), std::max(a, b), std::min(a, b));
   }
 
-  /// A face that is left with no edge, or with two that lie close together, goes.
+  /// Removes a face that is left with no edges, or with two that lie close together.
   void merge(int face) {
     std::vector<int> left;
     bool any_collapsed = false;
@@ -54,7 +54,7 @@ class Finder {
         if (!tiny_.collapsed_edges[edge] && !shape_.edges[edge].degenerate) left.push_back(edge);
       }
     }
-    // Poles and seams without edges are not tiny.
+    // A face without any collapsed edge is not tiny, even if all its edges are poles.
     if (left.empty() && any_collapsed) tiny_.merged_faces[face] = 1;
     if (left.size() != 2 || left[0] == left[1]) return;
     const CadEdge &a = shape_.edges[left[0]], &b = shape_.edges[left[1]];
@@ -63,23 +63,23 @@ class Finder {
     const bool against = tiny_.end(a.first_vertex) == tiny_.end(b.last_vertex) &&
                          tiny_.end(a.last_vertex) == tiny_.end(b.first_vertex);
     if (!(along || against) || !lies_along(a, b, reach_of(face, any_collapsed, a, b))) return;
-    // Of two closed edges either sense would fit the ends: the nearer points tell.
+    // Either direction fits the ends of two closed edges: the distances of points decide.
     const bool reversed = along && against ? !runs_along(a, b) : against;
     tiny_.merged_faces[face] = 1;
     tiny_.edges[left[1]] = left[0];
     tiny_.reversed_edges[left[1]] = reversed;
   }
 
-  /// How far apart the two edges of a face may be that becomes an edge.
+  /// The largest distance between the two edges of a face that may become an edge.
   double reach_of(int face, bool has_points, const CadEdge& a, const CadEdge& b) const {
-    constexpr double slender = 4;  // a disc that small is no sliver
+    constexpr double slender = 4;  // shorter faces without collapsed edges are discs, not slivers
     const bool is_sliver = (has_points || std::min(a.length, b.length) > slender * slivers_.reach) &&
                            lies_between_others(a) && lies_between_others(b) &&
                            (slivers_.kept == nullptr || !(*slivers_.kept)[face]);
     return std::max(length_, is_sliver ? slivers_.reach : 0);
   }
 
-  /// A sliver that others do not close in on is a part of its own.
+  /// Whether the edge has another used face. A sliver without neighbors on both sides is a part of its own.
   bool lies_between_others(const CadEdge& edge) const {
     return std::count_if(edge.faces.begin(), edge.faces.end(),
                          [&](int face) { return used_[face - 1] != 0; }) > 1;
@@ -94,8 +94,8 @@ class Finder {
     return (p - at(b, 0.25)).norm() < (p - at(b, 0.75)).norm();
   }
 
-  /// Chains of merged edges end in one that keeps its nodes. Each merge removes a face, so a ring of them
-  /// would be a closed fan of slivers: the one that closes it is kept apart.
+  /// Replaces chains of merged edges by their last edge, which keeps its nodes. Each merge removes a face, so
+  /// a ring of merged edges is a closed fan of slivers: the edge that closes the ring keeps its own nodes.
   void resolve_edges() {
     for (std::size_t i = 0; i < tiny_.edges.size(); ++i) {
       int end = static_cast<int>(i);

@@ -1,5 +1,5 @@
-/// Candidates by intersecting boxes (Zomorodian & Edelsbrunner, Fast software for box intersections, 2002, as
-/// CGAL has it), then exact predicates.
+/// Finds candidates by box intersection (Zomorodian & Edelsbrunner, Fast software for box intersections,
+/// 2002, as in CGAL), then applies exact predicates.
 
 // CGAL first: OpenCASCADE defines a macro named Handle.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -34,7 +34,7 @@ bool cross(const Segment& s, const Segment& t) {
   for (const int i : {0, 1}) {
     for (const int k : {0, 1}) {
       if (s.vertex(i) != t.vertex(k)) continue;
-      // They leave a common end: one lies on the other, or that end is all.
+      // With a common end, they cross only if one lies on the other.
       const Point &at = s.vertex(i), &a = s.vertex(1 - i), &b = t.vertex(1 - k);
       return CGAL::orientation(at, a, b) == CGAL::COLLINEAR &&
              !CGAL::collinear_are_strictly_ordered_along_line(a, at, b);
@@ -43,14 +43,14 @@ bool cross(const Segment& s, const Segment& t) {
   return true;
 }
 
-/// Places along a segment of the boundary in the parameter plane, by the parametric curve.
+/// A segment of the boundary in the parameter plane, divided into pieces along its parametric curve.
 std::vector<Point> refined(const FaceBoundary& boundary, const FaceBoundary::Segment& segment, int pieces) {
   const Vector2 &a = boundary.uv[segment.a], &b = boundary.uv[segment.b];
   std::vector<Point> line{to_point(a)};
   const auto on_curve = [&](double t) { return parametric_point(*segment.coedge, t); };
   for (int k = 1; k < pieces; ++k) {
     const double share = static_cast<double>(k) / pieces;
-    // Ends may have been moved by periods, or to where the next edge begins.
+    // The ends may have been moved by periods, or to the start of the next edge.
     const Vector2 moved = (1 - share) * (a - on_curve(segment.from)) + share * (b - on_curve(segment.to));
     line.push_back(to_point(on_curve(segment.from + share * (segment.to - segment.from)) + moved));
   }
@@ -67,12 +67,11 @@ bool cross(const std::vector<Point>& a, const std::vector<Point>& b) {
   return false;
 }
 
-/// What segments stand for: their chords, and the same with the middles of their curves put three times as
-/// far out.
+/// The chords of segments, and lines that bulge out three times as far as the middles of the curves.
 struct Span {
   std::vector<Point> chords, bulges;
 
-  /// \param line the ends of the segments with the middles of the curves between them.
+  /// \param line the ends of the segments, with the middles of the curves between them.
   explicit Span(const std::vector<Point>& line) {
     for (std::size_t i = 0; i < line.size(); ++i) {
       if (i % 2 == 0) chords.push_back(line[i]);
@@ -82,14 +81,14 @@ struct Span {
   }
 };
 
-/// Whether curves come nearer to each other than they leave their chords. Triangles between them then hold no
-/// place for the nodes in the middle.
+/// Whether the gap between curves is narrower than they bulge from their chords. Triangles between them then
+/// leave no room for the nodes in the middle.
 bool crowd(const Span& a, const Span& b) {
   return cross(a.chords, b.bulges) || cross(a.bulges, b.chords) || cross(a.bulges, b.bulges);
 }
 
-/// In how many pieces each of two segments that cross or crowd does so no more; 0 = however many. Not for the
-/// view from above, whose plane the parametric curves know nothing of.
+/// The number of pieces of each of two segments from which on they neither cross nor crowd each other; 0 =
+/// none found. Always 0 for a view from above, since the parametric curves do not lie in its plane.
 int pieces_apart(const FaceBoundary& boundary, const FaceSurface& surface, const std::pair<int, int>& pair) {
   constexpr int most = 32;
   const auto &s = boundary.segments[pair.first], &t = boundary.segments[pair.second];
@@ -107,7 +106,7 @@ EdgeStretch stretch_of(const FaceBoundary::Segment& segment, int pieces) {
   return {segment.edge, std::min(segment.from, segment.to), std::max(segment.from, segment.to), pieces};
 }
 
-/// What a segment is a part of, and which part.
+/// The name of a segment's edge, and the part of the edge.
 std::string name_of(const CadShape& shape, const FaceBoundary::Segment& segment) {
   if (segment.edge == 0) return "a pole";
   return fmt::format("Edge{} (parameters {:.4g} to {:.4g})", shape.edges[segment.edge - 1].number,
@@ -134,7 +133,7 @@ std::vector<std::pair<int, int>> crossing_segments(const FaceBoundary& boundary)
 
 namespace {
 
-/// The pairs of segments that crowd, see above; none that have a node in common.
+/// The pairs of segments that crowd() each other, without those that share a node.
 std::vector<std::pair<int, int>> crowding_segments(const FaceBoundary& boundary) {
   std::vector<std::pair<int, int>> pairs;
   if (boundary.stride != 2) return pairs;
@@ -178,7 +177,7 @@ double largest_stray(const FaceBoundary& boundary, const FaceSurface& surface) {
 
 std::optional<FaceProblem> crossing_problem(int face, const CadShape& shape, const FaceBoundary& boundary,
                                             const FaceSurface& surface) {
-  constexpr double stray = 0.5;  // of a segment
+  constexpr double stray = 0.5;  // in segment lengths
   const auto pairs = crossing_segments(boundary);
   if (pairs.empty()) return std::nullopt;
   std::vector<EdgeStretch> stretches;

@@ -14,8 +14,7 @@ namespace quadrille {
 
 namespace {
 
-/// Parameter points along a pole: as many as elements that meet there, so that the triangulation fans out
-/// evenly.
+/// Number of segments along a pole: as many as elements meet there, so that triangles fan out evenly.
 constexpr int pole_segments = 6;
 
 class BoundaryWalker {
@@ -52,9 +51,8 @@ class BoundaryWalker {
   struct Run {
     int first = -1, last = -1;  // point instances at the start and the end, in the wire's direction
     int first_segment = 0, end_segment = 0;
-    bool after_gap = false;  // edges before it became points
-    Vector3 leaving{0, 0, 0},
-        arriving{0, 0, 0};  // tangents at the start and the end, in the wire's direction
+    bool after_gap = false;                       // the edges just before it became points
+    Vector3 leaving{0, 0, 0}, arriving{0, 0, 0};  // tangents at start and end, in the wire's direction
   };
 
   int add_point(const Vector2& uv, int node) {
@@ -65,7 +63,7 @@ class BoundaryWalker {
     return boundary_.size() - 1;
   }
 
-  /// Each coedge gets its own end points first; consecutive coedges are joined afterwards.
+  /// First gives each coedge its own end points, then joins consecutive coedges.
   void walk_wire(const CadWire& wire) {
     std::vector<Run> runs;
     auto& firsts = boundary_.first_segments.emplace_back();
@@ -86,7 +84,7 @@ class BoundaryWalker {
     drop_joined();
   }
 
-  /// Moves a coedge by whole periods to where the one before it ends: files may have them turns away.
+  /// Moves a coedge by whole periods to the end of the one before it: in files they may be periods apart.
   void unwrap(const Run& previous, const Run& run) {
     if (boundary_.nodes[previous.last] != boundary_.nodes[run.first]) return;
     const Vector2 jump = boundary_.uv[run.first] - boundary_.uv[previous.last];
@@ -98,7 +96,7 @@ class BoundaryWalker {
     for (int i = run.first_segment; i < run.end_segment; ++i) boundary_.segments[i].middle_uv -= shift;
   }
 
-  /// Whether the line between two places in the parameter plane is one point in space, a pole.
+  /// Whether the line between two places in the parameter plane is a single point in space, a pole.
   bool is_one_point(const Vector2& from, const Vector2& to) const {
     constexpr double nearness = 0.01;
     const double reach = nearness * (to - from).cwiseProduct(scale_).norm();
@@ -163,14 +161,13 @@ class BoundaryWalker {
     const int node = edge.first_vertex > 0 ? nodes_.vertex_nodes[edge.first_vertex - 1] : -1;
     if (node < 0 || surface_.is_view()) return {};
     Vector2 from = parametric_point(coedge, edge.first), to = parametric_point(coedge, edge.last);
-    // Translators close wires by such edges where nothing is degenerate.
+    // CAD translators also close wires with edges marked degenerate that are not poles.
     if (!is_one_point(from, to)) return {};
     if (!coedge.forward) std::swap(from, to);
     return add_pole(from, to, node, is_tip(wire, at) ? 1 : pole_segments);
   }
 
-  /// Whether the face is so narrow beside a pole, from the coedge before it to the next, that no elements fit
-  /// there side by side.
+  /// Whether the face is so narrow between the coedges beside a pole that no elements fit side by side.
   bool is_tip(const CadWire& wire, std::size_t at) const {
     constexpr double narrow = 0.35;  // radians
     const std::size_t n = wire.coedges.size();
@@ -213,8 +210,8 @@ class BoundaryWalker {
     return (boundary_.uv[a] - boundary_.uv[b]).cwiseProduct(scale_).norm();
   }
 
-  /// Makes the end of one coedge and the start of the next one point; a jump between them at one node is a
-  /// pole that the file does not say.
+  /// Merges the end of one coedge with the start of the next. A jump between them at the same node is a pole
+  /// that the file does not mark.
   void join(const Run& run, const Run& next) {
     const int a = run.last, b = next.first;
     if (a == b || boundary_.nodes[a] != boundary_.nodes[b]) return;
@@ -239,7 +236,7 @@ class BoundaryWalker {
     joined_.push_back({a, b});
   }
 
-  /// Moves wires by whole periods to where the widest one is: files may have holes a turn away.
+  /// Moves wires by whole periods to the widest one: in files, holes may be a period away.
   void gather_wires(const std::vector<int>& starts, int axis, double period) {
     const auto bounds = [&](std::size_t wire) {
       std::pair<double, double> range{std::numeric_limits<double>::infinity(),
@@ -257,7 +254,7 @@ class BoundaryWalker {
     }
     for (std::size_t wire = 0; wire + 1 < starts.size(); ++wire) {
       const auto [low, high] = bounds(wire);
-      // Only those that lie outside altogether: one that reaches over an end belongs there.
+      // Moves only wires that lie outside entirely: one that reaches over an end belongs there.
       if (!(low >= widest.second) && !(high <= widest.first)) continue;
       const double away = 0.5 * (widest.first + widest.second - low - high);
       const double shift = period * std::round(away / period);
@@ -268,9 +265,9 @@ class BoundaryWalker {
     }
   }
 
-  /// Where wires touch, as a hole and the seam may, and along slits, one point is left of each place.
+  /// Merges points where wires touch, as a hole and a seam may, and along slits.
   void join_touching() {
-    constexpr double nearness = 0.01;  // of the shortest segment around
+    constexpr double nearness = 0.01;  // in lengths of the shortest segment at the point
     std::vector<double> reach(boundary_.size(), std::numeric_limits<double>::infinity());
     for (const auto& segment : boundary_.segments) {
       const double length = nearness * scaled_distance(segment.a, segment.b);
@@ -280,7 +277,7 @@ class BoundaryWalker {
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
                      [&](int a, int b) { return boundary_.nodes[a] < boundary_.nodes[b]; });
-    std::vector<int> kept;  // of the node at hand
+    std::vector<int> kept;  // points of the current node that are not joined to others
     for (const int i : order) {
       if (!kept.empty() && boundary_.nodes[kept.front()] != boundary_.nodes[i]) kept.clear();
       const auto near = std::find_if(kept.begin(), kept.end(), [&](int other) {
@@ -296,7 +293,7 @@ class BoundaryWalker {
     drop_joined();
   }
 
-  /// Renumbers without the points that were joined to others.
+  /// Removes the points that were joined to others, and renumbers the rest.
   void drop_joined() {
     if (joined_.empty()) return;
     std::vector<int> target(boundary_.size());

@@ -1,5 +1,5 @@
 #pragma once
-/// The boundary of one face in its parameter plane, made of the nodes on its edges. Internal.
+/// The boundary of one face in its parameter plane, built from the nodes on its edges. Internal.
 
 #include <vector>
 
@@ -10,13 +10,14 @@
 
 namespace quadrille {
 
-/// Points are instances: a node on a seam has one for each side of it. All indices are into the arrays here.
+/// Points are instances of nodes: a node on a seam has one for each side of the seam. All indices are into
+/// the arrays here.
 struct FaceBoundary {
   struct Segment {
-    int a = -1, b = -1;              ///< in the direction of the wire
-    int edge = 0;                    ///< CAD edge, from 1; 0 on a degenerate one
+    int a = -1, b = -1;              ///< ends, in the direction of the wire
+    int edge = 0;                    ///< CAD edge, from 1; 0 if degenerate
     double from = 0, to = 0;         ///< parameters of a and b on that edge
-    const Coedge* coedge = nullptr;  ///< of the face that was walked; null on a degenerate one
+    const Coedge* coedge = nullptr;  ///< the coedge of the face that was walked; null if degenerate
     int middle_node = -1;  ///< node of the final mesh between a and b (Strategy::subdivide), else -1
     Vector2 middle_uv{0, 0};
     Vector3 middle_point{0, 0, 0};
@@ -25,17 +26,17 @@ struct FaceBoundary {
   };
   std::vector<Vector2> uv;
   std::vector<Vector3> points;
-  std::vector<int> nodes;  ///< index into BoundaryNodes::points
-  /// Angle (radians) to the left of the wire between the tangents of its curves; 0 = not known (poles).
+  std::vector<int> nodes;  ///< indices into BoundaryNodes::points
+  /// Angle (radians) between the curves at the point, on the left of the wire; 0 = not known, as at poles.
   std::vector<double> angles;
   std::vector<Segment> segments;
-  /// (wires, coedges) the first of the segments of each coedge; -1 = it has none.
+  /// (wires, coedges) index of the first segment of each coedge; -1 = the coedge has no segments.
   std::vector<std::vector<int>> first_segments;
-  /// Segments of the final mesh to one here: 2 for faces that are subdivided, but 1 where an edge has an odd
-  /// number.
+  /// Segments of the final mesh for each segment here: 2 for faces that are subdivided, unless one of their
+  /// edges has an odd number of segments; else 1.
   int stride = 1;
 
-  /// Whether two segments have a node in common, on a seam too.
+  /// Whether two segments share a node, even as different points on a seam.
   bool touch(const Segment& s, const Segment& t) const {
     return nodes[s.a] == nodes[t.a] || nodes[s.a] == nodes[t.b] || nodes[s.b] == nodes[t.a] ||
            nodes[s.b] == nodes[t.b];
@@ -43,8 +44,8 @@ struct FaceBoundary {
   int size() const { return static_cast<int>(uv.size()); }
 };
 
-/// Walks the wires of a face of the shape, or of one that stands for it with other parametric curves.
-/// Throws Error (failure) naming the face when a wire has no usable parametric curve.
+/// Walks the wires of a face. \param face from 0 \param cad_face the face, or a copy with other parametric
+/// curves. Throws Error (failure) naming the face if its boundary is not usable or runs to infinity.
 FaceBoundary face_boundary(const CadShape& shape, int face, const CadFace& cad_face,
                            const FaceSurface& surface, const BoundaryNodes& nodes);
 
@@ -53,8 +54,8 @@ inline FaceBoundary face_boundary(const CadShape& shape, int face, const FaceSur
   return face_boundary(shape, face, shape.faces[face], surface, nodes);
 }
 
-/// The same boundary with two segments for each one: for elements of the final size. Those of a stride of 1
-/// it leaves as they are.
+/// The same boundary with each segment cut in two at its middle node, for elements of the final size. Returns
+/// a boundary with stride 1 unchanged.
 FaceBoundary halved(FaceBoundary boundary);
 
 /// The domain in the parameter plane that the boundary encloses.

@@ -10,7 +10,7 @@ namespace quadrille {
 
 namespace {
 
-/// The nodes of the wire that encloses most, in order.
+/// The nodes, in order, of the wire that encloses the largest area.
 std::vector<Vector3> widest_loop(const CadFace& face, const BoundaryNodes& nodes) {
   std::vector<Vector3> widest;
   double largest = 0;
@@ -18,7 +18,7 @@ std::vector<Vector3> widest_loop(const CadFace& face, const BoundaryNodes& nodes
     std::vector<Vector3> loop;
     for (const Coedge& coedge : wire.coedges) {
       const auto& edge = nodes.edges[coedge.edge - 1].nodes;
-      // Without the last one, which is the first of the next edge.
+      // The last node is left out: it is the first of the next edge.
       for (std::size_t i = 0; i + 1 < edge.size(); ++i)
         loop.push_back(nodes.points[edge[coedge.forward ? i : edge.size() - 1 - i]]);
     }

@@ -1,5 +1,5 @@
 #pragma once
-/// A face in its parameter plane: what it is evaluated with, and its boundary there. Internal.
+/// A face in its parameter plane: the surface that evaluates it, and its boundary there. Internal.
 
 #include <memory>
 #include <optional>
@@ -14,18 +14,18 @@ namespace quadrille {
 
 /// The plane that a face is triangulated in.
 enum class ChartKind {
-  own,         ///< the parameters of its surface, by its own parametric curves
-  new_curves,  ///< the same, by curves made anew by projection of its edges
-  view         ///< the face as it is seen from above, along the normal of its outer loop
+  own,         ///< the surface's parameters, with the face's own parametric curves
+  new_curves,  ///< the surface's parameters, with new parametric curves projected from the edges
+  view         ///< the face as seen from above, along the normal of its outer loop
 };
 
 struct FaceChart {
-  std::shared_ptr<const CadFace> other;        ///< the face with curves made anew; null for other kinds
-  std::shared_ptr<const FaceSurface> surface;  ///< what the boundary's uv are parameters of
+  std::shared_ptr<const CadFace> other;        ///< the face with new parametric curves; null for other kinds
+  std::shared_ptr<const FaceSurface> surface;  ///< the surface that the boundary's uv refer to
   FaceBoundary boundary;
 };
 
-/// \param face from 0. Throws FaceProblem where there is no such chart.
+/// \param face from 0. Throws FaceProblem if the face has no such chart.
 FaceChart make_chart(const CadShape& shape, int face, const BoundaryNodes& nodes, ChartKind kind);
 
 }  // namespace quadrille

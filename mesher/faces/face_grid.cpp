@@ -18,9 +18,9 @@ namespace quadrille {
 namespace {
 
 using Outline = FaceSides::Outline;
-using Line = StepLayout::Line;  // points in a row
+using Line = StepLayout::Line;  // consecutive points
 
-constexpr double least_jacobian = 0.3;  // of a cell
+constexpr double least_jacobian = 0.3;  // scaled Jacobian of a cell
 
 Line turned(Line line) {
   std::reverse(line.begin(), line.end());
@@ -49,7 +49,7 @@ class GridMaker {
         if (!make_odd()) return std::nullopt;
         break;
       case Outline::holed:
-        // Nodes are to move before the grid can be judged.
+        // The grid can be judged only after nodes have been moved.
         if (!make_holed() || !follows_sizes()) return std::nullopt;
         drop_unused();
         turn_to_left();
@@ -62,7 +62,7 @@ class GridMaker {
   }
 
  private:
-  /// The boundary's loops, in the order of the wires, with the points in the middle of the segments.
+  /// Collects the boundary's loops in the order of the wires, with the middle points of segments.
   bool find_loops() {
     grid_.uv = boundary_.uv;
     grid_.points = boundary_.points;
@@ -118,9 +118,9 @@ class GridMaker {
     return true;
   }
 
-  /// Steps are laid out in whole cells; where they close without overlap, each cell is a quad. Nodes inside
-  /// are spread by Laplace's equation over columns and rows as wide as the boundary has them, so that
-  /// straight steps get straight lines.
+  /// Lays the steps out in whole cells. If they close without overlap, each cell becomes a quad. Laplace's
+  /// equation spreads the nodes inside, on columns and rows as wide as on the boundary, so that straight
+  /// steps get straight lines.
   bool make_stepped() {
     if (loops_.size() != 1) return false;
     const auto layout = StepLayout::make(cut_loop(), sides_.directions, grid_.points, check_);
@@ -137,7 +137,7 @@ class GridMaker {
     return !grid_.quads.empty();
   }
 
-  /// Rows between two loops, from each node of one to that of the other which makes the way shortest.
+  /// Makes rows between two loops, rotated so that the distances between their nodes are smallest.
   bool make_ring() {
     if (loops_.size() != 2 || loops_[0].size() != loops_[1].size()) return false;
     Line outer = loops_[0], inner = turned(loops_[1]);
@@ -155,7 +155,7 @@ class GridMaker {
     return true;
   }
 
-  /// Where rows lie between two points, as shares of the way in the parameter plane, by the sizes there.
+  /// The places of rows between two points by the sizing field, as shares of the line in the parameter plane.
   std::vector<double> rows_between(int from, int to) {
     constexpr int samples = 32;
     std::vector<double> counts{0};
@@ -178,15 +178,15 @@ class GridMaker {
     return shares;
   }
 
-  /// An odd number of corners: as many grids round one point, each with a corner of the face. Side i is cut
-  /// in two, f_i and g_i segments, and the lines across have f_{i+1} = g_{i-1} of them.
+  /// Meshes an outline with three or five corners as that many grids around one point. Side i is cut into
+  /// parts of f_i and g_i segments. The line from there to the center has f_{i+1} = g_{i-1} segments.
   bool make_odd() {
     const std::vector<Line> sides = cut_loop();
     const int k = static_cast<int>(sides.size());
     if (loops_.size() != 1 || (k != 3 && k != 5)) return false;
     std::vector<int> count(k), first(k);
     for (int i = 0; i < k; ++i) count[i] = static_cast<int>(sides[i].size()) - 1;
-    // count_i = f_i + f_{i+2}: going round by twos, an odd number of them.
+    // count_i = f_i + f_{i+2}: an alternating sum over every second side gives 2 f_i, since k is odd.
     for (int i = 0; i < k; ++i) {
       int twice = 0;
       for (int j = 0, sign = 1; j < k; ++j, sign = -sign) twice += sign * count[(i + 2 * j) % k];
@@ -200,7 +200,7 @@ class GridMaker {
       middle += grid_.uv[feet.back()] / k;
     }
     const int center = add_point(middle);
-    std::vector<Line> spokes;  // from the sides to the center
+    std::vector<Line> spokes;  // lines from the sides to the center
     for (int i = 0; i < k; ++i) {
       const int n = first[(i + 1) % k];
       Line line{feet[i]};
@@ -235,7 +235,7 @@ class GridMaker {
     return shares;
   }
 
-  /// A grid between four lines, each in the direction of its coordinate.
+  /// Adds a grid between four lines, which run in the direction of growing columns or rows.
   void fill(const Line& bottom, const Line& right, const Line& top, const Line& left) {
     const std::vector<Line> rows = rows_inside(bottom, right, top, left);
     for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
@@ -248,7 +248,7 @@ class GridMaker {
     grid_.quads.push_back({rows[j][i], rows[j][i + 1], rows[j + 1][i + 1], rows[j + 1][i]});
   }
 
-  /// The points of a grid between four lines, row by row, with the lines.
+  /// The points of a grid between four lines, row by row, including the lines.
   std::vector<Line> rows_inside(const Line& bottom, const Line& right, const Line& top, const Line& left) {
     const std::size_t m = bottom.size() - 1, n = left.size() - 1;
     const std::vector<double> b = shares_of(bottom), t = shares_of(top), l = shares_of(left),
@@ -259,7 +259,7 @@ class GridMaker {
       Line& row = rows.emplace_back();
       row.push_back(left[j]);
       for (std::size_t i = 1; i < m; ++i) {
-        // Where the lines between the shares cross.
+        // The crossing of the lines between opposite shares.
         const double x = (b[i] + l[j] * (t[i] - b[i])) / (1 - (t[i] - b[i]) * (r[j] - l[j]));
         const double y = l[j] + x * (r[j] - l[j]);
         const Vector2 across = (1 - x) * uv[left[j]] + x * uv[right[j]];
@@ -274,7 +274,7 @@ class GridMaker {
     return rows;
   }
 
-  /// A grid, in which a block of cells gives way to each hole, with rows of quads between the two.
+  /// Makes a grid in which each hole replaces a block of cells, with rings of quads between hole and block.
   bool make_holed() {
     const std::vector<Line> sides = cut_loop();
     if (sides.size() != 4 ||
@@ -306,7 +306,7 @@ class GridMaker {
     return true;
   }
 
-  /// Where points of a line lie in a grid, in cells.
+  /// The places of a line's points in a grid, in cells.
   std::vector<Vector2> places_in(const std::vector<Line>& rows, const Line& line) {
     const int n = static_cast<int>(rows.size()) - 1, m = static_cast<int>(rows[0].size()) - 1;
     std::vector<Vector2> places;
@@ -341,7 +341,7 @@ class GridMaker {
     HolePlace place{places.front(), places.front()};
     for (const Vector2& p : places) place.include(p);
     if (!place.low.allFinite() || !place.high.allFinite()) return std::nullopt;
-    // Edges start with their vertices, and so do loops.
+    // Edges start with a vertex, and so do loops.
     const Vector2 off =
         (places.front() - 0.5 * (place.low + place.high)).cwiseQuotient(place.high - place.low);
     constexpr double straight = 0.05;
@@ -349,7 +349,7 @@ class GridMaker {
     return block_of(place, static_cast<int>(places.size()), grid);
   }
 
-  /// Counter-clockwise in cells.
+  /// The points around a block, counter-clockwise in cells.
   static Line outline_of(const std::vector<Line>& rows, const HoleBlock& block) {
     const int left = block.column, right = left + block.columns, low = block.row, high = low + block.rows;
     Line line;
@@ -360,7 +360,7 @@ class GridMaker {
     return line;
   }
 
-  /// Rows of quads between the outline of a block and a hole with as many nodes.
+  /// Makes rings of quads between the outline of a block and a hole with the same number of nodes.
   void join_hole(const Line& outline, Line hole, const std::vector<Vector2>& places) {
     double area = 0;
     const std::size_t n = hole.size();
@@ -388,7 +388,7 @@ class GridMaker {
     add_rows(lines);
   }
 
-  /// Quads between closed lines.
+  /// Adds quads between consecutive closed lines.
   void add_rows(const std::vector<Line>& lines) {
     const std::size_t n = lines.front().size();
     for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
@@ -399,8 +399,8 @@ class GridMaker {
     }
   }
 
-  /// By how much a closed line is to be turned so that its points are nearest to those of another, and the
-  /// sum of the ways then, about.
+  /// The number of places by which to rotate a closed line so that its points are nearest to those of another
+  /// one, and the approximate sum of the distances then.
   std::pair<int, double> nearest_shift(const Line& outer, const Line& inner) {
     const int n = static_cast<int>(outer.size()), step = std::max(1, n / 32);
     int best = 0;
@@ -418,7 +418,7 @@ class GridMaker {
     return {best, shortest};
   }
 
-  /// Points inside that no quad has.
+  /// Removes the points inside that no quad uses.
   void drop_unused() {
     std::vector<int> number(grid_.uv.size(), -1);
     for (const auto& quad : grid_.quads) {
@@ -443,7 +443,7 @@ class GridMaker {
     return p.x() * q.y() - p.y() * q.x();
   }
 
-  /// A wire may run the wrong way round.
+  /// Makes the quads counter-clockwise: a wire may run the wrong way around.
   void turn_to_left() {
     double area = 0;
     for (const auto& [a, b, c, d] : grid_.quads) {
@@ -454,7 +454,7 @@ class GridMaker {
     for (auto& quad : grid_.quads) std::swap(quad[1], quad[3]);
   }
 
-  /// No cell is folded, in space or in the parameter plane.
+  /// Whether all cells have a good shape in space and none is folded in the parameter plane.
   bool is_good() {
     turn_to_left();
     for (const auto& [a, b, c, d] : grid_.quads) {
@@ -466,8 +466,8 @@ class GridMaker {
     return true;
   }
 
-  /// Whether nearly all inner sides are of about the size wanted, or of that of the boundary where this has
-  /// more nodes than wanted, as round a thin tube.
+  /// Whether at least nine tenths of the inner sides have about the wanted size. They may be as short as on
+  /// the boundary if that has more nodes than wanted, as around a thin tube.
   bool follows_sizes() {
     const auto length = [&](int a, int b) { return (grid_.points[b] - grid_.points[a]).norm(); };
     double shortest = std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
 #pragma once
-/// Faces as grids of quads, without triangles in between. Internal.
+/// Faces meshed as grids of quads, without a triangulation first. Internal.
 
 #include <array>
 #include <optional>
@@ -13,19 +13,20 @@
 
 namespace quadrille {
 
-/// The quads of a face at its final size. Points on the boundary come first, `nodes.size()` of them: those of
-/// the FaceBoundary, then those in the middle of its segments.
+/// The quads of a face at the final size. The boundary's points come first, `nodes.size()` of them: those of
+/// the FaceBoundary, then the middles of its segments.
 struct FaceGrid {
   std::vector<Vector2> uv;
   std::vector<Vector3> points;
-  std::vector<int> nodes;                 ///< index into BoundaryNodes::points
+  std::vector<int> nodes;                 ///< indices into BoundaryNodes::points
   std::vector<std::array<int, 4>> quads;  ///< counter-clockwise in the parameter plane
-  int rings = 0;                          ///< round each hole, at least; 0 = no holes
+  int rings = 0;                          ///< least number of rings of quads around a hole; 0 = no holes
 };
 
-/// The face as a grid, or a few that meet in one point or round a core; where it has holes (Outline::holed),
-/// nodes inside are still to be moved, and quads may be folded until then. Nothing where its outline allows
-/// none, where the grid would fold, or where it would miss the sizing field. Time: linear in the points.
+/// Meshes a face as one grid, as rows between two loops, as three or five grids that meet in a point, or as a
+/// grid with blocks replaced by holes (Outline::holed). With holes, the nodes inside must still be moved, and
+/// quads may be folded until then. \return nothing if the outline allows no grid, or if the grid would fold
+/// or miss the sizing field. Time: linear in the points.
 std::optional<FaceGrid> make_grid(const FaceBoundary& boundary, const FaceSides& sides,
                                   const FaceSurface& surface, SizingField::Sampler& size_at,
                                   const ExecutionContext& context = {});

@@ -1,5 +1,5 @@
 #pragma once
-/// Why a face cannot be meshed as it is, and where. Internal.
+/// Why and where a face cannot be meshed. Internal.
 
 #include <string>
 #include <utility>
@@ -11,24 +11,24 @@
 
 namespace quadrille {
 
-/// What the table of remedies (remedies.hpp) is asked with.
+/// The causes that the table of remedies (remedies.hpp) distinguishes.
 enum class Cause {
   no_area,               ///< its surface is a curve
   unusable_boundary,     ///< no boundary in the parameter plane, or one that runs to infinity
-  coarse_segments,       ///< boundary segments cross where the curves that they stand for do not
-  narrow_gaps,           ///< curves come nearer to each other than they leave their segments
+  coarse_segments,       ///< boundary segments cross where the curves that they approximate do not
+  narrow_gaps,           ///< gaps between curves are narrower than the curves bulge from their segments
   looped_edge,           ///< segments of one edge cross, however fine: its curve has a loop
-  stray_curves,          ///< segments cross, and the parametric curves lie away from their edges
+  stray_curves,          ///< segments cross or quads are inverted, and parametric curves lie off their edges
   crossing_curves,       ///< segments of two edges cross or touch, however fine
-  inverted_inside,       ///< the mesh was made, and has quads turned over, some at nodes inside the face
-  inverted_at_boundary,  ///< the same, all at nodes of the boundary
-  odd_boundary,          ///< a triangle is left over, which only subdivision can cut up
+  inverted_inside,       ///< the finished mesh has inverted quads, some at nodes inside the face
+  inverted_at_boundary,  ///< the finished mesh has inverted quads, all at boundary nodes
+  odd_boundary,          ///< a triangle is left over, which only subdivision can turn into quads
   no_mesh,               ///< a stage gave up
   out_of_work,           ///< the face has used up its share of work
-  out_of_time            ///< the time limit, or the face's share of it, is over
+  out_of_time            ///< the time limit, or the face's share of it, is used up
 };
 
-/// `what()` is a sentence for the user that names the face, edges and the place.
+/// `what()` is a sentence for the user that names the face, the edges and the place.
 class FaceProblem : public Error {
  public:
   FaceProblem(Cause cause, int face, const std::string& sentence)
@@ -37,7 +37,7 @@ class FaceProblem : public Error {
   Cause cause() const noexcept { return cause_; }
   int face() const noexcept { return face_; }  ///< CAD face, from 1
 
-  std::vector<EdgeStretch> stretches;  ///< where on its edges, with the segments that would do there
+  std::vector<EdgeStretch> stretches;  ///< parts of edges, with the numbers of segments that would suffice
   std::vector<int> edges;              ///< the CAD edges concerned, from 1, ascending
 
  private:

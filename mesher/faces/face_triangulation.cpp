@@ -28,7 +28,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
 using CdtFaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel>;
-/// Carries the domain mark: -1 = not visited, 0 = outside, 1 = inside.
+/// A triangle with a domain mark: -1 = not visited, 0 = outside, 1 = inside.
 template <class Base = CdtFaceBase>
 class MarkedFace : public Base {
  public:
@@ -49,8 +49,7 @@ FaceProblem no_triangles(int face, const Vector3& near) {
                       near.x(), near.y(), near.z())};
 }
 
-/// Points by their index, for CGAL's sorting, which is one call: looking at them checks the context now and
-/// then.
+/// Points by index for CGAL's sorting. It is a single call, so accesses to points check the context at times.
 struct CheckedPoints {
   using key_type = std::size_t;
   using value_type = Kernel::Point_2;
@@ -75,8 +74,7 @@ class Triangulator {
         context_(context),
         check_(context) {}
 
-  /// Triangles over the boundary's points followed by the placed ones; none where placed points lie on
-  /// segments.
+  /// Triangles over the boundary's points followed by the placed ones; none if placed points lie on segments.
   std::vector<std::array<int, 3>> run() {
     insert_points();
     insert_segments();
@@ -91,7 +89,7 @@ class Triangulator {
     return triangles;
   }
 
-  /// The placed points that lie on segments, where run() found some.
+  /// The placed points that run() found on segments.
   const std::vector<int>& on_segments() const { return on_segments_; }
 
  private:
@@ -106,14 +104,15 @@ class Triangulator {
     if (cdt_.dimension() < 2) throw no_triangles(face_, boundary_.points.front());
     handles_.assign(points.size(), nullptr);
     for (auto v = cdt_.finite_vertices_begin(); v != cdt_.finite_vertices_end(); ++v) handles_[v->info()] = v;
-    // A point that coincides with another one was not inserted: find the one that was.
+    // A point that coincides with another one was not inserted: find that other one.
     for (std::size_t i = 0; i < boundary_.uv.size(); ++i) {
       if (handles_[i] != nullptr) continue;
       handles_[i] = cdt_.insert(points[i]);
     }
   }
 
-  /// As CGAL inserts a range of points, which is one call of a second for a million.
+  /// Inserts points as CGAL inserts a range, which is one call without checks and takes 1 s for a million
+  /// points.
   void insert_along_curve(const std::vector<Kernel::Point_2>& points) {
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -149,7 +148,7 @@ class Triangulator {
     }
   }
 
-  /// A point that lies on a segment splits it.
+  /// Finds the points that lie on a segment, which split it.
   void find_points_between(Cdt::Vertex_handle a, Cdt::Vertex_handle b) {
     Cdt::Face_handle f;
     int i = 0;
@@ -168,7 +167,7 @@ class Triangulator {
     return !transparent_.contains(std::minmax(f->vertex(Cdt::cw(i))->info(), f->vertex(Cdt::ccw(i))->info()));
   }
 
-  /// Inside by nesting, from the infinite face inward.
+  /// Marks triangles as inside or outside by nesting, from the infinite face inward.
   void mark_domain() {
     std::vector<Cdt::Face_handle> stack{cdt_.infinite_face()};
     cdt_.infinite_face()->mark = 0;
@@ -197,14 +196,14 @@ class Triangulator {
   std::vector<int> on_segments_;
 };
 
-/// Triangles, without the placed points that lie on segments, which are taken from `placed`.
+/// Triangulates without the placed points that lie on segments, and removes these from `placed`.
 std::vector<std::array<int, 3>> triangles_of(int face, const FaceBoundary& boundary, PlacedPoints& placed,
                                              const FaceSurface& surface, const ExecutionContext& context) {
   while (true) {
     Triangulator triangulator(face, boundary, placed, surface, context);
     auto triangles = triangulator.run();
     if (triangulator.on_segments().empty()) return triangles;
-    // At least one less each time.
+    // Ends, since at least one point is removed each time.
     std::vector<int> dropped = triangulator.on_segments();
     std::sort(dropped.begin(), dropped.end(), std::greater<>());
     dropped.erase(std::unique(dropped.begin(), dropped.end()), dropped.end());
@@ -215,8 +214,8 @@ std::vector<std::array<int, 3>> triangles_of(int face, const FaceBoundary& bound
   }
 }
 
-/// Opens the triangulation along the segments that have the face on both sides, as if each side had a
-/// boundary of its own: recombination then keeps them as sides of the mesh.
+/// Opens the triangulation along segments with the face on both sides, as if each side had its own boundary.
+/// Recombination then keeps these segments as sides of quads.
 class CrackOpener {
  public:
   CrackOpener(FaceBoundary& boundary, std::vector<std::array<int, 3>>& triangles,
@@ -248,7 +247,7 @@ class CrackOpener {
     }
   }
 
-  /// The corners (3 t + k) at each of the points, and the points that they had before the splits.
+  /// Collects the corners (3 t + k) at each end of a crack, and the points of all corners before the splits.
   void collect_corners(const std::set<int>& ends) {
     original_.reserve(3 * triangles_.size());
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
@@ -263,7 +262,7 @@ class CrackOpener {
 
   int original(int triangle, int k) const { return original_[3 * triangle + k % 3]; }
 
-  /// A point of its own for every fan of triangles but the first.
+  /// Gives every fan of triangles at a point but the first its own copy of the point.
   void split(int point) {
     std::vector<int> left = corners_[point];
     for (bool first = true; !left.empty(); first = false) {
@@ -283,7 +282,7 @@ class CrackOpener {
     }
   }
 
-  /// Whether two triangles at a point share a side there that is no crack.
+  /// Whether two triangles at a point share a side there, and the side is not a crack.
   bool joined(int corner, int other) const {
     const int t = corner / 3, k = corner % 3, u = other / 3, j = other % 3;
     const auto open = [&](int end) { return cracks_.contains(key(original(t, k), end)); };
@@ -306,7 +305,7 @@ class CrackOpener {
     }
   }
 
-  /// One segment for each side of a crack; those that end at one get the point of their side.
+  /// Makes one segment for each side of a crack. Segments that end at a crack get the point of their side.
   void replace_segments() {
     std::map<Key, FaceBoundary::Segment> replaced;
     std::erase_if(boundary_.segments, [&](const auto& segment) {
@@ -338,7 +337,7 @@ class CrackOpener {
   std::vector<int> copies_;
 };
 
-/// One point for all parameter points of a pole.
+/// Sets the targets of all parameter points of a pole to one point.
 void collapse_poles(const FaceBoundary& boundary, std::vector<int>& target) {
   const auto root = [&](int i) {
     while (target[i] != i) i = target[i];
@@ -352,8 +351,8 @@ void collapse_poles(const FaceBoundary& boundary, std::vector<int>& target) {
   for (int& i : target) i = root(i);
 }
 
-/// Renames the corners. Triangles with two corners in a pole vanish, and those at their two other sides
-/// become neighbors: several sides between the same two points stay apart that way.
+/// Replaces the corners by their targets. Triangles with two corners in a pole vanish, and their neighbors
+/// across the other two sides become neighbors. Thus several sides between two points stay distinct.
 void rename_corners(const std::vector<int>& target, std::vector<std::array<int, 3>>& triangles,
                     std::vector<int>& across) {
   std::vector<int> renumbered(triangles.size());
@@ -383,7 +382,8 @@ void rename_corners(const std::vector<int>& target, std::vector<std::array<int, 
   if (!across.empty()) across.resize(3 * triangles.size());
 }
 
-/// Wires may run the wrong way round: takes of an angle and its rest to 2 pi the one that the triangles fill.
+/// Replaces an angle by 2 pi minus it where that is closer to the angle that the triangles fill: wires may
+/// run the wrong way around.
 void choose_sides(FaceTriangulation& face) {
   std::vector<double> filled(face.boundary_count, 0);
   for (const auto& t : face.mesh.triangles) {
@@ -422,7 +422,7 @@ FaceTriangulation triangulate_face(int face, FaceBoundary boundary, PlacedPoints
   if (triangles.empty()) throw no_triangles(face, boundary.points.front());
   context.check();
 
-  // Keep what is used, boundary first.
+  // Keep the points that are used, boundary points first.
   std::vector<int> renumbered(count, -1);
   for (const auto& t : triangles) {
     for (const int corner : t) renumbered[corner] = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Triangles over a face's boundary and placed points. Internal.
+/// Triangulates the boundary points and placed points of a face. Internal.
 
 #include <array>
 #include <vector>
@@ -16,19 +16,19 @@ namespace quadrille {
 struct FaceTriangulation {
   TriangleMesh mesh;             ///< counter-clockwise in the parameter plane
   std::vector<Vector2> uv;       ///< (n)
-  std::vector<Vector3> normals;  ///< (n) unit, du x dv
-  std::vector<char> pole;        ///< (n) 1 = singular point of the parametrization, its uv is one of many
-  std::vector<int> nodes;        ///< (boundary_count) index into BoundaryNodes::points
-  std::vector<double>
-      angles;  ///< (boundary_count) as in FaceBoundary, the face's side of the curves; 0 = not known
-  std::vector<FaceBoundary::Segment> segments;  ///< those with a length, a and b renumbered
+  std::vector<Vector3> normals;  ///< (n) unit vectors along du x dv
+  std::vector<char> pole;      ///< (n) 1 = singular point of the parametrization, uv is one of several places
+  std::vector<int> nodes;      ///< (boundary_count) indices into BoundaryNodes::points
+  std::vector<double> angles;  ///< (boundary_count) between curves, on the face's side; 0 = not known
+  std::vector<FaceBoundary::Segment> segments;  ///< without degenerate ones; a and b renumbered
   int boundary_count = 0;
 };
 
 /// Triangulates in the parameter plane scaled by the mean metric (constrained Delaunay, in bulk), then flips
-/// sides in space to the Delaunay criterion. Along cracks each side of the face has points of its own. Placed
-/// points on boundary segments are left out. Throws FaceProblem when boundary segments cross or meet where
-/// they should not, which crossing_problem() tells before.
+/// sides by the Delaunay criterion in space. Along cracks, each side of the crack has its own points. Placed
+/// points on boundary segments are left out. \param face from 1. Throws FaceProblem if there are no
+/// triangles, or if boundary segments cross or meet where they should not, which crossing_problem() finds
+/// beforehand.
 FaceTriangulation triangulate_face(int face, FaceBoundary boundary, PlacedPoints placed,
                                    const FaceSurface& surface, const ExecutionContext& context = {});
 

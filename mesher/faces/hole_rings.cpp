@@ -8,16 +8,16 @@ namespace quadrille {
 
 namespace {
 
-/// Width of a ring over the length of the loop's segments.
+/// Width of a ring over the length of the loop's segments: wanted and least.
 constexpr double usual_width = 0.8, least_width = 0.45;
-/// What is left of a gap beside the rings: two rows of the same width.
+/// Rows of a ring's width that must fit into a gap beside the rings.
 constexpr int rows_beside = 2;
-/// How much the width may change along the loop, over the way there.
+/// Largest change of the width along the loop, over the distance.
 constexpr double steepest = 0.25;
-/// A loop turns by less than this at each vertex (radians), and has so many segments.
+/// Limits for loops with rings: turn at each vertex (radians), and number of segments of the final mesh.
 constexpr double largest_turn = 0.6;
 constexpr std::size_t fewest_segments = 6;
-/// Segments of a line round a hole over those of the line before.
+/// Limits of the length of a segment on a line around a hole over that on the line before.
 constexpr double shortest_segment = 0.5, longest_segment = 2.3;
 
 double distance(const Vector3& p, const Vector3& a, const Vector3& b) {
@@ -26,7 +26,7 @@ double distance(const Vector3& p, const Vector3& a, const Vector3& b) {
   return (a + std::clamp(t, 0.0, 1.0) * along - p).norm();
 }
 
-/// The sides of all loops, sorted along an axis.
+/// The segments of all loops, sorted along an axis.
 class Sides {
  public:
   struct Side {
@@ -46,7 +46,7 @@ class Sides {
               [this](const Side& a, const Side& b) { return a.a[axis_] < b.a[axis_]; });
   }
 
-  /// Visits those that may lie within `reach` of p.
+  /// Visits the segments that may lie within `reach` of p.
   template <class Visit>
   void near(const Vector3& p, double reach, Visit&& visit) const {
     const double from = p[axis_] - reach - longest_, to = p[axis_] + reach + longest_;
@@ -90,7 +90,7 @@ class RingPlacer {
  private:
   struct Loop {
     std::vector<int> segments;
-    std::vector<HoleRings::Node> nodes;  // of the final mesh
+    std::vector<HoleRings::Node> nodes;  // all nodes of the loop in the final mesh
     bool regular = true, smooth = true;
     bool outermost = false;
   };
@@ -146,7 +146,7 @@ class RingPlacer {
     return sides;
   }
 
-  /// Unit tangent to the surface, to the left of a line for side 1, to its right for -1.
+  /// Unit vector tangent to the surface and normal to a line: to its left if side is 1, to its right if -1.
   Vector3 across(const std::vector<HoleRings::Node>& line, std::size_t i, double side) const {
     const std::size_t n = line.size();
     const Vector3 along = line[(i + 1) % n].point - line[(i + n - 1) % n].point;
@@ -159,7 +159,7 @@ class RingPlacer {
                   (line[(i + n - 1) % n].point - line[i].point).norm());
   }
 
-  /// On which side of the loop the face lies; 0 where that is not clear.
+  /// The side of the loop on which the face lies: 1 = left, -1 = right, 0 = not clear.
   double side_of(const Loop& loop) const {
     for (const double side : {1.0, -1.0}) {
       Vector2 uv = loop.nodes[0].uv;
@@ -169,7 +169,7 @@ class RingPlacer {
     return 0;
   }
 
-  /// The width of each of `count` rings at the nodes of a loop; empty where there is no room.
+  /// The width of each of `count` rings at the nodes of a loop; empty if there is no room.
   std::vector<double> find_widths(std::size_t index, int count, double side, const Sides& sides) const {
     const auto& line = loops_[index].nodes;
     const std::size_t n = line.size();
@@ -189,7 +189,7 @@ class RingPlacer {
             std::min(widths[i], distance(p, other.a, other.b) / ((ringed ? 2 : 1) * count + rows_beside));
       });
     }
-    for (std::size_t k = 1; k < 4 * n; ++k) {  // there and back, twice round for each
+    for (std::size_t k = 1; k < 4 * n; ++k) {  // twice around forward, then twice backward
       const std::size_t i = k < 2 * n ? k % n : n - 1 - k % n,
                         before = k < 2 * n ? (i + n - 1) % n : (i + 1) % n;
       widths[i] =
@@ -201,7 +201,7 @@ class RingPlacer {
     return widths;
   }
 
-  /// The next line round a hole; false where it would leave the face or be no ring.
+  /// Adds the next line around a hole; false if it would leave the face or make bad quads.
   bool add_line(HoleRings::Hole& hole, const std::vector<double>& widths, double side) const {
     const auto& last = hole.lines.back();
     const std::size_t n = last.size();
@@ -223,6 +223,7 @@ class RingPlacer {
     return true;
   }
 
+  /// Adds a hole to the result and moves its loop in `inside` to the outermost line.
   void keep(const Loop& loop, HoleRings::Hole hole) {
     FaceBoundary& inside = result_.inside;
     if (result_.holes.empty()) inside = boundary_;

@@ -1,5 +1,5 @@
 #pragma once
-/// Rings of quads round the holes of a face. Internal.
+/// Rings of quads around the holes of a face. Internal.
 
 #include <vector>
 
@@ -9,31 +9,31 @@
 
 namespace quadrille {
 
-/// A face with rings set aside round its holes.
+/// A face boundary with rings set aside around its holes.
 struct HoleRings {
   struct Node {
     Vector2 uv{0, 0};
     Vector3 point{0, 0, 0};
   };
   struct Hole {
-    int first = 0;                         ///< number of the first of its nodes among those of all holes
-    std::vector<int> nodes;                ///< (n) of the loop in the final mesh, in BoundaryNodes::points
-    std::vector<std::vector<Node>> lines;  ///< (rings + 1, n) the loop, then the lines round it, outward
+    int first = 0;           ///< number of the hole's first node among the nodes of all holes
+    std::vector<int> nodes;  ///< (n) the loop in the final mesh, indices into BoundaryNodes::points
+    std::vector<std::vector<Node>> lines;  ///< (rings + 1, n) the loop, then the lines around it, outward
   };
 
-  /// The face without its rings: the loop of each hole is the outermost of its lines. Node j of hole i there
-  /// has the number node(holes[i].first + j), which is negative.
+  /// The boundary of the face without its rings: the loop of each hole is the hole's outermost line. Node j
+  /// of hole i has the index node(holes[i].first + j) there, which is negative.
   FaceBoundary inside;
   std::vector<Hole> holes;
 
-  static int node(int number) { return -2 - number; }
-  static int number(int node) { return -2 - node; }
+  static int node(int number) { return -2 - number; }  ///< index of a node from its number among all holes
+  static int number(int node) { return -2 - node; }    ///< the inverse of node()
 };
 
-/// Places rings round holes whose loops have no corners. They are about as wide as the loop's segments are
-/// long, narrower where other boundaries leave no more room, and fewer or none where they would be less than
-/// half of that. \param domain that the boundary encloses. \param rings at most so many, counted in the final
-/// mesh. Time: n log n in the boundary's points where they are spread out.
+/// Places rings around holes whose loops have no corners. A ring is at most 0.8 times as wide as the loop's
+/// segments are long, and narrower where other boundaries are close. If it would be narrower than 0.45 of a
+/// segment, there are fewer rings or none. \param domain enclosed by the boundary \param rings largest number
+/// per hole, in rows of the final mesh. Time: O(n log n) in the boundary's points if these are spread out.
 HoleRings place_rings(const FaceBoundary& boundary, const FaceSurface& surface, const TrimmedDomain& domain,
                       int rings);
 

@@ -1,6 +1,6 @@
 /// Based on: Remacle et al., A frontal Delaunay quad mesh generator using the L-infinity norm (2013), for the
-/// frontal idea and the norm; here all points are placed first with a hash grid in space and triangulated in
-/// bulk afterwards.
+/// frontal idea and the norm. Here all points are placed first, with a hash grid in space, and triangulated
+/// in bulk afterwards.
 
 #include "mesher/faces/point_placement.hpp"
 
@@ -17,8 +17,8 @@ namespace quadrille {
 
 namespace {
 
-/// Points in buckets by cell and size level: each on its own level and on those near it, so that a search
-/// looks at the few cells of one level. Buckets may hold strangers: the caller tests the distance.
+/// Points in buckets by cell and size level. Each point is entered on its own and on neighboring levels, so a
+/// search visits few cells of one level. Buckets may hold points of other cells: the caller tests distances.
 class PointGrid {
  public:
   PointGrid(std::size_t expected, const ExecutionContext& context) : check_(context) { rebuild(expected); }
@@ -34,8 +34,7 @@ class PointGrid {
     }
   }
 
-  /// True if `visit(index)` is true for some point that may lie within `radius` of p, among those of about
-  /// `size`.
+  /// Whether `visit(index)` is true for a point of about `size` that may lie within `radius` of p.
   template <class Visit>
   bool any_near(const Vector3& p, double radius, double size, Visit&& visit) const {
     const int level = level_of(size);
@@ -94,16 +93,16 @@ class PointGrid {
 
   SparseCheck check_;
   std::vector<Vector3> points_;
-  std::vector<Entry> entries_;  ///< one for each level of a point
+  std::vector<Entry> entries_;  ///< one for each level that a point is entered on
   std::vector<int> heads_;
 };
 
-/// Damaged files have faces without end.
+/// A limit for damaged files, whose faces may be unbounded.
 constexpr std::size_t most_points = 20'000'000;
 
-/// Segments of the boundary are shorter or longer than the sizing field wants where edges share their counts
-/// with others. Points begin with the size of the segments, within these shares of the field's, and come
-/// nearer to the field's with each step: this share of the difference is left.
+/// Boundary segments are shorter or longer than the sizing field wants where edges share their counts with
+/// others. Sizes start as those of the segments, at least `least_ratio` and at most `most_ratio` times the
+/// field's. Each step away from the boundary reduces the difference to the field by the factor `ratio_decay`.
 constexpr double least_ratio = 0.4, most_ratio = 1.2, ratio_decay = 0.7;
 
 /// A point of the front.
@@ -111,13 +110,13 @@ struct FrontPoint {
   Vector2 uv;
   SurfacePoint at;
   Vector3 normal;
-  Vector3 direction;  // unit, tangent: one of the four of the cross
+  Vector3 direction;  // unit tangent: one of the four directions of the cross
   double size = 0;
-  double ratio = 1;  // to what the sizing field wants there
+  double ratio = 1;  // size over what the sizing field wants there
   bool proposes = false;
 };
 
-/// The 4-fold mean of two tangents in the plane of `normal`.
+/// The mean of two tangents as crosses (4-fold symmetric), in the plane with this normal.
 Vector3 cross_mean(const Vector3& a, const Vector3& b, const Vector3& normal) {
   const Vector3 e1 = (a - a.dot(normal) * normal).normalized();
   const Vector3 e2 = normal.cross(e1);
@@ -193,8 +192,8 @@ class Placer {
     add_blockers();
   }
 
-  /// The points of the boundary get the size of their segments, which the sizing field wants as long as at
-  /// their ends in the mean.
+  /// Gives the boundary's points the size of their segments. The wanted length of a segment is the mean of
+  /// the sizes at its ends.
   void follow_segments() {
     std::vector<double> ratio(boundary_.size(), 0);
     std::vector<int> count(boundary_.size(), 0);
@@ -210,7 +209,7 @@ class Placer {
     }
   }
 
-  /// Long boundary segments refuse points near their middle too.
+  /// Adds blockers inside long boundary segments: they refuse placed points nearby.
   void add_blockers() {
     for (const auto& segment : boundary_.segments) {
       if (segment.degenerate) continue;
@@ -263,7 +262,7 @@ class Placer {
     front_.push_back(to);
   }
 
-  /// One step on the surface, its length in space corrected once. False if it leaves the face.
+  /// Makes one step on the surface, and corrects its length in space once. False if it leaves the face.
   bool step(const FrontPoint& from, const Vector3& direction, double length, FrontPoint& to) const {
     Vector2 change = FaceSurface::parameter_step(from.at, length * direction);
     to.uv = from.uv + change;
@@ -279,7 +278,7 @@ class Placer {
     return domain_.inside(to.uv);
   }
 
-  /// How far it is from one place to another along the surface, by its derivatives at one place.
+  /// The approximate distance between two places along the surface, by the derivatives at one point.
   double way_along(const SurfacePoint& at, const Vector2& from, const Vector2& to) const {
     Vector2 change = to - from;
     if (surface_.u_periodic()) change.x() = std::remainder(change.x(), surface_.u_period());
@@ -287,7 +286,7 @@ class Placer {
     return (change.x() * at.du + change.y() * at.dv).norm();
   }
 
-  /// Whether another point is too near, on the same sheet: rolled faces come near themselves.
+  /// Whether another point on the same sheet is too near. A rolled face has other sheets nearby.
   bool refused(const FrontPoint& p) const {
     constexpr double same_sheet = 4;
     const Vector3 across = p.normal.cross(p.direction);
@@ -317,7 +316,7 @@ class Placer {
   std::vector<FrontPoint> front_;
   PointGrid grid_;
   std::vector<int> grid_index_;    // point of the grid -> front point, or -1 - blocker
-  std::vector<Vector2> blockers_;  // their parameters
+  std::vector<Vector2> blockers_;  // (blockers) parameters
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// Points inside a face, placed on the surface along a cross field at the wanted size. Internal.
+/// Places points inside a face, on the surface, along a cross field at the wanted size. Internal.
 
 #include <vector>
 
@@ -17,15 +17,14 @@ struct PlacedPoints {
 };
 
 struct PlacementOptions {
-  double scale = 1;  ///< times the sizing field: 2 for Strategy::subdivide
-  double refusal =
-      0.72;  ///< no two points nearer than this, times the size, in the L-infinity norm of the field's frame
+  double scale = 1;       ///< factor on the sizing field: 2 for Strategy::subdivide
+  double refusal = 0.72;  ///< least distance over size, in the L-infinity norm of the cross field's frame
 };
 
-/// Places points: a queue that starts with the boundary proposes for each point its four neighbors along the
-/// field, one size away on the surface; the field is carried along from the nearest boundary's tangents. The
-/// distance test runs in space, so that the parametrization does not matter. Time: linear in the points
-/// placed.
+/// Places points with a queue that starts with the boundary. Each point proposes four neighbors along the
+/// cross field, one size away on the surface. The field starts with the boundary's tangents and is carried
+/// from point to point. Distances are tested in space, so the parametrization does not matter. Time: linear
+/// in the points.
 PlacedPoints place_points(const FaceBoundary& boundary, const FaceSurface& surface,
                           const TrimmedDomain& domain, SizingField::Sampler& size_at,
                           const PlacementOptions& options, ExecutionContext& context);

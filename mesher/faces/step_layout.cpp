@@ -21,7 +21,7 @@ std::optional<StepLayout> StepLayout::make(const std::vector<Line>& sides, const
   return layout;
 }
 
-/// Lays the loop out. False where it does not close, or comes to a place twice.
+/// Lays out the loop. False if it does not close, visits a place twice, or has no or too many cells.
 bool StepLayout::walk(const std::vector<Line>& sides, const std::vector<int>& directions) {
   int i = 0, j = 0;
   std::array<int, 2> low{}, high{};
@@ -49,8 +49,9 @@ bool StepLayout::walk(const std::vector<Line>& sides, const std::vector<int>& di
   return true;
 }
 
-/// The loop has its inside on the left: cells lie between a step down and the next one up. Where it does not
-/// touch itself, steps down and up take turns along each row unless it turns to the right in all.
+/// Finds the cells inside the loop and numbers their points. The inside is on the loop's left: in each row,
+/// cells lie between a step down and the next step up. These alternate in a loop that does not touch itself,
+/// and a step down comes first unless the loop runs clockwise, which gives false.
 bool StepLayout::find_cells() {
   cells_.assign(static_cast<std::size_t>(columns_) * rows_, 0);
   std::vector<signed char> walls(static_cast<std::size_t>(columns_ + 1) * rows_, 0);

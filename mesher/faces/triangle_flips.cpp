@@ -9,7 +9,7 @@ namespace quadrille {
 std::vector<int> triangle_neighbors(const std::vector<std::array<int, 3>>& triangles, int points,
                                     const ExecutionContext& context) {
   SparseCheck check(context);
-  // Sides bucketed by their lower end.
+  // Sides are bucketed by their lower end.
   std::vector<int> offsets(points + 1, 0), sides(3 * triangles.size());
   const auto low = [&](int side) {
     const auto& t = triangles[side / 3];
@@ -49,8 +49,7 @@ namespace {
 /// Flips sides in space.
 class SpaceFlipper {
  public:
-  /// \param across as triangle_neighbors() gives them; collapsed poles may leave two sides between two
-  /// points.
+  /// \param across neighbors in the form of triangle_neighbors(), see flip_in_space().
   SpaceFlipper(FaceTriangulation& face, std::vector<int> across, const ExecutionContext& context)
       : triangles_(face.mesh.triangles),
         points_(face.mesh.points),
@@ -86,7 +85,7 @@ class SpaceFlipper {
     return (points_[b] - points_[a]).cross(points_[c] - points_[a]);
   }
 
-  /// How well a triangle faces the surface's side: cosine against the mean normal of its corners.
+  /// The cosine between a triangle's normal and the mean surface normal at its corners; -1 if it has no area.
   double facing(int a, int b, int c) const {
     const Vector3 n = area_normal(a, b, c);
     const double length = n.norm();
@@ -95,12 +94,13 @@ class SpaceFlipper {
     return n.dot((normals_[a] + normals_[b] + normals_[c]).normalized()) / length;
   }
 
-  /// Cotangent of the angle at c over the side a b.
+  /// Cotangent of the angle at c, opposite the side a b.
   double cotangent(int a, int b, int c) const {
     const Vector3 x = points_[a] - points_[c], y = points_[b] - points_[c];
     return x.dot(y) / std::max(x.cross(y).norm(), 1e-300);
   }
 
+  /// Whether a flip turns badly facing triangles the right way, or satisfies the Delaunay criterion.
   bool improves(int side) const {
     const int other = across_[side];
     if (other < 0) return false;
@@ -113,10 +113,10 @@ class SpaceFlipper {
     return cotangent(a, b, c) + cotangent(a, b, d) < -1e-7 && !has_side(side, c, d);
   }
 
-  /// True if c and d are joined already, round the corner a of the side (only possible at low valence).
+  /// Whether a side near either end of this one joins c and d already (only possible at low valence).
   bool has_side(int side, int c, int d) const {
     for (const int start : {side, across_[side]}) {
-      int s = start;  // walk round the first corner of the side
+      int s = start;  // walk around the first corner of this side
       for (int k = 0; k < 8; ++k) {
         if (corner(s, 2) == c || corner(s, 2) == d) {
           // The side opposite the corner joins corner(s, 1) and corner(s, 2).

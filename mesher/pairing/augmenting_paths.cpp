@@ -1,4 +1,4 @@
-/// Based on: Edmonds, Paths, trees, and flowers (1965); bases of contracted cycles by union and find (Gabow
+/// Based on: Edmonds, Paths, trees, and flowers (1965); bases of contracted cycles by union-find (Gabow
 /// 1976).
 
 #include "mesher/pairing/augmenting_paths.hpp"
@@ -13,14 +13,14 @@ namespace quadrille {
 
 namespace {
 
-/// Which triangle a search looks at next: the nearest to where it heads for, which is the next of a list
-/// after the one that it starts from; where that is not to be had soon, or there is nowhere to head for,
-/// first in, first out, so that the partner that is found is the nearest.
+/// Decides which triangle a search looks at next. The search heads for the triangle of a list that follows
+/// its start: the triangle nearest to that comes first. If this does not succeed soon, or no mesh is given,
+/// the order is first in, first out, so that the search finds the nearest partner.
 class SearchOrder {
  public:
   SearchOrder(const TriangleMesh* mesh, const std::vector<int>& list) : mesh_(mesh), list_(list) {}
 
-  /// \param k place in the list of where the search starts.
+  /// \param k index of the start in the list.
   void start(std::size_t k) {
     queue_.clear();
     heap_.clear();
@@ -35,7 +35,7 @@ class SearchOrder {
     std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
   }
   int pop() {
-    // What was looked at already comes once more then, which costs little.
+    // Without patience, triangles that were looked at already come once more, which costs little.
     if (patience_ == 0) return head_ < queue_.size() ? queue_[head_++] : -1;
     if (heap_.empty()) return -1;
     --patience_;
@@ -55,17 +55,17 @@ class SearchOrder {
   std::vector<int> queue_;
   std::size_t head_ = 0;
   std::vector<std::pair<float, int>> heap_;
-  int patience_ = 0;  // how many more to look at on the straight way
+  int patience_ = 0;  // triangles that may still be looked at on the direct way
 };
 
-/// Searches paths from one free triangle at a time.
+/// Searches for paths from one free triangle at a time.
 class PathFinder {
  public:
   PathFinder(EdgeColoring& pairs, const std::vector<int>& free, const PathOptions& options)
       : pairs_(pairs), reach_(options.reach), order_(options.heading, free), nodes_(pairs.size()) {}
 
-  /// Pairs a free triangle, and another that a path leads to, by exchange along the path. \param k its place
-  /// in the list of those to pair. \return whether there is a path within reach.
+  /// Pairs a free triangle and another one, by exchange along a path between them. \param k index of the
+  /// first in the list of free triangles. \return whether there is a path within reach.
   bool augment(int root, std::size_t k) {
     order_.start(k);
     first_stamp_ = ++stamp_;
@@ -94,11 +94,11 @@ class PathFinder {
  private:
   /// What the search knows of a triangle; zero where it was never reached.
   struct Node {
-    int search;  // the stamp of the search that reached it
-    int seen;    // the stamp of the search for a common base that passed
-    Side via;    // its side across which its path to the root leaves, where that is not the one to its mate
-    int parent;  // towards the base of the contracted cycle that it is in
-    bool outer;  // at an even distance on some path
+    int search;  // stamp of the search that reached it
+    int seen;    // stamp of the search for a common base that passed it
+    Side via;    // its side across which its path to the root leaves, unless that is the one to its mate
+    int parent;  // towards the base of the contracted cycle that holds it
+    bool outer;  // at an even distance from the root on some path
   };
 
   bool reached(int t) const { return nodes_[t].search == first_stamp_; }
@@ -130,7 +130,7 @@ class PathFinder {
     }
   }
 
-  /// Makes one of the odd cycle that a side closes: whatever leads out of it can be gone on from.
+  /// Contracts the odd cycle that a side closes, so that the search can continue from each of its triangles.
   void contract(Side side) {
     const Side other = pairs_.twin(side);
     const int base = common_base(triangle_of(side), triangle_of(other));
@@ -140,7 +140,7 @@ class PathFinder {
     for (int t : absorbed_) nodes_[t].parent = base;
   }
 
-  /// Lets the paths of the triangles from that of a side down to a base lead over the side.
+  /// Makes the paths of the triangles from that of a side down to a base lead across the side.
   void redirect(Side side, int base) {
     for (int t = triangle_of(side); base_of(t) != base;) {
       const int mate = pairs_.mate_of(t);
@@ -152,7 +152,7 @@ class PathFinder {
         order_.push(mate);
       }
       side = pairs_.twin(nodes_[mate].via);
-      // From the triangle that this comes to, the path leads back here.
+      // From the next triangle, the path leads back here.
       t = triangle_of(side);
     }
   }

@@ -127,7 +127,7 @@ void CostedColoring::update_cost(Side side, const std::vector<Vector3>& points) 
   if (other < 0) return;
   const auto shape = [&](int t) {
     TriangleShape result = shape_of(corners(t), points);
-    // Only flips make inverted triangles: against the mean normal of their neighbors.
+    // Only flips can invert a triangle: its normal then opposes the mean normal of the neighborhood.
     Vector3 mean = Vector3::Zero();
     const auto add = [&](int n) {
       const auto& [a, b, c] = corners(n);
@@ -149,18 +149,18 @@ void CostedColoring::update_cost(Side side, const std::vector<Vector3>& points) 
 
 namespace {
 
-/// Pairs triangles with one choice left until none has; a pairing takes choices from its neighbors.
+/// Pairs triangles with one choice left, until there are none. Each pair takes choices from its neighbors.
 class ForcedPairs {
  public:
   explicit ForcedPairs(EdgeColoring& coloring) : coloring_(coloring) {}
 
-  /// Pairs across a side, then all that this leaves one choice.
+  /// Pairs across a side, then all triangles to which this leaves one choice.
   void pair(Side s) {
     join(s);
     settle();
   }
 
-  /// Pairs a triangle if it has one choice only, and so on.
+  /// Pairs a triangle if it has only one choice, then all triangles to which this leaves one choice.
   void start(int t) {
     offer(t);
     settle();
@@ -202,7 +202,7 @@ class ForcedPairs {
 /// The inner sides in order of cost, equal ones (to 1/256) in the order of the mesh.
 std::vector<Side> sides_by_cost(const CostedColoring& coloring, SparseCheck& check) {
   constexpr int buckets = 1024;
-  // A cost that is no number (points too far away for products of their distances) comes last.
+  // A cost that is not a number (products of distances overflow) comes last.
   const auto bucket = [](float cost) {
     return cost < 0.F ? 0 : cost * 256 < buckets ? static_cast<int>(cost * 256) : buckets - 1;
   };

@@ -1,6 +1,5 @@
 #pragma once
-/// An edge coloring whose edges have a cost: what the quad is like that is left where the edge is removed.
-/// Internal.
+/// An edge coloring with a cost for each edge: how poor the quad is that removing the edge makes. Internal.
 
 #include <array>
 #include <vector>
@@ -18,17 +17,17 @@ class CostedColoring : public EdgeColoring {
   /// All edges blank and without cost. Throws as EdgeColoring does.
   explicit CostedColoring(const TriangleMesh& mesh, const ExecutionContext& context = {})
       : CostedColoring(mesh, EdgeColoring(mesh, context)) {}
-  /// The same with the colors, and the neighbors, that are known already.
+  /// Starts from known colors and neighbors; all edges without cost.
   CostedColoring(const TriangleMesh& mesh, EdgeColoring colors);
 
   const std::array<int, 3>& corners(int t) const { return triangles_[t].corner; }
   int corner_at(Side s) const { return corners(triangle_of(s))[place_of(s)]; }
   int end_of(Side s) const { return corners(triangle_of(s))[next_index(index_of(s))]; }
   int apex_of(Side s) const { return corners(triangle_of(s))[previous_index(index_of(s))]; }
-  /// Of the quad made across a side: see pair_cost(). 0 on the boundary.
+  /// The cost of the quad made across a side: see pair_cost(). 0 on the boundary.
   float cost_of(Side s) const { return triangles_[triangle_of(s)].cost[place_of(s)]; }
 
-  /// index_of(), for a side that there is: compilers fear the 3 of "none".
+  /// index_of() for an existing side. Tells the compiler that the index is not 3, which stands for "none".
   static int place_of(Side s) {
     const int i = index_of(s);
     if (i == 3) __builtin_unreachable();
@@ -37,16 +36,16 @@ class CostedColoring : public EdgeColoring {
 
   Objective objective() const { return objective_; }
 
-  /// Fills in the cost of every inner side. Time: about 20 ns a triangle.
+  /// Fills in the cost of every inner side. Time: about 20 ns per triangle.
   void compute_costs(const std::vector<Vector3>& points, Objective objective,
                      const ExecutionContext& context = {});
 
-  /// Turns an inner edge to the other two corners of its triangles. The costs around are computed anew. Its
-  /// color stays; the other four edges of the two triangles become blank.
+  /// Flips an inner edge, so that it joins the other two corners of its triangles. Updates the costs around
+  /// it. The edge keeps its color; the other four edges of the two triangles become blank.
   void flip(Side side, const std::vector<Vector3>& points);
 
  private:
-  /// What a step across a side needs lies together.
+  /// Keeps together what a step across a side needs.
   struct Triangle {
     std::array<int, 3> corner;  // points, counter-clockwise
     std::array<float, 3> cost;
@@ -58,8 +57,8 @@ class CostedColoring : public EdgeColoring {
   Objective objective_ = Objective::regular;
 };
 
-/// Gives the removed color to edges one after the other: to the only inner edge of a triangle that could
-/// still have it (ears first), else to the cheapest. Needs the costs. Time: linear (the order is a bucket
+/// Gives the removed color to edges one after the other: to the only inner edge of a triangle that can still
+/// take it (ears first), else to the cheapest edge. Needs the costs. Time: linear (the order is a bucket
 /// sort). Based on: Karp & Sipser, Maximum matching in sparse random graphs (1981).
 void color_by_cost(CostedColoring& coloring, const ExecutionContext& context = {});
 
@@ -71,8 +70,7 @@ struct TriangleShape {
 
 /// The cost of the quad made of two triangles across the side i of the first and j of the second, from its
 /// corner angles and the fold between the two: 0 for a rectangle, about 0.3 for two equilateral triangles,
-/// above 3 for a concave quad.
-/// For the objective `shape`: 1 - q before it is cut off at 0, and the fold.
+/// above 2 for a concave quad. For the objective `shape`: 1 - q, with q not clamped at 0, plus the fold.
 float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, int j, Objective objective);
 
 }  // namespace quadrille

@@ -32,7 +32,7 @@ int available(const EdgeColoring& coloring, Side side) {
   return 7 & ~(coloring.colors_used(triangle_of(side)) | coloring.colors_used(triangle_of(twin)));
 }
 
-/// Colors one blank, if its triangles allow it or can be made to.
+/// Colors one blank edge, if its triangles leave a color or can be made to.
 class BlankRemover {
  public:
   BlankRemover(EdgeColoring& coloring, Random& random) : coloring_(coloring), random_(random) {}
@@ -40,7 +40,8 @@ class BlankRemover {
   bool remove(Side side) {
     if (fill(side)) return true;
     for (int tries = 0; tries < max_tries; ++tries) {
-      // Two triangles that leave no color have one color in common and one apiece.
+      // Two triangles that leave no color: either one has a single color and the other the other two, or each
+      // has one color of its own and both have one in common.
       const int one = triangle_of(side), two = triangle_of(coloring_.twin(side));
       const int of_one = coloring_.colors_used(one), of_two = coloring_.colors_used(two);
       if (lone(of_one) || lone(of_two)) {
@@ -49,16 +50,15 @@ class BlankRemover {
       }
       const int own = lowest(of_one & ~of_two), other = lowest(of_two & ~of_one),
                 common = lowest(of_one & of_two);
-      // The chains of the two colors that are not common: unless one leads to the other triangle, its
-      // exchange makes both triangles leave the same color.
+      // The chains of the two colors that are not common: unless they lead from one triangle to the other, an
+      // exchange along one of them makes both triangles leave the same color.
       const Side start_one = coloring_.side_of(one, own), start_two = coloring_.side_of(two, other);
       const int winner = race({start_one, other, own}, {start_two, own, other});
       if (winner != met) {
         for (int t : winner == first ? passed_one_ : passed_two_) coloring_.swap_colors(t, own, other);
         return fill(side);
       }
-      // It does. Another chain that ends here changes what is common; where that does not help, the blank
-      // moves on.
+      // They do. Exchange along a chain of the common color; every fourth time, move the blank instead.
       if (tries % 4 == 3) {
         side = shift(start_one, own, other);
         continue;
@@ -76,14 +76,13 @@ class BlankRemover {
   static constexpr int max_tries = 200;
   enum Winner { first, second, met };
 
-  /// A place on a chain: a side, the color that follows, and the one after that (the side's own).
+  /// A place on a chain: a side, the next color, and the one after that (the side's own).
   struct Chain {
     Side side;
     int next_color, color;
   };
 
-  /// Moves on along the chain. \param passed takes the triangles that it goes through. \return false at its
-  /// end.
+  /// Advances along the chain. \param passed out: the triangles passed. \return false at the chain's end.
   bool advance(Chain& chain, std::vector<int>& passed) const {
     const Side across = coloring_.twin(chain.side);
     if (across < 0) return false;
@@ -94,7 +93,7 @@ class BlankRemover {
     return true;
   }
 
-  /// Follows two chains in turns: the shorter one wins, and chains that are the two ends of one meet.
+  /// Follows two chains in turns. The shorter one wins; if they are the two ends of one chain, they meet.
   Winner race(Chain one, Chain two) {
     passed_one_.assign(1, triangle_of(one.side));
     passed_two_.assign(1, triangle_of(two.side));
@@ -115,8 +114,8 @@ class BlankRemover {
     return true;
   }
 
-  /// Exchanges the first few edges of a chain that leads from one triangle of the blank edge to the other:
-  /// the blank ends up behind them. \return where it is.
+  /// Shifts the colors of the first few edges of a chain that leads from one triangle of the blank edge to
+  /// the other, each to the edge before. \return the edge that is blank then.
   Side shift(Side side, int a, int b) {
     Side blank = coloring_.blank_side_of(triangle_of(side));
     for (int steps = 1 + random_.below(16); steps > 0 && side >= 0; --steps) {
@@ -130,7 +129,7 @@ class BlankRemover {
     return blank;
   }
 
-  /// One of the triangles has two blanks and the only color that the other one leaves.
+  /// For a triangle with a single color, the only one that the other triangle leaves: exchanges that color.
   bool swap_lone(Side side) {
     int t = triangle_of(side);
     if (!lone(coloring_.colors_used(t))) t = triangle_of(coloring_.twin(side));
@@ -142,7 +141,7 @@ class BlankRemover {
 
   EdgeColoring& coloring_;
   Random& random_;
-  std::vector<int> passed_one_, passed_two_;  // in a race: an exchange then need not find its way again
+  std::vector<int> passed_one_, passed_two_;  // in a race: an exchange needs no second search
 };
 
 }  // namespace
@@ -245,9 +244,8 @@ int count_blanks(const EdgeColoring& coloring) {
 
 namespace {
 
-/// The ways to give the three sides of a triangle colors, no two alike, out of those that each may have
-/// (three bits a side): those ways that leave the fewest sides without. Two bits a side, the first in the
-/// lowest.
+/// The ways to color the three sides of a triangle, no two alike, from the colors that each may have (three
+/// bits per side), that leave the fewest sides blank. Two bits per side, the first side in the lowest.
 struct Choices {
   std::uint8_t count = 0;
   std::array<std::uint8_t, 6> ways{};
@@ -283,8 +281,7 @@ int color_greedily(EdgeColoring& coloring, Random& random) {
   static constexpr std::array<Choices, 512> table = list_choices();
   int blanks = 0;
   for (int t = 0; t < coloring.size(); ++t) {
-    // No branches: what a triangle's neighbors are like cannot be foreseen, and a wrong guess costs more
-    // than all the rest.
+    // No branches: the state of the neighbors is unpredictable, and a misprediction costs more than all else.
     const int left = 7 & ~coloring.colors_used(t), colored = coloring.colored_sides(t);
     int masks = 0, later = 0;
     for (int i = 0; i < 3; ++i) {
@@ -295,7 +292,7 @@ int color_greedily(EdgeColoring& coloring, Random& random) {
     }
     const Choices& choices = table[masks];
     coloring.color_blanks(t, choices.ways[random.below(choices.count)]);
-    // Those of lower triangles were counted there, and still find no color.
+    // Blanks shared with lower triangles were counted there, and still find no color.
     blanks += std::popcount(static_cast<unsigned>(later & ~coloring.colored_sides(t)));
   }
   return blanks;
@@ -308,7 +305,7 @@ int remove_blanks(EdgeColoring& coloring, Random& random) {
     if (coloring.colors_used(t) == 7) continue;
     for (int i = 0; i < 3; ++i) {
       const Side side = make_side(t, i), twin = coloring.twin(side);
-      // Those that a lower triangle shares were tried there.
+      // Sides shared with a lower triangle were tried there.
       if ((twin >= 0 && twin < side) || coloring.color(side) != EdgeColoring::blank) continue;
       if (!remover.remove(side)) ++left;
     }
@@ -331,7 +328,7 @@ void complete(EdgeColoring& coloring) {
   for (int t = 0; t < coloring.size(); ++t) {
     for (int i = 0; i < 3 && coloring.colored_sides(t) != 7; ++i) {
       color_along(make_side(t, i), 1);
-      color_along(coloring.blank_side_of(t), 2);  // the path's other way from here
+      color_along(coloring.blank_side_of(t), 2);  // the path in its other direction
     }
   }
 }
@@ -356,8 +353,7 @@ int clear_boundary(EdgeColoring& coloring, const std::vector<Side>& boundary, in
   for (Side at : sides) {
     const int first = random.below(2);
     for (int tries = 0; at >= 0 && coloring.color(at) == color && tries < max_tries; ++tries) {
-      // The path that ends at a boundary edge of the other color gives that edge ours: the search goes on
-      // there.
+      // A path that ends at a boundary edge of the other color gives that edge ours. Continue there.
       const Side end = coloring.swap_boundary_chain(at, (color + 1 + (first + tries) % 2) % 3);
       at = end >= 0 && coloring.twin(end) < 0 ? end : -1;
     }

@@ -1,7 +1,7 @@
 #pragma once
 /// Colors for the edges of a triangulation, no two alike in a triangle: without the edges of one color, the
-/// triangles are quads. The state that all of the pairing works on, and the pieces of the paper's method,
-/// each on its own. Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018).
+/// triangles become quads. Has the state on which all pairing works, and the steps of the paper's method.
+/// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018).
 
 #include <array>
 #include <bit>
@@ -15,7 +15,7 @@
 
 namespace quadrille {
 
-/// Small, fast and the same everywhere (SplitMix64, Steele et al. 2014).
+/// Random numbers: small, fast and the same on all platforms (SplitMix64, Steele et al. 2014).
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -32,22 +32,22 @@ class Random {
   std::uint64_t state_;
 };
 
-/// The color of each edge of a triangulation: 0, 1, 2, or blank. Color 0 is the one to be removed: the two
-/// triangles at an edge of it are a pair and become a quad; a triangle without such an edge is free. 16 bytes
-/// a triangle.
+/// The color of each edge of a triangulation: 0, 1, 2, or blank. Color 0 is the one to remove: the two
+/// triangles at such an edge are a pair and become a quad. A triangle without such an edge is free. 16 bytes
+/// per triangle.
 class EdgeColoring {
  public:
   static constexpr std::uint8_t blank = 3;
   static constexpr int removed = 0;
 
   /// All edges blank. Sides between triangles of different tags are boundary. Throws Error (failure) naming
-  /// the triangle where indices are out of range or repeated, where more than two triangles of a tag share a
-  /// side, or where two of them run along it the same way. Time and memory: linear.
+  /// the triangle if indices are out of range or repeated, if more than two triangles of a tag share a side,
+  /// or if two of them run along it the same way. Time and memory: linear.
   explicit EdgeColoring(const TriangleMesh& mesh, const ExecutionContext& context = {});
 
   int size() const { return static_cast<int>(cells_.size()) - 1; }  ///< triangles
   Side twin(Side side) const { return cell(triangle_of(side)).twin[index_of(side)]; }
-  /// The sides on the boundary, one loop of it after the other, each along the loop.
+  /// The sides on the boundary, one loop after the other, in order along each loop.
   std::vector<Side> boundary() const;
 
   int color(Side side) const {
@@ -63,9 +63,9 @@ class EdgeColoring {
     if (other >= 0) paint(other, color);
   }
 
-  /// Gives the sides of a triangle colors that neither of their triangles has, two bits a side, the first in
-  /// the lowest; sides that have a color or are to have none get `blank`. Without a branch: which sides are
-  /// which is different in each triangle.
+  /// Colors blank sides of a triangle. \param colors two bits per side, the first side in the lowest; each is
+  /// a color that neither triangle at the side has, or `blank` to leave the side as it is. No branches, since
+  /// they would be unpredictable.
   void color_blanks(int triangle, int colors) {
     Cell& own = cell(triangle);
     for (int i = 0; i < 3; ++i) {
@@ -76,7 +76,7 @@ class EdgeColoring {
     }
   }
 
-  /// Gives a side without a color one that neither of its triangles has.
+  /// Gives a blank side a color that neither of its triangles has.
   void color_blank(Side side, int color) {
     const Side other = twin(side);
     cell(triangle_of(side)).places ^= place_of(color, index_of(side));
@@ -95,7 +95,7 @@ class EdgeColoring {
     return blanks == 0 ? -1 : make_side(triangle, std::countr_zero(static_cast<unsigned>(blanks)));
   }
 
-  /// Bit c set: a side of the triangle has the color c. 0 for the triangle -1, which is beyond the boundary.
+  /// Bit c set: a side of the triangle has the color c. 0 for triangle -1, which stands for the outside.
   int colors_used(int triangle) const { return used_at[cell(triangle).places]; }
   /// Bit i set: the side i of the triangle has a color.
   int colored_sides(int triangle) const { return colored_at[cell(triangle).places]; }
@@ -108,10 +108,10 @@ class EdgeColoring {
     const Cell& c = cell(triangle);
     return c.at(removed) == none ? -1 : triangle_of(c.twin[c.at(removed)]);
   }
-  /// Pairs the two triangles at an inner side; those that they were paired with become free.
+  /// Pairs the two triangles at an inner side; their former partners become free.
   void pair(Side side) { set_color(side, removed); }
 
-  /// Exchanges two colors in one triangle: a part of an exchange along a chain.
+  /// Exchanges two colors in one triangle: one step of an exchange along a chain.
   void swap_colors(int triangle, int a, int b) { cell(triangle).swap(a, b); }
   /// Exchanges two colors everywhere.
   void swap_colors(int a, int b) {
@@ -119,24 +119,24 @@ class EdgeColoring {
     for (Cell& c : cells_) c.swap(a, b);
   }
 
-  /// Exchanges the colors a and b along the chain of edges of these two that starts with a side, and goes on
-  /// beyond it; the side's own triangle must lack the other of the two. The chain ends at the boundary, or
-  /// before a triangle without the next color. \return the last side of the chain, seen from the triangle
+  /// Exchanges the colors a and b along the chain of edges of these colors that starts with a side and
+  /// continues beyond it. The side's own triangle must lack the other color. The chain ends at the boundary,
+  /// or at a triangle without the next color. \return the last side of the chain, seen from the triangle
   /// before it.
   Side swap_chain(Side start, int a, int b);
 
-  /// The same for the chain that starts at a boundary edge and goes inwards: its color is exchanged with
-  /// another one. \return the last side after the first, -1 if there is none.
+  /// The same for the chain that starts at a boundary edge and leads inward: exchanges the edge's color with
+  /// another one. \return the last side of the chain, -1 if it has only the boundary edge.
   Side swap_boundary_chain(Side boundary, int with);
 
  private:
   static constexpr std::uint8_t none = 3;
 
-  /// Where each color is rather than what color each side has: a step along a chain is then two loads, and
-  /// an exchange in a triangle one swap.
+  /// Stores where each color is rather than which color each side has. So a step along a chain takes two
+  /// loads, and an exchange in a triangle one swap.
   struct Cell {
     Side twin[3]{-1, -1, -1};
-    std::uint32_t places = 0b111111;  // two bits a color: index of the side with it, or none
+    std::uint32_t places = 0b111111;  // two bits per color: index of its side, or none
 
     void clear(int color) { places |= static_cast<std::uint32_t>(none) << 2 * color; }
     int at(int color) const { return static_cast<int>(places >> 2 * color & 3); }
@@ -146,7 +146,7 @@ class EdgeColoring {
     }
   };
 
-  /// By a cell's places: what colors_used() and colored_sides() give.
+  /// Indexed by a cell's places: what colors_used() and colored_sides() return.
   using Table = std::array<std::uint8_t, 64>;
   static constexpr Table used_at = [] {
     Table table{};
@@ -163,7 +163,7 @@ class EdgeColoring {
     return table;
   }();
 
-  /// By a side and a cell's places: the places when the side has no color.
+  /// Indexed by side and a cell's places: the places after the side has lost its color.
   static constexpr std::array<Table, 3> without_at = [] {
     std::array<Table, 3> table{};
     for (int p = 0; p < 64; ++p) {
@@ -175,8 +175,8 @@ class EdgeColoring {
     return table;
   }();
 
-  /// What changes in a cell's places when a color that is at no side comes to the side i; nothing for
-  /// `blank` and for the side -1.
+  /// The bits of a cell's places that change when side i gets a color that no side has; none for `blank` or
+  /// the side -1.
   static std::uint32_t place_of(int color, int i) {
     return static_cast<std::uint32_t>(none ^ i) << 2 * color & 0b111111;
   }
@@ -199,34 +199,34 @@ class EdgeColoring {
   Cell& cell(int triangle) { return cells_[triangle + 1]; }
   const Cell& cell(int triangle) const { return cells_[triangle + 1]; }
 
-  std::vector<Cell> cells_;  // the first stands for what is beyond the boundary, and never has a color
+  std::vector<Cell> cells_;  // the first stands for the outside, and never has a color
 };
 
-/// What is wrong with a coloring, naming the triangle: neighbors that do not know each other, an edge to
-/// which its two triangles give different colors. So no color comes twice in a triangle (blanks may). Empty
-/// if nothing is.
+/// What is wrong with a coloring, naming the triangle: neighbors that do not refer to each other, or an edge
+/// to which its two triangles give different colors. Empty if nothing is wrong. No color can occur twice in a
+/// triangle, since each has only one place there.
 std::string validate(const EdgeColoring& coloring);
 
-/// The edges without a color.
+/// The number of edges without a color.
 int count_blanks(const EdgeColoring& coloring);
 
-/// Gives each blank edge, in the order of the triangles, a random one of the colors that its triangles
-/// leave, or leaves it blank. \return the number of blanks. Time: linear.
+/// Gives each blank edge, in the order of the triangles, a random color of those that its triangles leave. An
+/// edge for which they leave none stays blank. \return the number of blanks. Time: linear.
 int color_greedily(EdgeColoring& coloring, Random& random);
 
-/// Removes blanks by swapping colors with neighboring edges along chains of two colors, which moves the
-/// blank until it meets the boundary or another blank, or until its two triangles leave a color. Each step
-/// keeps the coloring proper. \return the number of blanks that were left after many tries: 0 in practice.
+/// Colors blank edges: exchanges two colors along chains that start at the edge's triangles, until these
+/// leave a color. If that does not help, the blank moves along a chain. The coloring always stays proper.
+/// \return the number of blanks left after many tries: 0 in practice.
 int remove_blanks(EdgeColoring& coloring, Random& random);
 
-/// Completes a coloring that has the removed color only: the other two come in turns along the paths and
-/// cycles that are left. An odd cycle keeps one blank. Time: linear.
+/// Completes a coloring that has the removed color only: the other two alternate along the remaining paths
+/// and cycles. An odd cycle keeps one blank. Time: linear.
 void complete(EdgeColoring& coloring);
 
-/// How often each color comes on the boundary, given as by EdgeColoring::boundary().
+/// How often each color occurs on the boundary, which is given as by EdgeColoring::boundary().
 std::array<int, 3> count_boundary_colors(const EdgeColoring& coloring, const std::vector<Side>& boundary);
 
-/// The color that is least on the boundary, the first of equals.
+/// The color that occurs least on the boundary, the first one if several do.
 int least_boundary_color(const EdgeColoring& coloring, const std::vector<Side>& boundary);
 
 /// Takes a color off the boundary, two edges at a time, by exchange along the alternating paths between

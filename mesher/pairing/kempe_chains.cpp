@@ -23,7 +23,7 @@ namespace {
 
 constexpr float least_gain = 1e-3F;
 
-/// Lets one free triangle be free, or another one.
+/// Exchanges a free triangle for another one where that lowers the costs.
 class FreeMover {
  public:
   explicit FreeMover(CostedColoring& coloring) : coloring_(coloring), reached_in_(coloring.size(), -1) {}
@@ -36,7 +36,7 @@ class FreeMover {
     for (std::size_t k = 0; k < steps_.size() && steps_.size() < reach; ++k) {
       for (int i = 0; i < 3; ++i) take(k, make_side(steps_[k].triangle, i));
     }
-    // From the start on: each pairing sets the next triangle of the way free.
+    // From the start on, each pairing sets the next triangle of the way free.
     std::vector<Side> way;
     for (int k = static_cast<int>(best_); steps_[k].before >= 0; k = steps_[k].before)
       way.push_back(steps_[k].across);
@@ -44,7 +44,7 @@ class FreeMover {
   }
 
  private:
-  /// A triangle that is set free: the mate it had is paired across `across` with the triangle before.
+  /// A triangle that is set free: its former mate is paired across `across` with the triangle before.
   struct Step {
     int triangle;
     float gain;
@@ -66,7 +66,7 @@ class FreeMover {
 
   CostedColoring& coloring_;
   std::vector<Step> steps_;
-  std::vector<int> reached_in_;  // by triangle: the start of the search
+  std::vector<int> reached_in_;  // by triangle: start of the last search that reached it
   std::size_t best_ = 0;
 };
 
@@ -96,7 +96,7 @@ class Valences {
         const int v = coloring.corner_at(side);
         ++deviation_[v];
         if (coloring.twin(side) < 0) boundary[v] = boundary[coloring.end_of(side)] = 1;
-        // A diagonal makes one quad of two triangles at its ends; each side of it counts for its own start.
+        // At its ends, a diagonal makes one quad of two triangles. Each side of it counts for its start.
         if (coloring.diagonal_of(t) == side) --deviation_[v];
       }
     }
@@ -112,12 +112,12 @@ class Valences {
     }
   }
 
-  /// Change of cost when a quad more (less) meets at each end of a side that stops being (becomes) a
+  /// Change of cost when each end of a side gets a quad more (less), since it stops being (becomes) a
   /// diagonal.
   float more(int a, int b) { return change(a, 1) + change(b, 1); }
   float fewer(int a, int b) { return change(a, -1) + change(b, -1); }
 
-  /// Some sides stop being diagonals, others become so. \return what the cost goes down by.
+  /// Replaces the diagonals `before` by those `after` in the counts. \return the decrease of the cost.
   float exchange(const CostedColoring& coloring, const std::vector<Side>& before,
                  const std::vector<Side>& after) {
     float gain = 0;
@@ -126,7 +126,7 @@ class Valences {
     return gain;
   }
 
-  /// About the same, without making the change: for a step of a longer exchange.
+  /// Estimates of more() and fewer() without making the change, for one step of a longer exchange.
   float if_more(int a, int b) const {
     return 2 * weight_ * (caution + static_cast<float>(deviation_[a] + deviation_[b]));
   }
@@ -136,7 +136,7 @@ class Valences {
 
  private:
   static constexpr float regular_weight = 0.4F, shape_weight = 0.02F;
-  /// Against the second order of a change alone, which most further steps of a cycle undo: between 0 and 1.
+  /// Stands for the second-order term (1) of a single change, which other steps of a cycle mostly undo.
   static constexpr float caution = 0.25F;
 
   static float angle_at(const std::array<int, 3>& corner, int i, const std::vector<Vector3>& points) {
@@ -155,18 +155,18 @@ class Valences {
   std::vector<std::int16_t> deviation_;
 };
 
-/// Searches closed chains of the removed color and of a second one from one triangle at a time. The second
-/// color is not stored: a chain lays it on any side that is not removed as it comes there.
+/// Searches for closed chains of the removed color and a second one, from one triangle at a time. The second
+/// color is not stored: a chain may use any side that does not have the removed color.
 class Exchanger {
  public:
-  /// \param open triangles that may be used, one flag each; null = all. Points of the others are not touched.
-  /// \param first,end all of those that may be used are from `first` to before `end`.
+  /// \param open (triangles) 1 = may be used; null = all. Points of the others are not touched.
+  /// \param first,end the range of the triangles that may be used, `end` excluded
   Exchanger(CostedColoring& coloring, Valences& valences, const char* open, int first, int end)
       : coloring_(coloring), valences_(valences), open_(open), first_(first), count_(end - first) {}
 
   bool may_use(int t) const { return !open_ || open_[t]; }
 
-  /// Makes the best exchange along a cycle through the pair of `t`, if there is one that gains.
+  /// Makes the best exchange along a cycle through the pair of `t`, if one gains.
   /// \return the triangles of the cycle, in pairs; empty if none.
   const std::vector<int>& improve(int t) {
     best_gain_ = least_gain;
@@ -185,29 +185,29 @@ class Exchanger {
   }
 
  private:
-  /// A way of `search` to an opened pair.
+  /// A way that search() has found to an opened pair.
   struct Label {
-    int triangle;  // of the pair, in want of a mate
+    int triangle;  // the one of the pair that needs a mate
     float gain;
-    int before;   // label
+    int before;   // the label before; -1 = none
     Side across;  // the side by which the way came
   };
 
   static constexpr int max_labels = 400;
   static constexpr int max_pairs = 20;
   static constexpr int broad_pairs = 5;
-  static constexpr float slack = -0.15F;  // the valences make gains depend on the order
+  static constexpr float slack = -0.15F;  // because of the valences, gains depend on the order
 
-  /// Whether the triangle has a mate, and both may be used. The flag comes first: what lies beyond may be
-  /// changing.
+  /// Whether the triangle has a mate and both may be used. Checks the flag first, since other threads may be
+  /// changing triangles beyond it.
   bool usable(int t) const {
     if (!may_use(t)) return false;
     const int mate = coloring_.mate_of(t);
     return mate >= 0 && may_use(mate);
   }
 
-  /// Opens the pair of `t`, which looks for a new mate across its two other sides. All ways are followed over
-  /// the first pairs, then the better one alone.
+  /// Opens the pair of `t` and seeks a new mate for `t` across its two other sides. Follows both ways over
+  /// the first pairs, then only the better one.
   void release(int t, float gain) {
     const Side diagonal = coloring_.diagonal_of(t);
     const int a = coloring_.corner_at(diagonal), b = coloring_.end_of(diagonal);
@@ -225,7 +225,7 @@ class Exchanger {
     valences_.fewer(a, b);
   }
 
-  /// What remains of the gain when a pair is made across a side; nothing where that cannot be.
+  /// What remains of the gain when a pair is made across a side; far below zero if that is impossible.
   float rest_after(Side side, float gain) {
     constexpr float nothing = -1e8F;
     const Side across = coloring_.twin(side);
@@ -236,7 +236,7 @@ class Exchanger {
     return rest;
   }
 
-  /// Makes a pair across a side and goes on from the mate that this leaves alone.
+  /// Makes a pair across a side and continues from the mate that this leaves alone.
   void join(Side side, float rest) {
     if (rest <= slack) return;
     const Side across = coloring_.twin(side);
@@ -267,8 +267,8 @@ class Exchanger {
     return false;
   }
 
-  /// Searches on all ways at once, the best one to each opened pair alone being followed on: long cycles for
-  /// little. What the valences charge is estimated on the way and counted where a cycle closes.
+  /// Searches all ways at once, but follows only the best one to each opened pair. This finds long cycles at
+  /// low cost. The charge for valences is estimated on the way, and computed where a cycle closes.
   void search(int start) {
     labels_.clear();
     ++search_number_;
@@ -301,7 +301,7 @@ class Exchanger {
     const Side diagonal = coloring_.diagonal_of(t);
     gain += coloring_.cost_of(diagonal) -
             valences_.if_more(coloring_.corner_at(diagonal), coloring_.end_of(diagonal));
-    // Of each cycle that gains, some start keeps all partial gains positive (Lin & Kernighan).
+    // Each cycle that gains has a start from which all partial gains are positive (Lin & Kernighan).
     if (gain <= 0) return;
     int& reached_in = reached_in_[t - first_];
     int& label = label_of_[t - first_];
@@ -321,7 +321,7 @@ class Exchanger {
     return false;
   }
 
-  /// Keeps the cycle that a label and a side to the root close if none found gains more.
+  /// Keeps the cycle that a label and a side to the root close, if it gains more than those found before.
   void close(int k, Side last) {
     path_.assign(1, last);
     for (; labels_[k].before >= 0; k = labels_[k].before) path_.push_back(labels_[k].across);
@@ -333,7 +333,7 @@ class Exchanger {
     best_ = path_;
   }
 
-  /// The sides that a chain takes the removed color from, for those that it gives it to.
+  /// The sides that lose the removed color, for the sides of a chain that get it.
   const std::vector<Side>& diagonals_of(const std::vector<Side>& chain) {
     diagonals_.clear();
     for (Side s : chain) diagonals_.push_back(coloring_.diagonal_of(triangle_of(s)));
@@ -357,12 +357,12 @@ class Exchanger {
   std::vector<Side> path_, best_, diagonals_;
   std::vector<int> touched_;
   std::vector<Label> labels_;
-  std::vector<int> reached_in_, label_of_;  // by triangle after the first: number of the search, label
+  std::vector<int> reached_in_, label_of_;  // by triangle, from first_: number of the last search, label
   int search_number_ = 0;
 };
 
-/// Exchanges around the given triangles until nothing gains; those around an exchange are tried again.
-/// \param queued scratch, one zero a triangle; zero again afterwards.
+/// Exchanges around the given triangles until nothing gains; triangles around an exchange are tried again.
+/// \param queued scratch, a zero for each triangle, and zero again afterwards.
 void exchange_around(const CostedColoring& coloring, Exchanger& exchanger, std::vector<int> current,
                      std::vector<char>& queued, const ExecutionContext& context) {
   constexpr int max_rounds = 20;
@@ -390,11 +390,10 @@ void exchange_around(const CostedColoring& coloring, Exchanger& exchanger, std::
   for (int t : current) queued[t] = 0;
 }
 
-/// Triangles of one block, by number. Large enough that few lie at a block's edge where the mesh is stored by
-/// place.
+/// Number of consecutive triangles in a block. If the mesh is ordered by place, few of these lie at its edge.
 constexpr int block_size = 1 << 15;
 
-/// Marks the triangles all of whose points belong to one block only.
+/// Marks the triangles whose points all belong to one block only.
 std::vector<char> mark_inner(const CostedColoring& coloring, std::size_t point_count) {
   constexpr int none = -1, several = -2;
   std::vector<int> block_of(point_count, none);
@@ -412,7 +411,7 @@ std::vector<char> mark_inner(const CostedColoring& coloring, std::size_t point_c
   return inner;
 }
 
-/// The chains that are searched.
+/// Exchanges along chains that a search finds.
 void exchange_laid_chains(CostedColoring& coloring, Valences& valences, std::size_t points,
                           ExecutionContext& context) {
   std::vector<char> queued(coloring.size(), 0);
@@ -421,7 +420,7 @@ void exchange_laid_chains(CostedColoring& coloring, Valences& valences, std::siz
     remaining.resize(coloring.size());
     std::iota(remaining.begin(), remaining.end(), 0);
   } else {
-    // Blocks share no triangle and no point that they use: they can be worked on in any order, at once.
+    // Blocks share no triangle and no point that they use: they can run in any order and in parallel.
     const std::vector<char> inner = mark_inner(coloring, points);
     context.check();
     const int blocks = (coloring.size() + block_size - 1) / block_size;
@@ -441,8 +440,7 @@ void exchange_laid_chains(CostedColoring& coloring, Valences& valences, std::siz
   exchange_around(coloring, exchanger, std::move(remaining), queued, context);
 }
 
-/// The chains that a complete coloring has: each closed one of the removed color and another, as long as it
-/// is.
+/// Exchanges along the closed chains, however long, of the removed color and `color` in a complete coloring.
 void exchange_whole_chains(CostedColoring& coloring, Valences& valences, int color,
                            const ExecutionContext& context) {
   SparseCheck check(context);

@@ -38,7 +38,7 @@ void for_each_side(const std::vector<Element>& elements, Visit&& visit) {
   }
 }
 
-/// The ends of the sides that leave each node, one entry a side of an element.
+/// The ends of the sides that leave each node, one entry for each side of an element.
 Rows ends_by_node(const QuadMesh& mesh) {
   return Rows(mesh.points.size(), [&](auto&& add) {
     for_each_side(mesh.quads, add);
@@ -79,7 +79,7 @@ int collapse_boundary_triangles(QuadMesh& mesh) {
     }
     if (count != 1) continue;
     const int a = corners[boundary], b = corners[(boundary + 1) % 3];
-    // One collapse at a node: the lists are those of the mesh before.
+    // At most one collapse at a node: the lists are those of the mesh before.
     const bool clash = moved[a] || moved[b] || std::any_of(quads.begin(b), quads.end(b), [&](int q) {
                          return std::find(quads.begin(a), quads.end(a), q) != quads.end(a);
                        });

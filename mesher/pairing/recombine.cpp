@@ -1,5 +1,5 @@
 /// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018): coloring,
-/// exchange along chains of two colors, removal of a color; the cost of an exchange is ours.
+/// exchange along chains of two colors, removal of a color. The cost of an exchange is ours.
 
 #include "mesher/pairing/recombine.hpp"
 
@@ -16,8 +16,8 @@ namespace quadrille {
 
 namespace {
 
-/// Removes the color: a quad for each pair, the free triangles as they are.
-/// \param corners the corners of a triangle, by number.
+/// Removes the color: makes a quad of each pair and keeps the free triangles.
+/// \param corners returns the corners of a triangle, given its number.
 template <class Corners>
 QuadMesh remove_color(const EdgeColoring& coloring, const TriangleMesh& mesh, Corners&& corners) {
   QuadMesh result;
@@ -47,7 +47,7 @@ QuadMesh remove_color(const CostedColoring& coloring, const TriangleMesh& mesh) 
                       [&](int t) -> const std::array<int, 3>& { return coloring.corners(t); });
 }
 
-/// The removed color by cost, then exchanged along paths and chains.
+/// Assigns the removed color by cost, then exchanges it along paths and chains.
 CostedColoring color_by_quality(const TriangleMesh& mesh, const RecombineOptions& options,
                                 ExecutionContext& context) {
   CostedColoring coloring(mesh, context);
@@ -62,9 +62,9 @@ CostedColoring color_by_quality(const TriangleMesh& mesh, const RecombineOptions
   return coloring;
 }
 
-/// Three colors as in the paper, the one that is least on the boundary to be removed; not on the boundary,
-/// where that leaves triangles free. \param free takes the free triangles, one after the other along the
-/// boundary.
+/// Assigns three colors as in the paper. The one that occurs least on the boundary becomes the removed one.
+/// Edges on the boundary that keep it become blank, which leaves their triangles free. \param free out: the
+/// free triangles, one after the other along the boundary.
 EdgeColoring color_as_in_paper(const TriangleMesh& mesh, std::uint64_t seed, std::vector<int>& free,
                                const ExecutionContext& context) {
   EdgeColoring coloring(mesh, context);
@@ -96,7 +96,7 @@ QuadMesh recombine_by_quality(const TriangleMesh& mesh, const RecombineOptions& 
   return remove_color(coloring, mesh);
 }
 
-/// The triangles that the color leaves are not collapsed but paired too, if asked for.
+/// If asked for, triangles that the color leaves are paired too (the paper collapses them).
 QuadMesh recombine_as_in_paper(const TriangleMesh& mesh, const RecombineOptions& options,
                                ExecutionContext& context) {
   std::vector<int> free;
@@ -106,7 +106,7 @@ QuadMesh recombine_as_in_paper(const TriangleMesh& mesh, const RecombineOptions&
   }();
   const StageTimer timer(context, Stage::recombine);
   if (options.leftovers == Leftovers::pair && augment(coloring, free, {.heading = &mesh}, context) > 0) {
-    // Those that no path joins walk, for which edges are flipped.
+    // Triangles that no path joins walk, which takes flips of edges.
     CostedColoring flipped(mesh, std::move(coloring));
     walk(flipped, mesh.points, context);
     return remove_color(flipped, mesh);
@@ -141,7 +141,7 @@ QuadMesh recombine(const TriangleMesh& mesh, const RecombineOptions& options, Ex
     result.points = mesh.points;
     return result;
   } catch (const Error& error) {
-    // What is wrong with a triangulation is told in its own numbers.
+    // Report what is wrong with the triangulation in its own numbers.
     if (error.kind() == Error::Kind::failure) EdgeColoring{mesh};
     throw;
   }

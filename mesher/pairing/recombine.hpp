@@ -1,5 +1,5 @@
 #pragma once
-/// Triangles into quads by edge coloring.
+/// Makes quads of triangles by edge coloring.
 
 #include "geometry/base/api.hpp"
 #include "geometry/base/execution_context.hpp"
@@ -9,17 +9,17 @@
 namespace quadrille {
 
 /// Pairs the triangles of a mesh into quads: colors its edges, no two alike in a triangle, and removes one
-/// color. That color goes to the edges whose quads are best, is exchanged with the other two along chains
-/// (kempe_chains.hpp) where quality or valence gains, and is brought to every triangle: along alternating
-/// paths, or by triangles that walk until they meet. The other two colors are completed after that; an odd
-/// cycle of them keeps one blank edge, since another choice of the removed color would cost quality. With
-/// Method::paper all three colors are complete before one is chosen. Points are kept (same indices) unless
-/// triangles have to be walked, and boundary nodes never move; no new point is made. Zero triangles remain in
-/// each connected piece (of one tag) whose count is even, exactly one where it is odd. Quads may be badly
-/// shaped or concave where the triangulation leaves no choice: improve() mends them. Throws Error (failure)
-/// naming the triangle when the mesh is not manifold or not oriented alike. Deterministic for input, options
-/// and seed, whatever the thread count. Time: linear in practice. Based on: Giuliani & Krivodonova, Fast
-/// unstructured quadrilateral mesh generation (2018).
+/// color. That color is given to the edges whose quads are best, then brought to every triangle, along
+/// alternating paths or by triangles that walk until they meet. Last, it is exchanged with the other two
+/// along chains (kempe_chains.hpp) where quality or valence gains. The other two colors are completed then.
+/// An odd cycle of them keeps one blank edge, since another choice of the removed color would cost quality.
+/// With Method::paper all three colors are assigned before one is chosen. Points are kept (same indices and
+/// places). Edges are kept too, unless triangles have to be walked. No triangle remains in a connected piece
+/// (of one tag) with an even number of them, one in a piece with an odd number (Leftovers::leave may leave
+/// more). Quads may be badly shaped or concave where the triangulation leaves no choice: improve_on() mends
+/// them. Throws Error (failure) naming the triangle if the mesh is not manifold or not consistently oriented.
+/// Deterministic for input, options and seed, whatever the thread count. Time: linear in practice. Based on:
+/// Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018).
 QUADRILLE_API QuadMesh recombine(const TriangleMesh& mesh, const RecombineOptions& options,
                                  ExecutionContext& context);
 

@@ -14,10 +14,10 @@ namespace quadrille {
 
 namespace {
 
-/// Walks free triangles to others, over pairs.
+/// Walks free triangles to other free ones, across pairs.
 class Walker {
  public:
-  /// \param piece of each triangle. \param free the triangles to walk.
+  /// \param piece connected piece of each triangle. \param free the triangles to walk.
   Walker(CostedColoring& coloring, const std::vector<Vector3>& points, const std::vector<int>& piece,
          const std::vector<int>& free, const ExecutionContext& context)
       : coloring_(coloring),
@@ -30,7 +30,7 @@ class Walker {
   /// Takes a free triangle along the cheapest way to another. \return true if the two became a quad.
   bool walk(int start) {
     int at = start;
-    // A step is checked just before it is taken; where it fails the way is searched anew from there.
+    // A step is checked just before it is taken. If it is impossible, search again from there.
     for (int attempts = 0; attempts < 100; ++attempts) {
       if (!search(at)) return false;
       if (follow(at)) return true;
@@ -40,11 +40,11 @@ class Walker {
 
  private:
   static constexpr int flip_price = 3, concave_price = 30;
-  /// Sides that are looked at for the cheapest way; what is farther is headed for straight, or the cost of a
-  /// few walks would grow with the mesh.
+  /// How many sides are looked at for the cheapest way. Targets beyond that are approached directly;
+  /// otherwise the cost of a few walks would grow with the mesh.
   static constexpr int far = 20'000;
 
-  /// How a side was reached; all zero where it was not.
+  /// How a side was reached; all zero if it was not.
   struct Reached {
     int distance;  // plus 1
     Side from;     // plus 1: the side crossed before, 0 at the root
@@ -55,7 +55,7 @@ class Walker {
   }
 
   /// Whether the free triangle beyond `entry`, a side of a pair, can move over the pair and leave by `exit`
-  /// without a point coming twice in the quad.
+  /// without a point occurring twice in the quad.
   bool can_step(Side entry, Side exit) const {
     const int u = triangle_of(entry);
     const int apex = coloring_.apex_of(coloring_.twin(entry));
@@ -70,7 +70,7 @@ class Walker {
     return coloring_.cost_of(coloring_.diagonal_of(u)) < 3 ? flip_price : concave_price;
   }
 
-  /// The way from a free triangle to another: the cheapest if that is near, else one to the nearest in space.
+  /// Finds a way to another free triangle: the cheapest if that is near, else one to the nearest in space.
   bool search(int root) {
     bool exhausted = true;
     if (search(root, nullptr, exhausted)) return true;
@@ -100,8 +100,8 @@ class Walker {
     return nearest;
   }
 
-  /// Dijkstra over the sides crossed (each seen from its far triangle), from a free triangle to another; with
-  /// an aim, the sides nearest to that come first, whatever they cost.
+  /// Dijkstra over the sides crossed (each seen from its far triangle), from a free triangle to another. With
+  /// an aim, the sides nearest to it come first, whatever they cost.
   bool search(int root, const Vector3* aim, bool& exhausted) {
     for (Side s : touched_) reached_[s] = {};
     touched_.clear();
@@ -150,7 +150,7 @@ class Walker {
     std::reverse(way_.begin(), way_.end());
   }
 
-  /// Walks the way; `at` becomes the free triangle where it ended early.
+  /// Walks the way. If it ends early, `at` is the triangle that is free then.
   bool follow(int& at) {
     recut_.clear();
     for (std::size_t k = 0; k < way_.size(); ++k) {
@@ -160,7 +160,7 @@ class Walker {
         coloring_.pair(entry);
         return true;
       }
-      // Sides of pairs that the walk has recut already are not what the search saw.
+      // Pairs that this walk has recut are no longer what the search saw.
       if (contains(recut_, triangle_of(entry)) || contains(recut_, triangle_of(way_[k + 1]))) return false;
       if (!step(entry, way_[k + 1], at)) return false;
     }

@@ -7,10 +7,10 @@
 
 namespace quadrille {
 
-/// Lets the free triangles walk: a triangle and a quad beside it are a pentagon, which can be cut into a quad
-/// and a triangle on the far side. Two that meet become a quad. Diagonals of pairs are flipped where the way
-/// needs it. Afterwards no connected piece has more than one free triangle. \return the number of triangles
-/// still free.
+/// Lets the free triangles walk: a triangle and a quad beside it form a pentagon, which can be cut into a
+/// quad and a triangle on the far side. Two triangles that meet become a quad. Diagonals of pairs are flipped
+/// where the way needs it. Afterwards a connected piece has at most one free triangle, unless no way was
+/// found. \return the number of triangles still free.
 int walk(CostedColoring& coloring, const std::vector<Vector3>& points, const ExecutionContext& context = {});
 
 }  // namespace quadrille

@@ -1,5 +1,5 @@
 #pragma once
-/// An array of zeros that costs what is touched of it. Internal.
+/// An array of zeros of which only the touched parts cost anything. Internal.
 
 #include <cstddef>
 #include <cstdlib>
@@ -9,8 +9,8 @@
 
 namespace quadrille {
 
-/// An array of plain values, all bits zero at first. The operating system gives pages where they are written
-/// to: a search that looks at some thousand of many million triangles takes no time for the others.
+/// An array of plain values, all bits zero at first. The operating system provides pages only when they are
+/// written to: a search over a few thousand of many million triangles spends no time on the others.
 template <class Value>
 class ZeroedPages {
   static_assert(std::is_trivially_copyable_v<Value>);

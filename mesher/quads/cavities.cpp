@@ -15,20 +15,20 @@
 namespace quadrille {
 namespace {
 
-constexpr int max_quads = 150;   ///< in a patch, before and after
-constexpr int max_growths = 8;   ///< of a patch
+constexpr int max_quads = 150;   ///< quads in a patch, before and after
+constexpr int max_growths = 8;   ///< how often a patch may grow
 constexpr int max_search = 600;  ///< quads looked at for the nearest irregular node
-/// The same, for patches that choose the nodes that they grow to.
+/// The same two limits for patches that choose the nodes to which they grow.
 constexpr int few_growths = 4, near_search = 100;
-constexpr int max_rounds = 2;  ///< over all nodes
-/// A filling has that share of the quads before at least and at most, and no more of all quads than that come
-/// or go: sizes are to stay.
+constexpr int max_rounds = 2;  ///< passes over all nodes
+/// To preserve sizes: least and most quads of a filling as a share of the patch's, and the share of the
+/// face's quads that may be gained or lost in all.
 constexpr double least_share = 0.7, most_share = 1.35, most_drift = 0.08;
-constexpr int few_quads = 8;  ///< that may come or go in any face
-/// Quads may be this badly shaped at first: smoothing mends them.
+constexpr int few_quads = 8;  ///< this many quads may be gained or lost in any face
+/// Scaled Jacobian above which quads may start: smoothing mends them.
 constexpr double mendable = 0.2;
-/// What a unit of what valences cost is worth of the sum over the quads of their objectives: nodes have been
-/// smoothed before, and those of a filling not yet.
+/// How much the sum of the quads' objectives may rise for each unit of valence cost saved. The nodes of the
+/// patch have been smoothed, those of a filling not yet.
 constexpr double per_cost = 0.3;
 
 class Cavities : private EditedMesh {
@@ -59,7 +59,7 @@ class Cavities : private EditedMesh {
  private:
   int valence(int node) const { return topology_.valence(topology_.side_of(node)); }
 
-  /// The quads that the angle at a boundary node asks for.
+  /// The number of quads that the angle at a boundary node asks for.
   int wanted(int node) const {
     return std::max(1, static_cast<int>(std::lround(angles_[node] / (std::numbers::pi / 2))));
   }
@@ -98,8 +98,8 @@ class Cavities : private EditedMesh {
     for (const int quad : patch) add(quad);
   }
 
-  /// Tries patches that grow to the nearest irregular nodes, then others: the first of those is left out, and
-  /// they grow to nodes that bring them nearer to four corners.
+  /// Tries a patch that grows to the nearest irregular nodes. If that fails, tries another one that leaves
+  /// out the first of these and grows only to nodes that bring it nearer to four corners.
   bool mend(int node) {
     in_patch_.resize(topology_.size(), 0);
     reached_.resize(topology_.size(), 0);
@@ -116,7 +116,7 @@ class Cavities : private EditedMesh {
   }
 
   bool grow_until_filled() {
-    std::vector<int> last;  // the patch before it grew to what did not fit
+    std::vector<int> last;  // the last patch that was a polygon
     last_corners_ = 4;
     for (int growth = 0; growth < (chooses_ ? few_growths : max_growths); ++growth) {
       const bool fits = make_convex() && trace();
@@ -133,7 +133,7 @@ class Cavities : private EditedMesh {
     return false;
   }
 
-  /// Adds the quads round the outline, for more room.
+  /// Adds the quads around the outline, for more room.
   bool widen() {
     const std::size_t count = patch_.size();
     for (std::size_t i = 0; i < count; ++i)
@@ -153,12 +153,12 @@ class Cavities : private EditedMesh {
     return true;
   }
 
-  /// Whether a patch is to grow to a node. One of too many quads inside gives it one more corner.
+  /// Whether the patch should grow to a node. A node with too many quads adds a corner once it is inside.
   bool suits(int node) const {
     return !chooses_ || last_corners_ == 4 || (excess(node) > 0) == (last_corners_ < 4);
   }
 
-  /// Adds the quads of the nearest irregular node that suits and was not tried, and those on the way to it.
+  /// Adds the quads of the nearest irregular node that suits and was not tried, and the quads on the way.
   bool grow() {
     ++search_;
     std::vector<int> queue = patch_, from(patch_.size(), -1);
@@ -191,8 +191,8 @@ class Cavities : private EditedMesh {
     return twin < 0 || !in_patch(twin >> 2);
   }
 
-  /// Finds the outline, its corners, the nodes inside and what they all cost. False if the patch is no disc,
-  /// has nodes inside that must stay, or would have a corner that turns back.
+  /// Finds the outline, its corners, the nodes inside and the valence cost. False if the patch is not a disc,
+  /// has nodes inside that must stay, or would have a reflex corner.
   bool trace() {
     ring_.clear();
     corners_.clear();
@@ -212,7 +212,7 @@ class Cavities : private EditedMesh {
       const int node = topology_.origin(side);
       if (met_[node] == search_) return false;
       met_[node] = search_;
-      // All of its quads that are inside lie side by side, or the outline meets itself here.
+      // The node's quads in the patch lie side by side; otherwise the outline would meet itself here.
       int quads = uses_[node];
       if (!inner(node) && !on_triangle_[node] && topology_.openings(node) == 1 && quads == valence(node)) {
         cost_ += cost(node);
@@ -235,7 +235,7 @@ class Cavities : private EditedMesh {
     return static_cast<int>(patch_.size()) == outer / 2 - 1 + static_cast<int>(inside_.size());
   }
 
-  /// The same for the same quads, as long as these have their nodes.
+  /// Equal for the same quads in any order, as long as they keep their nodes.
   std::uint64_t fingerprint() const {
     std::uint64_t sum = 0;
     for (const int quad : patch_) {
@@ -247,7 +247,7 @@ class Cavities : private EditedMesh {
     return sum;
   }
 
-  /// Whether the surface turns little enough in the patch for places between the nodes to make sense.
+  /// Whether the patch is flat enough for places interpolated between its nodes to make sense.
   bool is_flat() const {
     constexpr double least_cosine = 0.7;
     Vector3 mean = Vector3::Zero();
@@ -265,7 +265,7 @@ class Cavities : private EditedMesh {
     const auto share = [&](double of) {
       return static_cast<int>(std::lround(of * static_cast<double>(patch_.size())));
     };
-    // What has come or gone already may come back, however much it is.
+    // Quads gained or lost already may be given back, however many they are.
     const int drift = std::max({std::abs(drift_), few_quads, static_cast<int>(most_drift * first_count_)});
     const int count = static_cast<int>(patch_.size()) - drift_;
     const FillingLimits limits{.most_irregular = cost_ - 1,
@@ -275,7 +275,7 @@ class Cavities : private EditedMesh {
                         [&](const PolygonFilling& filling) { return put(filling); });
   }
 
-  /// How far the quads are from the criteria of industry; no quad counts for more than `most`.
+  /// The mean distance of the quads from the industry criteria; no quad counts for more than `most`.
   double mean_objective(const std::vector<Quad>& quads) const {
     constexpr double most = 20;
     double sum = 0;
@@ -284,7 +284,7 @@ class Cavities : private EditedMesh {
     return sum / static_cast<double>(quads.size());
   }
 
-  /// Puts a filling in the place of the patch, unless its quads are worse.
+  /// Replaces the patch by a filling unless its quads are worse.
   bool put(const PolygonFilling& filling) {
     std::vector<Quad> before;
     for (const int quad : patch_) before.push_back(topology_.quad(quad));
@@ -306,12 +306,12 @@ class Cavities : private EditedMesh {
       return true;
     }
     for (const int quad : old) add(quad);
-    // The nodes serve the next filling.
+    // Keep the new nodes for the next filling.
     spare_.assign(nodes.begin() + static_cast<long>(ring_.size()), nodes.end());
     return false;
   }
 
-  /// A free node at the place of the surface that is nearest.
+  /// A free node at the point of the surface nearest to the target.
   int place(const Vector3& target) {
     const auto nearest = [&](const std::vector<int>& nodes, int best) {
       for (const int node : nodes)
@@ -336,20 +336,20 @@ class Cavities : private EditedMesh {
 
   const SmoothingSurface& surface_;
   const int first_count_ = topology_.size();
-  int drift_ = 0;  ///< quads more than at first
+  int drift_ = 0;  ///< quads gained since the start
   std::vector<int> patch_;
   std::vector<char> in_patch_;  ///< by quad
   std::vector<int> uses_;       ///< by node: quads of the patch
   std::vector<int> ring_, corners_, inside_;
-  int cost_ = 0;              ///< of the patch as it is
+  int cost_ = 0;              ///< valence cost of the patch as it is
   bool chooses_ = false;      ///< whether patches grow only to nodes that suit their corners
-  int last_corners_ = 4;      ///< of the patch when it was last a polygon
-  std::vector<int> tried_;    ///< irregular nodes that the patch has grown to
-  std::vector<int> met_;      ///< by node: the trace that met it last
-  std::vector<int> reached_;  ///< by quad: the search that met it last
+  int last_corners_ = 4;      ///< corners of the patch when it was last a polygon
+  std::vector<int> tried_;    ///< irregular nodes to which the patch has grown
+  std::vector<int> met_;      ///< by node: number of the trace that met it last
+  std::vector<int> reached_;  ///< by quad: number of the search that met it last
   int search_ = 0;
   std::vector<int> spare_;                  ///< nodes that no quad uses
-  std::unordered_set<std::uint64_t> seen_;  ///< patches that were not filled
+  std::unordered_set<std::uint64_t> seen_;  ///< fingerprints of patches tried before
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
 // Topological clean-up of quad meshes.
 // Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018), section 5
 // (quad-vertex merge, doublet collapse); Kinney, CleanUp: improving quadrilateral finite element meshes
-// (1997); Bunin, Non-local topological clean-up (2006), for the idea of meshing small patches anew inside
-// their boundary.
+// (1997); Bunin, Non-local topological clean-up (2006), for the idea of remeshing small patches inside their
+// boundary.
 
 #include <algorithm>
 #include <array>
@@ -23,21 +23,21 @@ namespace {
 using Quad = QuadTopology::Quad;
 constexpr double pi = std::numbers::pi;
 constexpr int max_patch = 32;  ///< quads in a patch
-/// A patch that is better connected may be this badly shaped at first: smoothing mends it.
+/// Scaled Jacobian above which a better connected patch may start: smoothing mends it.
 constexpr double mendable = 0.05;
 constexpr double regular_cost = 0.5;  ///< nodes that cost less are left alone
-constexpr double min_gain = 0.5;      ///< a patch is filled anew only for more than this
+constexpr double min_gain = 0.5;      ///< a patch is refilled only if it gains this much
 constexpr double worth_trying = 1.5;  ///< a patch whose nodes cost less in all cannot gain
-constexpr double resize_cost = 0.2;   ///< of each node more or fewer: keeps the density
-constexpr double drift_cost = 50;     ///< of each node more, by the share of quads already gained
+constexpr double resize_cost = 0.2;   ///< cost of each node more or fewer: keeps the density
+constexpr double drift_cost = 50;     ///< cost of each added node, times the share of quads already gained
 
-/// Quads of a mesh and what is to stand in their place. A node may move along.
+/// A replacement: the quads to remove and the quads that take their place. One node may move with them.
 struct Change {
   std::array<int, max_patch> old_quads;
   int old_count = 0;
   std::array<Quad, max_patch> quads;
   int count = 0;
-  int moved = -1;  ///< node that is placed anew, at the mean of its neighbors
+  int moved = -1;  ///< node to move to the mean of its neighbors; -1 = none
 
   bool add_old(int quad) {
     if (std::find(old_quads.begin(), old_quads.begin() + old_count, quad) != old_quads.begin() + old_count)
@@ -52,7 +52,7 @@ struct Change {
 
 class CleanUp : private EditedMesh {
  public:
-  /// \param doubtful nodes to begin with; empty = all. Out (by write_back()): those to begin with next time.
+  /// \param doubtful (nodes) in: 1 = start here, empty = all; out, by write_back(): the same for next time.
   CleanUp(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, ImproveReport& report,
           std::vector<char>& doubtful, const ExecutionContext& context)
       : EditedMesh(surface_mesh, context), doubtful_(doubtful), surface_(surface), report_(report) {
@@ -60,7 +60,7 @@ class CleanUp : private EditedMesh {
     tried_.assign(tried_slots, 0);
   }
 
-  /// Interior nodes with two quads go; the two quads become one.
+  /// Removes interior nodes with two quads; the two quads become one.
   bool collapse_doublets() {
     bool any = false;
     SparseCheck check(context_);
@@ -72,7 +72,7 @@ class CleanUp : private EditedMesh {
     return any;
   }
 
-  /// Quads with two opposite corners under 45 degrees are closed: the two blunt corners become one node.
+  /// Closes quads with two opposite corners under 45 degrees: the two blunt corners become one node.
   bool merge_slender_quads() {
     bool any = false;
     SparseCheck check(context_);
@@ -83,7 +83,7 @@ class CleanUp : private EditedMesh {
     return any;
   }
 
-  /// Meshes small patches round irregular nodes anew where the valences gain.
+  /// Refills small patches around irregular nodes where that improves the valences.
   bool improve_valences();
 
   void write_back();
@@ -98,10 +98,10 @@ class CleanUp : private EditedMesh {
   double cost_at(int node) const;
   bool improve_round(int node);
 
-  /// What a quad adds to the patches that it is tried in: the same for all of one round.
+  /// What a quad adds to each patch that holds it: constant while the patches around one node are tried.
   struct QuadState {
     int round = 0;
-    double cost = 0;          ///< of its nodes
+    double cost = 0;          ///< sum of its nodes' costs
     std::uint64_t print = 0;  ///< changes with its nodes and their valences
   };
   const QuadState& state_of(int quad);
@@ -113,15 +113,15 @@ class CleanUp : private EditedMesh {
   static constexpr std::size_t tried_slots = 1 << 13;
 
   std::vector<char>& doubtful_;       ///< nodes where something may still be gained
-  int drift_ = 0;                     ///< quads more than at first
-  bool blocked_ = false;              ///< a gain was refused for the shapes it would give
-  int round_ = 0;                     ///< number of the node that is tried
-  std::vector<QuadState> states_;     ///< by quad, as of their rounds
-  std::vector<std::uint64_t> tried_;  ///< fingerprints of patches that gave nothing, by their low bits
+  int drift_ = 0;                     ///< quads gained since the start
+  bool blocked_ = false;              ///< a gain was refused because of the shapes it would give
+  int round_ = 0;                     ///< counts the nodes that are tried
+  std::vector<QuadState> states_;     ///< by quad; each is valid in the round that it names
+  std::vector<std::uint64_t> tried_;  ///< fingerprints of patches without gain, indexed by their low bits
 
   const SmoothingSurface& surface_;
   ImproveReport& report_;
-  std::vector<int> queue_;  ///< nodes whose surroundings are to be tried
+  std::vector<int> queue_;  ///< nodes whose surroundings will be tried
   std::vector<char> queued_;
 };
 
@@ -160,8 +160,8 @@ double CleanUp::cost_change(const Change& change) const {
   return sum;
 }
 
-/// Carries a change out if the valences gain enough and no element becomes worse than it was (or than can be
-/// mended).
+/// Carries out a change unless its cost is too high or its worst element is no better than the worst one
+/// before and than `mendable`.
 bool CleanUp::apply(Change& change, double allowed_cost) {
   if (change.count == 0 || cost_change(change) > allowed_cost) return false;
   std::array<Quad, max_patch> old;
@@ -275,7 +275,7 @@ bool CleanUp::improve_valences() {
     if (doubtful_[node] && cost_at(node) > regular_cost) push(node);
   }
   std::fill(doubtful_.begin(), doubtful_.end(), 0);
-  // Each move lowers the cost by at least min_gain, so the queue runs dry; the bound is for safety only.
+  // Each move lowers the cost by at least min_gain, so the queue empties; the bound is for safety only.
   const std::size_t bound = 40 * queue_.size() + 1000;
   SparseCheck check_often(context_, 16);
   for (std::size_t head = 0; head < queue_.size() && head < bound; ++head) {
@@ -289,7 +289,7 @@ bool CleanUp::improve_valences() {
   return report_.valence_moves > moves;
 }
 
-/// Tries the patches round a node, the smallest first.
+/// Tries the patches around a node until one gains.
 bool CleanUp::improve_round(int node) {
   ++round_;
   const QuadTopology::Fan fan = topology_.fan(topology_.side_of(node));
@@ -311,7 +311,7 @@ bool CleanUp::improve_round(int node) {
       SmallPatch pair;
       pair.add(sides[i] >> 2);
       if (quad_across(4 * (sides[i] >> 2) + k) == (sides[(i + 1) % fan.quads] >> 2))
-        continue;  // met from there
+        continue;  // that pair is tried from there
       if (pair.add(quad_across(4 * (sides[i] >> 2) + k)) && try_patch(pair)) return true;
     }
   for (int i = 0; i < fan.quads; ++i)
@@ -360,11 +360,11 @@ const CleanUp::QuadState& CleanUp::state_of(int quad) {
   return state;
 }
 
-/// Fills the patch anew by the template that costs least, if that gains.
+/// Refills the patch by the cheapest template whose shapes are acceptable, if that gains.
 bool CleanUp::try_patch(const SmallPatch& patch) {
-  // Nothing is gained where no two nodes are irregular. A node counts here with each of its quads.
+  // No gain unless two nodes are irregular. The sum counts a node once per quad, so it is an upper bound.
   double most = 0;
-  std::uint64_t fingerprint = 0;  // the same for the same quads in any order, as long as their nodes stay
+  std::uint64_t fingerprint = 0;  // equal for the same quads in any order, as long as they keep their nodes
   for (int i = 0; i < patch.count; ++i) {
     const QuadState& state = state_of(patch.quads[i]);
     most += state.cost;
@@ -380,7 +380,7 @@ bool CleanUp::try_patch(const SmallPatch& patch) {
   const double cost = find_costs(outline, costs);
   if (cost < worth_trying) return false;
 
-  // Where two fillings gain alike, the one that brings the number of quads back to the first count.
+  // Of two fillings with the same gain, prefer the one that brings back the first number of quads.
   const double drift = std::clamp(drift_cost * drift_ / topology_.size(), -resize_cost, resize_cost);
   for (int interior = 0; interior <= PatchTemplate::max_interior; ++interior) {
     const int added = interior - outline.inside_count;
@@ -392,7 +392,7 @@ bool CleanUp::try_patch(const SmallPatch& patch) {
   for (int i = 0; i < cheapest.count; ++i)
     if (fill(patch, outline, *cheapest.fillings[i])) return true;
   if (cheapest.count > 0) {
-    // Met again from another node, the patch is to count as blocked there too.
+    // If the patch is met again from another node, it must count as blocked there too.
     blocked_ = true;
     slot = 0;
   }
@@ -416,7 +416,7 @@ bool CleanUp::fill(const SmallPatch& patch, const Outline& outline, const PatchT
   Filling filled = laid(outline, filling);
   if (!(filled.worst() > floor)) return false;
 
-  // Only now the surface is asked.
+  // Move the nodes to the surface only now.
   struct Saved {
     Vector3 point, normal;
     Vector2 uv;

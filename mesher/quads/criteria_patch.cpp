@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-// Compiled a second time for processors with registers of four numbers; the results are the same to the last
-// bit.
+// Compiled a second time for processors with registers of four numbers; the results are the same bit for bit.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define QUADRILLE_FOR_WIDER_REGISTERS __attribute__((target_clones("avx2", "default")))
@@ -18,29 +17,29 @@ namespace {
 
 constexpr double huge = 1e30;
 constexpr double tiny = std::numeric_limits<double>::min();
-/// Beyond this a quad that the CAD forces out of shape no longer outweighs its neighbors.
+/// Bound on an objective, so that a quad that the CAD forces out of shape does not outweigh its neighbors.
 constexpr double most = 1000;
-/// A quad whose plane is steeper than this (cosine) is drawn in another.
+/// A quad with a smaller cosine between its normal and `up` is drawn in the plane of u and v instead.
 constexpr double facing = 0.1;
-constexpr double sin2_corner = 0.586824;  // of 50 degrees, squared
-constexpr double sin2_skew = 0.413176;    // of 40 degrees, squared
-constexpr double aspect2 = 25;
-/// With taper t the Jacobian ratio of a plane quad is (1 - t / root 3) / (1 + t / root 3).
+constexpr double sin2_corner = 0.586824;  // squared sine of 50 degrees
+constexpr double sin2_skew = 0.413176;    // squared sine of 40 degrees
+constexpr double aspect2 = 25;            // 5 squared
+/// With taper t the Jacobian ratio of a plane quad is (1 - t / root 3) / (1 + t / root 3): 0.6 at this t^2.
 constexpr double taper2 = 0.1875;
-/// Of the squared aspect, beside the squared cosines of the corners, in what is added for squareness: without
-/// it rows would close up where that turns corners.
+/// Weight of the squared aspect in the squareness term, beside 1 for the squared cosines of the corners.
+/// Without it, rows would close up where that term turns corners.
 constexpr double evenness = 0.02;
-/// Of the squared taper: grids that are sheared as a whole stay so, in place of some quads becoming squares
-/// at the cost of the others.
+/// Weight of the squared taper there. With it, grids that are sheared as a whole stay so, and no quads become
+/// squares at the expense of the others.
 constexpr double parallelism = 3;
 
 double square(double x) {
   return x * x;
 }
 
-/// A plane quad p, b, c, d. Written without branches: compilers take several at once.
+/// A plane quad p, b, c, d. Written without branches, so that compilers can process several at once.
 struct Plane {
-  double sine2, value;  // signed square of the least corner's sine
+  double sine2, value;  // square of the least corner's sine; -1 if not convex
   double side2;         // squared length from p to b
 
   Plane(double px, double py, double bx, double by, double cx, double cy, double dx, double dy,
@@ -78,7 +77,7 @@ struct Plane {
 /// The plane of a quad's diagonals, the first of which is its x axis.
 struct Frame {
   Vector3 x{0, 0, 0}, y{0, 0, 0}, normal;
-  double length = 0;  // of the first diagonal
+  double length = 0;  // length of the first diagonal; 0 for a quad without area
 
   Frame(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
     const Vector3 first = c - a;
@@ -206,7 +205,7 @@ std::array<double, 2> CriteriaPatch::lowest(double shortest, double longest) con
   const double gx = (f[1] - f[2]) / (2 * h), gy = (f[3] - f[4]) / (2 * h);
   double xx = (f[1] + f[2] - 2 * f[0]) / (h * h), yy = (f[3] + f[4] - 2 * f[0]) / (h * h);
   const double xy = (f[5] + f[6] + 2 * f[0] - f[1] - f[2] - f[3] - f[4]) / (2 * h * h);
-  // Made positive definite by a shift of the lower eigenvalue.
+  // Shift the eigenvalues until the lower one is at least a tenth of the largest magnitude.
   const double middle = 0.5 * (xx + yy), radius = std::sqrt(square(0.5 * (xx - yy)) + square(xy));
   const double wanted = 0.1 * (std::abs(middle) + radius), shift = std::max(0.0, wanted - (middle - radius));
   xx += shift;

@@ -33,7 +33,7 @@ void EditedMesh::measure_boundary() {
   for (int side = 0; side < 4 * topology_.size(); ++side) {
     check();
     const int node = topology_.origin(side);
-    if (inner(node)) continue;  // nobody asks for its angles
+    if (inner(node)) continue;  // its angle is never used
     const int before = topology_.origin(QuadTopology::previous(side));
     const Vector3 forth = point(topology_.end(side)) - point(node), back = point(before) - point(node);
     angles_[node] += angle_between(forth, back, normal(node));
@@ -161,7 +161,7 @@ double Filling::worst() const {
 
 int EditedMesh::add_node_like(int donor) {
   const int node = topology_.add_node();
-  // Copies first: the arrays may move.
+  // Copy first: the arrays may be reallocated.
   const Vector3 place = point(donor), up = normal(donor);
   const Vector2 uv = mesh_.parameters[donor];
   mesh_.mesh.points.push_back(place);

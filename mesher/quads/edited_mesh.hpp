@@ -43,18 +43,18 @@ struct SmallPatch {
   }
 };
 
-/// A template laid into an outline: where its corners are and which nodes they are to be.
+/// A template laid into an outline: the places of its corners and the nodes that they stand for.
 struct Filling {
   static constexpr int max_corners = PatchTemplate::max_sides + PatchTemplate::max_interior;
   const PatchTemplate& filling;
   std::array<Vector3, max_corners> x;
-  std::array<int, max_corners> nodes;  ///< known at the outline only
-  Vector3 normal;                      ///< the sum of those at the outline
+  std::array<int, max_corners> nodes;  ///< laid() sets only those on the outline
+  Vector3 normal;                      ///< the sum of the normals at the outline's nodes
   /// The least scaled Jacobian, negative where a quad is folded.
   double worst() const;
 };
 
-/// A surface mesh with its topology. write_back() puts the mesh in order again.
+/// A surface mesh with its topology. write_back() brings the mesh up to date.
 class EditedMesh {
  public:
   using Quad = QuadTopology::Quad;
@@ -64,11 +64,11 @@ class EditedMesh {
   int node_count() const { return static_cast<int>(mesh_.mesh.points.size()); }
   const Vector3& point(int node) const { return mesh_.mesh.points[node]; }
   const Vector3& normal(int node) const { return mesh_.normals[node]; }
-  /// Whether quads close round a node that may move.
+  /// Whether the node may move and its quads close around it.
   bool inner(int node) const { return topology_.closed(node) && may_move(node); }
   /// \return the least scaled Jacobian; negative where a quad is folded.
   double worst(std::span<const Quad> quads) const;
-  /// Whether some side is longer than every one before, and far longer than these are in the mean.
+  /// Whether a new side is longer than every side before, and far longer than their mean.
   bool too_long(std::span<const Quad> before, std::span<const Quad> quads) const;
 
  protected:
@@ -78,38 +78,38 @@ class EditedMesh {
   }
   static double inner_cost(int quads) { return quads < 3 ? 20 : (quads - 4) * (quads - 4); }
 
-  /// How far a node with `quads` quads is from what its angle asks for.
+  /// The valence cost of a node with `quads` quads: how far that is from what its angle asks for.
   double node_cost(int node, int quads) const {
     if (inner(node)) return inner_cost(quads);
     if (quads < 1) return 1e9;
     const double angle = angles_[node] * 180 / std::numbers::pi;
     const double wanted = std::max(1.0, std::round(angle / 90));
-    // No smoothing mends the mean angle at a boundary node: beyond 130 degrees it soon rules everything.
-    // Opening a straight corner costs two or three irregular nodes inside, and is worth it from 150 degrees
-    // on.
+    // Smoothing cannot change the mean angle at a boundary node, so its cost rises fast beyond 130 degrees.
+    // Opening a straight corner costs two or three irregular nodes inside. It pays from 150 degrees on.
     const double mean = angle / quads;
     const double flat = std::max(0.0, mean - 130) / 15, sharp = std::max(0.0, 40 - mean) / 20;
     return (quads - wanted) * (quads - wanted) + 3 * flat * flat + 3 * sharp * sharp;
   }
-  /// The polygon round a patch; false if it is not a disc, too long, or holds nodes that must stay.
+  /// Finds the polygon around a patch. False if the patch is not a disc, its outline is too long, or nodes
+  /// inside it must stay.
   bool trace(const SmallPatch& patch, Outline& outline) const;
-  /// What valences cost round a patch with any filling (`costs.uses`). \return what they cost as they are.
+  /// Sets `costs.uses`, the valence costs around a patch with any filling. \return the present valence cost.
   double find_costs(const Outline& outline, FillingCosts& costs) const;
-  /// A template with its inner corners at the mean of their neighbors.
+  /// Lays a template into an outline, with its inner nodes at the mean of their neighbors.
   Filling laid(const Outline& outline, const PatchTemplate& filling) const;
   bool may_move(int node) const { return !mesh_.fixed[node] && !on_triangle_[node]; }
   /// A new free node at the place of another; returns its number.
   int add_node_like(int donor);
-  /// The fixed points first, in their old order, then the free ones still used, in theirs.
-  /// \return the old number of each point that is left.
+  /// Rebuilds the mesh: first the fixed points, then the free ones that are still used, each in their old
+  /// order. \return the old number of each point that is left.
   std::vector<int> write_back();
 
   SurfaceMesh& mesh_;
   const ExecutionContext& context_;
   QuadTopology topology_;
   std::vector<char> on_triangle_;
-  /// (nodes) radians: the angle that the quads of a node fill that is not inner, in the mean of its fans; the
-  /// mesh's own boundary angles where it has them.
+  /// (nodes) radians: the angle that the quads of a node fill, for nodes that are not inner; the mean if it
+  /// has several fans. Where it has one, SurfaceMesh::boundary_angles takes precedence.
   std::vector<double> angles_;
 
  private:

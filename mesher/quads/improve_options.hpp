@@ -6,11 +6,11 @@ namespace quadrille {
 /// How quads are improved.
 struct ImproveOptions {
   bool clean_up = true;      ///< quad-vertex merge, doublet collapse, valence-driven moves
-  int smoothing_sweeps = 8;  ///< over the nodes of a face
+  int smoothing_sweeps = 8;  ///< sweeps over the nodes of a face
   /// Passes of the last optimization over all faces together, in which nodes slide along CAD edges too; 0 =
   /// none.
   int sliding_sweeps = 30;
-  double q_floor = 0.25;  ///< elements below this are worked on one by one at the end
+  double q_floor = 0.25;  ///< elements below this are smoothed together with their surroundings
 };
 
 }  // namespace quadrille

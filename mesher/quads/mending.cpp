@@ -18,28 +18,28 @@ namespace {
 
 using Quad = QuadTopology::Quad;
 
-constexpr double fine = 0.1;  ///< nodes of quads below it stay
-/// A quad counts for no more, so that one that the CAD forces out of shape does not rule its neighbors;
-/// folded ones count as much while nodes move.
+constexpr double fine = 0.1;  ///< a node stays if all its quads have a lower objective
+/// A quad counts for no more than this, so that one that the CAD forces out of shape does not outweigh its
+/// neighbors. Folded quads count this much while nodes move.
 constexpr double most = 20;
 constexpr double min_gain = 0.3;
-/// A unit of what valences cost is worth so much of the objective.
+/// How much of the objective one unit of valence cost is worth.
 constexpr double per_cost = 0.2;
-/// Fillings whose valences cost so much more than those before are tried.
+/// Fillings are tried if their valences cost at most this much more than those before.
 constexpr double slack = 8;
-/// No sine of a corner falls below this and below the least of those before.
+/// No corner's sine may fall below this, or below the least one before if that is smaller.
 constexpr double floor_sine = 0.3;
 
-constexpr int max_attempts = 40;  ///< for a quad
-/// A filling whose objective is so much above that of the patch before its nodes move is not tried.
+constexpr int max_attempts = 40;  ///< attempts for one quad
+/// A filling is not tried if its objective, before its nodes move, is this much above that of the patch.
 constexpr double hopeless = 20;
 constexpr int sweeps = 3;
-/// An attempt is given up where so many times the gain of the last sweep would not make it the best.
+/// An attempt is abandoned if this many times the gain of the last sweep would not make it the best.
 constexpr double follow = 1;
-constexpr int passes = 2;  ///< over all quads
+constexpr int passes = 2;  ///< passes over all quads
 
-/// The quads of a filling and those next to them, apart from the mesh. Nodes move along the patch's plane,
-/// and each quad is judged in its own.
+/// The quads of a filling and those next to them, apart from the mesh. Nodes move in the patch's plane; each
+/// quad is judged in its own plane.
 class Trial {
  public:
   static constexpr int max_points = 64, max_quads = 48;
@@ -47,10 +47,10 @@ class Trial {
   using List = boost::container::static_vector<T, n>;
 
   List<Vector3, max_points> points;
-  List<int, max_points> nodes;     ///< of the mesh; -1 = new
-  List<char, max_points> movable;  ///< (points)
-  List<Quad, max_quads> quads;     ///< by point; those of the filling first
-  double floor = floor_sine;       ///< no corner's sine is to be less
+  List<int, max_points> nodes;     ///< (points) nodes of the mesh; -1 = new
+  List<char, max_points> movable;  ///< (points) 1 = may move
+  List<Quad, max_quads> quads;     ///< indices into points; those of the filling first
+  double floor = floor_sine;       ///< least sine allowed at a corner
 
   void set_up(const Vector3& normal) {
     up_ = normal.normalized();
@@ -74,7 +74,7 @@ class Trial {
     }
   }
 
-  /// A quad of the mesh that is as it was.
+  /// Adds a quad of the mesh that is not replaced.
   void add_old(const Quad& quad, const QuadObjective& of) {
     quads.push_back(quad);
     values_.push_back({std::min(most, of.value), true});
@@ -91,7 +91,7 @@ class Trial {
     return std::all_of(values_.begin(), values_.end(), [](const auto& value) { return value.sound; });
   }
 
-  /// To be called before relax(), once all quads are there.
+  /// Must be called before relax(), once all quads are there.
   void flatten() {
     uses_.resize(points.size());
     for (int i = 0; i < static_cast<int>(quads.size()); ++i) {
@@ -145,7 +145,7 @@ class Trial {
     }
   }
 
-  Vector3 up_, u_, v_;  ///< the patch's normal, and two directions across it
+  Vector3 up_, u_, v_;  ///< the patch's normal, and two directions in its plane
   List<FlatQuad, max_quads> flat_;
   List<List<std::pair<int, int>, CriteriaPatch::max_quads>, max_points> uses_;  ///< (points) quad, corner
   List<Value, max_quads> values_;
@@ -181,9 +181,9 @@ class Mending : private EditedMesh {
     SmallPatch patch;
     Outline outline;
     const PatchTemplate* filling;
-    double cost;    ///< what valences cost more than before
+    double cost;    ///< increase of the valence cost
     double before;  ///< the objective of the patch as it is
-    double quick;   ///< that of the filling before nodes move, less that
+    double quick;   ///< objective of the filling before its nodes move, minus `before`
   };
 
   struct Attempt {
@@ -204,7 +204,7 @@ class Mending : private EditedMesh {
     return *known;
   }
 
-  /// \param again only those with a node that moved or is new
+  /// \param again only the quads with a node marked in changed_
   std::vector<std::pair<double, int>> worst_first(bool again) const {
     std::vector<std::pair<double, int>> bad;
     for (int quad = 0; quad < topology_.size(); ++quad) {
@@ -233,7 +233,7 @@ class Mending : private EditedMesh {
     }
   };
 
-  /// The patch, and all that come of it by taking in one neighbor after the other.
+  /// Adds the patch, and all patches up to a size that grow from it by one neighbor after the other.
   void grow(const SmallPatch& patch, int size, Patches& patches) const {
     if (!patches.add(patch) || patch.count == size) return;
     for (int i = 0; i < patch.count; ++i)
@@ -251,7 +251,7 @@ class Mending : private EditedMesh {
     return true;
   }
 
-  /// Up to three quads, the quads round a corner, or round two.
+  /// Patches that hold the quad: up to three quads, the quads around one of its corners, or around two.
   std::vector<SmallPatch> patches_of(int quad) const {
     Patches patches;
     SmallPatch one;
@@ -296,13 +296,13 @@ class Mending : private EditedMesh {
     }
   }
 
-  /// Whether a filling connects its nodes as the patch does already.
+  /// Whether a filling has the same uses, and as many nodes inside, as the patch has already.
   static bool is_there(const Outline& outline, const PatchTemplate& filling) {
     return filling.interior == outline.inside_count &&
            std::equal(outline.uses.begin(), outline.uses.begin() + outline.length, filling.uses.begin());
   }
 
-  /// The filling, with nodes inside at the mean of their neighbors.
+  /// Puts the filling into a trial, with its inner nodes at the mean of their neighbors.
   void lay(const Candidate& candidate, Trial& trial) const {
     const Outline& outline = candidate.outline;
     const Filling filled = laid(outline, *candidate.filling);
@@ -318,7 +318,7 @@ class Mending : private EditedMesh {
     trial.measure();
   }
 
-  /// Adds the quads next to the patch; false where they are too many.
+  /// Adds the quads next to the patch; false if there are too many.
   bool surround(const SmallPatch& patch, const Outline& outline, Trial& trial) const {
     boost::container::static_vector<int, Trial::max_quads> met;
     for (int i = 0; i < outline.length; ++i) {
@@ -360,13 +360,13 @@ class Mending : private EditedMesh {
       best = now.gain;
       attempts.push_back(std::move(now));
     }
-    // The last is the best.
+    // The last attempt is the best.
     for (auto now = attempts.rbegin(); now != attempts.rend(); ++now)
       if (put(*now)) return true;
     return false;
   }
 
-  /// Moves the nodes of a filling. \return whether more is gained than the best so far.
+  /// Moves the nodes of a filling. \return whether it gains more than the best one so far.
   bool attempt(Attempt& now, double best) const {
     const Candidate& candidate = *now.candidate;
     Trial& trial = now.trial;
@@ -387,7 +387,7 @@ class Mending : private EditedMesh {
     return now.gain > best && trial.sound();
   }
 
-  /// Carries an attempt out with its nodes on the surface, unless that takes the gain away.
+  /// Carries out an attempt with its nodes on the surface, unless it loses its gain there.
   bool put(Attempt& now) {
     const Candidate& candidate = *now.candidate;
     Trial& trial = now.trial;
@@ -441,8 +441,8 @@ class Mending : private EditedMesh {
 
   const SmoothingSurface& surface_;
   double poor_;
-  std::vector<char> changed_;                                   ///< (nodes)
-  mutable std::vector<std::optional<QuadObjective>> measured_;  ///< (quads) as far as they are asked for
+  std::vector<char> changed_;  ///< (nodes) 1 = of a trial that was carried out
+  mutable std::vector<std::optional<QuadObjective>> measured_;  ///< (quads) filled on demand
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 #pragma once
-/// Quads outside the limits of industry are mended by other quads in their place; not part of the public
-/// interface.
+/// Replaces quads outside the industry limits by other quads; not part of the public interface.
 
 #include <vector>
 
@@ -8,17 +7,17 @@
 
 namespace quadrille {
 
-/// Quads above this objective lie outside the criteria of industry; at `folded_objective` they are not
+/// Quads above `outside_objective` lie outside the industry criteria; those above `folded_objective` are not
 /// convex.
 constexpr double outside_objective = 1, folded_objective = 999;
 
-/// Fills small patches round poor quads anew, where the quads there, and those next to them, then come nearer
-/// to the criteria of industry once their nodes have moved (measure_objective()). For meshes whose nodes lie
-/// well already: what is gained is gained by other connections.
+/// Refills small patches around poor quads where that brings the quads there, and those next to them, nearer
+/// to the industry criteria once their nodes have moved (measure_objective()). For meshes whose nodes are
+/// well placed already, so that the gain comes from new connections.
 ///
-/// \param poor quads of a larger objective are mended
-/// \param changed out: (points) 1 = of quads that changed or moved
-/// \return the number of patches that were filled anew. Time: some 120 us for each poor quad.
+/// \param poor quads with a larger objective are mended
+/// \param changed out: (points) 1 = the point belongs to a new quad or to one next to a refilled patch
+/// \return the number of refilled patches. Time: about 120 us for each poor quad.
 int mend_quads(SurfaceMesh& mesh, const SmoothingSurface& surface, double poor, std::vector<char>& changed,
                const ExecutionContext& context);
 

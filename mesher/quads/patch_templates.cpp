@@ -1,5 +1,5 @@
-// Every way to fill a small polygon with quads, by recursion on its first side: the quad there has its two
-// other corners on the polygon or inside, and parts what is left into up to three smaller polygons.
+// Finds every way to fill a small polygon with quads, by recursion on its first side. The quad there has its
+// two other corners on the polygon or inside, and splits the rest into up to three smaller polygons.
 
 #include "mesher/quads/patch_templates.hpp"
 
@@ -42,8 +42,7 @@ class Enumeration {
       if (region.inside == 0) fill(std::move(regions));
       return;
     }
-    // The quad on the side ring[0], ring[1]: third corner at place i of the ring or new (-1), fourth at j or
-    // new.
+    // The quad on the side ring[0], ring[1]: its third corner is ring[i], its fourth ring[j]; -1 = new.
     for (int i = -1; i < n; ++i) {
       if (i == 0 || i == 1) continue;
       for (int j = -1; j < n; ++j) {
@@ -89,7 +88,7 @@ class Enumeration {
     next_node_ = mark;
   }
 
-  /// Hands the nodes to place out to the parts, in every way.
+  /// Distributes the nodes that are still to be placed among the parts, in every way.
   void share(std::vector<Region> regions, const std::vector<Ring>& parts, std::size_t part, int inside) {
     // Between two nodes there is only their side.
     const int most = parts[part].size() == 2 ? 0 : inside;
@@ -130,7 +129,7 @@ class Enumeration {
   std::vector<PatchTemplate> found_;
 };
 
-/// The fillings of one polygon: trees, one for each number of nodes inside and cost of these.
+/// The fillings of one polygon as trees: one for each pair of the number of nodes inside and their cost.
 class FillingTrees {
  public:
   explicit FillingTrees(int sides) : sides_(sides), fillings_(Enumeration(sides).take()) {
@@ -158,18 +157,18 @@ class FillingTrees {
   CheapestFillings cheapest(const FillingCosts& costs) const;
 
  private:
-  /// Fillings that have the same uses at the nodes up to one. The branches of the next node follow.
+  /// The fillings with the same uses at all nodes up to `node`. Its branches for the next node follow it.
   struct Branch {
     int node;
     int uses;         ///< at that node
-    int first, last;  ///< in order_: those fillings
-    int past;         ///< the branch after all that follow from this one
+    int first, last;  ///< the range of these fillings in order_
+    int past;         ///< the first branch that does not follow from this one
   };
   struct Tree {
-    int any;  ///< one of its fillings
-    int begin, end;
+    int any;         ///< one of its fillings
+    int begin, end;  ///< range of its branches
   };
-  /// The cheapest found so far, by cost, then by number.
+  /// The cheapest fillings found so far, by cost, then by number.
   struct Best {
     struct Found {
       double cost;
@@ -243,7 +242,7 @@ CheapestFillings FillingTrees::cheapest(const FillingCosts& costs) const {
   return result;
 }
 
-/// Null where no polygon of so many sides is filled.
+/// Null if polygons with this number of sides are not filled.
 const FillingTrees* filling_trees(int sides) {
   static const std::array<FillingTrees, 4> trees = {FillingTrees(4), FillingTrees(6), FillingTrees(8),
                                                     FillingTrees(10)};

@@ -26,22 +26,23 @@ const std::vector<PatchTemplate>& patch_templates(int sides);
 
 /// What the nodes of a filling cost.
 struct FillingCosts {
-  /// By node of the polygon, then by the number of quads of the filling at it, from 1.
+  /// By node of the polygon, then by the number of quads that the filling has there, from 1.
   std::array<std::array<double, PatchTemplate::max_uses + 1>, PatchTemplate::max_sides> uses;
-  /// By the number of nodes inside, beside what their valences cost: for being there, and for the density.
+  /// By the number of nodes inside, added to their valence costs: `resize` for any change of that number,
+  /// `drift` for keeping the density.
   std::array<double, PatchTemplate::max_interior + 1> resize, drift;
-  double limit;  ///< fillings that cost more are not wanted
+  double limit;  ///< fillings that cost more are left out
 };
 
-/// Fillings, the cheapest first; of equals the one that comes first among patch_templates().
+/// Fillings, the cheapest first. Fillings of equal cost are in the order of patch_templates().
 struct CheapestFillings {
   static constexpr int max_count = 4;
   std::array<const PatchTemplate*, max_count> fillings;
   int count = 0;
 };
 
-/// The fillings that cost least, at most four. They are found in a tree by the uses of one node of the
-/// polygon after the other, of which branches that cost too much already are left out.
+/// The fillings that cost least, at most four. The search tree branches by the uses at one node of the
+/// polygon after the other; branches that already cost too much are skipped.
 CheapestFillings cheapest_fillings(int sides, const FillingCosts& costs);
 
 }  // namespace quadrille

@@ -16,11 +16,11 @@ int segments_of(const Chain& chain) {
   return static_cast<int>(chain.size()) - 1;
 }
 
-/// The segments of the sides of a polygon with an irregular node inside, three or five, and how the rows from
-/// that node part them: so many lie between the corner that a side begins with and the row.
+/// How a polygon with three or five sides is filled around one irregular node. A row leads from that node to
+/// each side; `before` has the number of segments from the first corner of the side to the row.
 struct Spokes {
   std::array<int, 5> before{};
-  int least = 0;  ///< below 1 where no such polygon is filled
+  int least = 0;  ///< least of `before`; below 1 if there is no such filling
 
   explicit Spokes(std::span<const int> sides) {
     const int n = static_cast<int>(sides.size());
@@ -44,7 +44,7 @@ bool is_grid(std::span<const int> sides) {
   return sides.size() == 4 && sides[0] == sides[2] && sides[1] == sides[3];
 }
 
-/// Makes quads in polygons that share sides.
+/// Fills polygons that share sides with quads.
 class Filler {
  public:
   explicit Filler(std::vector<Vector3> outline) { filling_.places = std::move(outline); }
@@ -89,7 +89,7 @@ class Filler {
     return static_cast<int>(filling_.places.size()) - 1;
   }
 
-  /// By transfinite interpolation.
+  /// A grid with inner nodes placed by transfinite interpolation.
   void grid(const Chain& south, const Chain& east, const Chain& north, const Chain& west) {
     const int columns = segments_of(south), rows = segments_of(east);
     std::vector<Chain> nodes{south};
@@ -115,11 +115,11 @@ class Filler {
   PolygonFilling filling_;
 };
 
-/// A row across a polygon, from a node of one side to one of another. What lies to its left and to its right
-/// is filled round one irregular node each.
+/// A row across a polygon, from a node of one side to a node of another. The parts to its left and right are
+/// filled around one irregular node each.
 struct Cut {
   int first, from, second, to, segments;
-  int quads;  ///< on both sides of it
+  int quads;  ///< quads on both sides of it
   double cost;
 };
 
@@ -133,12 +133,12 @@ class PolygonCutter {
       mean_ += (places_[i] - places_[(i + 1) % n]).norm() / static_cast<double>(n);
   }
 
-  /// The cheapest first. Of rows beside each other between the same two irregular nodes only that next to the
-  /// first of these is among them.
+  /// All cuts, the cheapest first. Of parallel rows between the same two irregular nodes, only the one next
+  /// to the first of these is among them.
   std::vector<Cut> cuts() const {
     std::vector<Cut> result;
     const int apart = count_ == 6 ? 3 : 1;
-    // Of two and of six corners, both parts are alike: half of the cuts are the others seen from behind.
+    // With two or six corners both parts are alike: half of the cuts equal the others, seen from the far end.
     const int firsts = count_ == 4 ? 4 : count_ / 2;
     for (int first = 0; first < firsts; ++first) {
       const int second = (first + apart) % count_;
@@ -174,7 +174,7 @@ class PolygonCutter {
 
     void add(int segments) { sides[count++] = segments; }
     std::span<const int> span() const { return {sides.data(), static_cast<std::size_t>(count)}; }
-    /// Whether its irregular node lies where midpoint subdivision leaves a corner of the quads before it.
+    /// Whether its irregular node is a corner of the quads whose midpoint subdivision this is.
     bool on_corners(const Spokes& spokes) const {
       return spokes.before[1] % 2 == 0 && (sides[0] - spokes.before[0]) % 2 == 0;
     }
@@ -185,7 +185,7 @@ class PolygonCutter {
     left.add(lengths_[first] - from);
     for (int i = (first + 1) % count_; i != second; i = (i + 1) % count_) left.add(lengths_[i]);
     left.add(to);
-    // So many that one segment lies between the cut and the irregular node to its left.
+    // This number puts one segment between the cut and the irregular node to its left.
     const auto& s = left.sides;
     const int segments = left.count == 2 ? s[0] + s[1] - 2 : 2 - s[0] + s[1] + s[2] - s[3];
     if (segments < 1) return;
@@ -205,7 +205,7 @@ class PolygonCutter {
                     stretch * stretch + crowding / least});
   }
 
-  /// What it costs that an irregular node lies next to a side.
+  /// Cost of an irregular node next to a side.
   static constexpr double crowding = 0.3;
 
   const std::vector<Vector3>& places_;
@@ -215,8 +215,8 @@ class PolygonCutter {
   double mean_ = 0;
 };
 
-/// The quads of which those given are the midpoint subdivision; nothing where they are none. Of the outline
-/// every other node is a corner, from the first.
+/// Undoes a midpoint subdivision; finds nothing if the quads are not one. Every other node of the outline is
+/// a corner of the coarse quads, starting with the first.
 class Coarsening {
  public:
   Coarsening(const PolygonFilling& fine, int outline)
@@ -234,7 +234,7 @@ class Coarsening {
       number[i] = static_cast<int>(result.places.size());
       result.places.push_back(fine_.places[i]);
     }
-    // Of each fine quad: the middle before its corner, and that after.
+    // For each fine quad: the center, and the coarse corner with the middles of the sides before and after.
     struct Side {
       int center, before, corner, after;
     };
@@ -269,7 +269,7 @@ class Coarsening {
     return kind == Kind::corner ? Kind::center : kind == Kind::center ? Kind::corner : kind;
   }
 
-  /// From quad to quad; false where a node would be of two kinds.
+  /// Spreads the kinds from quad to quad. False if a node would be of two kinds.
   bool find_kinds() {
     for (bool any = true; any;) {
       any = false;
@@ -309,7 +309,7 @@ void relax(PolygonFilling& filling, std::size_t outline) {
   }
 }
 
-/// The sides between corners, each node of the outline counted `times`, with those put in after it.
+/// The sides between corners, on an outline that has `times` nodes for each node of the given one.
 std::vector<Chain> sides_between(const std::vector<int>& corners, int outline, int times) {
   std::vector<Chain> sides;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -341,8 +341,8 @@ bool fill_polygon(const std::vector<Vector3>& outline, const std::vector<int>& c
     return offer(filler.take());
   }
   if (n % 2 == 1 || limits.most_irregular < 2) return false;
-  // Irregular nodes that are neighbors have no row of nodes between them, but one of the midpoint
-  // subdivision.
+  // Neighboring irregular nodes have no row of nodes between them, but their midpoint subdivision has one. So
+  // the finer polygon is cut.
   std::vector<Vector3> finer;
   for (int i = 0; i < nodes; ++i) {
     finer.push_back(outline[i]);

@@ -1,5 +1,5 @@
 #pragma once
-/// Polygons filled by grids that meet in as few irregular nodes as their sides allow; not part of the public
+/// Fills polygons with grids that meet in as few irregular nodes as the sides allow; not part of the public
 /// interface.
 
 #include <array>
@@ -12,29 +12,29 @@ namespace quadrille {
 
 /// Quads inside an outline.
 struct PolygonFilling {
-  std::vector<Vector3> places;            ///< of the nodes: those of the outline, then those inside
-  std::vector<std::array<int, 4>> quads;  ///< by node, counter-clockwise as the outline is
+  std::vector<Vector3> places;            ///< places of the nodes: the outline's, then those inside
+  std::vector<std::array<int, 4>> quads;  ///< indices into places, counter-clockwise like the outline
   int irregular = 0;                      ///< nodes inside without four quads
 };
 
-/// What a filling may hold.
+/// Limits on a filling.
 struct FillingLimits {
   int most_irregular = 2;  ///< nodes inside without four quads
   int least_quads = 1, most_quads = 1'000'000;
 };
 
-/// Fills a polygon of two to six corners so that one quad lies at each corner and two at all other nodes of
-/// the outline. Grids that meet in one node, or a single one, where the sides allow it; where those do not,
-/// and the corners are even in number, grids round two irregular nodes: five and three quads for four
-/// corners, three each for two, five each for six.
+/// Fills a polygon of two to six corners so that one quad lies at each corner and two at every other node of
+/// the outline. Where the sides allow it, the filling is a single grid (four corners) or grids that meet in
+/// one irregular node (three or five corners). Otherwise an even number of corners gets grids around two
+/// irregular nodes: with five and three quads for four corners, three each for two, five each for six.
 ///
 /// \param outline places of the nodes, counter-clockwise
 /// \param corners indices into `outline`, ascending
-/// \param accept is called with one filling after the other, four at most, those first whose rows suit the
-/// distances, until it returns true. Inner nodes lie as transfinite interpolation and some Laplacian sweeps
-/// put them.
+/// \param accept is called with up to four fillings, one after the other, until it returns true. Fillings
+/// whose rows suit the distances best come first. Inner nodes are placed by transfinite interpolation and
+/// some Laplacian sweeps.
 ///
-/// \return whether it did.
+/// \return whether `accept` returned true.
 ///
 /// Time: quadratic in the longest side, linear in the quads. Based on: Takayama, Panozzo & Sorkine-Hornung,
 /// Pattern-based quadrangulation for N-sided patches (2014), for which patterns there are.

@@ -1,4 +1,4 @@
-// Quads with their neighbors: half-edges kept implicitly, four a quad.
+// Quads with their neighbors: implicit half-edges, four per quad.
 
 #include "mesher/quads/quad_topology.hpp"
 
@@ -33,8 +33,7 @@ QuadTopology::QuadTopology(std::vector<Quad> quads, const std::vector<int>& tags
 void QuadTopology::link(const ExecutionContext& context) {
   SparseCheck check(context);
   twins_.assign(4 * quads_.size(), boundary);
-  // Sides in rows by their lower node; within the few sides of a row, those with the same ends are met by
-  // search.
+  // Sides in rows by their lower node. A search in the few sides of a row finds those with the same ends.
   std::vector<int> first(sides_.size() + 1, 0);
   const int count = 4 * size();
   const auto low = [&](int side) { return std::min(origin(side), end(side)); };

@@ -1,5 +1,5 @@
 #pragma once
-/// Quads with their neighbors, changed patch by patch; not part of the public interface.
+/// Quads with their neighbors, replaced patch by patch; not part of the public interface.
 
 #include <array>
 #include <span>
@@ -18,14 +18,14 @@ class QuadTopology {
   using Quad = std::array<int, 4>;
   static constexpr int max_patch = 160;  ///< quads in a patch; larger ones are not replaced
 
-  /// The sides that leave one node, counter-clockwise, as far as they hang together.
+  /// A connected run of sides that leave one node, counter-clockwise.
   struct Fan {
-    int first = -1;  ///< first side; where the fan is open, the one on the boundary
+    int first = -1;  ///< first side; on the boundary if the fan is open
     int quads = 0;
     bool closed = false;
   };
 
-  /// \param tags one a quad or empty; quads of different tags do not count as neighbors.
+  /// \param tags one per quad, or empty; quads of different tags do not count as neighbors.
   QuadTopology(std::vector<Quad> quads, const std::vector<int>& tags, int node_count,
                const ExecutionContext& context = {});
 
@@ -40,17 +40,16 @@ class QuadTopology {
   int end(int side) const { return quads_[side >> 2][(side + 1) & 3]; }
   static int next(int side) { return (side & ~3) | ((side + 1) & 3); }
   static int previous(int side) { return (side & ~3) | ((side + 3) & 3); }
-  /// The next side round the origin, counter-clockwise; -1 past the last quad of an open fan.
+  /// The next side around the origin, counter-clockwise; -1 past the last quad of an open fan.
   int rotate(int side) const { return twins_[previous(side)]; }
-  /// The fan round the origin of a side. Time: linear in its quads.
+  /// The fan around the origin of a side. Time: linear in its quads.
   Fan fan(int side) const;
-  /// The number of quads in the fan round the origin of a side. Constant time where the node has one fan
-  /// only.
+  /// The number of quads in the fan around the origin of a side. Constant time if the node has only one fan.
   int valence(int side) const {
     const int node = origin(side);
     return openings_[node] < 2 ? uses_[node] : fan(side).quads;
   }
-  /// Whether the quads close round the node.
+  /// Whether the quads close around the node.
   bool closed(int node) const { return openings_[node] == 0; }
   /// The number of open fans of the node.
   int openings(int node) const { return openings_[node]; }
@@ -66,7 +65,7 @@ class QuadTopology {
   bool replace(std::span<const int> old_quads, std::span<const Quad> new_quads);
 
  private:
-  /// A side of the new quads of a patch, on its way to its twin.
+  /// A side of a patch's new quads, whose twin is still to be found.
   struct PendingSide {
     int from, to;
     int twin;     ///< index of the new side opposite, or -1
@@ -77,22 +76,22 @@ class QuadTopology {
   void link(const ExecutionContext& context);
   /// Sets `outer` and `outside`. False unless each outer side of the patch is found once among the new sides.
   bool find_outer_sides(std::span<const int> old_quads, std::span<PendingSide> sides) const;
-  /// Sets `twin` of the others. False unless they join each other in pairs.
+  /// Sets `twin` of all other sides. False unless they join each other in pairs.
   bool join_inside(std::span<const int> old_quads, std::span<PendingSide> sides) const;
   void take_out(std::span<const int> quads);
-  /// The number of a slot for one more quad.
+  /// Returns a slot for one more quad.
   int free_slot();
   bool joined_outside(int from, int to, std::span<const int> patch) const;
-  /// Whether all quads of a node are among these.
+  /// Whether all quads of a node are in `patch`.
   bool only_in(int node, std::span<const int> patch) const;
 
   std::vector<Quad> quads_;
   std::vector<int> twins_;
   std::vector<int> sides_;
   std::vector<int> uses_;       ///< quads of each node
-  std::vector<char> openings_;  ///< open fans of each node; patches never change them
+  std::vector<char> openings_;  ///< open fans of each node; replacing patches never changes them
   std::vector<int> tags_;
-  std::vector<int> dead_;  ///< slots to use again
+  std::vector<int> dead_;  ///< slots to reuse
 };
 
 }  // namespace quadrille

@@ -51,7 +51,7 @@ class RingJoiner {
         whole_.add(old.mesh.points[i], old.parameters[i], old.normals[i], fixed, inside_.pole[i]);
   }
 
-  /// Points by the number of the node in HoleRings.
+  /// Finds the point of each node on the outermost lines, by its number in HoleRings.
   void find_outermost() {
     std::size_t nodes = 0;
     for (const auto& hole : rings_.holes) nodes += hole.nodes.size();
@@ -80,7 +80,7 @@ class RingJoiner {
     }
   }
 
-  /// In the parameter plane.
+  /// Whether `outer` lies to the left of `line` in the parameter plane.
   static bool is_left(const std::vector<HoleRings::Node>& line, const std::vector<HoleRings::Node>& outer) {
     double sum = 0;
     for (std::size_t k = 0; k < line.size(); ++k) {

@@ -2,7 +2,8 @@
 // Based on: Field, Laplacian smoothing and Delaunay triangulations (1988), made "smart" by the acceptance
 // test of Freitag, On combining Laplacian and optimization-based mesh smoothing techniques (1997): sweeps of
 // averages first, then the worst elements node by node, by a compass search on the least scaled Jacobian
-// round the node. Untangling maximizes the negative part of the corner areas, as Freitag & Plassmann (2000).
+// around the node. Untangling maximizes the negative part of the corner areas, as in Freitag & Plassmann
+// (2000).
 
 #include <algorithm>
 #include <array>
@@ -19,20 +20,20 @@
 namespace quadrille {
 namespace {
 
-/// A move that leaves every element above this scaled Jacobian is good even if the least one falls a little.
+/// A move that leaves every element above this scaled Jacobian is accepted even if the least one falls.
 constexpr double good_jacobian = 0.6;
 constexpr double opposite_weight =
     0.5;                           ///< weight of the corner opposite in a quad, beside 1 for the neighbors
-constexpr double overshoot = 1.3;  ///< of a sweep's moves
-/// Moves below this fraction of the mean side round the node are not worth evaluating the surface for.
+constexpr double overshoot = 1.3;  ///< factor on a sweep's moves
+/// Moves below this fraction of the mean side around the node are not worth evaluating the surface for.
 constexpr double still_share = 4e-3;
-/// A place on the surface within this share of the size of the place judged needs no second judgment.
+/// A place on the surface this near to the judged place (as a share of the mean side) is not judged again.
 constexpr double near_share = 0.01;
-/// A side shorter than this share of the mean side round the node counts against the node's place.
+/// A side shorter than this share of the mean side around the node counts against the node's place.
 constexpr double short_side = 0.5;
 /// Elements with a scaled Jacobian below this (q < 0.5) are worked on node by node.
 constexpr double poor_jacobian = 0.7071;
-/// These (q < 0.33) are worked on longer; they are few.
+/// Elements below this (q < 0.33) are worked on longer; they are few.
 constexpr double bad_jacobian = 0.5;
 
 /// Smooths one surface mesh in place. Nodes are visited in index order and see the moves of the nodes before
@@ -49,7 +50,7 @@ class Smoother {
     const std::size_t n = points_.size();
     free_.resize(n);
     for (std::size_t i = 0; i < n; ++i) free_[i] = surface_mesh.fixed[i] ? 0 : 1;
-    // Where a triangle was left, its nodes stay: only quads are measured here.
+    // The nodes of remaining triangles stay, since only quads are measured here.
     for (const auto& triangle : surface_mesh.mesh.triangles)
       for (const int node : triangle) free_[node] = 0;
     context_.check();
@@ -78,8 +79,7 @@ class Smoother {
     return any;
   }
 
-  /// Works on the nodes of the elements below `floor`, worst node first by index; returns whether a node
-  /// moved.
+  /// Works on the nodes of the elements below `floor`, in index order; returns whether a node moved.
   bool optimize_below(double floor) {
     bool any = false;
     for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
@@ -92,9 +92,9 @@ class Smoother {
     return any;
   }
 
-  /// Moves the nodes of inverted elements to where the least of their corner areas, each over the lengths of
-  /// its sides, is largest: exactly, so that the thin wedges at cusps are found too. Returns whether a node
-  /// moved.
+  /// Moves each node of an inverted element to where the least of its corner areas, each divided by the
+  /// lengths of its sides, is largest. The search is exact, so that it finds the thin wedges at cusps too.
+  /// Returns whether a node moved.
   bool untangle() {
     bool any = false;
     for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
@@ -104,14 +104,14 @@ class Smoother {
     return any;
   }
 
-  /// Where single nodes cannot help an element (rows of flat quads against a wall), all nodes near it are
-  /// averaged without regard to shapes, then mended; kept only if the worst element there is better than
-  /// before. \param most_failures gives up after so many elements in a row: the face is then too narrow for
-  /// its size.
+  /// Helps elements below `floor` that moves of single nodes cannot help (rows of flat quads against a wall).
+  /// Averages all nodes near the element without regard to shapes, then mends them. Keeps the result only if
+  /// the worst element there is better than before. \param most_failures gives up after this many failures in
+  /// a row: the face is then too narrow for its size.
   bool loosen_below(double floor, int most_failures) {
     bool any = false;
     int failures = 0;
-    // Places are few; where all of a face is folded, no work on single elements mends it.
+    // Such places are few. If a whole face is folded, work on single elements cannot mend it.
     constexpr std::size_t nodes_each = 4, nodes_at_least = 2000;
     std::size_t left = nodes_each * points_.size() + nodes_at_least;
     for (int quad = 0; quad < static_cast<int>(quads_.size()) && failures < most_failures; ++quad) {
@@ -125,7 +125,7 @@ class Smoother {
     return any;
   }
 
-  /// Exactly, where sweeps have judged in tangent planes.
+  /// Measures all quads exactly, since sweeps judge them in tangent planes.
   void measure_all() {
     for (int i = 0; i < static_cast<int>(quads_.size()); ++i) {
       check(i);
@@ -141,12 +141,12 @@ class Smoother {
  private:
   enum class Goal { raise, untangle };
 
-  /// For loops over nodes or elements.
+  /// Checks for cancellation in loops over nodes or elements.
   void check(int i) const {
     if (i % 256 == 0) context_.check();
   }
 
-  /// Corners round each node, in compressed rows: 4 * quad + corner.
+  /// Lists the corners around each node, in compressed rows: 4 * quad + corner.
   void link_corners() {
     first_.assign(points_.size() + 1, 0);
     for (const auto& quad : quads_)
@@ -160,8 +160,8 @@ class Smoother {
     }
   }
 
-  /// Where the surface turns far from one node to the next, as round a tube of four coarse quads, averages in
-  /// tangent planes pull a node on to the side that it is drawn to already.
+  /// Marks nodes where the surface turns far from one node to the next, as around a tube of four coarse
+  /// quads. There, averages in tangent planes would pull a node further to the side to which it leans.
   void find_sharp_turns() {
     constexpr double least_cosine = 0.1;
     turns_sharply_.assign(points_.size(), 0);
@@ -184,7 +184,7 @@ class Smoother {
     return least;
   }
 
-  /// Least scaled Jacobian round the node if it were at `p`.
+  /// Least scaled Jacobian around the node if it were at `p`.
   double least_at(int node, const Vector3& p, const Vector3& normal) const {
     double least = 1;
     for (int i = first_[node]; i < first_[node + 1]; ++i) {
@@ -196,7 +196,8 @@ class Smoother {
     return least;
   }
 
-  /// Negative part of the corner areas that `p` touches, over the squared size: 0 when none is folded.
+  /// How far the corner areas that `p` touches fall short of a small positive area, in all, over the squared
+  /// size: negative, or 0 if none does.
   double tangle_at(int node, const Vector3& p, const Vector3& normal, double size) const {
     double sum = 0;
     const double wanted = 0.02 * size * size;
@@ -211,8 +212,8 @@ class Smoother {
     return sum / (size * size);
   }
 
-  /// What the search raises: the least scaled Jacobian, less where a side gets short beside the others. The
-  /// worst angle alone would often be best at a neighbor's place.
+  /// What the search raises: the least scaled Jacobian, reduced if a side gets short compared to the others.
+  /// By the worst angle alone, the best place would often be that of a neighbor.
   double merit_at(int node, const Vector3& p, const Vector3& normal) const {
     const double least = least_at(node, p, normal);
     if (least <= 0) return least;
@@ -262,9 +263,9 @@ class Smoother {
     return true;
   }
 
-  /// One step of a sweep: towards the mean of the nodes of the quads round the node, overshot. Corners
-  /// opposite count half as much as neighbors: measured on graded meshes, that and the overshooting reach in
-  /// 3 sweeps the mean quality that plain averages of neighbors reach in 8; weights by length or area, and
+  /// One step of a sweep: moves the node towards the mean of the nodes of its quads, and beyond. Opposite
+  /// corners count half as much as neighbors. On graded meshes, this weight and the overshoot reach in 3
+  /// sweeps the mean quality that plain averages of neighbors reach in 8. Weights by length or area, and
   /// parallelogram targets, gave less.
   bool relax(int node) {
     TangentPlan plan(points_[node], normals_[node]);
@@ -290,14 +291,14 @@ class Smoother {
     return settle_sweep(node, plan, x, y, floor, size2);
   }
 
-  /// Puts the node on the surface near the place in its tangent plane that was found fit.
+  /// Puts the node on the surface near the accepted place in its tangent plane.
   bool settle_sweep(int node, TangentPlan& plan, double x, double y, double floor, double size2) {
     Vector2 uv = parameters_[node];
     Vector3 normal = normals_[node];
     const Vector3 place = surface_.move(uv, plan.place(x, y), normal);
     const auto [px, py] = plan.coordinates(place);
     const double off2 = (px - x) * (px - x) + (py - y) * (py - y);
-    // Off by more than a little (or not a number), the place is judged anew.
+    // If the surface is not that near to the place, judge again; reject a place that is not finite.
     if (!(off2 < near_share * near_share * size2) && !(place.allFinite() && plan.fits(px, py, floor)))
       return false;
     points_[node] = place;
@@ -324,7 +325,7 @@ class Smoother {
       for (const int other : quads_[corners_[i] >> 2]) active[other] = 1;
   }
 
-  /// Compass search along the tangent plane for the place where the worst element round the node is best.
+  /// Compass search in the tangent plane for the place where the worst element around the node is best.
   bool search(int node, Goal goal) {
     using Lanes = CriteriaPatch::Lanes;
     const Vector3 origin = points_[node], normal = normals_[node];
@@ -371,8 +372,8 @@ class Smoother {
     return settle(node, origin + best_x * u + best_y * v, goal, size);
   }
 
-  /// The corner areas are linear in the node's place, so the least of them is concave: golden sections, one
-  /// in the other, find where it is largest.
+  /// The corner areas are linear in the node's place, so the least of them is concave. Nested golden-section
+  /// searches find where it is largest.
   bool spread_corners(int node) {
     struct Area {
       double x, y, constant;
@@ -382,7 +383,7 @@ class Smoother {
     const Vector3& normal = normals_[node];
     const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
     std::vector<Area> areas;
-    // The corner at b between a and c, of which one is the node: constant + gradient times its move.
+    // The corner at b between a and c, one of which is the node: constant + gradient times the node's move.
     const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& gradient) {
       const double scale = std::max((a - b).norm() * (c - b).norm(), std::numeric_limits<double>::min());
       areas.push_back(
@@ -537,7 +538,7 @@ void smooth(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const Im
   for (int i = 0; i < options.smoothing_sweeps && smoother.sweep(); ++i) continue;
   smoother.measure_all();
   for (int i = 0; i < 10 && smoother.optimize_below(1e-3); ++i) continue;
-  // The worst by turns with their surroundings, which have to give way.
+  // Alternate between the worst elements and their surroundings, which have to give way.
   for (int i = 0; i < 8 && smoother.optimize_below(bad_jacobian); ++i) {
     for (int k = 0; k < 3 && smoother.sweep(); ++k) continue;
     smoother.measure_all();

@@ -78,9 +78,9 @@ class Subdivider {
     return fine_.add(at.point, uv, surface_.normal(at, uv), false, false);
   }
 
-  /// Between two boundaries that bend alike (a narrow ring, the tip of a wedge) the center lies where a Coons
-  /// patch or the triangle of second order has it, beyond the mean of the middles: taken if that is better
-  /// for the worst of the parts.
+  /// Between two boundaries that bend alike (a narrow ring, the tip of a wedge), the center belongs where a
+  /// Coons patch or a second-order triangle has it, beyond the mean of the middles. Moves it there if that
+  /// improves the worst part.
   template <std::size_t n>
   void improve_center(const std::array<int, n>& element, const std::array<int, n>& middles, int center) {
     const int fixed = static_cast<int>(fine_.nodes.size());
@@ -138,7 +138,7 @@ class Subdivider {
   std::unordered_map<std::uint64_t, int> middles_;
 };
 
-/// The middles of sides: the edges' own nodes on boundary sides, elsewhere halfway.
+/// The middles of sides: the edges' own nodes on boundary sides, the halfway points elsewhere.
 class SideMiddles {
  public:
   SideMiddles(const std::vector<Vector3>& points, const std::vector<FaceBoundary::Segment>& segments)
@@ -171,8 +171,7 @@ class SideMiddles {
   std::vector<char> on_boundary_;
 };
 
-/// Least scaled Jacobian of the parts that an element is split into; negative where a part lies the wrong way
-/// round.
+/// Least scaled Jacobian of the parts into which an element is split; negative if a part is inverted.
 template <std::size_t n>
 double worst_part(const std::vector<Vector3>& points, const std::array<int, n>& corners,
                   const SideMiddles& middles, const Vector3& normal) {
@@ -218,7 +217,7 @@ void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
         second{Triangle{a, b, d}, Triangle{b, c, d}};
     const double by_first = std::min(worst(first[0]), worst(first[1])),
                  by_second = std::min(worst(second[0]), worst(second[1]));
-    // A corner of 180 degrees has to go at any price, one near it, as at cusps, for twice as much.
+    // A corner of 180 degrees has to go at any price. One near that, as at cusps, goes if the value doubles.
     const double cut = std::max(by_first, by_second);
     if (cut < 0 || cut < whole + std::clamp(whole, flat, gain)) return false;
     const auto& parts = by_first > by_second ? first : second;
@@ -233,7 +232,7 @@ void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
   const auto& p = mesh.points;
   int count = 0;
   for (const auto& segment : segments) count = std::max({count, segment.a + 1, segment.b + 1});
-  std::vector<int> between;  // triangles all corners of which lie on the boundary
+  std::vector<int> between;  // triangles with all corners on the boundary
   for (int i = 0; i < static_cast<int>(mesh.triangles.size()); ++i) {
     const auto& t = mesh.triangles[i];
     if (t[0] < count && t[1] < count && t[2] < count) between.push_back(i);

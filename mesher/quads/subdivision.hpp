@@ -8,33 +8,32 @@
 
 namespace quadrille {
 
-/// A quad mesh of one face with what ties it to its boundary.
+/// A quad mesh of one face, tied to the nodes of its boundary.
 struct FaceQuads {
   SurfaceMesh surface_mesh;  ///< fixed points first
-  std::vector<char> pole;    ///< (n) 1 = uv is one of many
-  std::vector<int> nodes;    ///< (fixed points) index into BoundaryNodes::points; those of HoleRings::inside
+  std::vector<char> pole;    ///< (n) 1 = a pole of the surface: uv is one of many
+  std::vector<int> nodes;    ///< (fixed points) index into BoundaryNodes::points, or a HoleRings::node()
 
   /// \return the index of the new point.
   int add(const Vector3& point, const Vector2& uv, const Vector3& normal, bool fixed, bool is_pole);
 };
 
-/// Cuts those quads into two triangles whose four parts would be worse than the six parts of the triangles:
-/// quads with a corner that is almost straight or more, which no smoothing mends where the boundary makes it.
-/// Parts have the edges' own nodes on boundary sides. \param normals (points) unit normals of the surface.
-/// \param segments as for subdivide().
+/// Cuts a quad into two triangles if its four parts would be worse than the six parts of the triangles. Such
+/// quads have a corner of almost 180 degrees or more. Where the boundary makes that corner, smoothing cannot
+/// mend it. Parts have the edges' own nodes on boundary sides. \param normals (points) unit normals of the
+/// surface. \param segments as for subdivide().
 void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
                     const std::vector<FaceBoundary::Segment>& segments, const ExecutionContext& context = {});
 
-/// Ties triangles that make quads across a gap, from one boundary segment to another that is nearer than
-/// widest_gap segments, by tags of their own: other pairs there are sheared, or bent round a boundary node.
-/// Not where the parts of the quad would be poor. \param normals,
-/// segments as for cut_flat_quads().
+/// Gives two triangles that make a quad across a gap a tag of their own, so that they are paired. The gap
+/// lies between two boundary segments that are nearer to each other than widest_gap segments. Other pairs
+/// there would be sheared, or bent around a boundary node. Quads whose parts would be poor are left out.
+/// \param normals,segments as for cut_flat_quads().
 void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
                      const std::vector<FaceBoundary::Segment>& segments);
 
 /// Splits each quad into four and each triangle into three quads. New points on boundary sides are the edges'
-/// own nodes, others are put on the surface. \param segments the boundary sides, which carry the nodes in
-/// their middle.
+/// own nodes; the others are put on the surface. \param segments the boundary sides and their middle nodes.
 FaceQuads subdivide(const FaceQuads& coarse, const std::vector<FaceBoundary::Segment>& segments,
                     const FaceSurface& surface, const ExecutionContext& context = {});
 

@@ -7,7 +7,7 @@
 namespace quadrille {
 namespace {
 
-/// The signed square of the least sine at the corners of a quad, the node at (x, y). Squares need no roots.
+/// The signed square of the least corner sine of a quad with the node at (x, y). Squares need no roots.
 double least_square(const TangentPlan::Corner& at, double x, double y) {
   const double ux = at.bx - x, uy = at.by - y, vx = at.cx - at.bx, vy = at.cy - at.by;
   const double wx = at.dx - at.cx, wy = at.dy - at.cy, tx = x - at.dx, ty = y - at.dy;

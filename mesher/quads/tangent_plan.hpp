@@ -1,5 +1,5 @@
 #pragma once
-/// The quads round a node, flattened into the tangent plane at it; not part of the public interface.
+/// The quads around a node, flattened into its tangent plane; not part of the public interface.
 
 #include <array>
 
@@ -7,29 +7,29 @@
 
 namespace quadrille {
 
-/// Places of the node are judged in the plane, with a third of the arithmetic that space takes.
+/// Judges places of the node in the plane, which takes a third of the arithmetic needed in space.
 class TangentPlan {
  public:
   static constexpr int max_quads = 16;
   struct Corner {
-    double bx, by, cx, cy, dx, dy;  ///< the next, opposite and previous corner of a quad, from the node
+    double bx, by, cx, cy, dx, dy;  ///< next, opposite and previous corner of a quad, relative to the node
   };
 
-  /// \param origin the node. \param normal unit, of the plane
+  /// \param origin the node. \param normal unit normal of the plane
   TangentPlan(const Vector3& origin, const Vector3& normal);
 
-  /// Adds the quad of the node and b, c and d in its order. False where the plan is full.
+  /// Adds the quad of the node, b, c and d, in this order. False if the plan is full.
   bool add(const Vector3& b, const Vector3& c, const Vector3& d);
 
   int count() const { return count_; }
   const Corner& corner(int quad) const { return corners_[quad]; }
   Vector3 place(double x, double y) const { return origin_ + x * u_ + y * v_; }
-  /// Where a place lies in the plane.
+  /// The coordinates of a place in the plane.
   std::array<double, 2> coordinates(const Vector3& place) const;
 
-  /// Whether all quads have a scaled Jacobian of `floor` and more with the node at (x, y).
+  /// Whether all quads have a scaled Jacobian of at least `floor` with the node at (x, y).
   bool fits(double x, double y, double floor);
-  /// Scaled Jacobian of a quad at the place that fits() judged last.
+  /// Scaled Jacobian of a quad with the node at the place that fits() accepted last.
   double quality(int quad) const;
 
  private:

@@ -45,7 +45,7 @@ TriangulatedSurface::Nearest TriangulatedSurface::nearest(int triangle, const Ve
   const double aa = ab.squaredNorm(), cc = ac.squaredNorm(), mixed = ab.dot(ac);
   const double along_b = ap.dot(ab), along_c = ap.dot(ac);
   const double area = aa * cc - mixed * mixed;
-  // Of triangles that are all but a line rounding errors leave no area that could be divided by.
+  // The area of a triangle that is almost a line is lost in rounding errors. Never divide by it.
   const bool is_line = !(area > 1e-10 * aa * cc);
   Vector3 weights(1, 0, 0);
   if (!is_line) {
@@ -72,7 +72,7 @@ TriangulatedSurface::Nearest TriangulatedSurface::nearest(int triangle, const Ve
 }
 
 Vector3 TriangulatedSurface::move(Vector2& uv, const Vector3& target, Vector3& normal) const {
-  // A few steps may bring nothing while the walk turns round a point.
+  // A few steps may come no closer while the walk turns around a point.
   constexpr int max_steps = 200, max_idle = 4;
   int at = static_cast<int>(uv.x()), best = at, came_from = -1;
   Nearest found = nearest(at, target), here = found;
@@ -124,14 +124,14 @@ class LevelPlane : public SmoothingSurface {
   double z_;
 };
 
-/// What belongs to one tag, with its own numbering of the points.
+/// The elements of one tag, with a numbering of the points of their own.
 struct Patch {
   TriangleMesh triangulation;
   QuadMesh quads;
-  std::vector<int> global;  ///< point of the patch -> of the whole
+  std::vector<int> global;  ///< (points of the patch) index of the point in the whole
 };
 
-/// Numbers the points of a patch as they come.
+/// Numbers the points of a patch in the order in which they come.
 class Localiser {
  public:
   Localiser(const std::vector<Vector3>& points, std::vector<int>& local) : points_(points), local_(local) {}
@@ -167,7 +167,7 @@ std::map<int, std::vector<int>> by_tag(const std::vector<Element>& elements, con
   return result;
 }
 
-/// Marks the points that triangles of more than one tag use, and those that are to keep their places.
+/// Marks the points that triangles of more than one tag use, and those that must keep their places.
 std::vector<char> points_that_stay(const TriangleMesh& mesh) {
   std::vector<char> several = mesh.fixed;
   several.resize(mesh.points.size(), 0);
@@ -193,7 +193,7 @@ bool is_level(const TriangleMesh& patch) {
 }
 
 /// Improves one patch.
-/// \param shared points of the whole that several tags use or that stay.
+/// \param shared points of the whole mesh that several tags use or that stay.
 /// \param fixed out: the patch's points that kept their place, in the order of the result.
 SurfaceMesh improve_patch(Patch& patch, const std::vector<char>& shared, const ImproveOptions& options,
                           ImproveReport& report, std::vector<int>& fixed, ExecutionContext& context) {

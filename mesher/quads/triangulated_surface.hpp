@@ -1,5 +1,5 @@
 #pragma once
-/// A triangulation as the surface that quads made of it are smoothed on.
+/// A triangulation as the surface on which the quads made of it are smoothed.
 
 #include <array>
 #include <vector>
@@ -11,8 +11,8 @@
 
 namespace quadrille {
 
-/// A point is known by its triangle (the first of its parameters); moving it walks over the triangles, and
-/// ends on the nearest point of the last one. Normals vary linearly between those of the points.
+/// The first parameter of a point is the number of its triangle. move() walks from triangle to triangle and
+/// ends at the nearest point found. Normals vary linearly between those of the points.
 class TriangulatedSurface : public SmoothingSurface {
  public:
   /// One patch: all triangles are neighbors across the sides they share, whatever their tags.
@@ -43,9 +43,9 @@ class TriangulatedSurface : public SmoothingSurface {
 };
 
 /// Cleans up and smooths quads that recombine() made of a triangulation, tag by tag, on the triangulation
-/// itself. Nodes on the boundary of a tag, and those marked as fixed, stay where they are; others move, go or
-/// come, so that points are renumbered. \param renumbered out, by point of the triangulation: the point of
-/// the result if it is one of those that stay, else -1. Throws Error (cancelled). Time: linear in practice.
+/// itself. Nodes on the boundary of a tag, and those marked as fixed, stay where they are. Others move,
+/// vanish or are added, so points are renumbered. \param renumbered out, by point of the triangulation: the
+/// point of the result if it stays, else -1. Throws Error (cancelled). Time: linear in practice.
 QuadMesh improve_on(const TriangleMesh& triangulation, const QuadMesh& quads, const ImproveOptions& options,
                     std::vector<int>& renumbered, ImproveReport& report, ExecutionContext& context);
 

@@ -6,10 +6,10 @@
 
 namespace quadrille {
 
-/// Type of <prefix>_read: an empty string, or the sentence that says what went wrong.
+/// Type of <prefix>_read. Returns an empty string, or a sentence that says what went wrong.
 using ExchangeReadFunction = std::string(const std::string& path, TopoDS_Shape& shape);
 
-/// Type of <prefix>_write: an empty string, or the sentence that says what went wrong.
+/// Type of <prefix>_write. Returns an empty string, or a sentence that says what went wrong.
 using ExchangeWriteFunction = std::string(const std::string& path, const TopoDS_Shape& shape);
 
 }  // namespace quadrille

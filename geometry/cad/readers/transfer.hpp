@@ -1,5 +1,5 @@
 #pragma once
-/// Reading with OpenCASCADE's readers of exchange formats, the same in every run.
+/// Reading with OpenCASCADE's readers of exchange formats, with the same result in every run.
 
 #include <BRep_Tool.hxx>
 #include <IFSelect_ReturnStatus.hxx>
@@ -29,7 +29,7 @@
 
 namespace quadrille {
 
-/// Shape healing that leaves wires that touch themselves as the file has them.
+/// Shape healing that leaves self-touching wires as they are in the file.
 class HealingWithoutLoops : public ShapeAlgo_ToolContainer {
  public:
   Handle(ShapeFix_Shape) FixShape() const override {
@@ -39,8 +39,8 @@ class HealingWithoutLoops : public ShapeAlgo_ToolContainer {
   }
 };
 
-/// While it lives, readers heal with HealingWithoutLoops, whatever a file of settings says (CSF_STEPDefaults
-/// and CSF_IGESDefaults): not for ever, since a program around the library may read files too.
+/// While it exists, readers heal with HealingWithoutLoops, whatever a settings file says (CSF_STEPDefaults,
+/// CSF_IGESDefaults). It restores the previous state, since the surrounding program may read files too.
 class HealingScope {
  public:
   HealingScope() {
@@ -66,9 +66,9 @@ class HealingScope {
   std::array<std::string, settings.size()> before_;
 };
 
-/// Whether wires of a face touch at a vertex, itself or each other, and an edge bounds it from both sides (a
-/// seam or a slit). ShapeFix_Face::FixLoopWire then joins pieces by ends that TopExp::Vertices takes from a
-/// hash map of addresses: edges change their order, and with it their numbers, from run to run.
+/// Whether the wires of a face touch themselves or each other at a vertex, and an edge bounds the face from
+/// both sides (a seam or a slit). ShapeFix_Face::FixLoopWire then joins pieces by ends that TopExp::Vertices
+/// takes from a hash map of addresses, so the order and numbers of the edges change from run to run.
 inline bool touches_beside_seam(const TopoDS_Face& face) {
   TopTools_MapOfShape once, twice;
   for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
@@ -97,7 +97,7 @@ inline bool has_faces_that_touch_beside_seam(const TopoDS_Shape& shape) {
   return false;
 }
 
-/// \returns whether the file was readable.
+/// \returns whether the file is readable.
 template <class Reader>
 bool read_file(const std::string& path, TopoDS_Shape& shape) {
   Reader reader;
@@ -108,8 +108,8 @@ bool read_file(const std::string& path, TopoDS_Shape& shape) {
   return true;
 }
 
-/// Reads a file; a second time where healing gives another shape in every run, without the healing that does.
-/// \returns an empty string, or the sentence that says what went wrong.
+/// Reads a file. Where healing may give another shape in every run, reads it again without that healing.
+/// \returns an empty string, or a sentence that says what went wrong.
 template <class Reader>
 std::string transfer(const std::string& path, const char* format, TopoDS_Shape& shape) {
   try {
