@@ -37,7 +37,7 @@ void check(const ShellMesh& mesh, const AdaptOptions& options) {
     throw usage_error("size_min", "the least size must be at most the largest");
 }
 
-/// Whether points move by different ways.
+/// Whether the displacements differ from point to point.
 bool deforms(const SolverResult& result) {
   constexpr double rounding = 1e-9;
   const Vector3& first = result.displacements.front();
@@ -46,7 +46,7 @@ bool deforms(const SolverResult& result) {
   });
 }
 
-/// Sizes that spread an error evenly, as the field that is written has them.
+/// Sizes that distribute an error evenly, as represented by the field that is written.
 class SizePlan {
  public:
   SizePlan(const ShellMesh& mesh, const ErrorEstimate& estimate, const AdaptOptions& options,
@@ -73,23 +73,22 @@ class SizePlan {
       sum += std::log(at_points_[node] / even_[node]);
       ++corners;
     }
-    // Where the search begins: sizes stay in the mean.
+    // The search starts with sizes that have the same geometric mean as the present ones.
     for (double& size : even_) size *= std::exp(sum / corners);
   }
 
   struct Draft {
     SizeCascade field;
-    double count, error;    ///< of the next mesh, about
-    double least, largest;  ///< sizes
+    double count, error;    ///< expected number of elements and error of the next mesh
+    double least, largest;  ///< smallest and largest size
   };
 
-  /// The sizes that come to what is wanted. Where sizes grow slowly, and none may change by much, what comes
-  /// of them is seen from the field alone.
+  /// Finds the sizes that reach the wanted count or error. Growth and the limit on changes alter the sizes,
+  /// so each draft is judged by the sizes in its field.
   Draft find() const {
     constexpr int most_drafts = 12;
     constexpr double near = 0.005;
-    // The error of the next mesh is off by a tenth or so, and one just above what is wanted costs a round
-    // more.
+    // The expected error is off by about a tenth, and an error just above the wanted one costs another round.
     constexpr double margin = 0.9;
     double factor = 1;
     for (int k = 1;; ++k) {
@@ -119,16 +118,16 @@ class SizePlan {
       draft.least = std::min(draft.least, size);
       draft.largest = std::max(draft.largest, size);
     });
-    // Half of what is gained by spreading the error is relied on: some of its unevenness is noise, and where
-    // stresses have no end smaller elements gain less than their order tells.
+    // Only half of the gain from distributing the error is relied on (in the logarithm). Some of its
+    // unevenness is noise, and near singular stresses smaller elements gain less than their order predicts.
     const double uniform = estimate_.relative() *
                            std::pow(static_cast<double>(now_.size()) / draft.count, 0.5 * order_of(mesh_));
     draft.error = std::sqrt(std::sqrt(square / (estimate_.all + estimate_.sum())) * uniform);
     return draft;
   }
 
-  /// Visits places on all quads, no farther apart than the sizes there: visit(quad, point, size, share of the
-  /// quad).
+  /// Visits n x n points on each quad, spaced no wider than the sizes there, with n from 2 to 32:
+  /// visit(quad, point, size, share of the quad's area).
   template <class Visit>
   void for_places(double factor, Visit&& visit) const {
     for (std::size_t quad = 0; quad < mesh_.quads.size(); ++quad) {
@@ -159,10 +158,10 @@ class SizePlan {
   }
 
   double size_at_corner(int node, double factor) const {
-    constexpr double most = 4;  // that a size changes at once
+    constexpr double most = 4;  // largest factor by which a size changes in one round
     double ratio = factor * even_[node] / at_points_[node];
-    // Where stresses have no end the square of a quad's error goes with the second power of its size at most,
-    // and is taken to go with that.
+    // At singular stresses the square of a quad's error is at best proportional to the second power of its
+    // size. That power is assumed.
     if (singular_[node] && ratio < 1) ratio = std::pow(ratio, order_of(mesh_) + 1);
     const double size = at_points_[node] * std::clamp(ratio, 1 / most, most);
     const double largest =
@@ -174,10 +173,10 @@ class SizePlan {
   const ErrorEstimate& estimate_;
   const AdaptOptions& options_;
   ExecutionContext& context_;
-  std::vector<double> now_;        // (quads) sizes
-  std::vector<double> even_;       // (points) sizes wanted, to a factor
-  std::vector<char> singular_;     // (points)
-  std::vector<double> at_points_;  // (points) sizes
+  std::vector<double> now_;        // (quads) present sizes
+  std::vector<double> even_;       // (points) wanted sizes, up to a common factor
+  std::vector<char> singular_;     // (points) see singular_corners()
+  std::vector<double> at_points_;  // (points) present sizes
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// Sizes from results: where the error of the stresses is large, elements become smaller, elsewhere larger.
+/// Sizes from results: elements become smaller where the stress error is large, and larger elsewhere.
 
 #include <filesystem>
 
@@ -10,27 +10,27 @@
 namespace quadrille {
 
 struct AdaptOptions {
-  double error = 0.05;  ///< wanted, in the energy norm, of the whole; unused where a count is wanted
-  double count = 0;     ///< elements wanted; 0 = what the error takes
-  double poisson = 0.3;
-  double growth = 0.3;  ///< of the sizes written
-  double size_min = 0;  ///< no size below this
-  double size_max = 0;  ///< and none above; 0 = any
+  double error = 0.05;   ///< wanted relative error in the energy norm of the whole mesh; unused if count > 0
+  double count = 0;      ///< wanted number of elements; 0 = as many as the error needs
+  double poisson = 0.3;  ///< Poisson's ratio
+  double growth = 0.3;   ///< gradation of the sizes written: change of size per length
+  double size_min = 0;   ///< smallest size allowed
+  double size_max = 0;   ///< largest size allowed; 0 = any
 };
 
 struct AdaptResult {
-  double error = 0;  ///< estimated for the mesh that was solved, in the energy norm, of the whole
-  int quads = 0;
-  double quads_wanted = 0;        ///< that the sizes give, about
-  double error_wanted = 0;        ///< that they give, about
-  double least = 0, largest = 0;  ///< sizes
+  double error = 0;               ///< estimated relative error of the solved mesh in the energy norm
+  int quads = 0;                  ///< number of quads in the solved mesh
+  double quads_wanted = 0;        ///< expected number of quads in the next mesh
+  double error_wanted = 0;        ///< expected error of the next mesh
+  double least = 0, largest = 0;  ///< smallest and largest of the sizes written
 };
 
-/// Estimates the error of a solution by patch recovery, and writes the sizes that spread it evenly as a .vdb
-/// file for `size_field`. \param mesh that was solved \param solution .frd of CalculiX, or .vtu: its
-/// displacements, in the bricks that it makes of shells and plane elements. One material is assumed. Throws
-/// Error: failure for results that cannot be read or do not fit the mesh, usage for options out of their
-/// limits.
+/// Estimates the error of a solution by patch recovery, and writes the sizes that distribute it evenly to a
+/// .vdb file for `size_field`. One material is assumed. \param mesh the mesh that was solved. \param solution
+/// .frd file of CalculiX, or .vtu file. The displacements are used, on the bricks into which CalculiX expands
+/// shells and plane elements. \param sizes the file to write. Throws Error: failure for results that cannot
+/// be read or do not fit the mesh, usage for options out of range.
 QUADRILLE_API AdaptResult adapt(const ShellMesh& mesh, const std::filesystem::path& solution,
                                 const std::filesystem::path& sizes, const AdaptOptions& options,
                                 ExecutionContext& context);

@@ -12,8 +12,8 @@ namespace {
 
 using Values = Eigen::Matrix<double, 1, 12>;  // membrane, then bending
 const double fold = std::cos(30 * M_PI / 180);
-constexpr std::size_t fewest_quads = 3;  // of a patch
-constexpr int cubic = 6;                 // terms up to the second degree
+constexpr std::size_t fewest_quads = 3;  // in a patch
+constexpr int cubic = 6;                 // number of terms up to the second degree
 
 Values values_of(const ShellStress& stress) {
   Values values;
@@ -26,7 +26,7 @@ Vector3 vector_area(const ShellMesh& mesh, int quad) {
   return 0.5 * (mesh.points[c] - mesh.points[a]).cross(mesh.points[d] - mesh.points[b]);
 }
 
-/// Polynomials fitted to the stresses about a corner.
+/// Polynomials fitted to the stresses around a corner node.
 class Patch {
  public:
   Patch(const Vector3& origin, const Vector3& normal, const std::vector<const ShellStress*>& samples)
@@ -70,7 +70,7 @@ class Recovery {
     }
   }
 
-  /// The patch of a node on the side of its fold where a quad is.
+  /// The patch around a node. If the node lies on a fold, only quads on the side of `quad` belong to it.
   Patch patch(int node, int quad) const {
     std::set<int> quads;
     const auto take = [&](int from) {
@@ -79,7 +79,7 @@ class Recovery {
       }
     };
     take(node);
-    // At the border, and at a fold, the next ones too.
+    // At a boundary or a fold there are few quads: take their neighbors too.
     if (quads.size() < fewest_quads) {
       const std::set<int> first = quads;
       for (const int near : first) {
@@ -124,7 +124,7 @@ ErrorEstimate estimate_error(const ShellMesh& mesh, const std::vector<std::array
       const double near = 0.5 * (1 + 1 / std::sqrt(3.0)), far = 1 - near;
       Values recovered = Values::Zero();
       for (int j = 0; j < 4; ++j) {
-        const int apart = std::abs(j - k);  // 0: its own corner, 2: the opposite one
+        const int apart = std::abs(j - k);  // 0: corner nearest to the point, 2: the opposite one
         const double weight = apart == 0 ? near * near : apart == 2 ? far * far : near * far;
         recovered += weight * patches[j].at(own.point);
       }
@@ -150,7 +150,7 @@ std::vector<double> sizes_of(const ShellMesh& mesh) {
 }
 
 std::vector<double> even_sizes(const ShellMesh& mesh, const ErrorEstimate& estimate) {
-  // In two dimensions the square of an element's error goes with this power of its size.
+  // In two dimensions the square of an element's error is proportional to this power of its size.
   const double power = 2 * order_of(mesh) + 2;
   const std::vector<double> now = sizes_of(mesh);
   std::vector<double> errors(mesh.points.size(), 0), powers(mesh.points.size(), 0);
@@ -163,7 +163,7 @@ std::vector<double> even_sizes(const ShellMesh& mesh, const ErrorEstimate& estim
       powers[node] += own;
     }
   }
-  // Where there is no error there is no bound.
+  // Without an error the size would be unbounded.
   constexpr double least_share = 1e-12;
   const double least = std::max(least_share * estimate.sum() / all, 1e-300);
   std::vector<double> sizes(mesh.points.size(), 0);
@@ -174,7 +174,7 @@ std::vector<double> even_sizes(const ShellMesh& mesh, const ErrorEstimate& estim
 }
 
 std::vector<char> singular_corners(const ShellMesh& mesh, const ErrorEstimate& estimate) {
-  constexpr double much = 4;  // times as much a quad, of the square
+  constexpr double much = 4;  // ratio of the mean squared errors per quad
   std::vector<std::vector<int>> quads_at(mesh.points.size());
   for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
     for (const int node : mesh.quads[quad]) quads_at[node].push_back(static_cast<int>(quad));

@@ -1,5 +1,5 @@
 #pragma once
-/// The error of stresses by patch recovery, and sizes that spread it evenly. Internal.
+/// The error of stresses by patch recovery, and sizes that distribute it evenly. Internal.
 ///
 /// Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori error estimates (1992); Li and
 /// Bettess, Notes on mesh optimal criteria in adaptive finite element computations (1995).
@@ -13,32 +13,32 @@
 namespace quadrille {
 
 struct ErrorEstimate {
-  std::vector<double> squares;  ///< (quads) of the error, as energy() has it
-  double all = 0;               ///< the square of what stresses have by themselves
+  std::vector<double> squares;  ///< (quads) square of the error, in the units of energy()
+  double all = 0;               ///< square of the energy norm of the stresses, in the same units
 
   double sum() const;
-  /// In the energy norm, of the whole: 0.05 = 5 %.
+  /// The relative error in the energy norm: 0.05 = 5 %.
   double relative() const;
 };
 
-/// Around each corner of the mesh polynomials of second degree are fitted to the stresses, membrane and
-/// bending apart; in a quad those of its four corners are blended. Patches end at folds of 30 degrees. \param
-/// stresses (quads)
+/// Fits polynomials of second degree to the stresses around each corner node, separately for membrane and
+/// bending; of lower degree if there are few samples. In a quad the fits of its four corners are blended.
+/// Patches end at folds of 30 degrees. \param stresses (quads) at four points each
 ErrorEstimate estimate_error(const ShellMesh& mesh, const std::vector<std::array<ShellStress, 4>>& stresses,
                              double poisson);
 
-/// Order of a mesh's elements: the error of their stresses goes with that power of their size.
+/// The order of a mesh's elements. The error of their stresses is proportional to that power of their size.
 int order_of(const ShellMesh& mesh);
 
-/// (quads) The square root of their area.
+/// (quads) The square root of each quad's area.
 std::vector<double> sizes_of(const ShellMesh& mesh);
 
-/// (points) With such sizes at its corners, times any factor, all elements have the same error; 0 at points
-/// that are no corners. What a single quad says is noise: each corner goes by all quads about it.
+/// (points) Sizes at the corner nodes with which all elements have the same error, up to a common factor; 0
+/// at other points. The error of a single quad is noisy, so each corner takes all quads around it.
 std::vector<double> even_sizes(const ShellMesh& mesh, const ErrorEstimate& estimate);
 
-/// (points) 1 = stresses seem to have no end there: the quads about it have far more of the error than those
-/// round them.
+/// (points) 1 = the stresses seem singular there: the quads at the node have far more error each than the
+/// quads around those.
 std::vector<char> singular_corners(const ShellMesh& mesh, const ErrorEstimate& estimate);
 
 }  // namespace quadrille

@@ -13,14 +13,14 @@ namespace quadrille {
 
 namespace {
 
-/// Nodes of a brick in the order of the .frd format: corners of bottom and top, then sides of the bottom,
-/// upright, of the top.
+/// Local coordinates of a brick's nodes in the order of the .frd format: corners of the bottom and the top,
+/// then midside nodes of the bottom, of the upright sides, and of the top.
 constexpr double places[20][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1},  {-1, 1, -1}, {-1, -1, 1},
                                   {1, -1, 1},   {1, 1, 1},   {-1, 1, 1},  {0, -1, -1}, {1, 0, -1},
                                   {0, 1, -1},   {-1, 0, -1}, {-1, -1, 0}, {1, -1, 0},  {1, 1, 0},
                                   {-1, 1, 0},   {0, -1, 1},  {1, 0, 1},   {0, 1, 1},   {-1, 0, 1}};
 
-/// Serendipity functions.
+/// The shape function of a node: trilinear for 8 nodes, serendipity for 20.
 double shape(const Vector3& at, int node, int nodes) {
   double product = 1, sum = 0;
   for (int k = 0; k < 3; ++k) {
@@ -32,21 +32,21 @@ double shape(const Vector3& at, int node, int nodes) {
   return node < 8 ? product * (sum - 2) / 8 : product / 4;
 }
 
-/// A brick of CalculiX's.
+/// A brick element of CalculiX.
 class Brick {
  public:
   Brick(const SolverResult& result, const SolverResult::Element& element)
       : result_(result), nodes_(element.nodes), n_(static_cast<int>(nodes_.size())) {}
 
-  /// Of the middle between bottom and top.
+  /// The point halfway between corner k at the bottom and at the top.
   Vector3 corner(int k) const { return 0.5 * (result_.points[nodes_[k]] + result_.points[nodes_[k + 4]]); }
 
-  /// Derivatives of place and of displacement by the three coordinates.
+  /// Derivatives of position and of displacement with respect to the three local coordinates.
   void derivatives(const Vector3& at, Eigen::Matrix3d& place, Eigen::Matrix3d& moved) const {
     place.setZero();
     moved.setZero();
     for (int k = 0; k < 3; ++k) {
-      // Exact: along each coordinate the functions are quadratic.
+      // Central differences are exact: along each coordinate the functions are quadratic.
       constexpr double h = 0.5;
       const Vector3 step = h * Vector3::Unit(k);
       for (int i = 0; i < n_; ++i) {
@@ -63,7 +63,7 @@ class Brick {
     return p;
   }
 
-  /// Plane stress in the layer there.
+  /// The stress at a point, plane in the layer there.
   Tensor stress(const Vector3& at, double poisson) const {
     Eigen::Matrix3d place, moved;
     derivatives(at, place, moved);
@@ -93,7 +93,7 @@ Vector3 center_of(const ShellMesh& mesh, int quad) {
   return sum / 4;
 }
 
-/// Whether a brick stands on a quad, whatever corner comes first; a section may have an offset.
+/// Whether a brick lies at a quad, whichever corner comes first. The tolerance allows for section offsets.
 bool belongs(const ShellMesh& mesh, int quad, const Brick& brick) {
   Vector3 center = Vector3::Zero();
   for (int k = 0; k < 4; ++k) center += brick.corner(k) / 4;
@@ -105,7 +105,7 @@ bool belongs(const ShellMesh& mesh, int quad, const Brick& brick) {
 }
 
 ShellStress stress_at(const Brick& brick, double x, double y, double poisson) {
-  const double layer = 1 / std::sqrt(3.0);  // where bricks are most exact
+  const double layer = 1 / std::sqrt(3.0);  // where bricks are most accurate
   const Tensor low = brick.stress({x, y, -layer}, poisson), high = brick.stress({x, y, layer}, poisson);
   Eigen::Matrix3d place, moved;
   brick.derivatives({x, y, 0}, place, moved);
@@ -114,7 +114,8 @@ ShellStress stress_at(const Brick& brick, double x, double y, double poisson) {
           0.5 * (low + high), 0.5 / layer * (high - low)};
 }
 
-/// At the corners of the quad, as it goes round and with its normal: solvers may want it the other way round.
+/// Stresses near the corners of the quad, in its corner order and for its normal. The brick may have the
+/// opposite orientation, since solvers may need that.
 std::array<ShellStress, 4> stresses_of(const ShellMesh& mesh, int quad, const Brick& brick, double poisson) {
   const auto& corners = mesh.quads[quad];
   const Vector3 normal = (mesh.points[corners[2]] - mesh.points[corners[0]])

@@ -1,5 +1,5 @@
 #pragma once
-/// Stresses inside shell elements, from how their corners at the bottom and the top moved. Internal.
+/// Stresses inside shell elements, from the displacements of the nodes at their bottom and top. Internal.
 
 #include <Eigen/Core>
 #include <array>
@@ -11,24 +11,25 @@
 
 namespace quadrille {
 
-/// Components xx, yy, zz, xy, yz, zx in the model's axes.
+/// Components xx, yy, zz, xy, yz, zx in the global axes of the model.
 using Tensor = Eigen::Matrix<double, 6, 1>;
 
 /// The stress at a point in the middle of a shell's thickness, for Young's modulus 1.
 struct ShellStress {
   Vector3 point;
-  double area = 0;  ///< of the middle surface that it stands for
-  double thickness = 0;
-  Tensor membrane, bending;  ///< at the middle; what the top has more
+  double area = 0;           ///< area of the middle surface that the point stands for
+  double thickness = 0;      ///< thickness of the shell
+  Tensor membrane, bending;  ///< stress at the middle; stress at the top minus that at the middle
 };
 
-/// Twice the energy of a stress in an area.
+/// Twice the strain energy of a stress state in an area, for Young's modulus 1.
 double energy(const Tensor& membrane, const Tensor& bending, double area, double thickness, double poisson);
 
-/// (quads) the stresses at the four points where quadratic elements are most exact. CalculiX makes bricks of
-/// shell and plane elements, of eight or twenty nodes, numbered as those; the quads of the mesh are found
-/// among them by number or, if that does not fit, in their order. Throws Error (failure) where the two do not
-/// belong together.
+/// (quads) The stresses at the four points where quadratic elements are most accurate, one for each corner.
+/// CalculiX expands shell and plane elements into bricks of eight or twenty nodes. The bricks, in ascending
+/// number, belong to the quads of the mesh in order. Throws Error (failure) if the number of elements
+/// differs, or a brick is of another type or lies elsewhere than its quad. \param name result file, for
+/// messages.
 std::vector<std::array<ShellStress, 4>> shell_stresses(const ShellMesh& mesh, const SolverResult& result,
                                                        double poisson, const std::string& name);
 

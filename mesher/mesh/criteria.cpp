@@ -14,11 +14,11 @@ namespace {
 constexpr double tiny = std::numeric_limits<double>::min();
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// Four corners and the crosses of their sides.
+/// Four corners, the sides between them, and the cross products of the sides.
 struct Quad {
   std::array<Vector3, 4> p;
   std::array<Vector3, 4> sides;    ///< from corner j to j + 1
-  std::array<Vector3, 4> crosses;  ///< at corner j: twice the area vector of its triangle
+  std::array<Vector3, 4> crosses;  ///< at corner j: twice the area vector of the corner's triangle
 
   Quad(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) : p{a, b, c, d} {
     for (int j = 0; j < 4; ++j) sides[j] = p[(j + 1) & 3] - p[j];
@@ -44,7 +44,7 @@ struct Quad {
     return 90 - std::min(angle, 180 - angle);
   }
 
-  /// Smallest and largest; a corner that is concave against the mean normal has more than 180 degrees.
+  /// Smallest and largest angle, degrees. Corners that are reflex about the mean normal have more than 180.
   std::array<double, 2> corner_angles() const {
     const Vector3 mean = crosses[0] + crosses[1] + crosses[2] + crosses[3];
     const Vector3 normal = mean / std::max(mean.norm(), tiny);
@@ -84,7 +84,7 @@ struct Quad {
   }
 };
 
-/// Of the criterion that a quad misses most.
+/// The criterion that a quad violates most.
 struct Worst {
   Criterion criterion;
   double severity;
@@ -110,7 +110,7 @@ double CriteriaLimits::severity(Criterion criterion, double value) const {
 
 bool CriteriaLimits::fails(Criterion criterion, double value) const {
   const auto i = static_cast<std::size_t>(criterion);
-  // Nothing compares with NaN: what is not checked does not fail.
+  // Comparisons with NaN are false: an unchecked criterion never fails.
   return criteria_info[i].usual_limit > criteria_info[i].ideal ? value > values[i] : value < values[i];
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The criteria by which industry passes or refuses shell quads, measured by geometry alone: corners only,
-/// also at second order. Usual limits: those of HyperMesh's default criteria.
+/// The criteria by which industry accepts or rejects shell quads. Only the positions of the corner nodes are
+/// measured, also at second order. The usual limits are those of HyperMesh's default criteria.
 
 #include <array>
 #include <cstddef>
@@ -15,28 +15,28 @@
 
 namespace quadrille {
 
-/// What industry asks of a quad.
+/// The quality criteria for a quad.
 enum class Criterion {
   aspect,          ///< longest over shortest side
-  warp,            ///< larger angle between the two triangles of a diagonal, degrees
-  skew,            ///< 90 minus the angle between the lines that join middles of opposite sides, degrees
+  warp,            ///< angle between the two triangles of a diagonal, the larger of both diagonals, degrees
+  skew,            ///< 90 minus the angle between the lines through the midpoints of opposite sides, degrees
   angle_min,       ///< smallest corner angle, degrees
   angle_max,       ///< largest corner angle, degrees
-  jacobian_ratio,  ///< least over largest Jacobian at the four Gauss points
-  taper            ///< 1 - least corner triangle over half the quad's area
+  jacobian_ratio,  ///< smallest over largest Jacobian at the four Gauss points
+  taper            ///< 1 - (smallest corner triangle / half the quad's area)
 };
 
-constexpr std::size_t criterion_count = 7;  ///< members of Criterion
+constexpr std::size_t criterion_count = 7;  ///< number of members of Criterion
 
-/// Values of all criteria, by Criterion.
+/// The values of all criteria, indexed by Criterion.
 using CriteriaValues = std::array<double, criterion_count>;
 
-/// What holds of a criterion whatever the limit.
+/// The properties of a criterion that do not depend on the limit in use.
 struct CriterionInfo {
-  std::string_view name;  ///< in reports and limit files
+  std::string_view name;  ///< name in reports and limit files
   std::string_view unit;  ///< empty, or "degrees"
-  double ideal;           ///< of the perfect square; values beyond the limit, seen from here, fail
-  double usual_limit;     ///< that CriteriaLimits has unless told otherwise
+  double ideal;           ///< value of a perfect square; values farther from it than the limit fail
+  double usual_limit;     ///< default limit in CriteriaLimits
 };
 
 /// Indexed by Criterion.
@@ -48,17 +48,17 @@ constexpr std::array<CriterionInfo, criterion_count> criteria_info{{{"aspect", "
                                                                     {"jacobian_ratio", "", 1, 0.6},
                                                                     {"taper", "", 0, 0.6}}};
 
-/// A limit a criterion; NaN = not checked.
+/// One limit per criterion; NaN = not checked.
 struct QUADRILLE_API CriteriaLimits {
-  static constexpr double unchecked = std::numeric_limits<double>::quiet_NaN();  ///< a limit that all meet
+  static constexpr double unchecked = std::numeric_limits<double>::quiet_NaN();  ///< no value fails it
 
-  CriteriaValues values = usual();        ///< by criterion
-  std::vector<std::string> not_measured;  ///< criteria of a limits file that are none of ours
+  CriteriaValues values = usual();        ///< limits, indexed by Criterion
+  std::vector<std::string> not_measured;  ///< criteria that a limits file checks and Criterion lacks
 
-  /// How far a value is from the ideal, in units of the limit's distance: above 1 the quad fails; 0 where the
+  /// Distance of a value from the ideal, divided by that of the limit: above 1 the quad fails. 0 if the
   /// criterion is not checked.
   double severity(Criterion criterion, double value) const;
-  bool fails(Criterion criterion, double value) const;  ///< whether the value is outside the limit
+  bool fails(Criterion criterion, double value) const;  ///< whether the value is beyond the limit
 
  private:
   static constexpr CriteriaValues usual() {
@@ -68,35 +68,35 @@ struct QUADRILLE_API CriteriaLimits {
   }
 };
 
-/// All criteria of the quad a, b, c, d.
+/// Measures all criteria of the quad a, b, c, d.
 QUADRILLE_API CriteriaValues measure_criteria(const Vector3& a, const Vector3& b, const Vector3& c,
                                               const Vector3& d);
 
-/// Which quads of a mesh fail, and how.
+/// Which quads of a mesh fail, and by which criteria.
 struct CriteriaSummary {
   /// The quads of one CAD face.
   struct Face {
     int face = 0;     ///< CAD face, from 1; 0 = none
-    int quads = 0;    ///< how many
-    int failing = 0;  ///< how many of them
+    int quads = 0;    ///< number of quads on the face
+    int failing = 0;  ///< number of those that fail
   };
-  /// One of the worst.
+  /// One of the worst quads.
   struct Quad {
     int quad = 0;                             ///< index into ShellMesh::quads
     int face = 0;                             ///< CAD face, from 1; 0 = none
     Vector3 center;                           ///< mean of the corners
-    Criterion criterion = Criterion::aspect;  ///< the one with the largest severity
-    double value = 0;                         ///< of the criterion that it fails by most
+    Criterion criterion = Criterion::aspect;  ///< criterion with the largest severity
+    double value = 0;                         ///< value of that criterion
   };
-  int quads = 0;             ///< how many
-  int failing = 0;           ///< by any criterion
-  int failing_but_warp = 0;  ///< by any criterion other than warp, which the surface's curvature forces
-  std::array<int, criterion_count> failing_by{};  ///< quads that fail, by criterion
-  std::vector<Face> faces;                        ///< faces with failing quads, ascending
-  std::vector<Quad> worst;                        ///< of the failing quads, worst first
+  int quads = 0;             ///< number of quads in the mesh
+  int failing = 0;           ///< quads that fail any criterion
+  int failing_but_warp = 0;  ///< quads that fail any criterion but warp, which curved surfaces force
+  std::array<int, criterion_count> failing_by{};  ///< quads that fail each criterion, indexed by Criterion
+  std::vector<Face> faces;                        ///< faces with failing quads, ascending by number
+  std::vector<Quad> worst;                        ///< the worst of the failing quads, worst first
 };
 
-/// \param worst_count at most so many of the worst quads are listed. Complexity: linear in the mesh.
+/// \param worst_count largest number of quads in `worst`. Complexity: linear in the mesh.
 QUADRILLE_API CriteriaSummary check_criteria(const ShellMesh& mesh, const CriteriaLimits& limits = {},
                                              int worst_count = 10);
 

@@ -16,30 +16,30 @@ namespace quadrille {
 struct TriangleMesh {
   std::vector<Vector3> points;                ///< (n)
   std::vector<std::array<int, 3>> triangles;  ///< (m) indices into points, counter-clockwise
-  /// (m) or empty. Elements of different tags are never joined: the sides between them are kept as boundary.
+  /// (m) or empty. Elements with different tags are never joined: sides between them are kept as boundary.
   std::vector<int> tags;
-  /// (n) or empty: 1 = a point that keeps its place when the quads made of the triangles are improved.
+  /// (n) or empty: 1 = the point keeps its position when the quads made from the triangles are improved.
   std::vector<char> fixed;
 };
 
-/// Quadrilaterals over points, and the triangle that an odd count leaves.
+/// Quads over points, and the triangles that could not be paired.
 struct QuadMesh {
   std::vector<Vector3> points;                ///< (n)
   std::vector<std::array<int, 4>> quads;      ///< (m) indices into points, counter-clockwise
-  std::vector<std::array<int, 3>> triangles;  ///< what could not be paired; empty wherever the count is even
+  std::vector<std::array<int, 3>> triangles;  ///< unpaired triangles; none if the count was even
   std::vector<int> quad_tags;                 ///< (m) or empty
   std::vector<int> triangle_tags;             ///< as many as triangles, or empty
 };
 
-/// What became of a CAD face.
+/// The outcome for a CAD face.
 enum class FaceStatus {
   meshed,
-  skipped,  ///< not asked for
+  skipped,  ///< not requested
   failed,
   merged  ///< left out as tiny
 };
 
-/// As reports have it: "meshed", "skipped", "failed", "merged".
+/// The status as reports spell it: "meshed", "skipped", "failed", "merged".
 inline std::string_view name_of(FaceStatus status) {
   constexpr std::array<std::string_view, 4> names{"meshed", "skipped", "failed", "merged"};
   return names[static_cast<std::size_t>(status)];
@@ -58,84 +58,85 @@ struct ShellMesh {
     int node = -1;   ///< index into points
     int vertex = 0;  ///< CAD vertex, from 1
   };
-  /// What became of one CAD face.
+  /// The outcome for one CAD face.
   struct Face {
     int face = 0;                             ///< CAD face, from 1
-    FaceStatus status = FaceStatus::skipped;  ///< what became of it
-    /// Why it failed, or the causes found on the way and the remedy applied to each; empty if nothing to say.
+    FaceStatus status = FaceStatus::skipped;  ///< outcome
+    /// Why the face failed, or the problems met and the remedy applied to each; empty if there were none.
     std::string note;
-    /// What its meshings took, and the most that they may take together; in checks for cancellation, which
-    /// are the same in each run.
-    std::int64_t work = 0 /**< taken */, share = 0; /**< allowed */
-    int attempts = 0;             ///< how often it was meshed, for its own sake or a neighbor's
-    int quads = 0;                ///< how many it has
-    double q_min = 0;             ///< least q of theirs
-    double seconds = 0;           ///< that meshing took
-    int off_geometry = 0;         ///< midside nodes on it that are in ShellMesh::off_geometry
-    double off_geometry_max = 0;  ///< the largest distance of theirs
+    /// The work that all meshings of the face took, and the limit on it. The unit is one check for
+    /// cancellation; their number is the same in each run.
+    std::int64_t work = 0 /**< work done */, share = 0; /**< work allowed */
+    int attempts = 0;             ///< number of meshings, for its own sake or a neighbor's
+    int quads = 0;                ///< number of quads
+    double q_min = 0;             ///< lowest q of the quads
+    double seconds = 0;           ///< time that meshing took
+    int off_geometry = 0;         ///< number of its midside nodes in ShellMesh::off_geometry
+    double off_geometry_max = 0;  ///< largest distance of those nodes
   };
   /// A midside node that would fold an element if it lay on the geometry.
   struct OffGeometry {
     int node = -1;        ///< index into points
-    double distance = 0;  ///< to its place on the CAD edge, or to the face's surface
+    double distance = 0;  ///< distance to its place on the CAD edge, or to the face's surface
   };
 
-  /// A CAD edge or vertex that has no place of its own in the mesh, since it is too small.
+  /// A CAD edge or vertex that is not meshed because it is too small.
   struct LetGo {
-    /// Of entities.
+    /// The kind of an entity.
     enum class Kind { edge, vertex };
-    Kind kind = Kind::edge;     ///< of what was let go
-    int number = 0;             ///< from 1
-    Kind to_kind = Kind::edge;  ///< of what stands for it
-    int to = 0;                 ///< the edge or vertex whose nodes stand for it
+    Kind kind = Kind::edge;     ///< kind of the entity that was let go
+    int number = 0;             ///< its number, from 1
+    Kind to_kind = Kind::edge;  ///< kind of the entity that stands for it
+    int to = 0;                 ///< number of the edge or vertex whose nodes stand for it
   };
 
-  /// The planes in which the mesh is its own mirror image.
+  /// The planes in which the mesh is symmetric.
   struct Symmetry {
-    std::vector<std::string> planes;  ///< "x = 12.5"; empty = meshed as a whole
-    std::string note;                 ///< why planes of the model were not used; empty if nothing to say
+    std::vector<std::string> planes;  ///< such as "x = 12.5"; empty = the model was meshed as a whole
+    std::string note;                 ///< why mirror planes of the model were not used; may be empty
   };
 
-  /// What goes by a name, or by a number of its own, in the file that the mesh was read from.
+  /// A set of entities that has a name or a number of its own in the file that the mesh was read from.
   struct Group {
-    std::string name;           ///< empty = it has a number alone
-    int dimension = 2;          ///< 2: of elements, 1: of segments, 0: of nodes
-    int number = 0;             ///< that the file gives it; 0 = none
-    std::vector<int> entities;  ///< ascending: the faces, edges or vertices that make it up
+    std::string name;           ///< empty = the group has only a number
+    int dimension = 2;          ///< 2: group of elements, 1: of segments, 0: of nodes
+    int number = 0;             ///< number in the file; 0 = none
+    std::vector<int> entities;  ///< the faces, edges or vertices in the group, ascending
   };
 
-  /// How thick the shell on a CAD face is where that is not the same all over.
+  /// The thickness of the shell on a CAD face where it varies over the face.
   struct VaryingThickness {
     int face = 0;                     ///< CAD face, from 1
-    double thinnest = 0;              ///< millimeters
-    double thickest = 0;              ///< millimeters
-    std::vector<int> nodes;           ///< of the face's elements, ascending
-    std::vector<double> thicknesses;  ///< at those nodes, millimeters
+    double thinnest = 0;              ///< smallest thickness, millimeters
+    double thickest = 0;              ///< largest thickness, millimeters
+    std::vector<int> nodes;           ///< nodes of the face's elements, ascending
+    std::vector<double> thicknesses;  ///< thickness at each of those nodes, millimeters
   };
 
   int order = 1;                          ///< 1: four-node quads; 2: eight-node (serendipity) quads
   std::vector<Vector3> points;            ///< (n) all nodes, corner nodes first, then midside nodes
   std::vector<std::array<int, 4>> quads;  ///< (m) corner nodes, counter-clockwise seen from outside
   std::vector<std::array<int, 4>>
-      midsides;                 ///< (m) at second order: node between corner j and j + 1; else empty
+      midsides;                 ///< (m) at second order: node between corners j and j + 1; else empty
   std::vector<int> quad_faces;  ///< (m) CAD face of each quad, from 1
-  std::vector<std::array<int, 3>> triangles;  ///< empty, except in meshes read from other programs' files
-  std::vector<int> triangle_faces;            ///< as many as triangles
+  std::vector<std::array<int, 3>> triangles;  ///< empty except in meshes read from files of other programs
+  std::vector<int> triangle_faces;            ///< CAD face of each triangle, from 1
   std::vector<Segment> segments;              ///< the sides on CAD edges, each once
   std::vector<Corner> corners;                ///< the nodes on CAD vertices
-  std::vector<OffGeometry> off_geometry;      ///< ascending by node; empty but in coarse second-order meshes
-  std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; faces say it themselves
-  Symmetry symmetry;                          ///< by MeshOptions::symmetry
-  std::vector<Face> faces;                    ///< one entry a CAD face; empty in meshes read from files
-  /// Of meshes read from files that name any, in their order. Groups may share entities: those are as small
-  /// as it takes. Empty: files have a group Face3, Edge7, Vertex2 for each entity.
+  std::vector<OffGeometry> off_geometry;      ///< ascending by node; only coarse second-order meshes have any
+  std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; for faces see Face::status
+  Symmetry symmetry;                          ///< mirror planes in use, see MeshOptions::symmetry
+  std::vector<Face> faces;                    ///< one entry per CAD face; empty in meshes read from files
+  /// The groups in a file that the mesh was read from, in file order. Groups may overlap: entities are made
+  /// small enough that each group is a set of whole entities. If this is empty, written files get one group
+  /// for each entity: Face3, Edge7, Vertex2.
   std::vector<Group> groups;
-  /// Of the shell on each CAD face, by face number minus 1, in millimeters; empty where not known.
+  /// Thickness of the shell on each CAD face, by face number minus 1, in millimeters; empty if unknown.
   std::vector<double> thicknesses;
-  /// Of the faces whose thickness varies, ascending; `thicknesses` has the mean of such a face.
+  /// The faces whose thickness varies, ascending. `thicknesses` holds the mean of each such face.
   std::vector<VaryingThickness> varying_thicknesses;
-  /// Of middle surfaces: the faces that lie on each face of the solid, and the edges, where its rim is one of
-  /// them. Besides the groups of entities, in files that have groups.
+  /// For middle surfaces: one group for each face of the solid, with the faces of the middle surface that
+  /// belong to it, and one with the free edges on it. Formats with groups get them besides those of entities.
   std::vector<Group> solid_faces;
 };
 

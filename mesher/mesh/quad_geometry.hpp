@@ -1,5 +1,5 @@
 #pragma once
-/// The measure of a quad that clean-up and smoothing share; not part of the public interface.
+/// The shape measure of a quad that clean-up and smoothing share. Not part of the public interface.
 
 #include <algorithm>
 #include <cmath>
@@ -9,12 +9,12 @@
 
 namespace quadrille {
 
-/// A side this much shorter than the longest one has no direction but that of rounding errors.
+/// If a side is shorter than this times the longest side, its direction is only rounding error.
 constexpr double no_length = 1e-9;
 
 /// Scaled Jacobian of the quad a, b, c, d; negative also when the quad is folded against the surface normal.
-/// For convex quads q = (2 / pi) asin(scaled Jacobian): one decides as the other does, without an arc
-/// function.
+/// For convex quads q = (2 / pi) asin(scaled Jacobian). Both rank quads in the same order, and this one needs
+/// no arcsine.
 inline double folded_scaled_jacobian(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d,
                                      const Vector3& normal) {
   Vector3 mean = (c - a).cross(d - b);

@@ -21,21 +21,21 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// What the corners of one quad say.
+/// The measures of one quad that follow from its corners.
 struct Corners {
   double q = 0;
   double scaled_jacobian = 0;
-  double jacobian = 0;  ///< the least one, over their mean
+  double jacobian = 0;  ///< least Jacobian at a corner, divided by the mean of the four
   double warping = 0;   ///< largest angle between a corner's normal and the mean normal
   double longest = 0, shortest = 0;
 };
 
-/// The side j -> j + 1 of each corner, the cross products at the corners, and their sum.
+/// The side from each corner j to j + 1, the cross products at the corners, and their sum.
 struct Frame {
   std::array<Vector3, 4> sides, crosses;
   std::array<double, 4> lengths;
-  double area = 0;  ///< four times the quad's
-  Vector3 normal;   ///< unit, or zero for a degenerate quad: one without area, or with a side of no length
+  double area = 0;  ///< four times the quad's area
+  Vector3 normal;   ///< unit length; zero for a degenerate quad, without area or with a side of no length
 
   explicit Frame(const std::array<const Vector3*, 4>& p) {
     for (int j = 0; j < 4; ++j) {
@@ -79,19 +79,19 @@ Corners measure(const std::array<const Vector3*, 4>& p) {
     corners.warping = std::max(corners.warping, angle_between(frame.crosses[j], frame.normal));
   }
   corners.q = std::max(1 - 2 / pi * off, 0.0);
-  // The cross products are as the Jacobians at the corners, and `area` is their sum.
+  // The cross products are proportional to the Jacobians at the corners, and `area` is their sum.
   corners.jacobian = frame.area > 0 ? 4 * least / frame.area : 0;
   corners.longest = *std::max_element(frame.lengths.begin(), frame.lengths.end());
   corners.shortest = *std::min_element(frame.lengths.begin(), frame.lengths.end());
   return corners;
 }
 
-/// A side of the mesh, met from one element.
+/// A side of one element, by its lower and higher node.
 struct Side {
   int low, high;
 };
 
-/// All sides of all elements, sorted; a side with k elements comes k times.
+/// All sides of all elements, sorted. A side with k elements is listed k times.
 std::vector<Side> sorted_sides(const ShellMesh& mesh) {
   const auto each_side = [&](auto&& visit) {
     for (const auto& quad : mesh.quads)
@@ -99,7 +99,7 @@ std::vector<Side> sorted_sides(const ShellMesh& mesh) {
     for (const auto& triangle : mesh.triangles)
       for (int j = 0; j < 3; ++j) visit(triangle[j], triangle[(j + 1) % 3]);
   };
-  // Counting sort by the lower node: the few sides of one node are then sorted among themselves.
+  // Counting sort by the lower node. Then the few sides of each node are sorted by the higher node.
   std::vector<std::size_t> first(mesh.points.size() + 1, 0);
   each_side([&](int a, int b) { ++first[std::min(a, b) + 1]; });
   for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
@@ -124,14 +124,14 @@ void mark_shared_nodes(const ShellMesh& mesh, std::vector<char>& border) {
     }
 }
 
-/// What the Jacobian over the whole element says: at its corners alone where sides are straight.
+/// Adds one element's Jacobian to the summary: over the whole element at second order, else at its corners.
 void measure_jacobian(const ShellMesh& mesh, std::size_t quad, const Corners& corners,
                       QualitySummary& summary) {
   const bool is_curved = mesh.order == 2 && quad < mesh.midsides.size();
   bool is_inverted = corners.scaled_jacobian <= 0;
   double least = corners.jacobian;
   if (is_curved) {
-    // The bound costs far more than its estimate from below, which is all that good elements need.
+    // jacobian_bound() costs far more than quick_jacobian_bound(), which is enough for good elements.
     const CurvedQuad element = curved_quad(mesh, quad);
     least = quick_jacobian_bound(element);
     is_inverted = is_inverted || (!(least > 0) && folds(element));
@@ -141,7 +141,7 @@ void measure_jacobian(const ShellMesh& mesh, std::size_t quad, const Corners& co
   summary.jacobian_min = std::min(summary.jacobian_min, least);
 }
 
-/// Measures of some of the elements; sums where the summary has means.
+/// Measures some of the elements. The means of the result are still sums.
 QualitySummary measure_range(const ShellMesh& mesh, std::size_t begin, std::size_t end) {
   const auto& x = mesh.points;
   QualitySummary summary;
@@ -164,7 +164,7 @@ QualitySummary measure_range(const ShellMesh& mesh, std::size_t begin, std::size
 }
 
 void measure_elements(const ShellMesh& mesh, QualitySummary& summary) {
-  // Sums are put together in the order of the mesh: the same on any number of threads.
+  // Partial sums are added in the order of the mesh, so the result is the same on any number of threads.
   constexpr std::size_t at_once = 16384;
   const std::size_t size = mesh.quads.size();
   std::vector<QualitySummary> parts((size + at_once - 1) / at_once);

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t large = 1 << 18;  // smaller ones fit the caches
 constexpr std::size_t samples = 1024;
 
-/// The bits of a number below 2^10, two places free after each.
+/// Spreads the bits of a number below 2^10: two zero bits follow each.
 std::uint32_t spread(std::uint32_t x) {
   x = (x | x << 16) & 0x030000ffU;
   x = (x | x << 8) & 0x0300f00fU;
@@ -25,8 +25,8 @@ std::uint32_t spread(std::uint32_t x) {
   return (x | x << 2) & 0x09249249U;
 }
 
-/// Elements along a Morton curve through cells, by their first corners; those of a cell in the order that
-/// they had. \param cells along an axis, a power of two, 128 at most.
+/// Orders elements along a Morton curve through cells, by their first corners. Elements in the same cell keep
+/// their order. \param cells number of cells along an axis, a power of two, 128 at most.
 template <std::size_t n>
 std::vector<int> along_curve(const std::vector<Vector3>& points,
                              const std::vector<std::array<int, n>>& elements, int cells, SparseCheck& check) {
@@ -66,16 +66,16 @@ bool is_scattered(const TriangleMesh& mesh) {
     jump += std::abs(mesh.triangles[t][0] - mesh.triangles[t][1]);
     jump += std::abs(mesh.triangles[t][0] - mesh.triangles[t + 1][0]);
   }
-  // At random, each jump is over a third of all points. Triangulations of points that were inserted in
-  // another order than that of their places come to a tenth of that: to order them takes longer than it
-  // saves.
+  // In a random order a jump covers a third of all points on average. Triangulations whose points were
+  // inserted in an order other than that of their positions reach a tenth of that: ordering them takes longer
+  // than it saves.
   return jump / static_cast<double>(count) > static_cast<double>(mesh.points.size()) / 5;
 }
 
 RenumberedMesh order_by_place(const TriangleMesh& mesh, const ExecutionContext& context) {
   SparseCheck check(context);
   RenumberedMesh result;
-  constexpr int cells = 128;  // some hundred triangles in each, whose own order hardly matters
+  constexpr int cells = 128;  // about a hundred triangles in each, whose order hardly matters
   const std::vector<int> order = along_curve(mesh.points, mesh.triangles, cells, check);
   std::vector<int> number(mesh.points.size(), -1);
   result.mesh.triangles.reserve(mesh.triangles.size());

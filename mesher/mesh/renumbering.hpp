@@ -1,5 +1,5 @@
 #pragma once
-/// Large triangulations in an order in which neighbors are near each other in memory. Internal.
+/// Reorders large meshes so that neighbors are near each other in memory. Internal.
 
 #include <array>
 #include <vector>
@@ -9,23 +9,22 @@
 
 namespace quadrille {
 
-/// A mesh in another order; the elements are the same ones.
+/// A reordered mesh with the same elements.
 struct RenumberedMesh {
-  TriangleMesh mesh;
-  std::vector<int> old_point;  ///< by point of `mesh`: its index before
+  TriangleMesh mesh;           ///< points, triangles and tags; `fixed` is not carried over
+  std::vector<int> old_point;  ///< for each point of `mesh`, its index in the original mesh
 };
 
-/// Whether the mesh is large enough to be worth it, and its points or triangles do not lie in memory as they
-/// lie in space. Looks at a sample: constant time.
+/// Whether the mesh is large enough for reordering to pay, and its points or triangles are ordered in memory
+/// without regard to their positions in space. Looks at a sample: constant time.
 bool is_scattered(const TriangleMesh& mesh);
 
-/// Triangles in the order of a space-filling curve, points in the order in which
-/// triangles use them first; points that no triangle uses are left out. Deterministic. Time: linear. Indices
-/// must have been checked.
+/// Orders triangles along a space-filling curve, and points by their first use in a triangle. Points that no
+/// triangle uses are left out. Deterministic. Time: linear. Indices must have been checked.
 RenumberedMesh order_by_place(const TriangleMesh& mesh, const ExecutionContext& context = {});
 
-/// The same for quads: puts them along the curve and numbers their points anew, but for the first `fixed`.
-/// \return the index that each point had before. All points are to be used.
+/// The same for quads: orders them along the curve and renumbers their points, except the first `fixed` ones.
+/// Other points that no quad uses are left out. \return the index that each point had before.
 std::vector<int> order_by_place(const std::vector<Vector3>& points, std::size_t fixed,
                                 std::vector<std::array<int, 4>>& quads, const ExecutionContext& context = {});
 

@@ -12,11 +12,11 @@ namespace quadrille {
 
 namespace {
 
-/// A bound below this has no sign but that of rounding errors: where two sides are one curve.
+/// The sign of a bound below this is only rounding error, as where two sides lie on one curve.
 constexpr double rounding = 1e-12;
 
-/// Values at 0, 1/3, 2/3, 1 in both directions, or Bernstein coefficients, of a bicubic polynomial on the
-/// unit square.
+/// A bicubic polynomial on the unit square: Bernstein coefficients, or values at 0, 1/3, 2/3, 1 in each
+/// direction.
 using Bicubic = Eigen::Matrix4d;
 
 constexpr std::array<double, 4> corner_xi{-1, 1, 1, -1}, corner_eta{-1, -1, 1, 1};
@@ -41,16 +41,17 @@ Vector3 area_vector(const CurvedQuad& element, double xi, double eta) {
   return along.cross(across);
 }
 
-/// Takes the values of a cubic at 0, 1/3, 2/3, 1 to its Bernstein coefficients.
+/// Converts the values of a cubic at 0, 1/3, 2/3, 1 to its Bernstein coefficients.
 const Eigen::Matrix4d to_bernstein =
     (Eigen::Matrix4d() << 6, 0, 0, 0, -5, 18, -9, 2, 2, -9, 18, -5, 0, 0, 0, 6).finished() / 6;
 
-/// Take the coefficients of a cubic to those of its first and its second half (de Casteljau).
+/// Convert the coefficients of a cubic to those of its first and its second half (de Casteljau).
 const Eigen::Matrix4d first_half =
     (Eigen::Matrix4d() << 8, 0, 0, 0, 4, 4, 0, 0, 2, 4, 2, 0, 1, 3, 3, 1).finished() / 8;
 const Eigen::Matrix4d second_half = first_half.reverse();
 
-/// The least coefficient, sharpened until it is positive, known not to be, or near enough to a value taken.
+/// The least coefficient, sharpened until it is positive, or a corner value is not positive, or it is within
+/// `tolerance` of a corner value. At most `depth` subdivisions.
 double sharpened(const Bicubic& b, double tolerance, int depth) {
   const double bound = b.minCoeff();
   const double corner = std::min({b(0, 0), b(0, 3), b(3, 0), b(3, 3)});
@@ -68,9 +69,9 @@ double sharpened(const Bicubic& b, double tolerance, int depth) {
 struct StraightQuad {
   std::array<Vector3, 4> sides;
   Vector3 normal;     ///< unit; zero for a quad without area
-  double mean = 0;    ///< of the Jacobian along the normal
-  double least = -1;  ///< of the Jacobian along the normal, which is linear, so at a corner
-  double turned = 0;  ///< largest part of the Jacobian across the normal
+  double mean = 0;    ///< mean Jacobian along the normal
+  double least = -1;  ///< least Jacobian along the normal; it is linear, so the least is at a corner
+  double turned = 0;  ///< largest component of the Jacobian perpendicular to the normal
 
   explicit StraightQuad(const std::array<Vector3, 4>& corners) {
     for (int k = 0; k < 4; ++k) sides[k] = corners[(k + 1) % 4] - corners[k];
@@ -89,7 +90,7 @@ struct StraightQuad {
   }
 };
 
-/// How far each midside node lies from the middle of its straight side.
+/// The offset of each midside node from the middle of its straight side.
 std::array<Vector3, 4> bulges(const CurvedQuad& element) {
   std::array<Vector3, 4> result;
   for (int k = 0; k < 4; ++k)
@@ -97,7 +98,7 @@ std::array<Vector3, 4> bulges(const CurvedQuad& element) {
   return result;
 }
 
-/// The Bernstein coefficients of the Jacobian's part along a direction.
+/// The Bernstein coefficients of the Jacobian's component along a direction.
 Bicubic along(const std::array<std::array<Vector3, 4>, 4>& values, const Vector3& direction) {
   Bicubic parts;
   for (int i = 0; i < 4; ++i)
@@ -105,9 +106,9 @@ Bicubic along(const std::array<std::array<Vector3, 4>, 4>& values, const Vector3
   return to_bernstein * parts * to_bernstein.transpose();
 }
 
-/// The mean of the Jacobian over the element: that of its Bernstein coefficients.
+/// The mean Jacobian over the element, which equals the mean of its Bernstein coefficients.
 Vector3 mean_jacobian(const std::array<std::array<Vector3, 4>, 4>& values) {
-  constexpr std::array<double, 4> weights{1.0 / 8, 3.0 / 8, 3.0 / 8, 1.0 / 8};  // of values at 0, 1/3, 2/3, 1
+  constexpr std::array<double, 4> weights{1.0 / 8, 3.0 / 8, 3.0 / 8, 1.0 / 8};  // at 0, 1/3, 2/3, 1
   Vector3 mean = Vector3::Zero();
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) mean += weights[i] * weights[j] * values[i][j];
@@ -136,9 +137,9 @@ CurvedQuad straight_quad(const ShellMesh& mesh, std::size_t quad) {
 double quick_jacobian_bound(const CurvedQuad& element) {
   const StraightQuad straight(element.corners);
   if (!(straight.mean > 0)) return -1;
-  // The bulges b change the derivatives of the map by at most these, and the lengths of dx/dxi and dx/deta
-  // are half those of the straight sides at most.
-  std::array<double, 4> inside{}, length{}, bulge{};  // in the plane of the straight quad, and in space
+  // `along` and `across` below bound the change of the map's derivatives by the bulges b. The lengths of
+  // dx/dxi and dx/deta are at most half those of the straight sides.
+  std::array<double, 4> inside{}, length{}, bulge{};  // bulge in the quad's plane, side, bulge in space
   const std::array<Vector3, 4> offsets = bulges(element);
   double largest = 0;
   for (int k = 0; k < 4; ++k) {
@@ -156,7 +157,7 @@ double quick_jacobian_bound(const CurvedQuad& element) {
            along * across;
   };
   const double least = straight.least - change(inside), turned = straight.turned + change(bulge);
-  // All Jacobians lie in a cone round the normal: two of them form twice its angle at most.
+  // All Jacobians lie in a cone around the normal: two of them differ by at most twice its half angle.
   return turned < least ? (least - turned) / std::sqrt(2.0) / straight.mean : -1;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A key for a side of a mesh, the same whichever way it is run. Internal.
+/// A key for a side of a mesh, the same for both directions. Internal.
 
 #include <algorithm>
 #include <cstdint>

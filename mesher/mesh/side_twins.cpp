@@ -73,8 +73,8 @@ SideRows::SideRows(const TriangleMesh& mesh)
   for (int& s : start) rising += std::exchange(s, rising);
   ups.resize(rising + at_once);
   down.resize(3 * triangles.size() - rising + 1);
-  // Without a branch on which way a side runs, which cannot be foreseen: what is not to be kept is written as
-  // well, where it will be written over. Each start moves to its row's end.
+  // No branch on the direction of a side: it would be unpredictable. Entries that are not to be kept are
+  // written too, where later ones overwrite them. Each start moves to the end of its row.
   for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
     for (int i = 0; i < 3; ++i) {
       const int a = triangles[t][i], b = triangles[t][next_index(i)];
@@ -92,7 +92,7 @@ bool SideRows::repeated(std::span<Side> lone) const {
   const auto& triangles = mesh_.triangles;
   for (int place = 0; place < rising; ++place) {
     if (ups[place].side < 0) continue;
-    // Of two sides that run the same way one at least was not taken.
+    // Of two sides with the same direction, at least one has no twin.
     const int t = triangle_of(ups[place].side), p = triangles[t][index_of(ups[place].side)];
     const int same = find(begin(p), p, ups[place].to, t);
     if (same != place || find(place + 1, p, ups[place].to, t) < end(p)) return true;

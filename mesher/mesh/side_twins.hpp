@@ -1,5 +1,5 @@
 #pragma once
-/// Which sides of a triangle mesh are the same. Internal.
+/// Finds the sides that two triangles of a mesh share. Internal.
 
 #include <algorithm>
 #include <bit>
@@ -11,7 +11,7 @@
 
 namespace quadrille {
 
-/// A side of a triangle as 4 * triangle + i, i = 0, 1, 2: from corner i to corner i + 1. -1 = none.
+/// A side of a triangle as 4 * triangle + i, i = 0, 1, 2: from corner i to the next corner. -1 = none.
 using Side = std::int32_t;
 
 inline Side make_side(int triangle, int i) {
@@ -30,7 +30,7 @@ inline int previous_index(int i) {
   return i == 0 ? 2 : i - 1;
 }
 
-/// The side of the same triangle that starts where a side ends, or ends where it starts.
+/// The next side of the same triangle, which starts where `side` ends, and the previous one.
 inline Side next_side(Side side) {
   return make_side(triangle_of(side), next_index(index_of(side)));
 }
@@ -38,30 +38,31 @@ inline Side previous_side(Side side) {
   return make_side(triangle_of(side), previous_index(index_of(side)));
 }
 
-/// Throws Error (failure) naming the triangle where indices are out of range or repeated.
+/// Throws Error (failure) for indices out of range or repeated, naming the triangle, or a wrong count of
+/// tags.
 void check_indices(const TriangleMesh& mesh);
 
-/// Throws Error (failure) naming a triangle that is the third of its tag on a side, or runs along a side the
-/// same way as another of its tag. Slower than join_twins(), which calls it where something is wrong.
+/// Throws Error (failure) naming a triangle that is the third of its tag on a side, or that runs along a side
+/// in the same direction as another of its tag. Slower than join_twins(), which calls it on such errors.
 void check_sides(const TriangleMesh& mesh);
 
-/// The sides of a triangle mesh in rows: those that run up, to a point of higher index, by their lower point;
-/// those that run down in the order of the mesh. Made by a counting sort; time and memory linear.
+/// The sides of a triangle mesh in rows. Sides that rise, to a point of higher index, are sorted by their
+/// lower point. Sides that fall are in the order of the mesh. A counting sort: linear time and memory.
 class SideRows {
  public:
   struct Up {
     int to;
-    Side side;  ///< its complement once it is taken
+    Side side;  ///< bitwise complement once it has a twin
   };
 
   explicit SideRows(const TriangleMesh& mesh);
 
-  /// The first place from `from` on of a side of `point` that rises to `to`, beside triangle `t`'s tag; the
-  /// end of the point's row if there is none.
+  /// The first index >= `from` in the row of `point` of a side that rises to `to` and has triangle `t`'s tag;
+  /// the end of the row if there is none.
   int find(int from, int point, int to, int t) const {
     const int end = end_[point];
     for (; from < end; from += at_once) {
-      // Without a branch on each, which cannot be foreseen.
+      // No branch for each entry: it would be unpredictable.
       unsigned found = 1U << at_once;
       for (int k = 0; k < at_once; ++k) found |= static_cast<unsigned>(ups[from + k].to == to) << k;
       const int place = from + std::countr_zero(found);
@@ -75,12 +76,12 @@ class SideRows {
   int begin(int point) const { return point == 0 ? 0 : end_[point - 1]; }
   int end(int point) const { return end_[point]; }
 
-  /// Whether some side runs the same way as another of its tag, or is the third: among those that rise, and
-  /// among `lone`, sides that run down and found no twin. Sorts `lone`.
+  /// Whether a side has the same direction as another of its tag or is the third of its tag. Looks at rising
+  /// sides, and at `lone`: falling sides that found no twin. Sorts `lone`.
   bool repeated(std::span<Side> lone) const;
 
-  std::vector<Up> ups;     ///< `rising` of them, and room to read on
-  std::vector<Side> down;  ///< `falling` of them
+  std::vector<Up> ups;     ///< `rising` entries, and padding for reads beyond them
+  std::vector<Side> down;  ///< `falling` entries, and one spare
   int rising = 0, falling = 0;
 
  private:
@@ -88,7 +89,7 @@ class SideRows {
 
   const TriangleMesh& mesh_;
   const int* tags_;
-  std::vector<int> end_;  ///< of each point's row
+  std::vector<int> end_;  ///< end of each point's row in `ups`
 };
 
 /// Calls join(side, twin) once for each side that two triangles of one tag share.

@@ -32,7 +32,7 @@ int tag_of(const TriangleMesh& mesh, Side side) {
   return mesh.tags.empty() ? 0 : mesh.tags[triangle_of(side)];
 }
 
-/// The sides between the same two points and of one tag, one group after the other.
+/// Visits the sides in groups. The sides of a group have the same two points and the same tag.
 /// \param visit takes each group as a span of sides.
 template <class Visit>
 void each_side_group(const TriangleMesh& mesh, Visit&& visit) {
@@ -60,7 +60,7 @@ void each_side_group(const TriangleMesh& mesh, Visit&& visit) {
     }
   }
   std::vector<Side> group;
-  int begin = 0;  // each start has moved to its row's end
+  int begin = 0;  // each start has moved to the end of its row
   for (const int end : start) {
     std::sort(entries.begin() + begin, entries.begin() + end);
     for (int k = begin; k < end; ++k) {
@@ -73,7 +73,7 @@ void each_side_group(const TriangleMesh& mesh, Visit&& visit) {
   }
 }
 
-/// The neighbors of one tag across sides that no third triangle of it has, whichever way they run.
+/// The neighbor across each side that exactly two triangles of a tag share, whatever their orientation.
 Twins neighbors(const TriangleMesh& mesh) {
   Twins twins(mesh.triangles.size(), {-1, -1, -1});
   each_side_group(mesh, [&](std::span<const Side> group) {
@@ -90,8 +90,8 @@ Twins neighbors(const TriangleMesh& mesh) {
   return twins;
 }
 
-/// Which triangles of the piece that `seed` is in are to be turned for the others to agree with it.
-/// \param turned -1 = not looked at yet; out: 1 = to be turned. \return the triangles of the piece.
+/// Finds which triangles in the piece of `seed` must be turned to agree with it.
+/// \param turned -1 = not visited yet; out: 1 = must be turned, 0 = not. \return the triangles of the piece.
 std::vector<int> agree_with(int seed, const TriangleMesh& mesh, const Twins& twins,
                             std::vector<char>& turned) {
   std::vector<int> piece{seed};
@@ -122,7 +122,7 @@ std::uint64_t key(int a, int b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
 }
 
-/// Undoes neighborhood across sides that are to be cut.
+/// Removes the neighbor relation across sides that are to be cut.
 void cut_twins(const TriangleMesh& mesh, double angle, const std::vector<std::array<int, 2>>& sides,
                Twins& twins) {
   std::vector<std::uint64_t> keys;
@@ -152,7 +152,7 @@ void cut_twins(const TriangleMesh& mesh, double angle, const std::vector<std::ar
   }
 }
 
-/// Numbers the triangles' pieces.
+/// Numbers the connected pieces, from 0. \param pieces out: piece of each triangle. \return their number.
 int number_pieces(const Twins& twins, std::vector<int>& pieces) {
   pieces.assign(twins.size(), -1);
   int count = 0;
@@ -175,7 +175,7 @@ int number_pieces(const Twins& twins, std::vector<int>& pieces) {
   return count;
 }
 
-/// Gives the triangles round a point a copy of it for each fan of theirs but the first.
+/// Copies each point for every fan of triangles around it but the first.
 class PointSplitter {
  public:
   PointSplitter(const Twins& twins, CutSurface& surface)
@@ -202,7 +202,7 @@ class PointSplitter {
     } else {
       met_[point] = 1;
     }
-    // Across the side that leaves the point, all the way round or to the end; then the other way.
+    // First across the side that leaves the point, all the way around or to the end; then the other way.
     int at = t, corner = i;
     while (take(at, corner, point)) {
       const Side twin = twins_[at][corner];
@@ -233,7 +233,7 @@ class PointSplitter {
   std::vector<char> met_;
 };
 
-/// Of two or three whole numbers, by which points are put into cells.
+/// A point and the grid cell that it lies in.
 struct Cell {
   std::array<std::int64_t, 3> place;
   int point;
@@ -269,7 +269,7 @@ std::vector<int> coincident_points(const std::vector<Vector3>& points, double to
   for (int v = 0; v < static_cast<int>(points.size()); ++v) {
     const auto own = cell_of(points[v]);
     for (int k = 0; k < 9; ++k) {
-      // Three cells in a row lie behind each other.
+      // Three cells in a row along z are consecutive in the sorted order.
       const std::array<std::int64_t, 3> low{own[0] + k / 3 - 1, own[1] + k % 3 - 1, own[2] - 1};
       const std::array<std::int64_t, 3> high{low[0], low[1], own[2] + 1};
       for (auto at = std::lower_bound(cells.begin(), cells.end(), Cell{low, -1});
@@ -309,7 +309,7 @@ CutSurface cut_surface(const TriangleMesh& mesh, double angle, std::vector<std::
     std::iota(surface.original.begin(), surface.original.end(), 0);
     surface.pieces = number_pieces(twins, surface.mesh.tags);
     PointSplitter(twins, surface).split();
-    // A cut of one side alone parts no points: it goes on along the next side of its triangle.
+    // A cut along a single side separates no points. It continues along the next side of its triangle.
     const std::size_t count = sides.size();
     for (int t = 0; t < static_cast<int>(twins.size()); ++t) {
       for (int i = 0; i < 3; ++i) {

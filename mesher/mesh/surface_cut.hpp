@@ -1,6 +1,6 @@
 #pragma once
-/// Triangulations from anywhere made fit for pairing: oriented alike, and cut where quads must not reach
-/// across. Internal.
+/// Prepares triangulations of any origin for pairing: orients them consistently, and cuts them along the
+/// sides that no quad may cross. Internal.
 
 #include <span>
 #include <vector>
@@ -9,28 +9,28 @@
 
 namespace quadrille {
 
-/// For each point the first one that lies within `tolerance` of it and stands for itself; itself where there
-/// is none. \param tolerance 0 = on the very same place. O(n log n).
+/// For each point, the first point within `tolerance` of it that is its own representative; the point itself
+/// if there is no such point. \param tolerance 0 = exactly the same position. O(n log n).
 std::vector<int> coincident_points(const std::vector<Vector3>& points, double tolerance);
 
-/// Turns triangles so that neighbors of one tag run along the side between them in opposite ways, the way
-/// round that most of a connected piece have. Returns how many were turned. Throws Error (failure) naming a
-/// triangle that fits no way round (a surface with one side only), or that has the same corners as another.
-/// O(n).
+/// Orients triangles so that neighbors of one tag run along their common side in opposite directions. Each
+/// connected piece takes the orientation of the majority. Returns how many triangles were turned. Throws
+/// Error (failure) naming a triangle that agrees with its neighbors in neither orientation (a one-sided
+/// surface), or that has the same corners as another. O(n).
 int orient_alike(TriangleMesh& mesh);
 
-/// A triangulation cut into pieces: no piece has a side with more than two triangles, or touches itself in a
-/// point without a side there.
+/// A triangulation cut into pieces. No piece has a side with more than two triangles, or touches itself at a
+/// single point.
 struct CutSurface {
-  TriangleMesh mesh;          ///< the triangles as they were; the tag of each is its piece, from 0
-  std::vector<int> original;  ///< point -> which one it was: those on cuts come several times, copies last
-  int pieces = 0;
+  TriangleMesh mesh;          ///< triangles in their old order; the tag of each is its piece, from 0
+  std::vector<int> original;  ///< point -> point of the input; points on cuts have copies, which come last
+  int pieces = 0;             ///< number of pieces
 };
 
-/// Cuts an oriented triangulation along the sides between different tags, between triangles whose normals
-/// differ by more than `angle` degrees (0 = never), where more than two triangles of one tag meet, and along
-/// `sides` (pairs of points, in either order). Points marked as fixed stay so. O(n + s log s) for n triangles
-/// and s sides.
+/// Cuts an oriented triangulation along these sides: sides between different tags, sides between triangles
+/// whose normals differ by more than `angle` degrees (0 = never), sides where more than two triangles of one
+/// tag meet, and `sides` (pairs of points, in either order). Fixed points stay fixed. O(n + s log s) for n
+/// triangles and s sides.
 CutSurface cut_surface(const TriangleMesh& mesh, double angle, std::vector<std::array<int, 2>> sides = {});
 
 }  // namespace quadrille

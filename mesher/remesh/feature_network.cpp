@@ -15,7 +15,7 @@ namespace {
 
 constexpr double to_radians = std::numbers::pi / 180;
 
-/// The angle by which a way turns at b, radians.
+/// The angle by which the polyline a, b, c turns at b, radians.
 double turn(const Vector3& a, const Vector3& b, const Vector3& c) {
   const Vector3 in = b - a, out = c - b;
   return std::atan2(in.cross(out).norm(), in.dot(out));
@@ -51,7 +51,7 @@ class FeatureFinder {
   int tag(int triangle) const { return surface_.tags.empty() ? 0 : surface_.tags[triangle]; }
   double length(Side side) const { return (surface_.points[to(side)] - surface_.points[from(side)]).norm(); }
 
-  /// The input's own number of a side; -1 = it has none.
+  /// The number that FeatureRules::sides has for a side; -1 = it is not listed.
   int number_of(Side side) const {
     if (rules_.sides.empty()) return -1;
     const auto found = rules_.sides.find(std::minmax(from(side), to(side)));
@@ -59,7 +59,7 @@ class FeatureFinder {
   }
 
   template <class Visit>
-  void each_side(Visit&& visit) const {  // once
+  void each_side(Visit&& visit) const {  // each side once
     for (int t = 0; t < static_cast<int>(twins_.size()); ++t)
       for (int i = 0; i < 3; ++i)
         if (const Side side = make_side(t, i); twin(side) < side) visit(side);
@@ -72,7 +72,7 @@ class FeatureFinder {
     if (twin(side) >= 0) marked_[triangle_of(twin(side))][index_of(twin(side))] = value;
   }
 
-  /// Whether a side stays whatever the shape is.
+  /// Whether a side is a feature regardless of the shape.
   bool given(Side side) const {
     return twin(side) < 0 || tag(triangle_of(side)) != tag(triangle_of(twin(side))) || number_of(side) >= 0;
   }
@@ -118,7 +118,7 @@ class FeatureFinder {
       std::vector<double> area(network_.patch_count, 0);
       for (std::size_t t = 0; t < areas_.size(); ++t) area[network_.patches[t]] += areas_[t].norm();
       const double least = share * rules_.size * rules_.size;
-      std::map<int, std::map<int, double>> shared;  // small patch -> neighbor -> length of folds
+      std::map<int, std::map<int, double>> shared;  // small patch -> neighbor -> length of folds between them
       each_side([&](Side side) {
         if (!marked(side) || given(side)) return;
         const int a = network_.patches[triangle_of(side)], b = network_.patches[triangle_of(twin(side))];
@@ -146,7 +146,7 @@ class FeatureFinder {
     }
   }
 
-  /// Folds with one face on both sides.
+  /// Removes folds that have the same face on both sides and are connected over less than four elements.
   void drop_short_creases() {
     std::map<int, int> parent;  // by point
     const auto root = [&](int v) {
@@ -225,8 +225,8 @@ class FeatureFinder {
     return curve;
   }
 
-  /// Corners where the chain turns sharply, as seen from half an element away too: rims of scans turn at
-  /// every triangle.
+  /// Adds the chain as curves, split at corners where it turns sharply. It must also turn sharply as seen
+  /// from half an element away, because the rims of scans turn at every triangle.
   void split_at_turns(std::vector<int> chain, int number) {
     const FeatureCurve whole = curve_of(chain, number);
     const double least = (rules_.angle > 0 ? std::min(rules_.angle, 60.0) : 40.0) * to_radians;
@@ -272,7 +272,7 @@ class FeatureFinder {
   FeatureNetwork network_;
 };
 
-/// Segments of about equal length, and no two that turn sharply to each other.
+/// The length of equal segments, short enough that no two neighbors meet at a sharp angle.
 double even_spacing(const FeatureCurve& curve, double target) {
   constexpr double finest = 1.0 / 8, sharp = 61 * to_radians, growth = 1.5;
   const bool closed = curve.closed();
@@ -285,7 +285,7 @@ double even_spacing(const FeatureCurve& curve, double target) {
       const Vector3 before = curve.at(k > 0 ? (k - 1) * step : curve.length() - step);
       worst = std::max(worst, turn(before, curve.at(k * step), curve.at((k + 1) * step)));
     }
-    // One segment of a curve that is bent hides its turns.
+    // A single segment on a bent curve would hide the bend.
     if (count == 1) worst = 2 * turn(curve.at(0), curve.at(0.5 * step), curve.at(step));
     if (worst <= sharp || spacing < finest * target) return step;
   }
@@ -339,7 +339,7 @@ std::vector<std::vector<double>> place_on_curves(const FeatureNetwork& network,
   for (std::size_t c = 0; c < network.curves.size(); ++c) {
     const FeatureCurve& curve = network.curves[c];
     const double from = at_corner[curve.points.front()], to = at_corner[curve.points.back()];
-    // Steps of the integral of 1 / size.
+    // Number of steps in the integral of 1 / size.
     constexpr int most_steps = 1 << 16;
     const int steps =
         std::clamp(static_cast<int>(16 * curve.length() / std::min({spacing[c], from, to})), 16, most_steps);

@@ -9,7 +9,7 @@ namespace quadrille {
 
 namespace {
 
-/// The mesh as triangles round the middle of each quad, through its midside nodes if it has any.
+/// The mesh as triangles around the middle of each quad, through its midside nodes if it has any.
 TriangleMesh fans_of(const ShellMesh& mesh) {
   TriangleMesh fans;
   fans.points = mesh.points;

@@ -1,5 +1,5 @@
 #pragma once
-/// How far a mesh is from the surface that it was made of. Internal.
+/// How far a mesh deviates from the surface that it was made from. Internal.
 
 #include <map>
 #include <vector>
@@ -12,8 +12,9 @@ namespace quadrille {
 
 double area_of(const TriangleMesh& mesh);
 
-/// Distances both ways, and areas and volumes but the surface's area. \param patches (triangles of the
-/// surface). \param patch_of_face of the mesh. O(n log n).
+/// Measures the distances in both directions, the area of the mesh, and the volumes if the surface is closed;
+/// not the surface's area. \param patches (triangles of the surface) the face of each triangle, from 0.
+/// \param patch_of_face face number in the mesh -> face of the surface. O(n log n).
 RemeshFidelity measure_fidelity(const TriangleMesh& surface, const std::vector<int>& patches,
                                 const SurfaceLocator& locator, const ShellMesh& mesh,
                                 const std::map<int, int>& patch_of_face);

@@ -72,12 +72,12 @@ class PatchMesher {
     }
   }
 
-  /// Takes nodes of quads that are turned over off the surface: to the middle of their neighbors first, then
-  /// to wherever the worst quad round them is best. \return how many.
+  /// Moves the free nodes of inverted quads off the surface: first to the mean of their neighbors, then to
+  /// the place where the worst quad around them is best. \return the number of nodes moved.
   int unfold() {
     constexpr int rounds = 20;
     std::vector<Vector3>& p = fine_.mesh.points;
-    std::map<int, std::vector<int>> round_node;  // quads
+    std::map<int, std::vector<int>> round_node;  // node -> quads around it
     std::vector<char> moved(p.size(), 0);
     const auto shape = [&](int quad) {
       const auto& [a, b, c, d] = fine_.mesh.quads[quad];
@@ -117,7 +117,7 @@ class PatchMesher {
     return sum / (2.0 * static_cast<double>(quads.size()));
   }
 
-  /// Steps along the axes, shorter and shorter, to where the worst quad is best.
+  /// Moves node v by ever shorter steps along the axes to the place where the worst quad is best.
   template <class Shape>
   void search(int v, const std::vector<int>& quads, const Shape& shape) {
     std::vector<Vector3>& p = fine_.mesh.points;
@@ -152,7 +152,7 @@ class PatchMesher {
     return static_cast<int>(nodes_.size()) - 1;
   }
 
-  /// The point of the surface near a target, found from a point of the fine mesh.
+  /// Adds the point of the surface near a target. The search starts at point `from` of the fine mesh.
   int add_near(int from, const Vector3& target) {
     Vector2 place = fine_.parameters[from];
     Vector3 normal;
@@ -199,7 +199,7 @@ class PatchMesher {
   ExecutionContext& context_;
   std::vector<FaceBoundary::Segment> segments_;
   SurfaceMesh coarse_, fine_;
-  std::vector<int> nodes_;  // (fine points)
+  std::vector<int> nodes_;  // (points of fine_) see PatchQuads::nodes
   std::unordered_map<std::uint64_t, int> middles_;
 };
 
@@ -213,7 +213,7 @@ Vector3 PatchOfSurface::move(Vector2& uv, const Vector3& target, Vector3& normal
   Vector2 place(found.triangle, 0);
   Vector3 there;
   on_.surface.move(place, found.point, there);
-  if (there.dot(normal) <= 0) return walked;  // another sheet
+  if (there.dot(normal) <= 0) return walked;  // another sheet of the surface
   uv = place;
   normal = there;
   return found.point;

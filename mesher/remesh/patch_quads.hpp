@@ -12,39 +12,39 @@
 
 namespace quadrille {
 
-/// The triangles that quads of half their size are made of, and what lies round them.
+/// The triangles of a face, from which quads of half their size are made, and the face's boundary.
 struct PatchTriangles {
-  /// A side at the boundary, with the node in its middle.
+  /// A side on the boundary, with the node at its middle.
   struct Side {
-    int a = -1, b = -1;  ///< points here
-    int middle = -1;     ///< node of the whole
-    Vector3 place;       ///< of that node
+    int a = -1, b = -1;  ///< points of `mesh`
+    int middle = -1;     ///< node of the whole mesh at the middle of the side
+    Vector3 place;       ///< position of that node
   };
-  int patch = 0;               ///< of the surface, from 0
-  TriangleMesh mesh;           ///< points on the boundary first
-  std::vector<int> nodes;      ///< (points on the boundary) nodes of the whole
-  std::vector<double> angles;  ///< (points on the boundary) that the face fills there, radians
-  std::vector<Side> sides;     ///< of the boundary
+  int patch = 0;               ///< face of the surface, from 0
+  TriangleMesh mesh;           ///< points on the boundary come first
+  std::vector<int> nodes;      ///< (points on the boundary) nodes of the whole mesh
+  std::vector<double> angles;  ///< (points on the boundary) angle that the face fills there, radians
+  std::vector<Side> sides;     ///< sides on the boundary
 };
 
 /// The quads of a face.
 struct PatchQuads {
-  int patch = 0;                          ///< of the surface, from 0
-  std::vector<Vector3> points;            ///< on the surface
-  int off_surface = 0;                    ///< how many are not, since quads would be turned over
-  std::vector<Vector2> places;            ///< (points) as SmoothingSurface::move() takes them
-  std::vector<int> nodes;                 ///< (points) node of the whole; -1 = of this face alone
-  std::vector<std::array<int, 4>> quads;  ///< the way round that the triangles have
+  int patch = 0;                          ///< face of the surface, from 0
+  std::vector<Vector3> points;            ///< points on the surface, but for `off_surface` of them
+  int off_surface = 0;                    ///< number of points moved off the surface to avoid inverted quads
+  std::vector<Vector2> places;            ///< (points) parameters as in SmoothingSurface::move()
+  std::vector<int> nodes;                 ///< (points) node of the whole mesh; -1 = inside this face
+  std::vector<std::array<int, 4>> quads;  ///< oriented as the triangles are
 };
 
 /// The surface that the faces lie on.
 struct PatchSurface {
   const SmoothingSurface& surface;  ///< a TriangulatedSurface, cut along the curves
-  const SurfaceLocator& locator;    ///< of the same triangles
+  const SurfaceLocator& locator;    ///< finds points on the same triangles
 };
 
-/// One face of the surface. Points are found by the tree of boxes: a walk from triangle to triangle ends
-/// where long and narrow ones lie side by side, as those of cylinders in files of CAD systems do.
+/// One face of the surface. Points are also found by the tree of boxes, because a walk from triangle to
+/// triangle gets stuck among long narrow triangles side by side, such as those of cylinders in CAD exports.
 class PatchOfSurface : public SmoothingSurface {
  public:
   PatchOfSurface(const PatchSurface& on, int patch) : on_(on), patch_(patch) {}
@@ -55,8 +55,8 @@ class PatchOfSurface : public SmoothingSurface {
   int patch_;
 };
 
-/// Pairs the triangles, cleans up, splits each quad into four and each triangle into three, and smooths, on
-/// the surface. Throws Error (cancelled).
+/// Pairs the triangles, cleans up, splits each quad into four quads and each triangle into three, and smooths
+/// them on the surface. Throws Error (cancelled).
 PatchQuads quads_on_patch(PatchTriangles triangles, const PatchSurface& on, const RecombineOptions& recombine,
                           const ImproveOptions& improve, ExecutionContext& context);
 

@@ -34,7 +34,7 @@ namespace quadrille {
 
 namespace {
 
-/// Nodes closer than this, over the surface's diagonal, are on one place.
+/// Sides of quads shorter than this times the surface's diagonal count as having no length.
 constexpr double same_place = 1e-9;
 
 void check(const RemeshOptions& options) {
@@ -52,7 +52,7 @@ std::string text_of(const Vector3& p) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
 }
 
-/// Three triangles on a side have no inside and no outside between them.
+/// Throws Error (failure) if more than two triangles share a side, or if no two triangles share one.
 void check_manifold(const TriangleMesh& mesh) {
   std::vector<std::uint64_t> keys;
   keys.reserve(3 * mesh.triangles.size());
@@ -75,13 +75,13 @@ void check_manifold(const TriangleMesh& mesh) {
   }
 }
 
-/// The surface that is meshed, in one piece or several.
+/// The surface to be meshed, in one or more pieces.
 struct Surface {
   TriangleMesh mesh;          ///< tags are the input's faces
-  std::vector<int> original;  ///< point -> the first of those that were one where the surface touches itself
-  std::vector<char> touches;  ///< (points) 1 = it does there
-  std::vector<int> pieces;    ///< (triangles) connected piece
-  int piece_count = 0;
+  std::vector<int> original;  ///< point -> the point that it is a copy of, or itself
+  std::vector<char> touches;  ///< (points) 1 = the surface touches itself there; the point has copies
+  std::vector<int> pieces;    ///< (triangles) connected piece of each, from 0
+  int piece_count = 0;        ///< number of connected pieces
 };
 
 Surface oriented_surface(TriangleMesh mesh, std::vector<std::string>& notes) {
@@ -100,7 +100,7 @@ Surface oriented_surface(TriangleMesh mesh, std::vector<std::string>& notes) {
   return surface;
 }
 
-/// Diagonals of the pieces' bounding boxes.
+/// Diagonals of the bounding boxes of the pieces.
 std::vector<double> diagonals(const Surface& surface) {
   std::vector<Eigen::AlignedBox3d> boxes(surface.piece_count);
   for (std::size_t t = 0; t < surface.pieces.size(); ++t)
@@ -111,7 +111,7 @@ std::vector<double> diagonals(const Surface& surface) {
   return result;
 }
 
-/// \return the surface's diagonal.
+/// Throws Error (usage) if the size exceeds the surface's diagonal. \return that diagonal.
 double check_size(const Surface& surface, const RemeshOptions& options) {
   Eigen::AlignedBox3d box;
   for (const auto& triangle : surface.mesh.triangles)
@@ -123,7 +123,8 @@ double check_size(const Surface& surface, const RemeshOptions& options) {
   return diagonal;
 }
 
-/// The numbers that faces or edges have in the result: the first one with a number of the input keeps it.
+/// The numbers of faces or edges in the result. The first one with a given input number keeps it; the others
+/// get new numbers. \param inputs numbers in the input, 0 = none.
 std::vector<int> numbers_of(const std::vector<int>& inputs) {
   std::set<int> taken;
   int last = 0;
@@ -135,8 +136,8 @@ std::vector<int> numbers_of(const std::vector<int>& inputs) {
   return result;
 }
 
-/// The nodes that sides begin at which two quads have in the same direction: tubes that too few triangles go
-/// round close on themselves.
+/// The first nodes of the sides that two quads run along in the same direction. Such sides occur where a tube
+/// has too few triangles around it and collapses onto itself.
 std::vector<int> doubled_sides(const std::vector<std::array<int, 4>>& quads) {
   std::vector<std::pair<int, int>> sides;
   sides.reserve(4 * quads.size());
@@ -159,7 +160,7 @@ class Remesher {
     find_faces();
     find_targets();
     if (!options_.force) hold_budget();
-    // Where quads stay inverted the surface wants smaller ones.
+    // Where quads stay inverted the surface needs smaller ones.
     constexpr int most_attempts = 4;
     for (int attempt = 1;; ++attempt) {
       make_triangles();
@@ -237,7 +238,7 @@ class Remesher {
 
   void hold_budget() const {
     Budget budget;
-    // As measured on a sphere of 164 000 quads; half of it goes to the distances.
+    // As measured on a sphere of 164 000 quads. Half of it is for measuring the distances.
     budget.bytes_an_element = options_.order == 2 ? 3300 : 1800;
     double count = 0;
     for (const auto& [a, b, c] : surface_.mesh.triangles) {
@@ -248,10 +249,9 @@ class Remesher {
     hold_elements(count, budget, free_memory());
   }
 
-  /// How long sides of triangles may be on each piece for it to keep its shape: bodies that are far smaller
-  /// than the elements have a few, and those without curves, such as rings and spheres, some five round where
-  /// they are as thick as in the mean, but for those of thin walls. The thickness is twice the volume over
-  /// the area.
+  /// The longest sides of triangles with which each piece keeps its shape. Every piece gets at least four
+  /// sides across its diagonal. Pieces without curves, such as rings and spheres, get about five around their
+  /// mean thickness, unless their walls are thin. The mean thickness is twice the volume over the area.
   std::vector<double> longest_sides() const {
     constexpr double least_across = 4, of_thickness = 1.2, least_of_size = 0.5;
     std::vector<double> most = diagonals(surface_);
@@ -290,14 +290,14 @@ class Remesher {
                                   targets_, context_);
   }
 
-  /// Turned over, or shrunk to nothing: unfolding looks at shapes, which have no size.
+  /// Whether a quad is inverted, or has a side of no length. Unfolding looks only at shape, not at size.
   bool is_spoiled(const std::vector<Vector3>& p, const std::array<int, 4>& quad) const {
     for (int k = 0; k < 4; ++k)
       if ((p[quad[(k + 1) % 4]] - p[quad[k]]).norm() < least_side_) return true;
     return quad_scaled_jacobian(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]) <= 0;
   }
 
-  /// Nodes of quads that are spoiled, or lie on others.
+  /// A node of each quad that is spoiled or lies on another quad.
   std::vector<Vector3> inverted_places() const {
     std::vector<Vector3> places;
     for (const PatchQuads& patch : quads_) {
@@ -339,7 +339,7 @@ class Remesher {
         off));
   }
 
-  /// The surface cut along its curves, for points to move on.
+  /// The surface cut along its curves. Points move on it.
   TriangulatedSurface cut_reference() const {
     TriangleMesh mesh = surface_.mesh;
     mesh.tags = network_.patches;
@@ -369,7 +369,7 @@ class Remesher {
     });
   }
 
-  /// What belongs to each piece, its points numbered anew, those on the boundary first.
+  /// The triangles and the boundary of each piece. Its points are renumbered, those on the boundary first.
   std::vector<PatchTriangles> split_by_piece(const CutSurface& cut) {
     std::unordered_map<std::uint64_t, int> side_of;
     for (std::size_t s = 0; s < triangles_.sides.size(); ++s)
@@ -428,7 +428,7 @@ class Remesher {
     return pieces;
   }
 
-  using AngleSums = std::map<std::pair<int, int>, double>;  // patch, corner of the surface
+  using AngleSums = std::map<std::pair<int, int>, double>;  // (patch, corner of the surface) -> angle
 
   AngleSums sum_angles() const {
     AngleSums sums;
@@ -446,7 +446,7 @@ class Remesher {
     return sums;
   }
 
-  /// The side of a curve; one more where a cut went on beyond the curves.
+  /// The index of the side between two points. A new side is added where a cut went on beyond the curves.
   int side_index(std::unordered_map<std::uint64_t, int>& side_of, int a, int b, int patch) {
     const auto [found, is_new] =
         side_of.try_emplace(side_key(a, b), static_cast<int>(triangles_.sides.size()));
@@ -464,7 +464,7 @@ class Remesher {
 
   int middle_node(int side) const { return static_cast<int>(triangles_.mesh.points.size()) + side; }
 
-  /// Nodes numbered: corners, then along the curves, then face by face.
+  /// Numbers the nodes (corners, then along the curves, then face by face) and assembles the mesh.
   ShellMesh assemble() {
     const StageTimer timer(context_, Stage::assemble);
     context_.report(Stage::assemble, 0);
@@ -477,7 +477,7 @@ class Remesher {
       if (same < 0) {
         same = static_cast<int>(mesh.points.size());
         mesh.points.push_back(place);
-        // Where a curve without corners begins is no corner.
+        // The start of a closed curve without corners is no corner.
         if (corner >= 0 && network_.corner[corner])
           mesh.corners.push_back({same, static_cast<int>(mesh.corners.size()) + 1});
       }
@@ -569,7 +569,8 @@ class Remesher {
     for (auto& [number, face] : faces) mesh.faces.push_back(face);
   }
 
-  /// Groups of the input hold what they held; beside them each face, edge and vertex has its own.
+  /// Groups of faces and segments keep their extent. If any are left, each face, edge and vertex gets a group
+  /// of its own besides.
   void keep_groups(ShellMesh& mesh) const {
     std::vector<std::string> lost;
     for (const ShellMesh::Group& group : input_.groups) {
@@ -608,16 +609,16 @@ class Remesher {
   ExecutionContext& context_;
   Surface surface_;
   FeatureNetwork network_;
-  std::vector<int> face_numbers_, edge_numbers_, input_faces_;  // by patch, by curve, by patch
+  std::vector<int> face_numbers_, edge_numbers_, input_faces_;  // by patch, curve, patch
   std::map<int, int> patch_of_face_;
   std::optional<SurfaceLocator> locator_;
   std::optional<TriangulatedSurface> reference_;
   std::vector<double> targets_;  // by point of the surface
-  double least_side_ = 0;        // of a quad
+  double least_side_ = 0;        // shortest side that a quad may have
   RemeshedTriangles triangles_;
   std::vector<Vector3> middle_places_;  // by side
   std::vector<PatchQuads> quads_;
-  std::vector<int> node_;  // of the result, by point of the triangles, then by side
+  std::vector<int> node_;  // nodes of the result, by point of the triangles, then by side
 };
 
 }  // namespace

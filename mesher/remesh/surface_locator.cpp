@@ -3,7 +3,7 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/version.h>
-// CGAL 6 has these in two and in three dimensions.
+// CGAL 6 has these classes for two and for three dimensions.
 #if CGAL_VERSION_NR >= 1060000000
 #include <CGAL/AABB_traits_3.h>
 #include <CGAL/AABB_triangle_primitive_3.h>
@@ -33,7 +33,7 @@ Kernel::Point_3 to_cgal(const Vector3& p) {
 
 struct SurfaceLocator::Tree {
   Triangles triangles;
-  std::vector<int> numbers;  ///< of the triangles on the surface
+  std::vector<int> numbers;  ///< index of each triangle in the surface
   CGAL::AABB_tree<Traits> boxes;
 };
 
@@ -50,7 +50,7 @@ SurfaceLocator::SurfaceLocator(const TriangleMesh& surface, const std::vector<in
   }
   for (const auto& tree : trees_) {
     tree->boxes.rebuild(tree->triangles.cbegin(), tree->triangles.cend());
-    // Now, since what is made at the first question is made under a lock.
+    // Build now: on the first query the tree would be built under a lock.
     tree->boxes.build();
     tree->boxes.accelerate_distance_queries();
   }

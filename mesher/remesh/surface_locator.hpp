@@ -1,5 +1,5 @@
 #pragma once
-/// Where points lie on a triangulated surface. Internal.
+/// Finds nearest points on a triangulated surface. Internal.
 
 #include <memory>
 #include <vector>
@@ -8,21 +8,21 @@
 
 namespace quadrille {
 
-/// Finds the nearest places on the faces of a triangulated surface, by a tree of boxes for each.
+/// Finds the nearest points on the faces of a triangulated surface. Each face has its own tree of boxes.
 class SurfaceLocator {
  public:
   struct Place {
-    Vector3 point;      ///< on the surface
-    int triangle = -1;  ///< that it lies on
+    Vector3 point;      ///< point on the surface
+    int triangle = -1;  ///< triangle that the point lies on
   };
 
-  /// \param patches (triangles) the face of each, from 0. O(n log n).
+  /// \param patches (triangles) the face of each triangle, from 0. O(n log n).
   SurfaceLocator(const TriangleMesh& surface, const std::vector<int>& patches, int patch_count);
   ~SurfaceLocator();
   SurfaceLocator(const SurfaceLocator&) = delete;
   SurfaceLocator& operator=(const SurfaceLocator&) = delete;
 
-  /// The place on a face nearest to a point. Thread-safe. O(log n) in practice.
+  /// The point of a face nearest to a given point. Thread-safe. O(log n) in practice.
   Place nearest(int patch, const Vector3& point) const;
 
  private:

@@ -13,9 +13,10 @@ namespace quadrille {
 
 namespace {
 
-/// Straightens the sides of elements that fold until none does; their neighbors may fold by that.
+/// Straightens the sides of elements that fold, until none does or 20 rounds are over, since straightening
+/// may make neighbors fold.
 void straighten(ShellMesh& mesh, std::vector<std::string>& notes) {
-  std::map<int, double> off;  // node, distance
+  std::map<int, double> off;  // node -> distance
   constexpr int most_rounds = 20;
   for (int round = 0; round < most_rounds; ++round) {
     bool any = false;

@@ -9,15 +9,15 @@
 
 namespace quadrille {
 
-/// What a segment of the mesh stands for.
+/// The part of a curve that a segment of the mesh stands for.
 struct CurveStretch {
-  Vector3 middle;  ///< of it, on the curve
+  Vector3 middle;  ///< its midpoint, on the curve
 };
 
-/// Makes the mesh one of second order: midside nodes lie on the curves and on the surface. Where an element
-/// would fold its sides are straight; those nodes are listed in `mesh.off_geometry`, and `notes` tells.
-/// \param patches whose quads are those of the mesh, in order; nodes are the mesh's. \param stretches
-/// (segments).
+/// Makes the mesh second order, with midside nodes on the curves and on the surface. The sides of an element
+/// that would fold are made straight; their nodes are listed in `mesh.off_geometry` and reported in `notes`.
+/// \param patches their quads are the quads of the mesh, in order; `nodes` are nodes of the mesh.
+/// \param stretches (segments) the part of a curve for each segment.
 void add_surface_midsides(ShellMesh& mesh, const std::vector<PatchQuads>& patches,
                           const std::vector<CurveStretch>& stretches, const PatchSurface& on,
                           std::vector<std::string>& notes);

@@ -28,19 +28,19 @@ using Face = Mesh::Face_index;
 /// What keeps a point where it is.
 enum Hold : char {
   free_point,  ///< moves on its patch
-  passing,     ///< a point of the surface's own on a curve: it goes when it can
+  passing,     ///< an original point of the surface on a curve: removed when possible
   held         ///< a node on a curve, or a corner
 };
 
-/// The stretch of a curve that an edge stands for.
+/// The part of a curve that an edge stands for.
 struct Span {
-  int curve = -1;  ///< none
+  int curve = -1;  ///< index of the curve; -1 = none
   double low = 0, high = 0;
-  Vertex first;  ///< where the stretch is at its low end
+  Vertex first;  ///< vertex at the low end
 };
 
-/// Sides between these shares of the size stay. In the mean they come out so that two triangles are as large
-/// as a square of the size.
+/// Sides between these multiples of the size stay as they are. With them two triangles have on average the
+/// area of a square of the size.
 constexpr double longest_share = 1.57, shortest_share = 0.94;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -132,7 +132,7 @@ class TriangleRemesher {
     }
   }
 
-  /// Cuts the sides of a curve where its nodes go.
+  /// Splits the sides of a curve at the places of its nodes.
   void insert_nodes(int index, const std::vector<double>& nodes) {
     const FeatureCurve& curve = network_.curves[index];
     const double near = 1e-6 * curve.length() / static_cast<double>(nodes.size());
@@ -159,10 +159,11 @@ class TriangleRemesher {
     }
   }
 
-  /// Cuts an edge in two and the faces beside it. \param along place on its curve, if it is on one.
+  /// Splits an edge and the faces beside it. \param along length along the edge's curve, if it has one.
+  /// \return the new vertex.
   Vertex split(Halfedge h, const Vector3& place, double along) {
     const Span span = span_[mesh_.edge(h)];
-    const Halfedge added = CGAL::Euler::split_edge(h, mesh_);  // ends at the new point, h follows
+    const Halfedge added = CGAL::Euler::split_edge(h, mesh_);  // ends at the new vertex; h follows
     const Vertex v = mesh_.target(added);
     put(v, place);
     size_[v] = 0.5 * (size_[mesh_.source(added)] + size_[mesh_.target(h)]);
@@ -192,9 +193,9 @@ class TriangleRemesher {
     patch_[mesh_.face(added)] = patch_[mesh_.face(mesh_.opposite(added))] = patch;
   }
 
-  /// Where a fold shows that triangles are too large for the surface, they are to be smaller.
+  /// Reduces sizes at folds, which show that triangles are too large for the surface.
   void refine_folds() {
-    constexpr double sharp = 0.5, smaller = 0.6, finest = 1.0 / 8;  // of 60 degrees
+    constexpr double sharp = 0.5, smaller = 0.6, finest = 1.0 / 8;  // sharp: cosine of 60 degrees
     for (const Edge e : mesh_.edges()) {
       check_();
       if (on_curve(e) || mesh_.is_border(e)) continue;
@@ -208,7 +209,7 @@ class TriangleRemesher {
     }
   }
 
-  /// Sizes at points: those of the nodes on curves, growing from there.
+  /// Computes the sizes at points: the least of target, cap and node spacing, with limited growth from there.
   void find_sizes() {
     constexpr double growth = 0.3;
     using Entry = std::pair<double, Vertex>;
@@ -238,7 +239,7 @@ class TriangleRemesher {
   }
 
   void split_long() {
-    constexpr int rounds = 40;  // each halves
+    constexpr int rounds = 40;  // each halves the sides
     std::vector<std::pair<double, Edge>> edges;
     for (int round = 0; round < rounds; ++round) {
       edges.clear();
@@ -259,7 +260,7 @@ class TriangleRemesher {
         if (span.curve >= 0) {
           place = network_.curves[span.curve].at(middle);
         } else {
-          // Farther away is another sheet of the surface.
+          // A point farther away lies on another sheet of the surface.
           const Vector3 there = locator_.nearest(patch_beside(e), half).point;
           if ((there - half).norm() < 0.4 * length(e) && may_split_at(h, there)) place = there;
         }
@@ -272,8 +273,8 @@ class TriangleRemesher {
     }
   }
 
-  /// Whether no corner beside an edge is where the edge would be split, as in triangles that are all but a
-  /// line.
+  /// Whether the corners opposite an edge are far enough from the point where it would be split. In triangles
+  /// with almost no area they are not.
   bool may_split_near(Halfedge h, const Vector3& place) const {
     constexpr double near_share = 0.1;
     for (const Halfedge side : {h, mesh_.opposite(h)})
@@ -283,7 +284,7 @@ class TriangleRemesher {
     return true;
   }
 
-  /// Whether the parts of the faces beside an edge look the way that the faces do.
+  /// Whether the parts of the split faces beside an edge have about the same normals as the faces.
   bool may_split_at(Halfedge h, const Vector3& place) const {
     constexpr double least_cosine = 0.5;
     const Vector3 a = at(mesh_.source(h)), b = at(mesh_.target(h));
@@ -298,7 +299,7 @@ class TriangleRemesher {
     return true;
   }
 
-  /// Sides of curves are as long as their nodes are apart, but where folds ask for more.
+  /// Sides on curves are not split, because their nodes are given, unless folds ask for smaller sizes.
   bool may_not_split(Edge e) const {
     if (!on_curve(e)) return false;
     return cap_[mesh_.vertex(e, 0)] == infinity && cap_[mesh_.vertex(e, 1)] == infinity;
@@ -320,20 +321,20 @@ class TriangleRemesher {
       const bool passes =
           on_curve(e) && (hold_[mesh_.source(h)] == passing || hold_[mesh_.target(h)] == passing);
       if (!passes && !(length(e) < shortest_share * size_at(e))) continue;
-      // The one that is held least goes.
+      // Remove the end with the weaker hold.
       const bool forward = hold_[mesh_.source(h)] <= hold_[mesh_.target(h)];
       if (!collapse(forward ? h : back) && hold_[mesh_.source(h)] == hold_[mesh_.target(h)])
         collapse(forward ? back : h);
     }
   }
 
-  /// Takes the source of a halfedge to its target, if that does no harm.
+  /// Collapses a halfedge, moving its source onto its target, if that does no harm. \return whether it did.
   bool collapse(Halfedge h) {
     const Vertex gone = mesh_.source(h), kept = mesh_.target(h);
     const Edge e = mesh_.edge(h);
     if (hold_[gone] == held || (hold_[gone] == passing && !on_curve(e))) return false;
     const Halfedge back = mesh_.opposite(h);
-    std::map<Vertex, Span> merged;  // spans of edges from the corners beside to the point that is kept
+    std::map<Vertex, Span> merged;  // corner beside the edge -> span of its edge to `kept`
     for (const Halfedge side : {h, back}) {
       if (mesh_.is_border(side)) continue;
       const Vertex corner = opposite_corner(side);
@@ -351,7 +352,7 @@ class TriangleRemesher {
         beyond = span_[mesh_.edge(other)];
         far = mesh_.source(other);
       }
-      // The curve's next side would fall onto another side, which may be on a curve too.
+      // Otherwise the curve's next side would coincide with another side, which may be on a curve too.
       if (mesh_.halfedge(far, kept) != Mesh::null_halfedge()) return false;
     }
     const double cap = std::min(cap_[gone], cap_[kept]);
@@ -367,13 +368,13 @@ class TriangleRemesher {
     return true;
   }
 
-  /// Whether no face round a point turns over, or gets sides that are too long, where the point is moved.
-  /// \param onto the point that it is moved onto, whose faces go. \param long_sides they do not matter.
+  /// Whether a point can move without inverting a face around it or making sides too long.
+  /// \param onto the vertex it collapses onto; common faces vanish. \param long_sides long sides are allowed.
   bool may_move(Vertex v, const Vector3& place, std::optional<Vertex> onto, bool long_sides) const {
     // Wide triangles would leave the surface where it bends.
     const double least_cosine = onto && !long_sides ? 0.7 : 0.2;
     constexpr double least_shape = 0.02;
-    std::vector<std::pair<int, Vector3>> normals;  // of the patches round the point
+    std::vector<std::pair<int, Vector3>> normals;  // patch around the point -> its normal there
     const auto normal_of = [&](int patch) -> Vector3& {
       for (auto& [known, normal] : normals)
         if (known == patch) return normal;
@@ -396,7 +397,7 @@ class TriangleRemesher {
         const double norms = of.norm() * normal.norm();
         return norms > 0 ? of.dot(normal) / norms : 0;
       };
-      // What is folded or flat already need not get better.
+      // A face that is folded or flat already need not improve.
       if (cosine(now) < std::min(least_cosine, cosine(before) - 1e-9)) return false;
       const double longest =
           std::max({(place - a).squaredNorm(), (b - a).squaredNorm(), (place - b).squaredNorm()});
@@ -424,8 +425,8 @@ class TriangleRemesher {
     }
   }
 
-  /// Delaunay's criterion: the angles opposite the side ab sum up to more than 180 degrees, that is, the sum
-  /// of their cotangents is negative.
+  /// The Delaunay criterion: the angles opposite the side ab sum to more than 180 degrees, that is, the sum
+  /// of their cotangents is negative. The new triangles must not fold.
   static bool wants_flip(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
     const Vector3 ca = a - c, cb = b - c, da = a - d, db = b - d;
     const double at_c = ca.cross(cb).norm(), at_d = da.cross(db).norm();
@@ -438,7 +439,7 @@ class TriangleRemesher {
            then.dot(normal) > least_cosine * then.norm() * normal.norm();
   }
 
-  /// Each free point goes to the middle of its faces, along the surface.
+  /// Moves each free point to the weighted mean of the centers of its faces, and back onto its patch.
   void relax() {
     for (const Vertex v : mesh_.vertices()) {
       check_();

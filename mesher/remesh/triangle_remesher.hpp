@@ -1,5 +1,5 @@
 #pragma once
-/// A triangulated surface made anew of triangles of a wanted size. Internal.
+/// Remeshes a triangulated surface with triangles of a wanted size. Internal.
 
 #include <vector>
 
@@ -14,21 +14,21 @@ namespace quadrille {
 struct RemeshedTriangles {
   /// A side on a curve.
   struct CurveSide {
-    std::array<int, 2> points;                                                 ///< in the curve's direction
-    int curve = 0;                                                             ///< from 0
-    double from = 0 /**< length along the curve at the first point */, to = 0; /**< at the second */
+    std::array<int, 2> points;  ///< end points, in the curve's direction
+    int curve = 0;              ///< index of the curve, from 0
+    double from = 0 /**< length along the curve at the first point */, to = 0; /**< at the second point */
   };
   TriangleMesh mesh;                ///< tags are the surface's patches
-  std::vector<CurveSide> sides;     ///< by curve, in order along it
-  std::vector<int> surface_corner;  ///< (points) the corner of the surface that a point is; -1 = none
+  std::vector<CurveSide> sides;     ///< sides on curves, by curve, in order along each
+  std::vector<int> surface_corner;  ///< (points) point of the surface at which curves end; -1 = none
 };
 
-/// Makes triangles with sides as long as `targets` wants, smaller where nodes on curves are nearer and where
-/// they would fold by more than 60 degrees at a side (down to an eighth), on each patch of the surface.
-/// Corners stay, nodes on curves are those of `nodes` (see place_on_curves()), and others lie on the patch.
-/// \param surface without tags. \param targets (points of the surface) millimeters, the same all over a
-/// connected piece. Throws Error (cancelled). Based on: Botsch & Kobbelt, A remeshing approach to
-/// multiresolution modeling (2004): sides split and collapsed, flipped, points moved along the surface.
+/// Makes triangles on each patch of the surface, with sides as long as `targets` asks. They are smaller where
+/// nodes on curves are closer, and where triangles would fold by more than 60 degrees at a side (down to an
+/// eighth). Corners stay, nodes on curves are those of `nodes` (see place_on_curves()), and other points lie
+/// on the patch. \param surface without tags. \param targets (points of the surface) wanted side lengths,
+/// millimeters. Throws Error (cancelled). Based on: Botsch & Kobbelt, A remeshing approach to multiresolution
+/// modeling (2004): sides are split, collapsed and flipped, and points move along the surface.
 RemeshedTriangles remesh_triangles(const TriangleMesh& surface, const FeatureNetwork& network,
                                    const std::vector<std::vector<double>>& nodes,
                                    const SurfaceLocator& locator, const std::vector<double>& targets,

@@ -27,8 +27,8 @@ Vector3 area_vector(const ShellMesh& mesh, std::size_t quad) {
   return 0.5 * (p[c] - p[a]).cross(p[d] - p[b]);
 }
 
-/// How much area faces lose because elements are flat and their sides straight, about: from the angles by
-/// which elements and curves turn. Angle / sine of a circular arc and its chord, to the second order.
+/// Estimates the area that faces lose because elements are flat and have straight sides, from the angles by
+/// which elements and curves turn. Uses the ratio of a circular arc to its chord, to second order.
 class FlatLoss {
  public:
   FlatLoss(const CadShape& shape, const ShellMesh& mesh, const std::vector<char>& faces)
@@ -72,7 +72,7 @@ class FlatLoss {
     return loss + normal.norm() * (turning[0] * turning[0] + turning[1] * turning[1]) / 24;
   }
 
-  /// The angle by which a CAD edge turns along one of its segments.
+  /// The mean angle by which a CAD edge turns along one of its segments.
   double turning_of(int number) {
     auto& turning = turnings_[number];
     if (turning) return *turning;

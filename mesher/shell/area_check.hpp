@@ -1,5 +1,5 @@
 #pragma once
-/// Whether the mesh has the area of the CAD faces.
+/// Checks the area of the mesh against the area of the CAD faces.
 
 #include <string>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace quadrille {
 
-/// One sentence for each meshed face whose quads have another area than OpenCASCADE integrates over the CAD
-/// face, by more than 3 % and twice what flat elements with straight sides lose: the size is too coarse for
-/// its shape, the file contradicts itself, or the integral is wrong. Takes about a tenth of a millisecond a
-/// face and more on splines.
+/// One sentence for each meshed face whose quads differ in area from OpenCASCADE's integral over the CAD
+/// face. The tolerance is 3 % plus twice the area that flat elements with straight sides lose. If it is
+/// exceeded, the size is too coarse for the shape, the file contradicts itself, or the integral is wrong.
+/// Takes about a tenth of a millisecond per face, and more on splines.
 std::vector<std::string> area_differences(const CadModel& model, const ShellMesh& mesh);
 
 }  // namespace quadrille

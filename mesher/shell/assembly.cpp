@@ -31,7 +31,7 @@ class Assembler {
   const ShellNumbering& numbering() const { return numbering_; }
 
  private:
-  /// On all threads, for those that are meshed.
+  /// Calls work(face) on all threads for each face that is meshed.
   template <class Work>
   void for_each_face(Work&& work) const {
     oneapi::tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t face) {
@@ -66,7 +66,7 @@ class Assembler {
     std::vector<char> listed(nodes_.points.size(), 0);
     for (std::size_t vertex = 0; vertex < nodes_.vertex_nodes.size(); ++vertex) {
       const int node = nodes_.vertex_nodes[vertex];
-      // The ends of edges that became points share a node: it is the first one's.
+      // The ends of an edge that became a point share a node: it is listed for the first vertex.
       if (node >= 0 && numbering_.nodes[node] >= 0 && !listed[node]) {
         listed[node] = 1;
         mesh_.corners.push_back({numbering_.nodes[node], static_cast<int>(vertex) + 1});
@@ -133,7 +133,7 @@ class Assembler {
   ShellMesh mesh_;
 };
 
-/// Midside nodes on the geometry, but where elements would fold.
+/// Adds midside nodes on the geometry, or off it where elements would fold. Throws if some still fold.
 void make_second_order(const MeshedFaces& meshed, const ShellNumbering& numbering, ShellMesh& mesh,
                        const ExecutionContext& context) {
   Midsides midsides = add_midsides(meshed, numbering, mesh, context);
@@ -154,7 +154,7 @@ void note_off_geometry(ShellMesh& mesh) {
   if (mesh.off_geometry.empty()) return;
   std::vector<double> distance(mesh.points.size(), -1);
   for (const auto& off : mesh.off_geometry) distance[off.node] = off.distance;
-  std::vector<std::pair<int, int>> met;  // face, node: once for each element
+  std::vector<std::pair<int, int>> met;  // (face, node), once for each element
   for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
     for (const int node : mesh.midsides[quad]) {
       if (distance[node] >= 0) met.emplace_back(mesh.quad_faces[quad], node);

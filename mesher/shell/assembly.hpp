@@ -1,5 +1,5 @@
 #pragma once
-/// Faces put together into one conforming mesh. Internal.
+/// Assembles the meshes of the faces into one conforming mesh. Internal.
 
 #include <optional>
 #include <vector>
@@ -11,13 +11,14 @@
 
 namespace quadrille {
 
-/// Numbers the nodes (CAD vertices, edges, then face by face), and adds midside nodes on the geometry at
-/// second order. Nodes that no quad uses are left out.
+/// Numbers the nodes (CAD vertices, CAD edges, then face by face), and at second order adds midside nodes on
+/// the geometry. Boundary nodes that no quad uses are left out. Throws Error (failure) if an element of
+/// second order folds even with straight sides.
 ShellMesh assemble(const CadShape& shape, const BoundaryNodes& nodes,
                    const std::vector<std::optional<FaceMesh>>& faces, std::vector<ShellMesh::Face> statuses,
                    const MeshOptions& options, ExecutionContext& context);
 
-/// Says on each face how many of its midside nodes are off the geometry, and how far.
+/// Records in each face's entry and note how many of its midside nodes are off the geometry, and how far.
 void note_off_geometry(ShellMesh& mesh);
 
 }  // namespace quadrille

@@ -10,20 +10,20 @@ namespace quadrille {
 
 namespace {
 
-/// A side as a quad meets it, or as the boundary asks for it.
+/// A side of a quad, or a side that the boundary requires.
 struct Use {
   int low, high;
-  bool forward;      ///< the quad runs it from low to high
-  int quads, asked;  ///< one of them is 0
-  bool spur;         ///< asked for where nothing need end
+  bool forward;      ///< the quad runs along it from low to high
+  int quads, asked;  ///< quads on the side, quads required; one of them is 0
+  bool spur;         ///< required by a spur, where no quads are needed
 };
 
 void add(std::vector<Use>& uses, int a, int b, int quads, int asked, bool spur = false) {
   if (a != b) uses.push_back({std::min(a, b), std::max(a, b), a < b, quads, asked, spur});
 }
 
-/// The ends of segments that the boundary runs there and back, one after the other, ascending: where these
-/// lie outside the face, nothing ends on them.
+/// Keys of the sides that the boundary runs along an even number of times, ascending: there and back. Where
+/// these lie outside the face, no quad ends on them.
 std::vector<std::uint64_t> spurs(const FaceBoundary& boundary) {
   std::vector<std::uint64_t> keys, twice;
   for (const auto& segment : boundary.segments) {

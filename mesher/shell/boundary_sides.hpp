@@ -1,5 +1,5 @@
 #pragma once
-/// The last check of a face's mesh: it ends on the face's boundary, and nowhere else. Internal.
+/// The last check of a face's mesh: it ends on the boundary of the face and nowhere else. Internal.
 
 #include <array>
 #include <optional>
@@ -10,12 +10,12 @@
 
 namespace quadrille {
 
-/// Looks at the sides whose ends are both nodes of edges; the others have two quads by construction.
-/// \param boundary as the face was meshed. \param nodes (n) as FaceMesh::nodes: of the first n points.
-/// \param quads indices of points.
-/// \return two nodes (BoundaryNodes::points) of a side that not as many quads meet as the boundary says (one
-/// on an edge, two on a seam, a crack or inside), or that two quads run in one direction; none if all is
-/// right. O(n log n + quads).
+/// Checks the sides whose ends are both boundary nodes. All other sides have two quads by construction.
+/// \param boundary the boundary with which the face was meshed. \param nodes (n) FaceMesh::nodes, the
+/// boundary nodes of the first n points. \param quads indices into the points. \return the two nodes (indices
+/// into BoundaryNodes::points) of a wrong side; nothing if there is none. Sides must have one quad on an edge
+/// and two inside. On a seam or a crack they have two or none. No two quads may run along a side in the same
+/// direction. O(n log n + quads).
 std::optional<std::pair<int, int>> wrong_boundary_side(const FaceBoundary& boundary,
                                                        const std::vector<int>& nodes,
                                                        const std::vector<std::array<int, 4>>& quads);

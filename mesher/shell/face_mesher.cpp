@@ -66,16 +66,16 @@ class FaceMesher {
     if (!recipe_.mapped) return mesh_without_grid();
     auto grid = mesh_as_grid();
     if (!grid) return mesh_without_grid();
-    if (has_kept_edge(shape_.faces[face_], nodes_)) return std::move(*grid);  // flat rows are what is wanted
+    if (has_kept_edge(shape_.faces[face_], nodes_)) return std::move(*grid);  // flat rows are wanted
     const bool is_stepped = nodes_.sides[face_].outline == FaceSides::Outline::stepped;
     const double much = is_stepped ? 0.01 : 0.05, better = is_stepped ? 1 : 2;
-    // Of the grid's quads: how many there may be in place of wasted ones, and how many of these outside.
-    // Nodes that slide mend most of them later.
+    // A mesh replaces a wasteful grid if it has less than `fewer` times as many quads, and at most
+    // `most_outside` times as many outside the limits. Sliding nodes later mends most of those.
     constexpr double fewer = 0.8, most_outside = 0.05;
     const double outside = is_stepped || has_rows(*grid) ? share_outside(*grid) : 0;
     const bool wasteful = !has_divided_edge(shape_.faces[face_], nodes_) &&
                           wastes_quads(grid->points, grid->quads, grid->nodes.size(), 1.5);
-    if (wasteful || outside > much) {  // the nodes that one side has for its neighbors' sake squeeze the rows
+    if (wasteful || outside > much) {  // nodes that one side has only for its neighbors squeeze the rows
       try {
         FaceMesh free = mesh_without_grid();
         const double left = share_outside(free);
@@ -83,14 +83,15 @@ class FaceMesher {
         const double bound = std::max(outside, most_outside / share);
         if (better * left < outside || (wasteful && share < fewer && left <= bound)) return free;
       } catch (const FaceProblem&) {
-        context_.check();  // the grid has none
+        context_.check();  // keep the grid, which has no problem
       }
     }
     return std::move(*grid);
   }
 
  private:
-  /// The share of quads outside the usual limits, but for warp: of a thousand, where there are more.
+  /// The share of quads outside the usual limits for criteria other than warp. In large meshes a sample of
+  /// about a thousand quads is measured.
   static double share_outside(const FaceMesh& mesh) {
     constexpr std::size_t enough = 1000;
     const std::size_t step = 1 + mesh.quads.size() / enough;
@@ -110,8 +111,8 @@ class FaceMesher {
     return static_cast<double>(outside) / std::max(1, measured);
   }
 
-  /// Whether there are more than `most` times the quads that the sizes ask for, half of the `rim` segments on
-  /// the boundary apart: rows that are fine for one edge's sake go on through places that want larger quads.
+  /// Whether there are more than `most` times the quads that the sizes ask for, plus half of the `rim`
+  /// boundary segments. Rows that are fine for one edge also run through areas that want larger quads.
   bool wastes_quads(const std::vector<Vector3>& p, const std::vector<std::array<int, 4>>& quads,
                     std::size_t rim, double most) {
     double wanted = 0;
@@ -124,7 +125,7 @@ class FaceMesher {
     return static_cast<double>(quads.size()) > most * wanted + 0.5 * static_cast<double>(rim);
   }
 
-  /// Whether a grid has three rows or more.
+  /// Whether a grid has more than 1.5 quads per boundary node: over three rows if long, over six if square.
   static bool has_rows(const FaceMesh& grid) {
     return 2 * static_cast<double>(grid.quads.size()) > 3 * static_cast<double>(grid.nodes.size());
   }
@@ -136,7 +137,7 @@ class FaceMesher {
         try {
           return mesh_inside(rings);
         } catch (const FaceProblem&) {
-          context_.check();  // without rings then
+          context_.check();  // mesh it without rings
         }
       }
     }
@@ -150,9 +151,9 @@ class FaceMesher {
     return finish(std::move(quads));
   }
 
-  /// Quads of twice the size see sizes grow twice as fast, and clean-up leaves rows that go on where they
-  /// should end: large faces with too many quads get those of the final size. So do faces of few quads, where
-  /// the parts of larger quads are poor.
+  /// To quads of twice the size, sizes seem to grow twice as fast, and clean-up leaves rows that continue
+  /// where they should end. So large faces with too many quads are meshed at the final size instead. So are
+  /// faces of few quads if the parts of larger quads are poor.
   FaceQuads mesh_freely(const FaceBoundary& boundary, const TrimmedDomain& domain) {
     constexpr std::size_t few = 200;
     constexpr double too_many = 1.1, poor = 0.1, gain = 0.6;
@@ -170,12 +171,12 @@ class FaceMesher {
       const QuadMesh& other = direct.surface_mesh.mesh;
       if (is_large ? !is_folded(other) : badness(other) < gain * bad) return direct;
     } catch (const FaceProblem&) {
-      context_.check();  // the others then
+      context_.check();  // keep the first quads
     }
     return quads;
   }
 
-  /// How far the quads are beyond the limits of industry, all in all; one counts up to `most`.
+  /// The sum over the quads of how far their objective exceeds `fine`. Each quad counts up to `most`.
   static double badness(const QuadMesh& mesh) {
     constexpr double fine = 0.5, most = 10;
     double sum = 0;
@@ -206,7 +207,7 @@ class FaceMesher {
     });
   }
 
-  /// Where moving nodes left quads turned over.
+  /// Replaces quads if moving nodes left some inverted.
   void mend_folded(FaceQuads& quads) {
     const StageTimer timer(context_, Stage::improve);
     if (!is_folded(quads.surface_mesh.mesh)) return;
@@ -215,7 +216,7 @@ class FaceMesher {
     keep_poles(quads);
   }
 
-  /// After quads were replaced. Poles are fixed points, and those keep their places.
+  /// Adapts `pole` after quads were replaced. Poles are fixed points, which keep their indices.
   static void keep_poles(FaceQuads& quads) {
     quads.pole.resize(quads.surface_mesh.mesh.points.size(), 0);
     std::fill(quads.pole.begin() + static_cast<long>(quads.nodes.size()), quads.pole.end(), 0);
@@ -240,7 +241,7 @@ class FaceMesher {
     return result;
   }
 
-  /// Moves the nodes of a grid round holes; whether its quads are well shaped then.
+  /// Moves the nodes of a grid with holes. \return whether its quads are then well shaped.
   bool settle(FaceQuads& quads) {
     constexpr int rounds = 6;
     constexpr double least_jacobian = 0.5;
@@ -305,7 +306,7 @@ class FaceMesher {
     result.uv = std::move(quads.surface_mesh.parameters);
     result.pole = std::move(quads.pole);
     result.nodes = std::move(quads.nodes);
-    if (recipe_.chart != ChartKind::own) result.surface = chart_.surface;  // else made again where wanted
+    if (recipe_.chart != ChartKind::own) result.surface = chart_.surface;  // otherwise made again when needed
     result.q_min = 1;
     std::vector<int> inverted;
     SparseCheck check(context_);
@@ -324,7 +325,7 @@ class FaceMesher {
     return result;
   }
 
-  /// What works through a mesh, here, in solvers and in windows, finds neighbors near each other in memory.
+  /// Reorders the mesh so that neighbors are near each other in memory, here, in solvers and in viewers.
   void order(FaceMesh& mesh) const {
     const std::vector<int> before = order_by_place(mesh.points, mesh.nodes.size(), mesh.quads, context_);
     const auto permute = [&](auto& values) {
@@ -345,7 +346,7 @@ class FaceMesher {
                         face_ + 1, middle.x(), middle.y(), middle.z())};
   }
 
-  /// With the stretches of the edges that the inverted quads and those round them touch.
+  /// The problem of inverted quads, with the stretches of edges that they and the quads around them touch.
   FaceProblem inverted_problem(const FaceMesh& mesh, const std::vector<int>& inverted) const {
     std::set<int> corners, touched;
     for (const int quad : inverted) corners.insert(mesh.quads[quad].begin(), mesh.quads[quad].end());
@@ -374,7 +375,7 @@ class FaceMesher {
     return problem;
   }
 
-  /// The node at the corner of a quad that is turned over most.
+  /// The node at the corner of a quad that is inverted most.
   int worst_corner(const FaceMesh& mesh, const std::array<int, 4>& quad) const {
     const auto& p = mesh.points;
     const Vector3 outward = (shape_.faces[face_].reversed ? -1 : 1) * surface_.normal(mesh.uv[quad[0]]);
@@ -391,7 +392,7 @@ class FaceMesher {
     return quad[worst];
   }
 
-  /// What a node of the face lies on.
+  /// A text that says where a node of the face lies.
   std::string place_of(const FaceMesh& mesh, int corner) const {
     if (corner >= static_cast<int>(mesh.nodes.size())) return "inside the face";
     const int node = mesh.nodes[corner];
@@ -407,7 +408,7 @@ class FaceMesher {
     return "inside the face";
   }
 
-  /// The segments that end at nodes, joined where they follow each other, and twice as many wanted.
+  /// The segments that end at the given nodes, joined where consecutive. Each is to become four segments.
   std::vector<EdgeStretch> stretches_at(const std::set<int>& touched) const {
     const int stride = chart_.boundary.stride;
     std::vector<EdgeStretch> result;
@@ -417,7 +418,7 @@ class FaceMesher {
     }
     for (const int number : edges) {
       const BoundaryNodes::Edge& edge = nodes_.edges[number - 1];
-      int last = -1;  // segment that is in a stretch
+      int last = -1;  // last segment in a stretch
       for (int i = 0; i + stride < static_cast<int>(edge.nodes.size()); i += stride) {
         if (!touched.contains(edge.nodes[i]) && !touched.contains(edge.nodes[i + stride])) continue;
         const double from = edge.parameters[i], to = edge.parameters[i + stride];

@@ -1,5 +1,5 @@
 #pragma once
-/// One face from its boundary nodes to improved quads. Internal.
+/// Meshes one face, from its boundary nodes to improved quads. Internal.
 
 #include <array>
 #include <memory>
@@ -16,28 +16,28 @@
 
 namespace quadrille {
 
-/// The quads of one face, ready to be assembled. Points: those on the boundary first, `nodes.size()` of them.
+/// The quads of one face, ready for assembly. The first `nodes.size()` points lie on the boundary.
 struct FaceMesh {
   std::vector<Vector3> points;
   std::vector<Vector2> uv;
-  std::vector<char> pole;                 ///< (n) 1 = uv is one of many
-  std::vector<std::array<int, 4>> quads;  ///< counter-clockwise seen against the face's normal in the model
-  std::vector<int> nodes;                 ///< indices into BoundaryNodes::points
-  double q_min = 0;
-  bool grid = false;                           ///< see face_grid.hpp
-  std::shared_ptr<const FaceSurface> surface;  ///< what uv are parameters of; null = the face's own surface
+  std::vector<char> pole;                      ///< (n) 1 = the point is a pole: its uv is one of many
+  std::vector<std::array<int, 4>> quads;       ///< counter-clockwise about the face's normal in the model
+  std::vector<int> nodes;                      ///< indices into BoundaryNodes::points
+  double q_min = 0;                            ///< lowest q of the quads
+  bool grid = false;                           ///< the face was meshed as a grid, see face_grid.hpp
+  std::shared_ptr<const FaceSurface> surface;  ///< surface that uv refer to; null = the face's own
 };
 
 /// How a face is meshed.
 struct FaceRecipe {
-  ChartKind chart = ChartKind::own;
-  bool mapped = true;                           ///< a regular grid where the face is one
-  bool clean_up = true;                         ///< of the topology
-  double refusal = PlacementOptions().refusal;  ///< between points, see PlacementOptions
-  int fineness = 1;                             ///< its points are so many times as fine as asked for
+  ChartKind chart = ChartKind::own;             ///< plane that the face is triangulated in
+  bool mapped = true;                           ///< mesh the face as a grid if its outline allows
+  bool clean_up = true;                         ///< do topological clean-up
+  double refusal = PlacementOptions().refusal;  ///< least distance between points, see PlacementOptions
+  int fineness = 1;                             ///< divides the spacing of inner points
 };
 
-/// Triangulates, recombines and improves one face, once. \param face from 0. Throws FaceProblem.
+/// Triangulates, recombines and improves a face in one attempt. \param face from 0. Throws FaceProblem.
 FaceMesh mesh_face(const CadShape& shape, int face, const FaceChart& chart, const BoundaryNodes& nodes,
                    const SizingField& field, const MeshOptions& options, const FaceRecipe& recipe,
                    ExecutionContext& context);

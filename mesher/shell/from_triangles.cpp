@@ -17,7 +17,7 @@ namespace quadrille {
 
 namespace {
 
-/// Which groups of nodes have all nodes of a face: such a group follows the face's quads.
+/// Finds the groups of nodes that have all nodes of a face. Such a group gets the nodes of the face's quads.
 class NodeGroups {
  public:
   NodeGroups(const ShellMesh& input, const TriangleInput& work)
@@ -37,10 +37,10 @@ class NodeGroups {
     find_covering();
   }
 
-  /// Groups that have all nodes of a face, ascending.
+  /// The groups that have all nodes of a face, ascending.
   const std::vector<int>& covering(int face) const { return covering_.at(face); }
 
-  /// Points that must stay: corners of the input, but for nodes that have no more to tell than their face.
+  /// Points that must stay: corners of the input, unless their groups are those that cover their faces.
   std::vector<char> kept_points(const ShellMesh& input) const {
     std::vector<char> kept(work_.mesh.points.size(), 0);
     for (const ShellMesh::Corner& corner : input.corners)
@@ -71,10 +71,10 @@ class NodeGroups {
   std::map<int, std::vector<int>> covering_;  // by face
 };
 
-/// The points that elements use, numbered in that order, with the copies that cuts made joined again.
+/// Numbers the points by their first use in an element, and joins the copies that cuts made.
 class ResultPoints {
  public:
-  /// \param renumbered point of the cut surface -> of the quads, -1 = gone.
+  /// \param renumbered point of the cut surface -> point of the quads, -1 = removed.
   ResultPoints(const QuadMesh& quads, const CutSurface& surface, const std::vector<int>& renumbered)
       : quads_(quads), joined_(quads.points.size()), number_(quads.points.size(), -1) {
     std::iota(joined_.begin(), joined_.end(), 0);
@@ -100,7 +100,7 @@ class ResultPoints {
     return element;
   }
 
-  /// Where a point of the triangulation is now; -1 = gone.
+  /// The number of a point of the triangulation in the result; -1 = removed.
   int of_original(int point) const { return place_[point] < 0 ? -1 : number_[place_[point]]; }
 
  private:
@@ -108,7 +108,7 @@ class ResultPoints {
   std::vector<int> joined_, number_, place_;
 };
 
-/// The groups, with the nodes that faces have now in those that have all of a face's.
+/// Adds the nodes that faces have now to the groups that had all nodes of a face.
 void follow_faces(const NodeGroups& groups, ShellMesh& shell) {
   int last = 0;
   std::vector<char> is_corner(shell.points.size(), 0);
@@ -139,7 +139,7 @@ void follow_faces(const NodeGroups& groups, ShellMesh& shell) {
   add(shell.triangles, shell.triangle_faces);
 }
 
-/// Segments and corners where their nodes still exist, each once.
+/// Keeps the segments and corners whose nodes still exist; each corner once.
 void keep_sides_and_corners(const ShellMesh& input, const TriangleInput& work, const ResultPoints& points,
                             ShellMesh& shell) {
   const auto now = [&](int node) { return work.node[node] < 0 ? -1 : points.of_original(work.node[node]); };

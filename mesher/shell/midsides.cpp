@@ -14,7 +14,8 @@ namespace quadrille {
 
 namespace {
 
-/// Where a piece of a curve is as far from both ends: half the arc for the short pieces here.
+/// The parameter at which a piece of a curve is equally far from both ends. For the short pieces here that is
+/// half the arc length.
 template <class Point>
 double middle_parameter(double low, double high, const Point& point) {
   const Vector3 from = point(low), to = point(high);
@@ -39,8 +40,8 @@ Vector3 surface_middle(const FaceSurface& surface, const FaceMesh& face, int a, 
   const Vector2 from = face.pole[a] ? face.uv[b] : face.uv[a], to = face.pole[b] ? face.uv[a] : face.uv[b];
   uv = 0.5 * (from + to);
   Vector3 middle = surface.project(uv, target).point;
-  // Where parameters run unevenly, half of them is far from half the way, and the projection may not get
-  // there.
+  // If the parametrization is uneven, the middle parameter is far from the middle of the side, and the
+  // projection may not get there.
   constexpr double far = 0.25;
   const double length = (face.points[b] - face.points[a]).norm();
   if ((middle - target).norm() > far * length) {
@@ -80,10 +81,11 @@ class MidsidePlacement {
  private:
   /// The midside nodes of one face that are not on CAD edges.
   struct FaceMidsides {
-    std::vector<std::array<int, 4>> of_quads;  ///< index of each side's, or -1 - node on a CAD edge
+    std::vector<std::array<int, 4>>
+        of_quads;  ///< for each side: index into points, or -1 - node on a CAD edge
     std::vector<Vector3> points;
     std::vector<Vector2> parameters;
-    /// Sides between two nodes on the boundary: index and key, ascending. Another face may have them, too.
+    /// Sides between boundary nodes: index into points and key, ascending. Other faces may have them too.
     std::vector<std::pair<int, std::uint64_t>> chords;
   };
 
@@ -104,7 +106,7 @@ class MidsidePlacement {
     const FaceMesh& face = *meshed_.faces[index];
     const auto surface = meshed_.surface(index);
     SparseCheck check(context_, 256);
-    // Sides in rows by their lower end; a row ends at the first place that is free.
+    // Sides in rows by their lower end. The first free entry ends a row.
     struct Side {
       int high = -1, midside = -1;
     };
@@ -172,7 +174,7 @@ class MidsidePlacement {
   ShellMesh& mesh_;
   const ExecutionContext& context_;
   SparseCheck check_;
-  std::unordered_map<std::uint64_t, int> middles_;  ///< of sides between nodes on the boundary
+  std::unordered_map<std::uint64_t, int> middles_;  ///< side between boundary nodes -> midside node
 };
 
 }  // namespace

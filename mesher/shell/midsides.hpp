@@ -1,5 +1,5 @@
 #pragma once
-/// The midside nodes of second-order meshes, on the geometry. Internal.
+/// Places the midside nodes of second-order meshes on the geometry. Internal.
 
 #include <cstddef>
 #include <memory>
@@ -15,34 +15,34 @@
 
 namespace quadrille {
 
-/// What a shell is put together from.
+/// The parts from which a shell is assembled.
 struct MeshedFaces {
   const CadShape& shape;
   const BoundaryNodes& nodes;
   const std::vector<std::optional<FaceMesh>>& faces;  ///< empty = not meshed
 
-  /// What the parameters of the face's nodes refer to.
+  /// The surface that the uv of the face's nodes refer to.
   std::shared_ptr<const FaceSurface> surface(std::size_t face) const {
     return faces[face]->surface ? faces[face]->surface
                                 : std::make_shared<const FaceSurface>(shape.faces[face]);
   }
 };
 
-/// Where the parts of the faces are in the shell.
+/// The numbering that maps nodes, faces and segments to the shell.
 struct ShellNumbering {
-  std::vector<int> nodes;                     ///< (boundary nodes) node of the shell, -1 = no quad uses it
-  std::vector<std::size_t> first_quad;        ///< (faces and one more)
-  std::vector<std::pair<int, int>> segments;  ///< (segments of the shell) CAD edge from 0, segment of it
+  std::vector<int> nodes;                     ///< (boundary nodes) node of the shell; -1 = no quad uses it
+  std::vector<std::size_t> first_quad;        ///< (faces + 1) first quad of each face in the shell
+  std::vector<std::pair<int, int>> segments;  ///< (segments) CAD edge and segment on it, from 0
 };
 
-/// The midside nodes of a shell: the last ones of its points, those on CAD edges before those inside faces.
+/// The midside nodes of a shell. They are its last points, those on CAD edges before those inside faces.
 struct Midsides {
-  std::size_t first_inner = 0;      ///< node of the shell
-  std::vector<Vector2> parameters;  ///< of those inside faces, on their face's surface
+  std::size_t first_inner = 0;      ///< node of the shell: first midside node inside a face
+  std::vector<Vector2> parameters;  ///< uv of the nodes inside faces, on the face's surface
 };
 
-/// Adds the midside nodes to a first-order shell: those of CAD edges on their curves, as far from both ends,
-/// others at the point of their face's surface next to the middle of the side. Linear in the mesh.
+/// Adds the midside nodes to a first-order shell. Those on CAD edges lie on the curve, equally far from both
+/// ends. The others lie on the face's surface, nearest to the middle of the side. Linear in the mesh.
 Midsides add_midsides(const MeshedFaces& meshed, const ShellNumbering& numbering, ShellMesh& mesh,
                       const ExecutionContext& context);
 

@@ -59,14 +59,14 @@ class Mirror {
     return true;
   }
 
-  /// Whether an edge of the part bounds one face alone of those asked for.
+  /// Whether an edge of the part bounds exactly one of the faces asked for.
   bool is_free(int edge) const {
     const auto& faces = part_.model.shape().edges[edge - 1].faces;
     return std::count_if(faces.begin(), faces.end(),
                          [&](int face) { return mesh_.faces[face - 1].status != FaceStatus::skipped; }) == 1;
   }
 
-  /// Whether each side of one quad alone lies in a plane or on a free edge.
+  /// Whether each side with only one quad lies in a plane or on a free edge.
   bool ends_in_planes() const {
     using Side = std::pair<int, int>;
     const auto key = [](int a, int b) { return Side(std::min(a, b), std::max(a, b)); };
@@ -89,7 +89,7 @@ class Mirror {
     return true;
   }
 
-  /// What is in a plane is its own image there.
+  /// Whether an image of an entity repeats another one: the entity lies in a plane that the image mirrors in.
   bool is_repeated(unsigned image, unsigned in) const { return (image & in) != 0; }
   int node(unsigned image, int of_part) const {
     return of_part < 0 ? -1 : nodes_[image & ~in_[of_part]][of_part];
@@ -117,7 +117,7 @@ class Mirror {
     }
   }
 
-  /// Face by face, as in meshes of whole models.
+  /// Quads are in the order of the faces, as in meshes of whole models.
   void add_quads() {
     std::vector<std::pair<unsigned, std::size_t>> order;
     for (unsigned image = 0; image < images_; ++image) {
@@ -177,7 +177,7 @@ class Mirror {
     result_.corners.erase(last, result_.corners.end());
   }
 
-  /// A face is meshed if a part of it is; what it took, the part itself did.
+  /// A face is meshed if a part of it is. Only the part itself took work and time.
   void add_faces() {
     result_.faces.resize(whole_.faces.size());
     for (std::size_t i = 0; i < result_.faces.size(); ++i) result_.faces[i].face = static_cast<int>(i) + 1;
@@ -215,7 +215,7 @@ class Mirror {
               [](const auto& a, const auto& b) { return a.node < b.node; });
   }
 
-  /// An edge or vertex is let go where all pieces of it are.
+  /// An edge or vertex is let go if all its pieces are. \return false if the whole lacks its substitute.
   bool add_let_go() {
     using Kind = ShellMesh::LetGo::Kind;
     std::set<int> edges, vertices;
@@ -247,7 +247,7 @@ class Mirror {
   const unsigned images_;
   std::vector<unsigned> in_;  // (nodes of the part) bit i: lies in planes[i]
   std::vector<std::vector<int>>
-      nodes_;  // (images, nodes of the part) node of the whole; -1 = see image & ~in
+      nodes_;  // (images, nodes of the part) node of the whole; -1 = see nodes_[image & ~in_]
   ShellMesh result_;
 };
 

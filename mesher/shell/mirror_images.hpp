@@ -1,5 +1,5 @@
 #pragma once
-/// The mesh of a symmetric model from that of a part of it. Internal.
+/// Makes the mesh of a symmetric model from the mesh of a part of it. Internal.
 
 #include <optional>
 
@@ -8,11 +8,11 @@
 
 namespace quadrille {
 
-/// The part's mesh and its mirror images as one mesh, with shared nodes on the planes and the whole model's
-/// names. Nothing where the part's mesh does not end in the planes as its model does, since features were let
-/// go there, or where one of those stands for another that the whole model does not have. Time: that of
-/// sorting the quads' sides.
-/// \param mesh of part.model, with all of its faces or some. \param whole the model that the part is of.
+/// Joins the part's mesh and its mirror images into one mesh, with shared nodes on the planes and the numbers
+/// of the whole model. Returns nothing if the part's mesh does not end in the planes as its model does,
+/// because features were let go there, or if an entity that stands for one that was let go is not in the
+/// whole model. Time: that of sorting the sides of the quads.
+/// \param mesh mesh of part.model, with all or some of its faces. \param whole the model that was cut.
 std::optional<ShellMesh> with_mirror_images(const ShellMesh& mesh, const ModelPart& part,
                                             const CadShape& whole);
 

@@ -1,5 +1,5 @@
 // Based on: Freitag, On combining Laplacian and optimization-based mesh smoothing techniques (1997), for
-// moves that are accepted one node at a time; the objective is that of CriteriaPatch.
+// accepting moves one node at a time. The objective is that of CriteriaPatch.
 
 #include "mesher/shell/node_sliding.hpp"
 
@@ -20,44 +20,44 @@
 namespace quadrille {
 namespace {
 
-/// What nodes slide for.
+/// The aim of a round of sliding.
 struct Aim {
-  double squareness;  ///< see measure_objective()
+  double squareness;  ///< weight of right angles, see measure_objective()
   double poor;        ///< nodes of quads above this objective are moved
 };
-/// First for right angles everywhere, then for the quads that lie outside the limits with that.
+/// The first round aims at right angles everywhere, the second at quads that are still outside the limits.
 constexpr Aim right_angles{3, 0.1}, limits{0, outside_objective};
-/// What no corner's sine falls below unless one of a quad round the same node was. At the limit of corner
-/// angles (sin 40 degrees) it would hold up nodes that many quads need to pass.
+/// Moves must not reduce a corner's sine below this, or below the least sine around the node if that is less.
+/// A floor at the limit of corner angles (sin 40 degrees) would block moves that many quads need.
 constexpr double floor_sine = 0.5;
 /// A move must lower the objective by this share.
 constexpr double least_gain = 0.001;
-/// Quads inside the limits that are this near to parallelograms (share of the mean side) stay: a skew grid of
-/// them is as exact in bending as a square one, and is so no more when its nodes move.
+/// Quads inside the limits that are this close to parallelograms (as a share of the mean side) stay. A skew
+/// grid of them is as accurate in bending as a square one, but not after its nodes move.
 constexpr double parallel_share = 0.1, inside_limits = 0.766;  // the sine of 50 degrees: skew 40
-/// Neighbors are looked at again after a move by more than this share of the mean side.
+/// After a move by more than this share of the mean side, the neighbors are visited again.
 constexpr double still_share = 0.01;
-/// Intervals of edges keep between these shares of what the sizing field gave them; those of curved edges
-/// grow less, so that circles stay round.
+/// Segments on edges stay between these shares of their original length in the curve's parameter. On curved
+/// edges they grow less, so that circles stay round.
 constexpr double shortest_interval = 0.5, longest_interval = 1.5, longest_curved_interval = 1.15;
 
-/// The quad round a node: `corner` is the node's place in it.
+/// A quad around a node, which is its corner `corner`.
 struct Use {
   int face, quad, corner;
 };
 
-/// One face while nodes move.
+/// The state of one face while nodes move.
 struct FaceState {
   FaceMesh* mesh = nullptr;
   const CadFace* cad_face = nullptr;
-  std::shared_ptr<const FaceSurface> surface;  // made when first wanted
-  std::vector<int> first, corners;             // 4 * quad + corner round each point, in compressed rows
+  std::shared_ptr<const FaceSurface> surface;  // made on first use
+  std::vector<int> first, corners;             // 4 * quad + corner around each point, in compressed rows
   std::vector<double> objective, least_sine;   // (quads)
-  std::vector<char> active;                    // (points) worth a visit
-  std::vector<char> slid;                      // (boundary points) uv is to follow
-  bool touched = false;
-  bool mended = false;  ///< other quads than before
-  int moves = 0;
+  std::vector<char> active;                    // (points) 1 = to be visited
+  std::vector<char> slid;                      // (boundary points) 1 = moved; uv must be updated
+  bool touched = false;                        // nodes or quads changed
+  bool mended = false;                         // quads were replaced
+  int moves = 0;                               // nodes moved in the last sweep
 
   const FaceSurface& get_surface() {
     if (!surface) surface = mesh->surface ? mesh->surface : std::make_shared<const FaceSurface>(*cad_face);
@@ -71,7 +71,7 @@ struct FaceState {
   }
 };
 
-/// How nodes of a face that is mended move.
+/// The surface on which nodes of a face move while it is mended.
 class MovedOnFace : public SmoothingSurface {
  public:
   explicit MovedOnFace(FaceState& face) : surface_(face.get_surface()) {}
@@ -100,21 +100,20 @@ class NodeSliding {
     find_slidable();
   }
 
-  /// Moves the active nodes to where quads have right angles, then those of quads outside the limits.
+  /// Moves active nodes toward right angles, then those of quads outside the limits.
   void run(int sweeps) {
     slide((sweeps + 2) / 3, right_angles);  // later sweeps gain little
     for (FaceState& face : states_) std::fill(face.active.begin(), face.active.end(), 1);
     slide(sweeps, limits);
   }
 
-  /// Fills patches round quads outside the limits anew, whose nodes are active then. \return whether some
-  /// were.
+  /// Refills patches around quads outside the limits and activates their nodes. \return whether any changed.
   bool mend() {
     for_each_face([&](FaceState& face) { mend(face); });
     return std::any_of(states_.begin(), states_.end(), [](const FaceState& face) { return face.mended; });
   }
 
-  /// Parameters and qualities follow the nodes.
+  /// Updates uv and q_min after nodes moved.
   void finish() {
     for_each_face([&](FaceState& face) { finish(face); });
   }
@@ -135,12 +134,12 @@ class NodeSliding {
     }
   }
 
-  /// The quads round a node before a move.
+  /// The quads around a node before a move.
   struct Round {
     std::vector<Use> uses;
     double objective = 0, worst_objective = 0, least_sine = 1;
-    double shortest = 0, mean = 0;  // of the sides at the node
-    double off_parallel = 0;        // of opposite sides, over the mean side
+    double shortest = 0, mean = 0;  // shortest and mean length of the sides at the node
+    double off_parallel = 0;        // largest difference of opposite sides, over the mean length
 
     bool is_fine() const { return least_sine > inside_limits && off_parallel < parallel_share; }
 
@@ -151,14 +150,14 @@ class NodeSliding {
     }
   };
 
-  /// A place for a node, and what the quads are with it.
+  /// A new position of a node, and the measures of the quads with it.
   struct Trial {
     Vector3 point;
     std::vector<QuadObjective> quads;
     double objective = 0;
   };
 
-  /// Of one thread, used again for each node.
+  /// Buffers of one thread, reused for each node.
   struct Buffers {
     Round round;
     Trial trial;
@@ -171,7 +170,7 @@ class NodeSliding {
     });
   }
 
-  // ---- before ----
+  // ---- preparation ----
 
   void prepare(FaceState& face) {
     const FaceMesh& mesh = *face.mesh;
@@ -192,7 +191,7 @@ class NodeSliding {
     }
   }
 
-  /// Active nodes stay so where a quad is poor.
+  /// Measures all quads. Active nodes stay active only if one of their quads is poor.
   void measure(FaceState& face) {
     const FaceMesh& mesh = *face.mesh;
     SparseCheck check(context_);
@@ -208,7 +207,7 @@ class NodeSliding {
     for (std::size_t i = 0; i < poor.size(); ++i) face.active[i] &= poor[i];
   }
 
-  /// Where each node of the boundary comes up in the faces, in compressed rows.
+  /// Finds the points that each boundary node has in the faces, in compressed rows.
   void link_boundary() {
     first_instance_.assign(nodes_.points.size() + 1, 0);
     const auto each = [&](auto&& visit) {
@@ -226,7 +225,7 @@ class NodeSliding {
     each([&](int node, const Instance& instance) { instances_[place[node]++] = instance; });
   }
 
-  /// Nodes inside edges that are theirs alone.
+  /// Finds the slidable nodes: those inside a single edge, unless its spacing is prescribed.
   void find_slidable() {
     std::vector<char> uses(nodes_.points.size(), 0);
     for (const auto& edge : nodes_.edges)
@@ -241,7 +240,7 @@ class NodeSliding {
     for (std::size_t i = 0; i < uses.size(); ++i) slidable_[i] = uses[i] == 1;
   }
 
-  // ---- the quads round a node ----
+  // ---- the quads around a node ----
 
   void gather(int face, int point, Round& round) {
     const FaceState& state = states_[face];
@@ -286,7 +285,7 @@ class NodeSliding {
     return true;
   }
 
-  /// Measures the quads with the node at the trial's point; whether that is better and breaks no floor.
+  /// Measures the quads with the node at the trial's point. \return whether they improve and keep the floor.
   bool is_better(const Round& round, Trial& trial) const {
     if (!trial.point.allFinite()) return false;
     trial.quads.clear();
@@ -302,7 +301,7 @@ class NodeSliding {
       const QuadObjective quad = measure_objective(trial.point, next, opposite, previous, aim_.squareness);
       trial.objective += quad.value;
       if (!(trial.objective <= enough) || !(quad.least_sine >= floor) || !(quad.least_sine > 0)) return false;
-      // Not turned over, against what it was: surfaces bend less than that from quad to quad.
+      // The quad must not be inverted compared with before: surfaces bend less than that between quads.
       if (!(quad.normal.dot((opposite - here).cross(previous - next)) > 0)) return false;
       trial.quads.push_back(quad);
     }
@@ -351,8 +350,8 @@ class NodeSliding {
     return any;
   }
 
-  /// Between which parameters node k of an edge may lie, with intervals up to `longest` times as long as at
-  /// first.
+  /// The range of parameters for node k of an edge, such that its segments are at most `longest` times as
+  /// long as at first.
   std::array<double, 2> range_of(std::size_t edge, std::size_t k, double longest) const {
     const auto &now = nodes_.edges[edge].parameters, &sampled = sampled_[edge];
     const double before = sampled[k] - sampled[k - 1], after = sampled[k + 1] - sampled[k];
@@ -401,7 +400,7 @@ class NodeSliding {
 
   // ---- inside faces ----
 
-  /// Grids beside an edge whose spacing users ask for keep their rows.
+  /// Whether a face is a grid beside an edge with prescribed spacing, which keeps its rows.
   bool keeps_rows(int face) const {
     using Outline = FaceSides::Outline;
     const Outline outline = nodes_.sides[face].outline;
@@ -457,7 +456,7 @@ class NodeSliding {
     return false;
   }
 
-  // ---- other quads ----
+  // ---- replacing quads ----
 
   void mend(FaceState& face) {
     const auto outside = [](double value) { return value > outside_objective; };
@@ -480,8 +479,8 @@ class NodeSliding {
     face.active = std::move(changed);
   }
 
-  /// Flipped faces are to have the same quads, in the other direction: all run as the surface does until the
-  /// end.
+  /// Reverses the quads of a reversed face. While nodes move, all quads are oriented as the surface is, so
+  /// that reversed faces get the same quads as others.
   static void turn_as_surface(FaceState& face) {
     if (!face.cad_face->reversed) return;
     for (auto& quad : face.mesh->quads) std::swap(quad[1], quad[3]);
@@ -505,7 +504,7 @@ class NodeSliding {
     return result;
   }
 
-  // ---- after ----
+  // ---- conclusion ----
 
   void finish(FaceState& face) {
     turn_as_surface(face);
@@ -527,10 +526,10 @@ class NodeSliding {
   ExecutionContext& context_;
   Aim aim_ = limits;
   std::vector<FaceState> states_;
-  std::vector<std::vector<double>> sampled_;  // (edges) parameters before
+  std::vector<std::vector<double>> sampled_;  // (edges) parameters before sliding
   std::vector<int> first_instance_;
   std::vector<Instance> instances_;
-  std::vector<char> slidable_;  // (boundary nodes)
+  std::vector<char> slidable_;  // (boundary nodes) 1 = may slide along its edge
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// The last optimization: all nodes over all faces together, those on CAD edges too. Internal.
+/// The last optimization: moves the nodes of all faces together, including those on CAD edges. Internal.
 
 #include <optional>
 #include <vector>
@@ -12,17 +12,17 @@
 
 namespace quadrille {
 
-/// Moves nodes to where the quads round them are further inside the criteria of industry
-/// (measure_objective()): nodes on CAD edges along their curves, between their neighbors, for the sake of the
-/// quads of all faces there; others on their surfaces. Nodes of CAD vertices stay, and so do those of edges
-/// that share theirs (TinyFeatures). No quad becomes concave, and none gets a scaled Jacobian below both 0.5
-/// and the worst of the quads round the same node. Intervals along edges keep between 0.5 and 1.5 of what
-/// they were, on curved ones 1.15. Parameters and points of `nodes`, and points, uv and q_min of the faces
-/// follow. With ImproveOptions::clean_up, patches round quads that are still outside the criteria are then
-/// filled by other quads (mend_quads()), but for grids, and nodes move once more; points inside the faces
-/// change their number. Faces run in parallel between passes over the edges: the result does not depend on
-/// the number of threads. Complexity: linear in the quads, and some 2 us a node and sweep where they are
-/// poor.
+/// Moves nodes so that the quads around them lie further inside the industry criteria (measure_objective()).
+/// Nodes on CAD edges move along their curves, between their neighbors, for the quads of all faces there.
+/// Other nodes move on their surfaces. Nodes of CAD vertices stay, and so do nodes shared by several edges
+/// (TinyFeatures) and nodes of edges with a prescribed spacing. No quad becomes concave, and none gets a
+/// scaled Jacobian below both 0.5 and that of the worst quad around the same node. Segments on edges stay
+/// between 0.5 and 1.5 times their original length in the curve's parameter (at most 1.15 times on curved
+/// edges). Updates the parameters and points of `nodes`, and the points, uv and q_min of the faces. With
+/// ImproveOptions::clean_up, patches around quads that are still outside the criteria are then refilled with
+/// other quads (mend_quads()), except in grids, and nodes move once more. This renumbers points inside faces.
+/// Faces run in parallel between passes over the edges, so the result does not depend on the number of
+/// threads. Complexity: linear in the quads, plus about 2 us per sweep for each node of a poor quad.
 void slide_nodes(const CadShape& shape, BoundaryNodes& nodes, std::vector<std::optional<FaceMesh>>& faces,
                  const ImproveOptions& options, ExecutionContext& context);
 

@@ -20,7 +20,7 @@ struct Case {
   EdgeTreatment& edges;
 };
 
-/// \return false if it would change nothing.
+/// Changes the recipe or the plan. \return false if it would change nothing.
 using Remedy = bool (*)(Case& patient);
 
 bool finer_there(Case& patient) {
@@ -31,7 +31,8 @@ bool finer_there(Case& patient) {
   return !parts.empty();
 }
 
-/// Segments and points, where more than a place is too coarse: near poles and in narrow faces.
+/// Doubles the fineness of segments and points on the whole face: near poles and in narrow faces, more than
+/// one place may be too coarse.
 bool twice_as_fine(Case& patient) {
   SamplingPlan& plan = patient.edges.plan;
   std::set<int> edges;
@@ -57,9 +58,9 @@ bool along_chord(Case& patient) {
   return any;
 }
 
-/// For faces so small beside the elements that one node can stand for them.
+/// For faces so small compared with the elements that one node can stand for them.
 bool as_point(Case& patient) {
-  constexpr double share = 0.2;  // of the least size that the options allow by default
+  constexpr double share = 0.2;  // of the default least size, an eighth of the size
   if (!(longest_edge(patient.shape, patient.face) < share * patient.size / 8)) return false;
   bool any = false;
   for (const CadWire& wire : patient.shape.faces[patient.face].wires) {
@@ -100,7 +101,7 @@ constexpr unsigned any_of(std::initializer_list<Cause> causes) {
   return bits;
 }
 
-/// Where quads of the final size could not be had: Strategy::direct.
+/// For faces where meshing with quads of the final size failed (Strategy::direct).
 bool by_subdivision(Case& patient) {
   char& subdivided = patient.edges.plan.subdivided[patient.face];
   if (subdivided != 0) return false;
@@ -124,7 +125,7 @@ bool nodes_where_they_were(Case& patient) {
   return true;
 }
 
-/// For each cause its remedies, the one that asks for least first.
+/// The remedies for each cause, the least intrusive first.
 constexpr std::array table{
     Row{any_of({Cause::inverted_inside, Cause::inverted_at_boundary, Cause::odd_boundary, Cause::no_mesh}),
         "by subdivision", 1, by_subdivision},

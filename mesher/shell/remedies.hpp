@@ -1,6 +1,5 @@
 #pragma once
-/// The table of causes and remedies: what is changed for a face that could not be meshed, and where.
-/// Internal.
+/// The table of causes and remedies: what to change if a face could not be meshed, and where. Internal.
 
 #include <algorithm>
 #include <cstdint>
@@ -15,39 +14,38 @@
 
 namespace quadrille {
 
-/// What is known of one face over all its meshings.
+/// The record of one face over all its meshings.
 struct FaceRecord {
-  static constexpr int most_attempts = 12;
-  /// All its meshings together may take so many times the work of the first, if that is not little.
+  static constexpr int most_attempts = 12;  ///< no remedy is tried after this many meshings
+  /// All meshings together may take most_work times the work of the first, or little_work if that is more.
   static constexpr int most_work = 6;
   static constexpr std::int64_t little_work = 20000;
-  /// For gaps between curves that segments leave no room in.
-  static constexpr int most_looks = 3;
+  static constexpr int most_looks = 3;  ///< limit on `looks_at_gaps`
 
-  /// Of ExecutionContext::work().
+  /// The work allowed, in the unit of ExecutionContext::work().
   std::int64_t share() const { return std::max(little_work, most_work * first_work); }
 
-  FaceRecipe recipe;
-  int looks_at_gaps = 0;
-  int attempts = 0;                       ///< times that it was meshed
-  double seconds = 0;                     ///< that this took
-  std::int64_t first_work = 0, work = 0;  ///< of the first meshing of its kind, and of all
+  FaceRecipe recipe;                      ///< how the face is meshed next
+  int looks_at_gaps = 0;                  ///< times that narrow gaps were found; most_looks = look no more
+  int attempts = 0;                       ///< number of meshings
+  double seconds = 0;                     ///< time that all meshings took
+  std::int64_t first_work = 0, work = 0;  ///< work of the first meshing of its kind, and of all
   bool given_up = false;                  ///< no remedy is left
-  std::vector<int> tried;                 ///< (rows of the table) how often
-  std::vector<std::string> history;       ///< "cause: remedy", in the order in which they were found
+  std::vector<int> tried;                 ///< (rows of the table) how often the remedy was applied
+  std::vector<std::string> history;       ///< "cause: remedy" for each remedy applied, in order
 };
 
-/// What remedies may change beside the face's own record.
+/// What remedies may change besides the record of the face.
 struct EdgeTreatment {
-  SamplingPlan plan;
-  std::vector<char> collapse;  ///< (edges) 1 = becomes a point
+  SamplingPlan plan;           ///< how edges are sampled
+  std::vector<char> collapse;  ///< (edges) 1 = the edge becomes a point
 };
 
-/// The longest of a face's edges. \param face from 0.
+/// The length of a face's longest edge. \param face from 0.
 double longest_edge(const CadShape& shape, int face);
 
-/// Applies the next remedy that the table has for the problem of a face and that changes something.
-/// \param size the global target size. \return false if there is none left.
+/// Applies the next remedy in the table that fits the problem of a face and changes something.
+/// \param size the global target size. \return false if no remedy is left.
 bool apply_remedy(const CadShape& shape, const FaceProblem& problem, double size, FaceRecord& record,
                   EdgeTreatment& edges);
 

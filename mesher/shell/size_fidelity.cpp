@@ -19,8 +19,8 @@ namespace quadrille {
 
 namespace {
 
-constexpr int bins_a_factor = 4;        // of two
-constexpr double histogram_low = 0.25;  // to its inverse
+constexpr int bins_a_factor = 4;        // per factor of two
+constexpr double histogram_low = 0.25;  // the histogram ends at its inverse
 constexpr int bins = 4 * bins_a_factor;
 
 SizeFidelity summary(std::vector<double> ratios) {
@@ -62,10 +62,10 @@ nlohmann::ordered_json SizeFidelity::json() const {
 }
 
 SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field) {
-  // Quads of a face go round their shared sides in opposite directions: one of the two counts a side. On the
-  // rim, where faces meet, the first quad does.
+  // The two quads of a face on a side run along it in opposite directions: the one with a < b counts it. On
+  // segments, where faces meet, the first quad counts it.
   std::vector<char> on_rim(mesh.points.size(), 0);
-  std::unordered_map<std::uint64_t, std::size_t> first;  // side of the rim -> quad
+  std::unordered_map<std::uint64_t, std::size_t> first;  // segment -> first quad
   for (const ShellMesh::Segment& segment : mesh.segments) {
     for (const int node : segment.nodes) on_rim[node] = 1;
     first.emplace(side_key(segment.nodes[0], segment.nodes[1]), mesh.quads.size());

@@ -1,5 +1,5 @@
 #pragma once
-/// How well a mesh keeps the sizes that were asked for.
+/// How well a mesh matches the wanted sizes.
 
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
@@ -9,25 +9,25 @@
 
 namespace quadrille {
 
-/// Lengths of element sides over the sizes wanted at their middles.
+/// The ratios of the lengths of element sides to the sizes wanted at their middles.
 struct SizeFidelity {
-  static constexpr double low = 0.55, high = 1.6;
+  static constexpr double low = 0.55, high = 1.6;  ///< the range of good ratios
   struct Bin {
     double from, to;
     int count;
   };
-  int sides = 0;
-  double median = 0;
-  double within_percent = 0;   ///< of the sides, between low and high
-  double below_percent = 0;    ///< shorter than low times what is wanted
-  double above_percent = 0;    ///< longer than high times
-  std::vector<Bin> histogram;  ///< four bins to a factor of two; the first and the last hold all beyond
+  int sides = 0;               ///< number of sides
+  double median = 0;           ///< median ratio
+  double within_percent = 0;   ///< sides with a ratio from low to high
+  double below_percent = 0;    ///< sides with a ratio below low
+  double above_percent = 0;    ///< sides with a ratio above high
+  std::vector<Bin> histogram;  ///< four bins per factor of two; the end bins also hold all beyond
 
   nlohmann::ordered_json json() const;
 };
 
-/// Each side once. \param field what the mesh was made with, see MeshOptions::inspect. Time: that of sorting
-/// the sides, and a look-up each.
+/// Measures each side once. \param field sizing field that the mesh was made with, see MeshOptions::inspect.
+/// Time: linear in the sides, with one lookup in the field for each.
 SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field);
 
 }  // namespace quadrille

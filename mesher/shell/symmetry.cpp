@@ -12,8 +12,8 @@ namespace quadrille {
 
 namespace {
 
-/// A setting whose values lie in space or run along edges, which is not compared with its mirror image; null
-/// if there is none.
+/// The name of a given setting that rules out symmetry: its values have places in space or along edges, and
+/// are not compared with their mirror images. Null if there is none.
 const char* one_sided_setting(const MeshOptions& options) {
   const SizingOptions& sizing = options.sizing;
   const std::pair<bool, const char*> given[] = {{!sizing.regions.empty(), "size_in"},
@@ -29,7 +29,7 @@ const char* one_sided_setting(const MeshOptions& options) {
   return nullptr;
 }
 
-/// Whether each number's image has the same value. \param images from 0, -1 = none.
+/// Whether each entity has the same size as its image. \param images index of the image, from 0; -1 = none.
 bool is_symmetric(const std::map<int, double>& sizes, const std::vector<int>& images) {
   return std::all_of(sizes.begin(), sizes.end(), [&](const auto& entry) {
     const int image = images[entry.first - 1];
@@ -39,7 +39,7 @@ bool is_symmetric(const std::map<int, double>& sizes, const std::vector<int>& im
   });
 }
 
-/// Whether the sizes and faces given by number are the same in the plane's mirror.
+/// Whether the sizes and faces given by number are symmetric about the plane.
 bool is_symmetric(const MeshOptions& options, const MirrorPlane& plane) {
   const std::set<int> faces(options.faces.begin(), options.faces.end());
   return is_symmetric(options.sizing.face_sizes, plane.faces) &&
@@ -49,7 +49,7 @@ bool is_symmetric(const MeshOptions& options, const MirrorPlane& plane) {
                      [&](int face) { return faces.contains(plane.faces[face - 1] + 1); });
 }
 
-/// Values by number of the whole model as values by number of the part.
+/// Converts values by number in the whole model to values by number in the part.
 std::map<int, double> on_part(const std::map<int, double>& sizes, const std::vector<int>& names) {
   std::map<int, double> result;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -73,7 +73,7 @@ MeshOptions options_for(const ModelPart& part, const CadModel& model, MeshOption
   for (std::size_t i = 0; i < names.faces.size(); ++i) {
     if (faces.contains(names.faces[i])) options.faces.push_back(static_cast<int>(i) + 1);
   }
-  // What fails is told by the whole model's names, which its own meshing does.
+  // Failures must name entities of the whole model, so after a failure the whole model is meshed.
   options.partial = false;
   return options;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Which part of a symmetric model is meshed, and with which options. Internal.
+/// Chooses the part of a symmetric model to mesh, and the options for it. Internal.
 
 #include <optional>
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace quadrille {
 
-/// What stands for a model that is meshed by its part.
+/// The part that is meshed in place of a symmetric model.
 struct SymmetricJob {
   std::optional<ModelPart> part;  ///< nothing = the model is meshed as a whole
-  MeshOptions options;            ///< for the part: its own numbers, and the sizes that suit the whole model
-  std::string note;               ///< why there is no part, or fewer planes; empty if there is nothing to say
+  MeshOptions options;  ///< options for the part: with its numbers, and the size limits of the whole model
+  std::string note;     ///< why there is no part or planes were left out; may be empty
 };
 
-/// Finds the planes of a model and cuts it there, as far as the options are symmetric.
+/// Finds the mirror planes of a model and cuts it at those for which the options are symmetric too.
 SymmetricJob find_symmetry(const CadModel& model, const MeshOptions& options,
                            const ExecutionContext& context);
 

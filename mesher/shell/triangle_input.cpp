@@ -19,7 +19,7 @@ double least_sine(const Vector3& a, const Vector3& b, const Vector3& c) {
   return longest > 0 ? area / longest : 0;
 }
 
-/// The two triangles of a quad whose lesser one is the better, on the side that the quad lies on.
+/// Cuts a quad along the diagonal whose worse triangle is better shaped. Inverted triangles are the worst.
 std::array<std::array<int, 3>, 2> halves(const std::array<int, 4>& quad, const std::vector<Vector3>& points) {
   const auto& [a, b, c, d] = quad;
   const Vector3 normal = (points[c] - points[a]).cross(points[d] - points[b]);
@@ -50,7 +50,7 @@ void check_places(const std::vector<Vector3>& points) {
   }
 }
 
-/// Triangles without area leave cracks and folds.
+/// Refuses triangles without area, which leave cracks and folds.
 void check_shapes(const TriangleMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
@@ -65,8 +65,8 @@ int face_of(const std::vector<int>& faces, std::size_t element) {
   return element < faces.size() ? faces[element] : 0;
 }
 
-/// Puts the triangles into an order in which neighbors are near each other in memory, which pays for itself
-/// many times over in what follows: Gmsh lists triangles as they came to be.
+/// Reorders the triangles of large meshes so that neighbors are near each other in memory. That pays for
+/// itself many times over in later steps: Gmsh lists triangles in the order of their creation.
 void order(TriangleInput& input, const ExecutionContext& context) {
   constexpr std::size_t fit_the_caches = 1 << 14;
   if (input.mesh.triangles.size() < fit_the_caches) return;

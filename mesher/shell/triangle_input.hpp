@@ -1,5 +1,5 @@
 #pragma once
-/// Meshes from anywhere as one triangulation, ready to be worked on. Internal.
+/// Converts meshes of any origin into one clean triangulation. Internal.
 
 #include <array>
 #include <string>
@@ -10,17 +10,17 @@
 
 namespace quadrille {
 
-/// The triangles of a mesh, and its quads as two each.
+/// The triangles of a mesh, with each of its quads cut into two.
 struct TriangleInput {
-  TriangleMesh mesh;                      ///< oriented alike within each face; tags are faces, 0 = none
-  std::vector<int> node;                  ///< node of the input -> point of the mesh; -1 = of no triangle
-  std::vector<std::array<int, 2>> sides;  ///< that are segments of the input
+  TriangleMesh mesh;                      ///< consistently oriented in each face; tags are faces, 0 = none
+  std::vector<int> node;                  ///< node of the input -> point of the mesh; -1 = left out
+  std::vector<std::array<int, 2>> sides;  ///< sides that are segments of the input
 };
 
-/// Merges nodes, cuts quads in two, turns triangles, and puts large meshes into an order that caches like.
-/// \param merge as FromTrianglesOptions::merge. \param notes takes a sentence for each thing that was mended.
-/// Throws Error (failure) naming the element at fault: no finite position, two nodes on one place, no area,
-/// one side only, a triangle twice. O(n log n).
+/// Merges nodes, cuts quads in two, orients triangles, and reorders large meshes for the caches, without the
+/// nodes that no triangle uses. \param merge as FromTrianglesOptions::merge. \param notes out, one sentence
+/// for each repair is appended. Throws Error (failure) naming the element at fault: a node without a finite
+/// position, two nodes at the same position, no area, a one-sided surface, two equal triangles. O(n log n).
 TriangleInput triangle_input(const ShellMesh& input, double merge, std::vector<std::string>& notes,
                              const ExecutionContext& context);
 

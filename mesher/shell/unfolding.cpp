@@ -1,5 +1,5 @@
 /// Based on: Johnen, Remacle, Geuzaine, Geometrical validity of curvilinear finite elements (2013), for what
-/// is valid.
+/// counts as valid.
 
 #include "mesher/shell/unfolding.hpp"
 
@@ -58,8 +58,8 @@ class Sliding {
     return result;
   }
 
-  /// Looks for the place of side k's node that is best for its elements at their worst: where it bulges as
-  /// the opposite side of one of them does, then by compass search in the tangent plane.
+  /// Moves the node of side k to the place that is best for the worst of its elements. Tries the bulges of
+  /// the opposite sides of its elements, then a compass search in the tangent plane.
   void search(std::size_t quad, int k) {
     check_();
     const int node = mesh_.midsides[quad][k];
@@ -93,7 +93,7 @@ class Sliding {
     return {mesh_.points[mesh_.quads[quad][k]], mesh_.points[mesh_.quads[quad][(k + 1) % 4]]};
   }
 
-  /// From the middle of the straight side to the midside node, on the side of the element opposite a node.
+  /// The bulge of the side opposite a midside node: from the middle of the straight side to its midside node.
   Vector3 opposite_bulge(std::size_t quad, int node) const {
     const auto& midsides = mesh_.midsides[quad];
     const int k = static_cast<int>(std::find(midsides.begin(), midsides.end(), node) - midsides.begin());
@@ -109,12 +109,12 @@ class Sliding {
   std::unordered_map<int, std::vector<std::size_t>> users_;
 };
 
-/// Moves midside nodes off the geometry, towards the middles of their straight sides, over all faces.
+/// Moves midside nodes of all faces off the geometry, toward the middles of their straight sides.
 class Straightening {
  public:
   Straightening(ShellMesh& mesh, std::size_t first_inner, const ExecutionContext& context)
       : mesh_(mesh), first_inner_(static_cast<int>(first_inner)), check_(context, 256) {
-    // The elements of each node, in rows.
+    // The elements of each midside node, in rows.
     first_user_.assign(mesh.points.size() + 1, 0);
     for (const auto& midsides : mesh.midsides) {
       for (const int node : midsides) ++first_user_[node + 1];
@@ -127,7 +127,7 @@ class Straightening {
     }
   }
 
-  /// Each round raises shares or ends, and there are only so many: bounded by the number of sides.
+  /// Ends, because each round raises shares, and their number is bounded by the number of sides.
   void run(std::vector<std::size_t> folded) {
     while (!folded.empty()) {
       std::vector<std::size_t> touched;
@@ -144,12 +144,12 @@ class Straightening {
 
   struct Side {
     std::size_t quad = 0;   ///< one of its elements
-    Vector3 place, middle;  ///< the node's on the geometry, and the straight side's
-    double length = 0;      ///< of the straight side
-    int share = 0;          ///< of the way to the middle, in eighths
+    Vector3 place, middle;  ///< the node's first place, on the geometry; middle of the straight side
+    double length = 0;      ///< length of the straight side
+    int share = 0;          ///< part of the way from `place` to `middle`, in eighths
   };
 
-  /// The sides that were looked at, by midside node.
+  /// The sides of all elements that were straightened, by midside node.
   const std::map<int, Side>& sides() const { return sides_; }
 
  private:
@@ -176,13 +176,14 @@ class Straightening {
         share == whole ? side.middle : Vector3(side.place + part * (side.middle - side.place));
   }
 
-  /// The bound that an element mended should have: well above rounding, unless no straight side gives it.
+  /// The Jacobian bound that a mended element needs: 0.02, but at most half of that with straight sides.
   double wanted(std::size_t quad) const {
     constexpr double enough = 0.02;
     return std::min(enough, 0.5 * quick_jacobian_bound(straight_quad(mesh_, quad)));
   }
 
-  /// Raises the shares of an element's sides until it does not fold: those inside faces, or else all.
+  /// Raises the shares of an element's sides until it does not fold: first those inside faces, then all.
+  /// \param touched out: the neighbors across sides that changed are appended.
   void straighten(std::size_t quad, std::vector<std::size_t>& touched) {
     const double bound = wanted(quad);
     const std::array<int, 4> nodes = mesh_.midsides[quad];
@@ -206,7 +207,7 @@ class Straightening {
     }
   }
 
-  /// Takes nodes back towards the geometry as far as their elements allow, those on CAD edges first.
+  /// Moves nodes back toward the geometry as far as their elements allow, those on CAD edges first.
   void relax() {
     for (auto& [node, side] : sides_) {
       check_();
@@ -258,7 +259,7 @@ class Unfolding {
   }
 
  private:
-  /// (faces) the elements that fold.
+  /// (faces) The elements that fold.
   std::vector<std::vector<std::size_t>> folded() const {
     std::vector<std::vector<std::size_t>> result(meshed_.faces.size());
     oneapi::tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t face) {
@@ -278,9 +279,9 @@ class Unfolding {
   }
 
   void list(const Straightening& straightening) {
-    constexpr double on_geometry = 1e-7;  // of a side: on a plane face nodes do not leave it
+    constexpr double on_geometry = 1e-7;  // share of a side; on a planar face nodes stay on the geometry
     std::shared_ptr<const FaceSurface> surface;
-    int face = 0;  // that `surface` is of
+    int face = 0;  // face of `surface`
     for (const auto& [node, side] : straightening.sides()) {
       if (side.share == 0) continue;
       Vector3 nearest = side.place;

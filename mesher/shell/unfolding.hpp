@@ -1,5 +1,5 @@
 #pragma once
-/// Second-order elements that curved sides fold, mended. Internal.
+/// Mends second-order elements that their curved sides fold. Internal.
 
 #include <cstddef>
 #include <vector>
@@ -10,12 +10,12 @@
 
 namespace quadrille {
 
-/// Moves midside nodes until no element folds (see second_order.hpp): first those inside faces along their
-/// surface; where that does not help, towards the middle of the straight side, by as small a share as helps,
-/// those inside faces first, then those on CAD edges, for all faces that share them. The nodes off the
-/// geometry are listed in `mesh.off_geometry`. With all sides straight an element whose scaled Jacobian is
-/// positive does not fold: what still folds are quads that are inverted or have no area.
-/// \return the quads that still fold, ascending. Linear in the mesh, and in the elements that fold.
+/// Moves midside nodes until no element folds (see second_order.hpp). Nodes inside faces first slide along
+/// their surface. If that does not help, nodes move toward the middle of the straight side by as little as
+/// helps: those inside faces first, then those on CAD edges, for all faces that share them. Nodes off the
+/// geometry are listed in `mesh.off_geometry`. With straight sides an element with a positive scaled Jacobian
+/// does not fold, so only inverted quads and quads without area still fold in the end.
+/// \return the quads that still fold, ascending. Linear in the mesh and in the number of elements that fold.
 std::vector<std::size_t> unfold(const MeshedFaces& meshed, const ShellNumbering& numbering,
                                 Midsides& midsides, ShellMesh& mesh, const ExecutionContext& context);
 

@@ -20,9 +20,9 @@ namespace quadrille {
 namespace {
 
 constexpr std::size_t max_sentences = 20;
-constexpr double coincident = 1e-9;  ///< of the diagonal
+constexpr double coincident = 1e-9;  ///< share of the diagonal
 
-/// Gathers sentences up to the limit; the checks go on cheaply beyond it.
+/// Collects sentences up to the limit. Further ones are dropped without being formatted.
 class Findings {
  public:
   template <typename... Arguments>
@@ -37,7 +37,7 @@ class Findings {
   std::vector<std::string> sentences_;
 };
 
-/// Triangles and quads alike; triangles come after the quads.
+/// Quads and triangles under common numbers. Triangles come after the quads.
 struct Elements {
   std::span<const Vector3> points;
   std::span<const std::array<int, 4>> quads;
@@ -59,7 +59,7 @@ struct Elements {
 struct Side {
   int low, high;
   int element;
-  bool forward;  ///< the element runs it from low to high
+  bool forward;  ///< the element runs along it from low to high
 
   bool same_place(const Side& other) const { return low == other.low && high == other.high; }
 };
@@ -113,7 +113,7 @@ std::vector<Side> sorted_sides(const Elements& elements) {
   return sides;
 }
 
-/// Calls `visit` with each group of sides between the same two points.
+/// Calls `visit` with each group of sides that have the same two points.
 template <typename Visit>
 void each_side(const std::vector<Side>& sides, Visit&& visit) {
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
@@ -164,7 +164,7 @@ bool check_elements(const Elements& elements, Findings& findings) {
   return true;
 }
 
-/// Finds points within a distance of one another by cells far larger than that distance.
+/// Finds points within a distance of one another, with cells far larger than that distance.
 class CoincidenceSearch {
  public:
   CoincidenceSearch(std::span<const Vector3> points, double distance)
@@ -189,7 +189,7 @@ class CoincidenceSearch {
   }
 
  private:
-  /// The cells that a point comes within `reach` of: one, rarely up to eight.
+  /// Visits the cells within `reach` of a point: usually one, rarely up to eight.
   template <typename Visit>
   void visit_cells(const Vector3& p, double reach, Visit&& visit) const {
     std::array<std::array<std::int64_t, 2>, 3> range;
@@ -229,7 +229,7 @@ void check_coincident(std::span<const Vector3> points, Findings& findings) {
 
 using SegmentIndex = std::unordered_map<std::uint64_t, int>;
 
-/// The segments by their side; each side is listed once.
+/// Maps sides to segments. Reports sides that are listed more than once.
 SegmentIndex index_segments(const ShellMesh& mesh, Findings& findings) {
   SegmentIndex index;
   index.reserve(mesh.segments.size());
@@ -258,7 +258,7 @@ void check_shell_sides(const ShellMesh& mesh, const Elements& elements, bool clo
     if (segment != segments.end()) met[segment->second] = 1;
     if (closed && group.size() < 2)
       findings.add("the side between nodes {} and {} of quad {} is open", side.low, side.high, side.element);
-    // Files of other programs carry no segments: which sides lie on CAD edges is then unknown.
+    // Meshes from files of other programs may have no segments. Then it is unknown which sides lie on edges.
     if (segment == segments.end() && !mesh.segments.empty()) {
       if (group.size() != 2)
         findings.add("the side between nodes {} and {} lies on no CAD edge and has {} elements", side.low,
@@ -290,7 +290,7 @@ void check_corners(const ShellMesh& mesh, Findings& findings) {
   }
 }
 
-/// Midside nodes: one a side, the same from every element, and no other side's.
+/// Checks midside nodes: one per side, the same in all its elements, and used by no other side.
 void check_midsides(const ShellMesh& mesh, Findings& findings) {
   if (mesh.order == 1) {
     if (!mesh.midsides.empty()) findings.add("a mesh of order 1 has {} midside rows", mesh.midsides.size());
@@ -349,7 +349,7 @@ std::vector<std::string> validate(const QuadMesh& mesh, bool require_convex) {
 
 namespace {
 
-/// Second-order elements valid everywhere, not at their corners alone.
+/// Checks that second-order elements are valid everywhere, not only at their corners.
 void check_curved(const ShellMesh& mesh, Findings& findings) {
   if (mesh.order != 2 || mesh.midsides.size() != mesh.quads.size()) return;
   for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
@@ -369,7 +369,7 @@ std::vector<std::string> validate(const ShellMesh& mesh, bool closed) {
   if (!mesh.triangles.empty()) findings.add("{} triangles remain", mesh.triangles.size());
   if (mesh.quad_faces.size() != mesh.quads.size())
     findings.add("there are {} face numbers for {} quads", mesh.quad_faces.size(), mesh.quads.size());
-  // Without sound indices nothing below can be looked up; with triangles, face numbers do not line up.
+  // The checks below need valid indices, and one face number for each element, which triangles lack.
   if (!check_indices(elements, findings) || !findings.empty()) return findings.take();
   std::vector<char> used = used_points(elements);
   const int n = static_cast<int>(mesh.points.size());

@@ -1,5 +1,5 @@
 #pragma once
-/// Checks of every invariant; tests call them after each stage.
+/// Checks of all invariants of meshes. Tests call them after each stage.
 
 #include <string>
 #include <vector>
@@ -9,21 +9,21 @@
 
 namespace quadrille {
 
-/// Each returns the violated invariants, one sentence each with the indices concerned (at most 20); empty =
+/// Each function returns a sentence for each violation (at most 20), with the indices concerned; empty =
 /// valid.
 
-/// Indices in range, no repeated node in an element, manifold (at most two triangles a side), oriented alike,
-/// no unused point, no triangle of area zero.
+/// Checks: indices in range, no repeated node in an element, finite points, at most two triangles per side,
+/// consistent orientation, no unused point, no triangle without area, as many tags as triangles or none.
 QUADRILLE_API std::vector<std::string> validate(const TriangleMesh& mesh);
 
-/// As for triangles; `require_convex` asks for positive scaled Jacobians too.
+/// The same for quads. `require_convex` also requires positive scaled Jacobians.
 QUADRILLE_API std::vector<std::string> validate(const QuadMesh& mesh, bool require_convex = false);
 
-/// All quads; indices in range; no unused, repeated or coincident node (within 1e-9 of the diagonal); each
-/// side that is not on a CAD edge has exactly two elements of the same face, oriented alike; positive scaled
-/// Jacobians; midside nodes shared, second-order elements with a positive Jacobian everywhere; each side on a
-/// CAD edge is listed once in `segments`; corners listed once. \param closed ask that every side have at
-/// least two elements (a watertight shell).
+/// Checks: only quads; indices in range; no unused, repeated or coincident node (within 1e-9 of the
+/// diagonal); positive scaled Jacobians; consistent orientation in each face; each side has one midside node;
+/// second-order elements have a positive Jacobian everywhere; segments are sides; segments and corners are
+/// listed once. In meshes with segments, each side that is not a segment has exactly two elements, of the
+/// same face. \param closed require that every side has at least two elements (a watertight shell).
 QUADRILLE_API std::vector<std::string> validate(const ShellMesh& mesh, bool closed = false);
 
 }  // namespace quadrille
