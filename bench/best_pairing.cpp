@@ -1,4 +1,4 @@
-/// By LEMON's matching of greatest weight (Edmonds 1965, in O(n m log n)). LEMON 1.3 is C++17.
+/// Uses LEMON's maximum weighted matching (Edmonds 1965, in O(n m log n)). LEMON 1.3 is C++17.
 
 #include "bench/best_pairing.hpp"
 

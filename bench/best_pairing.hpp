@@ -1,5 +1,5 @@
 #pragma once
-/// The best that any pairing of triangles can do: what there is to be reached before nodes move.
+/// The best possible pairing of triangles: the limit of what pairing can reach before nodes move.
 
 #include <vector>
 
@@ -11,8 +11,8 @@ struct PossiblePair {
   double q;
 };
 
-/// The pairs, by index, whose q have the greatest sum of all pairings; `perfect`: of those that leave no
-/// triangle. Exact to a millionth of a pair. Empty where there is no such pairing.
+/// Indices of the pairs of the pairing with the greatest sum of q; with `perfect`, only among pairings that
+/// leave no triangle. q is rounded to a millionth for each pair. Empty if there is no such pairing.
 std::vector<int> best_pairing(int triangle_count, const std::vector<PossiblePair>& pairs, bool perfect);
 
 }  // namespace quadrille::bench

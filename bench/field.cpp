@@ -26,7 +26,7 @@ namespace {
 
 constexpr double length = 1000, width = 400, height = 50, radius = 0.1;
 
-/// The plate, in a file.
+/// Writes the plate to a file; returns its path.
 std::string plate_with_fillet(const std::filesystem::path& folder) {
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(length, width, height).Shape();
   BRepFilletAPI_MakeFillet fillet(box);

@@ -31,7 +31,7 @@ double area_of(const Ring& ring) {
   return sum;
 }
 
-/// \param sign of the area that it is to enclose: holes run the other way round.
+/// \param sign sign of the signed area: 1 = counter-clockwise, -1 = clockwise, for holes.
 TopoDS_Wire wire_of(Ring ring, int sign) {
   if (area_of(ring) * sign < 0) std::reverse(ring.begin(), ring.end());
   BRepBuilderAPI_MakePolygon polygon;

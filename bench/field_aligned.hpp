@@ -1,6 +1,6 @@
 #pragma once
-/// Quadrille's own triangulation of a planar domain: points along a cross field, as the mesher has it before
-/// it pairs.
+/// Quadrille's own triangulation of a planar domain: points along a cross field, as the mesher makes it
+/// before pairing.
 
 #include <vector>
 
@@ -8,9 +8,9 @@
 
 namespace quadrille::bench {
 
-/// Triangulates what lies between the first ring and the others (holes), as `quadrille mesh --strategy
-/// direct` does on a face that is no regular grid. Their sides are the CAD edges: none gets less than one
-/// segment.
+/// Triangulates the domain between the first ring and the others (holes), as `quadrille mesh --strategy
+/// direct` does on a face that is not a regular grid. The sides of the rings are the CAD edges: each gets at
+/// least one segment.
 TriangleMesh triangulate_along_field(const std::vector<Ring>& rings, const Grading& grading);
 
 }  // namespace quadrille::bench

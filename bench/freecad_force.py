@@ -1,5 +1,5 @@
-"""How long FreeCAD's CalculiX writer takes for a force on two whole faces of a large mesh, with the workbench's wrappers and
-without.
+"""Times FreeCAD's CalculiX writer for a force on two whole faces of a large mesh, with or without the workbench's
+wrappers.
 
     scripts/freecad_python bench/freecad_force.py [--quads 100000] [--order 1] [--without]
 """
@@ -21,7 +21,7 @@ from quadrille import solvers
 
 
 def main():
-    """The seconds, wall clock and CPU."""
+    """Prints the wall-clock and CPU seconds."""
     from femtools import ccxtools
 
     parser = argparse.ArgumentParser(description=__doc__)

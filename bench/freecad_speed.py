@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From click to visible mesh in FreeCAD's window: Quadrille's panel beside FreeCAD's own Gmsh object, same part, and
-the time to write CalculiX's input for both.
+"""Times the way from the click to the visible mesh in FreeCAD's window, for Quadrille's panel and for FreeCAD's own
+Gmsh object on the same part, and the writing of CalculiX's input for both.
 
     scripts/freecad_gui bench/freecad_speed.py [--part examples/models/bracket.step] [--quads 100000] [--order 1st]
 
-Times are wall-clock, from the click on Mesh until the 3-D view has drawn the mesh for the first time. Of these, "read" is FreeCAD reading
-the mesher's file, "copy" its copying of the mesh into the object's property (timed as one more copy, since FreeCAD does
-it in one go with building the picture), "picture" the rest of that, "draw" the 3-D view, "filled" is when the panel has
-its histogram and worst elements too. Gmsh runs as FreeCAD 0.20's Gmsh object runs it with its quads on, at the same
-size.
+Times are wall-clock seconds. "visible" is from the click on Mesh until the 3-D view has drawn the mesh for the first
+time. Parts of it: in "read" FreeCAD reads the mesher's file. In "copy" it copies the mesh into the object's property
+(timed by one more copy, since FreeCAD copies and builds the picture in one step); "picture" is the rest of that step.
+"draw" is the 3-D view. "filled" is from the click until the panel also shows its histogram and worst elements. Gmsh
+runs as FreeCAD 0.20's Gmsh object runs it with quads on, at the same size.
 """
 
 import argparse
@@ -36,7 +36,7 @@ from driver import Boxes, close_panel, find, prepare, process, trigger, wait_for
 
 
 class Stopwatch:
-    """Adds up the seconds that a function of a module takes inside a `with`."""
+    """Adds up the seconds that a module's function takes inside a `with` block."""
 
     def __init__(self, module, name):
         self._module, self._name, self._function = module, name, getattr(module, name)
@@ -59,7 +59,7 @@ class Stopwatch:
 
 
 class Frames:
-    """When the 3-D view shows a frame: its scene is traversed, then drawn, then the window's buffers are swapped."""
+    """Records when the 3-D view shows frames: the scene is traversed, then drawn, then the buffers are swapped."""
 
     def __init__(self):
         self._begun, self._frames = 0.0, []
@@ -78,7 +78,7 @@ class Frames:
         self._frames.append((self._begun, time.perf_counter()))
 
     def first_after(self, moment, seconds=60):
-        """Lets the window live until it has shown a frame begun after `moment`; returns when it first did."""
+        """Processes events until a frame begun after `moment` has been shown; returns when the first was shown."""
         def shown():
             return [end for begun, end in self._frames if begun > moment]
 
@@ -87,14 +87,14 @@ class Frames:
 
 
 def quadrille_run(document, part, size, order, frames):
-    """The panel's way; returns the mesh object and the seconds of each step."""
+    """Meshes with Quadrille's panel; returns the mesh object and the seconds of each step."""
     FreeCADGui.Selection.clearSelection()
     FreeCADGui.Selection.addSelection(part)
     with Boxes():
         trigger("Quadrille_Mesh")
     find("QuadrilleSize").setProperty("rawValue", size)
     find("QuadrilleElementOrder").setCurrentText(order)
-    process(2)  # nobody presses Mesh before; by then a mesher stands by
+    process(2)  # no user presses Mesh sooner; by then a mesher is on standby
     mesh, button = document.Objects[-1], find("QuadrilleMesh")
     started = time.perf_counter()
     with Stopwatch(jobs, "read_mesh") as read, Stopwatch(undo, "put") as put:
@@ -118,7 +118,7 @@ def quadrille_run(document, part, size, order, frames):
 
 
 def gmsh_run(document, part, size, order, frames):
-    """FreeCAD's Gmsh object, without its panel, as its panel does it."""
+    """Meshes with FreeCAD's Gmsh object as its panel does, but without the panel; returns the mesh and the seconds."""
     from femmesh import gmshtools
 
     mesh = ObjectsFem.makeMeshGmsh(document, "Gmsh")
@@ -134,12 +134,12 @@ def gmsh_run(document, part, size, order, frames):
 
 
 def transfer_percent(seconds):
-    """The share of reading and copying in the time until the mesh is visible."""
+    """Reading and copying as a percentage of the time until the mesh is visible."""
     return 100 * (seconds["read"] + seconds["copy"]) / seconds["visible"]
 
 
 def input_seconds(document, part, mesh):
-    """Seconds to write CalculiX's input for a plate of this mesh: a fixed face and a force on a face."""
+    """Seconds to write CalculiX's input for shells of this mesh with a fixed face."""
     from femtools import ccxtools
 
     analysis = ObjectsFem.makeAnalysis(document, "Analysis")
@@ -164,7 +164,7 @@ def input_seconds(document, part, mesh):
 
 
 def main():
-    """Measures by turns, and prints each run and the ratios."""
+    """Measures Quadrille and Gmsh in turn; prints each run and the ratios."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--part", default=str(ROOT / "examples/models/bracket.step"))
     parser.add_argument("--quads", type=int, default=100000)

@@ -3,10 +3,11 @@
 
     bench/midsurface_figures.py [--build BUILD] [--beams [NAME...] [--check] | --bracket]
 
-Without --beams: each thin model of tests/models, its area times thickness over its volume, connection, free edges inside
-the material, CPU seconds. With --beams: cantilevers, meshed with S8R on the middle surface by Quadrille, against
-C3D20R of the same solid: deflection under an even load on the section at the tip, and the first frequency of bending, both by CalculiX (ccx on the PATH).
-With --bracket: the sample part, examples/freecad/sheet_bracket.step, as C3D20R: what its shell is compared with.
+Without options: for each thin test model, area times thickness over volume, the number of parts, edges inside the
+material, CPU seconds. With --beams: cantilevers, meshed by Quadrille with S8R on the middle surface, against C3D20R of
+the same solid: deflection under an even load on the section at the tip, and the first bending frequency, both by
+CalculiX (ccx on the PATH). With --bracket: the sample part, examples/freecad/sheet_bracket.step, as C3D20R, the
+reference for its shell.
 """
 
 import argparse
@@ -34,7 +35,7 @@ MATERIAL = f"*MATERIAL, NAME=Material\n*ELASTIC\n{YOUNG}, 0.3\n*DENSITY\n{DENSIT
 
 
 def run(*command, folder):
-    """Runs a program to its end; gives its CPU seconds."""
+    """Runs a program to its end; returns its CPU seconds (user time)."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     done = subprocess.run([str(part) for part in command], cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode != 0:
@@ -57,7 +58,7 @@ def quads_of(text):
 
 
 def thicknesses_of(text):
-    """By the name of a face."""
+    """The thickness of each face, by its name."""
     result = {}
     for faces, thickness in re.findall(r"ELSET=Thickness\S+\n((?:Face\d+\n)+)\*SHELL SECTION.*\n(\S+)", text):
         result.update(dict.fromkeys(faces.split(), float(thickness)))
@@ -65,7 +66,7 @@ def thicknesses_of(text):
 
 
 def shell_mesh(folder, build, name):
-    """The nodes, the text, the count of elements and the shares of the tip's nodes of the middle surface's mesh."""
+    """Meshes the middle surface. Returns the nodes, the text, the number of elements and the load shares of the tip's nodes."""
     run(build / "quadrille", "mesh", folder / f"cantilever_{name}.brep", "--thin", "--order", 2, "--size", 8, "--quiet",
         "-o", folder / "shell.inp", folder=folder)
     text = (folder / "shell.inp").read_text()
@@ -84,7 +85,7 @@ def shell_mesh(folder, build, name):
 
 
 def solid_mesh(folder, build, name, length):
-    """The same of a mesh of C3D20R: quads of the section, drawn along the beam."""
+    """Returns the same for a mesh of C3D20R: quads of the section, extruded along the beam."""
     run(build / "quadrille", "mesh", folder / f"section_{name}.brep", "--order", 2, "--size", 4, "--quiet",
         "-o", folder / "section.inp", folder=folder)
     text = (folder / "section.inp").read_text()
@@ -96,7 +97,7 @@ def solid_mesh(folder, build, name, length):
     layers = round(length / 8)
     numbers, nodes = {}, {}
 
-    def number(node, level):  # two levels a layer; between layers there are the corners only
+    def number(node, level):  # two levels per layer; the middle level has only corner nodes
         key = (node, level)
         if key not in numbers:
             numbers[key] = len(numbers) + 1
@@ -125,7 +126,7 @@ def solid_mesh(folder, build, name, length):
 
 
 def solve(folder, name, mesh):
-    """The tip's displacement along y under an even load on the section there, and the first frequency of bending (Hz)."""
+    """The displacement of the tip along y under an even load on its section, and the first bending frequency (Hz)."""
     nodes, text, _, shares = mesh
     held = [number for number, point in nodes.items() if abs(point[2]) < 1e-6]
     whole = sum(shares.values())
@@ -144,7 +145,7 @@ def solve(folder, name, mesh):
 
 
 def first_bending(text):
-    """The lowest frequency (Hz) of a mode that moves the beam along y: others turn it, or bend its walls."""
+    """The lowest frequency (Hz) of a mode that moves the beam along y. Other modes twist it or bend its walls."""
     number = r"\s+([-+.\dE]+)"
     frequencies = {int(mode): float(hz) for mode, hz in re.findall(rf"^\s+(\d+)\s+\S+\s+\S+{number}\s+\S+$", text, re.MULTILINE)}
     table = text.split("E F F E C T I V E")[1]
@@ -155,7 +156,7 @@ def first_bending(text):
 
 
 def beams(folder, build, names):
-    """Prints the table; gives the names of those that are off by more than 2 % at the tip or 3 % in frequency."""
+    """Prints the table; returns the names of beams that are off by more than 2 % at the tip or 3 % in frequency."""
     off = []
     print("| cantilever | S8R | C3D20R | tip, shell (mm) | tip, solid (mm) | off by | first bending, shell (Hz) | solid (Hz) | off by |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
@@ -171,8 +172,9 @@ def beams(folder, build, names):
 
 
 def bracket_mesh(folder, build, size, layers):
-    """Nodes and C3D20R elements of the sample part, which is as thick everywhere: the quads of its middle surface, drawn along their
-    normals. Returns the nodes of the middle surface, those of the solid by row and level, their numbers (-1: none), and the elements."""
+    """Nodes and C3D20R elements of the sample part, which has the same thickness everywhere: the quads of its middle surface, extruded
+    along their normals. Returns the nodes of the middle surface, those of the solid by node of the middle surface and level, their
+    numbers (-1: none), and the elements."""
     run(build / "quadrille", "mesh", ROOT / "examples" / "freecad" / "sheet_bracket.step", "--thin", "--order", 2, "--size", size,
         "--curvature", 20, "--symmetry", "--quiet", "-o", folder / "shell.inp", folder=folder)
     text = (folder / "shell.inp").read_text()
@@ -199,7 +201,7 @@ def bracket_mesh(folder, build, size, layers):
 
 
 def bracket(folder, build):
-    """Prints how far the sample part moves as a solid, and its largest stresses: everywhere, and in the bend."""
+    """Prints the largest displacement of the sample part as a solid, and its largest stresses in the bend and everywhere."""
     print("| size | C3D20R | largest movement (mm) | largest stress in the bend (MPa) | everywhere (MPa) |")
     print("| --- | --- | --- | --- | --- |")
     for size, layers in ((3, 2), (1.5, 2)):
@@ -237,7 +239,7 @@ def surfaces(folder, build):
     print("| model | faces | middle | area x thickness / volume | parts | edges inside | CPU (s) |")
     print("| --- | --- | --- | --- | --- | --- | --- |")
     for path in sorted(folder.glob("thin_*.brep")) + [folder / "ribbed_plate_200.brep"]:
-        if path.stem in ("thin_annulus", "thin_pin"):  # of the trouble models
+        if path.stem in ("thin_annulus", "thin_pin"):  # these are trouble models
             continue
         seconds = run(build / "quadrille", "midsurface", path, "--quiet", "-o", "x.json", "-o", "x.brep", folder=folder)
         told = json.loads((folder / "x.json").read_text())

@@ -3,14 +3,14 @@
 ///     paper [--first N] [--domains N] [--colorings N] [--blossom-limit TRIANGLES] [--best-limit TRIANGLES]
 ///           [--aligned-limit TRIANGLES] [--gmsh PROGRAM] [--out FOLDER]
 ///
-/// All times are processor time of one thread, Blossom's too (as Gmsh prints it): other work on the machine
-/// hardly changes it. Short runs are repeated on both sides and the least is taken. The paper's count is
-/// coloring, removal of blanks, choice of the color and its alternating paths; "all" goes from arrays of
-/// triangles to arrays of quads.
+/// All times are processor times of one thread, also for Blossom (as Gmsh prints it), so other work on the
+/// machine hardly affects them. Short runs of both are repeated and the least time is taken. The paper's time
+/// covers coloring, removal of blanks, choice of the color and its alternating paths. The time of "all"
+/// covers everything from arrays of triangles to arrays of quads.
 ///
 /// Makes the triangulations from --first to --domains of six (rectangle 1 2 3, Lake Ontario 1 2 3), pairs
-/// each by coloring (paper's mode), by Quadrille's default and by Blossom, improves all three alike, prints
-/// a table and writes FOLDER/paper.json.
+/// each by coloring (paper's mode), by Quadrille's default, for shape and by Blossom, improves all alike,
+/// prints a table and writes FOLDER/paper.json.
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -52,8 +52,8 @@ struct Domain {
   const char* name;
   bool lake;
   double size;
-  double growth;                         // of the size, per distance from the shore
-  double paper_coloring, paper_blossom;  // seconds
+  double growth;                         // of the size, per distance from the boundary
+  double paper_coloring, paper_blossom;  // seconds in the paper
 };
 
 constexpr std::array<Domain, 6> domains{{{"rectangle 1", false, 0.0256, 0, 0.0063, 0.12},
@@ -123,7 +123,7 @@ json improved(const TriangleMesh& mesh, const QuadMesh& quads) {
   return entry;
 }
 
-/// The least time of some runs, as many as fit in a second.
+/// The least time of up to nine runs; starts no further run after two seconds.
 template <class Run>
 double best_seconds(Run&& run) {
   double best = 1e300;
@@ -145,8 +145,8 @@ std::int64_t resident_bytes(const char* which) {
   throw failure("memory", "/proc/self/status does not tell the memory used");
 }
 
-/// Peak memory of a pairing with its input and output, in bytes a triangle; in a process of its own, or holes
-/// that earlier pairings have left in the heap would count too.
+/// Peak memory of a pairing with its input and output, in bytes per triangle. Measured in a process of its
+/// own, so that holes that earlier pairings left in the heap do not matter.
 double bytes_per_triangle(const TriangleMesh& mesh, const RecombineOptions& options) {
   std::array<int, 2> ends{};
   if (::pipe(ends.data()) != 0) throw failure("memory", "no pipe to a child process");
@@ -195,7 +195,7 @@ json run_quadrille(const TriangleMesh& mesh, const RecombineOptions& options) {
   return entry;
 }
 
-/// The paper's own end: the triangles that the color leaves are collapsed, nodes of poor quads are averaged.
+/// The paper's last steps: collapses the triangles that the color leaves and averages nodes of poor quads.
 json run_paper_end(const TriangleMesh& mesh) {
   RecombineOptions options;
   options.method = Method::paper;
@@ -212,8 +212,8 @@ json run_paper_end(const TriangleMesh& mesh) {
   return entry;
 }
 
-/// The stages of the paper's mode alone: order (of large meshes), neighbors, greedy coloring, blanks,
-/// boundary.
+/// Times the stages of the paper's mode: ordering (of scattered meshes), neighbors, greedy coloring, removal
+/// of blanks, boundary.
 json time_coloring(const TriangleMesh& given) {
   double order = 0;
   TriangleMesh ordered;
@@ -261,7 +261,7 @@ void write_msh(const TriangleMesh& mesh, const std::filesystem::path& path) {
   write_mesh(shell, path);
 }
 
-/// One run of Gmsh on blossom.geo: the times that it prints for Blossom.
+/// Runs Gmsh once on blossom.geo. \return the wall and CPU seconds that it prints for Blossom.
 std::array<double, 2> time_blossom(const std::string& gmsh, const std::filesystem::path& folder) {
   const std::string command = fmt::format("cd '{}' && {} blossom.geo - 2>&1", folder.string(), gmsh);
   std::FILE* pipe = ::popen(command.c_str(), "r");
@@ -275,8 +275,8 @@ std::array<double, 2> time_blossom(const std::string& gmsh, const std::filesyste
   return {wall, cpu};
 }
 
-/// The sharpest corner of a domain and what it allows: boundary points stay, so the quad there has an angle
-/// of at most this, and q of at most the angle over 90 degrees.
+/// The sharpest corner of a domain and its limit on quality: boundary points stay, so the quad there has at
+/// most this angle, and q is at most the angle over 90 degrees.
 struct SharpestCorner {
   int point = -1;
   double degrees = 360;
@@ -303,7 +303,7 @@ SharpestCorner sharpest_corner(const TriangleMesh& mesh) {
   return sharpest;
 }
 
-/// Gmsh's Blossom on a file, its topological optimization off.
+/// Gmsh's Blossom on a file, without its topological optimization.
 json run_blossom(const TriangleMesh& mesh, const std::string& gmsh, const std::filesystem::path& folder) {
   const std::filesystem::path input = folder / "triangles.msh", output = folder / "blossom.msh";
   const std::filesystem::path script = folder / "blossom.geo";
@@ -334,14 +334,14 @@ json run_blossom(const TriangleMesh& mesh, const std::string& gmsh, const std::f
   entry["quads_at_sharpest_corner"] = std::count_if(quads.quads.begin(), quads.quads.end(), at_corner);
   entry["seconds"] = cpu;
   entry["wall_seconds"] = wall;
-  // Its elements keep the points' places, so the same triangulation serves to smooth on.
+  // Blossom does not move points, so the same triangulation serves as the surface for smoothing.
   entry["improved"] = improved(mesh, quads);
   return entry;
 }
 
 #ifdef QUADRILLE_LEMON
-/// The greatest mean q that any pairing without triangles left has, and the greatest sum of q that any
-/// pairing has, for each two triangles: the mean, were the triangles that it leaves quads of q 0.
+/// The pairing with the greatest mean q that leaves no triangles. Its "bound" is the greatest sum of q of any
+/// pairing, divided by half the number of triangles: the mean if leftover triangles count as quads of q 0.
 json run_best(const TriangleMesh& mesh) {
   const CostedColoring graph(mesh);
   QuadMesh possible;
@@ -388,7 +388,7 @@ void print_row(const char* method, const json& entry) {
   std::fflush(stdout);
 }
 
-/// The table's extra columns: points along a cross field instead of Delaunay ones.
+/// Extra columns of the table: points along a cross field instead of random ones.
 json run_field_aligned(const Domain& domain, int blossom_limit, const std::string& gmsh,
                        const std::filesystem::path& folder) {
   const TriangleMesh mesh = triangulate_along_field(rings_of(domain), {domain.size, domain.growth});
@@ -415,7 +415,7 @@ json run_domain(const Domain& domain, int blossom_limit, [[maybe_unused]] int be
       {"name", domain.name},
       {"triangles", mesh.triangles.size()},
       {"paper", {{"coloring_seconds", domain.paper_coloring}, {"blossom_seconds", domain.paper_blossom}}}};
-  std::fflush(stdout);  // or child processes would print it once more
+  std::fflush(stdout);  // else child processes would print it once more
   entry["bytes_per_triangle"] = run_memory(mesh);
   const SharpestCorner corner = sharpest_corner(mesh);
   entry["sharpest_corner"] = {{"degrees", corner.degrees}, {"q_bound", corner.q_bound()}};

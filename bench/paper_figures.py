@@ -3,7 +3,7 @@
 
     paper_figures.py FOLDER... -o docs/pictures
 
-Each FOLDER holds a paper.json; later ones replace domains of earlier ones.
+Each FOLDER contains a paper.json; domains of later ones replace those of earlier ones.
 """
 
 import argparse
@@ -26,7 +26,7 @@ def load(folders):
 
 
 def draw_histogram(domain, path):
-    """Shares of the quads by q before and after improvement, as figures 12 and 14 of the paper."""
+    """Draws the shares of quads by q before and after improvement, like figures 12 and 14 of the paper."""
     methods = [
         ("coloring", "coloring"),
         ("default", "default"),
@@ -52,7 +52,7 @@ def draw_histogram(domain, path):
 
 
 def draw_colorings(means, path):
-    """The distribution of mean q over many colorings, as figure 10 of the paper."""
+    """Draws the distribution of mean q over many colorings, like figure 10 of the paper."""
     figure, axis = plt.subplots(figsize=(5, 3))
     axis.hist(means, bins=60)
     axis.axvspan(0.505, 0.522, alpha=0.2, label="range in the paper, its mesh")

@@ -29,7 +29,7 @@ using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel,
                                                CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
 
-/// The wanted size on a raster, from the distance to the boundary points (swept twice, Danielsson 1980).
+/// The wanted size on a raster, from the distance to the boundary points (swept to and fro, Danielsson 1980).
 class SizeRaster {
  public:
   SizeRaster(const std::vector<Vector2>& boundary, const Grading& grading) : grading_(grading) {
@@ -150,7 +150,7 @@ Boundary sample(const std::vector<Ring>& rings, double size) {
       const int pieces = std::max(1, static_cast<int>(std::lround((b - a).norm() / size)));
       for (int s = 0; s < pieces; ++s) boundary.points.emplace_back(a + (b - a) * s / pieces);
     }
-    // Only an even number of sides in all can become quads alone.
+    // Only a boundary with an even number of sides in all can be meshed with quads alone.
     if (r + 1 == rings.size() && boundary.points.size() % 2 == 1) {
       boundary.points.emplace_back((boundary.points.back() + ring.front()) / 2);
     }
@@ -160,10 +160,10 @@ Boundary sample(const std::vector<Ring>& rings, double size) {
   return boundary;
 }
 
-/// Appends points at random around those that are there, none nearer to another than most of the size.
+/// Appends random points around the existing ones, with distances of at least `apart` times the size.
 void fill(std::vector<Vector2>& points, const TrimmedDomain& domain, const SizeRaster& size, double least,
           unsigned seed) {
-  constexpr double apart = 0.66;  // of the size; triangles' sides come out at the size on average
+  constexpr double apart = 0.66;  // share of the size; triangle sides then equal the size on average
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> uniform(0, 1);
   PointGrid grid(size.low(), size.high(), least);
@@ -183,7 +183,7 @@ void fill(std::vector<Vector2>& points, const TrimmedDomain& domain, const SizeR
   }
 }
 
-/// Marks the faces by how many boundaries lie around them: odd = inside.
+/// Marks the faces with the number of boundaries around them: odd = inside.
 void mark_nesting(Triangulation& triangulation) {
   for (auto face = triangulation.all_faces_begin(); face != triangulation.all_faces_end(); ++face)
     face->info() = -1;
@@ -226,7 +226,7 @@ TriangleMesh delaunay(const std::vector<Vector2>& points, const std::vector<std:
   return mesh;
 }
 
-/// One step of each point from `first` on part of the way to the mean of its neighbors.
+/// Moves each point from index `first` on by a share of the way to the mean of its neighbors.
 void relax(std::vector<Vector2>& points, const TriangleMesh& mesh, std::size_t first) {
   constexpr double share = 0.15;
   std::vector<Vector2> sum(points.size(), Vector2::Zero());

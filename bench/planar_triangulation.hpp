@@ -1,7 +1,7 @@
 #pragma once
-/// Plain planar Delaunay triangulations for the paper's domains: graded random points, relaxed a little, all
-/// inserted at once. Not field-aligned: as a general triangulator makes them. Based on: Bridson, Fast Poisson
-/// disk sampling in arbitrary dimensions (2007).
+/// Plain planar Delaunay triangulations of the paper's domains: graded random points, slightly relaxed, all
+/// inserted at once. They are like those of a general triangulator, not field-aligned. Based on: Bridson,
+/// Fast Poisson disk sampling in arbitrary dimensions (2007).
 
 #include <filesystem>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace quadrille::bench {
 
-using Ring = std::vector<Vector2>;  ///< closed, without the first point again
+using Ring = std::vector<Vector2>;  ///< closed, without repeating the first point
 
 /// Size at the boundary, and how it grows with the distance from it.
 struct Grading {

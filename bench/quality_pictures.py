@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts meshed by Quadrille and by Gmsh, side by side: colored by the criterion that is worst, with a histogram.
+"""Draws parts meshed by Quadrille and by Gmsh side by side, colored by each quad's worst criterion, with a histogram.
 
     PYTHONPATH=build/python xvfb-run -a bench/quality_pictures.py --quadrille build/quadrille --gmsh "Gmsh 4.8.4=gmsh" -o parts.png PART...
 
-Every mesher gets the diagonal over --div as size, an eighth of it as least size, twelve elements a circle, one thread. Gmsh recombines at
-twice the size and subdivides, its best mode for all quads. The table goes to standard output, as Markdown."""
+Every mesher gets the diagonal over --div as size, an eighth of it as least size, twelve elements per circle, one thread. Gmsh recombines
+at twice the size and subdivides, its best all-quad mode. The table is printed to standard output as Markdown."""
 
 import argparse
 import subprocess
@@ -25,16 +25,16 @@ from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to
 import quadrille
 from quadrille.quality import CRITERIA, measure_quads
 
-#: Over the share of the limit, from 0 to 2: green inside the limits, red from there on.
+#: Colors for shares of the limit from 0 to 2: green to yellow inside the limits, red beyond.
 COLORS = LinearSegmentedColormap.from_list("limits", [(0, "#1a9850"), (0.3, "#91cf60"), (0.499, "#fee08b"), (0.5, "#f46d43"), (1, "#a50026")])
 
 
 class Meshed(NamedTuple):
-    """What one mesher made of one part."""
+    """The mesh of one part by one mesher."""
 
     points: np.ndarray  #: (n, 3)
     quads: np.ndarray  #: (m, 4) indices of points
-    shares: np.ndarray  #: (m,) how far the worst criterion is from perfect, 1 at its limit; warp apart, which curvature forces
+    shares: np.ndarray  #: (m,) worst criterion of each quad, 0 = ideal, 1 = at its limit; without warp, which curvature forces
     q: np.ndarray  #: (m,)
 
 
@@ -46,7 +46,7 @@ def shares_of(points: np.ndarray, quads: np.ndarray) -> Meshed:
 
 
 def mesh_by_quadrille(command: str, part: Path, size: float, folder: Path) -> Optional[Meshed]:
-    """The command, as the README has it."""
+    """Meshes with the command, as in the README."""
     out = folder / "quadrille.msh"
     subprocess.run([command, "mesh", str(part), "-o", str(out), "--size", repr(size), "--size-min", repr(size / 8), "--threads", "1",
                     "--quiet"], check=True)
@@ -54,7 +54,7 @@ def mesh_by_quadrille(command: str, part: Path, size: float, folder: Path) -> Op
 
 
 def mesh_by_gmsh(command: str, part: Path, size: float, folder: Path) -> Optional[Meshed]:
-    """None where it makes no mesh of quads within five minutes."""
+    """Meshes with Gmsh; None if that gives no mesh with quads within five minutes."""
     out = folder / "gmsh.msh"
     out.unlink(missing_ok=True)
     settings = {"Mesh.MeshSizeFromCurvature": 6, "Mesh.Algorithm": 6, "Mesh.RecombineAll": 1, "Mesh.RecombinationAlgorithm": 1,
@@ -75,7 +75,7 @@ def read(path: Path) -> Optional[Meshed]:
 
 
 def picture(meshed: Meshed, width: int, height: int) -> np.ndarray:
-    """(height, width, 3) bytes, seen from above a corner."""
+    """The picture as (height, width, 3) bytes, viewed from above toward a corner."""
     cells = np.hstack([np.full((len(meshed.quads), 1), 4), meshed.quads]).astype(np.int64).ravel()
     polygons, points, data = vtk.vtkCellArray(), vtk.vtkPoints(), vtk.vtkPolyData()
     polygons.SetCells(len(meshed.quads), numpy_to_vtkIdTypeArray(cells, deep=True))
@@ -113,7 +113,7 @@ def picture(meshed: Meshed, width: int, height: int) -> np.ndarray:
 
 
 def draw(rows: Dict[str, Dict[str, Optional[Meshed]]], out: Path) -> None:
-    """A row for each part: its meshes, and their histograms."""
+    """Draws a row for each part: its meshes and their histograms."""
     names = list(next(iter(rows.values())))
     figure, axes = plt.subplots(len(rows), len(names) + 1, figsize=(4.2 * (len(names) + 1), 3 * len(rows)), squeeze=False)
     edges = np.linspace(0, 2, 41)

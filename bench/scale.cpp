@@ -1,5 +1,5 @@
-/// scale: a large mesh of one part beside a small one, and with two threads beside one: time and memory a
-/// quad.
+/// scale: compares time and memory per quad of a large mesh and a small mesh of one part, and of two threads
+/// and one.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -23,8 +23,8 @@ namespace {
 struct Run {
   double quads = 0;
   double read = 0, mesh = 0, write = 0;  ///< wall-clock seconds
-  double cpu = 0;                        ///< of the meshing alone, all threads
-  double peak_bytes = 0;                 ///< of the process
+  double cpu = 0;                        ///< CPU seconds of meshing alone, all threads
+  double peak_bytes = 0;                 ///< peak memory of the process
 };
 
 double wall() {
@@ -54,7 +54,7 @@ Run run_here(const std::filesystem::path& path, double size, int threads,
   const ShellMesh mesh = quadrille::mesh(model, options, context);
   run.mesh = wall() - start;
   run.cpu = cpu() - cpu_before;
-  std::filesystem::remove(output);  // to replace a file of a hundred megabytes takes as long as to write it
+  std::filesystem::remove(output);  // replacing a file of 100 MB takes as long as writing it
   start = wall();
   WriteOptions write_options;
   write_options.threads = threads;
@@ -67,7 +67,7 @@ Run run_here(const std::filesystem::path& path, double size, int threads,
   return run;
 }
 
-/// In a process of its own, whose peak of memory is this run's.
+/// Runs in a process of its own, so that the peak memory is that of this run alone.
 Run run_apart(const std::filesystem::path& path, double size, int threads,
               const std::filesystem::path& output) {
   int ends[2];
@@ -104,7 +104,7 @@ double size_for(const std::filesystem::path& path, double quads, const std::file
   const CadModel model = CadModel::read(path);
   ExecutionContext context;
   double size = QuadEstimate(model, context).size_for(quads).size;
-  // Curvature asks for some more: the square root of the share puts that right.
+  // The estimate is not exact: correct the size by the square root of the ratio of the counts.
   for (int i = 0; i < 2; ++i) size *= std::sqrt(run_apart(path, size, 1, output).quads / quads);
   return size;
 }

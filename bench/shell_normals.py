@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the CAD's exact normals at the nodes (*NORMAL in CalculiX's input) do to answers on coarse meshes.
+"""Measures how the exact CAD normals at the nodes (*NORMAL in CalculiX's input) change results on coarse meshes.
 
     scripts/freecad_python bench/shell_normals.py
 """
@@ -15,15 +15,15 @@ import numpy as np
 import Part
 from FreeCAD import Vector
 
-import verification  # which makes quadrille known
+import verification  # makes quadrille importable
 import quadrille.freecad
 from known_answers import shells, solver
 from known_answers.shapes import joined
 
 
 class Fillet:
-    """A strip with two straight arms and a bend of 90 degrees, clamped and pushed at its end; Poisson's ratio is 0. The
-    push's displacement, as a ratio to a frame's of Timoshenko's beams."""
+    """A strip with two straight arms and a bend of 90 degrees, clamped at one end and pushed at the other; Poisson's ratio
+    is 0. The answer is the displacement of the push over that of a frame of Timoshenko beams."""
 
     reference, arm, bend, width, thickness, young = 1.0, 5.0, 2.0, 2.0, 0.1, 1e5
 
@@ -54,7 +54,7 @@ class Fillet:
 
 
 def exact_normals(part, mesh):
-    """The lines of *NORMAL: at each node of each element the normal of the CAD face there, seen from its side."""
+    """The lines of *NORMAL: for each node of each element the CAD face's normal, on the side of the element's normal."""
     surfaces = [face.Surface for face in part.Shape.Faces]
     lines = ["*NORMAL"]
     for number, element in enumerate(mesh.elements, 1):
@@ -70,7 +70,7 @@ def exact_normals(part, mesh):
 
 
 def error(case, mesh, normals):
-    """The error in percent, with lines put into CalculiX's input."""
+    """The error in percent, with the lines `normals` inserted into CalculiX's input."""
     usual = solver.write_input
 
     def write_input(path, *arguments):
@@ -84,7 +84,7 @@ def error(case, mesh, normals):
         solver.write_input = usual
 
 
-#: Sizes and elements per circle.
+#: Cases, each with its meshes: size and elements per circle.
 MESHES = ((Fillet(), ((3.2, 4), (2.0, 12), (1.2, 12))), (shells.PinchedCylinder(), ((150, 12), (70, 12), (35, 12))),
           (shells.CylinderModes(), ((0.5, 12), (0.33, 12))), (shells.ClosedHemisphere(), ((4, 12), (2.5, 12), (1.6, 12))),
           (shells.Hook(), ((30, 4), (20, 12), (6.6, 12))))

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How well meshes of CAD models keep the sizes asked for: one run of the command each, and what `--report` says of them.
+"""Measures how well meshes of CAD models keep the requested sizes: one run of the command per model, with `--report`.
 
     bench/size_fidelity.py --quadrille build/quadrille MODEL... [-- --growth 0.2]
 
-Size is the diagonal over --div, with --proximity elements across gaps; what follows -- goes to `quadrille mesh`. A model keeps its sizes
-where the median of length over wanted size is in [0.9, 1.1], and 95 % of the sides are between 0.55 and 1.6 of it."""
+The size is the diagonal over --div, with --proximity elements across gaps; arguments after -- go to `quadrille mesh`. A model keeps its
+sizes if the median of length over wanted size is in [0.9, 1.1] and 95 % of the sides are between 0.55 and 1.6 times the wanted size."""
 
 import argparse
 import json
@@ -19,7 +19,7 @@ MEDIANS, LEAST_PERCENT = (0.9, 1.1), 95
 
 
 def measure(command: str, model: str, options: List[str]) -> Optional[Dict[str, Any]]:
-    """The report of one model; None where it has no mesh."""
+    """The report of one model; None if meshing fails."""
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "report.json"
         done = subprocess.run([command, "mesh", model, "-o", str(Path(folder) / "mesh.msh"), "--report", str(report), "--threads", "1",

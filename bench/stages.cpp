@@ -1,5 +1,5 @@
-/// bench: microseconds a quad of each stage, on the sample parts or on CAD files given, beside Gmsh in the
-/// same run.
+/// bench: microseconds per quad of each stage, on the sample parts or on given CAD files; with --gmsh, also
+/// of Gmsh in the same run.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -52,13 +52,13 @@ Run run_once(const std::filesystem::path& path, double divisions, const MeshOpti
   return {mesh.quads.size(), quality(mesh).q_mean, context.seconds()};
 }
 
-/// CPU seconds of Gmsh's best all-quad mode: Blossom at twice the size, then midpoint subdivision. Negative =
-/// failed.
+/// CPU seconds of Gmsh's best all-quad mode: Blossom at twice the size, then midpoint subdivision. Negative
+/// if Gmsh failed.
 double gmsh_seconds(const std::filesystem::path& path, double size, const std::filesystem::path& output) {
   rusage before{}, after{};
   ::getrusage(RUSAGE_CHILDREN, &before);
   const std::string double_size = fmt::format("{}", 2 * size), least_size = fmt::format("{}", size / 4);
-  std::fflush(nullptr);  // or the child would print what is still buffered once more
+  std::fflush(nullptr);  // else the child would print buffered text once more
   const pid_t child = ::fork();
   if (child == 0) {
     if (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr)) ::_exit(127);

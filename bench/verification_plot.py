@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws the convergence that examples/freecad/verification.py --converge has measured, and prints its table.
+"""Draws the convergence measured by examples/freecad/verification.py --converge, and prints its table.
 
     python3 bench/verification_plot.py docs/verification.json docs/verification.png
 """
@@ -20,20 +20,20 @@ LEFT_OUT = {"membrane-patch"}  # exact at every size: nothing to draw
 
 
 def error(row):
-    """In percent, with its sign; absolute where the reference is 0."""
+    """The signed error in percent; the absolute value if the reference is 0."""
     return abs(row["value"]) if row["reference"] == 0 else 100 * (row["value"] / row["reference"] - 1)
 
 
 def cell(row):
-    """One answer in the table."""
+    """The text of one result in the table."""
     return f"{row['nodes']}: {error(row):.2g}" if row["reference"] == 0 else f"{row['nodes']}: {error(row):+.2f} %"
 
 
 def main():
-    """Plot and table."""
+    """Draws the plot and prints the table."""
     rows = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
     cases = [case for case in dict.fromkeys(row["case"] for row in rows) if case not in LEFT_OUT]
-    rows_of_plots = len(cases) // 5 + 1  # one place is the legend's
+    rows_of_plots = len(cases) // 5 + 1  # one more place, for the legend
     figure, axes = plt.subplots(rows_of_plots, 5, figsize=(15, 3 * rows_of_plots), constrained_layout=True)
     for axis, case in zip(axes.flat, cases):
         for mesher, (label, color, marker) in STYLES.items():
@@ -45,7 +45,7 @@ def main():
         axis.axhline(1e-6 if relative else 1, color="0.7", linewidth=0.8)
         axis.set_title(case)
         axis.set_xlabel("nodes")
-        axis.xaxis.set_minor_formatter(NullFormatter())  # labels would lie on one another
+        axis.xaxis.set_minor_formatter(NullFormatter())  # labels would overlap
         axis.set_ylabel("error over largest" if relative else "error, %")
         axis.grid(True, which="major", alpha=0.3)
     for axis in axes.flat[len(cases):]:

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run meshes its faces between. Internal.
+/// The sizing field of a run, and the nodes on edges between which it meshes the faces. Internal.
 
 #include "geometry/base/execution_context.hpp"
 #include "geometry/cad/cad_model.hpp"
@@ -14,13 +14,13 @@ struct SettledBoundary {
   BoundaryNodes nodes;
 };
 
-/// The sizes that mesh() works with: features that it lets go ask for none. To be called within on_threads().
-/// Throws Error as mesh() for sizes that make no sense or are too many.
+/// The sizing field that mesh() uses: features that are let go request no sizes. Call it within on_threads().
+/// Throws Error as mesh() does for invalid options or sizes that exceed the budget.
 SizingField wanted_sizes(const CadModel& model, const MeshOptions& options, ExecutionContext& context);
 
-/// The sizes that mesh() would work with, and the nodes on the edges that it would begin to mesh faces
-/// between: with features let go, and more nodes where wires cross or come close. To be called within
-/// on_threads(). Throws Error as mesh() for sizes that make no sense or are too many.
+/// The sizing field that mesh() would use, and the nodes on edges between which it would start to mesh the
+/// faces: features are let go, and there are more nodes where wires cross or come close. Call it within
+/// on_threads(). Throws Error as mesh() does for invalid options or sizes that exceed the budget.
 SettledBoundary settle_boundary(const CadModel& model, const MeshOptions& options, ExecutionContext& context);
 
 }  // namespace quadrille

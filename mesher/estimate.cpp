@@ -19,7 +19,7 @@ namespace quadrille {
 
 namespace {
 
-/// The quads of a face whose four sides have as many segments as those they face; 0 for other faces.
+/// The number of quads of a four-sided face whose opposite sides have as many segments; 0 for other faces.
 double grid_quads(const CadFace& face, const FaceSides& sides, const BoundaryNodes& nodes) {
   if (sides.outline != FaceSides::Outline::four || sides.starts.size() != 4 || face.wires.size() != 1)
     return 0;
@@ -36,7 +36,7 @@ double grid_quads(const CadFace& face, const FaceSides& sides, const BoundaryNod
   return is_grid ? static_cast<double>(counts[0]) * counts[1] : 0;
 }
 
-/// The quads of a face that is meshed freely. \param inside the integral of 1 / size^2 over it.
+/// The number of quads of a face that is not a grid. \param inside integral of 1 / size^2 over the face.
 double free_quads(const CadFace& face, double area, double inside, double growth,
                   const BoundaryNodes& nodes) {
   int border = 0;
@@ -54,8 +54,8 @@ double free_quads(const CadFace& face, double area, double inside, double growth
     ++border;
     length += side;
   });
-  // Quads grow inwards from short sides at the border, up to the size wanted: the integral of
-  // side / (side + growth x)^2 as far as that takes or the face is deep, in place of side / size^2.
+  // Quads grow inward from short sides at the border up to the wanted size. Within that depth, at most the
+  // depth of the face, integrate side / (side + growth x)^2 in place of side / size^2.
   const double depth = length > 0 ? area / length : 0, size = std::sqrt(area / inside);
   double shorter = 0;
   for_each_segment([&](double side) {
@@ -104,15 +104,15 @@ double QuadEstimate::quads(const MeshOptions& options) {
 
 QuadEstimate::Suggestion QuadEstimate::size_for(double quads) {
   constexpr int most_steps = 12;
-  constexpr double close = 1.05;   // far within the estimate's own error
-  constexpr double narrow = 1.02;  // sizes between which the count jumps
+  constexpr double close = 1.05;   // well within the error of the estimate
+  constexpr double narrow = 1.02;  // ratio of sizes between which the count jumps
   const auto rounded = [](double size) { return std::stod(fmt::format("{:.3g}", size)); };
   const double largest = rounded(0.1 * model_.diagonal());
   double area = 0;
   for (const auto& face : samples_) {
     for (const FaceSample& sample : face) area += sample.area;
   }
-  Suggestion best, fine, coarse;  // the last two: the nearest that give too many quads, and too few
+  Suggestion best, fine, coarse;  // fine gives too many quads, coarse too few
   double size = std::min(largest, std::sqrt(area / quads));
   for (int step = 0; step < most_steps; ++step) {
     MeshOptions options;
@@ -124,7 +124,7 @@ QuadEstimate::Suggestion QuadEstimate::size_for(double quads) {
     if (error(found) < std::log(close) || (too_many && found.size >= largest)) break;
     (too_many ? fine : coarse) = found;
     if (fine.size == 0 || coarse.size == 0) {
-      // Counts fall with the square of the size at most: this goes too far rather than not far enough.
+      // Counts fall at most with the square of the size, so this step is too long rather than too short.
       const double factor = std::isfinite(found.quads) ? found.quads / quads : 2;
       size = std::min(largest, found.size * factor);
       continue;

@@ -1,5 +1,5 @@
 #pragma once
-/// How many quads a size gives, without meshing.
+/// Estimates how many quads a size gives, without meshing.
 
 #include <vector>
 
@@ -11,24 +11,24 @@
 
 namespace quadrille {
 
-/// Tells for a model how many quads options give: from the sizing field at some hundred points a face, and
-/// from the segments of its edges. Time is that of the sizing field and of sampling the edges; within a
-/// factor of 1.5 on the models measured.
+/// Estimates how many quads the options give on a model, from the sizing field at some hundred points per
+/// face and from the segments on edges. Takes the time to build the sizing field and to sample the edges.
+/// Accurate within a factor of 1.5 on the models measured.
 class QUADRILLE_API QuadEstimate {
  public:
   /// Keeps a reference to the model.
   QuadEstimate(const CadModel& model, ExecutionContext& context);
 
-  /// Infinite where the options pass their budget. Throws Error as mesh() for options that make no sense.
+  /// Infinity if the sizes exceed the budget. Throws Error as mesh() does for invalid options.
   double quads(const MeshOptions& options);
 
-  /// The largest size, rounded to three digits, that gives about so many quads, and how many that are: more
-  /// where the model's own edges take more at any size.
+  /// A size, rounded to three digits, and the number of quads that it gives. This is more than requested if
+  /// the model's own edges need more at any size.
   struct Suggestion {
     double size = 0;   ///< millimeters
-    double quads = 0;  ///< that it gives
+    double quads = 0;  ///< estimated number at this size
   };
-  Suggestion size_for(double quads);  ///< the size that gives about so many
+  Suggestion size_for(double quads);  ///< the size that gives about this number of quads
 
  private:
   const CadModel& model_;

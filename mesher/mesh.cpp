@@ -67,7 +67,7 @@ class Job {
     find_rows();
   }
 
-  /// What is let go asks for no sizes. Throws Error (usage) where the sizes pass their budget.
+  /// Features that are let go request no sizes. Throws Error (usage) if the sizes exceed the budget.
   SizingField build_field() {
     const StageTimer timer(context_, Stage::size);
     SizingOptions sizing = options_.sizing;
@@ -81,7 +81,7 @@ class Job {
     return field;
   }
 
-  /// Samples the edges until no boundary of a face crosses itself that can be mended.
+  /// Samples the edges until no remedy is left for a face boundary that crosses itself or is crowded.
   BoundaryNodes boundary(const SizingField& field) {
     settle(field, false);
     return std::move(nodes_);
@@ -97,7 +97,7 @@ class Job {
       throw failure("size_min",
                     "all faces are far below the least size: ask for a smaller one, or `keep_features`");
     slide();
-    // What is done by then is delivered, however long that takes.
+    // The faces meshed so far are delivered, even past the time limit.
     if (options_.partial) context_.lift_time_limit();
     ShellMesh result = assemble(shape_, nodes_, meshes_, statuses(), options_, context_);
     result.let_go = list_let_go();
@@ -109,7 +109,7 @@ class Job {
 
   bool is_limited() const { return options_.partial && context_.has_time_limit(); }
 
-  /// With options.partial only where there is time for all of it.
+  /// With options.partial and a time limit, undoes the sliding if there is no time for all of it.
   void slide() {
     if (!is_limited()) return slide_nodes(shape_, nodes_, meshes_, options_.improve, context_);
     const BoundaryNodes nodes = nodes_;
@@ -124,7 +124,7 @@ class Job {
     }
   }
 
-  /// \param again whether faces were meshed before. \return false if there is no time left for that.
+  /// \param again whether faces were meshed before. \return false if no time is left for another round.
   bool settle(const SizingField& field, bool again) {
     do {
       if (again && !may_go_on()) return false;
@@ -143,13 +143,13 @@ class Job {
     }
   }
 
-  /// Whether there is time for another round: with options.partial no more than a tenth of it is left for the
-  /// rounds' sampling to end in.
+  /// Whether there is time for another round. With options.partial the last tenth of the time limit is kept
+  /// for the sampling of a round to finish.
   bool may_go_on() const {
     return !options_.partial || context_.seconds_left() > 0.1 * context_.time_limit();
   }
 
-  /// What users divide, and layers, as far as grids can carry them.
+  /// Finds the rows of grids that follow prescribed divisions and layers, as far as grids can.
   void find_rows() {
     const SizingOptions& sizing = options_.sizing;
     if (sizing.spacings.empty() && sizing.layers.edges.empty()) return;
@@ -183,12 +183,12 @@ class Job {
     nodes_ = std::move(nodes);
   }
 
-  /// Keeps the meshes of the faces whose boundary stays as it was, with the new numbers of its nodes.
+  /// Keeps the meshes of faces whose boundary is unchanged, and renumbers their boundary nodes.
   void keep_meshes(const BoundaryNodes& nodes) {
     if (nodes_.edges.empty()) return;
     constexpr int none = -1, several = -2;
     std::vector<int> renumbered(nodes_.points.size(), none);
-    // What was one node may be several: the ends of an edge that is kept now and was let go before.
+    // One node may have become several: the ends of an edge that was let go before and is kept now.
     const auto renumber = [&](int before, int now) {
       if (before < 0 || now < 0) return;
       int& number = renumbered[before];
@@ -230,7 +230,7 @@ class Job {
     });
   }
 
-  /// Faces that are grids need no room between their sides. Throws FaceProblem.
+  /// Throws FaceProblem if sides of the face are too close. Grids need no room between their sides.
   void widen_gaps(int face, const FaceChart& chart) {
     int& looks = records_[face].looks_at_gaps;
     const auto outline = nodes_.sides[face].outline;
@@ -243,14 +243,14 @@ class Job {
 
   void mesh_faces(const SizingField& field) {
     for_each_face_left(Stage::mesh, 0, [&](int face) {
-      if (!charts_[face]) throw FaceProblem(*problems_[face]);  // no remedy in time
+      if (!charts_[face]) throw FaceProblem(*problems_[face]);  // no remedy within the rounds
       FaceRecord& record = records_[face];
       const FaceChart chart = std::move(*charts_[face]);
       ExecutionContext share(context_);
-      // A face that its neighbors' remedies alone have meshed again is not held to it.
+      // The limit does not apply to a face that is meshed again only because of its neighbors' remedies.
       if (record.first_work > 0 && problems_before_[face])
         share.limit_work(std::max<std::int64_t>(1, record.share() - record.work));
-      // The others are to have their turn.
+      // Leave time for the other faces.
       if (is_limited()) share.limit_time(0.5 * context_.seconds_left());
       const auto start = std::chrono::steady_clock::now();
       const auto count = [&] {
@@ -269,7 +269,7 @@ class Job {
     });
   }
 
-  /// \return what the end of a share of work or time means for its face; the same thrown on if it ends all.
+  /// \return the problem of a face whose share of work or time is used up. Rethrows what ends the whole run.
   FaceProblem share_problem(int face, const Error& error) const {
     if (error.subject() == ExecutionContext::work_subject) {
       return {Cause::out_of_work, face + 1,
@@ -282,13 +282,13 @@ class Job {
                         context_.time_limit())};
   }
 
-  /// Does something with each face that has no mesh yet, on all threads; what goes wrong is the face's
-  /// problem. \param done_before the fraction of the stage that was done before.
+  /// Runs `work` on each face that has no mesh yet, on all threads, and records failures as problems of the
+  /// face. \param done_before fraction of the stage that was done before.
   template <class Work>
   void for_each_face_left(Stage stage, double done_before, Work&& work) {
     const int n = static_cast<int>(shape_.faces.size());
     std::vector<int> order = longest_first();
-    // So that most are done when the time is over.
+    // Small faces first, so that most faces are done when the time is over.
     if (is_limited()) std::reverse(order.begin(), order.end());
     std::atomic<int> started{0}, done{0};
     const auto work_on = [&](int face) {
@@ -322,13 +322,13 @@ class Job {
       context_.report(stage, done_before + (1 - done_before) * share);
     };
     const auto next = [&] { return started.fetch_add(1, std::memory_order_relaxed); };
-    // Each thread takes the largest face that is left: at the end none waits long for another.
+    // Each thread takes the next face. With large faces first, no thread waits long for another at the end.
     oneapi::tbb::parallel_for(0, oneapi::tbb::this_task_arena::max_concurrency(), [&](int) {
       for (int i = next(); i < n; i = next()) work_on(order[i]);
     });
   }
 
-  /// The faces, those first that have most segments on their boundary.
+  /// The faces, sorted by decreasing number of segments on their boundary.
   std::vector<int> longest_first() const {
     std::vector<int> segments(shape_.faces.size(), 0), order(shape_.faces.size());
     for (std::size_t face = 0; face < segments.size(); ++face) {
@@ -341,14 +341,14 @@ class Job {
     return order;
   }
 
-  /// Keeps what was let go round each face with a problem, or else applies a remedy to it; false if there is
-  /// none for any.
+  /// For each face with a problem, keeps the features around it that were let go, or else applies a remedy.
+  /// \return false if nothing could be done for any face.
   bool treat() {
     bool any = false;
     for (std::size_t face = 0; face < problems_.size(); ++face) {
       FaceRecord& record = records_[face];
       if (!problems_[face] || record.given_up) continue;
-      // Where a chart that stands in cannot even be made, what the face's own lacks is the cause.
+      // If not even a substitute chart can be made, the earlier problem is the one to report.
       const bool stands_in = record.recipe.chart != ChartKind::own;
       if (stands_in && problems_[face]->cause() == Cause::unusable_boundary && problems_before_[face])
         problems_[face].emplace(Cause::unusable_boundary, static_cast<int>(face) + 1,
@@ -367,7 +367,7 @@ class Job {
     return any;
   }
 
-  /// Faces that fail and are far smaller than the elements can be left out.
+  /// Adds a hint to the problem of each face that is far smaller than the elements: it can be left out.
   void advise_on_tiny_faces() {
     constexpr double tiny = 0.5;
     for (int face = 0; face < static_cast<int>(problems_.size()); ++face) {
@@ -461,7 +461,7 @@ ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, Executio
   return result;
 }
 
-/// Nothing where the part cannot be meshed, or gives no whole. \param note is told why.
+/// Empty if the part cannot be meshed or its mesh does not end at the planes. \param note gets the reason.
 std::optional<ShellMesh> mesh_part(const CadModel& model, const SymmetricJob& symmetric,
                                    ExecutionContext& context, std::string& note) {
   try {
@@ -496,7 +496,7 @@ ShellMesh mesh_by_symmetry(const CadModel& model, const MeshOptions& options, Ex
   return std::move(*result);
 }
 
-/// Throws Error: usage for options that make no sense, failure for edges far out of the model.
+/// Throws Error: usage for invalid options, failure for edges far outside the model.
 void check_input(const CadModel& model, const MeshOptions& options) {
   check({options, {}}, model);
   for (const StrayEdge& stray : stray_edges(model.shape(), faces_used(model, options.faces)))
@@ -537,12 +537,12 @@ std::vector<int> nodes_of_face(const ShellMesh& mesh, int face) {
   return nodes;
 }
 
-/// The middle faces and the rims that belong to each face of the solid: loads and supports that were meant
-/// for it.
+/// Groups of the middle faces and rims that belong to each face of the solid, for loads and supports that
+/// were meant for that face.
 std::vector<ShellMesh::Group> groups_of_solid_faces(const MidSurface& middle) {
   std::map<int, std::vector<int>> faces, rims;
   for (std::size_t i = 0; i < middle.faces.size(); ++i) {
-    if (middle.faces[i].step) continue;  // stands across
+    if (middle.faces[i].step) continue;  // lies across, between two middle surfaces
     for (const int face : middle.faces[i].solid_faces) faces[face].push_back(static_cast<int>(i) + 1);
   }
   for (const MiddleRim& rim : middle.rims) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The options of a whole run: those of each stage, and what concerns them all.
+/// The options of a whole run: those of each stage, and those that concern all stages.
 
 #include <filesystem>
 #include <functional>
@@ -18,28 +18,28 @@ enum class Strategy {
   subdivide  ///< triangles at twice the size, paired, each quad split into four
 };
 
-/// Segments of an edge for each one that its face is paired with: subdivision halves them.
+/// Final edge segments per segment of the triangulation that is paired: subdivision halves each segment.
 inline int stride(Strategy strategy) {
   return strategy == Strategy::subdivide ? 2 : 1;
 }
 
-/// Of Gmsh's .msh, both as text.
+/// The version of Gmsh's .msh format; both are written as text.
 enum class MshVersion { v2_2, v4_1 };
 
 /// The kinds of CAD entities whose elements make groups in mesh files.
 struct GroupKinds {
   bool faces = true;     ///< shell elements: Face3
   bool edges = true;     ///< lines on CAD edges: Edge7; without them the files have no lines
-  bool vertices = true;  ///< nodes, and points where the format has them: Vertex2; without them no points
+  bool vertices = true;  ///< nodes, and points if the format has them: Vertex2; without them no points
 };
 
-/// What files hold.
+/// What mesh files contain.
 struct WriteOptions {
-  MshVersion msh_version = MshVersion::v2_2;  ///< of .msh files
-  GroupKinds groups;                          ///< that files have
-  int quad_nodes = 8;                         ///< of second-order quads: 8, or 9 with one in the middle
-  std::string title;  ///< put into formats that have a comment or title line, control characters as '?'
-  int threads = 0;    ///< that make the text of .msh, .inp, .unv, .bdf and .vtk; 0 = all cores
+  MshVersion msh_version = MshVersion::v2_2;  ///< version of .msh files
+  GroupKinds groups;                          ///< groups that are written
+  int quad_nodes = 8;  ///< nodes of a second-order quad: 8, or 9 with one in the middle
+  std::string title;   ///< for formats with a comment or title line; control characters are written as '?'
+  int threads = 0;     ///< threads that format .msh, .inp, .unv, .bdf and .vtk as text; 0 = all cores
 };
 
 class SizingField;
@@ -47,23 +47,23 @@ struct ShellMesh;
 
 /// How a model is meshed.
 struct MeshOptions {
-  SizingOptions sizing;                     ///< lengths of elements
-  Strategy strategy = Strategy::subdivide;  ///< of all faces
-  int order = 1;                            ///< 1 or 2
+  SizingOptions sizing;                     ///< element sizes
+  Strategy strategy = Strategy::subdivide;  ///< strategy for all faces
+  int order = 1;                            ///< element order, 1 or 2
   std::vector<int> faces;                   ///< CAD faces to mesh; empty = all
   /// Edges shorter than this become points, and faces narrower than this between two edges become edges; 0 =
   /// all are kept.
   double merge_tiny = 0;
-  /// Mesh all edges and slivers below half the least size, where they would be let go (ShellMesh::let_go).
+  /// Mesh edges and slivers below half the least size too, instead of letting them go (ShellMesh::let_go).
   bool keep_features = false;
-  int rings = 1;          ///< of quads round each hole without corners, at most
+  int rings = 1;          ///< most rings of quads around each hole without corners
   bool symmetry = false;  ///< mesh one side of the model's mirror planes and copy its mirror images
   bool partial = false;   ///< deliver what could be meshed when a face fails, instead of throwing
-  std::filesystem::path write_size_field;  ///< .vdb to write the sizing field to; empty = none
-  /// Called once with the mesh and the sizes that it was made with, which end with the call; with `symmetry`
-  /// those of the part that was meshed. Empty = nothing.
+  std::filesystem::path write_size_field;  ///< .vdb file for the sizing field; empty = not written
+  /// Called once with the mesh and its sizing field, which are valid only during the call. With `symmetry`,
+  /// both are those of the part that was meshed. Empty = not called.
   std::function<void(const ShellMesh&, const SizingField&)> inspect;
-  bool force = false;          ///< go on where the mesh would pass 50 million elements
+  bool force = false;          ///< mesh even if there would be more than 50 million elements
   RecombineOptions recombine;  ///< how triangles are paired
   ImproveOptions improve;      ///< how quads are improved
 };

@@ -33,12 +33,12 @@
 namespace quadrille {
 
 /// Meshes the faces of a CAD model with quads only.
-/// Throws Error: usage for options that make no sense, failure naming the face that cannot be meshed (unless
-/// options.partial), cancelled. Time is linear in the number of quads. The result depends on the model and
-/// the options alone, not on the thread count.
+/// Throws Error: usage for invalid options, failure that names the face that cannot be meshed (with
+/// options.partial only if no face can be meshed), cancelled. Time is linear in the number of quads. The
+/// result depends only on the model and the options, not on the thread count.
 QUADRILLE_API ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context);
 
-/// Meshes the middle surface of thin solids, as above; the mesh knows the thickness of each face.
+/// Meshes the middle surface of thin solids, as above; the mesh carries the thickness of each face.
 QUADRILLE_API ShellMesh mesh(const MidSurface& middle, const MeshOptions& options, ExecutionContext& context);
 
 /// The library's version, "major.minor.patch".

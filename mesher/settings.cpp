@@ -43,7 +43,7 @@ Error refused(const Setting& setting, const std::string& rule) {
   return usage_error(std::string(setting.name), fmt::format("`{}` {}", setting.name, rule));
 }
 
-/// "a positive number", "a whole number between 0 and 4096".
+/// "a positive number", "a whole number of at least 0 and at most 4096".
 std::string rule_of(const Setting& setting) {
   const std::string what = setting.kind() == "count" ? "a whole number" : "a number";
   if (setting.low == 0 && setting.above_low && setting.high == infinity) return "a positive number";
@@ -143,7 +143,7 @@ Sizes sizes_of(const SizingOptions& sizing) {
   return sizes;
 }
 
-/// What `work` refuses is refused in the name of the setting.
+/// Runs `work` and turns std::invalid_argument into an Error that names the setting.
 template <class Work>
 void in_name_of(const Setting& setting, Work&& work) {
   try {
@@ -301,7 +301,7 @@ const Setting& entry(std::string_view name) {
   return *find_setting(name);
 }
 
-/// Throws if a value that is not the default is none that the setting takes.
+/// Throws Error (usage) if a value differs from the default and the setting does not allow it.
 void check_limits(const Settings& settings) {
   static const Settings defaults;
   for (const Setting& setting : all_settings()) {
@@ -351,7 +351,7 @@ std::vector<std::string_view> Setting::choices() const {
 }
 
 SettingValue Setting::value(const Settings& settings) const {
-  auto& from = const_cast<Settings&>(settings);  // looked at only
+  auto& from = const_cast<Settings&>(settings);  // only read
   return std::visit(
       Overloaded{
           [&](double& (*at)(Settings&)) -> SettingValue { return at(from); },

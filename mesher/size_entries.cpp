@@ -46,7 +46,7 @@ std::vector<std::string_view> split(std::string_view text) {
   return parts;
 }
 
-/// Numbers between commas; none where one of them is not.
+/// Numbers separated by commas; empty if one of them is not a number.
 std::vector<double> numbers(std::string_view text) {
   std::vector<double> values;
   for (const std::string_view part : split(text)) {
@@ -99,7 +99,7 @@ std::string text_of(const SizeRegion& region) {
   return region.transition > 0 ? text + fmt::format(",{}", region.transition) : text;
 }
 
-/// Entries such as "Edge4=20", split at commas: calls take(number, value) for each. Names come once.
+/// Entries such as "Edge4=20", split at commas: calls take(number, value) for each. Edges may not repeat.
 template <class Take>
 void take_edges(const Entries& entries, const char* what, Take&& take) {
   std::set<int> names;
@@ -114,7 +114,7 @@ void take_edges(const Entries& entries, const char* what, Take&& take) {
   }
 }
 
-/// Spacings that prescribe nothing are left out.
+/// Removes spacings that prescribe nothing.
 void tidy(SizingOptions& sizing) {
   std::erase_if(sizing.spacings, [](const auto& item) {
     return item.second.segments == 0 && item.second.bias == 1 && item.second.bias_both == 1;

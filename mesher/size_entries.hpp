@@ -8,26 +8,26 @@
 
 namespace quadrille {
 
-/// Lists of settings whose entries have a form of their own. Each function throws std::invalid_argument with
-/// what the setting takes, to be put behind its name: "takes ..., not '...'".
+/// Entries of settings whose lists have a form of their own. Each set function throws std::invalid_argument
+/// with a text to append to the setting's name: "takes ..., not '...'".
 using Entries = std::vector<std::string>;
 
 /// "box:x,y,z,x,y,z=SIZE", "sphere:x,y,z,r=SIZE", "cylinder:x,y,z,x,y,z,r=SIZE",
-/// "halfspace:x,y,z,nx,ny,nz=SIZE", each with ",TRANSITION" behind SIZE or without.
+/// "halfspace:x,y,z,nx,ny,nz=SIZE", each with an optional ",TRANSITION" after SIZE.
 void set_regions(SizingOptions& sizing, const Entries& entries);
 Entries regions_of(const SizingOptions& sizing);
 
-/// "Edge4=20", several in one entry with commas between them.
+/// "Edge4=20"; one entry may hold several, separated by commas.
 void set_segments(SizingOptions& sizing, const Entries& entries);
 Entries segments_of(const SizingOptions& sizing);
 
-/// "Edge4=1.2", the same way.
+/// "Edge4=1.2"; one entry may hold several, separated by commas.
 void set_bias(SizingOptions& sizing, const Entries& entries);
 Entries bias_of(const SizingOptions& sizing);
 void set_bias_both(SizingOptions& sizing, const Entries& entries);
 Entries bias_both_of(const SizingOptions& sizing);
 
-/// "Edge4=FIRST,RATIO,COUNT", faces and vertices too.
+/// "Edge4=FIRST,RATIO,COUNT", likewise for faces and vertices.
 void set_layers(SizingOptions& sizing, const Entries& entries);
 Entries layers_of(const SizingOptions& sizing);
 
@@ -35,7 +35,7 @@ Entries layers_of(const SizingOptions& sizing);
 void set_chord_error(SizingOptions& sizing, const std::string& text);
 std::string chord_error_of(const SizingOptions& sizing);
 
-/// "Face3" as 3; 0 when the name is not of that kind.
+/// The number in a name: 3 for "Face3" and the kind "Face"; 0 if the name is not of that kind.
 int number_of(std::string_view name, std::string_view kind);
 
 }  // namespace quadrille

@@ -19,14 +19,14 @@ namespace quadrille {
 
 namespace {
 
-/// Sides of triangles are no longer than this share of the model, or so many sizes.
+/// Triangle sides are at most this share of the model's diagonal or this many sizes, whichever is larger.
 constexpr double longest_share = 1 / 300.0, longest_sizes = 1.5;
 constexpr std::size_t most_triangles = 1000000;
-/// Radians between neighboring ones on curved faces: small fillets far below the size should not take most of
-/// them.
+/// Radians between neighboring triangles on curved faces. Small fillets far below the size should not take
+/// most of the triangles.
 constexpr double turn_of_triangle = 0.4;
 
-/// One kind of size: whether options have it, and how it is taken over into options that have none.
+/// One source of sizes: whether options use it, and how to copy it into options without sources.
 struct Kind {
   std::string_view name;
   bool (*has)(const SizingOptions&);
@@ -62,7 +62,7 @@ constexpr Kind kinds[] = {
     {"segments, bias", [](const Options& o) { return !o.spacings.empty(); },
      [](Options& to, const Options& from) {
        to.spacings = from.spacings;
-       to.edge_sizes = from.edge_sizes;  // which tell the number where there is a bias alone
+       to.edge_sizes = from.edge_sizes;  // determine the number of segments if there is only a bias
      }},
     {"size-points", [](const Options& o) { return !o.size_points.empty(); },
      [](Options& to, const Options& from) { to.size_points = from.size_points; }},
@@ -74,7 +74,7 @@ constexpr Kind kinds[] = {
      }},
 };
 
-/// The same limits and gradation, and no source.
+/// Options with the same limits, gradation and budget, but without sources.
 SizingOptions without_sources(const SizingOptions& options, const SizeLimits& limits) {
   SizingOptions none;
   none.size = limits.largest;
@@ -87,10 +87,10 @@ SizingOptions without_sources(const SizingOptions& options, const SizeLimits& li
   return none;
 }
 
-/// Looks sizes up at the points of a map.
+/// Looks up sizes at the points of a map.
 class Look {
  public:
-  /// \param point_faces (points) from 1
+  /// \param point_faces (points) CAD face of each point, from 1
   Look(const SizeMap& map, const std::vector<int>& point_faces, std::size_t faces)
       : map_(map), of_face_(faces) {
     for (std::size_t i = 0; i < point_faces.size(); ++i)
@@ -109,15 +109,15 @@ class Look {
 
  private:
   const SizeMap& map_;
-  std::vector<std::vector<int>> of_face_;  // points
+  std::vector<std::vector<int>> of_face_;  // (faces) indices of the points on each
 };
 
-/// Sums up what each source rules.
+/// Sums up area and quads, and finds the range of sizes, where each source rules.
 void sum_up(SizeMap& map) {
   for (SizeMap::Source& source : map.sources) source.least = std::numeric_limits<double>::infinity();
   for (const auto& nodes : map.triangles) {
     const Vector3 &a = map.points[nodes[0]], &b = map.points[nodes[1]], &c = map.points[nodes[2]];
-    const double area = (b - a).cross(c - a).norm() / 6;  // a third of it for each corner
+    const double area = (b - a).cross(c - a).norm() / 6;  // a third of the triangle's area for each corner
     for (const int node : nodes) {
       SizeMap::Source& source = map.sources[map.rulers[node]];
       const double size = map.sizes[node];
@@ -135,11 +135,11 @@ void sum_up(SizeMap& map) {
   }
 }
 
-/// Notes at each point which source alone has the least size there.
+/// Finds the source that gives the smallest size at each point when used alone.
 void find_rulers(const CadModel& model, const MeshOptions& options, const Look& look, SizeMap& map,
                  ExecutionContext& context) {
   const SizeLimits limits = size_limits(model, options.sizing);
-  // Interpolation makes sizes that are nowhere below the largest a little less.
+  // Interpolation returns slightly less than the largest size even where no source requests less.
   constexpr double less = 0.999;
   std::vector<double> least(map.points.size(), less * limits.largest);
   map.sources.push_back({"size"});

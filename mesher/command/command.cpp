@@ -58,7 +58,7 @@ void draw_apart(const std::filesystem::path& path, ExecutionContext& context,
       draw();
     } catch (const std::exception& problem) {
       const std::string sentence = problem.what();
-      if (sentence.rfind(path.string(), 0) == 0) throw;  // the file, not the renderer
+      if (sentence.rfind(path.string(), 0) == 0) throw;  // a problem with the file, not with the renderer
       throw failure(path.string(),
                     fmt::format("{}: the picture cannot be drawn ({})", path.string(), sentence));
     }
@@ -77,7 +77,7 @@ bool is_regular(const std::filesystem::path& path) {
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code none;
   if (std::filesystem::equivalent(a, b, none)) return is_regular(a);
-  // Those that are still to be made.
+  // Files that do not exist yet.
   const auto place = [&](const std::filesystem::path& path) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(written_file(path), none), none);
   };

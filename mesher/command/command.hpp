@@ -1,6 +1,6 @@
 #pragma once
-/// What the subcommands of `quadrille` share. Each subcommand is a function that adds itself to the parser;
-/// its callback does the work and throws Error, which main() turns into one line on stderr and the exit code.
+/// What the subcommands of `quadrille` share. Each subcommand is a function that adds itself to the parser.
+/// Its callback does the work and throws Error, which run() turns into one line on stderr and the exit code.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -15,9 +15,9 @@
 
 namespace quadrille::command {
 
-/// The command as a whole, with the arguments of main(): gives its exit code, throws nothing. With the single
-/// argument "standby" it opens what it needs ahead of time and waits; the first line of its input is then the
-/// arguments, as a JSON list of strings, and the end of its input without one ends it.
+/// Runs the command with the arguments of main(). Returns the exit code, throws nothing. With the single
+/// argument "standby" it opens the MED module ahead of time and waits. The first line of standard input then
+/// holds the arguments, as a JSON list of strings; if the input ends without a line, the process ends.
 int run(int argc, char** argv);
 
 void add_mesh_command(CLI::App& app);
@@ -29,10 +29,10 @@ void add_remesh_command(CLI::App& app);
 void add_sizes_command(CLI::App& app);
 void add_settings_command(CLI::App& app);
 
-/// Writes to stdout at once. Throws Error (failure) when it is closed or full.
+/// Writes to stdout at once. Throws Error (failure) if stdout is closed or full.
 void print(std::string_view text);
 
-/// Whether somebody looks at stderr.
+/// Whether stderr is a terminal.
 bool stderr_is_terminal();
 
 /// Throws Error (failure) unless the path is a file that can be read.
@@ -45,43 +45,43 @@ void require_writable(const std::filesystem::path& path);
 /// Throws Error (usage) unless the path has the ending (".png") and require_writable() holds.
 void require_ending(const std::filesystem::path& path, std::string_view ending, std::string_view option);
 
-/// A file that the command line names, and by which argument: "-o", "--report", "IN".
+/// A file named on the command line, and the argument that names it: "-o", "--report", "IN".
 struct NamedFile {
   std::string argument;
   std::filesystem::path path;
 };
 
-/// Throws Error (usage) unless all files that have a name are different ones, links followed: what is written
-/// must replace neither what is read nor what was written before. Devices and pipes may come twice.
+/// Throws Error (usage) unless all files with a name are different; links are followed. An output may replace
+/// neither an input nor another output. Devices and pipes may be named twice.
 void require_different_files(const std::vector<NamedFile>& files);
 
-/// The files of a run on a model: what is read, and what is written where it has a name.
+/// The input and output files of a run on a model. An empty path means no such file.
 struct ModelFiles {
   const std::filesystem::path& input;
   const std::vector<std::filesystem::path>& outputs;
   const std::filesystem::path &size_field, &report, &picture, &write_size_field;
 };
 
-/// Throws Error (usage) unless what is read can be, what is written can be, with the endings that it takes,
-/// and all are different files. The outputs' endings are the command's own affair.
+/// Throws Error: failure unless the inputs can be read, usage unless the outputs can be written, have the
+/// right endings, and all files are different. Each command checks the endings of `outputs` itself.
 void require_usable(const ModelFiles& files);
 
-/// Draws a picture in a child process: the renderer ends the program where memory or threads run out. Throws
-/// Error (failure) that names the file.
+/// Draws a picture in a child process, since the renderer ends its process if memory or threads run out.
+/// Throws Error (failure) that names the file.
 void draw_apart(const std::filesystem::path& path, ExecutionContext& context,
                 const std::function<void()>& draw);
 
-/// From now on a crash, of the CAD library on a damaged file above all, ends the process with one line on
-/// stderr that names the file, and exit code 1; unfinished files are removed. \param work "reading" or what
-/// else is going on.
+/// From now on a crash, mostly of the CAD library on a damaged file, ends the process with one line on stderr
+/// that names the file, and exit code 1; unfinished files are removed. \param work what is being done, such
+/// as "reading".
 void report_crashes(const std::filesystem::path& file, std::string_view work);
 
-/// From now on a reader that goes away and a limit on the size of files show as a failed write, and the end
-/// of the CPU time that the process may use ends it with one line on stderr and exit code 1.
+/// From now on a closed pipe and a limit on file size show up as a failed write. The limit on the CPU time of
+/// the process ends it with one line on stderr and exit code 1.
 void tell_limits();
 
 /// The progress of long work on stderr: a bar on a terminal; elsewhere lines "progress: STAGE PERCENT %", at
-/// most two a second and none in the first half second.
+/// most two per second and none in the first half second.
 class ProgressDisplay {
  public:
   explicit ProgressDisplay(bool quiet);
@@ -89,7 +89,7 @@ class ProgressDisplay {
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
-  /// Shows a stage and the fraction done. Always true: it never cancels.
+  /// Shows a stage and the fraction done. Always returns true: it never cancels.
   bool show(std::string_view stage, double fraction);
 
  private:
@@ -102,24 +102,24 @@ class ProgressDisplay {
   std::string last_text_;
 };
 
-/// From now on the end of standard input is a SIGTERM: a program that starts this one and is killed takes it
-/// along.
+/// From now on the end of standard input raises SIGTERM, so that this process also ends if the program that
+/// started it is killed.
 void end_with_input();
 
-/// While it lives, Ctrl-C and SIGTERM cancel the context, and the time limit, if there is one, ends the work.
-/// Work that does not notice within 0.15 s (CAD files are read in one go) is ended from outside: one line on
-/// stderr, unfinished files removed. A second signal ends the process at once. Outside, a signal ends the
-/// process at once, when there is nothing to clean up.
+/// During its lifetime, Ctrl-C and SIGTERM cancel the context, and the time limit, if any, ends the work. If
+/// the work does not react within 0.15 s (CAD files are read in one call), the signal handler ends the
+/// process with one line on stderr and removes unfinished files. A second signal ends the process at once.
+/// Outside its lifetime there is nothing to clean up, and a signal ends the process at once.
 class CancelOnSignal {
  public:
   /// \param time_limit seconds; 0 = none.
   explicit CancelOnSignal(ExecutionContext& context, double time_limit = 0);
 
-  /// Until reading_is_done(), which cannot be asked to end, it has this limit too. \param seconds 0 = none.
+  /// Also limits the time until reading_is_done(): reading cannot be cancelled. \param seconds 0 = no limit.
   void reading(const std::filesystem::path& file, double seconds);
   void reading_is_done();
 
-  /// A file is whole: the line that tells of the end names it.
+  /// Records a complete file: if the run is ended, the message names it.
   void wrote(const std::filesystem::path& file);
 
   ~CancelOnSignal();
@@ -131,7 +131,7 @@ class CancelOnSignal {
   std::chrono::steady_clock::time_point start_;
 };
 
-/// What a run that is ended has left: ", and nothing was written", or the files that were.
+/// For the message of an ended run: ", and nothing was written", or the files that were written before.
 std::string left_behind();
 
 /// What a mesh is made from and written to.
@@ -141,7 +141,7 @@ struct MeshFiles {
   const std::filesystem::path& picture;  ///< empty = none
 };
 
-/// Writes a mesh, with the command and the input's name as title, and draws it.
+/// Writes the mesh files, titled with the version and the input's name, and draws the picture.
 void write_outputs(const ShellMesh& mesh, const MeshFiles& files, const Settings& settings,
                    ExecutionContext& context, CancelOnSignal& cancel);
 

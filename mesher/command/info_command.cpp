@@ -1,4 +1,4 @@
-/// quadrille info IN: what a CAD model holds, and the sizes that suit it.
+/// quadrille info IN: what a CAD model contains, and suitable sizes.
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ void add_sizes(const CadModel& model, ExecutionContext& context,
   double before = 0;
   for (const double quads : {1e3, 1e4, 1e5}) {
     const QuadEstimate::Suggestion found = estimate.size_for(quads);
-    if (found.size == before) continue;  // the model's own edges take more
+    if (found.size == before) continue;  // the model's own edges need more quads
     before = found.size;
     line("size", fmt::format("--size {:g} for about {:.0f} quads", found.size, found.quads));
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// The option --limits [FILE], the same for each command that has it.
+/// The option --limits [FILE], shared by the commands that have it.
 
 #include <filesystem>
 #include <string>
@@ -12,16 +12,16 @@ namespace quadrille::command {
 
 class LimitsOption {
  public:
-  /// To be called once. Keeps a pointer to the option, whose command must outlive this.
+  /// Call it once. Keeps a pointer to the option: the command must outlive this object.
   void add_to(CLI::App& command);
 
   bool given() const { return option_->count() > 0; }
 
-  /// Those of the file, else the usual ones. Throws Error: usage where the file cannot be read, failure where
-  /// it makes no sense.
+  /// The limits in the file, or the usual ones if no file is given. Throws Error (failure) if the file cannot
+  /// be read or makes no sense.
   CriteriaLimits limits() const;
 
-  /// Throws Error (failure) where the option is given and quads of the mesh fail. \param mesh its file.
+  /// Throws Error (failure) if the option is given and quads of the mesh fail. \param mesh file of the mesh.
   void hold(const std::filesystem::path& mesh, const CriteriaSummary& criteria) const;
 
  private:

@@ -1,4 +1,4 @@
-/// The `quadrille` command: quadrille mesh | recombine | info | quality.
+/// The `quadrille` command. Its subcommands are added in run.cpp.
 
 #include "mesher/command/command.hpp"
 

@@ -46,7 +46,7 @@ CadModel read_model(const MeshArguments& arguments, ExecutionContext& context) {
   return arguments.settings.sew > 0 ? model.sewn(arguments.settings.sew) : model;
 }
 
-/// With --thin the middle surface of the model's solids.
+/// The middle surface of the model's solids with --thin; else empty.
 std::optional<MidSurface> middle_of(const CadModel& model, const MeshArguments& arguments,
                                     ExecutionContext& context) {
   if (!arguments.thin) return std::nullopt;
@@ -56,7 +56,7 @@ std::optional<MidSurface> middle_of(const CadModel& model, const MeshArguments& 
   return midsurface(model, options, context);
 }
 
-/// One line for each face that --partial goes without.
+/// Prints one line for each face that --partial leaves out.
 void list_left_out(const ShellMesh& mesh) {
   for (const ShellMesh::Face& face : mesh.faces) {
     if (face.status == FaceStatus::failed)
@@ -64,7 +64,7 @@ void list_left_out(const ShellMesh& mesh) {
   }
 }
 
-/// Tells where the mesh leaves the geometry.
+/// Adds a warning if midside nodes lie off the geometry.
 void warn_off_geometry(const ShellMesh& mesh, std::vector<std::string>& warnings) {
   const auto worst = std::max_element(mesh.faces.begin(), mesh.faces.end(), [](const auto& a, const auto& b) {
     return a.off_geometry_max < b.off_geometry_max;
@@ -82,7 +82,7 @@ struct Measured {
   std::vector<std::string> area_differences;
 };
 
-/// In a thread of its own, if there is one to spare: the files are written meanwhile.
+/// Measures in a thread of its own while the files are written, if more than one thread may be used.
 std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& model, int threads) {
   const auto policy =
       std::launch::deferred | (usable_threads(threads) > 1 ? std::launch::async : std::launch::deferred);
@@ -91,7 +91,7 @@ std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& mo
   });
 }
 
-/// The table on stdout, warnings on stderr and the report, as far as they are wanted.
+/// Writes the report, the warnings to stderr and the table to stdout, as far as they are wanted.
 void tell_quality(const ShellMesh& result, const Measured& measured, std::vector<std::string> warnings,
                   const std::optional<SizeFidelity>& sizes, const MeshArguments& arguments,
                   ExecutionContext& context) {
@@ -101,7 +101,7 @@ void tell_quality(const ShellMesh& result, const Measured& measured, std::vector
   if (!arguments.report.empty()) {
     nlohmann::json report = make_report(result, measured.elements, context, arguments.input, warnings);
     if (sizes) report["sizes"] = sizes->json();
-    // File names need not be UTF-8, JSON must.
+    // File names need not be UTF-8, but JSON must be.
     constexpr auto replace = nlohmann::json::error_handler_t::replace;
     write_file(arguments.report, report.dump(2, ' ', false, replace) + "\n");
   }
@@ -125,7 +125,7 @@ void run(const MeshArguments& arguments) {
   if (arguments.thin) stages.insert(stages.begin() + 1, Stage::midsurface);
   context.expect(stages);
   report_crashes(arguments.input, "reading");
-  // With `partial` what is done when the time is over is still put together and written.
+  // With `partial`, what is done when the time is over is still assembled and written.
   const bool partial = settings.mesh.partial && settings.time_limit > 0;
   CancelOnSignal cancel(context, partial ? 0 : settings.time_limit);
   if (partial) context.limit_time(settings.time_limit);
@@ -159,7 +159,7 @@ void run(const MeshArguments& arguments) {
     if (middle) warnings.insert(warnings.end(), middle->problems.begin(), middle->problems.end());
     tell_quality(result, measured.get(), std::move(warnings), sizes, arguments, context);
   }
-  // Last: what fails can be looked at then.
+  // Last, so that a failing mesh has been written and can be inspected.
   if (arguments.limits.given())
     arguments.limits.hold(arguments.outputs.front(), check_criteria(result, limits));
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The quality of a mesh as a table to read.
+/// The quality of a mesh as tables of text.
 
 #include <string>
 
@@ -8,16 +8,16 @@
 
 namespace quadrille::command {
 
-/// Several lines: counts, q, scaled Jacobian, irregular nodes, aspect, edge lengths.
+/// Several lines: counts, q, Jacobians, inverted elements, irregular nodes, aspect, warping, edge lengths.
 std::string quality_table(const QualitySummary& summary);
 
-/// The histogram of q, one line a bin, with bars.
+/// The histogram of q, one line per bin, with bars.
 std::string quality_histogram(const QualitySummary& summary);
 
-/// Several lines: how many quads fail, by criterion and face, and the worst with their place.
+/// Several lines: how many quads fail, by criterion and face, and the worst quads with their centers.
 std::string criteria_table(const CriteriaSummary& summary, const CriteriaLimits& limits);
 
-/// Interior nodes by valence, one line a valence that occurs.
+/// Interior nodes by valence, one line for each valence that occurs.
 std::string valence_table(const QualitySummary& summary);
 
 }  // namespace quadrille::command

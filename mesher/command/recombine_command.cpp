@@ -83,7 +83,7 @@ void run(const RecombineArguments& arguments) {
   if (!arguments.quiet) print(quality_table(measures.quality));
 }
 
-/// CLI11 takes what is too large for the largest, and gives a range of 300 digits.
+/// Needed since CLI11 takes a number that is too large as the largest one and shows a range of 300 digits.
 std::string seed_problem(const std::string& text) {
   std::uint64_t seed = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);

@@ -76,7 +76,7 @@ void tell(const ShellMesh& mesh, const RemeshFidelity& fidelity, const std::vect
   if (!arguments.report.empty()) {
     nlohmann::json report = make_report(mesh, measures, context, arguments.input, notes);
     report["fidelity"] = fidelity_json(fidelity);
-    // File names need not be UTF-8, JSON must.
+    // File names need not be UTF-8, but JSON must be.
     constexpr auto replace = nlohmann::json::error_handler_t::replace;
     write_file(arguments.report, report.dump(2, ' ', false, replace) + "\n");
   }
@@ -118,7 +118,7 @@ void run(const RemeshArguments& arguments) {
   write_outputs(mesh, {arguments.input, arguments.outputs, arguments.picture}, arguments.settings, context,
                 cancel);
   tell(mesh, fidelity, notes, arguments, context);
-  // Last: what fails can be looked at then.
+  // Last, so that a failing mesh has been written and can be inspected.
   if (arguments.limits.given())
     arguments.limits.hold(arguments.outputs.front(), check_criteria(mesh, limits));
 }

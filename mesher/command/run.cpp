@@ -23,7 +23,7 @@ namespace {
 
 enum ExitCode : int { success = 0, work_failed = 1, bad_use = 2, work_cancelled = 130 };
 
-/// One line on stderr, whatever the message holds.
+/// Prints the message as one line on stderr, whatever it contains.
 int complain(std::string message, ExitCode code) {
   while (!message.empty() && message.back() == '\n') message.pop_back();
   fmt::print(stderr, "quadrille: {}\n", printable(std::move(message), ' '));
@@ -58,14 +58,14 @@ void add_commands(CLI::App& app) {
   add_settings_command(app);
 }
 
-/// In CLI11's words, but for options that are given more often than they take a value.
+/// CLI11's own message, except for an option that is given more often than it may be.
 std::string sentence_of(const CLI::ParseError& error) {
   const std::string text = error.what();
   const std::size_t end = text.find(": At Most 1 required");
   return end == std::string::npos ? text : text.substr(0, end) + " is given more than once: give it once";
 }
 
-/// --help and --version also come as parse "errors".
+/// --help and --version also arrive as parse "errors".
 int answer(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) {
     std::ostringstream text;
@@ -77,12 +77,12 @@ int answer(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 int parse_and_work(std::vector<std::string> arguments) {
-  // OpenCASCADE reports to it, where results of ours are expected; those are written without it.
+  // OpenCASCADE prints to std::cout, but stdout is for our results, which print() writes without std::cout.
   std::cout.setstate(std::ios::badbit);
   CLI::App app("All-quad shell meshes of CAD models", "quadrille");
   try {
     add_commands(app);
-    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+    std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 expects
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
     return answer(app, error);
@@ -90,7 +90,7 @@ int parse_and_work(std::vector<std::string> arguments) {
   return success;
 }
 
-/// What a process that stands by is to do: the first line of its input, once that comes.
+/// The arguments of a process on standby: waits for the first line of its input. Empty at the end of input.
 std::vector<std::string> awaited_arguments() {
   open_med_module();
   std::string line;

@@ -40,7 +40,7 @@ void add_setting(CLI::App& command, const Setting& setting, GivenSettings& targe
     command.add_option_function<std::vector<std::string>>(option, take, help_of(setting))
         ->delimiter(',')
         ->allow_extra_args(false);
-  } else if (kind == "entries") {  // which have commas of their own
+  } else if (kind == "entries") {  // an entry contains commas itself
     command.add_option_function<std::vector<std::string>>(option, take, help_of(setting))
         ->allow_extra_args(false);
   } else {

@@ -1,4 +1,4 @@
-/// Signals of POSIX: docs/porting.md tells what stands in for them elsewhere.
+/// POSIX signals. docs/porting.md describes what replaces them on other systems.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/time.h>
@@ -27,7 +27,7 @@ namespace quadrille::command {
 
 namespace {
 
-// What the handlers below need; they may call nothing that is not safe in a signal handler.
+// State of the handlers below, which may call only what is safe in a signal handler.
 std::atomic<ExecutionContext*> cancellable{nullptr};
 std::atomic<bool> ending{false};
 char crash_line[512], time_line[512];
@@ -54,7 +54,8 @@ extern "C" void cancel_work(int signal_number) {
   ring_after(1e-6 * grace_microseconds);
 }
 
-/// The time is over (the context knows by itself), or work that should have ended has not.
+/// The first alarm means that the time is over: the context notices by itself and gets the grace period. The
+/// next alarm, or one after a signal, means that work that should have ended has not.
 extern "C" void handle_alarm(int) {
   if (!ending.exchange(true)) {
     ring_after(1e-6 * grace_microseconds);
@@ -73,7 +74,7 @@ extern "C" void handle_cpu_limit(int) {
   end_process("quadrille: the CPU time that this process may use (ulimit -t) is over\n", 1);
 }
 
-/// Cuts what does not fit.
+/// Copies a line and its line break; cuts off what does not fit.
 template <std::size_t n>
 void copy_line(char (&buffer)[n], const std::string& line) {
   const std::size_t length = std::min(line.size(), n - 2);
@@ -156,11 +157,11 @@ void tell_limits() {
 
 void report_crashes(const std::filesystem::path& file, std::string_view work) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  static_cast<void>(file), static_cast<void>(work);  // the sanitizer tells more
+  static_cast<void>(file), static_cast<void>(work);  // the sanitizer's report tells more
 #else
   copy_line(crash_line, fmt::format("quadrille: {}: {} this file crashed: it may be damaged",
                                     printable(file.string()), work));
-  static char stack[1 << 16];  // crashes by endless recursion leave no other
+  static char stack[1 << 16];  // after endless recursion there is no other stack left
   stack_t alternative{};
   alternative.ss_sp = stack;
   alternative.ss_size = sizeof(stack);

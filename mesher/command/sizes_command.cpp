@@ -66,7 +66,7 @@ std::string text_of(const std::vector<Number>& numbers) {
   return text;
 }
 
-/// The elements of lists, one after another, as other numbers.
+/// The elements of all lists, one after another, converted to another type of number.
 template <class Number, class Lists>
 std::vector<Number> flat(const Lists& lists) {
   std::vector<Number> numbers;
@@ -76,7 +76,7 @@ std::vector<Number> flat(const Lists& lists) {
   return numbers;
 }
 
-/// All of the map: for programs that draw it.
+/// The whole map, for programs that draw it.
 json all_of(const SizeMap& map) {
   json result = summary_of(map);
   std::vector<std::array<int, 2>> lines;

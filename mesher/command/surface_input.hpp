@@ -1,5 +1,5 @@
 #pragma once
-/// What the commands that take meshes share.
+/// What the commands that read a surface mesh share.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -11,16 +11,16 @@
 
 namespace quadrille::command {
 
-/// Degrees that tell faces apart where the user does not say. Faces of .msh files come from a CAD model: a
-/// fold inside one is a coarse curve, so none. In all else sets and parts tell nothing about the shape.
+/// The default feature angle, degrees. 0 for .msh files with several faces: they come from a CAD model, and a
+/// fold inside a face is a coarse curve. 40 for all others: their sets and parts do not follow the shape.
 double usual_feature_angle(const std::filesystem::path& file, const ShellMesh& mesh);
 
-/// Adds --feature-angle and --merge. \param fold what a side is where faces fold by the angle or more, and
-/// what 0 means, for the help.
+/// Adds --feature-angle and --merge. \param fold text for the help: what a side becomes if the surface folds
+/// there by the angle or more, and what 0 means.
 void add_surface_options(CLI::App& command, std::optional<double>& feature_angle,
                          std::optional<double>& merge, const std::string& fold);
 
-/// An error in a mesh with the name of its file, and how elements are counted.
+/// The error with the name of the mesh file and, if it names a triangle or point, how these are counted.
 Error named_by_file(const Error& error, const ShellMesh& mesh, const std::string& file);
 
 }  // namespace quadrille::command

@@ -1,4 +1,4 @@
-/// The terminal as POSIX has it: docs/porting.md tells what stands in for it elsewhere.
+/// POSIX terminal output. docs/porting.md describes what replaces it on other systems.
 #include <fmt/format.h>
 #include <unistd.h>
 

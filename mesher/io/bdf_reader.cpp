@@ -27,7 +27,7 @@ std::string upper(std::string_view text) {
   return result;
 }
 
-/// An entry: its name and its fields, those of its continuations behind.
+/// An entry: its name and its fields, followed by those of its continuation lines.
 struct Card {
   std::string name;
   std::vector<std::string> fields;
@@ -48,10 +48,10 @@ constexpr CardShape card_shapes[] = {
     {"CQUADR", ElementShape::quad, 4},
     {"CQUAD8", ElementShape::quad, 8},
     {"CSHEAR", ElementShape::quad, 4},
-    {"CQUAD9", ElementShape::quad, 8},  // of Gmsh, with a node in the middle
+    {"CQUAD9", ElementShape::quad, 8},  // written by Gmsh, with a middle node
     {"CQUAD", ElementShape::quad, 8},
 };
-/// Elements that a mesh of a surface has no place for: they are counted.
+/// Elements that a surface mesh cannot hold: they are only counted.
 constexpr std::string_view left_out[] = {"CBAR",   "CBEAM",   "CROD",   "CONROD", "CTUBE",
                                          "CBUSH",  "CTRAX3",  "CTRAX6", "CTRIAX", "CTRIAX6",
                                          "CQUADX", "CQUADX4", "CQUADX8"};
@@ -82,7 +82,7 @@ class BdfReader {
     if (trimmed(line).empty()) return true;
     const std::string first = upper(trimmed(line).substr(0, 10));
     if (first == "ENDDATA") return false;
-    // What stands before the bulk data is for the solver.
+    // The lines before the bulk data are for the solver.
     if (first == "BEGIN BULK" || first == "BEGIN,BULK") {
       card_ = {};
       return true;
@@ -101,8 +101,8 @@ class BdfReader {
     return true;
   }
 
-  /// The name and the fields of a line: 8 columns each, 16 behind a name with an asterisk, or as commas part
-  /// them. The last, which names the continuation, is left out.
+  /// The name and the fields of a line: separated by commas, or 8 columns wide, 16 after a name with an
+  /// asterisk. The last field, which names the continuation, is left out.
   static std::vector<std::string_view> fields_of(std::string_view line) {
     std::vector<std::string_view> fields;
     constexpr std::size_t narrow = 8, wide = 16;
@@ -147,7 +147,7 @@ class BdfReader {
     return value;
   }
 
-  /// "1.5", "-.5", "1.5E3", "1.5D3" and, without a letter, "1.5+3".
+  /// Reads "1.5", "-.5", "1.5E3", "1.5D3" and, without a letter, "1.5+3". Blank is 0.
   double real(std::string_view given, const Card& card) const {
     if (given.empty()) return 0;
     std::string text = upper(given);
@@ -177,8 +177,8 @@ class BdfReader {
   void add_element(const Card& card, const CardShape& shape) {
     FileElement element;
     element.number = whole(card.field(0), "an element's number", card);
-    // Left blank, Nastran takes the element's own number. Programs that know no properties (meshio) leave it
-    // blank, and mean none.
+    // For a blank property Nastran uses the element's own number. Programs without properties (meshio) leave
+    // it blank and mean none.
     const std::int64_t property =
         card.field(1).empty() ? 0 : whole(card.field(1), "an element's property", card);
     if (property > 0 && property <= std::numeric_limits<int>::max()) element.cad = static_cast<int>(property);
@@ -188,7 +188,7 @@ class BdfReader {
     for (int i = 0; i < shape.nodes; ++i) {
       const std::string_view text = card.field(2 + i);
       if (text.empty() && i >= corners) {
-        // Midside nodes may be left out one by one; the element then counts as one of first order.
+        // Single midside nodes may be left out; the element then counts as first order.
         element.node_count = corners;
         break;
       }
@@ -198,7 +198,7 @@ class BdfReader {
     builder_.add_element(element);
   }
 
-  /// HyperMesh: $HMNAME COMP 3"name" or $HMNAME PROP 3"name"; ANSA: $ANSA_NAME_COMMENT;3;PSHELL;name;
+  /// Property names: $HMNAME COMP 3"name", $HMNAME PROP 3"name" or (ANSA) $ANSA_NAME_COMMENT;3;PSHELL;name;
   void read_comment(std::string_view line) {
     const auto add = [&](std::string_view number, std::string_view name) {
       int property = 0;

@@ -1,5 +1,5 @@
-/// Nastran bulk data in fixed fields, of 16 columns for GRID and of 8 for all else, which more programs read
-/// than free ones: GRID*, CQUAD4, CQUAD8, CTRIA3, a PSHELL for each CAD face, and a SET for each CAD entity
+/// Nastran bulk data in fixed fields, which more programs read than free ones: 16 columns for GRID, 8 for all
+/// else. Contains GRID*, CQUAD4, CQUAD8, CTRIA3, a PSHELL for each CAD face, and a SET for each CAD entity
 /// in the case control. The property number of an element is its CAD face. Based on: the MSC Nastran quick
 /// reference guide, "Format of bulk data entries".
 
@@ -14,10 +14,10 @@ namespace quadrille {
 
 namespace {
 
-/// The number in at most so many columns, with as many digits as fit.
+/// The number in at most `columns` columns, with as many digits as fit.
 std::string_view field_of(double value, int columns, char (&text)[40]) {
   char* end = std::to_chars(text, text + sizeof text, value).ptr;
-  // A real number must have a point, which to_chars leaves out where it can.
+  // A real number must have a decimal point, which to_chars leaves out when it can.
   const auto lacks_point = [&] { return std::find(text, end, '.') == end; };
   for (int digits = columns - 1; digits > 0 && end - text > columns - (lacks_point() ? 1 : 0); --digits)
     end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
@@ -32,7 +32,7 @@ std::string_view field_of(double value, int columns, char (&text)[40]) {
 
 constexpr std::size_t narrow = 8, wide = 16;
 
-/// Text in a field, to its right.
+/// Writes text right-aligned in a field.
 void write_field(std::string_view text, std::size_t columns, TextWriter& out) {
   for (std::size_t i = text.size(); i < columns; ++i) out << ' ';
   out << text;
@@ -42,7 +42,7 @@ void write_real(double value, TextWriter& out, std::size_t columns = wide) {
   write_field(field_of(value, static_cast<int>(columns), text), columns, out);
 }
 
-/// "SET 3 = 1 THRU 7, 9": consecutive numbers are joined, lines stay under 72 columns.
+/// "SET 3 = 1 THRU 7,9": consecutive numbers become a range, lines stay under 72 columns.
 void write_set(int set, const std::string& name, const char* of_what, const std::vector<int>& numbers,
                TextWriter& out) {
   if (numbers.empty()) return;
@@ -51,7 +51,7 @@ void write_set(int set, const std::string& name, const char* of_what, const std:
   for (std::size_t i = 0; i < numbers.size();) {
     std::size_t last = i;
     while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
-    // Two neighbors are no range.
+    // Two consecutive numbers are written singly.
     if (last < i + 2) last = i;
     std::string item = std::to_string(numbers[i]);
     if (last > i) item += " THRU " + std::to_string(numbers[last]);
@@ -89,13 +89,13 @@ const char* card(const ElementNodes& element) {
   return element.count == 8 ? "CQUAD8" : "CQUAD4";
 }
 
-/// A property number is positive; elements of no face share the number after the largest.
+/// Property numbers are positive: elements without a face get the number after the last face.
 int property(const OutputMesh& mesh, int face) {
   return face > 0 ? face : mesh.cad_face_count() + 1;
 }
 
-/// A property for each face, of material 1 and of the shell's mean thickness where that is known: whoever
-/// includes the file defines the material, and the other thicknesses.
+/// Writes a property for each face, with material 1 and the mean thickness of the shell if that is known. Who
+/// includes the file defines the material, and the thicknesses that are not known.
 void write_properties(const OutputMesh& mesh, TextWriter& out) {
   for (const CadGroup& group : mesh.faces()) {
     out << "PSHELL  ";
@@ -120,7 +120,7 @@ void write_element(const OutputMesh& mesh, int shell, TextWriter& out) {
   const std::array<double, 4> thicknesses = mesh.corner_thicknesses(shell);
   const auto [thinnest, thickest] = std::minmax_element(thicknesses.begin(), thicknesses.end());
   if (mesh.is_quad(shell) && *thinnest < *thickest) {
-    // On the second line, of CQUAD4 behind two blank fields.
+    // The thicknesses are on the second line; for CQUAD4 they follow two blank fields.
     if (element.count == 4) out << "\n+                       ";
     for (const double thickness : thicknesses) write_real(thickness, out, narrow);
   }
@@ -130,7 +130,7 @@ void write_element(const OutputMesh& mesh, int shell, TextWriter& out) {
 }  // namespace
 
 void write_bdf(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out) {
-  constexpr std::size_t most = 99'999'999;  // what a field of 8 columns holds
+  constexpr std::size_t most = 99'999'999;  // the largest number in 8 columns
   if (mesh.nodes().size() > most || static_cast<std::size_t>(mesh.shell_count()) > most)
     throw failure(".bdf", "the mesh has more nodes or elements than the numbers of .bdf files count");
   out << "$ " << options.title << "\nCEND\n";

@@ -1,5 +1,5 @@
-/// The format: CalculiX CrunchiX/GraphiX manuals, "Result Format". Fields have fixed widths: numbers may
-/// touch each other.
+/// CalculiX .frd. Based on: CalculiX CrunchiX/GraphiX manuals, "Result Format". Fields have fixed widths, so
+/// numbers may touch each other.
 
 #include "mesher/io/result_reader.hpp"
 
@@ -69,7 +69,7 @@ class FrdReader {
     return value;
   }
 
-  /// Where values start in the lines of the block that the present line begins: 13 or 8.
+  /// Column where values start in the lines of the block that the current line begins, from 0: 13 or 8.
   std::size_t begin_block() {
     std::string_view header = line_;
     while (!header.empty() && header.back() == ' ') header.remove_suffix(1);
@@ -121,7 +121,7 @@ class FrdReader {
     }
   }
 
-  /// Values at nodes: the displacements of the last step stay.
+  /// Reads values at nodes: later displacements replace earlier ones, so those of the last step remain.
   void read_block() {
     const std::size_t start = begin_block();
     bool wanted = false;

@@ -11,14 +11,14 @@ namespace quadrille {
 
 namespace {
 
-/// Numbers are kept with the least byte first.
+/// Numbers are stored with the least significant byte first.
 std::uint64_t number_at(std::string_view bytes) {
   std::uint64_t value = 0;
   for (std::size_t i = bytes.size(); i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);
   return value;
 }
 
-/// What HDF5 puts behind its object headers. Based on: Bob Jenkins, lookup3, hashlittle().
+/// The checksum that HDF5 stores after its object headers. Based on: Bob Jenkins, lookup3, hashlittle().
 std::uint32_t checksum(std::string_view bytes) {
   const auto initial = static_cast<std::uint32_t>(0xdeadbeef + bytes.size());
   std::uint32_t a = initial, b = initial, c = initial;
@@ -53,7 +53,7 @@ std::uint32_t checksum(std::string_view bytes) {
 constexpr std::string_view signature = "OHDR";
 constexpr std::size_t flags_at = 5, times_at = 6, length_of_times = 16, length_of_checksum = 4;
 
-/// Length of the object header at the start of the bytes without its checksum; 0 = none with times.
+/// Length, without its checksum, of the object header at the start of the bytes; 0 = no header with times.
 std::size_t header_length(std::string_view bytes) {
   constexpr unsigned has_times = 1 << 5, has_attribute_limits = 1 << 4;
   constexpr std::size_t longest_fixed_part = times_at + length_of_times + 4 + 8;
@@ -74,7 +74,7 @@ void clear_times(std::string& file) {
   for (std::size_t at = 0; (at = file.find(signature, at)) != std::string::npos; at += signature.size()) {
     const std::string_view header(file.data() + at, header_length(std::string_view(file).substr(at)));
     if (header.empty()) continue;
-    // Four letters may also stand in the data; with a checksum that fits they do not.
+    // The signature may also occur in data; a matching checksum rules that out.
     char* const end = file.data() + at + header.size();
     if (number_at({end, length_of_checksum}) != checksum(header)) continue;
     std::memset(file.data() + at + times_at, 0, length_of_times);

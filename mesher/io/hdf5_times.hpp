@@ -5,10 +5,10 @@
 
 namespace quadrille {
 
-/// Sets the times that an HDF5 file keeps of its groups and data sets (last access, change, birth) to 0, so
-/// that equal contents give equal bytes: libmed offers no way to make objects without them. Object headers of
-/// other kinds than version 2, which libmed writes, stay as they are. Linear in the file's length. Based on:
-/// HDF5 File Format Specification 3.0, IV.A.1.b.
+/// Sets the times of groups and data sets in an HDF5 file (last access, change, birth) to 0, so that equal
+/// contents give equal bytes: libmed offers no way to make objects without times. Only object headers of
+/// version 2, which libmed writes, are changed. Linear in the file's length. Based on: HDF5 File Format
+/// Specification 3.0, IV.A.1.b.
 void clear_times(std::string& file);
 
 }  // namespace quadrille

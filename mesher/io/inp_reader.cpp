@@ -1,5 +1,5 @@
 /// Abaqus / CalculiX .inp: *NODE, *ELEMENT with shells or plane elements, *ELSET, *NSET. Other keywords are
-/// passed over.
+/// skipped.
 
 #include <fmt/format.h>
 
@@ -26,14 +26,14 @@ std::string upper_trimmed(std::string_view text) {
   return result;
 }
 
-/// A set as the file has it: numbers, and names of other sets.
+/// A set as in the file: numbers, and names of other sets.
 struct FileSet {
   struct Range {
     std::int64_t first, last, step;
   };
-  std::string name;  // with the capitals and small letters that it came with first
+  std::string name;  // in the upper and lower case of its first occurrence
   std::vector<Range> ranges;
-  std::vector<std::string> sets;  // in capitals
+  std::vector<std::string> sets;  // in upper case
 };
 
 class InpReader {
@@ -85,16 +85,16 @@ class InpReader {
     return text.substr(begin, text.find(',', begin) - begin);
   }
 
-  using Sets = std::map<std::string, FileSet>;  // by name in capitals
+  using Sets = std::map<std::string, FileSet>;  // by name in upper case
 
-  /// The set that the keyword's parameter names; none where there is no such parameter.
+  /// The set that the keyword's parameter names; null if there is no such parameter.
   static FileSet* set_named(Sets& sets, std::string_view line, const std::string& text,
                             const std::string& key) {
     const std::string upper_name = parameter(text, key);
     if (upper_name.empty()) return nullptr;
     FileSet& set = sets[upper_name];
     if (!set.name.empty()) return &set;
-    // `text` is the line without blanks and quotes.
+    // `text` is the line in upper case without blanks and quotes; here the case is kept.
     std::string plain;
     for (const char c : line)
       if (c != ' ' && c != '\t' && c != '"') plain += c;
@@ -102,14 +102,14 @@ class InpReader {
     return &set;
   }
 
-  /// 3, 4, 6 or 8 for shells, membranes, rigid and plane elements, whatever they are made for (S4R, CPS6M,
-  /// CAX4P, DC2D4); 0 for others.
+  /// 3, 4, 6 or 8 for shells, membranes, rigid and plane elements of all kinds (S4R, CPS6M, CAX4P, DC2D4); 0
+  /// for others.
   static int nodes_of_surface_element(const std::string& type) {
     static const std::regex pattern(
         "(?:S|STRI|M3D|SFM3D|R3D|DS|CPS|CPE|CPEG|CAX|CGAX|DC2D|DCAX|AC2D|ACAX)([3468])"
         "[A-Z]*5?");
     std::smatch match;
-    if (type.size() > 16) return 0;  // patterns take stack
+    if (type.size() > 16) return 0;  // matching a long text takes too much stack
     return std::regex_match(type, match, pattern) ? match[1].str()[0] - '0' : 0;
   }
 
@@ -153,7 +153,7 @@ class InpReader {
     }
   }
 
-  /// Cuts the next comma-separated field off the line, without blanks around.
+  /// Cuts the next comma-separated field off the line and trims it.
   static std::string_view field(std::string_view& line) {
     const std::size_t comma = line.find(',');
     std::string_view result = line.substr(0, comma);
@@ -191,7 +191,7 @@ class InpReader {
       set_->ranges.push_back({number, number, 1});
   }
 
-  /// An element may go over several lines.
+  /// An element may span several lines.
   void read_element(std::string_view line) {
     while (!line.empty()) {
       const std::string_view text = field(line);
@@ -243,7 +243,7 @@ class InpReader {
     }
   }
 
-  /// The sets that a set consists of, itself first; those that the file does not have are passed over.
+  /// The sets that make up a set, itself first. Sets that are not in the file are skipped.
   static std::vector<const FileSet*> parts_of(const Sets& sets, const std::string& upper_name) {
     std::vector<std::string> names{upper_name};
     std::set<std::string> known{upper_name};
@@ -258,7 +258,8 @@ class InpReader {
     return parts;
   }
 
-  /// \param put takes a number and a group; false = there is no such element or node.
+  /// Puts the members of a set into a group. \param put takes a number and a group; returns false if there is
+  /// no such element or node.
   template <class Put>
   void assign(const Sets& sets, const std::string& upper_name, const char* what, Put&& put) {
     const std::string& name = sets.at(upper_name).name;
@@ -274,8 +275,8 @@ class InpReader {
         }
   }
 
-  /// Sets that our own files have beside those with a meaning: of everything, and of the elements that have a
-  /// certain side on an edge. They are written anew.
+  /// Whether our own files contain this set in any case: of everything, or of the elements with a certain
+  /// side on an edge. Such sets are written anew, so they are not read.
   bool is_made_anew(const std::string& upper_name) const {
     if (upper_name == "NALL" || upper_name == "EALL" || upper_name == "EOTHER") return true;
     const std::size_t side = upper_name.rfind("_SIDE");
@@ -288,7 +289,7 @@ class InpReader {
       if (!is_made_anew(name))
         assign(element_sets_, name, "element",
                [this](std::int64_t member, int group) { return builder_.put_element(member, group); });
-    // A set of elements is written with their nodes as a set of its name.
+    // Our files repeat a set of elements as the set of their nodes under the same name.
     for (const auto& [name, set] : node_sets_)
       if (!is_made_anew(name) && element_sets_.count(name) == 0)
         assign(node_sets_, name, "node",
@@ -302,8 +303,8 @@ class InpReader {
   MeshBuilder builder_;
   Block block_ = Block::other;
   FileElement pending_;
-  int read_numbers_ = 0;    // of the element that is being read, its own number included
-  FileSet* set_ = nullptr;  // that nodes, elements or numbers go to
+  int read_numbers_ = 0;    // numbers read of the current element, with its own number
+  FileSet* set_ = nullptr;  // receives the nodes, elements or numbers that follow
   bool generated_ = false;
   Sets element_sets_, node_sets_;
 };

@@ -15,8 +15,8 @@ namespace quadrille {
 
 namespace {
 
-constexpr int numbers_per_line = 16;        // what Abaqus and CalculiX read of one line
-constexpr int characters_of_a_number = 20;  // what they read of one number
+constexpr int numbers_per_line = 16;        // numbers that Abaqus and CalculiX read per line
+constexpr int characters_of_a_number = 20;  // characters that they read per number
 
 void write_list(const std::vector<int>& numbers, TextWriter& out) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -30,8 +30,8 @@ const char* element_type(const OutputMesh& mesh, bool quad) {
   return mesh.order() == 2 ? "S8R" : "S4";
 }
 
-/// Names of sets as Abaqus and CalculiX read them. They take capitals and small letters for the same, and
-/// tell sets of one kind apart by their names alone.
+/// Names of sets for Abaqus and CalculiX, which ignore case and tell sets of one kind apart only by their
+/// names.
 class SetNames {
  public:
   explicit SetNames(const OutputMesh& mesh) {
@@ -39,12 +39,12 @@ class SetNames {
       for (const NamedGroup& group : mesh.groups(dimension))
         names_[dimension].push_back(is_written_already(mesh, dimension, group) ? "" : free_name(group.name));
   }
-  /// Empty for nodes that are the set of a face or an edge of the same name. \param group its place in
-  /// OutputMesh::groups(dimension).
+  /// Name of a group; empty for nodes that are already the set of a face or edge with the same name.
+  /// \param group index in OutputMesh::groups(dimension).
   const std::string& of(int dimension, std::size_t group) const { return names_[dimension][group]; }
 
  private:
-  /// Other formats have a group of elements and one of its nodes by one name.
+  /// Files of other formats may have a group of elements and a group of its nodes under one name.
   static bool is_written_already(const OutputMesh& mesh, int dimension, const NamedGroup& nodes) {
     if (dimension > 0) return false;
     for (const int other : {2, 1})
@@ -55,7 +55,7 @@ class SetNames {
   }
 
   std::string free_name(std::string name) {
-    constexpr std::size_t longest = 70;  // of 80, with room for what is put behind
+    constexpr std::size_t longest = 70;  // of 80, with room for a suffix
     name.resize(std::min(name.size(), longest));
     for (char& c : name)
       if (std::isspace(static_cast<unsigned char>(c)) || c == ',' || c == '=' || c == '"' || c == '*')
@@ -73,7 +73,7 @@ class SetNames {
   std::vector<std::string> names_[3];
 };
 
-/// The quads, or the triangles, of one face. \param set that they are put into; empty = none.
+/// Writes the quads, or the triangles, of one face. \param set name of their set; empty = none.
 void write_elements(const OutputMesh& mesh, const CadGroup& group, bool quads, const std::string& set,
                     TextWriter& out) {
   const auto is_wanted = [&](int shell) { return mesh.is_quad(shell) == quads; };
@@ -90,7 +90,7 @@ void write_elements(const OutputMesh& mesh, const CadGroup& group, bool quads, c
   });
 }
 
-/// The elements with the sets that are one face's; then the sets that are not.
+/// Writes the elements, with the sets that consist of one face; then the other sets.
 void write_element_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& out) {
   const std::vector<NamedGroup>& groups = mesh.groups(2);
   std::vector<char> written(groups.size(), 0);
@@ -114,9 +114,9 @@ void write_element_sets(const OutputMesh& mesh, const SetNames& names, TextWrite
   }
 }
 
-/// Sets of the elements that have their first side on an edge, their second, and so on: Edge7_Side1 takes the
-/// load EDNOR1. Where elements on both sides of an edge share it, those of the first face have it: a load on
-/// all four sets is one load.
+/// Writes sets of the elements whose first side lies on an edge, whose second side does, and so on: the load
+/// EDNOR1 is for Edge7_Side1. If several elements share a segment, only the first is in a set, so that a
+/// load on all four sets is applied once.
 void write_side_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& out) {
   std::vector<std::array<int, 4>> elements(mesh.segment_count(), {0, 0, 0, 0});  // from 1; 0 = none
   int last = -1;
@@ -149,8 +149,8 @@ void write_node_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& 
     }
 }
 
-/// A set and a section for each thickness; where it varies the nodes tell it. Whoever includes the file
-/// defines the material before.
+/// Writes a set and a section for each thickness; varying thicknesses are given at the nodes. Who includes
+/// the file must define the material before.
 void write_sections(const OutputMesh& mesh, TextWriter& out) {
   for (const ThicknessGroup& group : mesh.thicknesses()) {
     out << "*ELSET, ELSET=" << group.name << '\n';
@@ -173,7 +173,7 @@ void write_sections(const OutputMesh& mesh, TextWriter& out) {
 }  // namespace
 
 void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out) {
-  // What opens with an asterisk would be a card, not a heading.
+  // A title that starts with an asterisk would be read as a keyword.
   const bool like_card = options.title.find_first_not_of(' ') == options.title.find('*');
   out << "*HEADING\n" << (like_card ? "Title: " : "") << options.title << '\n';
   out << "*NODE, NSET=Nall\n";
@@ -189,7 +189,7 @@ void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& 
   write_element_sets(mesh, names, out);
   write_node_sets(mesh, names, out);
   write_side_sets(mesh, names, out);
-  // The side that the element normals point to.
+  // SPOS is the side to which the element normals point.
   for (std::size_t i = 0; i < mesh.groups(2).size(); ++i)
     out << "*SURFACE, NAME=Surface_" << names.of(2, i) << ", TYPE=ELEMENT\n" << names.of(2, i) << ", SPOS\n";
   write_sections(mesh, out);

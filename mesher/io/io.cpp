@@ -45,7 +45,7 @@ void write_text(const OutputMesh& mesh, const std::string& ending, const WriteOp
 void write_format(const ShellMesh& mesh, const std::filesystem::path& path, WriteOptions options,
                   AtomicFile& file) {
   const std::string ending = lower_ending(path);
-  // A line break in a title would be followed by what solvers take for a card.
+  // Solvers would take the text after a line break in the title for a keyword.
   options.title = options.title.empty() ? "Quadrille mesh" : printable(options.title);
   const OutputMesh output(mesh, options.groups, options.quad_nodes);
   const bool tells_quality = ending == ".vtu" || ending == ".vtk";
@@ -93,7 +93,7 @@ void check_format(const std::filesystem::path& path, int quad_nodes) {
     throw usage_error("nodes", fmt::format("{}: such files have no quads of nine nodes: `nodes` 9 is for "
                                            ".msh, .med, .vtu and .vtk",
                                            path.string()));
-  constexpr std::size_t longest_name = 64;  // bytes that MED has for the name of a mesh
+  constexpr std::size_t longest_name = 64;  // bytes of a mesh name in MED
   const std::size_t name = path.stem().string().size();
   if (ending == ".med" && name > longest_name)
     throw usage_error(

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Reads one file; its messages begin with the file's name.
+/// Reads one file. Error messages begin with the file's name.
 class LimitsReader {
  public:
   explicit LimitsReader(const std::filesystem::path& path) : name_(path.string()) {}
@@ -105,7 +105,7 @@ class LimitsReader {
           "criterion");
   }
 
-  /// False where the line is none of a criterion that is measured here.
+  /// Reads one line. \return false if its criterion is not measured here.
   bool read_criterion(const std::string& criterion, const std::vector<double>& numbers, int row) {
     constexpr std::array<std::string_view, criterion_count> names{
         "aspect ratio", "warpage", "skew", "min angle quad", "max angle quad", "jacobian", "taper"};

@@ -1,5 +1,5 @@
 #pragma once
-/// Limits of quality from a file.
+/// Reads quality limits from a file.
 
 #include <filesystem>
 
@@ -9,9 +9,10 @@
 namespace quadrille {
 
 /// Reads limits from a JSON object, {"aspect": 5, "taper": null}: names as in criteria_info, null = not
-/// checked, criteria that are not named keep their usual limits. Or from a HyperMesh criteria file: a line a
-/// criterion with its name, 1 or 0 (checked or not) and the columns weight, ideal, good, warn, fail, worst,
-/// of which `fail` counts; criteria of it that are not measured here go to CriteriaLimits::not_measured.
+/// checked; criteria that are not named keep their usual limits. Or reads a HyperMesh criteria file. Each
+/// line holds a number, the name of a criterion, 1 or 0 (checked or not) and the columns weight, ideal, good,
+/// warn, fail and worst; `fail` is the limit. Checked criteria that are not measured here go to
+/// CriteriaLimits::not_measured, and criteria that are not in the file are not checked.
 /// Throws Error (failure) with one sentence that names the file and what is wrong with it.
 QUADRILLE_API CriteriaLimits read_limits(const std::filesystem::path& path);
 

@@ -25,7 +25,7 @@ void check(med_int status, const char* what) {
   if (status < 0) throw failure(what, std::string("libmed could not write ") + what);
 }
 
-/// A MED file in memory: the disk is left to AtomicFile, whose errors are sentences.
+/// A MED file in memory. AtomicFile writes it to disk later, since its error messages are sentences.
 class MemoryFile {
  public:
   MemoryFile() {
@@ -53,12 +53,12 @@ class MemoryFile {
   med_idt id_ = -1;
 };
 
-/// Family numbers: positive for nodes, negative for elements, as MED has it; 0 = in no group.
+/// Family numbers, as MED defines them: positive for nodes, negative for elements; 0 = in no group.
 struct Families {
   std::vector<med_int> nodes, shells, segments;
 };
 
-/// Elements of one geometric type, which are written together.
+/// Elements of one geometric type, written together.
 struct ElementTable {
   med_geometry_type type;
   std::vector<med_int> nodes, families;
@@ -94,10 +94,10 @@ class MedWriter {
           "the mesh");
   }
 
-  /// \param groups that the family belongs to, at least one.
+  /// \param groups names of the groups to which the family belongs, at least one.
   void make_family(const std::vector<std::string>& groups, med_int number) const {
     std::string family = "FAM_" + std::to_string(number) + "_" + groups.front();
-    // A family's name is a place in the file.
+    // The name of a family is a path in the file.
     std::replace(family.begin(), family.end(), '/', '_');
     family.resize(std::min<std::size_t>(family.size(), MED_NAME_SIZE));
     std::string names;
@@ -110,7 +110,7 @@ class MedWriter {
           "a family");
   }
 
-  /// The names of what an entity belongs to: of the faces as thick as this one, too.
+  /// The names of the groups to which an entity belongs, including that of its thickness.
   std::vector<std::string> names_of(int dimension, int entity) const {
     std::vector<std::string> names;
     const auto has = [entity](const std::vector<int>& entities) {
@@ -123,7 +123,7 @@ class MedWriter {
     return names;
   }
 
-  /// \param place_of gives the place in `numbers` of a member of a group.
+  /// \param place_of gives the index into `numbers` of a member of an entity.
   template <class PlaceOf>
   void add_families(int dimension, const std::vector<CadGroup>& entities, med_int& next,
                     std::vector<med_int>& numbers, PlaceOf place_of) const {

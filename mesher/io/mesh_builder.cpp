@@ -27,7 +27,7 @@ void MeshBuilder::add_node(std::int64_t number, const Vector3& position) {
   if (index_of(number) >= 0) throw failure(name_, fmt::format("{}: node {} is defined twice", name_, number));
   const int index = static_cast<int>(points_.size());
   points_.push_back(position);
-  // Numbers are dense in most files; where they are not, memory must not grow with the largest.
+  // Numbers are dense in most files. If they are not, memory must not grow with the largest number.
   const std::int64_t dense_limit = 1024 + 8 * static_cast<std::int64_t>(points_.size());
   if (number > dense_limit) {
     scattered_[number] = index;
@@ -194,11 +194,11 @@ int MeshBuilder::number_in_name(int groups, std::string_view kind) const {
   return 0;
 }
 
-/// Gives each combination of a CAD number with groups a number of its own, the CAD number where that is free,
-/// and lists the numbers that each group consists of.
+/// Gives each combination of a CAD number and a set of groups a number of its own: the CAD number if that is
+/// free, else a new one.
 class EntityNumbers {
  public:
-  /// The number that finish() is asked for later. \param cad 0 = none.
+  /// Registers a combination, to be numbered by finish(). \param cad 0 = none.
   void add(int cad, int groups) { keys_.try_emplace({cad, groups}, static_cast<int>(keys_.size())); }
 
   void finish() {

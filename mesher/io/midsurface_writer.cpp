@@ -37,7 +37,7 @@ std::string brep_text(const TopoDS_Shape& shape) {
   return text.str();
 }
 
-/// OpenCASCADE writes STEP to files that it names itself only: by way of a folder of its own.
+/// OpenCASCADE writes STEP only to a named file, so this uses a temporary folder.
 std::string step_text(const TopoDS_Shape& shape) {
   std::string name = (std::filesystem::temp_directory_path() / "quadrille-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr) throw failure(name, fmt::format("{}: cannot be made", name));

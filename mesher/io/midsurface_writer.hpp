@@ -1,5 +1,5 @@
 #pragma once
-/// Files of middle surfaces. The format follows from the file's ending.
+/// Files of middle surfaces. The file's ending determines the format.
 
 #include <filesystem>
 
@@ -8,10 +8,10 @@
 
 namespace quadrille {
 
-/// Writes the faces of the middle surface as .brep, .brp, .step or .stp, or what is known of them as .json:
-/// for each face its area, thickness (mean, least and largest) and the solid's faces that it lies between,
-/// and the checks. The file appears whole or not at all. Throws Error: usage for an unknown ending, failure
-/// when the file cannot be written.
+/// Writes the faces of the middle surface as .brep, .brp, .step or .stp, or a description as .json: for each
+/// face its area, thickness (mean, least and largest) and the faces of the solid between which it lies, and
+/// the results of the checks. The file appears whole or not at all. Throws Error: usage for an unknown
+/// ending, failure when the file cannot be written.
 QUADRILLE_API void write_midsurface(const MidSurface& middle, const std::filesystem::path& path);
 
 /// True if write_midsurface knows the file's ending.

@@ -1,4 +1,4 @@
 #pragma once
-/// How the modules of modules.hpp make their functions visible.
+/// For the modules of modules.hpp, which export their functions with QUADRILLE_EXPORT.
 
 #include "geometry/base/module_loader.hpp"

@@ -82,7 +82,7 @@ std::string med_file(const OutputMesh& mesh, const std::string& name, const std:
   IsolatedWork options;
   options.subject = name;
   options.crashed = name + ".med: libmed crashed while it wrote the mesh, for want of memory perhaps";
-  // libmed prints lines of its own where it fails, and what a child prints is not seen.
+  // libmed prints lines of its own when it fails; the output of a child process is not shown.
   return isolated_bytes(options, [&] {
     std::string bytes;
     check(write(mesh, name, description, bytes));

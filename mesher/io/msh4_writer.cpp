@@ -1,4 +1,4 @@
-/// Gmsh .msh, version 4.1 in ASCII: nodes and elements come in blocks, one a CAD entity. Based on: the Gmsh
+/// Gmsh .msh, version 4.1 in ASCII: nodes and elements come in blocks by CAD entity. Based on: the Gmsh
 /// reference manual, "MSH file format".
 
 #include <algorithm>
@@ -12,13 +12,13 @@ namespace quadrille {
 
 namespace {
 
-/// The blocks of one dimension: CAD entities, the one without a number under a free number at the end.
+/// The CAD entities of one dimension. Members without a CAD number form an entity under a free number.
 struct Entities {
   int dimension = 0;
   std::vector<CadGroup> elements;
   std::vector<std::vector<int>> nodes;  // file numbers of the nodes inside each entity
   std::vector<int> tags;
-  std::vector<std::vector<int>> boundaries;  // entities that bound each, signed
+  std::vector<std::vector<int>> boundaries;  // signed numbers of the entities that bound each entity
 };
 
 Entities make_entities(int dimension, const std::vector<CadGroup>& groups,
@@ -35,7 +35,7 @@ ElementNodes element_nodes(const OutputMesh& mesh, int dimension, int member) {
   return dimension == 1 ? mesh.segment_nodes(member) : mesh.shell_nodes(member);
 }
 
-/// Gives each node to the entity of lowest dimension that has it.
+/// Assigns each unclaimed node to the first entity that has it. Call it by ascending dimension.
 void claim_nodes(const OutputMesh& mesh, Entities& entities, std::vector<char>& claimed) {
   for (std::size_t i = 0; i < entities.elements.size(); ++i)
     for (const int member : entities.elements[i].members)
@@ -90,7 +90,7 @@ void write_node_blocks(const OutputMesh& mesh, const std::vector<Entities>& all,
   out << "$EndNodes\n";
 }
 
-/// A face's quads and triangles are blocks of their own: a block has one type.
+/// Elements of one entity and one type: the quads and the triangles of a face are separate blocks.
 struct ElementBlock {
   int dimension, tag, type;
   std::vector<int> members;

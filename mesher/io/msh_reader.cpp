@@ -19,8 +19,8 @@ namespace {
 struct ElementType {
   int type;
   ElementShape shape;
-  int file_nodes;  // as they stand in the file
-  int kept_nodes;  // without the middle of nine-node quads
+  int file_nodes;  // nodes in the file
+  int kept_nodes;  // nodes kept: not the middle of nine-node quads
 };
 
 constexpr ElementType element_types[] = {
@@ -143,7 +143,7 @@ class MshReader {
     }
   }
 
-  /// The group that a physical number is. \param tag negative where Gmsh turns the elements.
+  /// The group of a physical number; -1 = none. \param tag negative where Gmsh reverses the elements.
   int group_of(int dimension, std::int64_t tag) {
     const int number = cad_number(tag < 0 ? -tag : tag);
     if (number == 0) return -1;
@@ -236,7 +236,7 @@ class MshReader {
       if (i == 1) element.cad = cad_number(tag);
     }
     const int dimension = std::min(static_cast<int>(known.shape), 2);
-    // Elements come in rows that have the same tags.
+    // Consecutive elements often have the same tags.
     if (const std::array<std::int64_t, 3> tagged{dimension, element.cad, physical}; tagged != last_tags_) {
       last_tags_ = tagged;
       const int group = group_of(dimension, physical);
@@ -296,9 +296,9 @@ class MshReader {
   bool binary_ = false;
   bool has_nodes_ = false, has_elements_ = false;
   using DimensionAndTag = std::pair<std::int64_t, std::int64_t>;
-  std::map<DimensionAndTag, std::string> names_;         // of physical groups
-  std::map<DimensionAndTag, int> entity_groups_;         // 4.1
-  std::map<DimensionAndTag, std::int64_t> physical_of_;  // 2.2: the first of each entity
+  std::map<DimensionAndTag, std::string> names_;         // names of physical groups
+  std::map<DimensionAndTag, int> entity_groups_;         // 4.1: set of groups of each entity
+  std::map<DimensionAndTag, std::int64_t> physical_of_;  // 2.2: first physical number of each entity
   std::array<std::int64_t, 3> last_tags_{-1, -1, -1};
   int last_groups_ = 0;
   bool repeated_ = false;  // 2.2: an entity is in several groups

@@ -7,8 +7,8 @@ namespace quadrille {
 
 namespace {
 
-/// The elements of one dimension, each once for each group that it belongs to, as Gmsh writes them in this
-/// version: an element has one physical number here.
+/// The elements of one dimension. In this version an element has one physical number, so like Gmsh this
+/// repeats the elements of a mesh that was read, once for each further group.
 class ElementLines {
  public:
   ElementLines(const OutputMesh& mesh, const PhysicalNumbers& physical, int dimension, int count)
@@ -21,7 +21,7 @@ class ElementLines {
 
   std::size_t size() const { return count_ + repeated_.size(); }
 
-  /// \param before how many elements the file has before these.
+  /// \param before number of elements in the file before these.
   void write(std::size_t before, TextWriter& out) const {
     write_in_order(size(), out, [&](std::size_t line, TextWriter& to) {
       const bool first = line < static_cast<std::size_t>(count_);
@@ -47,7 +47,7 @@ class ElementLines {
   const OutputMesh& mesh_;
   const PhysicalNumbers& physical_;
   int dimension_, count_;
-  std::vector<std::pair<int, std::size_t>> repeated_;  // element, and which of its groups
+  std::vector<std::pair<int, std::size_t>> repeated_;  // element, index into its groups
 };
 
 }  // namespace

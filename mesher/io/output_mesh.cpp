@@ -10,8 +10,8 @@ namespace quadrille {
 
 namespace {
 
-/// Collects 0 .. count - 1 by the CAD number that `number_of` gives; groups ascend by number, the "none"
-/// group last.
+/// Groups 0 .. count - 1 by the CAD number that `number_of` gives. Groups ascend by number; number 0 (none)
+/// comes last.
 template <class NumberOf>
 std::vector<CadGroup> grouped(int count, NumberOf number_of) {
   int largest = 0;
@@ -32,7 +32,7 @@ std::vector<CadGroup> grouped(int count, NumberOf number_of) {
   return groups;
 }
 
-/// By dimension, as FreeCAD names them.
+/// FreeCAD's names of the kinds of entities, by dimension.
 const std::array<std::string, 3> kind_names{"Vertex", "Edge", "Face"};
 
 void sort_unique(std::vector<int>& numbers) {
@@ -124,7 +124,7 @@ std::vector<int> OutputMesh::node_numbers(int dimension, const NamedGroup& group
 void OutputMesh::add_middles() {
   middles_.reserve(mesh_.quads.size());
   for (std::size_t i = 0; i < mesh_.quads.size(); ++i) {
-    // The shape functions of the eight-node element at its middle.
+    // Shape functions of the eight-node element at its middle: 1/2 at midside nodes, -1/4 at corners.
     Vector3 middle = Vector3::Zero();
     for (int k = 0; k < 4; ++k)
       middle += 0.5 * mesh_.points[mesh_.midsides[i][k]] - 0.25 * mesh_.points[mesh_.quads[i][k]];
@@ -233,7 +233,7 @@ void OutputMesh::number_nodes() {
 }
 
 int OutputMesh::face(int shell) const {
-  // Thicknesses are told by faces, whatever groups are asked for.
+  // Thicknesses belong to faces, so face numbers are needed even if no face groups are written.
   if (!groups_.faces && mesh_.thicknesses.empty()) return 0;
   const std::vector<int>& faces = is_quad(shell) ? mesh_.quad_faces : mesh_.triangle_faces;
   const std::size_t index = is_quad(shell) ? shell : shell - quad_count();

@@ -1,5 +1,5 @@
 #pragma once
-/// What every writer needs of a mesh: dense node numbers and the groups by CAD entity.
+/// A mesh prepared for the writers: dense node numbers, and groups by CAD entity.
 
 #include <array>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace quadrille {
 
-/// The nodes of one element, as OutputMesh::position() takes them: corners, midside nodes, the middle.
+/// The nodes of one element, as indices for OutputMesh::position(): corners, midside nodes, the middle node.
 struct ElementNodes {
   std::array<int, 9> nodes{};
   int count = 0;
@@ -19,48 +19,47 @@ struct ElementNodes {
   const int* end() const { return nodes.data() + count; }
 };
 
-/// The elements, segments or corners that belong to one CAD entity, or to a part of the file that the mesh
-/// was read from.
+/// The elements, segments or corners that belong to one CAD entity, or to one part of the file from which the
+/// mesh was read.
 struct CadGroup {
-  int number = 0;            ///< CAD number; 0 = elements that belong to none
+  int number = 0;            ///< CAD number; 0 = members that belong to no entity
   std::vector<int> members;  ///< ascending indices of shell elements, segments or corners
 };
 
-/// What goes by one name in a file: the elements, segments or corners of one CAD entity or, in meshes that
-/// were read, what their file named.
+/// What has one name in a file: the elements, segments or corners of one CAD entity or, in a mesh that was
+/// read, a group of its file.
 struct NamedGroup {
   std::string name;
-  bool has_name = true;       ///< else the name is made of the number: PhysicalSurface7
-  int number = 0;             ///< in the file that it was read from; 0 = none
+  bool has_name = true;       ///< false: the name is made from the number, PhysicalSurface7
+  int number = 0;             ///< number in the file that was read; 0 = none
   std::vector<int> entities;  ///< CAD numbers, ascending
-  bool of_solid = false;      ///< what of the middle surface belongs to one face of the solid
+  bool of_solid = false;      ///< part of the middle surface that belongs to one face of the solid
 };
 
-/// The faces that are shells of one thickness, or of one range of thicknesses, to the digits that the
-/// name tells.
+/// The faces with the same thickness, or the same range of thicknesses, to the digits in the name.
 struct ThicknessGroup {
   std::string name;          ///< "Thickness2.5", "Thickness2to4"
-  std::string thickness;     ///< "2.5"; the mean where it varies
-  bool varies = false;       ///< over each of the faces
+  std::string thickness;     ///< "2.5"; the mean if it varies
+  bool varies = false;       ///< whether the thickness varies over each face
   std::vector<int> faces;    ///< CAD faces with elements, ascending
   std::vector<int> members;  ///< indices of their shell elements
 };
 
-/// A mesh as it goes to a file. Shell elements are counted through: first the quads, then the triangles.
+/// A mesh as it is written to a file. Shell elements are numbered together: quads first, then triangles.
 /// Keeps a reference to the mesh.
 class OutputMesh {
  public:
-  /// \param groups the kinds of which there are groups: of others there are none, nor segments and corners.
-  /// \param quad_nodes of second-order quads: 8 or 9. The ninth lies where the eight-node element has its
-  /// middle, so that the element's shape stays what it was, its validity too.
+  /// \param groups the kinds of groups to write. Without edges there are no segments, without vertices no
+  /// corners. \param quad_nodes nodes of second-order quads: 8 or 9. The ninth lies at the middle of the
+  /// eight-node element, so that the element keeps its shape and validity.
   /// Throws Error (failure) when an element has a node out of range or a node has no finite position.
   explicit OutputMesh(const ShellMesh& mesh, const GroupKinds& groups = {}, int quad_nodes = 8);
 
-  /// Nodes that are used, in file order: node i of the file is nodes()[i - 1].
+  /// The nodes that are used, in file order: node i of the file is nodes()[i - 1].
   const std::vector<int>& nodes() const { return nodes_; }
   /// Number of a node in the file, from 1.
   int number(int node) const { return numbers_[node]; }
-  /// Nodes below the mesh's own count are its points, those from there on the middles of quads.
+  /// Nodes up to the number of points of the mesh are its points; the following ones are middles of quads.
   const Vector3& position(int node) const {
     const int own = static_cast<int>(mesh_.points.size());
     return node < own ? mesh_.points[node] : middles_[node - own];
@@ -77,7 +76,7 @@ class OutputMesh {
   int face(int shell) const;
   int edge(int segment) const { return mesh_.segments[segment].edge; }
   int vertex(int corner) const { return mesh_.corners[corner].vertex; }
-  /// How many faces the CAD model has, or, where that is not known, the largest number of a face with
+  /// The number of faces of the CAD model or, if that is not known, the largest number of a face with
   /// elements.
   int cad_face_count() const;
   int corner_node(int corner) const { return mesh_.corners[corner].node; }
@@ -88,25 +87,25 @@ class OutputMesh {
   const std::vector<CadGroup>& faces() const { return faces_; }        ///< shell elements by CAD face
   const std::vector<CadGroup>& edges() const { return edges_; }        ///< segments by CAD edge
   const std::vector<CadGroup>& vertices() const { return vertices_; }  ///< corners by CAD vertex
-  /// By thickness, in the order of their first faces; empty where no thickness is known.
+  /// Groups by thickness, in the order of their first faces; empty if no thickness is known.
   const std::vector<ThicknessGroup>& thicknesses() const { return thicknesses_; }
 
-  /// Of the shell on a CAD face, the mean where it varies; 0 where not known.
+  /// Thickness of the shell on a CAD face, the mean if it varies; 0 if not known.
   double face_thickness(int face) const;
-  /// At the corners of a shell element; 0 where not known.
+  /// Thicknesses at the corners of a shell element; 0 if not known.
   std::array<double, 4> corner_thicknesses(int shell) const;
-  /// File numbers of the nodes of faces whose thickness varies, ascending, and the thickness there: the mean
-  /// of such faces that share the node.
+  /// File numbers of the nodes of faces whose thickness varies, ascending, and the thickness at each node:
+  /// the mean over such faces that share the node.
   std::vector<std::pair<int, double>> node_thicknesses() const;
 
-  /// What has a name: shell elements (dimension 2), segments (1), corners (0).
+  /// The named groups of shell elements (dimension 2), segments (1), corners (0).
   const std::vector<NamedGroup>& groups(int dimension) const { return named_[dimension]; }
-  /// Whether the groups are those of a file that the mesh was read from.
+  /// Whether the groups were read from a file with the mesh.
   bool groups_were_read() const { return !mesh_.groups.empty(); }
-  /// Indices of shell elements, segments or corners, ascending.
+  /// Indices of the shell elements, segments or corners in a group, ascending.
   std::vector<int> members(int dimension, const NamedGroup& group) const;
-  /// Names that the files' own numbers of faces, edges and vertices do not tell, such as those of sets that
-  /// were read; each once. VTK's formats have an array for each.
+  /// Names of groups, each once, that do not follow from the numbers of faces, edges and vertices, such as
+  /// those of sets that were read. VTK's formats have one array for each name.
   std::vector<std::string> set_names() const;
   /// For each shell element, segment or corner, 1 if it is in a group of this name.
   std::vector<char> is_in_set(int dimension, const std::string& name) const;
@@ -126,7 +125,7 @@ class OutputMesh {
 
   const ShellMesh& mesh_;
   const GroupKinds groups_;
-  std::vector<Vector3> middles_;  ///< of the quads, where they have nine nodes
+  std::vector<Vector3> middles_;  ///< (quads) the middle of each, if quads have nine nodes; else empty
   std::vector<int> numbers_;
   std::vector<int> nodes_;
   std::vector<CadGroup> faces_, edges_, vertices_;
@@ -134,8 +133,8 @@ class OutputMesh {
   std::vector<ThicknessGroup> thicknesses_;
 };
 
-/// What an array of VTK's formats for a set is called: its name, with `_` behind where an array of ours has
-/// it, and for what VTK writes into XML as it is.
+/// The name of the array for a set in VTK's formats: the name of the set, with `_` appended if it is one of
+/// our own array names, and with `_` in place of characters that VTK does not escape in XML.
 inline std::string array_of_set(std::string name) {
   for (char& c : name)
     if (c == '"' || c == '<' || c == '>' || c == '&' || static_cast<unsigned char>(c) < ' ') c = '_';
@@ -144,7 +143,7 @@ inline std::string array_of_set(std::string name) {
   return name;
 }
 
-/// Over a shell element; 0 where not known.
+/// The mean thickness of a shell element; 0 if not known.
 inline double mean_thickness(const OutputMesh& mesh, int shell) {
   const std::array<double, 4> corners = mesh.corner_thicknesses(shell);
   return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);

@@ -27,7 +27,7 @@ namespace quadrille {
 
 namespace {
 
-/// Face and q of each polygon, quads before triangles. A triangle has no q.
+/// Adds face and q of each polygon, quads before triangles. Triangles get q = 0.
 void add_cell_data(const ShellMesh& mesh, const std::vector<double>& qualities, vtkCellData* data) {
   vtkNew<vtkIntArray> faces;
   faces->SetName("face");
@@ -45,7 +45,7 @@ void add_cell_data(const ShellMesh& mesh, const std::vector<double>& qualities, 
   data->AddArray(q);
 }
 
-/// Red (bad) over yellow to blue (good): told apart by the color-blind too.
+/// From red (bad) through yellow to blue (good), which the color-blind can also tell apart.
 vtkNew<vtkLookupTable> color_map() {
   constexpr double stops[][4] = {{0.0, 0.65, 0.00, 0.15}, {0.3, 0.91, 0.36, 0.23},  {0.5, 0.99, 0.68, 0.38},
                                  {0.7, 1.00, 0.92, 0.62}, {0.85, 0.80, 0.92, 0.94}, {1.0, 0.42, 0.66, 0.82}};
@@ -64,7 +64,7 @@ vtkNew<vtkLookupTable> color_map() {
   return table;
 }
 
-constexpr double picture_share = 0.9;  // of the width; the color bar has the rest
+constexpr double picture_share = 0.9;  // share of the width; the rest is for the color bar
 
 vtkNew<vtkActor> surface_actor(const ShellMesh& mesh, const std::vector<double>& qualities, vtkPoints* points,
                                vtkLookupTable* colors) {
@@ -80,7 +80,7 @@ vtkNew<vtkActor> surface_actor(const ShellMesh& mesh, const std::vector<double>&
   mapper->SetInputData(surface);
   mapper->SetLookupTable(colors);
   mapper->UseLookupTableScalarRangeOn();
-  // Behind the lines that are drawn on it.
+  // Behind the lines that are drawn on the surface.
   mapper->SetResolveCoincidentTopologyToPolygonOffset();
   mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(1.5, 2);
   vtkNew<vtkActor> actor;
@@ -91,7 +91,7 @@ vtkNew<vtkActor> surface_actor(const ShellMesh& mesh, const std::vector<double>&
   return actor;
 }
 
-/// Each side of an element as its two corner nodes, once.
+/// The two corner nodes of each element side; sides that elements share appear once.
 std::vector<std::array<int, 2>> unique_sides(const ShellMesh& mesh) {
   std::vector<std::array<int, 2>> sides;
   const auto add = [&](const auto& nodes) {
@@ -115,7 +115,7 @@ double median_length(const ShellMesh& mesh, const std::vector<std::array<int, 2>
   return *middle;
 }
 
-/// \param pixel size of a pixel in the mesh's unit.
+/// \param pixel size of a pixel in mesh units.
 void add_actors(const ShellMesh& mesh, const std::vector<double>& qualities, double pixel, double line_width,
                 vtkLookupTable* colors, vtkRenderer* renderer) {
   const vtkNew<vtkPoints> points = make_points(mesh.points);

@@ -17,7 +17,7 @@ namespace quadrille {
 
 namespace {
 
-/// Half the size, each pixel the mean of four: smooth lines without the driver's help.
+/// The image at half its size; each pixel is the mean of four. Smooths lines without the driver's help.
 vtkNew<vtkImageData> halved(vtkImageData* image) {
   const int* size = image->GetDimensions();
   vtkNew<vtkImageData> result;

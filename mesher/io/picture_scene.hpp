@@ -1,5 +1,5 @@
 #pragma once
-/// What pictures have in common: the view, lines, color bars, rendering. Part of libquadrille_picture.so.
+/// Common parts of pictures: view, lines, color bars, rendering. Part of libquadrille_picture.so.
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>
@@ -33,27 +33,28 @@ vtkNew<vtkActor> line_actor(const std::vector<std::array<int, 2>>& lines, vtkPoi
 
 struct BarTexts {
   const char* title;
-  const char* format;  ///< of the labels' numbers, as printf has it
-  int labels;
+  const char* format;  ///< printf format of the numbers in the labels
+  int labels;          ///< number of labels
 };
 
-/// \param height of the picture, pixels.
+/// \param height height of the picture, pixels.
 vtkNew<vtkScalarBarActor> color_bar(vtkScalarsToColors* colors, const BarTexts& texts, int height);
 
-/// How things are looked at: along the cube's diagonal; flat ones along their normal.
+/// The view of a scene: along a diagonal of space; along the normal if the scene is flat.
 struct View {
   Vector3 center, from, up;        ///< from: unit vector towards the eye
-  double half_width, half_height;  ///< of the things in the picture
+  double half_width, half_height;  ///< of the scene in the picture plane
 };
 
 View make_view(const std::vector<Vector3>& points);
 
-/// Half the height of a scene in the model's unit, with a margin. \param aspect its width over its height.
+/// Half the height of the picture in model units, with a margin. \param aspect width over height of the
+/// picture.
 double parallel_scale(const View& view, double aspect);
 
 void aim_camera(const View& view, double scale, vtkRenderer* renderer);
 
-/// The bytes of a PNG; empty where VTK cannot draw it. \param renderers with their viewports.
+/// The bytes of a PNG; empty if VTK cannot draw it. \param renderers with their viewports set.
 std::string rendered(const std::vector<vtkRenderer*>& renderers, int width, int height);
 
 }  // namespace quadrille

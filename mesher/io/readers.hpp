@@ -1,7 +1,7 @@
 #pragma once
-/// The readers behind read_mesh(). Those of text formats take the file's bytes, so that they can be fuzzed.
-/// Each throws Error (failure) with one sentence that names the line, element or node at fault. What a mesh
-/// has no place for is told in `notes`, a sentence each.
+/// The readers behind read_mesh(). All but read_by_vtk() take the file's bytes, so that they can be fuzzed.
+/// Each throws Error (failure) with one sentence that names the line, element or node at fault. `notes`
+/// receives a sentence for each thing in the file that a mesh cannot hold.
 
 #include <filesystem>
 #include <string>
@@ -13,12 +13,12 @@
 namespace quadrille {
 
 /// Parses Gmsh .msh 2.2 or 4.1, ASCII or binary. A quad's face is its elementary tag (2.2) or its entity
-/// (4.1); groups are the physical ones. \param name used in error messages.
+/// (4.1); groups are the physical groups. \param name used in error messages.
 ShellMesh read_msh(std::string_view bytes, const std::string& name,
                    std::vector<std::string>* notes = nullptr);
 
 /// Parses Abaqus / CalculiX .inp. Groups are element and node sets; a quad's face is the number in the name
-/// of its element set (Face3), else one that the elements of the same sets share.
+/// of its element set (Face3), else a number shared by the elements that are in the same sets.
 ShellMesh read_inp(std::string_view bytes, const std::string& name,
                    std::vector<std::string>* notes = nullptr);
 
@@ -28,14 +28,14 @@ ShellMesh read_unv(std::string_view bytes, const std::string& name,
                    std::vector<std::string>* notes = nullptr);
 
 /// Parses Nastran bulk data in fixed fields of 8 or 16 columns and in free ones: GRID, CTRIA3, CTRIA6,
-/// CTRIAR, CQUAD4, CQUAD8, CQUADR. A quad's face is its property number; names that HyperMesh and ANSA give
-/// properties in comments are groups.
+/// CTRIAR, CQUAD4, CQUAD8, CQUADR, CQUAD, CQUAD9, CSHEAR. A quad's face is its property number; names that
+/// HyperMesh and ANSA give properties in comments are groups.
 ShellMesh read_bdf(std::string_view bytes, const std::string& name,
                    std::vector<std::string>* notes = nullptr);
 
-/// Reads .stl, .obj, .ply, .vtk, .vtu and .vtp by VTK. A quad's face is in a cell array that is called face
-/// (our own), CellEntityIds (Gmsh) or gmsh:geometrical (meshio); solids of .stl files are groups. Nodes of
-/// .stl and .obj files that lie on one place are one: the formats repeat them.
+/// Reads .stl, .obj, .ply, .vtk, .vtu and .vtp with VTK. A quad's face is in a cell array named face (our
+/// own), CellEntityIds (Gmsh) or gmsh:geometrical (meshio); solids of .stl files are groups. Nodes of .stl
+/// and .obj files at the same position become one: these formats repeat them.
 ShellMesh read_by_vtk(const std::filesystem::path& path, std::vector<std::string>* notes = nullptr);
 
 }  // namespace quadrille

@@ -95,7 +95,7 @@ json faces_to_json(const ShellMesh& mesh) {
   return faces;
 }
 
-/// Nodes as the files number them.
+/// Node numbers from 1, as in mesh files.
 json off_geometry_to_json(const ShellMesh& mesh) {
   json nodes = json::array();
   for (const ShellMesh::OffGeometry& off : mesh.off_geometry)
@@ -160,7 +160,7 @@ std::string quality_json(const ShellMesh& mesh, const CriteriaLimits& limits) {
 void write_report(const ShellMesh& mesh, const MeshMeasures& measures, const ExecutionContext& context,
                   const std::filesystem::path& input, const std::filesystem::path& path,
                   const std::vector<std::string>& warnings) {
-  // File names need not be UTF-8, JSON must.
+  // File names need not be UTF-8, but JSON must be.
   constexpr auto replace = json::error_handler_t::replace;
   write_file(path, make_report(mesh, measures, context, input, warnings).dump(2, ' ', false, replace) + "\n");
 }

@@ -11,21 +11,21 @@
 
 namespace quadrille {
 
-/// What a report tells of the elements.
+/// The measures of a mesh for a report.
 struct MeshMeasures {
   QualitySummary quality;
   CriteriaSummary criteria;  ///< by the usual limits
 };
 
-/// On all threads.
+/// Measures on all threads.
 MeshMeasures measure(const ShellMesh& mesh);
 
-/// counts (nodes, quads, triangles), quality (q_min, q_mean, sj_min, sj_mean, jacobian_min, inverted,
-/// irregular_percent, histogram, ...), criteria (how many quads fail the usual limits, by criterion and face,
-/// and the worst), seconds by stage, cpu_seconds and peak_bytes of the process, faces (name, status, quads,
-/// q_min, note, off_geometry: how many of its midside nodes are, and how far), off_geometry (node, distance)
-/// of all of them, let_go, symmetry (the mirror planes used, and why not more), warnings, versions of the
-/// libraries.
+/// The report: counts (nodes, quads, triangles), quality (q_min, q_mean, sj_min, sj_mean, jacobian_min,
+/// inverted, irregular_percent, histogram, ...), criteria (how many quads fail the usual limits, by criterion
+/// and face, and the worst), seconds by stage, cpu_seconds and peak_bytes of the process, faces (name,
+/// status, quads, q_min, note, off_geometry: how many of its midside nodes are off the geometry, and how
+/// far), off_geometry (node, distance) for all of them, let_go, symmetry (the mirror planes used, and why not
+/// more), warnings, versions of the libraries.
 nlohmann::json make_report(const ShellMesh& mesh, const MeshMeasures& measures,
                            const ExecutionContext& context, const std::filesystem::path& input,
                            const std::vector<std::string>& warnings = {});

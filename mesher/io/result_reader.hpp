@@ -1,5 +1,5 @@
 #pragma once
-/// What solvers found: .frd files of CalculiX as text, and .vtu files.
+/// Reads results of solvers: CalculiX's .frd files as text, and .vtu files.
 
 #include <filesystem>
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace quadrille {
 
-/// The mesh that a solver used, and how it moved in the last step.
+/// The mesh that a solver used, and its displacements in the last step.
 struct SolverResult {
-  /// A brick's nodes: corners of bottom and top, then the middles of the sides of the bottom, upright, of the
-  /// top, as .frd files have them.
+  /// A brick. Its nodes are in the order of .frd files: corners of the bottom and of the top, then the
+  /// midside nodes of the bottom, of the upright sides and of the top.
   struct Element {
     static constexpr int eight_nodes = 1, twenty_nodes = 4;  ///< types of the .frd format
     int number = 0;                                          ///< as in the file
-    int type = 0;            ///< one of these two, or what else the format has; 0 = no brick
+    int type = 0;            ///< one of these two, or another type of the format; 0 = not a brick
     std::vector<int> nodes;  ///< indices of `points`
   };
   std::vector<Vector3> points;

@@ -22,7 +22,7 @@ std::vector<KeyedSegment> keyed_segments(const OutputMesh& mesh) {
   return keyed;
 }
 
-/// Most sides end at a node that no segment has: that is looked at first.
+/// By node: whether it is on a segment. Most sides end at a node that is not, so this is checked first.
 std::vector<char> nodes_of_segments(const OutputMesh& mesh) {
   std::vector<char> has(mesh.nodes().empty() ? 0 : static_cast<std::size_t>(mesh.nodes().back()) + 1, 0);
   for (int segment = 0; segment < mesh.segment_count(); ++segment) {
@@ -31,7 +31,7 @@ std::vector<char> nodes_of_segments(const OutputMesh& mesh) {
   return has;
 }
 
-/// The vertices at the ends of the edges' chains of segments.
+/// For each edge, the vertices at the ends of its chain of segments: first positive, last negative.
 std::vector<std::vector<int>> ends_of_edges(const OutputMesh& mesh) {
   std::unordered_map<int, int> vertex_at;
   for (int corner = 0; corner < mesh.corner_count(); ++corner)
@@ -56,7 +56,7 @@ std::vector<std::vector<int>> ends_of_edges(const OutputMesh& mesh) {
     const auto has = [](const std::vector<int>& sorted, int node) {
       return std::binary_search(sorted.begin(), sorted.end(), node);
     };
-    // A ring begins and ends at its vertex, wherever on the ring that is.
+    // A closed edge begins and ends at its vertex, wherever that is in the chain.
     for (const int node : from) {
       if (!has(sorted_to, node) || vertex_at.count(node) > 0) add(node, 1);
     }

@@ -7,25 +7,25 @@
 
 namespace quadrille {
 
-/// Side k of an element runs from its corner k to corner k + 1.
+/// A side of an element on a segment. Side k runs from corner k of the element to corner k + 1.
 struct SegmentSide {
   int segment = 0;
   int shell = 0;
   int side = 0;         ///< from 0
-  bool forward = true;  ///< the element runs it in the segment's direction
+  bool forward = true;  ///< whether the side runs in the segment's direction
 };
 
-/// The sides of all elements that are segments of the mesh, ascending by segment, then by element. Inner
-/// edges have two or more elements a segment. O(n + s log s) for n elements and s segments.
+/// The element sides that lie on segments of the mesh, ascending by segment, then by element. Inner edges
+/// have two or more elements per segment. O(n + s log s) for n elements and s segments.
 std::vector<SegmentSide> segment_sides(const OutputMesh& mesh);
 
-/// Which CAD entities bound which, with the sign of their direction, each once in a direction.
+/// The CAD entities that bound faces and edges, signed by direction; each appears once per direction.
 struct EntityBoundaries {
-  std::vector<std::vector<int>> faces;  ///< by index in OutputMesh::faces(): edges, -7 = Edge7 run backwards
-  std::vector<std::vector<int>> edges;  ///< by index in OutputMesh::edges(): first vertex, minus the last
+  std::vector<std::vector<int>> faces;  ///< by index in OutputMesh::faces(): edges; -7 = Edge7 reversed
+  std::vector<std::vector<int>> edges;  ///< by index in OutputMesh::edges(): first vertex, minus last vertex
 };
 
-/// Entities without a number bound none, and have none that bound them. O(n + s log s) as above.
+/// Entities without a number bound nothing and have no boundaries. O(n + s log s) as above.
 EntityBoundaries entity_boundaries(const OutputMesh& mesh);
 
 }  // namespace quadrille

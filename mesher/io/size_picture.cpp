@@ -24,8 +24,8 @@ namespace {
 
 using Color = std::array<double, 3>;
 
-/// By source: gray for the size itself, then colors that the color-blind tell apart (Okabe and Ito), lighter
-/// ones of them from the ninth on.
+/// Gray for the global size, then colors that the color-blind can tell apart (Okabe and Ito). From the ninth
+/// source on, lighter versions of these colors.
 Color color_of_source(std::size_t source) {
   constexpr Color colors[] = {{0.80, 0.80, 0.80}, {0.90, 0.62, 0.00}, {0.34, 0.71, 0.91}, {0.00, 0.62, 0.45},
                               {0.80, 0.47, 0.65}, {0.00, 0.45, 0.70}, {0.84, 0.37, 0.00}, {0.94, 0.89, 0.26}};
@@ -37,7 +37,7 @@ Color color_of_source(std::size_t source) {
   return color;
 }
 
-/// From dark (small) to light, even in lightness (viridis), by the logarithm.
+/// From dark (small) to light (large), by the logarithm of the size. The lightness grows evenly (viridis).
 vtkNew<vtkLookupTable> colors_of_sizes(const SizeMap& map) {
   constexpr Color stops[] = {{0.267, 0.005, 0.329},
                              {0.229, 0.322, 0.546},
@@ -46,7 +46,7 @@ vtkNew<vtkLookupTable> colors_of_sizes(const SizeMap& map) {
                              {0.993, 0.906, 0.144}};
   const auto [least, largest] = std::minmax_element(map.sizes.begin(), map.sizes.end());
   constexpr int colors = 256;
-  constexpr double narrowest = 1.1;  // a range, so that there is one
+  constexpr double narrowest = 1.1;  // least ratio of the range, so that the range is never empty
   vtkNew<vtkLookupTable> table;
   table->SetScaleToLog10();
   table->SetNumberOfTableValues(colors);
@@ -88,7 +88,7 @@ vtkNew<vtkActor> actor_of(vtkPolyData* surface, vtkLookupTable* colors) {
   mapper->SetLookupTable(colors);
   mapper->UseLookupTableScalarRangeOn();
   mapper->InterpolateScalarsBeforeMappingOn();
-  // Behind the lines that are drawn on it.
+  // Behind the lines that are drawn on the surface.
   mapper->SetResolveCoincidentTopologyToPolygonOffset();
   mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(1.5, 2);
   vtkNew<vtkActor> actor;
@@ -110,13 +110,13 @@ vtkNew<vtkActor> sizes_actor(const SizeMap& map, vtkPoints* points, vtkLookupTab
 vtkNew<vtkActor> sources_actor(const SizeMap& map, vtkPoints* points, vtkLookupTable* colors) {
   const vtkNew<vtkPolyData> surface = surface_of(map, points);
   vtkNew<vtkIntArray> rulers;
-  for (const auto& [a, b, c] : map.triangles)  // of two corners at least, if two have the same
+  for (const auto& [a, b, c] : map.triangles)  // the source at two corners or more, if any two agree
     rulers->InsertNextValue(map.rulers[b] == map.rulers[c] ? map.rulers[b] : map.rulers[a]);
   surface->GetCellData()->SetScalars(rulers);
   return actor_of(surface, colors);
 }
 
-/// A square of each source's color with its name and about how many of the quads it makes.
+/// For each source that rules somewhere: a square of its color, its name, its approximate share of the quads.
 vtkNew<vtkLegendBoxActor> legend_of(const SizeMap& map) {
   vtkNew<vtkPoints> corners;
   for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) corners->InsertNextPoint(x, y, 0);
@@ -138,7 +138,7 @@ vtkNew<vtkLegendBoxActor> legend_of(const SizeMap& map) {
     const std::string text =
         fmt::format("{}: {:.0f} % of the quads", source.name, sum > 0 ? 100 * source.quads / sum : 0);
     Color color = color_of_source(shown[i]);
-    if (shown[i] == 0) color = {0.5, 0.5, 0.5};  // the text's color too: to be read on white
+    if (shown[i] == 0) color = {0.5, 0.5, 0.5};  // the text has this color too and must be readable on white
     legend->SetEntry(static_cast<int>(i), square, text.c_str(), color.data());
   }
   legend->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
@@ -154,7 +154,7 @@ vtkNew<vtkLegendBoxActor> legend_of(const SizeMap& map) {
 }  // namespace
 
 std::string draw_sizes(const SizeMap& map, int width, int height) {
-  constexpr double strip = 0.2;  // of the height, for the color bar and the legend
+  constexpr double strip = 0.2;  // share of the height for the color bar and the legend
   const View view = make_view(map.points);
   const double scale = parallel_scale(view, 0.5 * width / ((1 - strip) * height));
   const vtkNew<vtkPoints> points = make_points(map.points);

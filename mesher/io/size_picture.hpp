@@ -7,7 +7,7 @@
 
 namespace quadrille {
 
-/// The bytes of a PNG: on the left the sizes, on the right which source rules where. Empty where VTK cannot
+/// The bytes of a PNG: on the left the sizes, on the right which source rules where. Empty if VTK cannot
 /// draw it. \param width, height pixels.
 std::string draw_sizes(const SizeMap& map, int width, int height);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Walks through the bytes of a mesh file.
+/// Steps through the bytes of a mesh file.
 
 #include <fmt/format.h>
 
@@ -55,7 +55,7 @@ class TextCursor {
     return value;
   }
 
-  /// Steps behind the next occurrence of a text; false when there is none.
+  /// Steps past the next occurrence of `marker`; false when there is none.
   bool skip_past(std::string_view marker) {
     const std::size_t found = text_.find(marker, position_);
     if (found == std::string_view::npos) return false;
@@ -65,7 +65,7 @@ class TextCursor {
 
   /// An error at the current line.
   Error error(const std::string& sentence) const { return error_at(position_, sentence); }
-  /// An error in the line that line() gave last.
+  /// An error at the line that line() returned last.
   Error error_before(const std::string& sentence) const { return error_at(line_begin_, sentence); }
   Error truncated(const char* what) const {
     return failure(name_, fmt::format("{}: the file ends where {} should be", name_, what));
@@ -97,7 +97,7 @@ class TextCursor {
     return failure(name_, fmt::format("{}: line {}: {}", name_, line, sentence));
   }
 
-  /// The word at the position, made fit for a message.
+  /// The word at the position for a message: at most 30 characters, printable ones only.
   std::string shown_word() const {
     std::string shown;
     for (std::size_t i = position_; i < text_.size() && !is_space(text_[i]) && shown.size() < 30; ++i)

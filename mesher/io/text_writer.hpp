@@ -1,6 +1,6 @@
 #pragma once
-/// Fast text output: numbers go by std::to_chars into a large buffer, since writing must cost less than
-/// meshing.
+/// Fast text output: std::to_chars formats numbers into a large buffer, since writing must take less time
+/// than meshing.
 
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
@@ -17,7 +17,7 @@
 
 namespace quadrille {
 
-/// Appends text to a file, which flush() must be called for at the end, or keeps it.
+/// Appends text to a file, or keeps it in memory if there is no file. For a file, call flush() at the end.
 class TextWriter {
  public:
   explicit TextWriter(AtomicFile& file) : file_(&file), buffer_(capacity) {}
@@ -54,8 +54,8 @@ class TextWriter {
     return align({digits, static_cast<std::size_t>(end - digits)}, width);
   }
 
-  /// The shortest text that reads back as the same double or, when that is longer than `most` characters, the
-  /// closest that is not: CalculiX reads 20 and would lose the end of an exponent.
+  /// The shortest text that reads back as the same double. If that is longer than `most` characters, the
+  /// closest text that fits: CalculiX reads 20 characters and would lose the end of an exponent.
   TextWriter& within(double value, int most) {
     char digits[32];
     const char* end = std::to_chars(digits, digits + sizeof digits, value).ptr;
@@ -69,9 +69,9 @@ class TextWriter {
     size_ = 0;
   }
 
-  /// What is kept, where there is no file.
+  /// The text kept in memory if there is no file.
   std::string_view text() const { return {buffer_.data(), size_}; }
-  /// Forgets what is kept, not its memory.
+  /// Drops the text but keeps its memory.
   void clear() { size_ = 0; }
 
  private:
@@ -110,8 +110,8 @@ class TextWriter {
   std::size_t size_ = 0;
 };
 
-/// Writes items 0 .. count - 1 as write(item, out) does one after the other: the text of some thousand at a
-/// time is made on all threads of the arena.
+/// Writes items 0 .. count - 1 in order, as if by write(item, out) for each. All threads of the arena format
+/// blocks of some thousand items at a time.
 template <class Write>
 void write_in_order(std::size_t count, TextWriter& out, Write&& write) {
   constexpr std::size_t at_once = 8192;
@@ -129,8 +129,8 @@ void write_in_order(std::size_t count, TextWriter& out, Write&& write) {
     if (next >= count) control.stop();
     return std::exchange(next, next + at_once);
   };
-  // The pipeline passes pointers: what it holds when a filter throws, it does not destroy. Texts are passed
-  // on in order, so that those under way are that many in a row, and their places free when they come round.
+  // The pipeline passes pointers, since it does not destroy what it holds when a filter throws. Texts leave
+  // in order, so those under way are consecutive, and a place in `texts` is free when its turn comes again.
   const int under_way = 2 * threads;
   std::vector<TextWriter> texts(under_way);
   const auto make_text = [&](std::size_t begin) {

@@ -21,7 +21,7 @@ constexpr bool is_one_of(std::int64_t value, std::initializer_list<int> values) 
   return false;
 }
 
-/// What a descriptor of elements means; no nodes = nothing that is read.
+/// The meaning of an element descriptor; nodes = 0 if such elements are not read.
 struct Descriptor {
   ElementShape shape = ElementShape::line;
   int nodes = 0;
@@ -72,7 +72,7 @@ class UnvReader {
     return value;
   }
 
-  /// The line's next number; numbers lie in fields of ten columns, with blanks between them in practice.
+  /// The line's next number. Fields have fixed columns, but in practice there are blanks between numbers.
   template <class Number>
   Number next(std::string_view& line, const char* what) const {
     const std::size_t begin = line.find_first_not_of(" \t");
@@ -80,7 +80,7 @@ class UnvReader {
       throw cursor_.error_before(fmt::format("the line ends where {} should be", what));
     std::string word(line.substr(begin, line.find_first_of(" \t", begin) - begin));
     line.remove_prefix(begin + word.size());
-    // Fortran's double precision.
+    // Exponents of Fortran's double precision.
     for (char& c : word)
       if (c == 'D' || c == 'd') c = 'e';
     Number value{};
@@ -148,7 +148,7 @@ class UnvReader {
     if (descriptor.nodes == 0 || count != descriptor.nodes)
       throw cursor_.error_before(
           fmt::format("element {} of descriptor {} with {} nodes is not read", element.number, kind, count));
-    if (descriptor.shape == ElementShape::line) needed_line();  // of beams: their sections
+    if (descriptor.shape == ElementShape::line) needed_line();  // beams have a line with their sections
     element.shape = descriptor.shape;
     element.node_count = descriptor.nodes;
     const int corners = static_cast<int>(descriptor.shape) + 1;
@@ -171,7 +171,7 @@ class UnvReader {
     line = {};
     for (std::int64_t i = 0; i < count; ++i) {
       if (trimmed(line).empty())
-        line = needed_line();  // of two members, or, of Gmsh, one before another kind
+        line = needed_line();  // of two members; Gmsh may write one member before another kind
       const auto kind = next<std::int64_t>(line, "a member's kind");
       group.members.push_back({kind, next<std::int64_t>(line, "a member's number")});
       for (int k = 0; k < 2; ++k) next<std::int64_t>(line, "a member's component");
@@ -179,8 +179,8 @@ class UnvReader {
     groups_.push_back(std::move(group));
   }
 
-  /// Gmsh lists points in groups that it does not write as elements: members that are not there are passed
-  /// over.
+  /// Assigns the members of groups. Gmsh lists points that it does not write as elements: members that are
+  /// missing are skipped, with a note.
   void assign_groups() {
     constexpr int node = 7, element = 8;
     for (const Group& group : groups_) {
@@ -204,7 +204,7 @@ class UnvReader {
 
   TextCursor cursor_;
   MeshBuilder builder_;
-  std::vector<Group> groups_;  // until all elements are known
+  std::vector<Group> groups_;  // kept until all elements are known
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 /// I-deas universal file: datasets 2411 (nodes), 2412 (elements) and 2467 (groups), as FreeCAD and Salome
-/// read them. Eight-node quads are of descriptor 45 (plane stress), which FreeCAD, Salome, Gmsh and ElmerGrid
-/// read; 95 (thin shell) is not known to ElmerGrid. Based on: the dataset descriptions of the University of
+/// read them. Eight-node quads have descriptor 45 (plane stress), which FreeCAD, Salome, Gmsh and ElmerGrid
+/// read; ElmerGrid does not know 95 (thin shell). Based on: the dataset descriptions of the University of
 /// Cincinnati's SDRL.
 
 #include <algorithm>
@@ -23,7 +23,7 @@ void end_dataset(TextWriter& out) {
   out << "    -1\n";
 }
 
-/// The field widths of the format: ten columns a number, eight numbers a line.
+/// Writes fields of the format: ten columns per number, eight numbers per line.
 class Fields {
  public:
   explicit Fields(TextWriter& out) : out_(out) {}
@@ -70,7 +70,7 @@ void write_element_nodes(const OutputMesh& mesh, const ElementNodes& element, in
   fields.end();
 }
 
-/// The property number is the CAD number, for readers that look there.
+/// The property number is the CAD number, for readers that use it.
 void write_element(const OutputMesh& mesh, int number, const ElementNodes& element, int cad, bool line,
                    TextWriter& out) {
   Fields fields(out);

@@ -31,7 +31,7 @@ namespace quadrille {
 
 namespace {
 
-/// The first error that a reader tells of.
+/// The first error that a reader reports.
 class FirstError {
  public:
   explicit FirstError(vtkObject* reader) {
@@ -49,7 +49,7 @@ class FirstError {
   std::string text_;
 };
 
-/// VTK's messages take several lines, the first of which names its source: the last says what is wrong.
+/// VTK's messages have several lines. The first names the source, the last says what is wrong.
 std::string last_line(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
   const std::size_t begin = text.find_last_of('\n');
@@ -85,7 +85,7 @@ vtkSmartPointer<vtkDataSet> read_data_set(const std::string& path, const std::st
   return read_with(reader.Get(), path);
 }
 
-/// Where the files of other programs, and ours, tell the CAD entity of a cell; by dimension.
+/// The array with the CAD entity of each cell of a dimension, in our files or those of others; or null.
 vtkDataArray* entity_array(vtkDataSet* mesh, int dimension) {
   constexpr const char* own[] = {"vertex", "edge", "face"};
   constexpr const char* others[] = {"CellEntityIds", "gmsh:geometrical", "STLSolidLabeling"};
@@ -96,7 +96,7 @@ vtkDataArray* entity_array(vtkDataSet* mesh, int dimension) {
   return array != nullptr && array->GetNumberOfComponents() == 1 ? array : nullptr;
 }
 
-/// Arrays of bytes that are 0 or 1 are sets.
+/// Arrays of bytes that are all 0 or 1 are sets.
 std::vector<vtkUnsignedCharArray*> sets_in(vtkDataSetAttributes* data) {
   std::vector<vtkUnsignedCharArray*> sets;
   for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
@@ -109,7 +109,7 @@ std::vector<vtkUnsignedCharArray*> sets_in(vtkDataSetAttributes* data) {
   return sets;
 }
 
-/// Keeps the name of a set; gives its place.
+/// Stores the name of a set; returns its index.
 std::int64_t place_of_name(const char* name, ImportedMesh& result) {
   const auto place = std::count(result.set_names.begin(), result.set_names.end(), '\0');
   result.set_names.insert(result.set_names.end(), name, name + std::strlen(name) + 1);
@@ -186,7 +186,7 @@ class CellImport {
     if (vtkDataArray* array = arrays_[std::min(static_cast<int>(shape), 2)]; array != nullptr) {
       const double number = array->GetComponent(cell, 0);
       if (number > 0 && number <= std::numeric_limits<int>::max()) element.cad = static_cast<int>(number);
-      // Solids count from 0.
+      // VTK counts solids from 0.
       if (array->GetName() == std::string_view("STLSolidLabeling") && number >= 0 && number < 1e6)
         element.cad = static_cast<int>(number) + 1;
     }
@@ -208,7 +208,7 @@ class CellImport {
   std::vector<std::pair<vtkUnsignedCharArray*, std::int64_t>> sets_;
 };
 
-/// Displacements by the names that solvers and converters give them.
+/// The displacements, found by the names that solvers and converters give them.
 std::vector<Vector3> displacements_of(vtkDataSet* mesh) {
   vtkDataArray* array = nullptr;
   for (const char* name : {"U", "DISP", "Displacement", "displacement"})
@@ -229,7 +229,7 @@ std::vector<Vector3> displacements_of(vtkDataSet* mesh) {
   return result;
 }
 
-/// A cell as .frd files have it: there the upright sides come before those of the top.
+/// A cell with its nodes in the order of .frd files, with the upright sides' midside nodes before the top's.
 SolverResult::Element brick_of(vtkDataSet* mesh, vtkIdType cell) {
   using Element = SolverResult::Element;
   const int type = mesh->GetCellType(cell);

@@ -1,4 +1,4 @@
-/// The module libquadrille_vtk.so: .vtu files by VTK, and what vtk_import.cpp reads. See modules.hpp.
+/// The module libquadrille_vtk.so: writes .vtu files with VTK; vtk_import.cpp reads. See modules.hpp.
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -22,7 +22,7 @@ namespace quadrille {
 
 namespace {
 
-/// What VTK calls the shell elements, by the count of their nodes.
+/// VTK's cell type of a shell element, by its number of nodes.
 int cell_type(int nodes) {
   switch (nodes) {
     case 3:
@@ -36,7 +36,7 @@ int cell_type(int nodes) {
   }
 }
 
-/// A mesh as VTK has it: shell elements, then lines, then points, each with its CAD numbers.
+/// Makes a VTK grid of a mesh: shell elements, then lines, then points, each with its CAD numbers.
 class GridMaker {
  public:
   explicit GridMaker(const OutputMesh& mesh) : mesh_(mesh) {
@@ -53,7 +53,7 @@ class GridMaker {
       q_->InsertNextValue(mesh_.is_quad(i) ? qualities[i] : 0);
       thickness_->InsertNextValue(mean_thickness(mesh_, i));
     }
-    // Lines and points have no q: drawn by it, they have the color of "not a number".
+    // Lines and points have no q: colored by q, they get the color of "not a number".
     for (int i = 0; i < mesh_.segment_count(); ++i) {
       const ElementNodes nodes = mesh_.segment_nodes(i);
       add(nodes, nodes.count == 3 ? VTK_QUADRATIC_EDGE : VTK_LINE, 1, mesh_.edge(i));

@@ -1,4 +1,4 @@
-/// What VTK reads, as a mesh.
+/// Meshes that VTK reads, converted to ShellMesh.
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ namespace quadrille {
 
 namespace {
 
-/// The names of the solids in a text file, in their order; none in a binary one, which tells no names.
+/// The names of the solids in a text .stl file, in order; empty for a binary file, which has no names.
 std::vector<std::string> solid_names(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::vector<std::string> names;
@@ -40,7 +40,7 @@ std::vector<std::string> solid_names(const std::filesystem::path& path) {
   return names;
 }
 
-/// Points on one place become one, elements that have lost a corner by that are dropped.
+/// Unites points at the same position, and drops elements that lose a corner by that.
 void unite_points(ImportedMesh& mesh, MeshBuilder& builder) {
   std::vector<int> order(mesh.points.size());
   std::iota(order.begin(), order.end(), 0);
@@ -48,7 +48,7 @@ void unite_points(ImportedMesh& mesh, MeshBuilder& builder) {
     const Vector3 &p = mesh.points[a], &q = mesh.points[b];
     return std::tie(p.x(), p.y(), p.z(), a) < std::tie(q.x(), q.y(), q.z(), b);
   };
-  // The builder refuses what is no place, and nodes that are not there.
+  // The builder reports positions that are not finite and nodes that do not exist.
   for (const Vector3& p : mesh.points)
     if (!p.allFinite()) return;
   const auto is_there = [&](std::int64_t node) { return node >= 1 && node <= std::ssize(mesh.points); };
@@ -73,7 +73,7 @@ void unite_points(ImportedMesh& mesh, MeshBuilder& builder) {
         fmt::format("{} triangles with two corners on one place are left out", count - mesh.elements.size()));
 }
 
-/// The groups of the builder that the sets are, by their places.
+/// (sets) The builder's group for each set.
 std::vector<int> groups_of_sets(const ImportedMesh& mesh, MeshBuilder& builder) {
   std::vector<int> groups;
   for (auto begin = mesh.set_names.begin(); begin != mesh.set_names.end();) {
@@ -101,12 +101,12 @@ void get(std::vector<Record>& records, std::istream& in) {
   in.read(reinterpret_cast<char*>(records.data()), static_cast<std::streamsize>(count * sizeof(Record)));
 }
 
-/// In a child process: VTK's readers crash on many a damaged file.
+/// Reads in a child process, since VTK's readers crash on many damaged files.
 ImportedMesh read_isolated(const std::string& name, const std::string& ending) {
   IsolatedWork options;
   options.subject = name;
   options.crashed = fmt::format("{}: reading this file crashed: it may be damaged", name);
-  // Counts in a damaged file may ask for more than it holds, of which VTK goes through every one.
+  // Counts in a damaged file may be larger than the file, and VTK loops over all that they promise.
   std::error_code ignored;
   const std::uintmax_t bytes = std::filesystem::file_size(name, ignored);
   options.time_limit = 20 + (ignored ? 0 : static_cast<double>(bytes) / 1e6);

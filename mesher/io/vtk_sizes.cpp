@@ -22,7 +22,7 @@ namespace quadrille {
 
 namespace {
 
-/// Triangles, then lines, with their CAD numbers; sizes and sources at points, and the sources' names.
+/// The grid: triangles, then lines, with their CAD numbers; sizes and sources at points; the sources' names.
 vtkNew<vtkUnstructuredGrid> grid_of(const SizeMap& map) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();

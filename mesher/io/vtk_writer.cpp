@@ -1,5 +1,5 @@
-/// Legacy .vtk as text, version 2.0 of the format, which all readers know, binary ones not: the shell
-/// elements with their CAD face and q. Based on: the VTK User's Guide, "VTK file formats".
+/// Legacy .vtk as text, version 2.0, which all readers know, unlike binary files: the shell elements with
+/// their CAD face and q. Based on: the VTK User's Guide, "VTK file formats".
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ int cell_type(const ElementNodes& element) {
   }
 }
 
-/// One line a shell element.
+/// Writes one line per shell element.
 template <class Write>
 void write_lines(const OutputMesh& mesh, TextWriter& out, Write write) {
   write_in_order(mesh.shell_count(), out, [&](std::size_t i, TextWriter& to) {
@@ -35,7 +35,7 @@ void write_lines(const OutputMesh& mesh, TextWriter& out, Write write) {
   });
 }
 
-/// A name of an array as VTK writes it: other characters by their codes.
+/// The name of an array as VTK writes it: special characters as % and their codes.
 std::string array_name(const std::string& name) {
   std::string result;
   for (const char c : name) {
@@ -50,7 +50,7 @@ void write_set(const std::string& name, const std::vector<char>& members, TextWr
   for (const char member : members) out << static_cast<int>(member) << '\n';
 }
 
-/// Sets of elements, then those of nodes: of sides and points, which are no cells here.
+/// Writes sets of shell elements, then those of segments and corners, which are no cells here, as node sets.
 void write_sets(const OutputMesh& mesh, TextWriter& out) {
   std::vector<std::string> of_nodes;
   for (const std::string& name : mesh.set_names()) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The writers behind write_mesh(), one a format.
+/// The writers behind write_mesh(), one per format.
 
 #include <filesystem>
 
@@ -14,7 +14,7 @@ void write_msh4(const OutputMesh& mesh, TextWriter& out);  ///< Gmsh .msh 4.1, A
 void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out);
 void write_unv(const OutputMesh& mesh, TextWriter& out);
 void write_bdf(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out);
-/// Legacy .vtk as text, of the shell elements alone. \param qualities q of each quad.
+/// Legacy .vtk as text, with only the shell elements as cells. \param qualities (quads) q of each quad.
 void write_vtk(const OutputMesh& mesh, const WriteOptions& options, const std::vector<double>& qualities,
                TextWriter& out);
 

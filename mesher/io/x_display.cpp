@@ -21,16 +21,16 @@ bool can_open(const char* name) {
   return true;
 }
 
-/// Becomes Xvfb, which picks a free display and writes its number to the pipe when it is ready.
+/// Turns this process into Xvfb, which picks a free display and writes its number to the pipe when ready.
 [[noreturn]] void become_server(int pipe_end, pid_t parent) {
-  // Ctrl-C in the terminal is for us to handle; our end, however it comes, is the server's too.
+  // Ctrl-C in the terminal must reach only the parent. The server must end when the parent does.
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(1);
   ::signal(SIGPIPE, SIG_DFL);
   const int nowhere = ::open("/dev/null", O_RDWR);
   for (int standard = 0; standard < 3; ++standard) ::dup2(nowhere, standard);
-  // The end must be open in Xvfb under a number that its argument names.
+  // The pipe end must be open in Xvfb under the number in its argument.
   constexpr int number = 3;
   if (pipe_end != number) ::dup2(pipe_end, number);
   ::fcntl(number, F_SETFD, 0);
@@ -39,7 +39,7 @@ bool can_open(const char* name) {
   ::_exit(127);
 }
 
-/// The digits that come through the pipe, up to the end of line; empty when none come in time.
+/// The digits from the pipe up to the end of the line; empty if they do not come in time.
 std::string read_number(int pipe_end) {
   constexpr int patience_milliseconds = 10000;
   std::string digits;

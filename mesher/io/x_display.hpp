@@ -7,8 +7,8 @@
 
 namespace quadrille {
 
-/// While it lives, DISPLAY names a display that can be drawn on: an Xvfb of our own (package xvfb), so that
-/// pictures come out alike with and without a screen; the user's display where Xvfb is not installed.
+/// During its lifetime, DISPLAY names a display to draw on: an Xvfb of its own (package xvfb), so that
+/// pictures are the same with and without a screen, or the user's display if Xvfb cannot be started.
 class XDisplay {
  public:
   XDisplay();
