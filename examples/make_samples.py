@@ -3,8 +3,8 @@
 
     freecadcmd examples/make_samples.py < /dev/null
 
-Lengths are millimeters. Each model is there for a property that meshers trip over; tests/support/sample_models.hpp lists
-them by property.
+Lengths are millimeters. Each model has a property that is difficult for meshers; tests/support/sample_models.hpp lists them
+by property.
 """
 
 import math
@@ -27,7 +27,7 @@ def box():
 
 
 def cylinder():
-    """A solid cylinder: a seam, two discs bounded by one closed edge each."""
+    """A solid cylinder: a seam, and two discs, each bounded by one closed edge."""
     return Part.makeCylinder(10, 30)
 
 
@@ -42,12 +42,12 @@ def sphere():
 
 
 def torus():
-    """A solid torus: one face bounded by its two seams alone."""
+    """A solid torus: one face bounded only by its two seams."""
     return Part.makeTorus(20, 6)
 
 
 def disc():
-    """A plane face bounded by a single closed edge with a single vertex."""
+    """A plane face bounded by a single closed edge with one vertex."""
     return Part.Face(Part.Wire(Part.makeCircle(12)))
 
 
@@ -116,10 +116,10 @@ def bezier_patch():
 
 
 def wing():
-    """A tapered, swept, twisted wing of B-splines: a sharp trailing edge, and a rib at each end."""
+    """A tapered, swept, twisted wing of B-spline surfaces, with a sharp trailing edge and a plane face at each end."""
 
     def section(chord, shift, span, twist_degrees):
-        # NACA 4412 with a closed trailing edge, from the trailing edge over the top and back.
+        # NACA 4412 with a closed trailing edge, from the trailing edge over the upper side and back along the lower side.
         upper, lower = [], []
         for i in range(25):
             x = 0.5 * (1 - math.cos(math.pi * i / 24))
@@ -140,7 +140,7 @@ def wing():
 
 
 def t_junction():
-    """Three plane faces on one common edge."""
+    """Three plane faces that share one edge."""
     faces = [Part.makePlane(30, 40)]
     for angle in (100.0, 230.0):
         face = Part.makePlane(30, 40)
@@ -166,7 +166,7 @@ def tube_with_hole():
 
 
 def bent(corner, first, second, lengths, width, thickness=2.0, inside=3.0):
-    """Two legs of sheet that meet in a bend: from the corner outside along two directions, drawn along `width`."""
+    """Two legs of sheet metal that meet in a bend: from the outer corner along two directions, extruded along `width`."""
     outside, flat = inside + thickness, 1 - math.sqrt(0.5)
 
     def at(a, b):
@@ -181,10 +181,10 @@ def bent(corner, first, second, lengths, width, thickness=2.0, inside=3.0):
 
 
 def sheet_bracket():
-    """A bracket bent of 2 mm sheet: foot with four bolt holes and two flanges, wall with a bore and four screw holes."""
+    """A bracket bent from 2 mm sheet: a foot with four bolt holes and two flanges, a wall with a bore and four screw holes."""
     half = 35.0
     shape = bent(Vector(0, -half, 0), X, Z, (74, 80), Y * 2 * half)
-    for side in (-1, 1):  # a flange's bend starts where the foot's edge would be
+    for side in (-1, 1):  # the flange's bend starts at the edge of the foot
         shape = shape.fuse(bent(Vector(20, side * (half + 5), 0), Y * -side, Z, (6, 16), X * 54))
     shape = shape.removeSplitter()
 
@@ -195,7 +195,7 @@ def sheet_bracket():
     holes = [drill(Vector(0, 0, 47), X, 14)]
     holes += [drill(Vector(0, y * 20, 47 + z * 20), X, 2.75) for y in sides for z in sides]
     holes += [drill(Vector(x, y * 21, 0), Z, 4) for x in (26, 60) for y in sides]
-    holes += [drill(Vector(18, y * half, 0), Z, 2) for y in sides]  # where flanges end: relief
+    holes += [drill(Vector(18, y * half, 0), Z, 2) for y in sides]  # reliefs where the flanges end
     for hole in holes:
         shape = shape.cut(hole)
     for direction, height, radius in ((X, 79, 12), (Y, 15, 9)):
@@ -212,7 +212,7 @@ def write(name, shape, ending, folder=MODELS):
     if ending == ".step":
         shape.exportStep(str(path))
         text = path.read_text()
-        # The same bytes each time: without the date and the versions.
+        # Remove date and versions, so that the file has the same bytes each time.
         text = re.sub(r"FILE_NAME\(.*?\);", f"FILE_NAME('{name}','2026-01-01T00:00:00',(''),(''),'','','');", text,
                       count=1, flags=re.S)
         text = re.sub(r"'Open CASCADE STEP translator [^']*'", f"'{name}'", text)
@@ -233,7 +233,7 @@ def main():
         write(make.__name__, make(), ".brep")
 
 
-# freecadcmd swallows exceptions: carry them to the exit code.
+# freecadcmd swallows exceptions: turn them into the exit code.
 try:
     main()
     status = 0

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes a CAD file inside FreeCAD; this is what ./run.sh runs.
+"""Meshes a CAD file inside FreeCAD; ./run.sh PART.step runs this script.
 
     scripts/freecad_python examples/mesh_part.py PART.step --size 2 --out out/part
 
-writes out/part.FCStd (an analysis with the part and its FEM mesh), out/part.inp and out/part.png. With --thin the middle surface of a
-thin solid is meshed, with its thicknesses in the analysis.
+Writes out/part.FCStd (an analysis with the part and its FEM mesh), out/part.inp and out/part.png. With --thin it meshes the
+middle surface of a thin solid, with its thicknesses in the analysis.
 """
 
 import argparse
@@ -22,7 +22,7 @@ from quadrille import middle
 
 
 def size_on(text):
-    """"Face3=0.5" as a pair."""
+    """Parses "Face3=0.5" into a pair."""
     name, equals, size = text.partition("=")
     if not equals:
         raise argparse.ArgumentTypeError(f"{text}: write it as Face3=0.5")

@@ -4,14 +4,14 @@
     scripts/freecad_python examples/scordelis_lo.py [--size 1.5] [--save out/roof.FCStd]
 
 A cylindrical roof (radius 25, length 50, 80 degrees, thickness 0.25, E 4.32e8, Poisson's ratio 0) rests on end
-diaphragms, which hold it in their plane, and carries its own weight of 90 per area. The middle of a free edge sinks
-by 0.3024 (MacNeal & Harder 1985).
+diaphragms, which support it in their plane, and carries its own weight of 90 per area. The middle of a free edge moves
+down by 0.3024 (MacNeal & Harder 1985).
 
-The problem has no units of its own: one unit of length is a millimeter here and one of force a newton, so E is
-4.32e8 MPa, and FreeCAD's numbers are the problem's. The weight is FreeCAD's self weight constraint with the density
-that makes it 90 N/mm^2 with FreeCAD's gravity.
+The problem has no units. Here the unit of length is a millimeter and the unit of force a newton, so E is 4.32e8 MPa, and
+FreeCAD's numbers are those of the problem. The weight is FreeCAD's self weight constraint, with the density that makes
+it 90 N/mm^2 under FreeCAD's gravity.
 
-FreeCAD writes eight-node quads as S8; the script solves once more with S8R, which is better on thin shells.
+FreeCAD writes eight-node quads as S8. The script solves again with S8R, which is better on thin shells.
 """
 
 import argparse
@@ -52,7 +52,7 @@ def add_weight(document, analysis, material):
     else:
         from femtools import constants
 
-        # The writer of 0.20 drops the decimals.
+        # The writer of FreeCAD 0.20 truncates the decimals.
         gravity = int(Units.Quantity(constants.gravity()).getValueAs("mm/s^2"))
         weight.Gravity_x, weight.Gravity_y, weight.Gravity_z = 0, 0, -1
     values = material.Material
@@ -62,13 +62,13 @@ def add_weight(document, analysis, material):
 
 
 def add_support(document, analysis, name, references, axes):
-    """Holds edges or vertices along some axes; rotations stay free."""
+    """Fixes edges or vertices along some axes; rotations stay free."""
     support = ObjectsFem.makeConstraintDisplacement(document, name)
     support.References = references
     for axis in "xyz":
         for name, held in ((axis, axis in axes), (f"rot{axis}", False)):
             setattr(support, f"{name}Free", not held)
-            if hasattr(support, f"{name}Fix"):  # FreeCAD 1.0 has one of the two
+            if hasattr(support, f"{name}Fix"):  # FreeCAD 1.0 lacks one of the two
                 setattr(support, f"{name}Fix", held)
     analysis.addObject(support)
 
@@ -76,7 +76,7 @@ def add_support(document, analysis, name, references, axes):
 def make_analysis(document, roof, size):
     """The whole analysis, with its mesh."""
     analysis = ObjectsFem.makeAnalysis(document, "Analysis")
-    # FreeCAD 1.0 spells it with a large X.
+    # FreeCAD 1.0 spells it with a capital X.
     make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
     solver = make_solver(document, "CalculiX")
     solver.AnalysisType = "static"
@@ -93,7 +93,7 @@ def make_analysis(document, roof, size):
     add_weight(document, analysis, material)
     arcs = [f"Edge{i}" for i, edge in enumerate(roof.Shape.Edges, 1) if not isinstance(edge.Curve, Part.Line)]
     add_support(document, analysis, "Diaphragms", [(roof, name) for name in arcs], "xz")
-    # The load does not push along the axis: one corner holds the roof there.
+    # The load has no component along the axis, so one corner is enough to hold the roof in that direction.
     add_support(document, analysis, "AxialStop", [(roof, "Vertex1")], "y")
     mesh = quadrille.freecad.mesh_object(roof, size=size, order=2, elements_per_circle=0, analysis=analysis)
     document.recompute()
@@ -101,7 +101,7 @@ def make_analysis(document, roof, size):
 
 
 def solve(analysis, solver, folder):
-    """Solves through FreeCAD's CalculiX tools; returns the result object."""
+    """Solves with FreeCAD's CalculiX tools. Returns the result object."""
     from femtools import ccxtools
 
     fea = ccxtools.FemToolsCcx(analysis, solver)
@@ -122,7 +122,7 @@ def solve(analysis, solver, folder):
 
 
 def sinking(mesh, result):
-    """How far the middles of the two free edges sink, on average."""
+    """The downward displacement of the middles of the two free edges, averaged."""
     displacements = dict(zip(result.NodeNumbers, result.DisplacementVectors))
     nodes = mesh.FemMesh.Nodes
     found = []
@@ -155,7 +155,7 @@ def main():
         off = 100 * (value / REFERENCE - 1)
         worst = max(worst, abs(off))
         lines.append(f"{element:22} sinks by {value:.4f}   reference {REFERENCE}   off by {off:+.2f} %")
-    print("\n".join(lines))  # after all that FreeCAD says meanwhile
+    print("\n".join(lines))  # after FreeCAD's own output
     if arguments.save:
         document.saveAs(arguments.save)
     if arguments.tolerance is not None and worst > arguments.tolerance:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the plate of the title picture: 100 by 80 with four holes of diameter 12, a plane face.
+"""Makes the plate of the title picture: a plane face, 100 by 80 mm, with four holes of diameter 12 mm.
 
     scripts/freecad_python examples/title_plate.py plate.brep
     build/quadrille mesh plate.brep -o plate.msh --size 3 --picture plate.png
@@ -12,7 +12,7 @@ from FreeCAD import Vector
 
 
 def title_plate():
-    """The face, with holes at (25 or 75, 20 or 60)."""
+    """The face. The holes are at x = 25 and 75, y = 20 and 60."""
     holes = [Part.Face(Part.Wire(Part.makeCircle(6, Vector(x, y, 0)))) for x in (25, 75) for y in (20, 60)]
     return Part.makePlane(100, 80).cut(holes)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the pages of the C++ library's public headers by Doxygen; a warning, such as of a function without a word on it,
-# is an error.
+# Makes the pages of the C++ library's public headers with Doxygen. A warning, such as for an undocumented function, is an
+# error.
 #
 #   scripts/api_pages.sh FOLDER      writes FOLDER/html/index.html
 set -euo pipefail
@@ -15,7 +15,7 @@ if ! command -v doxygen >/dev/null; then
   exit 1
 fi
 mkdir -p "$folder"
-# What is installed is what is described.
+# Documents exactly the headers that are installed.
 headers=$(sed -n '/^set(PUBLIC_HEADERS/,/)/p' cmake/install.cmake | grep -o '[a-z_0-9/]*\.hpp')
 (
   cat docs/Doxyfile

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Attacks the built command: extreme options, random sizes, damaged files, limits, faults and locales, one table at the
-# end, exit code 1 if anything ended as it must not (tests/attack.py says what that is). Parts for random sizes come from
-# ../shared/corpus_parts (or QUADRILLE_PARTS); without that folder, our own models are meshed.
+# Attacks the built command with extreme options, random sizes, damaged files, limits, faults and locales. Prints one table
+# at the end. The exit code is 1 if any run ended in a way that tests/attack.py does not allow. Parts for random sizes come
+# from ../shared/corpus_parts (or QUADRILLE_PARTS). Without that folder, our own models are meshed.
 #
 #   scripts/attack.sh                            ten minutes
-#   scripts/attack.sh --seconds 60 --seed 7      a minute, with other runs
-#   scripts/attack.sh --only sizes/17            one run of a class again
+#   scripts/attack.sh --seconds 60 --seed 7      one minute, with different runs
+#   scripts/attack.sh --only sizes/17            repeats one run of a class
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 parts="${QUADRILLE_PARTS:-../shared/corpus_parts}"

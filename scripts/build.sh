@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Configures and builds into build/.
 #
-#   scripts/build.sh PRESET [TARGET...]     PRESET: release, or ci (warnings as errors); no target = all
+#   scripts/build.sh PRESET [TARGET...]     PRESET: release, or ci (warnings are errors); no target = all
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 preset="$1"

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Makes of what is built here a folder that runs on any Linux with a glibc at least as new as this one's, wherever it is
-# put: out/quadrille-VERSION-linux-x86_64.tar.xz, with all libraries but glibc's, and a wheel for Python, out/quadrille-*.whl.
-# Needs patchelf.
+# Builds a relocatable bundle that runs on any Linux with a glibc at least as new as this system's:
+# out/quadrille-VERSION-linux-x86_64.tar.xz, with all libraries except glibc's. Also makes a wheel for Python,
+# out/quadrille-*.whl. Needs patchelf.
 #
-#   scripts/bundle.sh               without pictures (--picture), for which OpenGL and X11 come with the system
-#   scripts/bundle.sh --pictures    with them: the system's OpenGL driver and Xvfb are then needed to draw
+#   scripts/bundle.sh               without pictures (--picture), which need the system's OpenGL and X11
+#   scripts/bundle.sh --pictures    with pictures: the system's OpenGL driver and Xvfb are then needed to draw
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
@@ -19,7 +19,7 @@ log=$(mktemp)
 stage=$(mktemp -d)
 trap 'rm -rf "$log" "$stage"' EXIT
 echo "Building in $build/"
-# No folder of that name: modules are found from where the command lies, and nowhere else.
+# The install prefix must not exist: modules are found relative to the command, and nowhere else.
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/nonexistent -DCMAKE_INSTALL_LIBDIR=lib \
   -DQUADRILLE_PYTHON_FOLDER=python -DCMAKE_SKIP_INSTALL_RPATH=ON -DQUADRILLE_TESTS=OFF -DQUADRILLE_BENCH=OFF >"$log" 2>&1 ||
   { cat "$log" >&2; exit 1; }
@@ -34,7 +34,7 @@ done
 "$pictures" || rm "$root/lib/quadrille/libquadrille_picture.so"
 cp LICENSE docs/bundle.txt "$root/"
 
-# glibc comes with the system, since the loader that starts a program belongs to it.
+# The system provides glibc, since the loader that starts a program belongs to it.
 is_of_glibc() { [[ "$1" =~ ^(ld-linux.*|lib(c|m|mvec|dl|pthread|rt|util|resolv|anl|nsl|BrokenLocale))\.so ]]; }
 binaries() { find "$root" -type f \( -perm -u+x -o -name '*.so*' \) -exec sh -c 'head -c4 "$1" | grep -q ELF' _ {} \; -print; }
 while read -r binary; do

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks formatting (clang-format) and correctness habits (clang-tidy) of the C++ sources; needs a configured build/.
+# Checks the formatting (clang-format) and common mistakes (clang-tidy) of the C++ sources. Needs a configured build/.
 #   scripts/check_style.sh [--fix-format]
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."

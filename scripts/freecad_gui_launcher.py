@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What scripts/freecad_gui gives to freecad: runs the script named in the environment once the window is up."""
+"""scripts/freecad_gui makes freecad run this file. It runs the script named in the environment once the window is open."""
 
 import os
 import sys
@@ -18,7 +18,7 @@ def run_script():
     sys.path.insert(0, os.path.dirname(os.path.abspath(arguments[0])))
     status = 1
     try:
-        # In FreeCAD's own __main__, as a macro runs: what commands record needs the App and Gui that live there.
+        # Run it in FreeCAD's own __main__, like a macro: recorded commands need the names App and Gui, which exist there.
         namespace = sys.modules["__main__"].__dict__
         namespace["__file__"] = os.path.abspath(arguments[0])
         with open(arguments[0], encoding="utf-8") as file:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What scripts/freecad_python gives to freecadcmd: runs the script named in the environment as `__main__`."""
+"""scripts/freecad_python makes freecadcmd run this file. It runs the script named in the environment as `__main__`."""
 
 import os
 import runpy
@@ -8,7 +8,7 @@ import traceback
 
 
 def run(arguments):
-    """Runs arguments[0] with the rest; returns the exit code that python3 would."""
+    """Runs the script arguments[0] with the other arguments. Returns the exit code that python3 would have."""
     sys.argv = arguments
     sys.path.insert(0, os.path.dirname(os.path.abspath(arguments[0])))
     try:
@@ -24,10 +24,10 @@ def run(arguments):
         return 1
 
 
-# The wrapper sent FreeCAD's greeting away; the script's output goes to the real standard output, kept as 3.
+# The wrapper discards FreeCAD's greeting. The script's output goes to the real standard output, which is descriptor 3.
 sys.stdout.flush()
 os.dup2(3, 1)
-# FreeCAD replaces these by its own console, which is lost when the process ends at once.
+# FreeCAD replaces these streams with its own console, whose output is lost when the process ends at once.
 sys.stdout = os.fdopen(1, "w", buffering=1, encoding="utf-8", errors="replace", closefd=False)
 sys.stderr = os.fdopen(2, "w", buffering=1, encoding="utf-8", errors="replace", closefd=False)
 status = run(os.environ["QUADRILLE_SCRIPT_ARGUMENTS"].split("\x1f")[:-1])

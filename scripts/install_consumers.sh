@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Installs the programs of Debian that read Quadrille's files in tests/io/consumers_test.py and are heavy to install:
-# about 2 GB. Those that are light come with scripts/install_dependencies.sh.
+# Installs the large Debian packages that read Quadrille's files in tests/io/consumers_test.py, about 2 GB.
+# scripts/install_dependencies.sh installs the small ones.
 #
-#   scripts/install_consumers.sh           install what this release of Debian has
+#   scripts/install_consumers.sh           install those that this release of Debian has
 #   scripts/install_consumers.sh --list    print the packages and stop
 set -euo pipefail
 
-# deal.II of Debian 13 links by mold.
+# deal.II in Debian 13 links with mold.
 packages=(python3-dolfinx python3-gmsh libdeal.ii-dev mold libmfem-dev python3-sfepy python3-getfem++)
 
 if [[ "${1:-}" == --list ]]; then

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that Quadrille is built, run and tested with (Debian 12 and 13, and what derives from
-# them). Says what it installs before it does. Safe to run again: it does nothing when all is there.
+# Installs the Debian packages needed to build, run and test Quadrille (Debian 12 and 13, and derivatives). Lists them
+# before installing. Safe to run again: does nothing if all are installed.
 #
 #   scripts/install_dependencies.sh           install what is missing
 #   scripts/install_dependencies.sh --list    print the packages and stop
@@ -21,17 +21,17 @@ packages=(
   pybind11-dev python3 python3-dev python3-numpy
   # tests, benchmarks
   libgtest-dev
-  # what meshes are made for, and compared with
+  # the programs that use the meshes, or are compared with
   freecad gmsh python3-matplotlib
   # translations of the FreeCAD workbench: lrelease, pylupdate5
   qttools5-dev-tools pyqt5-dev-tools
-  # read back what is written, in the tests; scripts/install_consumers.sh has those that are heavy to install
+  # read written files back in the tests; scripts/install_consumers.sh installs the large ones
   python3-meshio python3-h5py python3-vtk9 libmed-tools
   # packages, bundles and the manual
   patchelf dpkg-dev lintian doxygen mkdocs
 )
-# What needs these is left out where a release of Debian does not have them (Debian 13 has no CalculiX). LEMON tells
-# bench/paper the best pairing that there is, python3-distributed runs python3 -m quadrille.batch.
+# Skipped if a release of Debian does not have them (Debian 13 has no CalculiX). bench/paper computes the optimal pairing
+# with LEMON; `python3 -m quadrille.batch` needs python3-distributed.
 optional=(calculix-ccx calculix-cgx liblemon-dev python3-distributed)
 
 if [[ "${1:-}" == --list ]]; then

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Makes man pages and the completion of the shell from what `quadrille --help` says of itself.
+"""Makes man pages and bash completion from the output of `quadrille --help`.
 
     scripts/make_manual.py build/quadrille FOLDER     FOLDER/quadrille.1.gz, quadrille-mesh.1.gz, ..., quadrille.bash
-    scripts/make_manual.py build/quadrille FILE.md    the same as one page of the manual
+    scripts/make_manual.py build/quadrille FILE.md    one page of the manual with all commands
 """
 
 import gzip
@@ -20,7 +20,7 @@ def run(*arguments):
 
 
 def parse(text):
-    """The first sentence, the line of usage, and the sections: {"Options": [(term, explanation)]}."""
+    """The text before the usage line, the usage line, and the sections: {"Options": [(term, explanation)]}."""
     head, _, rest = text.partition("Usage: ")
     usage, _, rest = rest.partition("\n")
     sections, entries = {}, []
@@ -36,13 +36,13 @@ def parse(text):
 
 
 def roff(text):
-    """Text as man has it: hyphens that are copied as such, nothing taken for a request."""
+    """Escapes text for man: hyphens can be copied as hyphens, and no line is taken for a roff request."""
     text = text.replace("\\", "\\e").replace("-", "\\-")
     return "\\&" + text if text[:1] in (".", "'") else text
 
 
 def term_of(entry):
-    """ "-o,--output TEXT REQUIRED" as the bold options and the kind of value in italics."""
+    """Formats "-o,--output TEXT REQUIRED": options in bold, the kind of value in italics."""
     options, _, value = entry.partition(" ")
     value = re.sub(r"(:\S+)? ?(REQUIRED|\.\.\.)?$", "", value).strip()
     bold = ", ".join(f"\\fB{roff(option)}\\fR" for option in options.split(","))
@@ -67,7 +67,7 @@ def page(name, version, help_text, see):
 
 
 def markdown(pages):
-    """All commands on one page."""
+    """One page with all commands, in Markdown."""
     lines = ["# The command", "", "Made of what `quadrille --help` says. Lengths are millimeters. Exit codes: 0 done, 1 could "
              "not, 2 makes no sense as", "asked, 130 cancelled; then one sentence on stderr and no half-written file."]
     for name, help_text in pages.items():
@@ -81,7 +81,7 @@ def markdown(pages):
 
 
 def completion(commands):
-    """For bash: subcommands, their options, and files."""
+    """A bash completion script for subcommands, their options, and files."""
     cases = "\n".join(f"    {name}) options='{' '.join(options)}' ;;" for name, options in commands.items())
     return f"""# bash completion for quadrille
 _quadrille() {{

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Packs a bundle into a wheel: the Python package with the command, its modules and libraries inside.
+"""Packs a bundle into a wheel: the Python package, with the command, its modules and its libraries inside.
 
     make_wheel.py BUNDLE VERSION FOLDER      BUNDLE: the folder that scripts/bundle.sh makes
 """
@@ -12,11 +12,11 @@ import sys
 import zipfile
 from pathlib import Path
 
-EPOCH = (1980, 1, 1, 0, 0, 0)  # the same bytes for the same contents
+EPOCH = (1980, 1, 1, 0, 0, 0)  # a fixed date, so that the same contents give the same bytes
 
 
 def set_rpath(data: bytes, rpath: str) -> bytes:
-    """The ELF file with another place to look for its libraries."""
+    """The ELF file with another search path for its libraries."""
     import tempfile
 
     with tempfile.NamedTemporaryFile(suffix=".so") as file:
@@ -27,8 +27,8 @@ def set_rpath(data: bytes, rpath: str) -> bytes:
 
 
 def contents(bundle: Path) -> dict:
-    """Path in the wheel -> (bytes, whether it is a program). All that asks for libraries lies beside the package's
-    Python files, where modules are looked for too; the libraries are in quadrille/libs."""
+    """Path in the wheel -> (bytes, whether it is a program). Files that need libraries lie next to the package's Python
+    files, where modules are searched too. The libraries are in quadrille/libs."""
     files = {}
     package = bundle / "python" / "quadrille"
     for path in sorted(package.rglob("*")):

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Makes the Debian packages quadrille, libquadrille0.1, libquadrille-dev, python3-quadrille and freecad-quadrille for the
-# release of Debian that it runs on (12 or 13), in out/packages. Run it in each release that packages are wanted for.
+# Makes the Debian packages quadrille, libquadrille0.1, libquadrille-dev, python3-quadrille and freecad-quadrille in
+# out/packages, for the release of Debian that it runs on (12 or 13). Run it on each release that needs packages.
 #
-#   scripts/package.sh            build and pack
-#   scripts/package.sh --check    then also run lintian on them
+#   scripts/package.sh            build and package
+#   scripts/package.sh --check    also run lintian on the packages
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 

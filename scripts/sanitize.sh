@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Builds with the address and undefined-behavior sanitizers, then with the thread sanitizer, and runs the C++ tests and
-# the models of ../shared/corpus (left out, and said so, where that folder is missing) under each. Ends with 1 if
-# anything was found; the reports lie in build-asan/found and build-tsan/found.
+# Builds with the address and undefined-behavior sanitizers, then with the thread sanitizer. Under each it runs the tests and
+# meshes the models in ../shared/corpus (skipped with a message if that folder is missing). The exit code is 1 if anything
+# was found. The reports are in build-asan/found and build-tsan/found.
 #
-# The thread sanitizer must see how oneTBB hands work from thread to thread: Debian's source of it (apt-get source, into
-# the build folder; nothing is installed) is built with the sanitizer as well.
+# The thread sanitizer must see how oneTBB passes work between threads. So Debian's source of oneTBB is built with the
+# sanitizer as well (apt-get source, into the build folder; nothing is installed).
 #
 #   scripts/sanitize.sh                 both
 #   scripts/sanitize.sh asan-ubsan      one: asan-ubsan or tsan
@@ -16,7 +16,7 @@ corpus="${QUADRILLE_CORPUS:-../shared/corpus}"
 lists="$PWD/tests/sanitizers"
 status=0
 
-# Meshes one model; a sanitizer's finding gives exit code 99, what the mesher itself says another.
+# Meshes one model. A sanitizer's finding gives exit code 99; errors of the mesher give other codes.
 mesh_model() {
   local model="$1" folder="$2" code=0
   shift 2
@@ -34,14 +34,14 @@ build_onetbb() {
   echo "Building oneTBB with the thread sanitizer into $folder"
   rm -rf "$folder"
   mkdir -p "$folder/lists/partial"
-  # The system's own mirrors, for sources; apt's own files stay as they are.
+  # Use the system's mirrors for sources, without changing apt's own files.
   # shellcheck disable=SC2016
   apt-get indextargets --format \
     'deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $(REPO_URI) $(RELEASE) $(COMPONENT)' \
     'Created-By: Packages' 'Origin: Debian' | sort -u >"$folder/sources.list"
   local apt=(apt-get -q -o "Dir::Etc::SourceList=$folder/sources.list" -o Dir::Etc::SourceParts=/dev/null
     -o "Dir::State::Lists=$folder/lists" -o Dir::Cache::PkgCache= -o Dir::Cache::SrcPkgCache= -o APT::Sandbox::User=)
-  # Its memory comes from malloc, which the sanitizer knows: were libtbbmalloc loaded by chance, it would be taken.
+  # oneTBB must take its memory from malloc, which the sanitizer knows. It would use libtbbmalloc if that were loaded.
   {
     (cd "$folder" && "${apt[@]}" update && "${apt[@]}" source --download-only --tar-only onetbb &&
       mkdir source && tar -xf onetbb_*.orig.tar.* --strip-components=1 -C source) &&
@@ -72,7 +72,7 @@ for preset in "${presets[@]}"; do
   export LSAN_OPTIONS="suppressions=$lists/leaks.txt:print_suppressions=0:exitcode=99"
   export UBSAN_OPTIONS="print_stacktrace=1:exitcode=99"
   export TSAN_OPTIONS="exitcode=99:suppressions=$lists/threads.txt:print_suppressions=0:die_after_fork=0"
-  # Threads of VTK and of the software renderer run none of our code, and the order between them is not seen.
+  # Threads of VTK and of the software renderer run none of our code, and the sanitizer cannot see their synchronization.
   if [[ $preset == tsan ]]; then export VTK_SMP_BACKEND_IN_USE=Sequential LP_NUM_THREADS=0; fi
   echo "== $preset: the tests"
   ctest --test-dir "$folder" --output-on-failure --timeout 3000 >"$folder/found/ctest.log" 2>&1 || status=1

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Makes the manual as a site: docs/ by mkdocs, the command's reference from its own help, the changelog, the pages of the C++
-# library by Doxygen where that is installed. A link that leads nowhere is an error.
+# Makes the manual as a web site with mkdocs: docs/, the command's reference from its own help, and the changelog. Adds the
+# pages of the C++ library if Doxygen is installed. A broken link is an error.
 #
-#   scripts/site.sh FOLDER [QUADRILLE]      QUADRILLE: the command, build/quadrille unless told
+#   scripts/site.sh FOLDER [QUADRILLE]      QUADRILLE: the command (default: build/quadrille)
 set -euo pipefail
 if [[ $# -lt 1 ]]; then
   echo "usage: scripts/site.sh FOLDER [QUADRILLE]" >&2
@@ -22,7 +22,7 @@ rm -f "$stage/docs/Doxyfile" "$stage/docs/bundle.txt"
 cp CHANGELOG.md "$stage/docs/changelog.md"
 cp mkdocs.yml "$stage/"
 /usr/bin/python3 scripts/make_manual.py "$command" "$stage/docs/command.md"
-# What lies outside docs/ is not part of the site.
+# Files outside docs/ are not part of the site: replace links to them by text.
 sed -i -E 's#\[([^]]*)\]\(\.\./([^)]*)\)#\1 (`\2` in the sources)#g' "$stage"/docs/*.md
 (cd "$stage" && mkdocs build --quiet --strict --site-dir "$folder")
 if command -v doxygen >/dev/null; then

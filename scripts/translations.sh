@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Translations of the FreeCAD workbench (Qt Linguist: workbench/translations/Quadrille_LANGUAGE.ts).
+# Compiles the translations of the FreeCAD workbench (Qt Linguist: workbench/translations/Quadrille_LANGUAGE.ts).
 #
-#   scripts/translations.sh                     compiles them (.qm), for FreeCAD to read
-#   scripts/translations.sh --update [xx ...]   first brings the .ts files up to date with the sources; xx: new languages
+#   scripts/translations.sh                     compiles them for FreeCAD (.qm)
+#   scripts/translations.sh --update [xx ...]   first updates the .ts files from the sources; xx: new languages
 #
-# Needs lrelease (Debian: qttools5-dev-tools), and pylupdate5 (pyqt5-dev-tools) to update.
+# Needs lrelease (Debian: qttools5-dev-tools); --update also needs pylupdate5 (pyqt5-dev-tools).
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/../workbench"
 
@@ -15,7 +15,7 @@ if [[ "${1:-}" == --update ]]; then
       printf '<?xml version="1.0" encoding="utf-8"?>\n<!DOCTYPE TS>\n<TS version="2.0" language="%s"></TS>\n' "$language" \
         >"translations/Quadrille_$language.ts"
   done
-  # What the table of settings and the statuses say is data: marked in a file that lupdate reads.
+  # The texts in the table of settings and the statuses are data: mark them in a file that pylupdate5 reads.
   marks=$(mktemp --suffix .py)
   trap 'rm -f "$marks"' EXIT
   PYTHONDONTWRITEBYTECODE=1 python3 - >"$marks" <<'PYTHON'

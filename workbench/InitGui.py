@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Run by FreeCAD at the start of its window: the workbench, its commands, and their place in the FEM workbench."""
+"""FreeCAD runs this file when its window starts. Adds the workbench, its commands, and their entries in the FEM workbench."""
 
 import FreeCADGui
 
@@ -11,13 +11,13 @@ class QuadrilleWorkbench(FreeCADGui.Workbench):
     ToolTip = "All-quad shell meshes of CAD parts, for FEM"
 
     def __init__(self):
-        # FreeCAD runs this file without a name of its own.
+        # FreeCAD runs this file without setting __file__.
         from quadrille.gui import icon
 
         self.__class__.Icon = icon("quadrille")
 
     def Initialize(self):
-        """FreeCAD calls this when the workbench is first chosen."""
+        """FreeCAD calls this when the workbench is first activated."""
         from quadrille.gui import commands
 
         commands.register()
@@ -25,12 +25,12 @@ class QuadrilleWorkbench(FreeCADGui.Workbench):
         self.appendMenu("Quadrille", commands.TOOLBAR)
 
     def GetClassName(self):
-        """A workbench written in Python."""
+        """Tells FreeCAD that the workbench is written in Python."""
         return "Gui::PythonWorkbench"
 
 
 def _start():
-    """The commands are known from the start, so that the FEM workbench and macros have them too."""
+    """Registers the commands at startup, so that the FEM workbench and macros can use them too."""
     from quadrille.gui import TRANSLATIONS, ahead, commands, fem_workbench, preferences
 
     FreeCADGui.addLanguagePath(str(TRANSLATIONS))

@@ -1,4 +1,4 @@
-/// The compiled half of the Python package: quadrille._quadrille, over the public header alone.
+/// The compiled half of the Python package: quadrille._quadrille. Uses public headers alone.
 
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
@@ -27,7 +27,7 @@ namespace quadrille {
 
 namespace {
 
-/// \param limits a limits file; none = the usual limits.
+/// \param limits path of a limits file; without one, the usual limits hold.
 py::object quality_dict(const PythonMesh& mesh, const std::optional<std::filesystem::path>& limits) {
   std::string text;
   {
@@ -49,7 +49,8 @@ py::list face_statuses(const PythonMesh& mesh) {
   return result;
 }
 
-/// Calls a Python function from the mesher's threads; keeps the exception it raises, and Ctrl-C, for later.
+/// Calls a Python function from the mesher's threads. An exception from the function, or from Ctrl-C, cancels
+/// the work and is stored; rethrow() raises it later.
 class ProgressCall {
  public:
   explicit ProgressCall(py::object function) : function_(std::move(function)) {}
@@ -89,7 +90,7 @@ double number(const Setting& setting, const py::handle& value) {
   throw wrong_type(setting, value);
 }
 
-/// 3 and "Face3" as "Face3".
+/// The name of a face that is given as 3 or "Face3": "Face3".
 std::string face_name(const Setting& setting, const py::handle& face) {
   if (PyBool_Check(face.ptr())) throw wrong_type(setting, face);
   if (PyIndex_Check(face.ptr()))
@@ -98,7 +99,8 @@ std::string face_name(const Setting& setting, const py::handle& face) {
   return face.cast<std::string>();
 }
 
-/// Texts, or a dict of names with a number or several each: {"Edge4": 20}, {"Edge4": (0.1, 1.2, 6)}.
+/// Entries as texts. They are given as texts, or as a dict that maps names to one or more numbers:
+/// {"Edge4": 20}, {"Edge4": (0.1, 1.2, 6)}.
 std::vector<std::string> entries(const Setting& setting, const py::handle& value) {
   if (py::isinstance<py::str>(value) || !py::isinstance<py::iterable>(value))
     throw wrong_type(setting, value);
@@ -116,7 +118,7 @@ std::vector<std::string> entries(const Setting& setting, const py::handle& value
   return texts;
 }
 
-/// What a Python value stands for.
+/// Converts a Python value for a setting. Throws Error (usage) if it is of another kind.
 SettingValue setting_value(const Setting& setting, const py::handle& value) {
   const std::string_view kind = setting.kind();
   if (kind == "number" || kind == "count") return number(setting, value);
@@ -146,8 +148,8 @@ SettingValue setting_value(const Setting& setting, const py::handle& value) {
   }
 }
 
-/// The settings that keyword arguments give; None leaves one as it is. Throws what Python throws for unknown
-/// names.
+/// The settings that keyword arguments give; None leaves a setting at its default. Throws TypeError for
+/// unknown names.
 Settings settings_of(const py::kwargs& arguments, Setting::Use use, const char* function) {
   Settings settings;
   for (const auto& [key, value] : arguments) {
@@ -161,7 +163,7 @@ Settings settings_of(const py::kwargs& arguments, Setting::Use use, const char* 
   return settings;
 }
 
-/// One line for each setting of a function.
+/// Help for a function's settings, one line each.
 std::string settings_help(Setting::Use use) {
   std::string text;
   for (const Setting& setting : all_settings()) {
@@ -174,7 +176,7 @@ std::string settings_help(Setting::Use use) {
   return text;
 }
 
-/// The settings of a function as its signature has them: ", size=None, order=None".
+/// The settings of a function as text for its signature: ", size=None, order=None".
 std::string settings_signature(Setting::Use use) {
   std::string text;
   for (const Setting& setting : all_settings())
@@ -182,7 +184,7 @@ std::string settings_signature(Setting::Use use) {
   return text;
 }
 
-/// Calls `read` with the options for it; Ctrl-C ends it.
+/// Calls `read` with its options, and sews the model if the settings ask for it. Ctrl-C interrupts reading.
 template <class Read>
 CadModel read_model(bool isolated, const Settings& settings, Read read) {
   ProgressCall call{py::none()};
@@ -261,7 +263,7 @@ const char* kind_name(Error::Kind kind) {
   return "failure";
 }
 
-/// quadrille::Error becomes the package's own quadrille.Error, written in Python.
+/// Turns quadrille::Error into the package's own exception quadrille.Error, which is written in Python.
 void translate(std::exception_ptr pointer) {
   try {
     if (pointer) std::rethrow_exception(std::move(pointer));
@@ -359,7 +361,7 @@ void bind_mesh(py::module_& module) {
       });
 }
 
-/// A face of a middle surface as the command's report names it.
+/// A middle face as a dict, with the keys that the command's report uses.
 py::dict face_dict(const MiddleFace& face) {
   py::dict result;
   result["area"] = face.area;

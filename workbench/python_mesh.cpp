@@ -1,4 +1,4 @@
-/// Meshes from arrays, as arrays, pickled, in notebooks; triangulations into quads.
+/// Meshes made from arrays, read as arrays, pickled, and shown in notebooks; quads made of triangulations.
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -59,8 +59,8 @@ Error wrong_shape(const char* name, const std::string& wanted) {
   return usage_error(name, fmt::format("{} must be an array of the shape {}", name, wanted));
 }
 
-/// The rows of an (n, columns) array of whole numbers; no array at all is one without rows.
-/// \param below what the first `bounded` columns must be below, and not negative.
+/// The rows of an (n, columns) array of integers; None gives no rows. Throws Error (usage) for other arrays.
+/// \param bounded number of leading columns that hold node indices, from 0 to `below` - 1.
 template <std::size_t columns>
 std::vector<std::array<int, columns>> rows(const char* name, const py::object& given, std::size_t bounded,
                                            std::size_t below) {
@@ -153,7 +153,7 @@ py::array triangle_face_ids(const py::object& self) {
   return view<int>(faces.data(), {static_cast<py::ssize_t>(faces.size())}, self);
 }
 
-/// (name, dimension, number, entities) of each.
+/// A list of tuples (name, dimension, number, entities), one per group.
 py::list list_of(const std::vector<ShellMesh::Group>& groups) {
   py::list result;
   for (const ShellMesh::Group& group : groups)
@@ -175,7 +175,7 @@ std::vector<ShellMesh::Group> groups_in(const py::handle& list) {
   return result;
 }
 
-/// What pickle keeps: the arguments of the constructor, and what became of the faces.
+/// What pickle stores: the constructor's arguments, face statuses, thicknesses, groups, and solid faces.
 py::tuple state_of(const py::object& self) {
   py::list varying;
   for (const ShellMesh::VaryingThickness& entry : mesh_of(self).mesh.varying_thicknesses)
@@ -214,8 +214,7 @@ PythonMesh from_state(const py::tuple& state) {
   return result;
 }
 
-/// The mesh as notebooks show it: a picture with its counts below; the counts alone where nothing can be
-/// drawn.
+/// The HTML that notebooks show: a picture with the counts below it, or the counts alone if drawing fails.
 std::string html_of(const py::object& self) {
   const std::string text = py::str(py::module_::import("html").attr("escape")(py::repr(self)));
   const py::object folder = py::module_::import("tempfile").attr("TemporaryDirectory")();

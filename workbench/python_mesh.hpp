@@ -1,5 +1,5 @@
 #pragma once
-/// Meshes as Python has them, over the public header alone.
+/// Meshes as Python sees them. Uses the public header alone.
 
 #include <pybind11/pybind11.h>
 
@@ -14,11 +14,11 @@
 
 namespace quadrille {
 
-/// A mesh with the arrays that Python sees; never changed once made, so that arrays can point into it.
+/// A mesh with the arrays that Python sees. It never changes once made, so NumPy arrays can point into it.
 struct PythonMesh {
   ShellMesh mesh;
-  std::vector<std::array<int, 8>> quads8;  ///< corners and midsides side by side, at second order
-  std::optional<RemeshFidelity> fidelity;  ///< of meshes that remesh() made
+  std::vector<std::array<int, 8>> quads8;  ///< second order only: corners, then midside nodes
+  std::optional<RemeshFidelity> fidelity;  ///< set only by remesh()
 
   explicit PythonMesh(ShellMesh made) : mesh(std::move(made)) {
     if (mesh.order != 2) return;
@@ -30,12 +30,12 @@ struct PythonMesh {
   }
 };
 
-/// A docstring whose first line, "name(self, path, *, title='')", is what inspect.signature() tells; defaults
-/// must be literals.
+/// A docstring whose first line is the signature, such as "name(self, path, *, title='')".
+/// inspect.signature() reads it, so default values must be literals.
 std::string documented(const std::string& signature, const std::string& text);
 
-/// Adds to the class Mesh what it makes of arrays and gives as arrays: its constructor, points, quads,
-/// triangles, face_ids, segments and corners, pickling, and the picture that notebooks show.
+/// Adds to the class Mesh its constructor from arrays, the array properties (points, quads, triangles, face
+/// ids, segments, corners), groups, recombined(), fidelity, pickling, and the picture that notebooks show.
 void bind_arrays(pybind11::class_<PythonMesh>& mesh);
 
 /// Adds the function recombine.

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What FreeCAD's macros import for the commands of Quadrille: FreeCAD records the import of the file that adds a command, by
-its bare name, so that one must be found by it."""
+"""Adds Quadrille's commands to FreeCAD. For a recorded macro, FreeCAD writes an import of the file that adds a command, by the
+file's bare name. So this file must be importable under its bare name."""
 
 
 def add(name: str, command) -> None:
-    """Makes a command known to FreeCAD."""
-    import FreeCADGui  # macros run without a window too
+    """Registers a command with FreeCAD."""
+    import FreeCADGui  # imported here since macros also run without a window
 
     FreeCADGui.addCommand(name, command)

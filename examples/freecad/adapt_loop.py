@@ -2,8 +2,9 @@
 
     scripts/freecad_python examples/freecad/adapt_loop.py [DOCUMENT.FCStd] [--error 0.03] [--rounds 6] [--save ADAPTED.FCStd]
 
-DOCUMENT has an analysis with a quad mesh, a CalculiX solver (CcxTools, or that of FreeCAD 1.1), material, thickness, supports and loads; without one a
-cantilever plate with a hole is taken, that of parameter_study.py. Loads and supports stay where they are: they refer to the part.
+DOCUMENT must have an analysis with a quad mesh, a CalculiX solver (CcxTools, or that of FreeCAD 1.1), material, thickness,
+supports and loads. Without DOCUMENT, the cantilever plate with a hole of parameter_study.py is used. Loads and supports stay
+valid, since they refer to the part.
 """
 
 import argparse
@@ -38,7 +39,7 @@ def sample():
 
 
 def solve(analysis, folder):
-    """One run of CalculiX by FreeCAD's solver object; the results of the last one go."""
+    """Runs CalculiX through FreeCAD's solver object. The results of the last run are removed."""
     for solver in solvers.solvers_of(analysis):
         if solver.Proxy.Type == "Fem::SolverCalculiX":  # from FreeCAD 1.1 on
             solve_to_pipeline(solver, folder)
@@ -59,7 +60,7 @@ def solve(analysis, folder):
 
 
 def solve_to_pipeline(solver, folder):
-    """The same by the solver object whose results are a pipeline."""
+    """Runs CalculiX through the solver object whose results are a pipeline."""
     from femsolver.calculix.calculixtools import CalculiXTools
 
     solver.WorkingDirectory = folder
@@ -72,7 +73,7 @@ def solve_to_pipeline(solver, folder):
 
 
 def largest_stress(analysis):
-    """The largest von Mises stress of the last result, MPa."""
+    """The largest von Mises stress in the result, MPa."""
     objects = [member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject")]
     if objects:
         return max(max(result.vonMises) for result in objects)

@@ -3,8 +3,8 @@
 
     scripts/freecad_python examples/freecad/adapt_study.py --out study.json [--case le1]
 
-Each round meshes, solves, estimates the error of the stresses by patch recovery, and writes the sizes for the next one.
-The cases are those of verification.py, and an L-shaped plate whose inner corner has no finite stress.
+Each round meshes, solves, estimates the error of the stresses by patch recovery, and writes the sizes for the next round.
+The cases are some of verification.py, and an L-shaped plate with infinite stress at its inner corner.
 """
 
 import argparse
@@ -21,30 +21,30 @@ import numpy as np
 import Part
 from FreeCAD import Vector
 
-import verification  # which makes quadrille known
+import verification  # puts quadrille on sys.path
 import quadrille.command
 from verification import Mesh, Problem, displacements, write_input
 
-MOST_ROUNDS = 10  #: of meshing and solving for each error wanted
+MOST_ROUNDS = 10  #: limit on rounds of meshing and solving for each wanted error
 OUTPUT = "*NODE PRINT, NSET=Nall\nU\n*NODE FILE, OUTPUT=3D\nU\n*EL FILE, OUTPUT=3D\nS\n"
 
 
 class Membrane(verification.EllipticMembrane):
-    """NAFEMS LE1; the stress at its inner end."""
+    """NAFEMS LE1. The answer is the stress at the inner end."""
 
     start, goals = 0.5, (0.02, 0.01, 0.005)
     uniform = (0.5, 0.35, 0.25, 0.17, 0.12, 0.08)
 
 
 class Hole(verification.PlateWithHole):
-    """The plate with a hole; the stress at its flank."""
+    """The plate with a hole. The answer is the stress at the hole's flank."""
 
     start, goals = 0.8, (0.02, 0.01, 0.005)
     uniform = (0.8, 0.55, 0.4, 0.28, 0.2, 0.14, 0.1)
 
 
 class Corner:
-    """An L of three squares, held at one end and pulled at the other: at its inner corner stresses have no end."""
+    """An L of three squares, held at one end and pulled at the other. The stress at its inner corner is infinite."""
 
     start, goals, reference = 0.25, (0.05, 0.02, 0.01), None
     uniform = (0.25, 0.17, 0.12, 0.08, 0.05, 0.035)
@@ -71,7 +71,7 @@ class FromFile:
     """A shell from a CAD file, clamped in one plane and pulled along (1, 0, 1) at its edges in another."""
 
     goals, reference = (0.05, 0.02, 0.01), None
-    arguments = None  #: of the command line
+    arguments = None  #: the parsed command line
 
     def __init__(self):
         self._shape = Part.read(self.arguments.part)
@@ -84,7 +84,7 @@ class FromFile:
 
     @staticmethod
     def plane(text):
-        """The distance from a plane such as x=20."""
+        """A function that returns the distances of points from a plane such as x=20."""
         axis, value = text.split("=")
         return lambda points: points[:, "xyz".index(axis)] - float(value)
 
@@ -101,7 +101,7 @@ CASES = {"le1": Membrane, "hole": Hole, "corner": Corner, "cylinder": Cylinder}
 
 
 def run(*arguments):
-    """The quadrille command; its output."""
+    """Runs the quadrille command. Returns its output."""
     done = subprocess.run([str(quadrille.command.find_command()), *map(str, arguments)], capture_output=True, text=True,
                           timeout=600, check=False)
     if done.returncode != 0:
@@ -110,7 +110,7 @@ def run(*arguments):
 
 
 class Study:
-    """One case in a folder."""
+    """One case, with its files in a folder."""
 
     def __init__(self, case, folder):
         self.case, self.folder = case, Path(folder)
@@ -118,7 +118,7 @@ class Study:
         case.shape().exportBrep(str(self.part))
 
     def solve(self, *options):
-        """Meshes and solves; elements, the answer, and the force times what it moves."""
+        """Meshes and solves. Returns the number of quads, the work of the loads, and the answer if the case has one."""
         run("mesh", self.part, "-o", self.folder / "mesh.msh", "--order", 2, "--quiet", *options)
         mesh = Mesh.of_msh((self.folder / "mesh.msh").read_text())
         problem = self.case.problem(mesh)
@@ -131,19 +131,19 @@ class Study:
         return {"quads": len(mesh.elements), "energy": energy, **self.answer(mesh, moved)}
 
     def answer(self, mesh, moved):
-        """What the case is judged by, where it is no energy."""
+        """The quantity that the case is judged by; empty if that is the energy."""
         if isinstance(self.case, (Corner, FromFile)):
             return {}
         if isinstance(self.case, Cylinder):
             top, bottom = mesh.at(0, 300, 0), mesh.at(0, -300, 0)
             return {"answer": (moved[bottom, 1] - moved[top, 1]) / 2}
-        # The solver's own nodes come first; results of bricks are at nodes behind them, two or three to one of ours.
+        # Our nodes come first in the .frd file. The results of bricks are at later nodes, two or three for each of ours.
         frd = (self.folder / "case.frd").read_text()
         place, axis = ((2, 0, 0), 1) if isinstance(self.case, Membrane) else ((0, 1, 0), 0)
         return {"answer": stress_at(frd, np.array(place, dtype=float), axis)}
 
     def estimate(self, *options):
-        """The estimated error of the last solution; sizes for the next."""
+        """Estimates the error of the last solution, and writes sizes for the next round. Returns the report."""
         report = self.folder / "adapt.json"
         run("adapt", self.folder / "mesh.msh", self.folder / "case.frd", "-o", self.folder / "sizes.vdb", "--quiet",
             "--report", report, *options)
@@ -151,7 +151,7 @@ class Study:
 
 
 def stress_at(frd, place, axis):
-    """A component of the mean stress of the bricks' nodes nearest to a place, seen from above."""
+    """A stress component at a place in the xy plane, averaged over all nodes of the bricks there."""
     points, values, block = {}, {}, ""
     for line in frd.splitlines():
         if line.startswith("    2C"):
@@ -171,7 +171,7 @@ def stress_at(frd, place, axis):
 
 
 def study(name):
-    """Uniform and adapted meshes of one case."""
+    """Solves one case with uniform and with adapted meshes."""
     case, rows = CASES.get(name, FromFile)(), []
     with tempfile.TemporaryDirectory() as folder:
         this = Study(case, folder)
@@ -195,7 +195,7 @@ def study(name):
 
 
 def plot(rows, path):
-    """The estimated errors over the numbers of elements."""
+    """Plots the estimated errors over the numbers of elements."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -214,7 +214,7 @@ def plot(rows, path):
 
 
 def uniform_quads(rows, error):
-    """How many quads uniform meshes take for an error: between those that were solved, or by the slope of the two nearest."""
+    """The number of quads that uniform meshes need for an error, inter- or extrapolated from the two nearest solved meshes."""
     points = np.log([(row["estimate"], row["quads"]) for row in rows if row["kind"] == "uniform"])
     points = points[np.argsort(points[:, 0])]
     at = int(np.clip(np.searchsorted(points[:, 0], np.log(error)), 1, len(points) - 1))

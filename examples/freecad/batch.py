@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes every CAD file of a folder, and goes on when one fails.
+"""Meshes every CAD file in a folder, and continues if one fails.
 
     scripts/freecad_python examples/freecad/batch.py FOLDER --out FOLDER [--quads 5000]
 
-writes an .inp for CalculiX beside an .FCStd for each, and prints a table. The exit code is 1 when one failed.
+Writes an .inp file for CalculiX and an .FCStd file for each, and prints a table. The exit code is 1 if one failed.
 """
 
 import argparse
@@ -21,7 +21,7 @@ SUFFIXES = {".step", ".stp", ".iges", ".igs", ".brep"}
 
 
 def main():
-    """The table, and the files."""
+    """Writes the files and prints the table."""
     parser = argparse.ArgumentParser()
     parser.add_argument("folder", type=Path)
     parser.add_argument("--out", type=Path, required=True)

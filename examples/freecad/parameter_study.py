@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A parameter study: the sag of a cantilever plate with a hole, over thickness and hole diameter.
+"""A parameter study: the deflection of a cantilever plate with a hole, for several thicknesses and hole diameters.
 
     scripts/freecad_python examples/freecad/parameter_study.py [--out study.csv]
 
-The part is parametric. When the hole changes, the mesh object says that it is stale, and remesh() meshes it again;
-the groups of the constraints follow. CalculiX solves through FreeCAD's solver object.
+The part is parametric. When the hole changes, the mesh object reports that it is stale, and remesh() meshes it again. The
+groups of the constraints are updated. FreeCAD's solver object runs CalculiX.
 """
 
 import argparse
@@ -47,7 +47,7 @@ def edge_at(shape, x):
 
 
 def make_analysis(document, part):
-    """Clamped on the left, pushed down on the right."""
+    """An analysis of the plate, clamped on the left and pushed down on the right."""
     analysis = ObjectsFem.makeAnalysis(document, "Analysis")
     make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
     solver = analysis.addObject(make_solver(document, "CalculiX"))[0]
@@ -64,7 +64,7 @@ def make_analysis(document, part):
 
 
 def sag(analysis, solver):
-    """The largest displacement that CalculiX finds."""
+    """The largest vertical displacement that CalculiX finds."""
     from femtools import ccxtools
 
     fea = ccxtools.FemToolsCcx(analysis, solver)
@@ -84,7 +84,7 @@ def sag(analysis, solver):
 
 
 def main():
-    """The table."""
+    """Runs the study and prints the table."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--out", help="write the table as .csv")
     arguments = parser.parse_args()
@@ -117,7 +117,7 @@ def main():
             writer = csv.DictWriter(file, fieldnames=list(rows[0]))
             writer.writeheader()
             writer.writerows(rows)
-    # A strip without a hole sags by F L^3 / (3 E I); a hole makes it sag more, twice the thickness an eighth.
+    # A strip without a hole deflects by F L^3 / (3 E I). A hole increases this; twice the thickness gives an eighth.
     solid = FORCE * LENGTH**3 / (3 * YOUNG * WIDTH / 12)
     if not 0.9 * solid < rows[0]["sag"] < 1.2 * solid or not rows[0]["sag"] < rows[2]["sag"] < rows[4]["sag"]:
         sys.exit(f"the sags make no sense beside {solid:.4f} of a strip without a hole")

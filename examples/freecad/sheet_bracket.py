@@ -3,9 +3,9 @@
 
     scripts/freecad_python examples/freecad/sheet_bracket.py [--size 3] [--out out/sample]
 
-In FreeCAD: the solid, its middle surface with the thickness, supports and loads that were picked on the solid's faces and move to
-the middle surface, a mirror-symmetric mesh of quads, CalculiX. Writes out/sample.FCStd, out/sample.inp (for CalculiX, complete) and
-out/sample.png. Four bolts hold the foot; 100 N pull at the four screws in the wall, along the bore.
+Steps in FreeCAD: the solid; its middle surface with the thickness; supports and loads, picked on the solid's faces and moved
+to the middle surface; a mirror-symmetric quad mesh; CalculiX. Writes out/sample.FCStd, out/sample.inp (the complete input for
+CalculiX) and out/sample.png. Four bolts hold the foot. 100 N pull at the four screws in the wall, along the bore.
 """
 
 import argparse
@@ -31,13 +31,13 @@ FORCE, BOLT, SCREW = 100.0, 4.0, 2.75  # N; the radii of the holes, mm
 
 
 def holes(shape, radius):
-    """The names of the cylindrical faces of a radius."""
+    """The names of the cylindrical faces with this radius."""
     return [f"Face{i}" for i, face in enumerate(shape.Faces, 1)
             if isinstance(face.Surface, Part.Cylinder) and abs(face.Surface.Radius - radius) < 1e-6]
 
 
 def make_analysis(document, part):
-    """What a user picks on the solid: bolts, pull, steel."""
+    """An analysis as a user would set it up on the solid: bolts, pull, steel."""
     analysis = ObjectsFem.makeAnalysis(document, "Analysis")
     make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
     solver = analysis.addObject(make_solver(document, "CalculiX"))[0]
@@ -57,8 +57,8 @@ def make_analysis(document, part):
 
 
 def solve(analysis, solver, inp):
-    """Writes CalculiX's input and solves; returns the result object and the force that the bolts hold, N; None and None where there
-    is no CalculiX."""
+    """Writes CalculiX's input and solves. Returns the result object and the force that the bolts hold, in N; (None, None) if
+    CalculiX is not installed."""
     from femtools import ccxtools
 
     fea = ccxtools.FemToolsCcx(analysis, solver)
@@ -82,8 +82,8 @@ def solve(analysis, solver, inp):
 
 
 def as_arrays(fem_mesh):
-    """Numbers and points of the nodes; the corners of quads and of hexahedra, as rows of the points."""
-    nodes = fem_mesh.Nodes  # a copy each time
+    """The node numbers and points, and the corners of quads and of hexahedra, as row indices into the points."""
+    nodes = fem_mesh.Nodes  # each access makes a copy
     numbers = sorted(nodes)
     rows = {number: row for row, number in enumerate(numbers)}
     corners = [np.array([[rows[node] for node in fem_mesh.getElementNodes(element)[:count]] for element in elements])
@@ -92,7 +92,7 @@ def as_arrays(fem_mesh):
 
 
 def outlines(shape):
-    """Points on the edges of a shape, and the pairs of them that lines join."""
+    """Points on the edges of a shape, and the pairs of points that are joined by lines."""
     points, pairs = [], []
     for edge in shape.Edges:
         run = edge.discretize(Deflection=0.02)
@@ -102,7 +102,7 @@ def outlines(shape):
 
 
 def skin_of(hexahedra):
-    """The sides of hexahedra that only one of them has."""
+    """The sides of hexahedra that belong to only one of them."""
     faces = np.concatenate([hexahedra[:, side] for side in
                             ([0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7])])
     _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
@@ -110,7 +110,7 @@ def skin_of(hexahedra):
 
 
 def draw(part, surface, mesh, result, path):
-    """The solid, the middle surface with its mesh and the stresses, side by side."""
+    """Draws the solid, the middle surface with its mesh, and the stresses side by side."""
     data = {"solid_title": "A solid of sheet metal", "solid_text": f"{len(part.Shape.Faces)} faces",
             "mesh_title": "Its middle surface, meshed",
             "mesh_text": f"{mesh.QuadCount} quads, {' and '.join(f'{mm:g}' for mm in thicknesses(surface))} mm thick"}
@@ -137,12 +137,12 @@ def draw(part, surface, mesh, result, path):
 
 
 def thicknesses(surface):
-    """Of a middle surface, mm, ascending."""
+    """The different thicknesses of a middle surface, mm, ascending."""
     return sorted({float(f"{thickness:.6g}") for thickness in surface.Thicknesses})
 
 
 def job(out, size):
-    """From the solid to the picture. Returns the middle surface, the mesh, the result and the force that the bolts hold."""
+    """Does all steps from the solid to the picture. Returns the middle surface, the mesh, the result and the bolts' force."""
     document = FreeCAD.newDocument("Bracket")
     part = document.addObject("Part::Feature", "Bracket")
     part.Shape = Part.read(str(Path(__file__).with_suffix(".step")))

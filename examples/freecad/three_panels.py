@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws a thin solid, its mesh and its stresses side by side, by VTK.
+"""Draws a thin solid, its mesh and its stresses side by side, with VTK.
 
     xvfb-run -a python3 examples/freecad/three_panels.py DATA.npz PICTURE.png
 
-Run by sheet_bracket.py, which writes DATA.npz; it is a process of its own since VTK wants a display."""
+sheet_bracket.py writes DATA.npz and runs this script. It is a separate process since VTK needs a display."""
 
 import sys
 
@@ -11,12 +11,12 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 
-WIDTH, HEIGHT, BAR = 610, 700, 110  # of a panel and of the color bar, pixels
+WIDTH, HEIGHT, BAR = 610, 700, 110  # panel width, height, and width of the color bar, pixels
 INK = (0.10, 0.12, 0.16)
 
 
 def surface(points, polygons, color=(1, 1, 1), scalars=None, colors=None):
-    """An actor of polygons, all of one number of corners, behind the lines on them."""
+    """An actor of polygons with equal numbers of corners, drawn behind lines on them."""
     cells, places, data = vtk.vtkCellArray(), vtk.vtkPoints(), vtk.vtkPolyData()
     rows = np.hstack([np.full((len(polygons), 1), polygons.shape[1]), polygons]).astype(np.int64)
     cells.SetCells(len(polygons), numpy_to_vtkIdTypeArray(rows.ravel(), deep=True))
@@ -69,7 +69,7 @@ def sides(polygons):
 
 
 def rainbow(largest):
-    """Dark blue over green and yellow to red, with the range of the stresses."""
+    """A color table from dark blue through green and yellow to red, for stresses from 0 to the largest."""
     stops = ((0, 0.16, 0.22, 0.55), (0.2, 0.13, 0.50, 0.72), (0.4, 0.35, 0.73, 0.60), (0.6, 0.78, 0.88, 0.45),
              (0.8, 0.98, 0.68, 0.26), (1, 0.75, 0.05, 0.12))
     table = vtk.vtkLookupTable()
@@ -84,7 +84,7 @@ def rainbow(largest):
 
 
 def text(words, x, y, size, bold=False, color=INK):
-    """An actor of a line of text, at shares of the panel's width and height."""
+    """An actor of a line of text; x, y: its position as fractions of the panel's width and height."""
     actor = vtk.vtkTextActor()
     actor.SetInput(words)
     actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
@@ -97,7 +97,7 @@ def text(words, x, y, size, bold=False, color=INK):
 
 
 def color_bar(colors):
-    """At the right of the picture."""
+    """The color bar at the right of the picture."""
     bar = vtk.vtkScalarBarActor()
     bar.SetLookupTable(colors)
     bar.SetTitle("MPa")
@@ -118,7 +118,7 @@ def color_bar(colors):
 
 
 def panels(data):
-    """The actors of each panel, and its title and second line."""
+    """A list with each panel's actors, title, and second line."""
     points, triangles = data["solid_points"], data["solid_triangles"]
     solid = [surface(points, triangles, (0.66, 0.74, 0.83)), lines(data["edge_points"], data["edge_pairs"], 2)]
     points, quads = data["mesh_points"], data["mesh_quads"]
@@ -134,7 +134,7 @@ def panels(data):
 
 
 def aimed(camera, points, aspect):
-    """Looks at the points from above a corner, as near as they all fit below the title."""
+    """Places the camera above a corner, as near as possible so that all points fit below the title."""
     towards = np.array([1.0, -0.78, 0.82])
     towards /= np.linalg.norm(towards)
     right = np.cross([0, 0, 1], towards)
@@ -153,7 +153,7 @@ def aimed(camera, points, aspect):
 
 
 def viewport(window, first, last, props):
-    """A renderer between two columns of pixels, with what it shows."""
+    """Adds a renderer between two pixel columns of the window, with its props."""
     width = window.GetSize()[0]
     renderer = vtk.vtkRenderer()
     renderer.SetViewport(first / width, 0, last / width, 1)

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Known answers of shell and plane problems, with meshes of Quadrille and of Gmsh and with structured grids, in CalculiX.
+"""Solves shell and plane problems with known answers in CalculiX, on meshes of Quadrille and of Gmsh and on structured grids.
 
     scripts/freecad_python examples/freecad/verification.py                       # every case, checked
     scripts/freecad_python examples/freecad/verification.py --case hemisphere     # one case
     scripts/freecad_python examples/freecad/verification.py --case modes --mesher grid
     scripts/freecad_python examples/freecad/verification.py --converge out.json   # all meshers, several sizes
 
-The CAD is made in FreeCAD, Quadrille's mesh is a FEM mesh object of second order, the loads are exact ones: points, or
-edge tractions integrated over the curved element edges. Supports and loads are found by position, so that all meshers
-get the same problem. Shells are S8R (triangles S6), plane stress is CPS8R (CPS6). Units are the problem's own.
+The CAD is made in FreeCAD, and Quadrille's mesh is a second-order FEM mesh object. The loads are exact: point forces, or
+edge tractions integrated over the curved element edges. Supports and loads are found by position, so all meshers get the
+same problem. Shells are S8R (triangles S6), plane stress is CPS8R (CPS6). Each problem has its own units.
 
-Gmsh is run by its command, its quads with Blossom, which leaves some triangles: its full-quad mode refuses surfaces of
-revolution, its frontal points for quads crash version 4.8.4, and FreeCAD 0.20's Gmsh object gives four-node quads
-beside six-node triangles when it is asked for quads of second order.
+Gmsh runs as a command, with Blossom for quads, which leaves some triangles. Its full-quad mode refuses surfaces of
+revolution, its frontal points for quads crash version 4.8.4, and FreeCAD 0.20's Gmsh object gives four-node quads and
+six-node triangles when asked for second-order quads.
 """
 
 import argparse
@@ -56,7 +56,7 @@ CASES = {
 
 
 def mesh_with(mesher, part, size, refined=(), share=1.0):
-    """A second-order mesh of a part; at the points `refined` of that share of the size."""
+    """A second-order mesh of a part. At the points `refined`, the size is `share` times `size`."""
     if mesher == "quadrille":
         names = {f"Vertex{i}": share * size for i, vertex in enumerate(part.Shape.Vertexes, 1)
                  if any(vertex.Point.isEqual(Vector(*point), 1e-6) for point in refined)}
@@ -82,7 +82,7 @@ def mesh_with(mesher, part, size, refined=(), share=1.0):
 
 
 def graded_script(model, size, refined, share, growth=0.3):
-    """Gmsh's script for sizes that grow from points, as Quadrille's do."""
+    """A Gmsh script for sizes that grow away from points, like Quadrille's."""
     boxes = [", ".join(str(value + side) for side in (-1e-6, 1e-6) for value in point) for point in refined]
     found = "\n".join(f"found() += Point In BoundingBox {{{box}}};" for box in boxes)
     return (f'SetFactory("OpenCASCADE");\nMerge "{model}";\nfound() = {{}};\n{found}\n'
@@ -93,7 +93,7 @@ def graded_script(model, size, refined, share, growth=0.3):
 
 
 def run(name, mesher, size):
-    """One answer; returns a dictionary for the table. Raises RuntimeError where there is no mesh, or no answer."""
+    """Solves one case. Returns a dictionary for the table. Raises RuntimeError if there is no mesh or no answer."""
     case = CASES[name]()
     document = FreeCAD.newDocument("Verification")
     try:
@@ -116,7 +116,7 @@ def run(name, mesher, size):
 
 
 def print_shells():
-    """The error of each of CalculiX's shell elements in the bending patch tests."""
+    """Prints the error of each of CalculiX's shell elements in the bending patch tests."""
     for case in (SkewBendingPatch(), QuadrangleBendingPatch(), CutBendingPatch()):
         document = FreeCAD.newDocument("Verification")
         part = document.addObject("Part::Feature", "Part")
@@ -128,12 +128,12 @@ def print_shells():
 
 
 def error_of(row):
-    """The error: in percent, or absolute where the reference is 0."""
+    """The error in percent, or the absolute error if the reference is 0."""
     return abs(row["value"]) if row["reference"] == 0 else 100 * (row["value"] / row["reference"] - 1)
 
 
 def keep_rows(path, rows):
-    """Writes rows to a file, in place of its rows of the same cases and meshers, in the order of the cases."""
+    """Writes rows to a file, sorted by case and mesher. They replace its rows of the same cases and meshers."""
     present = json.loads(path.read_text(encoding="utf-8")) if path.exists() else []
     made = {(row["case"], row["mesher"]) for row in rows}
     rows = [row for row in present if (row["case"], row["mesher"]) not in made] + rows
@@ -142,7 +142,7 @@ def keep_rows(path, rows):
 
 
 def main():
-    """Checks the cases, or follows their convergence."""
+    """Checks the cases, or runs convergence studies."""
     parser = argparse.ArgumentParser(description="Known answers, with Quadrille and CalculiX.")
     parser.add_argument("--case", choices=sorted(CASES), action="append")
     parser.add_argument("--converge", help="follow meshers over several sizes; their rows in this .json are made anew")

@@ -12,8 +12,8 @@ Inside FreeCAD, use the layer that runs the mesher as a child process and never 
     import quadrille.freecad
     quadrille.freecad.mesh_object(App.ActiveDocument.Part, size=2.0)
 
-The compiled part, `quadrille._quadrille`, is loaded when something of it is first asked for, so that importing
-`quadrille` and `quadrille.freecad` needs Python alone.
+The compiled part, `quadrille._quadrille`, is loaded when one of its names is first used. Importing `quadrille` or
+`quadrille.freecad` does not need it.
 """
 
 from .errors import Error
@@ -26,7 +26,7 @@ _COMPILED = frozenset(__all__) - {"Error", "__version__"}
 
 def __getattr__(name: str):
     """Loads the compiled part on demand (PEP 562)."""
-    if name == "__version__":  # of the addon too, which has no compiled part
+    if name == "__version__":  # the addon, which has no compiled part, needs it too
         from .command import VERSION
 
         return VERSION
@@ -40,7 +40,7 @@ def __getattr__(name: str):
 
 
 def _why_missing(error: ImportError) -> str:
-    """Why the compiled module cannot be loaded, and what to do."""
+    """Why the compiled module cannot be loaded, and what to do about it."""
     from pathlib import Path
 
     others = sorted(path.name for path in Path(__file__).parent.glob("_quadrille.*"))

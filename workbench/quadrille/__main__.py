@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the `quadrille` command: `python -m quadrille mesh part.step -o part.inp`, and the command of the wheel."""
+"""Runs the `quadrille` command: for `python -m quadrille mesh part.step -o part.inp`, and as the wheel's console script."""
 
 import os
 import sys
@@ -9,7 +9,7 @@ from .errors import Error
 
 
 def main() -> None:
-    """Becomes the command, with this process's arguments."""
+    """Replaces this process with the command, keeping the arguments."""
     try:
         command = find_command()
     except Error as error:

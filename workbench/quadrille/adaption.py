@@ -4,8 +4,8 @@
     import quadrille.adaption
     quadrille.adaption.adapt(App.ActiveDocument.QuadMesh, error=0.03)
 
-takes the result that is in the mesh's analysis, and puts a new mesh into the same mesh object: what refers to the part, as loads,
-supports, thicknesses and materials do, holds for it too. Then solve again. Needs results at the surfaces of the shell (the solver's
+adapt() takes the result in the mesh's analysis and puts a new mesh into the same mesh object. Loads, supports, thicknesses and
+materials refer to the part, so they stay valid. Then solve again. The solver must give results at the surfaces of the shell (its
 property BeamShellResultOutput3D). Runs inside FreeCAD."""
 
 import os
@@ -24,46 +24,46 @@ from .state import ADAPTED, FOLLOWS
 
 
 class Estimate(NamedTuple):
-    """The error of a solution, and the mesh that would have the one wanted."""
+    """The error of a solution, and the mesh that would reach the wanted error."""
 
-    error: float  #: of the stresses, in the energy norm, as a share of the whole
-    quads: int  #: of the mesh that was solved
-    quads_wanted: float  #: about how many the next mesh has
-    size_min: float  #: least of its sizes, mm
-    size_max: float  #: largest of its sizes, mm
+    error: float  #: relative error of the stresses in the energy norm
+    quads: int  #: number of quads in the mesh that was solved
+    quads_wanted: float  #: approximate number of quads in the next mesh
+    size_min: float  #: smallest size in the next mesh, mm
+    size_max: float  #: largest size in the next mesh, mm
 
 
 class _Round(NamedTuple):
-    """A round that is done but for the document."""
+    """A finished round of adapting that is not yet stored in the document."""
 
     estimate: Estimate
-    folder: object  #: that holds the sizes
-    properties: Dict[str, Any]  #: of the mesh object, new
-    job: Optional[core.ShapeJob]  #: that has made the mesh; None where the error is small enough
+    folder: object  #: scratch folder that holds the sizes
+    properties: Dict[str, Any]  #: new property values of the mesh object
+    job: Optional[core.ShapeJob]  #: the job that has made the mesh; None if the error is small enough already
 
 
 def estimate(mesh, result=None, command: Optional[str] = None) -> Estimate:
-    """The error of the result in a mesh object's analysis, or of another one; the sizes are those for 5 %."""
+    """Estimates the error of a result; None = the last one in the mesh object's analysis. The sizes are for an error of 5 %."""
     with scratch_folder() as folder:
         return _estimate(mesh, result, [], folder, None, command)
 
 
 def adapt(mesh, error: float = 0.05, count: Optional[float] = None, result=None, progress: Optional[Progress] = None,
           command: Optional[str] = None) -> Estimate:
-    """Meshes anew, with sizes that spread the error of the result evenly.
+    """Remeshes with sizes that spread the error of the result evenly.
 
     Args:
         mesh: a mesh object, in an analysis that was solved with this mesh.
-        error: error of the stresses that is wanted, in the energy norm, as a share of the whole.
-        count: number of elements wanted, in place of an error.
-        result: the result to take; None = the last one in the mesh's analysis.
+        error: wanted relative error of the stresses, in the energy norm.
+        count: wanted number of elements, instead of an error.
+        result: the result to use; None = the last one in the mesh's analysis.
         progress: called with the stage and the fraction of the work done; returning False cancels.
 
     Returns:
-        the estimate for the mesh that was solved. Where its error is below the one wanted, the mesh stays as it is.
+        the estimate for the mesh that was solved. Without `count`, the mesh stays as it is if its error is not above `error`.
 
     Raises:
-        Error: with one sentence, the document unchanged.
+        Error: with one sentence; the document is then unchanged.
     """
     done = _ready.pop(_key(mesh), None) or _prepare(mesh, error, count, result, progress, command)
     try:
@@ -82,8 +82,8 @@ def adapt(mesh, error: float = 0.05, count: Optional[float] = None, result=None,
 
 
 def prepare(mesh, error: float = 0.05, count: Optional[float] = None, progress: Optional[Progress] = None) -> None:
-    """Does the work of the adapt() that follows at once, while a window shows its progress: so it is a command that macros
-    can record."""
+    """Does the work of the adapt() call that follows immediately, while a window shows the progress. The adapt() call itself is
+    then quick, and macros can record it."""
     _ready[_key(mesh)] = _prepare(mesh, error, count, None, progress, None)
 
 
@@ -95,7 +95,7 @@ def _key(mesh) -> Tuple[str, str]:
 
 
 def _prepare(mesh, error, count, result, progress, command) -> _Round:
-    """All that can go wrong, before the document is touched."""
+    """Does everything that can fail, before the document is changed."""
     if mesh.SizeField:
         raise Error(f"{mesh.Label}: its SizeField is in the place of the sizes that follow results: clear it first", "usage",
                     "SizeField")
@@ -137,7 +137,7 @@ def _estimate(mesh, result, aim: List[str], folder: str, progress: Optional[Prog
 
 
 def _last_result(mesh, analysis):
-    """The last result object in an analysis, or what FreeCAD 1.1's CalculiX gives instead: a pipeline."""
+    """The last result object in an analysis, or the last pipeline, which FreeCAD 1.1's CalculiX creates instead."""
     listed = [result for solver in solvers.solvers_of(analysis) for result in getattr(solver, "Results", ())]
     found = [member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject")
              and getattr(member, "DisplacementVectors", None) and getattr(member, "Mesh", None) is not None
@@ -152,7 +152,7 @@ def _is_pipeline(result) -> bool:
 
 
 def _poisson(analysis) -> float:
-    """Poisson's ratio of the first material that tells one; 0.3 where none does."""
+    """Poisson's ratio of the first material that has one; 0.3 if none has."""
     for member in analysis.Group:
         text = getattr(member, "Material", None)
         if isinstance(text, dict) and text.get("PoissonRatio"):
@@ -161,7 +161,7 @@ def _poisson(analysis) -> float:
 
 
 def _write_shells(path: str, fem_mesh) -> None:
-    """The quads of a mesh as a file of CalculiX's."""
+    """Writes the quads of a mesh as a CalculiX input file."""
     numbers, points = nodes_of(fem_mesh)
     lines = ["*NODE", *(f"{number},{x:.17g},{y:.17g},{z:.17g}" for number, (x, y, z) in zip(numbers, points))]
     elements = [(face, fem_mesh.getElementNodes(face)) for face in sorted(fem_mesh.Faces)]
@@ -173,20 +173,20 @@ def _write_shells(path: str, fem_mesh) -> None:
         file.write("\n".join(lines) + "\n")
 
 
-#: VTK's number of a brick, and where its nodes are in FreeCAD's list, which has the top first: bottom, top, and with twenty
-#: nodes the sides of the bottom, of the top, and those that stand upright.
+#: By the number of nodes of a brick: VTK's cell type, and the positions of VTK's nodes in FreeCAD's list, which has the top
+#: first. VTK's order: bottom, top; with twenty nodes also the midside nodes of the bottom, of the top, and of the upright edges.
 _BRICKS = {8: (12, [4, 5, 6, 7, 0, 1, 2, 3]),
            20: (25, [4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11, 16, 17, 18, 19])}
 
 
 class _Bricks(NamedTuple):
-    """The bricks that CalculiX made of the shells, and how they moved."""
+    """The bricks that CalculiX made of the shells, and their displacements."""
 
-    points: np.ndarray  #: (n, 3)
-    moved: np.ndarray  #: (n, 3)
-    nodes: np.ndarray  #: of all bricks, one after another, as VTK has them
-    ends: np.ndarray  #: in `nodes`, of each brick
-    kinds: np.ndarray  #: VTK's numbers
+    points: np.ndarray  #: (n, 3) node coordinates
+    moved: np.ndarray  #: (n, 3) node displacements
+    nodes: np.ndarray  #: the nodes of all bricks, one brick after another, in VTK's order
+    ends: np.ndarray  #: where the nodes of each brick end in `nodes`
+    kinds: np.ndarray  #: VTK's cell type of each brick
 
 
 def _bricks_of(result, analysis) -> _Bricks:
@@ -225,7 +225,7 @@ def _bricks_of_pipeline(pipeline) -> _Bricks:
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     grid = pipeline.Data
-    while hasattr(grid, "GetNumberOfBlocks"):  # the last of several steps
+    while hasattr(grid, "GetNumberOfBlocks"):  # take the last of several steps
         blocks = [grid.GetBlock(number) for number in range(grid.GetNumberOfBlocks())]
         grid = next((block for block in reversed(blocks) if block is not None), None)
     moved = grid.GetPointData().GetArray("Displacement") if grid is not None else None
@@ -237,7 +237,7 @@ def _bricks_of_pipeline(pipeline) -> _Bricks:
 
 
 def _write_bricks(path: str, bricks: _Bricks) -> None:
-    """As a .vtu file."""
+    """Writes the bricks and their displacements as a .vtu file."""
     with open(path, "w", encoding="ascii") as file:
         file.write('<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">\n'
                    f'<UnstructuredGrid><Piece NumberOfPoints="{len(bricks.points)}" NumberOfCells="{len(bricks.kinds)}">\n')

@@ -3,10 +3,10 @@
 
     python3 -m quadrille.batch FOLDER -o OUT [--workers 4] [--scheduler tcp://host:8786] [--size 2 ...]
 
-Each part is meshed by a run of the `quadrille` command of its own, whose failure or crash ends nothing else; Dask hands the
-parts out (Debian: python3-distributed). OUT gets each part's mesh, picture and record; a later run with the same options
-meshes only what is new or has changed, and what a lost worker or a full disk has stopped. OUT/report.csv and OUT/report.html
-tell of all parts.
+Each part is meshed by its own run of the `quadrille` command, so a failure or crash affects no other part. Dask distributes
+the parts (Debian: python3-distributed). OUT gets each part's mesh, picture and record. A later run with the same options
+meshes only parts that are new or have changed, or that failed because of a lost worker or a full disk. OUT/report.csv and
+OUT/report.html list all parts.
 """
 
 import argparse
@@ -27,28 +27,28 @@ from .setting_table import SETTINGS
 
 ENDINGS = (".step", ".stp", ".iges", ".igs", ".brep")
 FORMATS = ("msh", "inp", "unv", "med", "vtu", "vtk", "bdf")
-#: Seconds for a part, and for reading it, unless --time-limit and --read-time-limit say otherwise.
+#: Time limit in seconds for a part, and for reading it, unless --time-limit or --read-time-limit is given.
 TIME_LIMIT = 300
 #: The columns of the report.
 COLUMNS = ("part", "status", "quads", "q_mean", "q_min", "outside_percent", "seconds", "reason")
-#: A worker that dies takes its part along; it is tried once more on another.
+#: How often a part is tried: when a worker dies, its part is tried once more on another worker.
 _TRIES = 2
 
 
 class Task(NamedTuple):
     """One part to mesh."""
 
-    part: str  #: path in the folder
+    part: str  #: path relative to the input folder
     model: str
     mesh: str
     picture: Optional[str]
     record: str
-    key: str  #: of the file and the options
+    key: str  #: identifies the file's state and the options
     arguments: List[str]  #: options of `quadrille mesh`
 
 
 class _Arguments:
-    """Options as they are, in the place of settings."""
+    """Command-line options as they are, used instead of MeshSettings."""
 
     def __init__(self, arguments: List[str]) -> None:
         self._arguments = arguments
@@ -59,7 +59,7 @@ class _Arguments:
 
 
 def mesh_part(task: Task, command: Optional[str]) -> Dict[str, Any]:
-    """Meshes a part in a child process, and writes its record, whatever comes of it."""
+    """Meshes a part in a child process. Writes and returns its record, whether meshing succeeds or fails."""
     start = time.monotonic()
     record: Dict[str, Any] = {"part": task.part, "key": task.key, "status": "failed", "reason": ""}
     try:
@@ -84,7 +84,7 @@ def _measures(report: Dict[str, Any]) -> Dict[str, Any]:
 
 
 def write_record(path: str, record: Dict[str, Any]) -> None:
-    """The record appears whole or not at all."""
+    """Writes a record completely or not at all."""
     target = Path(path)
     target.parent.mkdir(parents=True, exist_ok=True)
     scratch = target.with_suffix(f".{os.getpid()}.part")
@@ -93,7 +93,7 @@ def write_record(path: str, record: Dict[str, Any]) -> None:
 
 
 def parts_of(folder: Path) -> List[Path]:
-    """The CAD files in a folder and below, in the order of their names."""
+    """The CAD files in a folder and its subfolders, sorted by path."""
     if not folder.is_dir():
         raise Error(f"{folder}: is no folder", "usage", str(folder))
     found = sorted(path for path in folder.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file())
@@ -103,7 +103,7 @@ def parts_of(folder: Path) -> List[Path]:
 
 
 def tasks_of(options: argparse.Namespace) -> List[Task]:
-    """What there is to mesh. Files whose names differ only in their endings get meshes of their own."""
+    """The parts to mesh. Files whose names differ only in their endings get separate meshes."""
     folder, out = Path(options.folder).resolve(), Path(options.output).resolve()
     arguments = setting_arguments(options)
     tasks = []
@@ -118,7 +118,7 @@ def tasks_of(options: argparse.Namespace) -> List[Task]:
 
 
 def setting_arguments(options: argparse.Namespace) -> List[str]:
-    """The options of `quadrille mesh` that were given."""
+    """The options of `quadrille mesh` that were given, and time limits where none were given."""
     arguments: List[str] = []
     for setting in SETTINGS:
         value = getattr(options, setting["name"], None)
@@ -148,19 +148,19 @@ def done_before(task: Task) -> Optional[Dict[str, Any]]:
 
 
 def _client(options: argparse.Namespace):
-    """Dask's client, of a scheduler that is there or of a cluster of this machine's cores."""
+    """Dask's client, connected to the scheduler that was asked for, or to a new cluster on this machine's cores."""
     try:
         import distributed
     except ImportError as error:
         raise Error("Dask is not installed: apt install python3-distributed", "failure", "distributed") from error
-    warnings.filterwarnings("ignore", category=DeprecationWarning, module="tornado")  # that it comes with
+    warnings.filterwarnings("ignore", category=DeprecationWarning, module="tornado")  # a dependency of Dask
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     if options.scheduler:
         try:
             return distributed.Client(options.scheduler, timeout=options.scheduler_timeout)
         except (OSError, TimeoutError, ValueError, TypeError) as error:
             raise Error(f"{options.scheduler}: no Dask scheduler answers there", "failure", options.scheduler) from error
-    # Without a dashboard its server runs all the same: on a free port that this machine alone sees.
+    # Even without a dashboard its server runs. Let it use a free port that only this machine sees.
     own = "127.0.0.1:0"
     cluster = distributed.LocalCluster(n_workers=options.workers, threads_per_worker=1, dashboard_address=None,
                                        scheduler_kwargs={"dashboard_address": own}, worker_dashboard_address=own,
@@ -169,7 +169,7 @@ def _client(options: argparse.Namespace):
 
 
 class _Bar:
-    """Progress on stderr: a line that is drawn again on a terminal, a line for each tenth elsewhere."""
+    """Progress on stderr: on a terminal one line that is redrawn, elsewhere a line for each tenth."""
 
     def __init__(self, count: int, quiet: bool) -> None:
         self._count, self._quiet, self._start = count, quiet, time.monotonic()
@@ -178,7 +178,7 @@ class _Bar:
         self._tenth = -1
 
     def step(self, record: Dict[str, Any]) -> None:
-        """One part more."""
+        """Counts one more finished part."""
         self._done += 1
         self._failed += record["status"] != "meshed"
         tenth = 10 * self._done // self._count
@@ -196,15 +196,15 @@ class _Bar:
 
 
 def run_tasks(tasks: List[Task], options: argparse.Namespace) -> List[Dict[str, Any]]:
-    """Meshes the parts that have no record yet; the records of all, in the order of the tasks."""
+    """Meshes the parts that have no valid record yet. Returns the records of all parts, in the order of the tasks."""
     records = {task.part: done_before(task) for task in tasks}
     left = [task for task in tasks if records[task.part] is None]
     if left:
         command = None
-        if not options.scheduler:  # elsewhere each machine finds its own
+        if not options.scheduler:  # with a scheduler, each machine finds its own command
             command = find_command(options.command)
             check_version(command)
-        # A worker has one core.
+        # Each worker uses one core.
         with_threads = [task if "--threads" in task.arguments else
                         task._replace(arguments=[*task.arguments, "--threads", "1"]) for task in left]
         client = _client(options)
@@ -237,7 +237,7 @@ def _collect(client, tasks: List[Task], command: Optional[str], bar: _Bar) -> Di
 
 
 def write_csv(path: Path, records: Iterable[Dict[str, Any]]) -> None:
-    """A line for each part."""
+    """Writes a table with one line per part."""
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, COLUMNS, extrasaction="ignore", restval="")
         writer.writeheader()
@@ -266,7 +266,7 @@ document.querySelectorAll("th").forEach((th, column) => th.onclick = () => {{
 
 
 def write_page(path: Path, records: List[Dict[str, Any]], title: str) -> None:
-    """A table with pictures; a click on a column's name sorts by it."""
+    """Writes an HTML table with pictures. A click on a column's name sorts by that column."""
     rows = []
     for record in records:
         picture = record.get("picture")
@@ -286,7 +286,7 @@ def write_page(path: Path, records: List[Dict[str, Any]], title: str) -> None:
 
 
 def summary_of(records: List[Dict[str, Any]]) -> str:
-    """One sentence on all parts."""
+    """One sentence about all parts."""
     meshed = [record for record in records if record["status"] == "meshed"]
     seconds = sum(record.get("seconds") or 0 for record in records)
     return (f"{len(meshed)} of {len(records)} parts meshed, {sum(record['quads'] for record in meshed)} quads, "
@@ -294,7 +294,7 @@ def summary_of(records: List[Dict[str, Any]]) -> str:
 
 
 def parser() -> argparse.ArgumentParser:
-    """Options of this module, and those of `quadrille mesh` from the table of settings."""
+    """The parser for this module's options, and for those of `quadrille mesh` from the table of settings."""
     result = argparse.ArgumentParser(prog="python3 -m quadrille.batch", description=__doc__.split("\n", 1)[0],
                                      allow_abbrev=False)
     result.add_argument("folder", metavar="FOLDER", help="CAD files, in folders below it too")
@@ -325,7 +325,7 @@ def _positive(text: str) -> int:
 
 
 def run(arguments: Optional[List[str]] = None) -> int:
-    """The command; its exit code: 0 all meshed, 1 some or all not, 2 bad use."""
+    """Runs the command. Returns its exit code: 0 all parts meshed, 1 some or none, 2 wrong usage, 130 interrupted."""
     options = parser().parse_args(arguments)
     try:
         tasks = tasks_of(options)
@@ -349,7 +349,7 @@ def run(arguments: Optional[List[str]] = None) -> int:
 
 
 if __name__ == "__main__":
-    # The workers know this file by its name.
+    # Import it by its module name, under which the workers find it.
     from quadrille import batch
 
     sys.exit(batch.run())

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the `quadrille` command as a child process: options, progress, cancelling, errors.
 
-Knows nothing of FreeCAD and needs only the standard library.
+Independent of FreeCAD; needs only the standard library.
 """
 
 import contextlib
@@ -21,7 +21,7 @@ from typing import Callable, Dict, List, Optional, Sequence, Tuple, Union
 from .errors import Error
 from .setting_table import MeshSettings
 
-#: Called with a stage name and the fraction of the stage done, in [0, 1]; returning False cancels the work.
+#: Called with a stage name and the fraction of all the work done, in [0, 1]; returning False cancels the work.
 Progress = Callable[[str, float], Optional[bool]]
 
 _PROGRESS_LINE = re.compile(r"progress: (\S+) (\d+) %")
@@ -31,26 +31,26 @@ KILL_AFTER_SECONDS = 2.0
 _KINDS = {2: "usage", 130: "cancelled"}
 
 
-#: What is there inside a Flatpak sandbox, and nowhere else.
+#: This file exists inside a Flatpak sandbox, and nowhere else.
 FLATPAK_INFO = Path("/.flatpak-info")
-#: Runs a program outside of the sandbox, and ends it when this side of it ends.
+#: Runs a program outside the sandbox, and ends it when the process inside ends.
 _OUT_OF_FLATPAK = ("flatpak-spawn", "--host", "--watch-bus")
 
 
 def on_host(arguments: Sequence[str]) -> List[str]:
-    """The arguments that run a program of the system: those given, or, inside Flatpak, by way of flatpak-spawn."""
+    """The arguments that run a program of the system: unchanged, or inside Flatpak with flatpak-spawn in front."""
     return [*_OUT_OF_FLATPAK, *arguments] if FLATPAK_INFO.exists() else list(arguments)
 
 
-#: Waits until its input closes, which it does with the process that holds the other end, and removes what begins with $1:
-#: more than once, since a mesher that ends at the same time may still make a file.
+#: Waits until its input closes, which happens when the process at the other end ends. Then removes all paths that begin with
+#: $1. It does so more than once, since a mesher that is ending at the same time may still create a file.
 _REMOVE_AT_END = 'cat; for i in 1 2 3; do rm -rf -- "$1"*; sleep 1; done'
-#: What scratch folders begin with, and the shell that waits for the end, by process and place.
+#: By process id and parent folder: the prefix of scratch folders, and the shell that removes them when this process ends.
 _scratch: Dict[Tuple[int, str], Tuple[str, subprocess.Popen]] = {}
 
 
 def scratch_folder() -> "tempfile.TemporaryDirectory":
-    """A temporary folder that the command sees too. It goes with this process, even if that is killed."""
+    """A temporary folder that the command can see too. It is removed when this process ends, even if it is killed."""
     place = "the folder for temporary files"
     try:
         place = tempfile.gettempdir()
@@ -76,7 +76,7 @@ def _scratch_prefix(place: str) -> str:
 
 
 def _which(path: str) -> Optional[str]:
-    """The path of a program, as shutil.which; inside Flatpak, that of a program of the system around it."""
+    """The path of a program, as from shutil.which(); inside Flatpak, the path of a program on the host system."""
     path = os.path.expanduser(path)
     if not FLATPAK_INFO.exists():
         return shutil.which(path)
@@ -91,7 +91,7 @@ def _which(path: str) -> Optional[str]:
 
 
 def _own(here: Path) -> Optional[str]:
-    """The command that came with this package: in it, of a wheel; in bin/ of the folder that a bundle is."""
+    """The command that came with this package: inside the package (wheel), or in bin/ of the bundle's folder."""
     folders = [here / "quadrille"]
     if here.parts[-4:-1] == ("freecad", "Mod", "Quadrille"):  # BUNDLE/share/freecad/Mod/Quadrille/quadrille
         folders.append(here.parents[4] / "bin" / "quadrille")
@@ -104,12 +104,11 @@ def _own(here: Path) -> Optional[str]:
 
 
 def find_command(command: Optional[str] = None, preference: Optional[str] = None) -> str:
-    """The path of the `quadrille` command; of the system around it when FreeCAD runs inside Flatpak.
+    """The path of the `quadrille` command; if FreeCAD runs inside Flatpak, a path on the host system.
 
-    Looked for in this order: the argument, the environment variable QUADRILLE_COMMAND, the preference, beside this file
-    where it came with the command (wheel, bundle), PATH, the path recorded by install-addon.sh, the build folder beside
-    this file. A path that was asked for and cannot be run is an
-    error: nothing else is tried.
+    Search order: the argument, the environment variable QUADRILLE_COMMAND, the preference, the command that came with this
+    package (wheel, bundle), PATH, the path recorded by install-addon.sh, the source tree and its build folder. If one of the
+    first three names a path that cannot be run, that is an error: nothing else is tried.
     """
     for path, origin in (
         (command, "the argument 'command'"),
@@ -143,14 +142,14 @@ def find_command(command: Optional[str] = None, preference: Optional[str] = None
     )
 
 
-#: The version of this package; the command must be of the same major and minor one.
+#: The version of this package; the command must have the same major and minor version.
 VERSION = "0.1.0"
 _checked: Dict[str, float] = {}
 
 
 def check_version(path: str) -> None:
-    """Raises Error when the command is of a version that this package does not fit. Asks each file once."""
-    modified = os.path.getmtime(path) if os.path.exists(path) else 0.0  # a path outside of Flatpak
+    """Raises Error if this package does not work with the command's version. Asks each file once."""
+    modified = os.path.getmtime(path) if os.path.exists(path) else 0.0  # 0: a path outside the Flatpak sandbox
     if _checked.get(path) == modified:
         return
     try:
@@ -172,7 +171,7 @@ def check_version(path: str) -> None:
 def _child(arguments: Sequence[str]) -> subprocess.Popen:
     return subprocess.Popen(
         on_host(arguments),
-        stdin=subprocess.PIPE,  # closes when this process ends, however it does, and the child ends then
+        stdin=subprocess.PIPE,  # closes when this process ends for any reason; the child then ends too
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
         text=True,
@@ -181,9 +180,9 @@ def _child(arguments: Sequence[str]) -> subprocess.Popen:
     )
 
 
-#: What a child process has from its start: command, current folder, environment.
+#: What is fixed when a child process starts: command, current folder, environment.
 _Start = Tuple[str, str, Dict[str, str]]
-#: The child process that stands by.
+#: The child process that stands by, and how it was started.
 _standby: Optional[Tuple[_Start, subprocess.Popen]] = None
 
 
@@ -192,8 +191,8 @@ def _start_of(command: str) -> _Start:
 
 
 def stand_by(command: str) -> None:
-    """Starts a child process that waits for the next MeshJob of this command, its libraries loaded by then. One that cannot
-    be started is none."""
+    """Starts a child process that loads its libraries and waits for the next MeshJob of this command. Failure to start it is
+    ignored."""
     global _standby
     try:
         start = _start_of(command)
@@ -206,7 +205,7 @@ def stand_by(command: str) -> None:
 
 
 def dismiss() -> None:
-    """Ends the child process that stands by, if there is one."""
+    """Ends the standby child process, if there is one."""
     global _standby
     if _standby is None:
         return
@@ -214,13 +213,14 @@ def dismiss() -> None:
     _standby = None
     process.kill()
     process.wait()
-    with contextlib.suppress(OSError):  # what it did not read
+    with contextlib.suppress(OSError):  # closing flushes what the child did not read
         process.stdin.close()
     process.stderr.close()
 
 
 def _given_to_standby(arguments: Sequence[str]) -> Optional[subprocess.Popen]:
-    """The child process that stands by, with its work given; None where there is none that would do it alike."""
+    """Gives the work to the standby child process and returns that process. None if no process stands by that was started with
+    the same command, folder and environment, or if it cannot take the work."""
     global _standby
     if _standby is None or _standby[0] != _start_of(arguments[0]):
         return None
@@ -229,13 +229,13 @@ def _given_to_standby(arguments: Sequence[str]) -> Optional[subprocess.Popen]:
         dismiss()
         return None
     try:
-        "".join(arguments).encode()  # paths may have bytes that are no text
+        "".join(arguments).encode()  # paths may contain bytes that are not valid text
     except UnicodeEncodeError:
         return None
     try:
         process.stdin.write(json.dumps(list(arguments[1:])) + "\n")
         process.stdin.flush()
-    except OSError:  # it has ended just now
+    except OSError:  # it has just ended
         dismiss()
         return None
     _standby = None
@@ -243,13 +243,13 @@ def _given_to_standby(arguments: Sequence[str]) -> Optional[subprocess.Popen]:
 
 
 class CommandJob:
-    """One run of a subcommand that writes a report. Start it, then either wait() for it or poll() it from a timer."""
+    """One run of a subcommand that writes a report. Call start(), then either wait() or, from a timer, poll()."""
 
-    _work = "the work"  #: what was cancelled, for users
-    _stands_by = False  #: whether the process that stands by is meant for such jobs
+    _work = "the work"  #: what messages call it when it was cancelled
+    _stands_by = False  #: whether the standby process may do such jobs
 
     def __init__(self, arguments: Sequence[str], command: Optional[str] = None) -> None:
-        """arguments: the name of the subcommand and what follows it, without --report."""
+        """arguments: the name of the subcommand and its options, without --report."""
         self._folder = scratch_folder()
         self._report = Path(self._folder.name) / "report.json"
         self._arguments = [command or find_command(), *arguments, "--report", str(self._report), "--end-with-input"]
@@ -258,10 +258,10 @@ class CommandJob:
         self._reader: Optional[threading.Thread] = None
         self._cancelled = False
         self._last_progress = ("start", 0.0)
-        self.messages: List[str] = []  #: what the command said on stderr, without the progress
+        self.messages: List[str] = []  #: what the command wrote to stderr, without the progress
 
     def start(self) -> "CommandJob":
-        """Starts the child process, or gives the work to the one that stands by."""
+        """Starts a child process, or gives the work to the standby process."""
         try:
             self._process = self._stands_by and _given_to_standby(self._arguments) or _child(self._arguments)
         except OSError as error:
@@ -281,7 +281,7 @@ class CommandJob:
         return self._process is not None and self._process.poll() is None
 
     def poll(self) -> List[Tuple[str, float]]:
-        """The progress made since the last call, as (stage, fraction) pairs. Never waits."""
+        """The progress since the last call, as (stage, fraction) pairs. Never waits."""
         progress = []
         while True:
             try:
@@ -295,7 +295,7 @@ class CommandJob:
                 self.messages.append(line.strip())
 
     def cancel(self) -> None:
-        """Ends the child process: asked first, then killed."""
+        """Ends the child process: asks it to end, then kills it after KILL_AFTER_SECONDS."""
         self._cancelled = True
         if self.running:
             self._process.terminate()
@@ -306,7 +306,7 @@ class CommandJob:
                 self._process.wait()
 
     def kill(self) -> None:
-        """Ends the child process at once, without asking: for work that leaves nothing behind. There is no result then."""
+        """Kills the child process at once, for work that leaves no files behind. There is no result then."""
         self._cancelled = True
         if self.running:
             self._process.kill()
@@ -314,7 +314,7 @@ class CommandJob:
         self._close()
 
     def wait(self, progress: Optional[Progress] = None) -> Dict:
-        """Waits for the end, passing progress on; then as result()."""
+        """Waits for the end and passes progress on; then returns or raises as result() does."""
         try:
             while self.running and not self._cancelled:
                 self._call(progress)
@@ -330,7 +330,7 @@ class CommandJob:
         steps = self.poll()
         if progress is None:
             return
-        # Called even when there is nothing new, so that cancelling does not wait for the next step.
+        # Call it even if there is nothing new, so that cancelling does not wait for the next step.
         for step in steps or [self._last_progress]:
             self._last_progress = step
             if progress(*step) is False:
@@ -338,7 +338,7 @@ class CommandJob:
                 return
 
     def result(self) -> Dict:
-        """The report of a job that has ended; raises Error with the command's own sentence when it failed."""
+        """The report of a job that has ended. Raises Error with the command's own sentence if it failed."""
         code = self._process.wait()
         self._reader.join(1.0)
         self.poll()
@@ -355,7 +355,7 @@ class CommandJob:
     def _close(self) -> None:
         self._reader.join(1.0)
         self._process.stdin.close()
-        if not self._reader.is_alive():  # a grandchild may hold the pipe open
+        if not self._reader.is_alive():  # a grandchild process may hold the pipe open
             self._process.stderr.close()
         self._folder.cleanup()
 
@@ -380,7 +380,7 @@ class MeshJob(CommandJob):
         picture: Optional[Union[str, Path]] = None,
         work: Sequence[str] = ("mesh",),
     ) -> None:
-        """work: what the command is to do, with options that are not of the table of settings."""
+        """work: the subcommand, with options that are not in the table of settings."""
         arguments = [*work, str(model)]
         for output in outputs:
             arguments += ["-o", str(output)]
@@ -391,16 +391,17 @@ class MeshJob(CommandJob):
 
 
 def sentence_of(lines: List[str], code: int) -> str:
-    """What the command said last on stderr, without its name, or that it ended with an exit code."""
+    """The last line that the command wrote to stderr, without its name; if there is none, a sentence with the exit code."""
     prefix = "quadrille: "
     sentence = lines[-1] if lines else f"the mesher ended with exit code {code}"
     return sentence[len(prefix):] if sentence.startswith(prefix) else sentence
 
 
 def child_environment() -> Dict[str, str]:
-    """The environment of the child: an AppImage's own libraries would break a program from outside it.
+    """The environment for child processes. If FreeCAD is an AppImage, its libraries would break programs outside it.
 
-    What lies in the AppImage (APPDIR; PYTHONHOME when it was unpacked) is taken out, the user's own paths stay.
+    Library paths inside the AppImage (APPDIR; PYTHONHOME if it was unpacked) and Python's variables are removed. The user's
+    own library paths stay.
     """
     environment = dict(os.environ)
     bundles = [environment[name].rstrip("/") for name in ("APPDIR", "PYTHONHOME") if environment.get(name)]

@@ -6,8 +6,8 @@ class Error(RuntimeError):
     """What went wrong, as one sentence for the user.
 
     Attributes:
-        kind: "usage" (asked for something that makes no sense), "failure" (the input or the machine made it
-            impossible) or "cancelled".
+        kind: "usage" (the request makes no sense), "failure" (the input or the machine made it impossible) or
+            "cancelled".
         subject: the file, face ("Face3"), object or option concerned; may be empty.
     """
 

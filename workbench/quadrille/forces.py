@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Forces on whole faces, for FreeCAD's CalculiX writer. FreeCAD looks for the elements of a face by the distance of every
-node, adds up areas element by element, and writes node by node, from 1.0 on with a quantity for each: 20 s for 100 000
-quads. Where the mesh has the groups of the faces, their elements are taken, and areas and lines are made by NumPy. Runs
-inside FreeCAD."""
+"""Forces on whole faces, for FreeCAD's CalculiX writer. FreeCAD finds the elements of a face by the distance of every node,
+sums areas element by element, and writes node by node (from 1.0 on with a Quantity for each). This takes 20 s for 100 000
+quads. Where the mesh has the groups of the faces, this module takes the elements from them, and computes areas and lines
+with NumPy. Runs inside FreeCAD."""
 
 import functools
 from collections.abc import Mapping
@@ -19,10 +19,10 @@ from .shell_input import ElementTable, rows
 
 
 class Loads(Mapping):
-    """The force on each node of a face: what FreeCAD has as a dictionary, kept as arrays.
+    """The force on each node of a face. FreeCAD uses a dictionary for it; here it is kept as arrays.
 
-    `newtons[i]` is the force on the node `nodes[i]`, which ascend; `unit` is what FreeCAD multiplies loads by, 1.0 or a
-    quantity of 1; `shells` is the mesh, for what is written next."""
+    `newtons[i]` is the force on the node `nodes[i]`; node ids ascend. `unit` is the factor that FreeCAD applies to loads, 1.0
+    or a Quantity of 1. `shells` is the mesh, which the writer of the mesh uses later."""
 
     def __init__(self, nodes: np.ndarray, newtons: np.ndarray, unit, shells: Shells) -> None:
         self.nodes, self.newtons, self._unit, self.shells = nodes, newtons, unit, shells
@@ -40,13 +40,14 @@ class Loads(Mapping):
         return len(self.nodes)
 
     def lines(self, direction) -> str:
-        """CalculiX's lines for a force along a direction, as FreeCAD writes them, axis by axis."""
+        """CalculiX's input lines for a force along a direction, axis by axis as FreeCAD writes them."""
         return "".join(rows(f"%d,{axis},%.13G\n", self.nodes, share * self.newtons)
                        for axis, share in enumerate(direction, 1) if abs(share) > 1e-15)  # FreeCAD's own limit
 
 
 def from_groups(function):
-    """The loads of a force on faces, from the faces' groups, or by FreeCAD's search where there are none."""
+    """Wraps FreeCAD's function for the loads of a force on faces: takes them from the faces' groups, or by FreeCAD's search
+    if there are no groups."""
 
     @functools.wraps(function)
     def get_force_obj_face_nodeload_table(femmesh, femelement_table, femnodes_mesh, frc_obj):
@@ -57,7 +58,7 @@ def from_groups(function):
 
 
 def in_one_go(function):
-    """Writes such loads at once; all others as FreeCAD does."""
+    """Wraps FreeCAD's writer of forces: writes such loads in one go, and all others as FreeCAD does."""
 
     @functools.wraps(function)
     def write_meshdata_constraint(f, femobj, force_obj, ccxwriter):
@@ -65,7 +66,7 @@ def in_one_go(function):
         if not all(isinstance(loads, Loads) for _, loads in table):
             function(f, femobj, force_obj, ccxwriter)
             return
-        # What stands before the loads differs between versions: FreeCAD writes it itself.
+        # The text before the loads differs between versions, so FreeCAD writes it.
         function(f, {**femobj, "NodeLoadTable": []}, force_obj, ccxwriter)
         for name, loads in table:
             f.write(f"** {name}\n{loads.lines(femobj['Object'].DirectionVector)}\n")
@@ -74,7 +75,8 @@ def in_one_go(function):
 
 
 def _table(femmesh, femelement_table: Mapping, femnodes_mesh: Dict, force) -> Optional[List[Tuple[str, Loads]]]:
-    """FreeCAD's table of loads; None where a face has no group, or its elements have another area than the face."""
+    """FreeCAD's table of loads; None if a face has no group, if its elements' area is not that of the face within 1 %, or if
+    the force is on something else than faces of the meshed part."""
     analysis = groups.analysis_of(force)
     mesh = next((member for member in analysis.Group if state.is_quad_mesh(member)), None) if analysis is not None else None
     if mesh is None or mesh.Shape is None or not femnodes_mesh:
@@ -107,7 +109,7 @@ def _table(femmesh, femelement_table: Mapping, femnodes_mesh: Dict, force) -> Op
     return table
 
 
-#: The triangles whose areas FreeCAD adds up, as positions in an element, by its number of nodes.
+#: The triangles whose areas FreeCAD sums for an element, as positions in its list of nodes, by its number of nodes.
 _TRIANGLES = {4: ((0, 1, 2), (0, 2, 3)),
               8: ((0, 4, 7), (4, 1, 5), (5, 2, 6), (6, 3, 7), (4, 6, 7), (4, 5, 6))}
 #: The share of an element's area that each node has.
@@ -115,7 +117,7 @@ _SHARES = {4: (1 / 4,) * 4, 8: (-1 / 12,) * 4 + (1 / 3,) * 4}
 
 
 def _areas(shells: Shells, elements: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
-    """The nodes of elements, ascending, and the share of the elements' area that each has."""
+    """The nodes of elements (ids, ascending), and the part of the elements' area that belongs to each node."""
     places = shells.places(shells.corners[elements])
     size = places.shape[1]
     area = sum(_triangle(shells.points, places[:, triangle]) for triangle in _TRIANGLES[size])

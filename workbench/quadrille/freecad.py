@@ -4,8 +4,8 @@
     import quadrille.freecad
     mesh = quadrille.freecad.mesh_object(App.ActiveDocument.Part, size=2.0, order=2, analysis=analysis)
 
-The shape goes to the `quadrille` command as a BREP file, the mesh comes back as a MED file with its groups. The
-mesher is a child process: it can neither freeze nor crash FreeCAD, and fits any build of it.
+The shape goes to the `quadrille` command as a BREP file, and the mesh comes back as a MED file with its groups. The mesher
+runs as a child process: it can neither freeze nor crash FreeCAD, and works with any build of FreeCAD.
 """
 
 import os
@@ -49,23 +49,23 @@ def mesh_object(
 
     Args:
         doc_object: a document object with a shape.
-        size: target edge length in mm, or with a unit ("2 cm"); None = a sixtieth of the shape's diagonal.
-        order: 2 for eight-node quads, which solvers want for shells, 1 for four-node quads.
-        name: name wanted for the mesh object.
+        size: target edge length in mm, or with a unit ("2 cm"); None = 1/60 of the shape's diagonal.
+        order: 2 for eight-node quads, which solvers need for shells; 1 for four-node quads.
+        name: preferred name of the mesh object.
         analysis: a FEM analysis to add the mesh to.
         progress: called with the stage and the fraction of the work done; returning False cancels.
         command: path of the `quadrille` command; None = found by find_command().
-        outputs: mesh files to write besides: .inp, .msh, .unv, .med, .vtu, .vtk, .bdf.
-        picture: a .png to draw the mesh into.
-        settings: all others of the table, by name: sizes={"Face3": 0.5}, faces=[3], sew=0.01, partial=True; see
+        outputs: mesh files to write as well: .inp, .msh, .unv, .med, .vtu, .vtk, .bdf.
+        picture: a .png file for a picture of the mesh.
+        settings: any other setting of the table, by name: sizes={"Face3": 0.5}, faces=[3], sew=0.01, partial=True; see
             `quadrille settings`.
 
     Returns:
         a Fem::FemMeshObjectPython (FreeCAD 0.20) or Fem::FemMeshShapeBaseObjectPython (1.0) whose `Shape` links to
-        doc_object, with groups named Face1..., Edge1..., Vertex1... as in FreeCAD.
+        doc_object. Its groups are named Face1..., Edge1..., Vertex1... as in FreeCAD.
 
     Raises:
-        Error: with one sentence, the document unchanged.
+        Error: with one sentence; the document is then unchanged.
     """
     wanted = _in_millimeters(MeshSettings(size=size, order=order, **settings))
     check_analysis(analysis)
@@ -81,34 +81,34 @@ def mesh_object(
 
 def make_mesh(doc_object, size: Optional[float] = None, order: int = 2, name: str = "QuadMesh", analysis=None,
               **settings):
-    """Adds a mesh object for a document object, without meshing yet: the task panel or remesh() does that."""
+    """Adds a mesh object for a document object without meshing it. The task panel or remesh() makes the mesh later."""
     wanted = _in_millimeters(MeshSettings(size=size, order=order, **settings))
     shape = shape_of(doc_object)
     check_analysis(analysis)
     names = [*map(face_name, wanted.get("faces", ())), *wanted.get("sizes", ())]
-    shapes.references_to_names(shape, doc_object, links.link(doc_object, names))  # an error now, with nothing made
+    shapes.references_to_names(shape, doc_object, links.link(doc_object, names))  # raises before anything is made
     return _add_mesh(doc_object, name, wanted, analysis)
 
 
 def mesh_surface(surface, size: Optional[float] = None, order: int = 2, feature_angle: float = 40, merge: float = 0,
                  name: str = "QuadMesh", analysis=None, progress: Optional[Progress] = None, command: Optional[str] = None):
-    """Meshes a mesh object of FreeCAD anew with quads: a scan, an STL file (`quadrille remesh`).
+    """Remeshes a triangle mesh object of FreeCAD, such as a scan or an STL file, with quads (`quadrille remesh`).
 
     Args:
         surface: a Mesh::Feature.
-        size: length of elements in mm, or with a unit ("2 cm"); None = a sixtieth of the surface's diagonal.
+        size: element length in mm, or with a unit ("2 cm"); None = 1/60 of the surface's diagonal.
         order: 2 for eight-node quads, 1 for four-node quads.
-        feature_angle: degrees between the normals of neighboring triangles from which on they are of two faces; 0 = the
-            whole surface is one face.
-        merge: nodes at most this far apart become one, in mm or with a unit; 0 = those on one place.
+        feature_angle: neighboring triangles whose normals differ by at least this angle belong to different faces, degrees;
+            0 = the whole surface is one face.
+        merge: nodes at most this far apart are merged, in mm or with a unit; 0 = only coincident nodes.
         name, analysis, progress, command: as for mesh_object().
 
     Returns:
-        a Fem::FemMeshObjectPython whose `Surface` links to the mesh object, with groups named Face1..., Edge1...,
-        Vertex1...; remesh() and export() take it.
+        a Fem::FemMeshObjectPython whose `Surface` links to the mesh object. Its groups are named Face1..., Edge1...,
+        Vertex1.... remesh() and export() accept it.
 
     Raises:
-        Error: with one sentence, the document unchanged.
+        Error: with one sentence; the document is then unchanged.
     """
     from . import surfaces
 
@@ -117,29 +117,28 @@ def mesh_surface(surface, size: Optional[float] = None, order: int = 2, feature_
 
 
 def check_part(doc_object, analysis=None) -> None:
-    """Raises Error when a document object cannot be meshed, or the analysis cannot take its mesh."""
+    """Raises Error if a document object cannot be meshed, or the analysis cannot take its mesh."""
     shape_of(doc_object)
     check_analysis(analysis)
 
 
 def check_references(mesh, references) -> None:
-    """Raises Error when references are not in the part of a mesh object."""
+    """Raises Error if references are not in the part of a mesh object."""
     shapes.references_to_names(shape_of(mesh.Shape), mesh.Shape, references)
 
 
 def suggested_size(doc_object, quads: int = 5000, elements_per_circle: float = 12) -> float:
-    """The size that gives a document object about so many quads, to two digits."""
+    """The size that gives a document object about this many quads, rounded to two digits."""
     return shapes.estimate_of(shape_of(doc_object)).suggested(quads, elements_per_circle)
 
 
 def defaults() -> Dict[str, object]:
-    """What the settings of a new mesh object are, by property."""
+    """The settings of a new mesh object, by property."""
     return {setting["property"]: to_property(setting, None) for setting in SETTINGS if setting["property"]}
 
 
 def fragments(parts: Sequence):
-    """One part of several: FreeCAD's boolean fragments of them, so that they share faces, edges and vertices where they
-    touch."""
+    """Joins several parts into one: FreeCAD's boolean fragments, which share faces, edges and vertices where parts touch."""
     from BOPTools import SplitFeatures
 
     for part in parts:
@@ -155,7 +154,7 @@ def fragments(parts: Sequence):
 
 
 def _add_mesh(doc_object, name: str, settings: MeshSettings, analysis):
-    """A mesh object with these settings, without a mesh."""
+    """Adds a mesh object with these settings, without a mesh."""
     mesh = doc_object.Document.addObject(_mesh_type(), name)
     MeshFeature(mesh)
     mesh.Shape = doc_object
@@ -178,9 +177,9 @@ def _add_mesh(doc_object, name: str, settings: MeshSettings, analysis):
 
 
 def remesh(mesh, progress: Optional[Progress] = None, command: Optional[str] = None) -> None:
-    """Meshes a mesh object's shape anew with the settings in its properties; on an Error it keeps its old mesh.
+    """Remeshes a mesh object's shape with the settings in its properties. On an Error it keeps its old mesh.
 
-    What hand_over() left for it is taken in place of meshing: so the panel's work is a command that macros can record."""
+    If hand_over() has left a job, its mesh is used instead of meshing again. So macros can record the panel's work."""
     if state.is_surface_mesh(mesh):
         mesh.Proxy.remesh(mesh, progress, command)
         return
@@ -192,16 +191,16 @@ def remesh(mesh, progress: Optional[Progress] = None, command: Optional[str] = N
 
 
 def hand_over(mesh, job: ShapeJob) -> None:
-    """Leaves a job that has ended well to the remesh() that follows at once."""
+    """Leaves a job that has succeeded to the remesh() call that follows immediately."""
     _handed_over[_key(mesh)] = job
 
 
 def start(mesh, command: Optional[str] = None, outputs: Sequence[Union[str, Path]] = (),
           wanted: Optional[Wanted] = None) -> ShapeJob:
-    """Starts to mesh a mesh object's shape in a child process; finish() takes the mesh when it has ended.
+    """Starts to mesh a mesh object's shape in a child process; finish() stores the mesh when the process has ended.
 
     Args:
-        wanted: settings that count in place of the object's own; the caller stores them before finish().
+        wanted: settings to use instead of the object's own; the caller stores them before finish().
     """
     running = _running.get(_key(mesh))
     if running is not None and running.running:
@@ -216,13 +215,13 @@ def start(mesh, command: Optional[str] = None, outputs: Sequence[Union[str, Path
     settings = state.settings_key(mesh, wanted, found)
     job.found = found
     _running[_key(mesh)] = job.start()
-    # What is changed from now on, while the child works, makes the mesh stale when it comes.
+    # Changes made from now on, while the child works, make the new mesh stale.
     job.made_of = (shapes.fingerprint(part.Shape), settings)
     return job
 
 
 def finish(mesh, job: ShapeJob) -> None:
-    """Puts the mesh of a job that has ended into its mesh object; on an Error the object keeps its old mesh."""
+    """Stores the mesh of a job that has ended in its mesh object. On an Error the object keeps its old mesh."""
     _running.pop(_key(mesh), None)
     fem_mesh, report = job.result()
     for sentence in links.rename(mesh, job.found):
@@ -231,11 +230,11 @@ def finish(mesh, job: ShapeJob) -> None:
 
 
 def forget(document_name: str, name: str) -> None:
-    """Drops the job of a mesh object that is gone."""
+    """Drops the job of a mesh object that was deleted, or whose result is not wanted."""
     _running.pop((document_name, name), None)
 
 
-#: The jobs under way, by the names of document and mesh object.
+#: The running jobs, by the names of document and mesh object.
 _running: Dict[Tuple[str, str], ShapeJob] = {}
 _handed_over: Dict[Tuple[str, str], ShapeJob] = {}
 
@@ -245,11 +244,11 @@ def _key(mesh) -> Tuple[str, str]:
 
 
 def refine(mesh, references, size, name: str = "Refinement"):
-    """Adds FreeCAD's own mesh region to a mesh object: faces, edges or vertices to mesh at a size of their own.
+    """Adds one of FreeCAD's mesh regions to a mesh object: faces, edges or vertices to mesh at their own size.
 
     Args:
-        mesh: a mesh object of ours.
-        references: [(document object, ("Face3", "Edge4"))...], as FEM's References.
+        mesh: a mesh object of this addon.
+        references: [(document object, ("Face3", "Edge4"))...], in the form of FEM's References.
         size: element size there, in mm or with a unit.
     """
     import ObjectsFem
@@ -259,16 +258,16 @@ def refine(mesh, references, size, name: str = "Refinement"):
     length = millimeters(size)
     if not length > 0:
         raise Error(f"a refinement of size {size} makes no sense: it must be larger than 0", "usage", mesh.Name)
-    check_references(mesh, references)  # an error now, not when meshing
+    check_references(mesh, references)  # raises now, not when meshing
     region = ObjectsFem.makeMeshRegion(mesh.Document, mesh, length, name)
     region.References = references
     return region
 
 
 def flip(mesh, faces: Sequence[Union[int, str]] = ()) -> None:
-    """Turns the shell normals of faces over (all faces when none is named) and meshes again.
+    """Flips the shell normals of faces (of all faces if none is named) and meshes again.
 
-    The faces go to the mesher reversed, so that files, solvers and views all see the same normals.
+    The mesher gets the faces reversed, so that files, solvers and views all see the same normals.
     """
     shape = shape_of(mesh.Shape)
     names = [face_name(face) for face in faces] or [f"Face{i}" for i in range(1, len(shape.Faces) + 1)]
@@ -286,9 +285,9 @@ def flip(mesh, faces: Sequence[Union[int, str]] = ()) -> None:
 
 
 def export(mesh, path: Union[str, Path]) -> None:
-    """Writes the mesh of a mesh object to a file; the suffix tells the format (.inp .msh .unv .med .vtu .vtk .bdf).
+    """Writes the mesh of a mesh object to a file; the suffix gives the format (.inp .msh .unv .med .vtu .vtk .bdf).
 
-    The mesher writes the file, with all sets and groups: the same shape and settings give the same mesh.
+    The mesher runs again and writes the file with all sets and groups. The same shape and settings give the same mesh.
     """
     now, sentence = mesh.Proxy.judge(mesh)
     if now != UP_TO_DATE:
@@ -306,7 +305,7 @@ def export(mesh, path: Union[str, Path]) -> None:
             raise Error(f"{path}: cannot be written: {error.strerror}", "failure", str(path)) from error
 
 
-#: What every mesh object has besides what it was asked for: kind, name, group and use of a property.
+#: The properties of every mesh object besides its settings: type, name, group and description.
 RESULT_PROPERTIES = (
     ("App::PropertyEnumeration", "Status", "Result", "Whether the mesh is that of the part and the settings"),
     ("App::PropertyBool", "ReducedShells", "Solve", "Second-order quads are written for CalculiX as S8R, not S8"),
@@ -329,7 +328,7 @@ RESULT_PROPERTIES = (
 
 
 class MeshFeature:
-    """The Python side of a mesh object: its properties. Documents name this class: do not move it."""
+    """The Python side of a mesh object: its properties. Saved documents refer to this class by name: do not move it."""
 
     Type = state.TYPE
     BaseType = "Fem::BaseFemPythonObject"
@@ -341,7 +340,7 @@ class MeshFeature:
         solvers.wrap_solvers(complaint)
 
     def add_properties(self, obj) -> None:
-        """Adds what is missing, so that documents of older versions gain new properties."""
+        """Adds missing properties, so that documents of older versions gain new ones."""
         for setting in SETTINGS:
             name = setting["property"]
             if not name or name in obj.PropertiesList:
@@ -376,16 +375,16 @@ class MeshFeature:
             if group in ("Result", "Hidden"):
                 obj.setEditorMode(name, 1 if group == "Result" else 2)
 
-    #: What the mesh is, as state.judge() has it; surfaces.py has other ones.
+    #: The functions that judge and start a mesh of a part; SurfaceMesh in surfaces.py has its own.
     judge = staticmethod(state.judge)
     start = staticmethod(start)
 
     def execute(self, obj) -> None:
-        """FreeCAD calls this when the part or a setting has changed: says so, and leaves the mesh as it is."""
+        """FreeCAD calls this when the part or a setting has changed. Reports the change and leaves the mesh as it is."""
         state.tell_change(obj)
 
     def onChanged(self, obj, name: str) -> None:
-        """FreeCAD calls this after a property was set: named faces are remembered as they are."""
+        """FreeCAD calls this after a property was set. Records what the named faces are now."""
         if name in links.OWN and "ChosenElements" in obj.PropertiesList and "Restore" not in obj.State:
             if not obj.Document.Transacting:
                 links.note(obj, {name})
@@ -397,7 +396,7 @@ class MeshFeature:
         groups.watch()
         solvers.wrap_solvers(complaint)
 
-    # The state is all in the document's properties; 0.20 calls the second pair, 1.0 the first.
+    # All state is in the document's properties. FreeCAD 0.20 calls the second pair, 1.0 the first.
     def dumps(self):
         """Nothing to save."""
         return None
@@ -410,20 +409,20 @@ class MeshFeature:
 
 
 def _mesh_type() -> str:
-    """The type of mesh object that this FreeCAD has."""
+    """The type of mesh object in this version of FreeCAD."""
     version = tuple(int(part) for part in FreeCAD.Version()[:2])
     return "Fem::FemMeshShapeBaseObjectPython" if version >= (1, 0) else "Fem::FemMeshObjectPython"
 
 
 def millimeters(value) -> float:
-    """A number, or a quantity or text with a unit ("2 cm"), in millimeters."""
+    """Converts a number, a quantity, or a text with a unit ("2 cm") to millimeters."""
     if isinstance(value, str):
         value = FreeCAD.Units.Quantity(value)
     return float(getattr(value, "Value", value))
 
 
 def _in_millimeters(settings: MeshSettings) -> MeshSettings:
-    """Lengths may come with a unit."""
+    """Converts lengths, which may have a unit, to millimeters; changes and returns the settings."""
     for name, value in settings.items():
         if BY_NAME[name]["unit"] != "mm":
             continue
@@ -435,7 +434,7 @@ def _in_millimeters(settings: MeshSettings) -> MeshSettings:
 
 
 def check_analysis(analysis) -> None:
-    """Raises Error when an object is no analysis, or one that cannot take another mesh."""
+    """Raises Error if an object is no analysis, or one that already holds a mesh other than a result mesh."""
     if analysis is None:
         return
     if not analysis.isDerivedFrom("Fem::FemAnalysis"):
@@ -453,14 +452,14 @@ def _is_result_mesh(member) -> bool:
     return getattr(getattr(member, "Proxy", None), "Type", "") == "Fem::MeshResult"
 
 
-#: The shapes that meshes were made of, by the mesh objects' tokens: the faces that were flipped, and the BREP.
+#: What meshes were made of, by the mesh objects' tokens: the names of the flipped faces, and the BREP of the shape.
 _breps: "OrderedDict[str, Tuple[List[str], bytes]]" = OrderedDict()
 _KEPT_BREPS = 20
 
 
 def _brep_as_meshed(mesh, flipped: List[str]) -> Optional[bytes]:
-    """The BREP that a mesh object's mesh was made of, where the part is still equal to it but for rounding: a part that is
-    computed anew comes out a little different, and the mesh need not. None where it is not known."""
+    """The BREP that a mesh object's mesh was made of, if the part still equals it except for rounding. A recomputed part
+    differs slightly, but the mesh should not. None if no such BREP is known."""
     flipped_then, brep = _breps.get(mesh.MeshToken, (None, None))
     if brep is None or flipped_then != flipped:
         return None
@@ -480,7 +479,7 @@ def _store_result(mesh, fem_mesh, report: Dict, job: ShapeJob) -> None:
 
 
 def store_quality(mesh, fem_mesh, report: Dict) -> None:
-    """Puts what the mesher's report tells of a mesh into the properties of its object."""
+    """Stores the mesh quality from the mesher's report in the properties of the mesh object."""
     quality = report.get("quality", {})
     mesh.QuadCount = fem_mesh.FaceCount
     mesh.NodeCount = fem_mesh.NodeCount

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Puts FreeCAD's modules within reach of a Python that FreeCAD has not started."""
+"""Makes FreeCAD's modules importable in a Python that was not started by FreeCAD."""
 
 import shutil
 import sys
@@ -7,8 +7,8 @@ from pathlib import Path
 
 
 def find() -> None:
-    """Makes FreeCAD's modules importable where FreeCAD is installed for this Python: they lie beside freecadcmd. Raises
-    ImportError that tells what is missing."""
+    """Makes FreeCAD's modules importable if FreeCAD is installed for this Python. Searches them next to freecadcmd. Raises
+    ImportError, which says what is missing."""
     try:
         import FreeCAD as _
         return
@@ -23,7 +23,7 @@ def find() -> None:
             import FreeCAD as _
             import numpy as _  # noqa: F811
             return
-        except ImportError as error:  # of another Python, or without NumPy
+        except ImportError as error:  # FreeCAD is for another Python, or NumPy is missing
             sys.path[:] = before
             reason = error
     raise ImportError(f"quadrille.freecad needs FreeCAD and NumPy for this Python ({reason}): install them so that freecadcmd is on "

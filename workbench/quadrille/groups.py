@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Groups for FreeCAD's solvers: the nodes and elements of constraints, materials, thicknesses and FEM mesh groups.
 
-A solver writer looks for a group of nodes or faces named `<ConstraintName>_...` and, when there is none, searches
-nodes by geometry, slowly. The mesh holds a group for each face, edge and vertex of the part; from these the groups of
-constraints are made at any time, without a search, also when a constraint is added or changed after meshing.
+A solver writer looks for a group of nodes or faces named `<ConstraintName>_...`. If there is none, it searches nodes by
+geometry, which is slow. The mesh holds a group for each face, edge and vertex of the part. From these, the groups of
+constraints can be made at any time without a search, even when a constraint is added or changed after meshing.
 Runs inside FreeCAD."""
 
 from typing import Dict, Iterable, List, Set, Tuple
@@ -19,14 +19,14 @@ Groups = Dict[Tuple[str, str], Tuple[int, ...]]
 
 
 def add_groups(mesh, fem_mesh) -> None:
-    """Adds to a mesh that was just read the groups that the mesh object's analysis and group list ask for."""
+    """Adds the groups that the mesh object's analysis and group list need to a mesh that was just read."""
     for (name, kind), ids in wanted_groups(mesh, fem_mesh).items():
         number = fem_mesh.addGroup(name, kind)
         fem_mesh.addGroupElements(number, list(ids))
 
 
 def refresh(mesh) -> bool:
-    """Brings the groups of a meshed object up to date with its analysis; True when they have changed."""
+    """Updates the groups of a meshed object to its analysis. Returns True if they have changed."""
     fem_mesh = mesh.FemMesh
     wanted = wanted_groups(mesh, fem_mesh)
     present: Groups = {}
@@ -40,7 +40,7 @@ def refresh(mesh) -> bool:
         numbers[key] = number
     if present == wanted:
         return False
-    # In place: FreeCAD lets groups of a property's mesh change, and does not draw them.
+    # In place: FreeCAD allows changes to the groups of a property's mesh, and does not draw groups.
     for key, number in numbers.items():
         if present[key] != wanted.get(key):
             fem_mesh.removeGroup(number)
@@ -51,7 +51,7 @@ def refresh(mesh) -> bool:
 
 
 def wanted_groups(mesh, fem_mesh) -> Groups:
-    """The groups of constraints and mesh groups: `<Name>_Nodes` of nodes, `<Name>_Faces` and `_Edges` of elements."""
+    """The groups for constraints and mesh groups: `<Name>_Nodes` of nodes, `<Name>_Faces` and `<Name>_Edges` of elements."""
     sources = [(member.Name, member) for member in _members(mesh)]
     for group in mesh.MeshGroupList:
         sources.append((group.Label if group.UseLabel else group.Name, group))
@@ -81,8 +81,8 @@ def wanted_groups(mesh, fem_mesh) -> Groups:
 
 
 def left_out(mesh) -> List[str]:
-    """What the analysis refers to and the mesh does not have, since only some faces are meshed: a sentence each. FreeCAD's
-    writers would leave such loads and supports out without a word."""
+    """One sentence for each member of the analysis that refers to something that is not in the mesh, since only some faces are
+    meshed. FreeCAD's writers would silently omit such loads and supports."""
     part_groups = _PartGroups(mesh.FemMesh)
     sentences = []
     for member in _members(mesh):
@@ -99,7 +99,7 @@ def left_out(mesh) -> List[str]:
 
 
 def elements_in(fem_mesh, name: str) -> Iterable[int]:
-    """The ids in a group of face elements; empty when there is none."""
+    """The element ids in a group of faces; empty if there is no such group."""
     for number in fem_mesh.Groups:
         if fem_mesh.getGroupName(number) == name and fem_mesh.getGroupElementType(number) == "Face":
             return fem_mesh.getGroupElements(number)
@@ -144,7 +144,7 @@ def analysis_of(obj):
 
 
 def _members(mesh) -> List:
-    """What has references in the mesh object's analysis."""
+    """The members of the mesh object's analysis that have references."""
     analysis = analysis_of(mesh)
     if analysis is None:
         return []
@@ -153,7 +153,7 @@ def _members(mesh) -> List:
 
 
 class _Watcher:
-    """A document observer: constraints that are added or changed after meshing get their groups at once."""
+    """A document observer. Constraints that are added or changed after meshing get their groups immediately."""
 
     def __init__(self) -> None:
         self._told: Set[Tuple[str, str]] = set()
@@ -174,10 +174,10 @@ class _Watcher:
                 refresh(mesh)
 
     def _hint(self, analysis) -> None:
-        """Tells once of each result of our meshes what it does not show."""
+        """Warns once for each result of our meshes that has stresses at the middle of the shell only."""
         if not any(_is_ours(member) for member in analysis.Group):
             return
-        # FreeCAD 1.1's CalculiX gives a pipeline and no result object.
+        # CalculiX in FreeCAD 1.1 gives a pipeline instead of a result object.
         kinds = [[member for member in analysis.Group if member.isDerivedFrom(kind)]
                  for kind in ("Fem::FemResultObject", "Fem::FemPostPipeline")]
         for member in kinds[0] or kinds[1]:
@@ -212,11 +212,11 @@ class _Watcher:
 
 
 def _is_ours(obj) -> bool:
-    """True for a mesh object of this addon that has all its properties."""
+    """True for a mesh object of this addon, made of a part, that has all its properties."""
     return (getattr(getattr(obj, "Proxy", None), "Type", "") == "Fem::FemMeshQuadrille"
             and "MeshToken" in obj.PropertiesList)
 
 
 def watch() -> None:
-    """Starts to watch documents, once."""
+    """Starts to watch documents; further calls do nothing."""
     observers.watch(_Watcher)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The meshing of a Part shape in a child process: the shape goes to the `quadrille` command as a BREP file, the mesh comes
-back as a MED file with its groups. Runs inside FreeCAD."""
+"""Meshes a Part shape in a child process. The shape goes to the `quadrille` command as a BREP file, and the mesh comes back
+as a MED file with its groups. Runs inside FreeCAD."""
 
 import os
 from pathlib import Path
@@ -18,7 +18,7 @@ PREFERENCES = "User parameter:BaseApp/Preferences/Mod/Quadrille"
 
 
 def find_mesher(command: Optional[str] = None) -> str:
-    """The path of the `quadrille` command, after a check that it is of the version of this addon."""
+    """The path of the `quadrille` command. Checks that its version fits this addon."""
     preference = FreeCAD.ParamGet(PREFERENCES).GetString("Command", "")
     path = find_command(command, preference or None)
     check_version(path)
@@ -26,7 +26,7 @@ def find_mesher(command: Optional[str] = None) -> str:
 
 
 def stand_by() -> None:
-    """Has a mesher ready for the next meshing, if there is one; dismiss() of command.py ends it."""
+    """Starts a standby mesher for the next meshing, if the command is found; dismiss() of command.py ends it."""
     try:
         child.stand_by(find_mesher())
     except Error:
@@ -34,11 +34,11 @@ def stand_by() -> None:
 
 
 class FemJob:
-    """A run of the command whose mesh FreeCAD takes. Start it, then wait(), or poll() it from a timer until it has ended;
-    result() gives the mesh."""
+    """A run of the command whose mesh FreeCAD reads. Call start(), then wait(), or poll() from a timer until it has ended.
+    result() returns the mesh."""
 
     def __init__(self, command: str, folder, output: str, job: MeshJob) -> None:
-        """folder: the scratch folder that the job works in, removed when it has ended; output: the .med file in it."""
+        """folder: the job's scratch folder, removed when the job has ended; output: the .med file in it."""
         self._command, self._folder, self._output, self._job = command, folder, output, job
         self._report: Optional[Dict] = None
         self._result: Optional[Tuple["Fem.FemMesh", Dict]] = None
@@ -59,7 +59,7 @@ class FemJob:
 
     @property
     def messages(self) -> Sequence[str]:
-        """What the mesher has said besides its progress."""
+        """What the mesher has written to stderr besides its progress."""
         return self._job.messages
 
     def poll(self) -> Sequence[Tuple[str, float]]:
@@ -67,11 +67,11 @@ class FemJob:
         return self._job.poll()
 
     def cancel(self) -> None:
-        """Ends the child process; result() then raises the Error of kind "cancelled"."""
+        """Ends the child process; result() then raises an Error of kind "cancelled"."""
         self._job.cancel()
 
     def wait(self, progress: Optional[Progress] = None) -> None:
-        """Waits for the end, passing progress on."""
+        """Waits for the end and passes progress on."""
         try:
             self._report = self._job.wait(progress)
         except Error as error:
@@ -82,7 +82,7 @@ class FemJob:
             raise
 
     def result(self) -> Tuple["Fem.FemMesh", Dict]:
-        """The mesh and the mesher's report, once the child has ended; raises Error when it failed."""
+        """The mesh and the mesher's report, once the child has ended. Raises Error if it failed."""
         if self._result is None:
             self._result = self._read_result()
         return self._result
@@ -95,7 +95,7 @@ class FemJob:
             raise _in_own_words(error) from error
         finally:
             self._folder.cleanup()
-        # FreeCAD's reader gives an empty mesh when it does not understand a file.
+        # FreeCAD's reader returns an empty mesh if it does not understand a file.
         wanted = report.get("counts", {}).get("quads", 0)
         if fem_mesh.FaceCount != wanted or not wanted:
             raise Error(f"FreeCAD read {fem_mesh.FaceCount} of the {wanted} quads that {self._command} wrote",
@@ -130,17 +130,18 @@ class ShapeJob(FemJob):
             brep = Path(model).read_bytes()
         else:
             Path(model).write_bytes(brep)
-        self.brep = brep  #: the shape as the mesher sees it
-        self.made_of: Tuple[List[float], str] = ([], "")  #: fingerprint of the part, and settings, when it was started
-        self.found: Dict[Tuple[str, str, str], str] = {}  #: present names of faces, edges, vertices, see links.py
+        self.brep = brep  #: the shape that the mesher gets
+        self.made_of: Tuple[List[float], str] = ([], "")  #: fingerprint of the part, and settings, when the job was started
+        self.found: Dict[Tuple[str, str, str], str] = {}  #: current names of faces, edges, vertices, see links.py
         super().__init__(command, folder, output, MeshJob(model, [output, *outputs], settings, command, picture))
 
 
 def read_mesh(path: Union[str, Path]) -> "Fem.FemMesh":
-    """A mesh file as a FEM mesh, as Fem.read() gives it, in less time.
+    """Reads a mesh file as a FEM mesh. Equivalent to Fem.read(), but faster.
 
-    A mesh made by Fem.read() keeps a log of each command that built it, which nobody reads: a quarter of the time to read,
-    half of that to copy it once more than one was made. A copy, even of an empty mesh, keeps none.
+    A mesh made by Fem.read() keeps a log of each command that built it, which nobody reads. The log takes a quarter of the
+    time to read a mesh, and half of the time to copy one after more than one was made. A copied mesh, even a copy of an
+    empty one, keeps no log.
     """
     fem_mesh = Fem.FemMesh(Fem.FemMesh())
     fem_mesh.read(str(path))
@@ -155,10 +156,10 @@ def mesh_shape(
     outputs: Sequence[Union[str, Path]] = (),
     picture: Optional[Union[str, Path]] = None,
 ) -> Tuple["Fem.FemMesh", Dict]:
-    """Meshes a Part shape; returns the mesh with its groups, and the mesher's report (see `quadrille --report`)."""
+    """Meshes a Part shape. Returns the mesh with its groups, and the mesher's report (see `quadrille --report`)."""
     return ShapeJob(shape, settings, command, outputs, picture).start().wait_for_result(progress)
 
 
 def _in_own_words(error: Error) -> Error:
-    """What the command says of its options, said of properties."""
+    """The same error, with the command's options replaced by the names of FreeCAD's properties."""
     return Error(in_words_of_properties(str(error)), error.kind, error.subject)

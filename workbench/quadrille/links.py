@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The faces, edges and vertices that a mesh object names, kept as FreeCAD's links, and what became of them when the part
-is edited.
+"""The faces, edges and vertices that a mesh object names, stored as FreeCAD's links, and where they are after the part was
+edited.
 
-FreeCAD numbers faces anew when an edit adds or takes some: Face6 may then be another face. FreeCAD 1.0 carries links over
-for shapes that know where their elements come from (an element map). For others, and in 0.20, a record is kept of what each
-named element was: its measures, and which faces, edges and vertices of the part belong together. After an edit an element
-keeps its name where the part is put together as before; where it is not, the one element that lies where the named one lay
-takes its place; otherwise nobody can tell, and the user is asked. Runs inside FreeCAD."""
+FreeCAD renumbers faces when an edit adds or removes some: Face6 may then be another face. FreeCAD 1.0 updates links to
+shapes that know where their elements come from (an element map). For other shapes, and in 0.20, a record is kept of each
+named element: its measures, and a digest of the part's topology. After an edit, an element keeps its name if its measures
+are unchanged, or if nothing lies in its old place and the topology is unchanged (or FreeCAD updates links). If the topology
+has changed, the one element that now lies in the old place is taken. Otherwise the user is asked. Runs inside FreeCAD."""
 
 import json
 from typing import Any, Container, Dict, Iterable, List, NamedTuple, Sequence, Tuple
@@ -16,14 +16,14 @@ from .errors import Error
 
 #: FreeCAD's type of property for links to faces, edges and vertices, whatever container the part is in.
 PROPERTY = "App::PropertyLinkSubListGlobal"
-#: A list of links as FreeCAD has it: [(document object, ("Face3", "Edge4")), ...].
+#: A list of links in FreeCAD's form: [(document object, ("Face3", "Edge4")), ...].
 Links = Sequence[Tuple[Any, Sequence[str]]]
-#: The mesh object's own properties of links.
+#: The mesh object's own properties that hold links.
 OWN = ("Faces", "FlippedFaces")
-#: What FreeCAD puts before the name of an element that it could not carry over.
+#: The prefix that FreeCAD puts before the name of an element that it could not find again.
 _MISSING = "?"
 
-#: A named element: what names it (a property, or the name of a mesh region), the name of its object, and its own.
+#: A named element: its source (a property, or the name of a mesh region), the name of its document object, and its own name.
 Key = Tuple[str, str, str]
 
 
@@ -31,18 +31,18 @@ class Chosen(NamedTuple):
     """A named element."""
 
     source: str  #: the property, or the name of the mesh region, that names it
-    label: str  #: the same for users
-    target: Any  #: document object
+    label: str  #: the source as users know it
+    target: Any  #: the document object
     name: str  #: such as "Face3"
 
     @property
     def key(self) -> Key:
-        """What changes of names are kept by."""
+        """The key under which follow() returns the element's current name."""
         return (self.source, self.target.Name, self.name)
 
 
 def link(part, names: Iterable[str]) -> List[Tuple[Any, Tuple[str, ...]]]:
-    """Names of elements of a part as links."""
+    """Links to elements of a part, by name."""
     names = tuple(names)
     return [(part, names)] if names else []
 
@@ -53,7 +53,7 @@ def names_in(links: Links) -> List[str]:
 
 
 def chosen(mesh) -> List[Chosen]:
-    """All elements that a mesh object names: its own, and those of its mesh regions."""
+    """All elements that a mesh object names, in its own properties and in its mesh regions."""
     sources = [(prop, prop, getattr(mesh, prop)) for prop in OWN]
     sources += [(region.Name, region.Label, region.References) for region in mesh.MeshRegionList]
     return [Chosen(source, label, target, name) for source, label, links in sources for target, names in links
@@ -61,8 +61,9 @@ def chosen(mesh) -> List[Chosen]:
 
 
 def note(mesh, anew: Container[str] = ()) -> None:
-    """Records what the named elements are in the present shapes: those that have no record yet, and those that the sources
-    given name, since the user has just chosen them."""
+    """Records what the named elements are in the current shapes.
+
+    Records the elements that have no record yet, and all elements of the sources in `anew`, which the user has just chosen."""
     records = _read(mesh)
     present = [entry for entry in chosen(mesh) if _has_shape(entry.target)]
     topologies: Dict[str, str] = {}
@@ -78,8 +79,8 @@ def note(mesh, anew: Container[str] = ()) -> None:
 
 
 def follow(mesh, without: Container[str] = ()) -> Dict[Key, str]:
-    """What the named elements are called in the present shapes, but those of the sources left out. Raises Error when that
-    cannot be told of one."""
+    """The names of the named elements in the current shapes, except those of the sources in `without`. Raises Error if one of
+    them cannot be identified."""
     found: Dict[Key, str] = {}
     records = _read(mesh)
     elements: Dict[str, shapes.Elements] = {}
@@ -100,7 +101,7 @@ def follow(mesh, without: Container[str] = ()) -> Dict[Key, str]:
 
 
 def rename(mesh, found: Dict[Key, str]) -> List[str]:
-    """Gives the named elements their present names and records them; tells which have changed, a sentence each."""
+    """Gives the named elements their current names and records them. Returns a sentence for each name that has changed."""
     changed = {key: now for key, now in found.items() if now != key[2]}
     sources = {source for source, _, _ in changed}
     for prop in sources.intersection(OWN):
@@ -114,23 +115,23 @@ def rename(mesh, found: Dict[Key, str]) -> List[str]:
 
 
 def renamed(source: str, links: Links, found: Dict[Key, str]) -> List[Tuple[Any, Tuple[str, ...]]]:
-    """The links of a source with present names."""
+    """The links of a source, with current names."""
     return [(target, tuple(found.get((source, target.Name, name), name)
                            for name in ([names] if isinstance(names, str) else names))) for target, names in links]
 
 
 def carried_by_freecad(shape) -> bool:
-    """True where FreeCAD carries links over when it numbers anew."""
+    """True if FreeCAD updates links to the shape when it renumbers elements."""
     return getattr(shape, "ElementMapSize", 0) > 0
 
 
 def _now(mesh, entry: Chosen, elements: shapes.Elements, record: Tuple[str, List[float]]) -> str:
-    """The present name of an element that is not what its record says."""
+    """The current name of an element whose measures no longer match its record."""
     together, measures = record
     shape = entry.target.Shape
     there = elements.find(entry.name.rstrip("0123456789"), measures)
     as_before = carried_by_freecad(shape) or shapes.topology(shape) == together
-    # In its old place there is nothing, and the part is put together as before, or FreeCAD knows: it has moved or grown.
+    # Nothing is in the old place, and the topology is unchanged or FreeCAD updates links: the element has moved or grown.
     if not there and as_before:
         return entry.name
     if len(there) == 1 and not as_before:
@@ -149,7 +150,7 @@ def _has_shape(target) -> bool:
     return shape is not None and hasattr(shape, "Faces") and not shape.isNull()
 
 
-#: For each object and element: how its shape was put together, and the element's measures.
+#: For each object and element: the topology digest of the object's shape, and the element's measures.
 Records = Dict[str, Dict[str, Tuple[str, List[float]]]]
 
 
@@ -158,7 +159,7 @@ def _read(mesh) -> Records:
 
 
 def _write(mesh, records: Records, present: Sequence[Chosen]) -> None:
-    """Keeps the records of what is still named."""
+    """Stores the records of the elements that are still named, and drops all others."""
     kept: Records = {}
     for entry in present:
         kept.setdefault(entry.target.Name, {})[entry.name] = records[entry.target.Name][entry.name]

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Puts a mesher from a bundle (scripts/bundle.sh) where the addon uses it. Knows nothing of FreeCAD and needs only the
-standard library.
+"""Installs a mesher from a bundle (scripts/bundle.sh) where the addon uses it. Independent of FreeCAD; needs only the standard
+library.
 
-What is got from elsewhere is not trusted by itself: its checksum is shown before anything of it is run, archives are
-refused whose members would lie outside of their folder, and the mesher is tried before it takes the place of another.
+A downloaded bundle is not trusted blindly. Its checksum is shown before anything in it is run. Archives with members that
+would lie outside their folder are refused. The mesher is tried before it replaces another one.
 """
 
 import hashlib
@@ -24,12 +24,12 @@ from urllib.parse import urlsplit
 from .command import check_version
 from .errors import Error
 
-#: Called with the share that is done, in [0, 1]; returning False cancels.
+#: Called with the fraction done, in [0, 1]; returning False cancels.
 Progress = Callable[[float], Optional[bool]]
 
 _FOLDER = "mesher"
 _CHUNK = 1 << 18
-_MOST_BYTES = 2 << 30  #: unpacked; a bundle has a tenth of that
+_MOST_BYTES = 2 << 30  #: limit on the unpacked size; a bundle has a tenth of that
 
 
 def checksum(path: Union[str, Path]) -> str:
@@ -45,7 +45,7 @@ def checksum(path: Union[str, Path]) -> str:
 
 
 def download(address: str, folder: Union[str, Path], progress: Optional[Progress] = None) -> Path:
-    """Gets a file from an address (https, http, file) into a folder, whole or not at all; gives its path."""
+    """Downloads a file from an address (https, http, file) into a folder, completely or not at all. Returns its path."""
     parts = urlsplit(address.strip())
     name = os.path.basename(parts.path)
     if parts.scheme not in ("https", "http", "file") or not name:
@@ -73,13 +73,13 @@ def download(address: str, folder: Union[str, Path], progress: Optional[Progress
 
 
 def _members(archive: tarfile.TarFile, path: Path) -> list:
-    """The archive's members, all of them below one folder; raises Error where one would lie or lead elsewhere."""
+    """The archive's members, all below one folder. Raises Error if a member would lie, or a link would lead, outside it."""
     members, tops, size = archive.getmembers(), set(), 0
     links = {Path(member.name) for member in members if member.issym()}
     for member in members:
         parts = Path(member.name).parts
         inside = parts and not member.name.startswith("/") and ".." not in parts
-        inside = inside and links.isdisjoint(Path(member.name).parents)  # a chain of links leads anywhere
+        inside = inside and links.isdisjoint(Path(member.name).parents)  # a chain of links could lead anywhere
         if member.issym():
             inside = inside and not member.linkname.startswith("/") and \
                 len(parts) - 1 > Path(member.linkname).parts.count("..")
@@ -93,8 +93,8 @@ def _members(archive: tarfile.TarFile, path: Path) -> list:
 
 
 def install(archive: Union[str, Path], data_folder: Union[str, Path]) -> str:
-    """Unpacks a bundle into the folder `mesher` of a folder of the user's, in the place of what is there; gives the path of
-    the command. The mesher is tried first: where it does not run, nothing changes."""
+    """Unpacks a bundle into `mesher` inside data_folder and replaces what is there. Returns the path of the command. The new
+    mesher is tried first: if it does not run, nothing changes."""
     path, folder = Path(archive), Path(data_folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)

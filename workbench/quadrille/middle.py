@@ -5,8 +5,8 @@
     middle = quadrille.middle.make_middle(App.ActiveDocument.Body, analysis=App.ActiveDocument.Analysis)
     mesh = quadrille.freecad.mesh_object(middle, size=3.0, analysis=App.ActiveDocument.Analysis)
 
-The surface is computed anew with its part, by the `quadrille` command in a child process; the thickness objects that it
-made in an analysis follow it. Runs inside FreeCAD."""
+When the part is recomputed, the `quadrille` command recomputes the surface in a child process. The thickness objects made
+for the surface in an analysis are then updated. Runs inside FreeCAD."""
 
 import json
 import os
@@ -24,12 +24,12 @@ from .jobs import find_mesher
 
 #: The type of the Python side of our middle surfaces.
 TYPE = "Part::QuadrilleMiddleSurface"
-#: A thickness object of ours has this property: the name of its middle surface.
+#: Property of our thickness objects: the name of the middle surface.
 _MARK = "MiddleSurface"
-#: A shell is thin when its thickness is under this share of the width; the mesher's own limit is a fifth of each wall.
+#: A part looks thin if its thickness is below this share of its width. The mesher's own limit is a fifth, for each wall.
 _THIN = 0.12
 _SECONDS = 600
-#: How a sentence goes on where a part is thin in places only.
+#: How an error's sentence continues if a part is thin only in places.
 _PARTIAL = "Partial gives"
 
 
@@ -45,16 +45,16 @@ def make_middle(part, analysis=None, partial: bool = False, join: bool = False, 
     Args:
         part: a document object with a solid, or several.
         analysis: a FEM analysis to make thickness objects in.
-        partial: take what could be paired where the part is thin in places only.
-        join: take solids that touch for one, as if welded.
-        move_loads: put the analysis' loads and supports that are on the part's faces on the middle surface, see
+        partial: if the part is thin only in places, use the walls that could be paired.
+        join: treat solids that touch as one, as if welded.
+        move_loads: move the analysis' loads and supports from the part's faces to the middle surface, see
             move_references().
 
     Returns:
         a Part::FeaturePython whose shape has the middle faces, and whose `Source` links to the part.
 
     Raises:
-        Error: with one sentence, the document unchanged.
+        Error: with one sentence; the document is then unchanged.
     """
     if analysis is not None and not analysis.isDerivedFrom("Fem::FemAnalysis"):
         raise Error(f"{analysis.Label}: is not a FEM analysis", "usage", analysis.Name)
@@ -64,7 +64,7 @@ def make_middle(part, analysis=None, partial: bool = False, join: bool = False, 
     middle.Label = f"{part.Label} middle"
     middle.Source, middle.Partial, middle.Join = part, partial, join
     _store(middle, result)
-    middle.purgeTouched()  # or it is computed once more
+    middle.purgeTouched()  # otherwise it would be computed again
     if FreeCAD.GuiUp:
         from .gui.middle_view import MiddleViewProvider
 
@@ -78,13 +78,14 @@ def make_middle(part, analysis=None, partial: bool = False, join: bool = False, 
 
 
 def prepare(part, partial: bool = False, join: bool = False) -> None:
-    """Computes what the make_middle() that follows at once takes: what is wrong is raised before the document changes."""
+    """Computes the result for the make_middle() call that follows immediately. Errors are thus raised before the document
+    changes."""
     _prepared.clear()
     _prepared[_key(part, partial, join)] = _compute(part, partial, join)
 
 
 def is_partly_thin(error: Error) -> bool:
-    """Whether `partial` would give something where this error was raised."""
+    """Whether `partial` would give a result for the part that raised this error."""
     return _PARTIAL in str(error)
 
 
@@ -94,8 +95,8 @@ def is_middle(obj) -> bool:
 
 
 def looks_thin(shape, area: Optional[float] = None) -> Optional[float]:
-    """About how thick a shape's walls are, in mm, when its solids look thin; else None. Quick, and no more than a hint;
-    quicker where the area of its faces is known."""
+    """The approximate wall thickness of a shape in mm if its solids look thin; else None. A quick estimate, only a hint. `area`:
+    the total area of the faces if known, which is quicker."""
     if shape.isNull() or not shape.Solids:
         return None
     thickness = 2 * shape.Volume / max(shape.Area if area is None else area, 1e-300)
@@ -107,7 +108,7 @@ def looks_thin(shape, area: Optional[float] = None) -> Optional[float]:
 # The thickness objects
 
 def add_thicknesses(middle, analysis) -> List:
-    """Makes a thickness object in an analysis for each thickness of a middle surface; takes those away that it had."""
+    """Makes one thickness object in an analysis for each thickness of a middle surface, and removes the surface's old ones."""
     import ObjectsFem
 
     for old in thickness_objects(middle):
@@ -138,7 +139,7 @@ def _faces_by_thickness(middle) -> List[Tuple[float, List[str]]]:
 
 
 def _update_thicknesses(middle) -> None:
-    """Brings the thickness objects up to date with the surface, where it has any."""
+    """Updates the thickness objects of a middle surface, if it has any."""
     present = thickness_objects(middle)
     if not present:
         return
@@ -160,8 +161,8 @@ def _update_thicknesses(middle) -> None:
 # Loads and supports
 
 def counterparts(middle, name: str) -> List[str]:
-    """What of a middle surface stands for a face or solid of its part: the middle faces that lie between it and another
-    face, or, for a rim, the free edges that lie on it. Empty when there is nothing."""
+    """The elements of a middle surface that stand for a face or solid of its part. For a solid: all middle faces. For a face:
+    the middle faces between it and another face, or, if it is a rim, the free edges on it. Empty if there are none."""
     if name.startswith("Solid"):
         return [f"Face{i}" for i in range(1, len(middle.Thicknesses) + 1)]
     faces = [f"Face{i}" for i, between in enumerate(middle.Between, 1) if name in between.split(",")]
@@ -172,18 +173,18 @@ def counterparts(middle, name: str) -> List[str]:
 
 
 def referring_to(part, analysis) -> List:
-    """The members of an analysis that refer to a part, or to faces, edges or vertices of it."""
+    """The members of an analysis that refer to a part, or to its faces, edges or vertices."""
     return [member for member in analysis.Group if hasattr(member, "References")
             and any(target == part for target, _ in _pairs(member.References))]
 
 
 def move_references(middle, analysis) -> List[str]:
-    """Puts loads, supports and the like that are on a thin part's faces on its middle surface.
+    """Moves loads, supports and the like from a thin part's faces to its middle surface.
 
-    A pressure keeps its direction. What has no counterpart, such as a load on an edge of the part, stays as it is.
+    A pressure keeps its direction. A member without a counterpart, such as a load on an edge of the part, is not changed.
 
     Returns:
-        what could not be moved, a sentence each.
+        a sentence for each member that could not be moved.
     """
     left = []
     for member in referring_to(middle.Source, analysis):
@@ -214,8 +215,8 @@ def _pairs(references) -> List[Tuple[object, str]]:
 
 
 def _turned(member, middle) -> Optional[bool]:
-    """Whether a pressure has to be reversed on the middle surface, where its normals run the other way; None where they
-    do so on some of the faces only. Other members: False."""
+    """Whether a pressure must be reversed on the middle surface, since the normals there are opposite. None if they are
+    opposite on some of the faces only. False for other members."""
     if not member.isDerivedFrom("Fem::ConstraintPressure"):
         return False
     part, shell = middle.Source.Shape, middle.Shape
@@ -234,7 +235,7 @@ def _turned(member, middle) -> Optional[bool]:
 
 
 def _inside(face) -> Tuple[float, float]:
-    """Parameters of a point of a face."""
+    """The parameters (u, v) of a point inside a face."""
     low_u, high_u, low_v, high_v = face.ParameterRange
     for count in (2, 5, 12, 30):
         for i in range(1, count):
@@ -255,7 +256,7 @@ def _key(part, partial: bool, join: bool) -> Tuple[str, str, bool, bool]:
 
 
 def _compute(part, partial: bool, join: bool) -> _Result:
-    """Runs the command; raises Error with its sentence."""
+    """Runs the command. Raises Error with the command's sentence if it fails."""
     shape, label = state.shape_of(part), part.Label
     if not shape.Solids:
         raise Error(f"{label}: has no solid, which a middle surface needs", "usage", part.Name)
@@ -283,7 +284,7 @@ def _compute(part, partial: bool, join: bool) -> _Result:
 
 
 def _of_part(sentence: str, model: str, label: str) -> str:
-    """What the command says of its file, said of the part."""
+    """A sentence of the command, with the part's label instead of the file name, and the property instead of the option."""
     return sentence.replace(model, label).replace(os.path.basename(model), label).replace("--partial gives", _PARTIAL)
 
 
@@ -306,7 +307,7 @@ def _names(faces: Sequence[int]) -> str:
 
 
 class MiddleSurface:
-    """The Python side of a middle surface. Documents name this class: do not move it."""
+    """The Python side of a middle surface. Saved documents refer to this class by name: do not move it."""
 
     Type = TYPE
 
@@ -317,7 +318,7 @@ class MiddleSurface:
 
     @staticmethod
     def add_properties(obj) -> None:
-        """Adds what is missing, so that documents of older versions gain new properties."""
+        """Adds missing properties, so that documents of older versions gain new ones."""
         for kind, name, group, text in (
             ("App::PropertyLink", "Source", "Middle surface", "The thin part"),
             ("App::PropertyBool", "Partial", "Middle surface", "Take what could be paired where the part is thin in places only"),
@@ -342,7 +343,7 @@ class MiddleSurface:
         try:
             _store(obj, _compute(obj.Source, obj.Partial, obj.Join))
         except Error as error:
-            raise RuntimeError(str(error)) from error  # FreeCAD marks the object, and tells the sentence
+            raise RuntimeError(str(error)) from error  # FreeCAD marks the object and shows the sentence
         _recomputed.add((obj.Document.Name, obj.Name))
 
     def onDocumentRestored(self, obj) -> None:
@@ -350,7 +351,7 @@ class MiddleSurface:
         self.add_properties(obj)
         observers.watch(_Watcher)
 
-    # The state is all in the document's properties; 0.20 calls the second pair, 1.0 the first.
+    # All state is in the document's properties. FreeCAD 0.20 calls the second pair, 1.0 the first.
     def dumps(self):
         """Nothing to save."""
         return None
@@ -362,12 +363,12 @@ class MiddleSurface:
     __setstate__ = loads
 
 
-#: The middle surfaces that were computed anew, by the names of document and object.
+#: The middle surfaces that were recomputed, by the names of document and object.
 _recomputed: Set[Tuple[str, str]] = set()
 
 
 class _Watcher:
-    """Thickness objects are not touched while FreeCAD recomputes, but after that."""
+    """A document observer. It updates thickness objects after FreeCAD has recomputed, not during that."""
 
     def slotRecomputedDocument(self, document) -> None:
         """FreeCAD calls this when a document has been recomputed."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Document observers, each of which FreeCAD gets once."""
+"""Document observers. Each class is registered with FreeCAD only once."""
 
 from functools import lru_cache
 
@@ -8,5 +8,5 @@ import FreeCAD
 
 @lru_cache(maxsize=None)
 def watch(observer: type) -> None:
-    """Lets an observer of this class, made without arguments, watch all documents from now on."""
+    """Registers an observer of this class, made without arguments, for all documents. Further calls do nothing."""
     FreeCAD.addDocumentObserver(observer())

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mesh objects of documents that older versions wrote. 0.1.0 kept faces, sizes and flips as texts, and the status as any
-text. Runs inside FreeCAD."""
+"""Mesh objects in documents of older versions. 0.1.0 stored faces, sizes and flips as text, and the status as free text.
+Runs inside FreeCAD."""
 
 from typing import Dict, List
 
 from . import links, state
 
-#: Properties that had another type, and the one they have now.
+#: Properties that used to have another type, and their type now.
 _TYPES = {"Faces": links.PROPERTY, "FlippedFaces": links.PROPERTY, "Status": "App::PropertyEnumeration"}
 
 
 def migrate(mesh) -> None:
-    """Gives a mesh object that was just read the properties of this version, with the same meaning."""
-    # Those that are missing altogether, add_properties() adds.
+    """Converts the properties of a mesh object that was just read to this version's types, with the same meaning."""
+    # add_properties() adds those that are missing altogether.
     for name, kind in _TYPES.items():
         if name not in mesh.PropertiesList or mesh.getTypeIdOfProperty(name) == kind:
             continue
@@ -28,8 +28,8 @@ def migrate(mesh) -> None:
 
 
 def sizes_of(mesh) -> Dict[float, List[str]]:
-    """The faces, edges and vertices by size that a mesh object of 0.1.0 names itself. FreeCAD lets nothing be made while a
-    document is read, so they stay until mesh_regions() makes mesh regions of them."""
+    """The sizes that a mesh object of 0.1.0 holds itself: names of faces, edges and vertices by size. FreeCAD does not allow
+    new objects while a document is read, so they stay until mesh_regions() converts them to mesh regions."""
     by_size: Dict[float, List[str]] = {}
     if "Sizes" in mesh.PropertiesList:
         for element, size in mesh.Sizes.items():
@@ -38,7 +38,7 @@ def sizes_of(mesh) -> Dict[float, List[str]]:
 
 
 def mesh_regions(mesh) -> None:
-    """Makes mesh regions of the sizes that a mesh object of 0.1.0 names itself."""
+    """Converts the sizes that a mesh object of 0.1.0 holds itself to mesh regions."""
     from .freecad import refine
 
     by_size = sizes_of(mesh)

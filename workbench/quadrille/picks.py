@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What users pick, as parts and as faces, edges and vertices of the meshed part. Runs inside FreeCAD, without a window too.
+"""Converts what users pick to parts, and to faces, edges and vertices of the meshed part. Runs inside FreeCAD, also without a
+window.
 
-A click on a PartDesign Body picks the feature on top of it, and names its faces by the features that made them
-(`Pocket.Face9`); a click on something inside a Part container names the container first. What is picked is followed from
-the outermost object inward: the first one with a shape of its own is the part, so that a Body stays the part when
-features are added to it."""
+A click on a PartDesign Body picks its topmost feature, and faces are named by feature (`Pocket.Face9`). A click inside a Part
+container names the container first. A pick is followed from the outermost object inward: the first object with its own shape
+is the part. So a Body stays the part when features are added to it."""
 
 import re
 from typing import Iterable, List, Sequence, Tuple
@@ -12,17 +12,17 @@ from typing import Iterable, List, Sequence, Tuple
 from . import shapes
 from .errors import Error
 
-#: An outermost object and the path of what is picked in it, such as (Body, "Pocket.Face9"), or (Box, "") for all of it.
+#: The outermost object, and the path inside it of what is picked: (Body, "Pocket.Face9"), or (Box, "") for the whole object.
 Pick = Tuple[object, str]
 
 
 def picks_of(selection) -> List[Pick]:
-    """The picks of a selection that FreeCADGui.Selection.getSelectionEx(document, 0) gave."""
+    """The picks in a selection returned by FreeCADGui.Selection.getSelectionEx(document, 0)."""
     return [(entry.Object, _plain(name)) for entry in selection for name in (entry.SubElementNames or ("",))]
 
 
 def _plain(name: str) -> str:
-    """Without what FreeCAD 1.0 calls an element by its history: `Pocket.;#16:2;:H8dc,F.Face3` is `Pocket.Face3`."""
+    """The name without the history that FreeCAD 1.0 puts into it: `Pocket.;#16:2;:H8dc,F.Face3` becomes `Pocket.Face3`."""
     return re.sub(r"(^|\.);.*\.", r"\1", name)
 
 
@@ -35,7 +35,7 @@ def part_of(pick: Pick):
 
 
 def parts_of(picks: Iterable[Pick]) -> List:
-    """The parts that are picked, each once."""
+    """The picked parts, each once."""
     parts: List = []
     for pick in picks:
         part = part_of(pick)
@@ -45,8 +45,8 @@ def parts_of(picks: Iterable[Pick]) -> List:
 
 
 def elements_of(part, picks: Iterable[Pick]) -> List[str]:
-    """The names in a part's shape ("Face3") of the faces, edges and vertices that are picked on it, each once. Picks on
-    other parts and of whole objects are passed over. Raises Error when the part's shape has no such element any more."""
+    """The names in a part's shape ("Face3") of the faces, edges and vertices picked on it, each once. Picks on other parts and
+    of whole objects are ignored. Raises Error if the part's shape no longer has a picked element."""
     names: List[str] = []
     for pick in picks:
         path = along(pick)
@@ -65,7 +65,7 @@ def elements_of(part, picks: Iterable[Pick]) -> List[str]:
 
 
 def references_on(part, picks: Sequence[Pick]) -> List[Tuple]:
-    """FEM references: those on the part by its own names, others as they were picked."""
+    """Picks as FEM references: those on the part with its own element names, others as they were picked."""
     references: List[Tuple] = []
     names = elements_of(part, picks)
     if names:
@@ -79,6 +79,6 @@ def references_on(part, picks: Sequence[Pick]) -> List[Tuple]:
 
 
 def along(pick: Pick) -> List:
-    """The objects from the outermost inward."""
+    """The objects along a pick, from the outermost inward."""
     obj, path = pick
     return list(obj.getSubObjectList(path)) if path else [obj]

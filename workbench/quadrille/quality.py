@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The quality of each quad of a FEM mesh, by NumPy. Runs inside FreeCAD."""
+"""The quality of each quad of a FEM mesh, computed with NumPy. Runs inside FreeCAD."""
 
 from typing import Dict, NamedTuple
 
@@ -7,7 +7,7 @@ import numpy as np
 
 from .arrays import faces_of, nodes_of
 
-#: Industry's criteria: of the perfect square, and the usual limit. They are those of the mesher (mesher/mesh/criteria.hpp).
+#: The industry criteria: the value of a perfect square, and the usual limit. Same as in the mesher (mesher/mesh/criteria.hpp).
 CRITERIA = {
     "aspect": (1.0, 5.0), "warp": (0.0, 15.0), "skew": (0.0, 40.0), "angle_min": (90.0, 40.0), "angle_max": (90.0, 140.0),
     "jacobian_ratio": (1.0, 0.6), "taper": (0.0, 0.6),
@@ -15,28 +15,28 @@ CRITERIA = {
 
 
 class ElementQuality(NamedTuple):
-    """Measures of the quads of a mesh; the arrays run in step."""
+    """Measures of the quads of a mesh. Index i of each array belongs to the same quad."""
 
     ids: np.ndarray  #: element ids
     q: np.ndarray  #: 1 = all corners right-angled, 0 = useless
-    scaled_jacobian: np.ndarray  #: least of the corners
+    scaled_jacobian: np.ndarray  #: smallest value at the corners
     aspect: np.ndarray  #: longest edge / shortest edge
-    corners: np.ndarray  #: (n, 4, 3)
+    corners: np.ndarray  #: (n, 4, 3) coordinates of the corner nodes
     centers: np.ndarray  #: (n, 3)
-    normals: np.ndarray  #: (n, 3), of length 1
+    normals: np.ndarray  #: (n, 3) unit vectors
     lengths: np.ndarray  #: mean edge length
-    criteria: Dict[str, np.ndarray]  #: values of industry's criteria, by name
-    nodes: np.ndarray  #: (n, 4) ids of the corners' nodes
+    criteria: Dict[str, np.ndarray]  #: values of the industry criteria, by name
+    nodes: np.ndarray  #: (n, 4) ids of the corner nodes
 
     def free_sides(self) -> np.ndarray:
-        """(m, 2, 3): the ends of the sides that one element alone has."""
+        """The end points of the sides that belong to only one element, (m, 2, 3)."""
         sides = np.stack([self.nodes, np.roll(self.nodes, -1, axis=1)], axis=2).reshape(-1, 2)
         ends = np.stack([self.corners, np.roll(self.corners, -1, axis=1)], axis=2).reshape(-1, 2, 3)
         _, first, counts = np.unique(np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
         return ends[first[counts == 1]]
 
     def double_nodes(self) -> np.ndarray:
-        """(m, 3): where two nodes or more lie on one place."""
+        """The places where two or more nodes coincide, (m, 3)."""
         if not self.nodes.size:
             return np.zeros((0, 3))
         points, first = self.corners.reshape(-1, 3), np.unique(self.nodes, return_index=True)[1]
@@ -45,27 +45,28 @@ class ElementQuality(NamedTuple):
         return places[counts > 1] * grid
 
     def goodness(self, measure: str = "q") -> np.ndarray:
-        """A measure as colors need it: 1 at the best there is; for a criterion 0.5 at its limit, 0 at twice as bad."""
+        """A measure scaled for colors: q itself; for a criterion 1 at the ideal, 0.5 at the limit, 0 twice as far from the
+        ideal."""
         if measure == "q":
             return self.q
         ideal, limit = CRITERIA[measure]
         return np.clip(1 - 0.5 * (self.criteria[measure] - ideal) / (limit - ideal), 0.0, 1.0)
 
     def fails(self, criterion: str) -> np.ndarray:
-        """Which elements are beyond the limit of a criterion."""
+        """A mask of the elements that are beyond the limit of a criterion."""
         ideal, limit = CRITERIA[criterion]
         values = self.criteria[criterion]
         return values > limit if limit > ideal else values < limit
 
     def worst(self, count: int = 20, measure: str = "q") -> np.ndarray:
-        """Indices of the elements that are worst by a measure, the worst first."""
+        """The indices of the worst elements by a measure, the worst first."""
         values = self.q if measure == "q" else self.criteria[measure]
         if measure != "q" and CRITERIA[measure][1] > CRITERIA[measure][0]:
             values = -values
         return np.argsort(values, kind="stable")[:count]
 
     def summary(self) -> Dict[str, float]:
-        """What the result table shows."""
+        """The number of quads and their worst and mean values, by the names of the mesher's report."""
         return {
             "quads": int(self.ids.size),
             "q_min": float(self.q.min()),
@@ -77,7 +78,7 @@ class ElementQuality(NamedTuple):
 
 
 def measure(fem_mesh) -> ElementQuality:
-    """Measures the corner quads of a FEM mesh; midside nodes are left out."""
+    """Measures the quads of a FEM mesh by their corners; midside nodes are ignored."""
     numbers, places = nodes_of(fem_mesh)
     points = np.zeros((max(numbers, default=0) + 1, 3))
     points[numbers] = places
@@ -89,7 +90,7 @@ def measure(fem_mesh) -> ElementQuality:
 
 
 def measure_quads(ids: np.ndarray, nodes: np.ndarray, corners: np.ndarray) -> ElementQuality:
-    """ids: (n,); nodes: (n, 4) ids of the corners; corners: (n, 4, 3) their places."""
+    """Measures quads. ids: (n,) element ids; nodes: (n, 4) ids of the corner nodes; corners: (n, 4, 3) their coordinates."""
     out = np.roll(corners, -1, axis=1) - corners  # edge from each corner to the next
     back = np.roll(corners, 1, axis=1) - corners
     lengths = np.linalg.norm(out, axis=2)
@@ -110,9 +111,9 @@ def measure_quads(ids: np.ndarray, nodes: np.ndarray, corners: np.ndarray) -> El
 
 
 def _criteria(corners: np.ndarray, sides: np.ndarray, aspect: np.ndarray) -> Dict[str, np.ndarray]:
-    """As the mesher has them; corners and sides: (n, 4, 3), sides from each corner to the next."""
+    """The values of CRITERIA, computed as in the mesher. corners, sides: (n, 4, 3); sides run from each corner to the next."""
     before = np.roll(sides, 1, axis=1)
-    crosses = np.cross(before, sides)  # at each corner twice the area vector of its triangle
+    crosses = np.cross(before, sides)  # at each corner: twice the area vector of the corner's triangle
     normal = _unit(crosses.sum(axis=1))
     angles = np.degrees(np.arctan2(np.einsum("nij,nj->ni", crosses, normal), -np.einsum("nij,nij->ni", before, sides)))
     angles = np.where(angles < 0, angles + 360, angles)
@@ -141,13 +142,13 @@ def _unit(vectors: np.ndarray) -> np.ndarray:
 
 
 def _angle(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Degrees."""
+    """The angle between vectors, in degrees."""
     across = np.linalg.norm(np.cross(one, other), axis=1)
     return np.degrees(np.arctan2(across, np.einsum("ni,ni->n", one, other)))
 
 
 def colors(values: np.ndarray) -> np.ndarray:
-    """Quality in [0, 1] as (n, 3) red, green and blue: red through yellow to blue."""
+    """The colors of quality values in [0, 1], from red through yellow to blue: (n, 3) red, green and blue."""
     stops = np.array([0.0, 0.25, 0.5, 0.75, 1.0])
     table = np.array([(0.84, 0.10, 0.11), (0.99, 0.68, 0.38), (1.0, 1.0, 0.75), (0.67, 0.85, 0.91), (0.17, 0.48, 0.71)])
     return np.stack([np.interp(values, stops, table[:, k]) for k in range(3)], axis=1)

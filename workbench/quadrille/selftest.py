@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What `freecadcmd -t quadrille.selftest` runs: is the addon installed well? Needs the quadrille command."""
+"""The tests of `freecadcmd -t quadrille.selftest`: is the addon installed correctly? Needs the quadrille command."""
 
 import unittest
 
@@ -11,7 +11,7 @@ from . import quality
 
 
 class SelfTest(unittest.TestCase):
-    """A box, meshed, measured, changed."""
+    """Meshes a box and measures the mesh."""
 
     def setUp(self) -> None:
         self.document = FreeCAD.newDocument("QuadrilleSelfTest")
@@ -22,11 +22,11 @@ class SelfTest(unittest.TestCase):
         FreeCAD.closeDocument(self.document.Name)
 
     def test_the_command_is_found(self) -> None:
-        """On PATH, by preference or beside the addon, and of the right version."""
+        """The command is found on PATH, by the preference or beside the addon, and has the right version."""
         self.assertTrue(core.find_mesher())
 
     def test_a_box_becomes_quads(self) -> None:
-        """All quads, of good quality, with a group for each face."""
+        """The mesh has quads only, of good quality, and a group for each face."""
         mesh = core.mesh_object(self.part, size=2.0)
         fem_mesh = mesh.FemMesh
         self.assertGreater(fem_mesh.FaceCount, 400)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of settings, as the mesher has it: options of the command, properties and panel of a mesh object are made from
-it. settings.json is what `quadrille settings --json` prints; a test compares the two.
+"""The mesher's table of settings. The command's options, and the properties and panel of mesh objects, are made from it.
+settings.json holds the output of `quadrille settings --json`; a test compares the two.
 
-Knows nothing of FreeCAD and needs only the standard library.
+Independent of FreeCAD; needs only the standard library.
 """
 
 import json
@@ -12,12 +12,12 @@ from typing import Any, Dict, List, Optional, SupportsIndex, Union
 
 from .errors import Error
 
-#: One dict a setting: name, option, property, label, kind, use, unit, default, low, high, above_low, choices,
-#: otherwise, help.
+#: One dict per setting, with the keys name, option, property, label, kind, use, unit, default, low, high, above_low,
+#: choices, otherwise, help.
 SETTINGS: List[Dict[str, Any]] = json.loads(Path(__file__).with_name("settings.json").read_text(encoding="utf-8"))
 BY_NAME = {setting["name"]: setting for setting in SETTINGS}
 
-#: The mesh is the same whatever these are.
+#: Settings that do not change the mesh.
 _WITHOUT_EFFECT_ON_THE_MESH = frozenset(("threads", "time_limit", "read_time_limit", *(
     setting["name"] for setting in SETTINGS if setting["use"] == "write")))
 #: FreeCAD's own words for the order of elements.
@@ -25,7 +25,7 @@ _ORDERS = ("1st", "2nd")
 
 
 class MeshSettings(Dict[str, Any]):
-    """What to mesh, and how: values by the names of the table. What is not given, or None, is left to the command."""
+    """What to mesh, and how: values by the names of the table. A setting that is missing or None has the command's default."""
 
     def __init__(self, **values: Any) -> None:
         unknown = sorted(set(values) - set(BY_NAME))
@@ -51,17 +51,17 @@ class MeshSettings(Dict[str, Any]):
         return arguments
 
     def of_the_mesh(self) -> Dict[str, Any]:
-        """Those that a mesh depends on."""
+        """The settings that a mesh depends on."""
         return {name: value for name, value in self.items() if name not in _WITHOUT_EFFECT_ON_THE_MESH}
 
 
 def face_name(face: Union[int, str, SupportsIndex]) -> str:
-    """3, NumPy's too, and "Face3" as "Face3"."""
+    """The name "Face3" of a face that is given as 3 (Python's or NumPy's integer) or as "Face3"."""
     return face if isinstance(face, str) else f"Face{operator.index(face)}"
 
 
 def entry_texts(value: Any) -> List[str]:
-    """Entries as the command takes them: texts, or a dict of names with a number or several each."""
+    """Entries as texts for the command. They are given as texts, or as a dict that maps names to one or more numbers."""
     if not isinstance(value, dict):
         return list(value)
     return [f"{name}={','.join(map(str, own)) if isinstance(own, (list, tuple)) else own}" for name, own in value.items()]
@@ -78,7 +78,7 @@ def _text(kind: str, value: Any) -> str:
 
 
 def in_words_of_properties(sentence: str) -> str:
-    """A sentence of the command with FreeCAD's names: "--size-min" becomes "SizeMin"."""
+    """A sentence of the command with FreeCAD's names instead of options: "--size-min" becomes "SizeMin"."""
     for setting in sorted(SETTINGS, key=lambda entry: -len(entry["option"])):
         if setting["property"]:
             sentence = sentence.replace(setting["option"], setting["property"])
@@ -100,7 +100,7 @@ def property_kind(setting: Dict[str, Any]) -> str:
 
 
 def property_help(setting: Dict[str, Any]) -> str:
-    """What a property is for."""
+    """The description of a property."""
     text = setting["help"][0].upper() + setting["help"][1:]
     if setting["kind"] == "number" and setting["otherwise"]:
         return f"{text}; 0 = {setting['otherwise']}"
@@ -110,12 +110,12 @@ def property_help(setting: Dict[str, Any]) -> str:
 
 
 def words(setting: Dict[str, Any]) -> List[str]:
-    """What an enumeration offers; the first is where a new object starts."""
+    """The values of an enumeration; a new object starts with the first one."""
     return list(reversed(_ORDERS)) if setting["name"] == "order" else list(setting["choices"])
 
 
 def to_property(setting: Dict[str, Any], value: Any) -> Any:
-    """A value as the property holds it; None = what a new object has."""
+    """Converts a setting's value to the property's value; None gives the value of a new object."""
     kind, default = setting["kind"], setting["default"]
     if kind == "names":
         return [face_name(face) for face in value or ()]
@@ -131,7 +131,7 @@ def to_property(setting: Dict[str, Any], value: Any) -> Any:
 
 
 def from_property(setting: Dict[str, Any], value: Any) -> Optional[Any]:
-    """What a property's value gives the command; None = nothing."""
+    """Converts a property's value to the setting's value; None = the setting is not passed to the command."""
     value = getattr(value, "Value", value)
     kind = setting["kind"]
     if setting["name"] == "order":

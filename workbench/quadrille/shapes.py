@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the workbench asks of Part shapes: how many quads a size gives, whether a shape has changed, faces reversed,
-and the names of referenced faces, edges and vertices. Runs inside FreeCAD."""
+"""What the workbench needs from Part shapes: the number of quads at a size, whether a shape has changed, shapes with reversed
+faces, and the names of referenced faces, edges and vertices. Runs inside FreeCAD."""
 
 import hashlib
 import math
@@ -11,17 +11,17 @@ import numpy as np
 
 from .errors import Error
 
-#: Samples a face and direction, for its curvature; fewer where there are many faces.
+#: Curvature samples per face and parameter direction; fewer for shapes with more than _MANY_FACES faces.
 _SAMPLES, _FEW_SAMPLES, _MANY_FACES = 8, 4, 300
-#: Faces or edges that are measured at a time.
+#: Number of faces or edges measured per step.
 _STEP = 25
 
 
 class SizeEstimate:
-    """How many quads the faces of a shape get at a size. Measures faces and edges once; each question is then quick.
+    """Estimates how many quads the faces of a shape get at a size. Measures faces and edges once; each estimate is then quick.
 
-    Where an edge is finer than the face beside it, the size grows from the edge. Curvature is sampled on faces: that of a
-    strip narrower than an eighth of its face, such as a wing's nose, is missed.
+    Where an edge is finer than an adjacent face, the size grows from the edge into the face. Curvature is sampled on faces:
+    in a strip narrower than an eighth of its face (a quarter if there are many faces), such as a wing's nose, it is missed.
     """
 
     def __init__(self, shape) -> None:
@@ -30,7 +30,7 @@ class SizeEstimate:
 
     @classmethod
     def in_steps(cls, shape) -> Iterator["SizeEstimate"]:
-        """Gives an estimate again and again, some milliseconds of measuring later each time; it can be used after the last."""
+        """Yields the same estimate after every few milliseconds of measuring. It can be used after the last yield."""
         estimate = cls.__new__(cls)
         yield estimate
         for _ in estimate._measure(shape):
@@ -63,15 +63,15 @@ class SizeEstimate:
                 yield
         self._areas, self._lengths, self._edge_curvatures = np.array(areas), np.array(lengths), np.array(bends)
         self._pieces = _columns(pieces, 3)  # face, area, curvature
-        self._sides = _columns(sides, 3)  # face, edge, what the margin along it widens by, per length and distance
-        # The neighbor is as fine as its curvature wants, up to the edge.
+        self._sides = _columns(sides, 3)  # face, edge, how much the margin along it widens per length and distance
+        # A neighboring face is as fine at the edge as its curvature requires.
         typical = self._typical_curvatures()[self._column(self._sides, 0)]
         np.maximum.at(self._edge_curvatures, self._column(self._sides, 1), typical)
         self._reaches = self._reach()
 
     @property
     def area(self) -> float:
-        """Of all faces."""
+        """The total area of all faces."""
         return float(self._areas.sum())
 
     @staticmethod
@@ -79,19 +79,19 @@ class SizeEstimate:
         return table[:, index].astype(int)
 
     def _typical_curvatures(self):
-        """Of each face the root mean square over the area: what its elements have on average."""
+        """The root mean square curvature over each face's area: the average for its elements."""
         total = np.bincount(self._column(self._pieces, 0), self._pieces[:, 1] * self._pieces[:, 2] ** 2, self._areas.size)
         return np.sqrt(total / np.maximum(self._areas, 1e-300))
 
     def _reach(self):
-        """How far margins of equal width along all edges of a face reach until they fill it."""
+        """For each face, the width at which margins of equal width along all its edges fill it."""
         face, length = self._column(self._sides, 0), self._lengths[self._column(self._sides, 1)]
         border = np.bincount(face, length, self._areas.size)
         widening = np.bincount(face, length * self._sides[:, 2], self._areas.size) / 2
         return 2 * self._areas / np.maximum(border + np.sqrt(border**2 + 4 * widening * self._areas), 1e-300)
 
     def quads(self, *asked, **named) -> int:
-        """The number of quads to expect, see quads_by_face()."""
+        """The expected number of quads, see quads_by_face()."""
         return round(sum(self.quads_by_face(*asked, **named).values()))
 
     def quads_by_face(
@@ -103,8 +103,7 @@ class SizeEstimate:
         faces: Sequence[str] = (),
         growth: float = 0.3,
     ) -> Dict[str, float]:
-        """The number of quads to expect on each face that is meshed. Raises Error for sizes that make no sense on this
-        shape."""
+        """The expected number of quads on each face that is meshed. Raises Error if a size makes no sense for this shape."""
         smallest = size_min or size / 8
         sizes = sizes or {}
         least = min([size, *sizes.values()])
@@ -133,12 +132,12 @@ class SizeEstimate:
         margins = length * _margins(fine, coarse[face], self._reaches[face], growth, widening)
         border = np.bincount(face, length / np.minimum(fine, coarse[face]), count)
         inside += np.bincount(face, margins, count)
-        counts = np.maximum(4.0, np.maximum(border, inside))  # two rows of quads on the narrowest strip
+        counts = np.maximum(4.0, np.maximum(border, inside))  # at least two rows of quads even on the narrowest strip
         names = {f"Face{index + 1}": float(quads) for index, quads in enumerate(counts)}
         return {name: names[name] for name in names if name in faces} if faces else names
 
     def suggested(self, quads: int = 5000, elements_per_circle: float = 12) -> float:
-        """The size that gives about so many quads, to two digits."""
+        """The size that gives about this many quads, rounded to two digits."""
         low, high = self._diagonal * 1e-5, self._diagonal / 2
         for _ in range(30):
             middle = math.sqrt(low * high)
@@ -154,14 +153,14 @@ _last_estimate: List[Tuple[object, SizeEstimate]] = []
 
 
 def estimate_of(shape) -> SizeEstimate:
-    """The estimate of a shape; that of the shape asked for last is kept."""
+    """The estimate of a shape. The estimate of the last shape is cached."""
     for _ in estimate_in_steps(shape):
         pass
     return _last_estimate[0][1]
 
 
 def estimate_in_steps(shape) -> Iterator[None]:
-    """Makes the estimate of a shape, some milliseconds at a time; estimate_of() has it when this has ended."""
+    """Makes the estimate of a shape in steps of a few milliseconds. After the last step, estimate_of() returns it at once."""
     if _last_estimate and _last_estimate[0][0].isSame(shape):
         return
     for estimate in SizeEstimate.in_steps(shape):
@@ -170,8 +169,8 @@ def estimate_in_steps(shape) -> Iterator[None]:
 
 
 def _wires(face) -> List[Tuple[object, float]]:
-    """The wires of a face, and what a margin along each widens by: around a hole it gets longer. Of a face without holes the
-    face itself stands for its wire."""
+    """The wires of a face, and how much a margin along each widens: around a hole it gets longer with distance. For a face
+    with one wire, the face itself stands for the wire."""
     if face.countElement("Wire") == 1:
         return [(face, 0.0)]
     outer = face.OuterWire
@@ -199,8 +198,8 @@ def _curvature_of_edge(edge) -> float:
 
 
 def _margins(fine, coarse, width, growth: float, widening):
-    """Quads to add per length of an edge, where the size grows from `fine` at the edge to `coarse` inside. Around a hole
-    the margin widens with the distance. Arrays, one entry an edge of a face."""
+    """Additional quads per length of an edge where the size grows from `fine` at the edge to `coarse` inside. Around a hole the
+    margin widens with the distance. All arguments but `growth` are arrays with one entry per edge of a face."""
     width = np.minimum(width, (coarse - fine) / growth)
     far = fine + growth * np.maximum(width, 0)
     wider = (np.log(far / fine) + fine / far - 1) / growth**2
@@ -209,7 +208,7 @@ def _margins(fine, coarse, width, growth: float, widening):
 
 
 def _curvatures(face, area: float, samples: int) -> List[Tuple[float, float]]:
-    """A face in pieces: the area of each and the larger curvature there."""
+    """A face as pieces: the area of each piece and the larger principal curvature there."""
     surface = face.Surface
     if isinstance(surface, Part.Plane):
         return [(area, 0.0)]
@@ -237,10 +236,10 @@ _last_fingerprint: List[Tuple[object, List[float]]] = []
 
 
 def fingerprint(shape) -> List[float]:
-    """Numbers that change when a shape does: its corners, the lengths of its edges, areas and centers of its faces.
+    """Numbers that change when a shape changes: its vertices, edge lengths, and the areas, centers and orientations of its faces.
 
-    BREP text would not do: it holds the triangulation for the screen and flags of checks. Those of the shape asked for last
-    are kept.
+    BREP text is not suitable: it contains the display triangulation and flags of checks. The fingerprint of the last shape is
+    cached.
     """
     if _last_fingerprint and _last_fingerprint[0][0].isEqual(shape):
         return list(_last_fingerprint[0][1])
@@ -256,7 +255,7 @@ def fingerprint(shape) -> List[float]:
 
 
 def same_fingerprint(one: Sequence[float], other: Sequence[float]) -> bool:
-    """True when two fingerprints agree but for rounding."""
+    """True if two fingerprints agree except for rounding."""
     if len(one) != len(other):
         return False
     scale = max((abs(number) for number in one), default=1.0)
@@ -264,7 +263,7 @@ def same_fingerprint(one: Sequence[float], other: Sequence[float]) -> bool:
 
 
 def with_reversed_faces(shape, names: Sequence[str]):
-    """The faces of a shape, those with these names reversed; numbered as before. The shape itself when none is."""
+    """A shape with the named faces reversed and the same numbering. The shape itself if there are no names."""
     if not names:
         return shape
     reverse = set(names)
@@ -286,7 +285,8 @@ def with_reversed_faces(shape, names: Sequence[str]):
 
 
 def references_to_names(shape, owner, references: Sequence[Tuple]) -> List[str]:
-    """FEM references as names in the meshed shape ("Face3"): those of other objects are found by their geometry."""
+    """FEM references as names in the meshed shape ("Face3"). Elements of other objects are found by their geometry; a solid
+    gives its faces."""
     names: List[str] = []
     for target, elements in references:
         for element in [elements] if isinstance(elements, str) else elements:
@@ -301,27 +301,27 @@ def references_to_names(shape, owner, references: Sequence[Tuple]) -> List[str]:
 
 
 def _element_in(owner, target, name: str):
-    """The shape of an element of another object, where the owner's shape has it; None when there is none."""
+    """The shape of another object's element, placed as in the owner's shape; None if there is no such element."""
     try:
         solids = target.Shape.Solids if name.startswith("Solid") else ()
         element = solids[int(name[5:]) - 1] if solids else target.getSubObject(name)
     except (Part.OCCError, AttributeError, IndexError, RuntimeError, ValueError):
         return None
-    # The features of a Body have its coordinates, the Body's own shape those of what holds it.
+    # A Body's features are in the Body's coordinates, the Body's own shape in those of its container.
     if element is not None and target in getattr(owner, "Group", ()):
         element = element.copy()
         element.Placement = owner.Placement.multiply(element.Placement)
     return element
 
 
-#: Lengths differ by less than this share of the shape's diagonal where two shapes are equal but for rounding.
+#: Two shapes are equal except for rounding if lengths differ by less than this share of the shape's diagonal.
 _ROUNDING = 1e-7
 _KINDS = {"Solid": "Solids", "Face": "Faces", "Edge": "Edges", "Vertex": "Vertexes"}
 
 
 def find_element(shape, element) -> Optional[str]:
-    """The name of the solid, face, edge or vertex of a shape that an element of an equal shape is, or None. By geometry
-    where it is not the same one: shapes are computed anew, and then differ by rounding."""
+    """The name in a shape of an element (solid, face, edge or vertex) of an equal shape, or None. If the very same element is
+    not found, it is found by geometry, since recomputed shapes differ by rounding."""
     kind = getattr(element, "ShapeType", "")
     if kind not in _KINDS:
         return None
@@ -334,8 +334,8 @@ def find_element(shape, element) -> Optional[str]:
 
 
 class Elements:
-    """The faces, edges and vertices of a shape by name, and by what they measure. FreeCAD makes its lists anew whenever they
-    are asked for; here they are kept."""
+    """The solids, faces, edges and vertices of a shape, by name and by their measures. FreeCAD makes new lists at each access;
+    here they are cached."""
 
     def __init__(self, shape) -> None:
         self._shape = shape
@@ -343,24 +343,24 @@ class Elements:
         self._tolerance = _ROUNDING * max(shape.BoundBox.DiagonalLength, 1e-300)
 
     def all(self, kind: str) -> List:
-        """Those of a kind ("Face")."""
+        """All elements of a kind ("Face")."""
         if kind not in self._lists:
             self._lists[kind] = getattr(self._shape, _KINDS[kind])
         return self._lists[kind]
 
     def measures_of(self, name: str) -> List[float]:
-        """The measures of an element; empty when there is none of that name."""
+        """The measures of an element; empty if there is none of that name."""
         kind = name.rstrip("0123456789")
         if kind not in _KINDS or not 1 <= int(name[len(kind):] or 0) <= len(self.all(kind)):
             return []
         return measures(self.all(kind)[int(name[len(kind):]) - 1])
 
     def is_as_measured(self, name: str, wanted: Sequence[float]) -> bool:
-        """True when an element has these measures but for rounding."""
+        """True if an element has these measures except for rounding."""
         return _alike(self.measures_of(name), wanted, self._tolerance)
 
     def find(self, kind: str, wanted: Sequence[float]) -> List[str]:
-        """The names of the elements of a kind that have these measures but for rounding."""
+        """The names of the elements of a kind that have these measures except for rounding."""
         return [f"{kind}{index}" for index, candidate in enumerate(self.all(kind), 1)
                 if _alike(measures(candidate), wanted, self._tolerance)]
 
@@ -370,8 +370,8 @@ def _alike(one: Sequence[float], other: Sequence[float], tolerance: float) -> bo
 
 
 def topology(shape) -> str:
-    """A digest of how a shape is put together: the edges of each face and the vertices of each edge, by number, and the
-    kinds of surfaces and curves. Equal for two shapes that differ in measures alone."""
+    """A digest of a shape's topology: the edges of each face and the vertices of each edge, by number, the orientation of faces,
+    and the types of surfaces and curves. Equal for two shapes that differ only in measures."""
     known: Dict[int, List[Tuple[object, int]]] = {}
     count = 0
 
@@ -395,13 +395,13 @@ def topology(shape) -> str:
 
 
 def measures(element) -> List[float]:
-    """Lengths that tell an element from the others of its shape."""
+    """Numbers, all lengths, that distinguish an element from the others of its shape."""
     if element.ShapeType == "Vertex":
         return list(element.Point)
     if element.ShapeType == "Edge" and element.Degenerated:
         return []
     size = element.Length if element.ShapeType == "Edge" else math.sqrt(abs(element.Area))
-    # No bounding box: that of a curved face depends on whether it was drawn already.
+    # Not the bounding box: for a curved face it depends on whether the face has been drawn already.
     scale = max(abs(element.Mass) * size, 1e-300)
     inertia = element.MatrixOfInertia
     spread = [value / scale for value in (inertia.A11, inertia.A22, inertia.A33, inertia.A12, inertia.A13, inertia.A23)]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nodes and elements in the input of CalculiX, as FreeCAD writes them, in a third of the time: FreeCAD hands each line to the
-system on its own, 400 000 for 100 000 quads. Runs inside FreeCAD."""
+"""Writes nodes and elements of CalculiX's input as FreeCAD does, in a third of the time: FreeCAD passes each line to the system
+separately, 400 000 lines for 100 000 quads. Runs inside FreeCAD."""
 
 import functools
 from collections.abc import Mapping
@@ -11,12 +11,12 @@ import numpy as np
 
 from . import arrays
 
-#: Lines that are made at once.
+#: Number of lines formatted at once.
 _PIECE = 2000
 
 
 def rows(line: str, *columns: np.ndarray) -> str:
-    """A line of text for each row of columns."""
+    """Formats one line of text per row. `line`: a %-format for one row; `columns`: arrays of equal length."""
     text = []
     for start in range(0, len(columns[0]), _PIECE):
         piece = [column[start:start + _PIECE].tolist() for column in columns]
@@ -25,7 +25,7 @@ def rows(line: str, *columns: np.ndarray) -> str:
 
 
 class Later(Mapping):
-    """A table that is made when it is first looked into."""
+    """A dictionary that is made when it is first accessed; its length is known before."""
 
     def __init__(self, make: Callable[[], dict], length: int) -> None:
         self._make, self._length = make, length
@@ -44,12 +44,12 @@ class Later(Mapping):
         return self._length
 
     def values(self):
-        """Quicker than one by one."""
+        """The values; quicker than Mapping's, which looks up each key."""
         return self._table.values()
 
 
 class ElementTable(Later):
-    """FreeCAD's table of the nodes of each element of a shell mesh, and the same as arrays."""
+    """FreeCAD's table of each element's nodes, for a shell mesh, and the same data as arrays."""
 
     def __init__(self, make: Callable[[], dict], fem_mesh) -> None:
         super().__init__(make, fem_mesh.FaceCount)
@@ -57,14 +57,15 @@ class ElementTable(Later):
         self._shells: Optional[arrays.Shells] = None
 
     def shells(self, nodes: Dict) -> Optional[arrays.Shells]:
-        """The mesh, whose nodes are given as FreeCAD has them; None where it has other elements than quads."""
+        """The mesh as arrays; None if it has other elements than quads. `nodes`: its nodes in FreeCAD's form."""
         if self._shells is None:
             self._shells = arrays.shells_of(self._fem_mesh, nodes)
         return self._shells
 
 
 def nodes_later(function):
-    """FreeCAD's table of nodes; of a shell mesh one that is made where it is needed. FreeCAD 1.1 makes it twice for each input."""
+    """Wraps FreeCAD's maker of the table of nodes: for a shell mesh the table is made when it is needed. FreeCAD 1.1 makes it
+    twice for each input."""
 
     @functools.wraps(function)
     def _load_tables(self):
@@ -77,7 +78,7 @@ def nodes_later(function):
 
 
 def of_shells(function):
-    """FreeCAD's table of elements; of a shell mesh one that is made where it is needed."""
+    """Wraps FreeCAD's maker of the table of elements: for a shell mesh the table is made when it is needed."""
 
     @functools.wraps(function)
     def get_femelement_table(femmesh):
@@ -89,7 +90,7 @@ def of_shells(function):
 
 
 def at_once(function):
-    """The mesh of a mesh object of ours, in the input of CalculiX."""
+    """Wraps FreeCAD's writer of the mesh in CalculiX's input: a mesh object of this addon is written fast."""
 
     @functools.wraps(function)
     def write_mesh(ccxwriter):
@@ -107,7 +108,7 @@ def at_once(function):
 
 
 def _shells_of_loads(ccxwriter) -> Optional[arrays.Shells]:
-    """The mesh that forces were found on just before."""
+    """The mesh as arrays, if it was already made to find the loads of forces; else None."""
     for entry in ccxwriter.member.cons_force:
         for _, loads in entry.get("NodeLoadTable", ()):
             if hasattr(loads, "shells"):
@@ -116,7 +117,7 @@ def _shells_of_loads(ccxwriter) -> Optional[arrays.Shells]:
 
 
 class _Written:
-    """A FEM mesh that is written fast where it can be, and else as FreeCAD does."""
+    """A FEM mesh that is written fast if possible, otherwise by FreeCAD."""
 
     def __init__(self, fem_mesh, shells: Optional[arrays.Shells]) -> None:
         self._fem_mesh, self._shells = fem_mesh, shells
@@ -125,7 +126,7 @@ class _Written:
         return getattr(self._fem_mesh, name)
 
     def writeABAQUS(self, path, element_param, group_param, *variants, **options) -> None:
-        """FreeCAD's, which knows other kinds of elements too; options are of 1.0 and later."""
+        """Replaces FreeCAD's function, which is called for other kinds of elements. FreeCAD 1.0 and later passes options."""
         shells = None
         if (element_param, group_param) == (1, False) and not variants and options.get("faceVariant", "shell") == "shell":
             shells = self._shells or arrays.shells_of(self._fem_mesh)
@@ -137,7 +138,7 @@ class _Written:
 
 
 def text_of(shells: arrays.Shells) -> str:
-    """What FreeCAD writes for a mesh of shells."""
+    """The text that FreeCAD writes for a mesh of shells."""
     count = shells.corners.shape[1]
     return "".join((
         "** written by FreeCAD inp file writer for CalculiX,Abaqus meshes\n** highest dimension mesh elements only.\n\n"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sizes that a mesh would have, on the surface of its part, before it is made: `quadrille sizes` in a child process. Runs
-inside FreeCAD."""
+"""The sizes that a mesh would have, shown on the surface of its part before meshing. Runs `quadrille sizes` in a child process.
+Runs inside FreeCAD."""
 
 import base64
 import json
@@ -18,13 +18,13 @@ from .setting_table import BY_NAME, MeshSettings, in_words_of_properties
 
 
 class Source(NamedTuple):
-    """What asks for sizes, where it asks for the least."""
+    """Something that asks for sizes, and the region where it asks for the smallest."""
 
-    name: str  #: by the option that says so
-    area: float  #: mm^2
-    quads: float  #: about how many there would be there
-    least: float  #: mm
-    largest: float  #: mm
+    name: str  #: the option that it comes from
+    area: float  #: area of the region, mm^2
+    quads: float  #: approximate number of quads in the region
+    least: float  #: smallest size in the region, mm
+    largest: float  #: largest size in the region, mm
 
 
 class SizeMap(NamedTuple):
@@ -34,12 +34,12 @@ class SizeMap(NamedTuple):
     sizes: np.ndarray  #: (n,) mm
     triangles: np.ndarray  #: (m, 3) int32, indices into points
     lines: np.ndarray  #: (k, 2) int32, along CAD edges
-    quads: float  #: about how many the mesh would have
-    sources: Tuple[Source, ...]  #: those that rule somewhere
+    quads: float  #: approximate number of quads in the mesh
+    sources: Tuple[Source, ...]  #: the sources that determine the size somewhere
 
 
 class SizesJob:
-    """One run of `quadrille sizes` on a shape. Start it, then poll() it from a timer until it has ended, or wait()."""
+    """One run of `quadrille sizes` on a shape. Call start(), then wait(), or poll() from a timer until it has ended."""
 
     def __init__(self, shape, settings: MeshSettings, command: Optional[str] = None) -> None:
         command = find_mesher(command)
@@ -69,12 +69,12 @@ class SizesJob:
         return self._job.poll()
 
     def drop(self) -> None:
-        """Ends the child process at once; nobody wants the result."""
+        """Kills the child process at once; the result is not wanted."""
         self._job.kill()
         self._folder.cleanup()
 
     def wait(self) -> SizeMap:
-        """Waits for the end; the map."""
+        """Waits for the end and returns the map."""
         try:
             while self.running:
                 self.poll()
@@ -85,7 +85,7 @@ class SizesJob:
         return self.result()
 
     def result(self) -> SizeMap:
-        """The map, once the child has ended; raises Error when it failed."""
+        """The map, once the child has ended. Raises Error if it failed."""
         try:
             self._job.result()
             with open(self._output, encoding="utf-8") as file:
@@ -110,13 +110,13 @@ def _array(text: str, kind) -> np.ndarray:
 
 
 def start(mesh, wanted: Optional[state.Wanted] = None, command: Optional[str] = None) -> SizesJob:
-    """Starts to find the sizes that a mesh object's mesh would have.
+    """Starts a job that finds the sizes of a mesh object's mesh.
 
     Args:
-        wanted: settings that count in place of the object's own.
+        wanted: settings to use instead of the object's own.
 
     Raises:
-        Error: with one sentence, where the settings or the part make no sense.
+        Error: with one sentence, if the settings or the part make no sense.
     """
     wanted = wanted or state.wanted_of(mesh)
     shape = state.shape_of(mesh.Shape)
@@ -124,20 +124,20 @@ def start(mesh, wanted: Optional[state.Wanted] = None, command: Optional[str] = 
     return SizesJob(shape, state.settings_to_use(mesh, wanted, found), command).start()
 
 
-#: Colors of sizes from the least to the largest, by the logarithm: those of `quadrille sizes --picture` (viridis).
+#: Colors from the smallest to the largest size, on a logarithmic scale: those of `quadrille sizes --picture` (viridis).
 _STOPS = np.array([(0.267, 0.005, 0.329), (0.229, 0.322, 0.546), (0.128, 0.567, 0.551), (0.369, 0.789, 0.383),
                    (0.993, 0.906, 0.144)])
-#: A range of sizes is at least so wide, so that there is one.
+#: Smallest ratio of the ends of a color range, so that the range is never empty.
 _NARROWEST = 1.1
 
 
 def range_of(sizes: np.ndarray) -> Tuple[float, float]:
-    """The least and the largest size that colors stand for."""
+    """The smallest and the largest size of the color range."""
     largest = float(sizes.max())
     return min(float(sizes.min()), largest / _NARROWEST), largest
 
 
 def colors(sizes: np.ndarray, least: float, largest: float) -> np.ndarray:
-    """(n, 3) red, green and blue of sizes in a range."""
+    """The colors of sizes in a range, (n, 3) red, green and blue."""
     place = np.log(sizes / least) / np.log(largest / least) * (len(_STOPS) - 1)
     return np.stack([np.interp(place, np.arange(len(_STOPS)), _STOPS[:, k]) for k in range(3)], axis=1)

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What FreeCAD's solvers are made to do: refuse a stale mesh, and take elements from groups.
+"""Wraps functions of FreeCAD's FEM workbench, so that solvers refuse a stale mesh and take elements from groups.
 
-FreeCAD asks no mesh object whether it is current. Three functions of its FEM workbench, through which all solvers get
-their mesh, are wrapped: the two checks before a run add a reason to refuse, and whatever takes the mesh without a check,
-as scripts do, puts an error into the report view.
+FreeCAD does not ask a mesh object whether it is up to date. The functions through which all solvers get their mesh are
+wrapped: the checks before a run get another reason to refuse. If the mesh is taken without a check, as scripts do, an error
+is written to the report view.
 
-For several materials or thicknesses FreeCAD looks for each element's nodes in a list of the nodes on a face, and for the
-faces that belong to no volume among all volumes; both take the square of the number of elements, many minutes for 100 000.
-Where the mesh has the group of elements that groups.py makes for a material or thickness, that is taken; elsewhere the
-list is made a set, and where there is no volume, all faces belong to none.
+With several materials or thicknesses, FreeCAD looks up each element's nodes in a list of the nodes on a face, and searches
+all volumes for the faces that belong to none. Both take quadratic time in the number of elements: many minutes for 100 000.
+If the mesh has the group of elements that groups.py makes for a material or thickness, that group is used. Otherwise the
+list is turned into a set, and if there are no volumes, all faces are taken as belonging to none.
 
-Meshes without such groups, and mesh objects that are not ours, give the same as before. Runs inside FreeCAD."""
+Meshes without such groups, and mesh objects that are not Quadrille's, give the same results as before. Runs inside FreeCAD."""
 
 import functools
 import importlib.util
@@ -23,7 +23,7 @@ import FreeCAD
 from . import forces, groups, shell_input
 from .shell_input import Later
 
-#: Tells why a mesh object's mesh must not be solved with; empty for a current one, and for objects not ours.
+#: Returns why a mesh object's mesh must not be used; empty if it is up to date, and for objects that are not Quadrille's.
 Complaint = Callable[[object], str]
 _complaint: Optional[Complaint] = None
 #: The materials or thicknesses whose elements FreeCAD is gathering.
@@ -31,7 +31,7 @@ _asked_for: List[object] = []
 
 
 def wrap_solvers(complaint: Complaint) -> None:
-    """Wraps FreeCAD's functions, once."""
+    """Wraps FreeCAD's functions; further calls do nothing."""
     global _complaint
     if _complaint is not None:
         return
@@ -42,8 +42,8 @@ def wrap_solvers(complaint: Complaint) -> None:
 
 
 def _wrap(module: str, name: str, wrapper) -> None:
-    """Wraps one function of FreeCAD. They are FreeCAD's own affair and may go: then one feature is missing, with a warning,
-    and all else works."""
+    """Wraps one function of FreeCAD. These functions are internal to FreeCAD and may disappear: then one feature is missing,
+    with a warning, and everything else works."""
     try:
         owner = importlib.import_module(module)
         *outer, last = name.split(".")
@@ -55,7 +55,7 @@ def _wrap(module: str, name: str, wrapper) -> None:
                                      f"{_LOST[wrapper.__name__]}\n")
 
 
-#: What is missing without each of FreeCAD's functions.
+#: What is lost if FreeCAD's function is missing, by the name of the wrapper.
 _LOST = {
     "_checked_in_framework": "solvers of the framework do not refuse a mesh that is out of date",
     "_checked_by_ccxtools": "CalculiX does not refuse a mesh that is out of date",
@@ -76,7 +76,7 @@ _LOST = {
 
 
 def _checked_in_framework(function):
-    """For solver objects of the framework: CalculiX, Elmer, Mystran, Z88."""
+    """Wraps the check for solver objects of FreeCAD's framework: CalculiX, Elmer, Mystran, Z88."""
     problem_of = _problems()
 
     @functools.wraps(function)
@@ -94,8 +94,8 @@ def _checked_in_framework(function):
 
 
 def _problems() -> Callable[[object], str]:
-    """What tells why the mesh of an analysis must not be solved with; empty where it may. To be made before
-    get_mesh_to_solve is wrapped, which would tell it once more."""
+    """A function that returns why the mesh of an analysis must not be used; empty if it may. Must be called before
+    get_mesh_to_solve is wrapped, which would otherwise report the problem again."""
     mesh_of_analysis = importlib.import_module("femtools.membertools").get_mesh_to_solve
 
     def problem_of(analysis) -> str:
@@ -106,7 +106,7 @@ def _problems() -> Callable[[object], str]:
 
 
 def _prepared(function):
-    """For the CalculiX solver object of FreeCAD 1.1, which drops what the check says."""
+    """Wraps the preparation for the CalculiX solver object of FreeCAD 1.1, which ignores the result of the check."""
     problem_of = _problems()
 
     @functools.wraps(function)
@@ -120,7 +120,7 @@ def _prepared(function):
 
 
 def _checked_by_ccxtools(function):
-    """For FreeCAD's standard CalculiX solver object."""
+    """Wraps the check for FreeCAD's standard CalculiX solver object."""
 
     @functools.wraps(function)
     def check_member_for_solver_calculix(analysis, solver, mesh, member):
@@ -132,7 +132,7 @@ def _checked_by_ccxtools(function):
 
 
 def _announced(function):
-    """For scripts that write the solver's input without a check."""
+    """Wraps the function that gets the mesh, for scripts that write the solver's input without a check."""
 
     @functools.wraps(function)
     def get_mesh_to_solve(analysis):
@@ -146,7 +146,7 @@ def _announced(function):
 
 
 def _noting_objects(function):
-    """Remembers whose elements are asked for: the function that searches gets their references alone."""
+    """Remembers the objects whose elements are requested, since the search function gets only their references."""
 
     @functools.wraps(function)
     def get_femelement_sets(femmesh, femelement_table, fem_objects, *arguments, **options):
@@ -160,7 +160,7 @@ def _noting_objects(function):
 
 
 def _from_groups(function):
-    """The elements of the group that groups.py has made for the object with these references, or a search."""
+    """Takes the elements from the group that groups.py has made for the object with these references; otherwise searches."""
 
     @functools.wraps(function)
     def get_femelements_by_references(femmesh, femelement_table, references, *arguments, **options):
@@ -175,7 +175,7 @@ def _from_groups(function):
 
 
 def _of_shells(function):
-    """The same answer, without a search where there are no volumes."""
+    """Same result, without a search if there are no volumes."""
 
     @functools.wraps(function)
     def get_femelement_faces_table(femmesh, faces_only=None):
@@ -185,7 +185,7 @@ def _of_shells(function):
 
 
 def _with_set(function):
-    """The same answer, without a search through a list for each node."""
+    """Same result, without a search through a list for each node."""
 
     @functools.wraps(function)
     def get_femelements_by_femnodes_std(femelement_table, node_list):
@@ -195,8 +195,8 @@ def _with_set(function):
 
 
 def _when_needed(function):
-    """The same table of each node's elements, when it is needed: FreeCAD 1.1 makes it for each input, and a text of it for its
-    log, and looks into it where elements are searched by their nodes."""
+    """Same table of each node's elements, made only when needed. FreeCAD 1.1 makes it for each input, and a text of it for its
+    log, but uses it only to search elements by their nodes."""
 
     @functools.wraps(function)
     def get_femnodes_ele_table(femnodes_mesh, femelement_table):
@@ -209,7 +209,7 @@ def _when_needed(function):
 
 
 def _followed(function):
-    """The input of CalculiX with the elements and the offset that the mesh object asks for."""
+    """Writes CalculiX's input with the element type and the shell offset that the mesh object asks for."""
 
     @functools.wraps(function)
     def write_solver_input(self, *arguments, **options):
@@ -231,9 +231,9 @@ def _followed(function):
 
 
 def reduce_and_offset(path, reduced: bool, offset: float) -> Tuple[int, int]:
-    """In an input file of CalculiX: S8 shells become S8R, shell sections get an offset in thicknesses. Returns how many
-    blocks of elements and sections were changed."""
-    text = Path(path).read_bytes()  # as text it would take ten times as long
+    """Edits an input file of CalculiX: S8 shells become S8R, and shell sections get an offset, in thicknesses. Returns the number
+    of changed element blocks and of changed sections."""
+    text = Path(path).read_bytes()  # as text this would take ten times as long
     blocks, sections = text.count(b"TYPE=S8,") if reduced else 0, text.count(b"*SHELL SECTION,") if offset else 0
     if blocks:
         text = text.replace(b"TYPE=S8,", b"TYPE=S8R,")
@@ -246,7 +246,7 @@ def reduce_and_offset(path, reduced: bool, offset: float) -> Tuple[int, int]:
 
 # Results of shells
 
-#: FreeCAD's property of CalculiX solver objects: results at the shell's surfaces, not only at its middle.
+#: Property of FreeCAD's CalculiX solver objects: results at the shell's surfaces, not only at its middle.
 SURFACE_RESULTS = "BeamShellResultOutput3D"
 
 
@@ -257,8 +257,8 @@ def solvers_of(analysis) -> List[object]:
 
 
 def hint_at_surfaces(result, analysis) -> None:
-    """Says in the report view that a result has the middle of the shell only. Its stresses are the mean through the
-    thickness: in bending, next to nothing."""
+    """Warns in the report view if a result is for the middle of the shell only. Its stresses are the mean through the
+    thickness, which in bending is almost zero."""
     for solver in solvers_of(analysis):
         if not getattr(solver, SURFACE_RESULTS):
             FreeCAD.Console.PrintWarning(
@@ -267,12 +267,12 @@ def hint_at_surfaces(result, analysis) -> None:
             return
 
 
-#: The same, of FreeCAD 1.1 and later: left out where there is no module of the first one's name.
+#: Further functions to wrap in FreeCAD 1.1 and later; skipped if the first module does not exist. Same form as WRAPPED.
 NEWER = (
     ("femsolver.calculix.calculixtools", "CalculiXTools.prepare", _prepared),
     ("femmesh.meshsetsgetter", "MeshSetsGetter._load_tables", shell_input.nodes_later),
 )
-#: FreeCAD's functions that are wrapped: module, name, and what wraps it.
+#: The functions of FreeCAD to wrap: module, name, and wrapper.
 WRAPPED = (
     ("femsolver.run", "Check.check_mesh_exists", _checked_in_framework),
     ("femtools.checksanalysis", "check_member_for_solver_calculix", _checked_by_ccxtools),

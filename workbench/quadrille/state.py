@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a mesh object asks for, and whether its mesh is that. Runs inside FreeCAD."""
+"""What a mesh object asks for, and whether its mesh still matches that. Runs inside FreeCAD."""
 
 import hashlib
 import json
@@ -14,14 +14,14 @@ from .setting_table import SETTINGS, MeshSettings, from_property
 
 #: The type of the Python side of our mesh objects.
 TYPE = "Fem::FemMeshQuadrille"
-#: The same, of meshes made of FreeCAD's mesh objects.
+#: The type of the Python side of meshes made of FreeCAD's mesh objects (triangles).
 SURFACE_TYPE = "Fem::FemMeshQuadrilleSurface"
 
-#: The properties with the sizes that follow results, see adaption.py, a file that the document keeps, and whether they hold:
-#: FreeCAD cannot empty the first.
+#: Two properties for sizes that follow results, see adaption.py: the file with the sizes, which the document stores, and
+#: whether to use it. The second is needed since FreeCAD cannot empty the first.
 ADAPTED, FOLLOWS = "AdaptedSizes", "FollowResults"
 
-# The words of the property Status.
+# The values of the property Status.
 UP_TO_DATE = "up to date"
 NOT_MESHED = "not meshed yet"
 PART_CHANGED = "the part has changed: mesh again"
@@ -34,19 +34,19 @@ STATUSES = (NOT_MESHED, UP_TO_DATE, PART_CHANGED, SETTINGS_CHANGED, PART_GONE, L
 
 
 class Refinement(NamedTuple):
-    """A size of its own for faces, edges, vertices."""
+    """A separate size for some faces, edges or vertices."""
 
-    region: str  #: the name of FreeCAD's mesh region, which may go while a panel shows it; empty while there is none yet
+    region: str  #: name of FreeCAD's mesh region, which may be deleted while a panel shows it; empty if there is none yet
     references: links.Links
     size: float  #: mm
 
 
 class Wanted(NamedTuple):
-    """What to mesh, and how: what a mesh object has, or what its panel shows."""
+    """What to mesh, and how: as stored in a mesh object, or as its panel shows it."""
 
-    values: Dict[str, Any]  #: by property
+    values: Dict[str, Any]  #: values by property
     refinements: Tuple[Refinement, ...]
-    anew: FrozenSet[str] = frozenset()  #: properties whose links the user has just chosen, in the part as it is now
+    anew: FrozenSet[str] = frozenset()  #: properties whose links the user has just chosen on the current part
 
 
 def is_quad_mesh(obj) -> bool:
@@ -55,12 +55,12 @@ def is_quad_mesh(obj) -> bool:
 
 
 def is_surface_mesh(obj) -> bool:
-    """True for the meshes that surfaces.py made of FreeCAD's mesh objects."""
+    """True for meshes that surfaces.py made of FreeCAD's mesh objects."""
     return getattr(getattr(obj, "Proxy", None), "Type", "") == SURFACE_TYPE
 
 
 def source_of(mesh):
-    """The part, or the mesh object, that a mesh of ours is made of; None when it is gone."""
+    """The part or mesh object that a mesh of this addon is made of; None if it was deleted."""
     return mesh.Surface if is_surface_mesh(mesh) else mesh.Shape
 
 
@@ -80,25 +80,25 @@ def _length(region) -> float:
 
 
 def part_of(mesh):
-    """The part that a mesh object meshes; raises Error when it is gone."""
+    """The part of a mesh object. Raises Error if it was deleted."""
     if mesh.Shape is None:
         raise Error(f"{mesh.Label}: the part that it meshes is gone", "usage", mesh.Name)
     return mesh.Shape
 
 
 def shape_of(doc_object):
-    """The shape of a document object; raises Error when there is none that can be meshed."""
+    """The shape of a document object. Raises Error if there is none that can be meshed."""
     shape = getattr(doc_object, "Shape", None)
     if shape is None or not hasattr(shape, "countElement"):
         label = getattr(doc_object, "Label", doc_object)
         raise Error(f"{label}: has no shape to mesh", "usage", getattr(doc_object, "Name", ""))
-    if shape.isNull() or not shape.countElement("Face"):  # in FreeCAD 1.0 a list of many faces takes long
+    if shape.isNull() or not shape.countElement("Face"):  # not len(shape.Faces): slow for many faces in 1.0
         raise Error(f"{doc_object.Label}: its shape has no faces to mesh", "usage", doc_object.Name)
     return shape
 
 
 def settings_to_use(mesh, wanted: Wanted, found: Dict[links.Key, str]) -> MeshSettings:
-    """What is wanted, for the command, with the present names of faces, edges and vertices."""
+    """The wanted settings for the command, with the current names of faces, edges and vertices."""
     values = dict(wanted.values, Faces=links.names_in(links.renamed("Faces", wanted.values["Faces"], found)))
     settings = MeshSettings(**{setting["name"]: from_property(setting, values[setting["property"]])
                                for setting in SETTINGS if setting["property"]})
@@ -111,7 +111,7 @@ def settings_to_use(mesh, wanted: Wanted, found: Dict[links.Key, str]) -> MeshSe
 
 
 def sizes_wanted(mesh, wanted: Wanted, found: Dict[links.Key, str]) -> Dict[str, float]:
-    """The sizes on faces, edges and vertices of the part."""
+    """The wanted sizes on faces, edges and vertices of the part, by name. If several apply, the smallest holds."""
     sizes: Dict[str, float] = {}
     shape = shape_of(mesh.Shape)
     for region, references, size in wanted.refinements:
@@ -124,15 +124,15 @@ def sizes_wanted(mesh, wanted: Wanted, found: Dict[links.Key, str]) -> Dict[str,
 
 
 def flipped(mesh, found: Dict[links.Key, str]) -> List[str]:
-    """The faces whose normals are turned over."""
+    """The names of the faces whose normals are flipped."""
     return links.names_in(links.renamed("FlippedFaces", mesh.FlippedFaces, found))
 
 
 def settings_key(mesh, wanted: Wanted, found: Dict[links.Key, str]) -> str:
-    """All that a mesh depends on besides its part, as text to compare."""
+    """Everything that a mesh depends on besides its part, as text for comparison."""
     settings = settings_to_use(mesh, wanted, found).of_the_mesh()
     settings["flipped"] = flipped(mesh, found)
-    if _follows(wanted):  # the document keeps it at another place each time
+    if _follows(wanted):  # a digest, since the path of the document's file changes each time
         settings["size_field"] = _digest(mesh, wanted.values[ADAPTED])
     return json.dumps(settings, sort_keys=True, default=list)
 
@@ -150,13 +150,13 @@ def _digest(mesh, path: str) -> str:
 
 
 def same_settings(one: str, other: str) -> bool:
-    """Compares two keys. A setting that the older version of the two did not know had what is now its default."""
+    """Compares two keys of settings_key(). A setting that is missing in one of them counts as having its current default."""
     defaults = {setting["name"]: setting["default"] for setting in SETTINGS if setting["default"] is not None}
     return {**defaults, **json.loads(one or "{}")} == {**defaults, **json.loads(other or "{}")}
 
 
 def judge(mesh) -> Tuple[str, str]:
-    """The status of a mesh object, and the sentence that says why."""
+    """The status of a mesh object, and a sentence with the reason."""
     if mesh.Shape is None:
         return PART_GONE, PART_GONE
     if mesh.FemMesh.FaceCount == 0:
@@ -177,7 +177,7 @@ def judge(mesh) -> Tuple[str, str]:
 
 
 def update(mesh) -> Optional[str]:
-    """Brings the property Status up to date; gives the sentence to tell when the mesh was good and is not any more."""
+    """Updates the property Status. Returns a sentence with the reason if the mesh was up to date and no longer is, else None."""
     before = mesh.Status
     now, sentence = mesh.Proxy.judge(mesh)
     if before == now:
@@ -187,16 +187,16 @@ def update(mesh) -> Optional[str]:
 
 
 def tell_change(mesh) -> None:
-    """Brings the property Status up to date, and warns when the mesh was good and is not any more."""
+    """Updates the property Status, and warns if the mesh was up to date and no longer is."""
     sentence = update(mesh)
     if sentence:
-        label = f"{mesh.Label}: "  # errors that name the object have it
+        label = f"{mesh.Label}: "  # some sentences begin with it already
         FreeCAD.Console.PrintWarning(f"{'' if sentence.startswith(label) else label}{sentence}\n")
 
 
 def complaint(mesh) -> str:
-    """Why nothing should be solved with the mesh of a mesh object, as a sentence; empty when nothing is known to be wrong,
-    and for mesh objects that are not ours."""
+    """Why the mesh of a mesh object should not be used by a solver, as a sentence. Empty if no problem is known, and for mesh
+    objects that are not Quadrille's."""
     if not is_quad_mesh(mesh) and not is_surface_mesh(mesh):
         return ""
     now, sentence = mesh.Proxy.judge(mesh)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Quad meshes of FreeCAD's mesh objects: scans, STL files. The triangles go to `quadrille remesh` as a PLY file, the mesh
-comes back as a MED file with its groups. Runs inside FreeCAD."""
+"""Quad meshes of FreeCAD's triangle mesh objects, such as scans and STL files. The triangles go to `quadrille remesh` as a PLY
+file, and the mesh comes back as a MED file with its groups. Runs inside FreeCAD."""
 
 import json
 import math
@@ -17,7 +17,7 @@ from .errors import Error
 from .jobs import FemJob, find_mesher
 from .setting_table import MeshSettings
 
-#: Share of a surface's diagonal that elements are long where no size is given.
+#: Default element size, as a share of the surface's diagonal.
 _USUAL_SIZE = 1 / 60
 _ORDERS = ("2nd", "1st")
 
@@ -25,19 +25,19 @@ _ORDERS = ("2nd", "1st")
 class Asked(NamedTuple):
     """How a surface is to be meshed."""
 
-    size: float = 0  #: mm; 0 = a sixtieth of the surface's diagonal
+    size: float = 0  #: mm; 0 = 1/60 of the surface's diagonal
     order: int = 2
-    feature_angle: float = 40  #: degrees; 0 = shape makes no faces
-    merge: float = 0  #: mm
+    feature_angle: float = 40  #: degrees; 0 = the surface is not split into faces at folds
+    merge: float = 0  #: nodes at most this far apart are merged, mm
 
 
 def is_mesh_object(obj) -> bool:
-    """True for FreeCAD's mesh objects, of triangles."""
+    """True for FreeCAD's mesh objects, which consist of triangles."""
     return hasattr(obj, "isDerivedFrom") and obj.isDerivedFrom("Mesh::Feature")
 
 
 def check_surface(surface, analysis=None) -> None:
-    """Raises Error when something is no mesh object that can be meshed, or the analysis cannot take its mesh."""
+    """Raises Error if `surface` is no mesh object that can be meshed, or if the analysis cannot take its mesh."""
     label, name = getattr(surface, "Label", surface), getattr(surface, "Name", "")
     if not is_mesh_object(surface):
         raise Error(f"{label}: is no mesh object; select one, such as an STL file that was imported", "usage", name)
@@ -47,7 +47,7 @@ def check_surface(surface, analysis=None) -> None:
 
 
 def usual_size(surface) -> float:
-    """The size that a mesh object is meshed at where none is given, to two digits, in mm."""
+    """The default element size for a mesh object, in mm, rounded to two digits."""
     length = surface.Mesh.BoundBox.DiagonalLength * _USUAL_SIZE
     return float(f"{length:.2g}")
 
@@ -75,19 +75,19 @@ def make(surface, asked: Asked, name: str = "QuadMesh", analysis=None, progress:
 
 
 def prepare(surface, asked: Asked, progress: Optional[Progress] = None) -> None:
-    """Makes the mesh that the mesh_surface() or remesh() that follows at once takes: what is wrong is raised before the
+    """Makes the mesh for the mesh_surface() or remesh() call that follows immediately. Errors are thus raised before the
     document changes."""
     _prepared.clear()
     _prepared[_key(surface, asked)] = _meshed(surface, asked, progress, None)
 
 
 def asked_of(mesh) -> Asked:
-    """What a mesh asks for."""
+    """The settings in a mesh object's properties."""
     return Asked(mesh.Size.Value, 1 if mesh.ElementOrder == "1st" else 2, mesh.FeatureAngle.Value, mesh.MergeDistance.Value)
 
 
 def judge(mesh) -> Tuple[str, str]:
-    """The status of a mesh, and the sentence that says why."""
+    """The status of a mesh, and a sentence with the reason."""
     surface = mesh.Surface
     if surface is None:
         return state.PART_GONE, state.PART_GONE
@@ -103,7 +103,7 @@ def judge(mesh) -> Tuple[str, str]:
 
 
 def fingerprint(surface) -> List[float]:
-    """Numbers that change when a mesh object does: counts, box, area, volume, center."""
+    """Numbers that change when a triangle mesh changes: counts, bounding box, area, volume, center."""
     mesh = surface.Mesh
     box = mesh.BoundBox
     length = max(box.DiagonalLength, 1e-300)
@@ -127,7 +127,7 @@ class SurfaceJob(FemJob):
         command = find_mesher(command)
         folder = scratch_folder()
         model, output = (os.path.join(folder.name, name) for name in ("surface.ply", "mesh.med"))
-        surface.Mesh.write(model)  # single precision, which is what FreeCAD's meshes have
+        surface.Mesh.write(model)  # single precision, like FreeCAD's meshes
         self._told_as = ((model, surface.Label), ("triangles and points counted from 0, as they come in the file",
                                                   "triangles and points counted from 0"),
                          ("Force meshes all the same", "take a larger Size"), ("--feature-angle", "FeatureAngle"), ("--merge", "MergeDistance"))
@@ -136,7 +136,7 @@ class SurfaceJob(FemJob):
         super().__init__(command, folder, output, MeshJob(model, [output, *outputs], settings, command, None, work))
 
     def wait(self, progress: Optional[Progress] = None) -> None:
-        """Waits for the end, passing progress on; what went wrong is said of the mesh object."""
+        """Waits for the end and passes progress on. Errors name the mesh object and its properties, not files and options."""
         try:
             super().wait(progress)
         except Error as error:
@@ -147,7 +147,7 @@ class SurfaceJob(FemJob):
 
 
 def start(mesh, command: Optional[str] = None, outputs: Sequence[Union[str, Path]] = ()) -> SurfaceJob:
-    """Starts to mesh the surface of a mesh with the settings in its properties."""
+    """Starts to mesh the surface of a mesh object with the settings in its properties."""
     if mesh.Surface is None:
         raise Error(f"{mesh.Label}: the mesh object that it meshes is gone", "usage", mesh.Name)
     check_surface(mesh.Surface)
@@ -160,7 +160,7 @@ def _start(surface, asked: Asked, command: Optional[str], outputs: Sequence[Unio
     return SurfaceJob(surface, asked, command, outputs).start()
 
 
-#: The job that is done and not yet taken, by what it was asked for.
+#: The finished job whose mesh has not been used yet, by surface and settings.
 _prepared: Dict[Tuple, SurfaceJob] = {}
 
 
@@ -173,7 +173,7 @@ def _text(asked: Asked) -> str:
 
 
 def _meshed(surface, asked: Asked, progress: Optional[Progress], command: Optional[str]) -> SurfaceJob:
-    """A job that has ended well: what prepare() left, or a new one."""
+    """A job that has succeeded: the one that prepare() has left, or a new one."""
     job = _prepared.pop(_key(surface, asked), None)
     if job is not None and _same(job.made_of[0], fingerprint(surface)):
         return job
@@ -200,7 +200,8 @@ def _store(mesh, fem_mesh, report: Dict, job: SurfaceJob) -> None:
 
 
 class SurfaceMesh:
-    """The Python side of a mesh made of a mesh object: its properties. Documents name this class: do not move it."""
+    """The Python side of a mesh made of a mesh object: its properties. Saved documents refer to this class by name: do not
+    move it."""
 
     Type = state.SURFACE_TYPE
     BaseType = "Fem::BaseFemPythonObject"
@@ -215,13 +216,13 @@ class SurfaceMesh:
 
     @staticmethod
     def _watch() -> None:
-        groups.watch()  # forgets the meshes of documents that close
+        groups.watch()  # drops the meshes of closed documents
         observers.watch(_Watcher)
         solvers.wrap_solvers(state.complaint)
 
     @staticmethod
     def add_properties(obj) -> None:
-        """Adds what is missing, so that documents of older versions gain new properties."""
+        """Adds missing properties, so that documents of older versions gain new ones."""
         for kind, name, group, text in (
             ("App::PropertyLink", "Surface", "Mesh", "The mesh object that is meshed anew"),
             ("App::PropertyLength", "Size", "Mesh", "Length of elements"),
@@ -245,12 +246,12 @@ class SurfaceMesh:
                 obj.setEditorMode(name, 1 if group == "Result" else 2)
 
     def execute(self, obj) -> None:
-        """FreeCAD calls this when the surface or a setting has changed: says so, and leaves the mesh as it is."""
+        """FreeCAD calls this when the surface or a setting has changed. Reports the change and leaves the mesh as it is."""
         state.tell_change(obj)
 
     @staticmethod
     def remesh(obj, progress: Optional[Progress] = None, command: Optional[str] = None) -> None:
-        """Meshes the surface anew with the settings in the properties; on an Error the object keeps its old mesh."""
+        """Meshes the surface again with the settings in the properties. On an Error the object keeps its old mesh."""
         if obj.Surface is None:
             raise Error(f"{obj.Label}: the mesh object that it meshes is gone", "usage", obj.Name)
         check_surface(obj.Surface)
@@ -263,7 +264,7 @@ class SurfaceMesh:
         self.add_properties(obj)
         self._watch()
 
-    # The state is all in the document's properties; 0.20 calls the second pair, 1.0 the first.
+    # All state is in the document's properties. FreeCAD 0.20 calls the second pair, 1.0 the first.
     def dumps(self):
         """Nothing to save."""
         return None
@@ -276,7 +277,7 @@ class SurfaceMesh:
 
 
 class _Watcher:
-    """FreeCAD's undo brings back all but the mesh itself, see undo.py."""
+    """A document observer. It restores meshes after an undo, since FreeCAD restores everything but the mesh, see undo.py."""
 
     def slotUndoDocument(self, document) -> None:
         """FreeCAD calls this after an undo."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Undo for meshes. FreeCAD's undo brings back every property but the FEM mesh itself: the property for it shares its
-mesh with the copy kept for undo, and a new mesh overwrites both (0.20). So each mesh gets a token, which FreeCAD's
-undo does bring back, and the last few meshes are kept by their tokens. Runs inside FreeCAD."""
+"""Undo for meshes. FreeCAD's undo restores every property except the FEM mesh: the property shares its mesh with the copy kept
+for undo, and a new mesh overwrites both (0.20). So each mesh gets a token, which FreeCAD's undo does restore. The last few
+meshes are kept, by token. Runs inside FreeCAD."""
 
 import uuid
 from collections import OrderedDict
@@ -9,7 +9,7 @@ from typing import Dict
 
 import Fem
 
-#: Meshes kept for each object.
+#: Number of meshes kept for each object.
 KEPT = 5
 #: {(document, object): {token: mesh}}
 _meshes: Dict[tuple, "OrderedDict[str, object]"] = {}
@@ -17,17 +17,17 @@ _meshes: Dict[tuple, "OrderedDict[str, object]"] = {}
 _current: Dict[tuple, str] = {}
 
 
-#: Tokens of meshes that are kept whatever else is, by object: a panel is open that may take its work back.
+#: By object, the token of a mesh that is kept in any case, since an open panel may still cancel.
 _held: Dict[tuple, str] = {}
 
 
 def hold(mesh) -> None:
-    """Keeps the mesh that an object has until release()."""
+    """Keeps the current mesh of an object until release()."""
     _held[_key(mesh)] = mesh.MeshToken
 
 
 def release(document, mesh_name: str) -> None:
-    """Keeps it no longer than others."""
+    """Ends hold(): the mesh is then kept no longer than others."""
     _held.pop((document.Uid, mesh_name), None)
 
 
@@ -36,11 +36,11 @@ def _key(mesh) -> tuple:
 
 
 def put(mesh, fem_mesh) -> None:
-    """Gives a mesh object a new mesh, and keeps the mesh that it had."""
+    """Gives a mesh object a new mesh, and keeps the old one for undo."""
     key = _key(mesh)
     kept = _meshes.setdefault(key, OrderedDict())
     if mesh.MeshToken and mesh.MeshToken not in kept and mesh.Document.UndoMode:
-        kept[mesh.MeshToken] = mesh.FemMesh.copy()  # it was read with the document
+        kept[mesh.MeshToken] = mesh.FemMesh.copy()  # the old mesh was read with the document
     mesh.MeshToken = uuid.uuid4().hex
     mesh.FemMesh = fem_mesh
     _keep(mesh, fem_mesh)
@@ -60,7 +60,7 @@ def _keep(mesh, fem_mesh) -> None:
 
 
 def bring_back(mesh) -> None:
-    """After undo or redo: puts the mesh into the object that its token names; none when that was not kept."""
+    """After undo or redo: gives the object the mesh of its token, or an empty mesh if that one was not kept."""
     key = _key(mesh)
     if _current.get(key, mesh.MeshToken) == mesh.MeshToken:
         return
@@ -69,7 +69,7 @@ def bring_back(mesh) -> None:
 
 
 def forget(document) -> None:
-    """Drops what is kept for a document that closes."""
+    """Drops everything that is kept for a document that closes."""
     for table in (_meshes, _current, _held):
         for key in [key for key in table if key[0] == document.Uid]:
             del table[key]

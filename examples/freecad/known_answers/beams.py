@@ -12,7 +12,7 @@ from .solver import Problem, displacements, solve, stresses, work
 
 
 class TwistedBeamInPlane:
-    """A strip twisted by 90 degrees, clamped, loaded by 1 across its tip along its width (MacNeal and Harder 1985)."""
+    """A strip twisted by 90 degrees, clamped, with a force of 1 at its tip along its width (MacNeal and Harder 1985)."""
 
     reference, sizes, size, tolerance = 5.424e-3, (1.0, 0.55, 0.37, 0.275), 0.37, 1.0
     length, width, thickness = 12.0, 1.1, 0.32
@@ -41,13 +41,13 @@ class TwistedBeamInPlane:
 
 
 class TwistedBeamOutOfPlane(TwistedBeamInPlane):
-    """The same, loaded along the thickness at its tip."""
+    """The same beam, loaded along the thickness at its tip."""
 
     reference, direction = 1.754e-3, (0, 1, 0)
 
 
 class CurvedBeamInPlane:
-    """A quarter of a ring, clamped, sheared by 1 at its tip in its plane (MacNeal and Harder 1985, who give 0.08734).
+    """A quarter of a ring, clamped, with a shear force of 1 at its tip in its plane (MacNeal and Harder 1985: 0.08734).
     The reference is the exact displacement of plane stress (Timoshenko and Goodier, Theory of Elasticity, 33)."""
 
     sizes, size, tolerance = (0.2, 0.1, 0.067, 0.05), 0.1, 1.0
@@ -79,13 +79,13 @@ class CurvedBeamInPlane:
 
 
 class CurvedBeamOutOfPlane(CurvedBeamInPlane):
-    """The same, sheared out of its plane: bent and twisted."""
+    """The same beam, with the shear force out of its plane: bending and torsion."""
 
     reference, tolerance, direction = 0.5022, 2.5, (0, 0, 1)
 
 
 class ZSection:
-    """NAFEMS LE5: a Z of sheet, clamped, twisted by shears on its flanges; the stress along it at a flange (MPa)."""
+    """NAFEMS LE5: a clamped Z section, twisted by shears on its flanges. The answer is the axial stress at a flange (MPa)."""
 
     reference, sizes, size, tolerance = -108.0, (1.0, 0.5, 0.33, 0.25), 0.33, 3.0
     length, half, flange, thickness = 10.0, 1.0, 1.0, 0.1
@@ -113,8 +113,8 @@ class ZSection:
 
 
 class TJoint:
-    """A sheet clamped at both ends with a stem on its middle, pushed sideways: the push's displacement, as a ratio to
-    that of a frame of Timoshenko's beams. Poisson's ratio is 0, so that a wide sheet bends as a beam does."""
+    """A sheet clamped at both ends, with a stem on its middle that is pushed sideways. The answer is the displacement at the
+    force, as a ratio to that of a frame of Timoshenko beams. Poisson's ratio is 0, so that a wide sheet bends like a beam."""
 
     reference, sizes, size, tolerance = 1.0, (2.0, 1.0, 0.67, 0.5), 0.5, 1.0
     arm, height, width, thickness, young = 4.0, 3.0, 2.0, 0.1, 1e5
@@ -125,7 +125,7 @@ class TJoint:
         return joined([Part.makeLine(Vector(), end).extrude(across) for end in ends])
 
     def exact(self):
-        """For a push of 1."""
+        """The displacement of the frame under a force of 1."""
         area, bending = self.young * self.width * self.thickness, self.young * self.width * self.thickness**3 / 12
         shear = 5 / 6 * area / 2
         slip = 12 * bending / (shear * self.arm**2)

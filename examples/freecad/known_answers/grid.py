@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Structured grids on CAD whose faces have four sides, or three: what one would make by hand, to compare with."""
+"""Structured grids on CAD whose faces have three or four sides, as one would make them by hand, for comparison."""
 
 import math
 
@@ -12,9 +12,9 @@ from .solver import Mesh
 def grid(shape, size, corners=()):
     """A grid of eight-node quads, as a Mesh.
 
-    The nodes of a face are blended between its sides (Coons) and put on its surface. Opposite sides have the same number of
-    elements, about their length over `size`; a face with three sides is made of three grids that meet in its middle.
-    `corners`: the four points that count as corners of a shape of one face with more edges. Raises RuntimeError where a face
+    The nodes of a face are blended between its sides (Coons patch) and projected to its surface. Opposite sides have the same
+    number of elements, about length / `size`. A face with three sides is made of three grids that meet in its middle.
+    `corners`: for a shape of one face with more edges, the points that count as its corners. Raises RuntimeError if a face
     has another number of sides."""
     sides = [_sides(face, corners) for face in shape.Faces]
     counts = _counts(shape.Edges, sides, size)
@@ -28,7 +28,7 @@ def grid(shape, size, corners=()):
 
 
 def _sides(face, corners):
-    """The edges of each side, in the order and direction of the boundary: lists of (edge, whether it runs against it)."""
+    """The edges of each side, in boundary order: lists of (edge, whether it runs against the boundary)."""
     wire = face.OuterWire
     around = [(edge, edge.Orientation == "Reversed") for edge in wire.OrderedEdges if not edge.Degenerated]
     if corners:
@@ -50,7 +50,7 @@ def _start(step):
 
 
 def _counts(edges, sides, size):
-    """The number of elements on each edge, by its hash: the most that an edge wants among those tied to it."""
+    """The number of elements on each edge, by the edge's hash code: the largest number among the edges tied to it."""
     edges = list(edges)
     place = {edge.hashCode(): i for i, edge in enumerate(edges)}
     ties = list(range(len(edges)))
@@ -74,7 +74,8 @@ def _counts(edges, sides, size):
 
 
 def _line(side, counts):
-    """The points of a side, midside nodes too: (2 n + 1, 3). Edges of a composite side share its elements."""
+    """The points of a side with n elements, including midside nodes: (2 n + 1, 3). A side's elements are divided evenly among
+    its edges."""
     points = []
     for edge, against in side:
         share = counts[edge.hashCode()] if len(side) == 1 else max(1, max(counts[e.hashCode()] for e, _ in side) // len(side))
@@ -86,7 +87,7 @@ def _line(side, counts):
 
 
 def _patches(face, lines):
-    """Four-sided patches, each as its four lines: bottom, right, top and left, all from left to right or from below."""
+    """Four-sided patches, each as four lines: bottom, right, top and left. They run from left to right, or from bottom to top."""
     if len(lines) == 4:
         return [(lines[0], lines[1], lines[2][::-1], lines[3][::-1])]
     middles = [len(line) // 2 for line in lines]
@@ -98,13 +99,13 @@ def _patches(face, lines):
 
 
 def _on(face, point):
-    """The nearest point of a face's surface."""
+    """The point of a face's surface nearest to a point."""
     surface = face.Surface
     return np.array(surface.value(*surface.parameter(Vector(*point))))
 
 
 def _blend(face, patch):
-    """Coons's patch between four lines, its inner points on the surface: (m, n, 3)."""
+    """The Coons patch between four lines, with its inner points on the surface: (m, n, 3)."""
     bottom, right, top, left = patch
     s = np.linspace(0, 1, len(bottom))[None, :, None]
     t = np.linspace(0, 1, len(left))[:, None, None]
@@ -117,20 +118,20 @@ def _blend(face, patch):
 
 
 def _along(face, points):
-    """Whether a grid's elements look where the face looks."""
+    """Whether the normals of a grid's elements point the same way as the face's."""
     i, j = (points.shape[0] // 4) * 2, (points.shape[1] // 4) * 2
     normal = np.cross(points[i, j + 1] - points[i, j], points[i + 1, j] - points[i, j])
     return float(normal @ np.array(face.normalAt(*face.Surface.parameter(Vector(*points[i, j]))))) > 0
 
 
 class _Nodes:
-    """Points, each once."""
+    """A list of points without duplicates."""
 
     def __init__(self, tolerance):
         self.points, self._known, self._tolerance = [], {}, tolerance
 
     def numbers(self, points):
-        """The numbers, from 1 on, of a grid of points; those in the middles of elements are never asked for."""
+        """The node numbers, from 1, of a grid of points; 0 for the points in the middle of elements, which have no node."""
         found = np.zeros(points.shape[:2], dtype=int)
         for i, j in np.ndindex(*found.shape):
             if not (i % 2 and j % 2):
@@ -149,7 +150,7 @@ class _Nodes:
 
 
 def _elements(numbers, turned):
-    """The eight-node quads of a grid of node numbers: corners, then midside nodes."""
+    """The eight-node quads of a grid of node numbers: corners, then midside nodes. turned: reverses their orientation."""
     ring = ((0, 0), (0, 2), (2, 2), (2, 0), (0, 1), (1, 2), (2, 1), (1, 0))
     if turned:
         ring = ((0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1))

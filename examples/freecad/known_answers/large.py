@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Large displacements (Sze, Liu and Lo 2004, Finite Elements in Analysis and Design 40, 1551-1569)."""
+"""Problems with large displacements (Sze, Liu and Lo 2004, Finite Elements in Analysis and Design 40, 1551-1569)."""
 
 import math
 
@@ -12,7 +12,7 @@ from .solver import Problem, displacements, solve, work
 
 
 class EndShear:
-    """A strip, clamped and sheared by 2 at its end, which it raises by half its length."""
+    """A clamped strip with a shear force of 2 at its end, which raises the end by half the strip's length."""
 
     reference, sizes, size, tolerance = 4.933, (0.5, 0.33, 0.25, 0.2), 0.5, 1.0
     length, width = 10.0, 1.0
@@ -31,9 +31,9 @@ class EndShear:
 
 
 class SlitAnnulus:
-    """A ring of sheet, slit: one lip is clamped, the other lifted by a line of force; the rise of its outer end under
-    a tenth of the paper's largest load. The lips are a hundredth of a degree apart, so that they can be told
-    from each other."""
+    """A slit annular plate: one lip is clamped, the other lifted by a line load. The answer is the rise of the lip's outer end
+    under a tenth of the paper's largest load. The lips are a hundredth of a degree apart, so that their nodes can be
+    distinguished."""
 
     reference, sizes, size, tolerance = 5.876, (2.0, 1.6, 1.33, 1.0), 1.33, 1.0
     inner, outer, gap = 6.0, 10.0, 0.01
@@ -60,8 +60,8 @@ class SlitAnnulus:
 
 
 class PulledCylinder:
-    """An open cylinder, pulled apart by two forces on its middle; the displacement under one of them, at a tenth of the
-    paper's largest force."""
+    """An open cylinder, pulled apart by two forces at mid-length. The answer is the displacement at one of them, under a tenth
+    of the paper's largest force."""
 
     reference, sizes, size, tolerance = 1.707, (1.6, 1.3, 1.0, 0.8), 1.3, 2.5
     radius, half = 4.953, 10.35 / 2
@@ -80,7 +80,7 @@ class PulledCylinder:
         problem = Problem(10.5e6, 0.3125, 0.094)
         r = self.radius
         top, bottom, right, left = (mesh.at(*point) for point in ((0, r, 0), (0, -r, 0), (r, 0, 0), (-r, 0, 0)))
-        # What symmetry keeps at zero holds the body: no force comes from these supports.
+        # The supports fix displacements that are zero by symmetry, so they have no reaction forces.
         problem.fix(np.array([top, bottom]), 1)
         problem.fix(np.array([right, left]), 2)
         problem.fix(np.array([top, bottom, right, left]), 3)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Patch tests: constant strain and constant curvature must come out inside."""
+"""Patch tests: a constant strain or curvature on the border must be reproduced inside."""
 
 import numpy as np
 import Part
@@ -10,7 +10,8 @@ from .solver import Problem, border_nodes, displacements, solve
 
 
 class MembranePatch:
-    """The membrane patch test: constant strain on the border must come out inside, on any mesh. The largest error."""
+    """The membrane patch test: a constant strain on the border must be reproduced inside, on any mesh. The answer is the largest
+    displacement error, relative to the largest displacement."""
 
     reference, sizes, size, tolerance = 0.0, (3, 2, 1.3, 0.9, 0.6), 1.3, None
     absolute = 1e-6
@@ -33,10 +34,10 @@ class MembranePatch:
 
 
 class SkewBendingPatch:
-    """The bending patch test: constant curvature along x, along y and in twist, given at the border by deflection and
-    rotations, must come out inside. Poisson's ratio is 0, because CalculiX keeps the thickness of a shell at nodes
-    whose rotation is given. Three skew strips of other widths, so that the elements are parallelograms of three forms.
-    The largest error of three shell elements, over the largest deflection."""
+    """The bending patch test: constant curvatures along x, along y and in twist, prescribed on the border by deflection and
+    rotations, must be reproduced inside. Poisson's ratio is 0, because CalculiX keeps a shell's thickness constant at nodes
+    with prescribed rotations. There are three skew strips of different widths, so the elements are parallelograms of three
+    shapes. The answer is the largest error over three shell elements, relative to the largest deflection."""
 
     reference, sizes, size, tolerance = 0.0, (3, 2, 1.3, 0.9, 0.6), 1.3, None
     absolute = 1e-6
@@ -71,7 +72,7 @@ class SkewBendingPatch:
 
 
 class QuadrangleBendingPatch(SkewBendingPatch):
-    """The same on a quadrangle without parallel sides: its mapped elements are parallelograms but for 5 %."""
+    """The same on a quadrangle without parallel sides: its mapped elements are parallelograms to within 5 %."""
 
     shells = ("S8R", "S8")
 
@@ -90,8 +91,8 @@ class CutBendingPatch(SkewBendingPatch):
 
 
 class BendingPatch:
-    """A plate strip bent by four lines of force, Poisson's ratio 0: between the supports the curvature is constant.
-    The mesh is distorted by skew lines. The rise of the middle, as a ratio to the exact one."""
+    """A plate strip in four-line bending, with Poisson's ratio 0: the curvature between the supports is constant. Skew lines
+    distort the mesh. The answer is the worst ratio of a node's deflection between the supports to the exact one."""
 
     reference, sizes, size, tolerance = 1.0, (2.5, 1.6, 1.0, 0.7, 0.4), 0.4, 0.1
     length, width, thickness, arm = 10.0, 4.0, 0.2, 2.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plates: their plane stress, bending, vibration and buckling."""
+"""Plates: plane stress, bending, vibration and buckling."""
 
 import math
 
@@ -12,7 +12,7 @@ from .solver import SURFACES, Problem, factors, solve, stress_at, stresses
 
 
 class EllipticMembrane:
-    """NAFEMS LE1: a quarter of an elliptic ring under outward pressure; the stress at its inner end (MPa)."""
+    """NAFEMS LE1: a quarter of an elliptic ring under outward pressure. The answer is the stress at its inner end (MPa)."""
 
     reference, sizes, size, tolerance = 92.7, (0.5, 0.3, 0.2, 0.12, 0.07), 0.07, 1.0
 
@@ -40,7 +40,8 @@ class EllipticMembrane:
 
 
 class PlateWithHole:
-    """A hole in an infinite plate under tension: 3.0 at its flank. A quarter, with Kirsch's tractions outside."""
+    """A hole in an infinite plate under tension: the stress at its flank is 3.0. A quarter is meshed, with Kirsch's tractions
+    on its outer sides."""
 
     reference, sizes, size, tolerance = 3.0, (0.6, 0.4, 0.25, 0.15, 0.1), 0.1, 1.0
     side = 4.0
@@ -52,7 +53,7 @@ class PlateWithHole:
 
     @staticmethod
     def kirsch(point):
-        """The exact stresses, tension 1 along x, radius 1."""
+        """The exact stresses for tension 1 along x and radius 1."""
         r, t = math.hypot(point[0], point[1]), math.atan2(point[1], point[0])
         a2, a4 = 1 / r**2, 1 / r**4
         xx = 1 - a2 * (1.5 * math.cos(2 * t) + math.cos(4 * t)) + 1.5 * a4 * math.cos(4 * t)
@@ -77,8 +78,8 @@ class PlateWithHole:
 
 
 class SkewPlate:
-    """NAFEMS LE6: a rhombus of 30 degrees under pressure, edges held; the largest stress below its middle (MPa).
-    At the obtuse corners the moments have no end, and the answer converges slowly."""
+    """NAFEMS LE6: a rhombus of 30 degrees under pressure, simply supported. The answer is the largest principal stress at the
+    bottom of its middle (MPa). At the obtuse corners the moments are infinite, so the answer converges slowly."""
 
     reference, sizes, size, tolerance = 0.802, (0.125, 0.0833, 0.0625, 0.0417, 0.03), 0.03, 2.0
     thickness = 0.01
@@ -112,7 +113,7 @@ class SupportedPlate:
     a, b, thickness, young, poisson, density = 10.0, 8.0, 0.05, 2e5, 0.3, 8e-9
 
     def stiffness(self):
-        """Of the plate in bending."""
+        """The bending stiffness of the plate."""
         return self.young * self.thickness**3 / 12 / (1 - self.poisson**2)
 
     def shape(self):
@@ -127,7 +128,7 @@ class SupportedPlate:
 
 
 class Modes(SupportedPlate):
-    """The first four frequencies of the plate, as their mean ratio to Kirchhoff's (1 is exact)."""
+    """The first four frequencies of the plate. The answer is their worst ratio to Kirchhoff's (1 is exact)."""
 
     reference, sizes, size, tolerance = 1.0, (2.5, 1.6, 1.0, 0.7, 0.5), 0.5, 1.0
 
@@ -138,7 +139,7 @@ class Modes(SupportedPlate):
                       for m in range(1, 6) for n in range(1, 6))[:4]
 
     def frequencies(self, mesh):
-        """CalculiX's first four."""
+        """CalculiX's first four frequencies in Hz."""
         problem = self.problem(mesh)
         problem.fix(mesh.at(0, 0, 0), 1, 2)
         problem.fix(mesh.at(self.a, 0, 0), 2)
@@ -151,7 +152,7 @@ class Modes(SupportedPlate):
 
 
 class Buckling(SupportedPlate):
-    """The load that buckles the plate, pressed along x, as a ratio to Kirchhoff's."""
+    """The buckling load of the plate under compression along x, as a ratio to Kirchhoff's."""
 
     reference, sizes, size, tolerance = 1.0, (2.5, 1.6, 1.0, 0.7, 0.5), 0.5, 1.0
 

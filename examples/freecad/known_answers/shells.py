@@ -46,7 +46,7 @@ class PinchedCylinder:
 
 
 class GradedPinchedCylinder(PinchedCylinder):
-    """The same with a tenth of the size at the forces, growing from there."""
+    """The same with a tenth of the size at the forces, from where it grows."""
 
     sizes, size = (80, 60, 40, 30), 30
     refined, share = ((0.0, 300.0, 0.0), (0.0, -300.0, 0.0)), 0.1
@@ -74,7 +74,7 @@ class Hemisphere:
         problem = Problem(6.825e7, 0.3, 0.04)
         r, top = self.radius, math.radians(72)
         pulled, pushed = (mesh.at(r, 0, 0), mesh.at(-r, 0, 0)), (mesh.at(0, r, 0), mesh.at(0, -r, 0))
-        # What symmetry keeps at zero holds the body: no force comes from these supports.
+        # The supports fix displacements that are zero by symmetry, so they have no reaction forces.
         problem.fix(np.array([*pulled, mesh.at(r * math.cos(top), 0, r * math.sin(top))]), 2)
         problem.fix(np.array([pushed[0], mesh.at(0, r * math.cos(top), r * math.sin(top))]), 1)
         problem.fix(pulled[0], 3)
@@ -84,7 +84,7 @@ class Hemisphere:
 
 
 class ClosedHemisphere:
-    """NAFEMS LE3: a hemisphere without a hole, pulled and pushed at its equator; the displacement (m)."""
+    """NAFEMS LE3: a hemisphere without a hole, pulled and pushed at its equator. The answer is the displacement (m)."""
 
     reference, sizes, size, tolerance = 0.185, (2.5, 1.6, 1.0, 0.7), 1.0, 1.0
     radius = 10.0
@@ -101,7 +101,7 @@ class ClosedHemisphere:
 
     def answer(self, mesh):
         problem = Problem(68.25e3, 0.3, 0.04)  # MN and m
-        r, force = self.radius, 4e-3  # twice what the quarter has
+        r, force = self.radius, 4e-3  # twice the force of the quarter model
         pulled, pushed = (mesh.at(r, 0, 0), mesh.at(-r, 0, 0)), (mesh.at(0, r, 0), mesh.at(0, -r, 0))
         pole = mesh.at(0, 0, r)
         problem.fix(np.array([*pulled, pole]), 2)
@@ -114,14 +114,14 @@ class ClosedHemisphere:
 
 
 class Hook:
-    """Raasch's hook: a strip of two arcs, clamped at one end and sheared along its width at the other. The
-    reference is of solids (Knight 1997, AIAA Journal 35, 375-381)."""
+    """Raasch's hook: a strip of two arcs, clamped at one end, with a shear force along its width at the other. The reference was
+    computed with solid elements (Knight 1997, AIAA Journal 35, 375-381)."""
 
     reference, sizes, size, tolerance = 4.9352, (10, 6.6, 5, 3.3, 2), 5, 1.5
     small, large, width = 14.0, 46.0, 20.0
 
     def shape(self):
-        """The small arc from the clamped end at the origin upwards, the large one beyond it bent the other way."""
+        """The small arc runs upward from the clamped end at the origin; the large arc continues it, bent the other way."""
         def arc(center, radius, start, end):
             points = [center + Vector(math.cos(a), math.sin(a), 0) * radius
                       for a in (math.radians(start), math.radians((start + end) / 2), math.radians(end))]
@@ -145,7 +145,7 @@ class Hook:
 
 
 class CylinderModes:
-    """The first eight frequencies of a cylinder between diaphragms, as the worst ratio to those of thin shells."""
+    """The first eight frequencies of a cylinder between diaphragms. The answer is their worst ratio to thin-shell theory."""
 
     reference, sizes, size, tolerance = 1.0, (0.5, 0.33, 0.25, 0.17, 0.125), 0.125, 1.0
     radius, length, thickness, young, poisson, density = 1.0, 2.0, 0.01, 1e6, 0.3, 1.0
@@ -159,8 +159,9 @@ class CylinderModes:
         return joined([edge.extrude(Vector(0, 0, side * self.length / 2)) for edge in edges for side in (-1, 1)])
 
     def exact(self):
-        """Sanders' theory (Leissa, Vibration of Shells, NASA SP-288, 1973): with m half waves along, n waves around,
-        u = U cos(ax) cos(ny), v = V sin(ax) sin(ny), w = W sin(ax) cos(ny), energies are quadratic in (U, V, W)."""
+        """The frequencies in Hz by Sanders' theory (Leissa, Vibration of Shells, NASA SP-288, 1973). With m half waves along and
+        n waves around, u = U cos(ax) cos(ny), v = V sin(ax) sin(ny), w = W sin(ax) cos(ny): energies are quadratic in
+        (U, V, W)."""
         r, nu = self.radius, self.poisson
         plane = np.array([[1, nu, 0], [nu, 1, 0], [0, 0, (1 - nu) / 2]]) / (1 - nu * nu)
         found = []
@@ -172,13 +173,13 @@ class CylinderModes:
                                  [n / (2 * r * r), 1.5 * a / r, 2 * a * n / r]])
                 stiffness = strain.T @ plane @ strain + self.thickness**2 / 12 * bend.T @ plane @ bend
                 found.append(math.sqrt(np.linalg.eigvalsh(stiffness)[0] * self.young / self.density) / (2 * math.pi))
-        return np.repeat(sorted(found)[:4], 2)  # each twice: turned by a quarter of a wave
+        return np.repeat(sorted(found)[:4], 2)  # each occurs twice, rotated by a quarter wave
 
     def answer(self, mesh):
         problem = Problem(self.young, self.poisson, self.thickness, density=self.density)
         for end in (-self.length / 2, self.length / 2):
             problem.fix(mesh.where(lambda p, end=end: p[:, 2] - end), 1, 2)
-        problem.fix(mesh.at(self.radius, 0, 0), 3)  # where one half wave does not move along
+        problem.fix(mesh.at(self.radius, 0, 0), 3)  # a mode with one half wave does not move axially here
         problem.step = "*FREQUENCY\n8"
         ratios = np.array(factors(solve(mesh, problem)[0], 3)[:8]) / self.exact()
         return float(ratios[np.argmax(np.abs(ratios - 1))])

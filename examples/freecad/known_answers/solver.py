@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes as arrays, what CalculiX is asked on them, and what it answers."""
+"""Meshes as arrays, CalculiX's input for problems on them, and its results."""
 
 import math
 import subprocess
@@ -12,10 +12,10 @@ GAUSS = ((-math.sqrt(0.6), 5 / 9), (0.0, 8 / 9), (math.sqrt(0.6), 5 / 9))
 
 
 class Mesh:
-    """Nodes and second-order elements as arrays. Node i of the solver is row i - 1."""
+    """Nodes and second-order elements as arrays. The solver's node i is row i - 1."""
 
     def __init__(self, nodes, elements):
-        """nodes: {number: point}; elements: lists of numbers, corners first."""
+        """nodes: {number: point}; elements: lists of node numbers, corners first."""
         wrong = [element for element in elements if len(element) not in (6, 8)]
         if wrong or not elements:
             raise RuntimeError(f"{len(wrong)} of {len(elements)} elements are not of second order")
@@ -29,13 +29,13 @@ class Mesh:
 
     @classmethod
     def of_fem_mesh(cls, fem_mesh):
-        """From FreeCAD's FEM mesh."""
+        """Makes a mesh from a FEM mesh of FreeCAD."""
         return cls({number: tuple(point) for number, point in fem_mesh.Nodes.items()},
                    [fem_mesh.getElementNodes(element) for element in fem_mesh.Faces])
 
     @classmethod
     def of_msh(cls, text):
-        """From Gmsh's format 2.2: triangles of 6 nodes and quads of 8."""
+        """Makes a mesh from text in Gmsh's format 2.2, with triangles of 6 nodes and quads of 8."""
         lines = text.splitlines()
         at, nodes = lines.index("$Nodes"), {}
         for line in lines[at + 2:at + 2 + int(lines[at + 1])]:
@@ -44,12 +44,12 @@ class Mesh:
         at, elements = lines.index("$Elements"), []
         for line in lines[at + 2:at + 2 + int(lines[at + 1])]:
             words = [int(word) for word in line.split()]
-            if words[1] in (2, 3, 9, 10, 16):  # surface elements of any order: the wrong ones are refused
+            if words[1] in (2, 3, 9, 10, 16):  # surface elements of any order: __init__ refuses the wrong ones
                 elements.append(words[3 + words[2]:])
         return cls(nodes, elements)
 
     def _upwards(self, element):
-        """Counter-clockwise as seen from above, as plane elements must be; faces may look down."""
+        """The element counter-clockwise as seen from above. Plane elements must be so, but faces may point down."""
         half = len(element) // 2
         x, y = self.points[element[:half], 0], self.points[element[:half], 1]
         if (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() > 0:
@@ -57,11 +57,11 @@ class Mesh:
         return [element[0], *element[half - 1:0:-1], *element[:half - 1:-1]]
 
     def where(self, distance):
-        """The nodes where a function of the points is zero."""
+        """The nodes where a function of the points is zero, within the tolerance."""
         return np.flatnonzero(np.abs(distance(self.points)) < self.tolerance)
 
     def at(self, *point):
-        """The node at a point."""
+        """The node at a point. Raises RuntimeError if there is none."""
         gaps = np.linalg.norm(self.points - np.array(point), axis=1)
         node = int(gaps.argmin())
         if gaps[node] > self.tolerance:
@@ -69,7 +69,8 @@ class Mesh:
         return node
 
     def edge_load(self, nodes, traction):
-        """Loads of a traction (force per length, a function of point and outward normal) on the free edges there."""
+        """Nodal loads of a traction on the element edges whose nodes are all in `nodes`. traction: force per length, a function
+        of the point and the outward normal in the xy plane."""
         on_edge = set(int(node) for node in nodes)
         loads = {}
         for element in self.elements:
@@ -94,7 +95,7 @@ class Mesh:
         return loads
 
     def surface_load(self, traction):
-        """Loads of a constant traction (force per area) on all elements."""
+        """Nodal loads of a constant traction (force per area) on all elements."""
         loads = {}
         for element in self.elements:
             for (values, slopes), weight in quadrature(len(element)):
@@ -105,14 +106,15 @@ class Mesh:
 
 
 def quadrature(count):
-    """Points of an element of 6 or 8 nodes: shape functions (n,), their slopes (2, n), and the weight."""
+    """Integration points of an element of 6 or 8 nodes: for each the shape functions (n,) with their derivatives (2, n), and the
+    weight."""
     if count == 6:
         return [(triangle_shape(x, y), 1 / 6) for x, y in ((1 / 6, 1 / 6), (2 / 3, 1 / 6), (1 / 6, 2 / 3))]
     return [(quad_shape(x, y), a * b) for x, a in GAUSS for y, b in GAUSS]
 
 
 def triangle_shape(x, y):
-    """The six-node triangle."""
+    """Shape functions of the six-node triangle at a point, and their derivatives."""
     area, slope = np.array([1 - x - y, x, y]), np.array([[-1, 1, 0], [-1, 0, 1]])
     after = np.roll(area, -1)
     values = np.concatenate([area * (2 * area - 1), 4 * area * after])
@@ -121,7 +123,7 @@ def triangle_shape(x, y):
 
 
 def quad_shape(x, y):
-    """The eight-node quad."""
+    """Shape functions of the eight-node quad at a point, and their derivatives."""
     values, slopes = np.empty(8), np.empty((2, 8))
     for i, (u, v) in enumerate(((-1, -1), (1, -1), (1, 1), (-1, 1))):
         values[i] = (1 + u * x) * (1 + v * y) * (u * x + v * y - 1) / 4
@@ -136,18 +138,18 @@ def quad_shape(x, y):
 
 
 class Problem:
-    """What goes into the solver besides the mesh."""
+    """The solver's input besides the mesh."""
 
     def __init__(self, young, poisson, thickness, plane=False, density=None):
         self.young, self.poisson, self.thickness, self.density = young, poisson, thickness, density
         self.plane = plane
-        self.fixed = []  # (nodes, first degree of freedom, last, value)
+        self.fixed = []  # (nodes, degree of freedom, value)
         self.loads = {}  # node: force
         self.step = "*STATIC"
-        self.increments = None  # (first, smallest, largest share of the load) where displacements are large
+        self.increments = None  # for large displacements: (first, smallest, largest) share of the load
 
     def fix(self, nodes, *freedoms, value=0.0):
-        """Holds degrees of freedom (1..6) of nodes."""
+        """Prescribes the value of degrees of freedom (1 to 6) at nodes."""
         for freedom in freedoms:
             self.fixed.append((np.atleast_1d(nodes), freedom, value))
 
@@ -162,9 +164,9 @@ SURFACES = "*NODE PRINT, NSET=Nall\nU\n*EL FILE, OUTPUT=3D\nS\n"
 
 
 def write_input(path, mesh, problem, solver_shells="S8R", output=MIDDLE):
-    """Writes CalculiX's input. It reads 20 characters of a number: no more digits than fit."""
+    """Writes CalculiX's input. CalculiX reads 20 characters of a number, so numbers have no more digits than fit."""
     names = {6: "CPS6", 8: "CPS8R"} if problem.plane else {6: "S6", 8: solver_shells}
-    corners_only = solver_shells in ("S4", "S4R")  # the midside nodes are then in no element
+    corners_only = solver_shells in ("S4", "S4R")  # then no element has the midside nodes
     with open(path, "w", encoding="ascii") as file:
         file.write("*NODE, NSET=Nall\n")
         for i, (x, y, z) in enumerate(mesh.points, 1):
@@ -202,7 +204,7 @@ def write_input(path, mesh, problem, solver_shells="S8R", output=MIDDLE):
 
 
 def solve(mesh, problem, solver_shells="S8R", output=MIDDLE):
-    """Runs CalculiX; returns the text of its .dat and .frd files."""
+    """Runs CalculiX. Returns the text of its .dat and .frd files."""
     with tempfile.TemporaryDirectory() as folder:
         base = Path(folder) / "case"
         write_input(base.with_suffix(".inp"), mesh, problem, solver_shells, output)
@@ -215,7 +217,7 @@ def solve(mesh, problem, solver_shells="S8R", output=MIDDLE):
 
 
 def displacements(dat, count):
-    """The displacements of all nodes, (n, 3); of several increments the last."""
+    """The displacements of all nodes, (n, 3); of the last increment if there are several."""
     found = np.full((count, 3), np.nan)
     for line in dat.splitlines():
         words = line.split()
@@ -225,7 +227,7 @@ def displacements(dat, count):
 
 
 def stresses(frd, count):
-    """Nodal stresses, (n, 6): xx yy zz xy yz zx."""
+    """The stresses at the nodes, (n, 6): xx yy zz xy yz zx. NaN for nodes without stresses."""
     found = np.full((count, 6), np.nan)
     inside = False
     for line in frd.splitlines():
@@ -241,7 +243,8 @@ def stresses(frd, count):
 
 
 def stress_at(frd, point):
-    """The stress, (6,): xx yy zz xy yz zx, at a node of the solid that CalculiX makes of a shell (output SURFACES)."""
+    """The stress (6,), xx yy zz xy yz zx, at the node nearest to a point, in the solid that CalculiX makes of a shell (output
+    SURFACES). Raises RuntimeError if no node is there."""
     nodes, block, nearest, found = True, False, None, None
     for line in frd.splitlines():
         if line.startswith("    2C"):
@@ -263,12 +266,12 @@ def stress_at(frd, point):
 
 
 def work(loads, found):
-    """The work of loads {node: force} on displacements; of forces that add up to 1, the mean displacement there."""
+    """The work of loads {node: force} on displacements. If the forces sum to 1, this is their mean displacement."""
     return sum(float(np.dot(force, found[node])) for node, force in loads.items())
 
 
 def factors(dat, column):
-    """Numbers of the table of eigenvalues or buckling factors."""
+    """A column of the table of eigenvalues or buckling factors."""
     found = []
     for line in dat.splitlines():
         words = line.split()
@@ -278,7 +281,7 @@ def factors(dat, column):
 
 
 def border_nodes(mesh):
-    """The nodes on edges that only one element has."""
+    """The nodes on edges that belong to only one element."""
     counts = {}
     for element in mesh.elements:
         corners = len(element) // 2

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The windows of the workbench: commands, task panels, view provider. Loaded only when FreeCAD has a window."""
+"""The user interface of the workbench: commands, task panels, view providers. Loaded only if FreeCAD has a window."""
 
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,25 +15,25 @@ TRANSLATIONS = _FOLDER / "translations"
 translate = FreeCAD.Qt.translate
 
 
-def QT_TRANSLATE_NOOP(_context: str, text: str) -> str:  # the name that Qt's tools look for
-    """Marks a text for translation, and gives it as it is."""
+def QT_TRANSLATE_NOOP(_context: str, text: str) -> str:  # Qt's tools look for this name
+    """Marks a text for translation and returns it unchanged."""
     return text
 
 
 def icon(name: str) -> str:
-    """The path of an icon of ours."""
+    """The path of an icon of this addon."""
     return str(ICONS / f"{name}.svg")
 
 
 def tell(text: str, title: str = "Quadrille") -> None:
-    """Tells the user what went wrong, in a box and in the report view."""
+    """Tells the user what went wrong, in a message box and in the report view."""
     FreeCAD.Console.PrintError(f"{title}: {text}\n")
     QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), title, text)
 
 
 def standard_buttons(*names: str):
-    """Buttons of a task panel by their names in Qt: FreeCAD takes a number with PySide2, flags with PySide6, where flags are
-    no numbers."""
+    """Buttons of a task panel, by their names in Qt. FreeCAD expects a number with PySide2, and flags with PySide6, where flags
+    cannot be converted to numbers."""
     flags = QtGui.QDialogButtonBox.NoButton
     for name in names:
         flags |= getattr(QtGui.QDialogButtonBox, name)
@@ -49,19 +49,19 @@ def do(text: str) -> None:
 
 
 def path_of(obj) -> str:
-    """A document object in Python's spelling."""
+    """A Python expression for a document object."""
     return f"App.getDocument({obj.Document.Name!r}).getObject({obj.Name!r})"
 
 
 def links_text(links) -> str:
-    """Links to faces, edges, vertices in Python's spelling."""
+    """A Python expression for links to faces, edges and vertices."""
     return "[" + ", ".join(f"({path_of(target)}, {tuple(names) if not isinstance(names, str) else (names,)!r})"
                            for target, names in links) + "]"
 
 
 @contextmanager
 def transaction(document, name: str):
-    """One step of undo; whatever is raised inside takes it back."""
+    """Makes one undo step; an exception inside takes it back."""
     document.openTransaction(name)
     try:
         yield

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the first panel needs is read from disk when a workbench is chosen, not when the panel opens: modules of FreeCAD's
-solvers, which take some tenths of a second."""
+"""Imports the modules that the first panel needs when a workbench is activated, not when the panel opens: the panel's own, and
+those of FreeCAD's solvers, which take some tenths of a second."""
 
 import importlib
 from typing import List
@@ -14,7 +14,7 @@ _WORKBENCHES = ("FemWorkbench", "QuadrilleWorkbench")
 
 
 class _Reader:
-    """Imports a module whenever the window has nothing else to do."""
+    """Imports one module at a time whenever the window is idle."""
 
     def __init__(self) -> None:
         self._modules: List[str] = ["quadrille.gui.task_panel", *dict.fromkeys(module for module, _, _ in solvers.WRAPPED)]
@@ -33,7 +33,7 @@ class _Reader:
             return
         try:
             importlib.import_module(self._modules.pop(0))
-        except ImportError:  # wrap_solvers() tells what is missing without it
+        except ImportError:  # wrap_solvers() reports what is missing
             pass
 
 
@@ -41,7 +41,7 @@ _reader = None
 
 
 def join() -> None:
-    """From now on, once."""
+    """Starts this; further calls do nothing."""
     global _reader
     if _reader is None:
         _reader = _Reader()

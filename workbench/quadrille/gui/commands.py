@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The commands of the workbench. What a click does goes through FreeCADGui.doCommand, so that macros record it."""
+"""The commands of the workbench. What a click does runs through FreeCADGui.doCommand, so that macros record it."""
 
 from pathlib import Path
 from typing import Optional
@@ -19,7 +19,7 @@ from .length_field import LengthField
 
 TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Surface", "Quadrille_Refine", "Quadrille_Quality",
            "Quadrille_Normals", "Quadrille_Flip", "Quadrille_Adapt", "Quadrille_Export"]
-#: What the mesher writes, for the file dialog.
+#: The file formats that the mesher writes, for the file dialog.
 FORMATS = {
     "CalculiX, Abaqus": "inp", "Gmsh": "msh", "I-DEAS universal": "unv", "MED (Salome, Code_Aster)": "med",
     "VTK XML (ParaView)": "vtu", "VTK legacy": "vtk", "Nastran": "bdf",
@@ -27,13 +27,13 @@ FORMATS = {
 
 
 def picked(document) -> list:
-    """What is selected in a document, see picks.py."""
+    """The selection in a document as picks, see picks.py."""
     return picks.picks_of(FreeCADGui.Selection.getSelectionEx(document.Name, 0))
 
 
 def mesh_in_question(with_surfaces: bool = False):
-    """The selected mesh object, or the one whose part is selected, or the only one in the document. with_surfaces: those
-    made of mesh objects too."""
+    """The selected quad mesh, or the one whose part is selected, or the only one in the document. with_surfaces: includes
+    those made of triangle meshes."""
     document = FreeCAD.ActiveDocument
     if document is None:
         raise Error(translate("Quadrille", "open a document first"), "usage")
@@ -58,7 +58,7 @@ def _meshed_in_question():
 
 
 def active_analysis(document):
-    """The active analysis, when it is in the document."""
+    """The active analysis if it is in this document, else None."""
     try:
         import FemGui
     except ImportError:
@@ -68,7 +68,7 @@ def active_analysis(document):
 
 
 def _one_part(parts: list):
-    """The part, or several as one: their fragments, joined where they touch."""
+    """The part, or several parts as one: their boolean fragments, joined where they touch."""
     if len(parts) == 1:
         return parts[0]
     do("import quadrille.freecad")
@@ -77,16 +77,16 @@ def _one_part(parts: list):
 
 
 def _arguments(values: dict, analysis) -> str:
-    """What follows the first argument of a call that a macro records."""
+    """The text after the first argument of a call that a macro records."""
     into = f", analysis={path_of(analysis)}" if analysis is not None else ""
     return "".join(f", {name}={value!r}" for name, value in values.items()) + into
 
 
 class _Command:
-    """A command: run() does the work; an Error becomes one message; whatever goes wrong, the transaction is taken back."""
+    """A command. run() does the work. An Error becomes one message. After any exception, the transaction is rolled back."""
 
     name = text = tip = pixmap = accelerator = ""
-    step = ""  #: of undo
+    step = ""  #: name of the undo step; empty = none
 
     def GetResources(self) -> dict:
         """FreeCAD asks for text and icon, and translates the texts by the command's name."""
@@ -94,11 +94,11 @@ class _Command:
                 "Accel": self.accelerator}
 
     def IsActive(self) -> bool:
-        """A document is open, and no other panel."""
+        """True if a document is open, and no task panel."""
         return FreeCAD.ActiveDocument is not None and not FreeCADGui.Control.activeDialog()
 
     def Activated(self, _index: int = 0) -> None:
-        """A click."""
+        """FreeCAD calls this when the command is clicked."""
         document = FreeCAD.ActiveDocument
         if document is None:
             tell(translate("Quadrille", "Open a document first."))
@@ -119,7 +119,7 @@ class _Command:
         """The work, inside the transaction."""
 
     def afterwards(self) -> None:
-        """What follows outside of the transaction."""
+        """What follows outside the transaction."""
 
 
 class MeshCommand(_Command):
@@ -147,7 +147,7 @@ class MeshCommand(_Command):
         core.find_mesher()
         do("import quadrille.freecad")
         part = _one_part(selected)
-        # Its panel finds a size.
+        # The mesh object's panel finds a size.
         do(f"quadrille.freecad.make_mesh({path_of(part)}{_arguments(preferences.settings(), analysis)})")
         self._edit, self._made = [obj for obj in document.Objects if is_quad_mesh(obj)][-1], True
 
@@ -200,13 +200,13 @@ class MiddleCommand(_Command):
 
     @staticmethod
     def ask(question: str) -> bool:
-        """Yes or no, from a box."""
+        """Asks a yes-or-no question in a message box."""
         buttons = QtGui.QMessageBox.Yes | QtGui.QMessageBox.No
         return QtGui.QMessageBox.question(FreeCADGui.getMainWindow(), "Quadrille", question, buttons) == QtGui.QMessageBox.Yes
 
 
 class SurfaceCommand(_Command):
-    """Quad mesh from mesh: a scan, an STL file."""
+    """Quad mesh from a triangle mesh, such as a scan or an STL file."""
 
     name = "Quadrille_Surface"
     text = QT_TRANSLATE_NOOP("Quadrille_Surface", "Quad mesh from mesh")
@@ -232,7 +232,7 @@ class SurfaceCommand(_Command):
             do(f"quadrille.freecad.mesh_surface({path_of(surface)}{_arguments(asked._asdict(), analysis)})")
 
     def _again(self, mesh) -> None:
-        """With other settings."""
+        """Meshes again, with other settings."""
         if mesh.Surface is None:
             raise Error(translate("Quadrille", "{}: the mesh object that it meshes is gone").format(mesh.Label), "usage", mesh.Name)
         surfaces.check_surface(mesh.Surface)
@@ -246,7 +246,7 @@ class SurfaceCommand(_Command):
         do(f"quadrille.freecad.remesh({path_of(mesh)})")
 
     def _asked(self, surface, before: surfaces.Asked) -> Optional[surfaces.Asked]:
-        """What the user wants, already meshed; None when the box was cancelled."""
+        """Asks the user for settings and makes the mesh with them. None if the dialog was cancelled."""
         from . import surface_view
 
         asked = surface_view.ask(before, translate("Quadrille", "Quad mesh of {}").format(surface.Label))
@@ -257,13 +257,13 @@ class SurfaceCommand(_Command):
 
 
 def _mesh_picked(pick):
-    """The mesh object, or the quad mesh of one, that a pick lies in; None when it is something else."""
+    """The triangle mesh that a pick lies in, or a quad mesh made of one; None for anything else."""
     inward = picks.along(pick)
     return next((obj for obj in reversed(inward) if surfaces.is_mesh_object(obj) or is_surface_mesh(obj)), None)
 
 
 class RefineCommand(_Command):
-    """Refine faces, edges or vertices: a FEM mesh region on our mesh."""
+    """Refines faces, edges or vertices: adds a FEM mesh region to the quad mesh."""
 
     name = "Quadrille_Refine"
     text = QT_TRANSLATE_NOOP("Quadrille_Refine", "Refine faces, edges, vertices")
@@ -289,7 +289,7 @@ class RefineCommand(_Command):
 
     @staticmethod
     def ask(mesh) -> Optional[float]:
-        """The size, from a box; None when it is cancelled."""
+        """Asks for the size in a dialog; None if it is cancelled."""
         usual = mesh.Size.Value or mesh.Shape.Shape.BoundBox.DiagonalLength / 60
         dialog = QtGui.QDialog(FreeCADGui.getMainWindow())
         dialog.setWindowTitle(translate("Quadrille", "Refine"))
@@ -306,7 +306,7 @@ class RefineCommand(_Command):
 
 
 class QualityCommand(_Command):
-    """Mesh quality."""
+    """Shows the quality of a mesh."""
 
     name = "Quadrille_Quality"
     text = QT_TRANSLATE_NOOP("Quadrille_Quality", "Mesh quality")
@@ -367,7 +367,7 @@ class FlipCommand(_Command):
 
 
 class AdaptCommand(_Command):
-    """Meshes anew by the error of the result."""
+    """Remeshes according to the error of the result."""
 
     name = "Quadrille_Adapt"
     text = QT_TRANSLATE_NOOP("Quadrille_Adapt", "Adapt mesh to results")
@@ -389,7 +389,7 @@ class AdaptCommand(_Command):
         dialog.setMinimumDuration(0)
 
         def progress(_stage: str, fraction: float) -> bool:
-            dialog.setValue(min(99, round(100 * fraction)))  # at its end it would close
+            dialog.setValue(min(99, round(100 * fraction)))  # at 100 the dialog would close
             QtCore.QCoreApplication.processEvents()
             return not dialog.wasCanceled()
 
@@ -402,7 +402,7 @@ class AdaptCommand(_Command):
 
     @staticmethod
     def ask(mesh) -> Optional[float]:
-        """The error wanted, in percent, from a box; None when it is cancelled."""
+        """Asks for the wanted error, in percent, in a dialog; None if it is cancelled."""
         percent, agreed = QtGui.QInputDialog.getDouble(
             FreeCADGui.getMainWindow(), translate("Quadrille", "Adapt {} to results").format(mesh.Label),
             translate("Quadrille", "Error of the stresses that is wanted, percent"), 5.0, 0.01, 99.0, 2)
@@ -429,7 +429,7 @@ class ExportCommand(_Command):
 
     @staticmethod
     def ask(mesh) -> Optional[str]:
-        """The path, from a box."""
+        """Asks for the path in a dialog; None if it is cancelled."""
         filters = ";;".join(f"{name} (*.{suffix})" for name, suffix in FORMATS.items())
         path, chosen = QtGui.QFileDialog.getSaveFileName(FreeCADGui.getMainWindow(), "Export quad mesh",
                                                          f"{mesh.Label}.inp", filters)
@@ -438,13 +438,13 @@ class ExportCommand(_Command):
         return path or None
 
 
-#: The commands by the names that FreeCAD knows them by.
+#: The commands by the names under which FreeCAD knows them.
 COMMANDS = {command.name: command for command in (MiddleCommand, MeshCommand, SurfaceCommand, RefineCommand, QualityCommand,
                                                   NormalsCommand, FlipCommand, AdaptCommand, ExportCommand)}
 
 
 def register() -> None:
-    """Makes the commands known to FreeCAD, once."""
+    """Registers the commands with FreeCAD, unless it knows them already."""
     known = FreeCADGui.listCommands()
     for name, command in COMMANDS.items():
         if name not in known:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sizes of a mesh that are entries of its properties (in space, layers, numbers of segments and their bias) in its panel:
-what each is on, and its numbers, edited in place. Numbers on edges are added here, other new ones in the property editor."""
+"""The part of the panel with sizes that are entries in list properties: sizes in space, layers, numbers of segments and their
+bias. Each row shows where an entry applies, and its numbers, which are edited in place. Numbers of segments on edges are added
+here, other new entries in the property editor."""
 
 from typing import Any, Callable, Dict, List, NamedTuple, Sequence
 
@@ -19,20 +20,20 @@ class _Row(NamedTuple):
     """One entry as it is shown."""
 
     property: str
-    place: str  #: before the equals sign
-    box: Any  #: what follows
+    place: str  #: the text before the equals sign
+    box: Any  #: the field with the text after it
 
 
 class EntryRows(RowList):
     """A row for each entry."""
 
     def __init__(self, divide: Callable[[], None], changed: Callable[[], None]) -> None:
-        """divide: adds numbers for the edges that are selected, by add()."""
+        """divide: called to add numbers for the selected edges, with add()."""
         super().__init__(translate("Quadrille", "Divide selected edges"),
                          translate("Quadrille", "Say how many elements the selected edges get"), "QuadrilleDivide", divide, changed)
 
     def values(self) -> Dict[str, List[str]]:
-        """The entries shown, by property. Raises Error where one has no number."""
+        """The entries shown, by property. Raises Error if one has no number."""
         found: Dict[str, List[str]] = {name: [] for name in PROPERTIES}
         for row in self._rows:
             text = row.box.text().strip()
@@ -43,7 +44,7 @@ class EntryRows(RowList):
         return found
 
     def show_all(self, values: Dict[str, Sequence[str]]) -> None:
-        """Shows the entries of these properties and no others."""
+        """Shows these entries, by property, and no others."""
         self._clear()
         for name in PROPERTIES:
             for entry in values[name]:
@@ -56,7 +57,7 @@ class EntryRows(RowList):
         self._show_row(_Row(name, place, box), f"{name} {place}", f"{name}: {entry}", box, "QuadrilleEntry")
 
     def add(self, name: str, entries: Dict[str, str]) -> None:
-        """Entries of a property, by their places; those of places that are there already give way."""
+        """Adds entries of a property, by place. They replace existing entries with the same place."""
         shown: Dict[str, List[str]] = {other: [] for other in PROPERTIES}
         for row in self._rows:
             if row.property != name or row.place not in entries:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The quads to expect on each face, in the panel: where most of them go is where a size is worth another look."""
+"""The expected number of quads on each face, in the panel. It is worth checking the size on the faces with the most quads."""
 
 from typing import Mapping
 
@@ -8,7 +8,7 @@ from PySide import QtGui
 
 
 class FaceCounts(QtGui.QListWidget):
-    """A row for each face, those with most quads first; a click selects the face in the 3-D view."""
+    """One row per face, those with the most quads first. A click selects the face in the 3-D view."""
 
     def __init__(self, mesh) -> None:
         super().__init__()
@@ -19,13 +19,13 @@ class FaceCounts(QtGui.QListWidget):
         self.itemClicked.connect(self._select)
 
     def show_counts(self, counts: Mapping[str, float]) -> None:
-        """Shows these, by face, once the list is in sight: it may have thousands of rows."""
+        """Shows counts by face, but fills the list only when it is visible, since it may have thousands of rows."""
         self._counts = counts
         if self.isVisible():
             self._fill()
 
     def showEvent(self, event) -> None:
-        """Qt calls this when the list comes in sight."""
+        """Qt calls this when the list becomes visible."""
         self._fill()
         super().showEvent(event)
 

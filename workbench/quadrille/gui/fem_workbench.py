@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The commands inside FreeCAD's FEM workbench: in its menu Mesh, in a toolbar, and in the context menu of a mesh.
+"""The commands inside FreeCAD's FEM workbench: in its Mesh menu, in a toolbar, and in the context menu of a mesh.
 
-FreeCAD makes the button of a command when a workbench that lists it is first chosen, and addons cannot add to the FEM
-workbench's lists. So the entries here are actions of their own that run the commands: they are there from the start."""
+FreeCAD makes a command's button when a workbench that lists the command is first activated, and addons cannot add to the FEM
+workbench's lists. So the entries here are separate actions that run the commands; they exist from the start."""
 
 from typing import Dict, Optional, Sequence
 
@@ -13,14 +13,14 @@ from . import icon, translate
 from .commands import COMMANDS, TOOLBAR
 
 _FEM = "FemWorkbench"
-#: Milliseconds between two looks at which commands can be used, as often as FreeCAD looks.
+#: Milliseconds between two checks of which commands are active, the same as FreeCAD's.
 _INTERVAL = 300
-#: What asks for no faces, edges or vertices besides the mesh: its context menu.
+#: The commands in a mesh's context menu: those that need no selected faces, edges or vertices.
 _CONTEXT = ["Quadrille_Mesh", "Quadrille_Quality", "Quadrille_Normals", "Quadrille_Export"]
 
 
 class _FemEntries:
-    """The toolbar, and the menu where FreeCAD has no manipulators (0.20)."""
+    """The toolbar; also the menu entries if FreeCAD has no workbench manipulators (0.20)."""
 
     def __init__(self) -> None:
         window = FreeCADGui.getMainWindow()
@@ -36,7 +36,7 @@ class _FemEntries:
         window.workbenchActivated.connect(self.show)
 
     def show(self, workbench: str) -> None:
-        """FreeCAD has activated a workbench, and built its menus anew."""
+        """Called when FreeCAD has activated a workbench and rebuilt its menus."""
         fem = workbench == _FEM
         self._toolbar.setVisible(fem)
         if not fem:
@@ -54,7 +54,7 @@ class _FemEntries:
             action.setEnabled(FreeCADGui.Command.get(name).isActive())
 
     def _fill_menu(self) -> None:
-        """Below FEM's own mesh command, wherever that is in a menu."""
+        """Adds the actions to the menu that contains FEM's own mesh command."""
         gmsh = FreeCADGui.Command.get("FEM_MeshGmshFromShape")
         theirs = gmsh.getAction() if gmsh is not None else []
         for entry in FreeCADGui.getMainWindow().menuBar().actions():
@@ -68,10 +68,10 @@ class _FemEntries:
 
 
 class _Manipulator:
-    """Adds the commands to the FEM workbench's menu, where FreeCAD lets addons do so (1.0)."""
+    """Adds the commands to the FEM workbench's menu, if FreeCAD lets addons do so (1.0)."""
 
     def modifyMenuBar(self) -> list:
-        """Below FEM's own mesh command, wherever that is in a menu."""
+        """FreeCAD calls this for the entries to insert: all below FEM's own mesh command."""
         return [{"insert": name, "menuItem": "FEM_MeshGmshFromShape", "after": ""} for name in reversed(TOOLBAR)]
 
 
@@ -84,7 +84,7 @@ def _action(name: str, parent) -> QtGui.QAction:
 
 
 def _name(action, name: str) -> None:
-    """Texts in the language of FreeCAD."""
+    """Sets an action's texts in FreeCAD's language."""
     command = COMMANDS[name]
     action.setText(translate(name, command.text))
     action.setToolTip(translate(name, command.tip))
@@ -92,7 +92,7 @@ def _name(action, name: str) -> None:
 
 
 def fill_context_menu(mesh, menu, names: Sequence[str] = _CONTEXT) -> None:
-    """Adds the commands to the context menu of a mesh object, for that mesh."""
+    """Adds commands for a mesh object to its context menu."""
 
     def run(name: str) -> None:
         FreeCADGui.Selection.clearSelection()
@@ -110,9 +110,9 @@ _entries: Optional[_FemEntries] = None
 
 
 def join() -> None:
-    """Puts the commands into the FEM workbench, once."""
+    """Adds the commands to the FEM workbench; further calls do nothing."""
     global _entries
     if _entries is None:
         _entries = _FemEntries()
-        # Started with the FEM workbench, FreeCAD activates it after this.
+        # If FreeCAD starts with the FEM workbench, it activates it later than this.
         _entries.show("")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The measuring of a part for its panel: the panel is open meanwhile, and alive however many faces the part has."""
+"""Measures a part for its panel. The panel opens before, and stays responsive however many faces the part has."""
 
 import time
 from typing import Callable, Iterator, Optional
@@ -9,26 +9,26 @@ from PySide import QtCore
 from .. import shapes
 from ..errors import Error
 
-#: The window waits for so long at a time.
+#: The window is blocked for this long at a time.
 _SECONDS = 0.02
-#: What is raised of a part without a shape, or one that cannot be measured.
+#: Exceptions raised for a part without a shape, or one that cannot be measured.
 FAILURES = (Error, AttributeError, RuntimeError)
 
 
 class Measuring:
-    """Makes the estimate of a mesh object's part, see shapes.estimate_of(), some milliseconds at a time."""
+    """Makes the estimate of a mesh object's part, see shapes.estimate_of(), in steps of some milliseconds."""
 
     def __init__(self, mesh, done: Callable[[], None]) -> None:
-        """done: called once it is there, or cannot be had."""
+        """done: called once the estimate is ready or has failed."""
         self._mesh, self._done = mesh, done
         self._steps: Optional[Iterator[None]] = None
         self._timer = QtCore.QTimer()
         self._timer.setInterval(0)
         self._timer.timeout.connect(self._go_on)
-        self.running = True  #: until it is there
+        self.running = True  #: until the estimate is ready or has failed
 
     def start(self) -> None:
-        """Begins; ends at once where the part is known."""
+        """Starts measuring; ends at once if the part's estimate is cached."""
         try:
             self._steps = shapes.estimate_in_steps(self._mesh.Shape.Shape)
         except FAILURES:
@@ -38,12 +38,12 @@ class Measuring:
         self._step()
 
     def finish(self) -> None:
-        """Measures what is left, now."""
+        """Measures the rest now, without returning before it is done."""
         while self.running and self._steps is not None:
             self._step()
 
     def release(self) -> None:
-        """Nothing is measured any more."""
+        """Stops measuring."""
         self._timer.stop()
         self._steps = None
 

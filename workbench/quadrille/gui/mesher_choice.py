@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the mesher comes from: the panel shows it while there is none, the preferences always."""
+"""Widget to get the mesher. The task panel shows it while there is no mesher, the preferences always."""
 
 import shutil
 import tempfile
@@ -29,15 +29,15 @@ def is_missing() -> bool:
 
 
 def data_folder() -> Path:
-    """The addon's own folder among the user's data."""
+    """The addon's folder in FreeCAD's user data."""
     return Path(FreeCAD.getUserAppDataDir()) / "Quadrille"
 
 
 class MesherChoice(QtGui.QGroupBox):
-    """Takes the command on PATH, a bundle's file, or one from an address; says what it does before it does it."""
+    """Uses the command on PATH, a bundle's file, or a bundle from an address. Says what it will do before doing it."""
 
     def __init__(self, when_there: Callable[[str], None]) -> None:
-        """when_there is called with the command's path, once the preference names it."""
+        """when_there: called with the command's path, once that is stored in the preference."""
         super().__init__(translate("Quadrille", "Get the mesher"))
         self.setObjectName("QuadrilleMesherChoice")
         self._when_there = when_there
@@ -97,7 +97,7 @@ class MesherChoice(QtGui.QGroupBox):
             self.offer(Path(path))
 
     def offer(self, archive: Path) -> None:
-        """Shows what would be installed, with its checksum."""
+        """Shows what would be installed, and its checksum."""
         self._work(lambda: (archive, mesher_setup.checksum(archive)))
 
     def _download(self) -> None:
@@ -118,7 +118,7 @@ class MesherChoice(QtGui.QGroupBox):
         self._work(lambda: mesher_setup.install(archive, data_folder()))
 
     def _work(self, function: Callable[[], object]) -> None:
-        """Runs a function beside the window; _poll() takes what it gives or raises."""
+        """Runs a function in a thread. _poll() takes its result, or the Error that it raises."""
         if self._thread is not None:
             return
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How a middle surface appears in the tree. Documents name MiddleViewProvider: do not move it."""
+"""How a middle surface appears in the tree. Saved documents refer to MiddleViewProvider by name: do not move it."""
 
 from . import icon
 
@@ -15,7 +15,7 @@ class MiddleViewProvider:
         self.Object = vobj.Object
 
     def getIcon(self) -> str:
-        """The command's icon."""
+        """The icon of the command Middle surface."""
         return icon("quadrille_middle")
 
     def dumps(self):

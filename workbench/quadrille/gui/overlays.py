@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Things drawn over a mesh in the 3-D view: its faces colored by quality, arrows for its shell normals.
+"""Drawings over a mesh in the 3-D view: elements colored by quality, arrows for shell normals, and others.
 
-FreeCAD's own element colors are not used: FreeCAD 0.20 mixes them up between the elements of a second-order mesh.
+FreeCAD's own element colors are not used, since FreeCAD 0.20 assigns them to the wrong elements of second-order meshes.
 """
 
 from typing import Dict
@@ -11,11 +11,11 @@ import numpy as np
 from .. import quality
 from . import translate
 
-#: More arrows than this only blacken the view: larger meshes show some of them.
+#: Larger numbers of arrows only blacken the view: larger meshes show some of their normals.
 MOST_ARROWS = 3000
 QUALITY, NORMALS, ELEMENT, STALE = "QuadrilleQuality", "QuadrilleNormals", "QuadrilleElement", "QuadrilleStale"
 FREE = "QuadrilleFree"
-#: What is shown, by the names of document and mesh object, and by kind.
+#: The scene nodes shown, by the names of document and mesh object, and by kind.
 _shown: Dict[tuple, object] = {}
 #: The display modes that meshes had before they were colored.
 _modes: Dict[tuple, str] = {}
@@ -28,7 +28,7 @@ def is_shown(mesh, kind: str) -> bool:
 
 
 def hide(mesh, kind: str) -> None:
-    """Takes an overlay out of the view."""
+    """Removes an overlay from the view."""
     key = (mesh.Document.Name, mesh.Name, kind)
     node = _shown.pop(key, None)
     if node is not None and mesh.ViewObject.RootNode.findChild(node) >= 0:
@@ -69,7 +69,7 @@ def _coordinates(points: np.ndarray):
 
 
 def show_quality(mesh, measured: quality.ElementQuality, measure: str = "q") -> None:
-    """Draws the quads in colors, from red (0) through yellow to blue (1), by q or a criterion (yellow: at its limit)."""
+    """Colors the quads by q or a criterion, from red (worst) through yellow (a criterion's limit) to blue (best)."""
     from pivy import coin
 
     hide(mesh, QUALITY)
@@ -82,7 +82,7 @@ def show_quality(mesh, measured: quality.ElementQuality, measure: str = "q") -> 
     hints.vertexOrdering = coin.SoShapeHints.COUNTERCLOCKWISE
     hints.shapeType = coin.SoShapeHints.UNKNOWN_SHAPE_TYPE  # lit from both sides
     hints.faceType = coin.SoShapeHints.UNKNOWN_FACE_TYPE
-    offset = coin.SoPolygonOffset()  # the lines of the mesh stay in front
+    offset = coin.SoPolygonOffset()  # keeps the mesh lines in front
     faces = coin.SoFaceSet()
     faces.numVertices.setValues(0, len(colors), [4] * len(colors))
     _show(mesh, QUALITY, _group(material, binding, hints, offset, _coordinates(measured.corners.reshape(-1, 3)), faces))
@@ -92,7 +92,7 @@ def show_quality(mesh, measured: quality.ElementQuality, measure: str = "q") -> 
 
 
 def _plain_color(rgb: tuple[float, float, float]):
-    """Nodes that give what follows one color, whatever the light."""
+    """Scene nodes that give what follows one color, independent of the light."""
     from pivy import coin
 
     light = coin.SoLightModel()
@@ -113,12 +113,12 @@ def frame_element(mesh, measured: quality.ElementQuality, index: int) -> None:
     style = coin.SoDrawStyle()
     style.lineWidth = 5
     lines = coin.SoLineSet()
-    lines.numVertices.setValues(0, 2, [5, 5])  # seen from both sides
+    lines.numVertices.setValues(0, 2, [5, 5])  # one on each side, so that it is visible from both
     _show(mesh, ELEMENT, _group(light, color, style, _coordinates(np.vstack([points + lift, points - lift])), lines))
 
 
 def show_normals(mesh) -> int:
-    """Puts arrows on the elements, pointing to where a shell's normal points; returns how many."""
+    """Draws arrows along the normals of the elements. Returns the number of arrows."""
     from pivy import coin
 
     hide(mesh, NORMALS)
@@ -127,7 +127,7 @@ def show_normals(mesh) -> int:
     feet, normals = measured.centers[::step], measured.normals[::step]
     length = float(np.median(measured.lengths)) * step**0.5
     tips = feet + normals * length
-    # Two barbs make a line an arrow; any direction across the normal will do.
+    # Two barbs make the line an arrow, in any direction perpendicular to the normal.
     across = np.cross(normals, np.where(np.abs(normals[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]]))
     across *= 0.15 * length / np.linalg.norm(across, axis=1, keepdims=True)
     barbs = tips - 0.3 * length * normals
@@ -142,7 +142,7 @@ def show_normals(mesh) -> int:
 
 
 def show_stale(mesh) -> None:
-    """Writes the status of a stale mesh beside it."""
+    """Writes the status of a stale mesh above it."""
     from pivy import coin
 
     hide(mesh, STALE)
@@ -162,7 +162,7 @@ def show_stale(mesh) -> None:
 
 
 def show_free(mesh, measured: quality.ElementQuality) -> None:
-    """Draws the sides that one element alone has, and the places where nodes lie on each other."""
+    """Draws the sides that belong to only one element, and the places where nodes coincide."""
     from pivy import coin
 
     hide(mesh, FREE)
@@ -182,5 +182,5 @@ def show_free(mesh, measured: quality.ElementQuality) -> None:
 
 
 def hide_normals(mesh) -> None:
-    """Takes the arrows away."""
+    """Removes the arrows."""
     hide(mesh, NORMALS)

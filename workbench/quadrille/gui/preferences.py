@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""FreeCAD's preferences of Quadrille, and the page that edits them: the command, what new meshes start with, the look."""
+"""Quadrille's preferences in FreeCAD, and the page that edits them: the command, defaults of new meshes, and appearance."""
 
 import json
 from typing import Any, Dict
@@ -28,12 +28,12 @@ def _group():
 
 
 def suggested_quads() -> int:
-    """How many elements a new mesh is to have."""
+    """The wanted number of elements in a new mesh."""
     return max(1, _group().GetInt(*_SUGGESTED))
 
 
 def line_width() -> float:
-    """Of the lines of meshes, in pixels."""
+    """The width of mesh lines, in pixels."""
     return _group().GetFloat(*_LINE_WIDTH)
 
 
@@ -43,7 +43,7 @@ def color_after_meshing() -> bool:
 
 
 def defaults() -> Dict[str, Any]:
-    """The settings, by property, that new meshes have in place of the table's."""
+    """The settings stored as defaults for new meshes, by property. They replace the table's defaults."""
     found = {}
     for name in _DEFAULTS:
         prop = BY_NAME[name]["property"]
@@ -54,7 +54,7 @@ def defaults() -> Dict[str, Any]:
 
 
 def settings() -> Dict[str, Any]:
-    """The same by the names that scripts use, where they differ from the table's."""
+    """The defaults of new meshes that differ from the table's, by the names that scripts use."""
     from ..setting_table import from_property
 
     values = {name: from_property(BY_NAME[name], defaults().get(BY_NAME[name]["property"], to_property(BY_NAME[name], None)))
@@ -64,7 +64,7 @@ def settings() -> Dict[str, Any]:
 
 
 class PreferencesPage:
-    """The page; FreeCAD makes one whenever its dialog opens."""
+    """The preferences page. FreeCAD makes a new one whenever its dialog opens."""
 
     def __init__(self, _parent=None) -> None:
         self.form = QtGui.QWidget()
@@ -132,7 +132,7 @@ class PreferencesPage:
             self.command.setText(path)
 
     def _try(self, *_) -> None:
-        """Says which command would be used."""
+        """Shows which command would be used, or why none can be."""
         try:
             path = find_command(None, self.command.text().strip() or None)
             check_version(path)
@@ -162,6 +162,6 @@ class PreferencesPage:
 
 
 def add_page() -> None:
-    """Puts the page into FreeCAD's preferences."""
+    """Adds the page to FreeCAD's preferences."""
     FreeCADGui.addIconPath(str(icon("quadrille").rsplit("/", 1)[0]))
     FreeCADGui.addPreferencePage(PreferencesPage, "Quadrille")

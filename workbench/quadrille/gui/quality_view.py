@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Quality of a mesh for the eye: table, histogram, criteria, colors in the 3-D view, the worst elements to jump to."""
+"""Shows the quality of a mesh: table, histogram, criteria, colors in the 3-D view, and a list of the worst elements."""
 
 from typing import Optional
 
@@ -12,11 +12,11 @@ from . import QT_TRANSLATE_NOOP, icon, overlays, standard_buttons, translate
 
 WORST = 20
 BINS = 20
-#: Histogram and worst elements follow this much later, so that the mesh itself is drawn first.
+#: Delay before the elements are measured for histogram, criteria and worst elements, so that the mesh is drawn first.
 MEASURE_AFTER_MILLISECONDS = 100
 
 
-#: Names of what elements are measured by, for users.
+#: The names of the quality measures, for users.
 MEASURES = {
     "q": QT_TRANSLATE_NOOP("Quadrille", "q"),
     "aspect": QT_TRANSLATE_NOOP("Quadrille", "Aspect"),
@@ -30,7 +30,7 @@ MEASURES = {
 
 
 class QualityWidget(QtGui.QWidget):
-    """The quality of one mesh object: the first table has the mesher's numbers, elements are measured here."""
+    """The quality of one mesh object. The first table shows the mesher's numbers; the rest is measured here."""
 
     def __init__(self, mesh, parent=None) -> None:
         super().__init__(parent)
@@ -88,7 +88,7 @@ class QualityWidget(QtGui.QWidget):
         self.refresh()
 
     def refresh(self) -> None:
-        """Fills the table at once and the rest a moment later; hides itself when there is no mesh."""
+        """Fills the table at once and the rest a moment later. Hides the widget if there is no mesh."""
         self._measured = None
         self._timer.stop()
         self.worst.clear()
@@ -105,7 +105,7 @@ class QualityWidget(QtGui.QWidget):
             self._show_free(True)
 
     def measured(self) -> quality.ElementQuality:
-        """The quality of each element, measured when first asked for."""
+        """The quality of each element, measured at the first call."""
         if self._measured is None:
             self._measured = quality.measure(self.mesh.FemMesh)
         return self._measured
@@ -127,7 +127,7 @@ class QualityWidget(QtGui.QWidget):
         """Measures each element, for the histogram, the criteria and the worst ones."""
         try:
             measured = self.measured()
-        except ReferenceError:  # the object or its document is gone
+        except ReferenceError:  # the object or its document was deleted
             return
         if not measured.ids.size:  # the mesh has been undone
             return
@@ -178,13 +178,13 @@ class QualityWidget(QtGui.QWidget):
         show_element(self.mesh, self.measured(), int(worst[row]))
 
     def release(self) -> None:
-        """Takes colors and highlights out of the view; nothing is measured any more."""
+        """Removes colors and highlights from the view, and stops measuring."""
         self._timer.stop()
         try:
             if self.mesh.ViewObject is not None:
                 for kind in (overlays.QUALITY, overlays.ELEMENT, overlays.FREE):
                     overlays.hide(self.mesh, kind)
-        except ReferenceError:  # the object or its document is gone
+        except ReferenceError:  # the object or its document was deleted
             pass
 
 
@@ -213,7 +213,7 @@ def _fill(table, rows) -> None:
 
 
 def show_element(mesh, measured: quality.ElementQuality, index: int) -> None:
-    """Frames an element and moves the camera before it."""
+    """Draws a frame around an element and moves the camera in front of it."""
     overlays.frame_element(mesh, measured, index)
     view = FreeCADGui.getDocument(mesh.Document.Name).ActiveView
     if not hasattr(view, "getCameraNode"):
@@ -233,9 +233,9 @@ def show_element(mesh, measured: quality.ElementQuality, index: int) -> None:
 
 
 def histogram_pixmap(counts: np.ndarray, width: int = 340, height: int = 150):
-    """A histogram of q, counts in equal steps from 0 to 1, as a picture.
+    """A picture of a histogram of q. counts: numbers of quads in equal intervals from 0 to 1.
 
-    Drawn by matplotlib without its Qt side, which need not fit FreeCAD's Qt.
+    Drawn by matplotlib without its Qt backend, which may not fit FreeCAD's Qt. Empty if matplotlib is missing.
     """
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -271,11 +271,11 @@ class QualityPanel:
         self.quality.color.setChecked(True)
 
     def getStandardButtons(self):
-        """Close alone."""
+        """Only Close."""
         return standard_buttons("Close")
 
     def reject(self) -> bool:
-        """Close."""
+        """Called on Close."""
         self.quality.release()
         FreeCADGui.Control.closeDialog()
         return True

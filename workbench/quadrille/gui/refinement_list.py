@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The refinements of a mesh in its panel: what each is on, and its size, edited in place. Nothing reaches the document
-before the panel stores it."""
+"""The refinements of a mesh in its panel: the faces, edges and vertices of each, and its size, edited in place. The document
+changes only when the panel stores them."""
 
 from typing import Any, Callable, NamedTuple, Tuple
 
@@ -16,12 +16,12 @@ class _Row(NamedTuple):
 
     region: str
     references: Links
-    box: Any  #: of the size
-    shown: Tuple[float, float]  #: the size, and what the box made of it
+    box: Any  #: the field for the size
+    shown: Tuple[float, float]  #: the size, and the value that the field returned for it right after showing it
 
 
 class RefinementList(RowList):
-    """A row for each refinement, and a button that adds what is selected."""
+    """One row per refinement, and a button that adds the selection."""
 
     def __init__(self, add: Callable[[], None], changed: Callable[[], None]) -> None:
         super().__init__(translate("Quadrille", "Refine selection"),
@@ -29,7 +29,7 @@ class RefinementList(RowList):
                          "QuadrilleAddRefinement", add, changed)
 
     def refinements(self) -> Tuple[Refinement, ...]:
-        """What is shown. Raises Error where a size cannot be read."""
+        """The refinements shown. Raises Error if a size cannot be read."""
         found = []
         for row in self._rows:
             size = row.box.length(translate("Quadrille", "Refinement"))
@@ -37,7 +37,7 @@ class RefinementList(RowList):
         return tuple(found)
 
     def show_all(self, refinements: Tuple[Refinement, ...]) -> None:
-        """Shows these and no others."""
+        """Shows these refinements and no others."""
         self._clear()
         for refinement in refinements:
             self._add_row(refinement)
@@ -51,12 +51,12 @@ class RefinementList(RowList):
                        label + text, box, "QuadrilleRefined")
 
     def add(self, references: Links, size: float) -> None:
-        """One more."""
+        """Adds a refinement."""
         self._add_row(Refinement("", references, size))
         self._changed()
 
     def drop(self, region: str) -> bool:
-        """Removes the row of a mesh region that is being deleted; tells whether there was one."""
+        """Removes the row of a mesh region that is being deleted. Returns whether there was one."""
         numbers = [number for number, row in enumerate(self._rows) if row.region == region]
         for number in numbers:
             self._take_away(number)
@@ -68,7 +68,7 @@ class RefinementList(RowList):
 
     def _take_away(self, number: int) -> None:
         rest = [row for index, row in enumerate(self._rows) if index != number]
-        texts = [row.box.text() for row in rest]  # as they are, readable or not
+        texts = [row.box.text() for row in rest]  # unchanged, even if not valid lengths
         self.show_all(tuple(Refinement(row.region, row.references, row.shown[0]) for row in rest))
         for row, text in zip(self._rows, texts):
             row.box.setText(text)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rows of a name, a field and a button that removes the row, with a button beneath that adds some: what a panel's lists have in
-common."""
+"""Base of the panel's lists: rows with a name, a field and a button that removes the row, and a button below that adds rows."""
 
 from typing import Any, Callable, List
 
@@ -13,7 +12,8 @@ class RowList(QtGui.QWidget):
     """A list whose rows are edited in place."""
 
     def __init__(self, text: str, tip: str, name: str, pressed: Callable[[], None], changed: Callable[[], None]) -> None:
-        """text, tip, name: of the button beneath. changed: called when a row is edited, added or removed."""
+        """text, tip, name: label, tool tip and object name of the button below. pressed: called when it is clicked. changed:
+        called when a row is edited, added or removed."""
         super().__init__()
         self._rows: List[Any] = []
         self._changed = changed
@@ -38,9 +38,9 @@ class RowList(QtGui.QWidget):
         self._rows = []
 
     def _show_row(self, row: Any, text: str, tip: str, box: Any, name: str) -> None:
-        """Puts a row beneath the others. name: what the names of its text and of the button that removes it begin with."""
+        """Adds a row below the others. name: prefix of the object names of its text and of its remove button."""
         number = len(self._rows)
-        shown = QtGui.QLineEdit(text)  # scrolls where the text is long
+        shown = QtGui.QLineEdit(text)  # scrolls if the text is long
         shown.setObjectName(f"{name}Name{number}")
         shown.setReadOnly(True)
         shown.setCursorPosition(0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a task panel does to a document, so that Cancel takes all of it back."""
+"""Records what a task panel does to a document, so that Cancel can undo all of it."""
 
 from contextlib import contextmanager
 from typing import Any, Dict, List
@@ -9,21 +9,21 @@ from . import transaction
 
 
 class Session:
-    """From the opening of a mesh object's panel to its end."""
+    """The time from the opening of a mesh object's panel to its closing."""
 
     def __init__(self, mesh, made_by: str = "") -> None:
-        """made_by: the name of the step of undo that has just made the mesh object; empty for one that was there."""
+        """made_by: the name of the undo step that has just made the mesh object; empty if the object existed before."""
         self._mesh, self._name, self._document = mesh, mesh.Name, mesh.Document
         self.made_by = made_by
-        self._own: List[str] = [made_by] if made_by else []  # names of the steps taken, the last one first
-        self._whole = bool(self._document.UndoMode)  # FreeCAD keeps all of them
+        self._own: List[str] = [made_by] if made_by else []  # names of the undo steps made, the last one first
+        self._whole = bool(self._document.UndoMode)  # whether FreeCAD still has all of these steps
         self._before: Dict[str, Any] = {name: getattr(mesh, name) for name in mesh.PropertiesList if _is_ours(mesh, name)}
         self._regions = state.wanted_of(mesh).refinements
         undo.hold(mesh)
 
     @contextmanager
     def step(self, name: str):
-        """One step of undo."""
+        """Makes one undo step."""
         count = self._document.UndoCount
         with transaction(self._document, name):
             yield
@@ -31,11 +31,11 @@ class Session:
         self._whole = self._whole and self._document.UndoCount == count + 1
 
     def keep(self) -> None:
-        """OK: all stays."""
+        """For OK: keeps all changes."""
         undo.release(self._document, self._name)
 
     def take_back(self) -> None:
-        """Cancel: the mesh object is as before, or gone when it was just made."""
+        """For Cancel: restores the mesh object as it was before, or removes it if it was just made."""
         undo.release(self._document, self._name)
         if not self._own:
             return
@@ -43,7 +43,7 @@ class Session:
             for _ in self._own:
                 self._document.undo()
             return
-        # Other work came between, which is to stay.
+        # There was other work in between, which must stay.
         with transaction(self._document, "Cancel quad mesh"):
             self._restore()
 
@@ -57,7 +57,7 @@ class Session:
         for region in list(mesh.MeshRegionList):
             if region.Name not in {entry.region for entry in self._regions}:
                 document.removeObject(region.Name)
-        links_too = mesh.Shape is not None  # nothing can be linked to a part that is gone
+        links_too = mesh.Shape is not None  # a part that was deleted cannot be linked to
         if links_too:
             self._restore_regions()
         for name, value in self._before.items():

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One widget a setting of the panel, made from the table of settings. It shows and gives the value of a mesh object's
-property of that name. What the user has not touched comes back exactly as it was, however it was rounded for the screen."""
+"""The panel's widgets, one for each setting, made from the table of settings. A widget shows and returns the value of a mesh
+object's property. A value that the user has not changed is returned exactly, even if it was rounded for display."""
 
 from typing import Any, Callable, Dict, Tuple
 
@@ -22,7 +22,7 @@ class SettingWidget:
         self.widget = self._make(setting)
         self.widget.setObjectName(f"Quadrille{self.property}")
         self.widget.setToolTip(translate("QuadrilleSettings", property_help(setting)))
-        self._shown: Tuple[Any, Any] = (None, None)  # a value, and what the widget made of it
+        self._shown: Tuple[Any, Any] = (None, None)  # the value, and what the widget returned for it right after showing it
 
     def _make(self, setting: Dict[str, Any]):
         if self._kind == "App::PropertyLength":
@@ -34,7 +34,7 @@ class SettingWidget:
             return box
         if self._kind == "App::PropertyBool":
             return QtGui.QCheckBox()
-        # Entries have commas of their own.
+        # Entries contain commas themselves.
         self._between = ";" if setting["kind"] == "entries" else ","
         if self._kind in ("App::PropertyStringList", "App::PropertyString", "App::PropertyFile"):
             line = QtGui.QLineEdit()
@@ -49,7 +49,7 @@ class SettingWidget:
         return box
 
     def value(self) -> Any:
-        """The value, as the property has it (links: the names). Raises Error when it cannot be read."""
+        """The value in the property's form (names for links). Raises Error if it cannot be read."""
         raw = self._raw()
         if raw == self._shown[1]:
             return self._shown[0]
@@ -86,7 +86,7 @@ class SettingWidget:
         self._shown = (value, self._raw())
 
     def when_changed(self, call: Callable[[], None]) -> None:
-        """Calls that whenever the user changes the value."""
+        """Calls `call` whenever the value changes."""
         for signal in ("valueChanged", "currentIndexChanged", "stateChanged", "textChanged"):
             if hasattr(self.widget, signal):
                 getattr(self.widget, signal).connect(lambda *_: call())

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sizes that a mesh would have, in colors on its part, before it is made. A child process finds them; they are drawn
-piece by piece, so that the window stays alive however large the part is."""
+"""Shows the sizes that a mesh would have, as colors on its part, before meshing. A child process finds them. They are drawn
+piece by piece, so that the window stays responsive however large the part is."""
 
 from typing import Callable, Iterator, Optional
 
@@ -14,23 +14,23 @@ from ..state import Wanted
 from . import translate
 
 _POLL_MILLISECONDS = 50
-#: After a change of settings, what is typed next is waited for so long.
+#: Delay after a change of settings, to wait for further typing.
 _SETTLE_MILLISECONDS = 400
-#: Points or triangles that are handed to the 3-D view at a time: some milliseconds.
+#: Number of values handed to the 3-D view at a time, which takes some milliseconds.
 _PIECE = 20000
 
 
 class SizePreview(QtGui.QWidget):
-    """A button that shows the sizes and hides them again; while they are shown they follow the settings."""
+    """A button that shows and hides the sizes. While shown, they follow the settings."""
 
     def __init__(self, mesh, wanted: Callable[[], Wanted], counted: Callable[[float], None]) -> None:
-        """wanted: gives the settings to show, or raises Error. counted: takes the number of elements to expect."""
+        """wanted: returns the settings to show, or raises Error. counted: called with the expected number of elements."""
         super().__init__()
         self._mesh, self._wanted, self._counted = mesh, wanted, counted
         self._job: Optional[sizes.SizesJob] = None
         self._drawing: Optional[Iterator[None]] = None
         self._drawn: Optional[_Drawn] = None
-        self._hidden: list = []  # view providers
+        self._hidden: list = []  # view providers that were hidden
         self.button = QtGui.QPushButton(translate("Quadrille", "Preview sizes"))
         self.button.setObjectName("QuadrillePreview")
         self.button.setToolTip(translate(
@@ -48,7 +48,7 @@ class SizePreview(QtGui.QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         for widget in (self.button, self.bar, self.text):
             layout.addWidget(widget)
-        self._timer, self._settle = QtCore.QTimer(), QtCore.QTimer()  # not the widget's: see MeshPanel
+        self._timer, self._settle = QtCore.QTimer(), QtCore.QTimer()  # without the widget as parent, see MeshPanel
         self._timer.setInterval(_POLL_MILLISECONDS)
         self._timer.timeout.connect(self._poll)
         self._settle.setSingleShot(True)
@@ -59,23 +59,23 @@ class SizePreview(QtGui.QWidget):
 
     @property
     def busy(self) -> bool:
-        """True while what is shown is not yet that of the settings."""
+        """True while the sizes shown do not yet match the settings."""
         return self._settle.isActive() or self._timer.isActive()
 
     def follow(self) -> None:
-        """The settings have changed."""
+        """Called when the settings have changed."""
         if self.button.isChecked():
             self._settle.start()
 
     def release(self) -> None:
-        """Ends the child process and takes the colors out of the view."""
+        """Ends the child process and removes the colors from the view."""
         self._settle.stop()
         self._stop()
         self._clear()
         for view in self._hidden:
             try:
                 view.show()
-            except ReferenceError:  # the object or its document is gone
+            except ReferenceError:  # the object or its document was deleted
                 pass
         self._hidden = []
 
@@ -146,9 +146,9 @@ class SizePreview(QtGui.QWidget):
         self._counted(found.quads)
 
     def _hide_part(self) -> None:
-        """The part and the mesh are under the colors, and would shine through."""
+        """Hides the part and the mesh, which would show through the colors."""
         for obj in (self._mesh.Shape, self._mesh):
-            view = getattr(obj, "ViewObject", None)  # the part may be gone by now
+            view = getattr(obj, "ViewObject", None)  # the part may have been deleted
             if view is not None and view.Visibility:
                 view.hide()
                 self._hidden.append(view)
@@ -160,7 +160,7 @@ class SizePreview(QtGui.QWidget):
 
 
 def summary(found: sizes.SizeMap) -> str:
-    """What the colors mean, and what asks for the sizes."""
+    """A text that says what the colors mean, and what asks for the sizes."""
     lines = [translate("Quadrille", "dark {:.3g} mm, light {:.3g} mm").format(float(found.sizes.min()), float(found.sizes.max()))]
     area = sum(source.area for source in found.sources)
     for source in sorted(found.sources, key=lambda entry: -entry.quads):
@@ -170,7 +170,7 @@ def summary(found: sizes.SizeMap) -> str:
 
 
 def _color_bar():
-    """The colors from the least size to the largest."""
+    """A picture of the colors from the smallest to the largest size."""
     rgb = np.round(255 * sizes.colors(np.geomspace(1.0, 2.0, 256), 1.0, 2.0)).astype(np.uint8)
     data = np.ascontiguousarray(rgb[None]).tobytes()
     return QtGui.QPixmap.fromImage(QtGui.QImage(data, 256, 1, 768, QtGui.QImage.Format_RGB888).copy())
@@ -201,7 +201,7 @@ class _Drawn:
             self.node.addChild(node)
 
     def fill(self, found: sizes.SizeMap, colors: np.ndarray) -> Iterator[None]:
-        """Hands the map over, a piece at each step."""
+        """Hands the map to the scene nodes, one piece per step."""
         triangles, lines = (np.hstack([ends, np.full((len(ends), 1), -1, dtype=np.int32)]).ravel()
                             for ends in (found.triangles, found.lines))
         for field, values in ((self._points.point, found.points), (self._material.diffuseColor, colors),
@@ -213,13 +213,13 @@ class _Drawn:
                 yield
 
     def show(self) -> None:
-        """Puts the triangles into the view; nothing happens where the view is no 3-D view."""
+        """Adds the triangles to the view; does nothing if it is not a 3-D view."""
         if hasattr(self._view, "getSceneGraph"):
             self._view.getSceneGraph().addChild(self.node)
             self._shown = True
 
     def remove(self) -> None:
-        """Takes them out again."""
+        """Removes the triangles from the view."""
         if not self._shown:
             return
         self._shown = False

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How a mesh made of a mesh object appears in the tree, and the box that asks how to mesh it. Documents name
-SurfaceViewProvider: do not move it."""
+"""How a quad mesh made of a triangle mesh appears in the tree, and the dialog that asks how to mesh it. Saved documents refer
+to SurfaceViewProvider by name: do not move it."""
 
 from typing import Optional
 
@@ -15,32 +15,32 @@ from .view_provider import MeshViewProvider
 
 
 class SurfaceViewProvider(MeshViewProvider):
-    """The view provider of meshes made of mesh objects."""
+    """The view provider of quad meshes made of triangle meshes."""
 
     def claimChildren(self) -> list:
-        """Nothing hangs below."""
+        """No children in the tree."""
         return []
 
     def setupContextMenu(self, vobj, menu) -> None:
-        """The commands for a mesh, when it is clicked in the tree."""
+        """Adds the commands for the mesh to its context menu in the tree."""
         fem_workbench.fill_context_menu(
             vobj.Object, menu, ("Quadrille_Surface", "Quadrille_Quality", "Quadrille_Normals", "Quadrille_Export"))
 
     def setEdit(self, vobj, _mode=0) -> bool:
-        """The command asks anew, outside of any edit mode."""
+        """Runs the command, which asks for settings again; there is no edit mode."""
         FreeCADGui.Selection.clearSelection()
         FreeCADGui.Selection.addSelection(vobj.Object)
         FreeCADGui.runCommand("Quadrille_Surface")
         return False
 
     def doubleClicked(self, vobj) -> bool:
-        """A double click edits."""
+        """A double click starts setEdit()."""
         self.setEdit(vobj)
         return True
 
 
 def ask(asked: surfaces.Asked, title: str) -> Optional[surfaces.Asked]:
-    """How to mesh, from a box that starts with what is given; None when it is cancelled."""
+    """Asks how to mesh in a dialog that starts with the given settings; None if it is cancelled."""
     dialog = QtGui.QDialog(FreeCADGui.getMainWindow())
     dialog.setWindowTitle(title)
     size, merge = LengthField("QuadrilleSurfaceSize"), LengthField("QuadrilleSurfaceMerge")
@@ -71,11 +71,11 @@ def ask(asked: surfaces.Asked, title: str) -> Optional[surfaces.Asked]:
 
 
 def mesh_with_bar(surface, asked: surfaces.Asked) -> None:
-    """Makes the mesh that the next command takes, behind a bar with a button to cancel."""
+    """Makes the mesh that the next command uses, and shows a progress bar with a Cancel button."""
     bar = QtGui.QProgressDialog(translate("Quadrille", "Meshing {}...").format(surface.Label),
                                 translate("Quadrille", "Cancel"), 0, 100, FreeCADGui.getMainWindow())
     bar.setWindowTitle("Quadrille")
-    bar.setModal(True)  # what is shown takes the clicks meanwhile
+    bar.setModal(True)  # only the bar accepts clicks meanwhile
     bar.setMinimumDuration(500)
 
     def show(_stage: str, fraction: float) -> bool:
@@ -91,6 +91,6 @@ def mesh_with_bar(surface, asked: surfaces.Asked) -> None:
 
 
 def check(asked: surfaces.Asked) -> None:
-    """Raises Error for a size that makes no sense."""
+    """Raises Error if the size is not larger than 0."""
     if not asked.size > 0:
         raise Error(translate("Quadrille", "the element size must be larger than 0"), "usage")

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The task panel of a mesh object: settings, refinements, estimate, Mesh and Stop, progress, result.
 
-The mesher is a child process that a timer looks after: FreeCAD stays usable meanwhile. What the panel shows reaches the
-document with the mesh, or by OK, each in one step of undo; Cancel takes all of it back.
+The mesher is a child process that a timer polls, so FreeCAD stays usable meanwhile. The panel's settings are stored in the
+document with the mesh, or by OK, each as one undo step. Cancel undoes all of it.
 """
 
 import time
@@ -29,17 +29,17 @@ from .size_preview import SizePreview
 from .thin_hint import thin_hint
 
 _POLL_MILLISECONDS = 10
-#: After opening and meshing, which it would slow down.
+#: Delay before a mesher is started to stand by, after opening and after meshing, which it would slow down.
 _STAND_BY_MILLISECONDS = 500
-#: Properties that are always in sight; the others are under "More settings".
+#: Properties that are always visible; the others are under "More settings".
 _IN_SIGHT = ("Size", "ElementOrder", "Faces")
 
 
 class MeshPanel:
-    """Edits and meshes one mesh object."""
+    """The panel that edits and meshes one mesh object."""
 
     def __init__(self, mesh, made_by: str = "") -> None:
-        """made_by: the step of undo that has just made the mesh object, see Session."""
+        """made_by: the undo step that has just made the mesh object, see Session."""
         self.mesh = mesh
         self._document_name, self._name = mesh.Document.Name, mesh.Name
         old_documents.mesh_regions(mesh)
@@ -52,7 +52,7 @@ class MeshPanel:
         self._measuring = Measuring(mesh, self._measured)
         self._build()
         self._load()
-        self._timer = QtCore.QTimer()  # not the form's: it must outlive a form that FreeCAD deletes
+        self._timer = QtCore.QTimer()  # without the form as parent: it must outlive a form that FreeCAD deletes
         self._timer.setInterval(_POLL_MILLISECONDS)
         self._timer.timeout.connect(self._poll)
         self.form.destroyed.connect(self._form_gone)
@@ -62,7 +62,7 @@ class MeshPanel:
         self._update_estimate()
         self._measuring.start()
 
-    # What the panel is made of
+    # Widgets
 
     def _build(self) -> None:
         self.form = QtGui.QWidget()
@@ -163,10 +163,10 @@ class MeshPanel:
     def _solvers(self) -> list:
         return solvers.solvers_of(groups.analysis_of(self.mesh))
 
-    # What the panel asks for
+    # Settings
 
     def _wanted(self) -> state.Wanted:
-        """What the panel shows; raises Error where a field cannot be read."""
+        """The settings that the panel shows. Raises Error if a field cannot be read."""
         self._measuring.finish()
         part = state.part_of(self.mesh)
         values = dict(state.wanted_of(self.mesh).values)
@@ -182,7 +182,7 @@ class MeshPanel:
         return state.Wanted(values, self.refinements.refinements(), frozenset(anew))
 
     def _commands(self, wanted: state.Wanted) -> list:
-        """The lines of Python that store what is wanted."""
+        """The lines of Python that store the wanted settings in the document."""
         mesh, present = self.mesh, state.wanted_of(self.mesh)
         lines = []
         for name, value in wanted.values.items():
@@ -198,7 +198,7 @@ class MeshPanel:
         for region, references, size in wanted.refinements:
             if not region:
                 lines.append(f"quadrille.freecad.refine({path_of(mesh)}, {links_text(references)}, {size!r})")
-            elif size != sizes.get(region, size):  # one that was deleted meanwhile stays so
+            elif size != sizes.get(region, size):  # a region that was deleted meanwhile stays deleted
                 lines.append(f"{path_of(mesh.Document.getObject(region))}.CharacteristicLength = {size!r}")
         surfaces = self.surfaces.isChecked()
         lines += [f"{path_of(solver)}.{solvers.SURFACE_RESULTS} = {surfaces!r}" for solver in self._solvers()
@@ -215,7 +215,7 @@ class MeshPanel:
     # Estimate
 
     def _measured(self) -> None:
-        """The part is measured: a new mesh gets a size, unless the user was faster."""
+        """Called when the part is measured. A new mesh gets a size, unless the user has already given one."""
         try:
             if self._session.made_by and not self.mesh.Size and not self.settings["Size"].value():
                 size = self._suggestion()
@@ -224,7 +224,7 @@ class MeshPanel:
             hint = thin_hint(state.part_of(self.mesh), self.reject)
             if hint is not None:
                 self._hint.addWidget(hint)
-        except FAILURES:  # the estimate tells of it
+        except FAILURES:  # the estimate reports it
             pass
         self._update_estimate()
 
@@ -264,7 +264,7 @@ class MeshPanel:
         return shapes.estimate_of(state.part_of(self.mesh).Shape).suggested(preferences.suggested_quads(), per_circle)
 
     def _picked(self, *kinds: str) -> list:
-        """The names of what is selected on the part."""
+        """The names of the selected elements of these kinds on the part. Tells the user if there are none."""
         selection = FreeCADGui.Selection.getSelectionEx(self._document_name, 0)
         try:
             part = state.part_of(self.mesh)
@@ -300,7 +300,7 @@ class MeshPanel:
             self.entries.add("Segments", {name: f"{max(1, round(shape.getElement(name).Length / usual))}" for name in names})
 
     def _usual_size(self) -> Optional[float]:
-        """The size that holds where no other is asked for; None, and a box, where it cannot be read."""
+        """The size where no other is asked for. None, with a message box, if it cannot be read."""
         try:
             return self.settings["Size"].value() or state.part_of(self.mesh).Shape.BoundBox.DiagonalLength / 60
         except Error as error:
@@ -338,7 +338,7 @@ class MeshPanel:
         self._end()
 
     def _end(self) -> None:
-        """Takes the result of a job that has ended."""
+        """Stores and shows the result of a job that has ended."""
         job, self._job = self._job, None
         self._timer.stop()
         QtCore.QTimer.singleShot(_STAND_BY_MILLISECONDS, self._stand_by)
@@ -365,20 +365,20 @@ class MeshPanel:
         self._say(translate("Quadrille", "{} quads: mesher {:.2f} s, into FreeCAD {:.2f} s").format(
             self.mesh.QuadCount, ended - self._started, time.monotonic() - ended))
         self.mesh.ViewObject.show()
-        if self.mesh.Shape is not None:  # deleted while the mesher worked
+        if self.mesh.Shape is not None:  # None if it was deleted while the mesher worked
             self.mesh.Shape.ViewObject.hide()
         self.quality.refresh()
         if preferences.color_after_meshing():
             self.quality.color.setChecked(True)
 
     def _show_progress(self, fraction: float, stage: str = "") -> None:
-        self.bar.setUpdatesEnabled(False)  # a new value repaints at once, and with it Qt composes the whole window anew
+        self.bar.setUpdatesEnabled(False)  # a new value would repaint at once, and Qt would redraw the whole window
         self.bar.setValue(round(100 * fraction))
         self.bar.setFormat(f"{stage} %p %".lstrip())
         self.bar.setUpdatesEnabled(True)
 
     def _stand_by(self) -> None:
-        """A mesher starts and loads its libraries before Mesh is pressed."""
+        """Starts a mesher that loads its libraries before Mesh is pressed."""
         if self._observing and self._job is None:
             jobs.stand_by()
 
@@ -389,16 +389,16 @@ class MeshPanel:
     def _say(self, text: str) -> None:
         self.log.appendPlainText(text)
 
-    # The panel's own life
+    # Opening and closing
 
     def getStandardButtons(self):
         """OK and Cancel; Mesh and Stop are in the panel."""
         return standard_buttons("Ok", "Cancel")
 
     def accept(self) -> bool:
-        """OK: keeps mesh and settings, ends the mesher."""
+        """Called on OK: keeps mesh and settings, ends the mesher."""
         try:
-            # Where the part has been deleted meanwhile there is nothing to set.
+            # If the part has been deleted meanwhile, there is nothing to set.
             lines = self._commands(self._wanted()) if self.mesh.Shape is not None else []
         except Error as error:
             tell(str(error))
@@ -415,14 +415,14 @@ class MeshPanel:
         return True
 
     def reject(self) -> bool:
-        """Cancel: ends the mesher, and leaves the document as it was."""
+        """Called on Cancel: ends the mesher, and restores the document."""
         if self._job is not None:
             self._stop()
             self._end()
         part, document = self.mesh.Shape, self.mesh.Document
         self._close()
         self._session.take_back()
-        if part in document.Objects and self._part_was_visible:  # parts joined for this mesh are gone
+        if part in document.Objects and self._part_was_visible:  # parts joined for this mesh no longer exist
             part.ViewObject.show()
         document.recompute()
         return True
@@ -442,7 +442,7 @@ class MeshPanel:
             FreeCAD.removeDocumentObserver(self)
 
     def _abandon(self) -> None:
-        """The mesh object or its document goes away: ends the mesher and the panel."""
+        """Called when the mesh object or its document is deleted: ends the mesher and the panel."""
         job, self._job = self._job, None
         if job is not None:
             job.cancel()
@@ -452,7 +452,7 @@ class MeshPanel:
         QtCore.QTimer.singleShot(0, FreeCADGui.Control.closeDialog)
 
     def _form_gone(self, *_) -> None:
-        """FreeCAD has closed the panel by itself: nobody is left to take the mesh."""
+        """Called when FreeCAD has closed the panel by itself: ends the mesher, since its mesh can no longer be stored."""
         job, self._job = self._job, None
         if job is not None:
             job.cancel()
@@ -468,24 +468,24 @@ class MeshPanel:
     def slotUndoDocument(self, document) -> None:
         """FreeCAD calls this after an undo."""
         if document.Name == self._document_name:
-            QtCore.QTimer.singleShot(0, self._show_again)  # when others have brought the mesh back
+            QtCore.QTimer.singleShot(0, self._show_again)  # after other observers have restored the mesh
 
     slotRedoDocument = slotUndoDocument
 
     def _show_again(self) -> None:
-        """The fields and the quality of what the document has now."""
+        """Shows the settings and the quality that the document has now."""
         if self._observing and self._job is None:
             self._load()
             self.quality.refresh()
 
     def slotDeletedObject(self, obj) -> None:
-        """FreeCAD calls this before an object is deleted (or its making undone)."""
+        """FreeCAD calls this before an object is deleted (or its creation is undone)."""
         if obj.Document.Name != self._document_name:
             return
         if obj.Name == self._name:
             self._abandon()
         elif self.refinements.drop(obj.Name) or obj == self.mesh.Shape:
-            QtCore.QTimer.singleShot(0, self._after_deletion)  # when it is gone
+            QtCore.QTimer.singleShot(0, self._after_deletion)  # after it is deleted
 
     def _after_deletion(self) -> None:
         if self._observing:
@@ -507,7 +507,7 @@ def _form():
 
 
 def _section(name: str, title: str, content, is_open: bool):
-    """Content below a title that opens and closes it."""
+    """A section: content below a title that opens and closes it."""
     section = QtGui.QWidget()
     head = QtGui.QToolButton()
     head.setObjectName(name)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panel says of a part that looks like a thin solid: its skin can be meshed, its middle surface makes a shell."""
+"""The panel's hint for a part that looks like a thin solid: its skin can be meshed, but a shell needs its middle surface."""
 
 from typing import Callable, Optional
 
@@ -12,7 +12,7 @@ from . import translate
 
 
 def thin_hint(part, close: Callable[[], object]) -> Optional[QtGui.QLabel]:
-    """A line with a link that closes the panel and runs the command Middle surface; None where the part is not thin."""
+    """A label with a link that closes the panel and runs the command Middle surface; None if the part does not look thin."""
     shape = part.Shape
     thickness = looks_thin(shape, estimate_of(shape).area)
     if thickness is None:
@@ -29,7 +29,7 @@ def thin_hint(part, close: Callable[[], object]) -> Optional[QtGui.QLabel]:
         close()
         FreeCADGui.Selection.clearSelection()
         FreeCADGui.Selection.addSelection(part)
-        QtCore.QTimer.singleShot(0, lambda: FreeCADGui.runCommand("Quadrille_Middle"))  # when the panel is gone
+        QtCore.QTimer.singleShot(0, lambda: FreeCADGui.runCommand("Quadrille_Middle"))  # after the panel is closed
 
     label.linkActivated.connect(make)
     return label

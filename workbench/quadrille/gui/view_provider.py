@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How a mesh object appears in the tree and opens its panel. Documents name MeshViewProvider: do not move it."""
+"""How a mesh object appears in the tree and opens its panel. Saved documents refer to MeshViewProvider by name: do not move
+it."""
 
 import FreeCADGui
 
@@ -10,17 +11,17 @@ from . import icon, overlays, preferences, tell, translate
 class MeshViewProvider:
     """The view provider of our mesh objects."""
 
-    #: The step of undo that has just made the object, for the panel that opens next.
+    #: The undo step that has just made the object, for the panel that opens next.
     made_by = ""
 
     def __init__(self, vobj) -> None:
         vobj.Proxy = self
         vobj.LineWidth = preferences.line_width()
-        # An open shell is seen from behind too.
+        # An open shell must be visible from behind too.
         vobj.BackfaceCulling = False
         vobj.PointSize = 2.0
-        # A shell has no inner faces. Looking for them, FreeCAD compares each with each other, 3 s for 46 000 quads; above
-        # MaxFacesShowInner those nearby are compared even where inner ones are to be shown.
+        # A shell has no inner faces. To find them, FreeCAD compares each face with each other, 3 s for 46 000 quads. Above
+        # MaxFacesShowInner it compares nearby faces even if inner ones are to be shown.
         vobj.ShowInner = True
         vobj.MaxFacesShowInner = 2**31 - 1
 
@@ -29,12 +30,12 @@ class MeshViewProvider:
         self.Object = vobj.Object
 
     def getIcon(self) -> str:
-        """Another icon while the mesh is not that of the part and its settings."""
+        """The icon; another one while the mesh is not up to date."""
         current = getattr(self.Object, "Status", "") == UP_TO_DATE
         return icon("quadrille_mesh" if current else "quadrille_stale")
 
     def updateData(self, obj, name: str) -> None:
-        """Icon and view follow the status."""
+        """FreeCAD calls this when a property has changed. Updates icon and view to the status."""
         if name != "Status":
             return
         obj.ViewObject.signalChangeIcon()
@@ -44,11 +45,11 @@ class MeshViewProvider:
             overlays.show_stale(obj)
 
     def claimChildren(self) -> list:
-        """Mesh regions and groups hang below the mesh."""
+        """Mesh regions and groups are the mesh's children in the tree."""
         return [*self.Object.MeshRegionList, *self.Object.MeshGroupList]
 
     def setupContextMenu(self, vobj, menu) -> None:
-        """The commands for a mesh, when it is clicked in the tree."""
+        """Adds the commands for the mesh to its context menu in the tree."""
         from . import fem_workbench
 
         fem_workbench.fill_context_menu(vobj.Object, menu)
@@ -73,7 +74,8 @@ class MeshViewProvider:
         return True
 
     def doubleClicked(self, vobj) -> bool:
-        """A double click edits. FreeCAD would end the panel that is open, with what it has not stored and its mesher."""
+        """A double click opens the panel, but only if no panel is open: FreeCAD would close that one, with its unsaved input and
+        its mesher."""
         if FreeCADGui.Control.activeDialog():
             if vobj.Document.getInEdit() != vobj:
                 tell(translate("Quadrille", "Another task panel is open: close it first."))
