@@ -384,6 +384,10 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>keiner: eine Fläche</translation>
     </message>
     <message>
+        <source>Finding the middle surface of {}...</source>
+        <translation>Suche die Mittelfläche von {} …</translation>
+    </message>
+    <message>
         <source>Meshing {}...</source>
         <translation>Vernetze {} …</translation>
     </message>
@@ -471,7 +475,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Feinheiten behalten</translation>
     </message>
     <message>
-        <source>Mesh features far below the least size too, instead of letting them go</source>
+        <source>Also mesh features far below the minimum size instead of letting them go</source>
         <translation>Auch Formelemente weit unter der kleinsten Größe vernetzen, statt sie wegzulassen</translation>
     </message>
     <message>
@@ -519,15 +523,15 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Wachstum</translation>
     </message>
     <message>
-        <source>How fast the size may change: millimeters of size per millimeter of way</source>
+        <source>How fast sizes may grow: millimeters of size per millimeter of distance</source>
         <translation>Wie schnell sich die Größe ändern darf: Millimeter Größe je Millimeter Weg</translation>
     </message>
     <message>
-        <source>Keep what could be meshed when a face fails</source>
+        <source>Keep what could be meshed if a face fails</source>
         <translation>Behalten, was vernetzt werden konnte, wenn eine Fläche misslingt</translation>
     </message>
     <message>
-        <source>Leave out edges shorter and faces narrower than this length; 0 = all are meshed</source>
+        <source>Leave out edges that are shorter and faces that are narrower than this length; 0 = all are meshed</source>
         <translation>Kürzere Kanten und schmalere Flächen weglassen; 0 = alle werden vernetzt</translation>
     </message>
     <message>
@@ -535,7 +539,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Winziges weg</translation>
     </message>
     <message>
-        <source>Mesh past 50 million elements and 5 million segments on edges</source>
+        <source>Allow more than 50 million elements and 5 million segments on edges</source>
         <translation>Auch mehr als 50 Millionen Elemente und 5 Millionen Abschnitte auf Kanten vernetzen</translation>
     </message>
     <message>
@@ -543,11 +547,11 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Minimum</translation>
     </message>
     <message>
-        <source>No size goes below this; 0 = size / 8</source>
+        <source>No size goes below this, except those given by name or region; 0 = size / 8</source>
         <translation>Keine Größe liegt darunter; 0 = Größe / 8</translation>
     </message>
     <message>
-        <source>OpenVDB grid (.vdb) that caps the size</source>
+        <source>OpenVDB grid (.vdb) that limits the size</source>
         <translation>OpenVDB-Gitter (.vdb), das die Größe begrenzt</translation>
     </message>
     <message>
@@ -575,7 +579,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Verfahren</translation>
     </message>
     <message>
-        <source>Subdivide: triangles at twice the size, paired, each quad cut in four; direct: triangles at the size, paired, but for faces where that fails</source>
+        <source>Subdivide: triangles at twice the size are paired and each quad is cut in four; direct: triangles at the size are paired, except on faces where that fails</source>
         <translation>Unterteilen: Dreiecke doppelter Größe, gepaart, jedes Viereck in vier geteilt; direkt: Dreiecke in der Größe, gepaart, außer auf Flächen, wo das scheitert</translation>
     </message>
     <message>
@@ -583,7 +587,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Angestrebte Kantenlänge; 0 = ein Sechzigstel der Diagonale des Modells</translation>
     </message>
     <message>
-        <source>Threads to use, no more than there are cores; 0 = all cores</source>
+        <source>Number of threads, at most the number of cores; 0 = all cores</source>
         <translation>Threads, höchstens so viele wie Kerne; 0 = alle Kerne</translation>
     </message>
     <message>
@@ -627,7 +631,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Durch Wände</translation>
     </message>
     <message>
-        <source>Elements through the thickness of a wall: sizes on its skins are its thickness over this at most; 0 = any number</source>
+        <source>Elements through the thickness of a wall: sizes on its skins are at most its thickness divided by this number; 0 = any number</source>
         <translation>Elemente durch die Dicke einer Wand: Größen auf ihren Häuten sind höchstens ihre Dicke geteilt durch diese Zahl; 0 = beliebig viele</translation>
     </message>
     <message>
@@ -643,23 +647,23 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Elemente quer über eine Engstelle einer Fläche, zwischen ihren Rändern; 0 = beliebig viele</translation>
     </message>
     <message>
-        <source>File (.csv) of lines x,y,z,size: points that ask for a size</source>
+        <source>File (.csv) with lines x,y,z,size: points that request a size</source>
         <translation>Datei (.csv) mit Zeilen x,y,z,Größe: Punkte, die eine Größe verlangen</translation>
     </message>
     <message>
-        <source>How far a segment may be from its curve or surface: a length in mm such as 0.05, or a share of the size such as 2%; empty = any</source>
+        <source>Largest distance of a segment from its curve or surface: a length in mm such as 0.05, or a share of the size such as 2%; empty = any</source>
         <translation>Wie weit ein Segment von seiner Kurve oder Fläche abweichen darf: eine Länge in mm wie 0.05 oder ein Anteil der Größe wie 2%; leer = beliebig</translation>
     </message>
     <message>
-        <source>How many segments edges get, such as Edge4=20; those that run along them get as many; empty = by size</source>
+        <source>Number of segments on edges, such as Edge4=20; opposite edges of grids get the same number; empty = by size</source>
         <translation>Wie viele Segmente Kanten bekommen, etwa Edge4=20; die ihnen gegenüberliegen, bekommen ebenso viele; leer = nach Größe</translation>
     </message>
     <message>
-        <source>Length of each segment of an edge over that of the one before, such as Edge4=1.2; empty = none</source>
+        <source>Ratio of each segment&apos;s length to that of the one before, such as Edge4=1.2; empty = none</source>
         <translation>Länge jedes Segments einer Kante im Verhältnis zum vorigen, etwa Edge4=1.2; leer = keines</translation>
     </message>
     <message>
-        <source>Millimeters to a unit of length in the grid, of its places and its sizes</source>
+        <source>Unit of length of the grid in millimeters, for its coordinates and its sizes</source>
         <translation>Millimeter je Längeneinheit des Gitters, für Orte und Größen</translation>
     </message>
     <message>
@@ -667,7 +671,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Ringe</translation>
     </message>
     <message>
-        <source>Rings of quads round each hole without corners, where there is room for them; 0 = none</source>
+        <source>Rings of quads around each hole without corners, if there is room for them; 0 = none</source>
         <translation>Ringe von Vierecken um jedes Loch ohne Ecken, wo Platz dafür ist; 0 = keine</translation>
     </message>
     <message>
@@ -675,27 +679,27 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Symmetrie</translation>
     </message>
     <message>
-        <source>Where the model has mirror planes, mesh one side of them and copy it, with nodes on the planes</source>
+        <source>If the model has mirror planes, mesh one side and copy it, with nodes on the planes</source>
         <translation>Wo das Modell Spiegelebenen hat, eine Seite davon vernetzen und spiegeln, mit Knoten auf den Ebenen</translation>
     </message>
     <message>
-        <source>Sizes by distance from a face, edge or vertex, as heights of layers grow: first height, ratio and number, such as Edge4=0.1,1.2,6; empty = none</source>
+        <source>Sizes by distance from a face, edge or vertex that grow like the heights of layers: first height, ratio and number, such as Edge4=0.1,1.2,6; empty = none</source>
         <translation>Größen nach dem Abstand von Fläche, Kante oder Ecke, wie Schichthöhen wachsen: erste Höhe, Verhältnis und Anzahl, etwa Edge4=0.1,1.2,6; leer = keine</translation>
     </message>
     <message>
-        <source>Sizes in space: box:x,y,z,x,y,z=SIZE, sphere:x,y,z,r=SIZE, cylinder:x,y,z,x,y,z,r=SIZE, halfspace:x,y,z,nx,ny,nz=SIZE (where the direction points to), in mm; SIZE,LENGTH: the size around grows to the global one over that length; empty = none</source>
+        <source>Sizes in space: box:x,y,z,x,y,z=SIZE, sphere:x,y,z,r=SIZE, cylinder:x,y,z,x,y,z,r=SIZE, halfspace:x,y,z,nx,ny,nz=SIZE (the side that the direction points to), in mm; SIZE,LENGTH: around the region the size grows to the global one over that length; empty = none</source>
         <translation>Größen im Raum: box:x,y,z,x,y,z=GRÖSSE, sphere:x,y,z,r=GRÖSSE, cylinder:x,y,z,x,y,z,r=GRÖSSE, halfspace:x,y,z,nx,ny,nz=GRÖSSE (wohin die Richtung zeigt), in mm; GRÖSSE,LÄNGE: ringsum wächst die Größe über diese Länge zur globalen; leer = keine</translation>
     </message>
     <message>
-        <source>Surface: sizes grow along faces and over their edges, not across gaps and through walls; space: through air too</source>
+        <source>Surface: sizes grow along faces and across their edges, but not across gaps or through walls; space: through air too</source>
         <translation>surface: Größen wachsen entlang der Flächen und über ihre Kanten, nicht über Spalte und durch Wände; space: auch durch die Luft</translation>
     </message>
     <message>
-        <source>The same from both ends of an edge to its middle; empty = none</source>
+        <source>The same ratio from both ends of an edge to its middle; empty = none</source>
         <translation>Dasselbe von beiden Enden einer Kante zur Mitte; leer = keines</translation>
     </message>
     <message>
-        <source>The sizes in the grid times this</source>
+        <source>Factor for the sizes in the grid</source>
         <translation>Die Größen des Gitters mal diesem Wert</translation>
     </message>
     <message>

@@ -384,6 +384,10 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>aucun : une seule face</translation>
     </message>
     <message>
+        <source>Finding the middle surface of {}...</source>
+        <translation>Recherche de la surface moyenne de {}…</translation>
+    </message>
+    <message>
         <source>Meshing {}...</source>
         <translation>Maillage de {}…</translation>
     </message>
@@ -471,7 +475,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Garder les détails</translation>
     </message>
     <message>
-        <source>Mesh features far below the least size too, instead of letting them go</source>
+        <source>Also mesh features far below the minimum size instead of letting them go</source>
         <translation>Mailler aussi les détails bien inférieurs à la taille minimale, au lieu de les omettre</translation>
     </message>
     <message>
@@ -519,15 +523,15 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Croissance</translation>
     </message>
     <message>
-        <source>How fast the size may change: millimeters of size per millimeter of way</source>
+        <source>How fast sizes may grow: millimeters of size per millimeter of distance</source>
         <translation>À quelle vitesse la taille peut changer : millimètres de taille par millimètre de chemin</translation>
     </message>
     <message>
-        <source>Keep what could be meshed when a face fails</source>
+        <source>Keep what could be meshed if a face fails</source>
         <translation>Garder ce qui a pu être maillé quand une face échoue</translation>
     </message>
     <message>
-        <source>Leave out edges shorter and faces narrower than this length; 0 = all are meshed</source>
+        <source>Leave out edges that are shorter and faces that are narrower than this length; 0 = all are meshed</source>
         <translation>Omettre les arêtes plus courtes et les faces plus étroites ; 0 = toutes sont maillées</translation>
     </message>
     <message>
@@ -535,7 +539,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Omettre</translation>
     </message>
     <message>
-        <source>Mesh past 50 million elements and 5 million segments on edges</source>
+        <source>Allow more than 50 million elements and 5 million segments on edges</source>
         <translation>Mailler au-delà de 50 millions d'éléments et 5 millions de segments d'arêtes</translation>
     </message>
     <message>
@@ -543,11 +547,11 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Minimum</translation>
     </message>
     <message>
-        <source>No size goes below this; 0 = size / 8</source>
+        <source>No size goes below this, except those given by name or region; 0 = size / 8</source>
         <translation>Aucune taille n'est inférieure ; 0 = taille / 8</translation>
     </message>
     <message>
-        <source>OpenVDB grid (.vdb) that caps the size</source>
+        <source>OpenVDB grid (.vdb) that limits the size</source>
         <translation>Grille OpenVDB (.vdb) qui limite la taille</translation>
     </message>
     <message>
@@ -575,7 +579,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Stratégie</translation>
     </message>
     <message>
-        <source>Subdivide: triangles at twice the size, paired, each quad cut in four; direct: triangles at the size, paired, but for faces where that fails</source>
+        <source>Subdivide: triangles at twice the size are paired and each quad is cut in four; direct: triangles at the size are paired, except on faces where that fails</source>
         <translation>Subdiviser : triangles de taille double, appariés, chaque quadrangle coupé en quatre ; direct : triangles à la taille, appariés, sauf sur les faces où cela échoue</translation>
     </message>
     <message>
@@ -583,7 +587,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Longueur d'arête visée ; 0 = un soixantième de la diagonale du modèle</translation>
     </message>
     <message>
-        <source>Threads to use, no more than there are cores; 0 = all cores</source>
+        <source>Number of threads, at most the number of cores; 0 = all cores</source>
         <translation>Fils à utiliser, au plus le nombre de cœurs ; 0 = tous les cœurs</translation>
     </message>
     <message>
@@ -627,7 +631,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>À travers les parois</translation>
     </message>
     <message>
-        <source>Elements through the thickness of a wall: sizes on its skins are its thickness over this at most; 0 = any number</source>
+        <source>Elements through the thickness of a wall: sizes on its skins are at most its thickness divided by this number; 0 = any number</source>
         <translation>Éléments dans l’épaisseur d’une paroi : les tailles sur ses peaux sont au plus son épaisseur divisée par ce nombre ; 0 = n’importe combien</translation>
     </message>
     <message>
@@ -643,23 +647,23 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Éléments en travers d’un passage étroit d’une face, entre ses bords ; 0 = n’importe combien</translation>
     </message>
     <message>
-        <source>File (.csv) of lines x,y,z,size: points that ask for a size</source>
+        <source>File (.csv) with lines x,y,z,size: points that request a size</source>
         <translation>Fichier (.csv) de lignes x,y,z,taille : points qui demandent une taille</translation>
     </message>
     <message>
-        <source>How far a segment may be from its curve or surface: a length in mm such as 0.05, or a share of the size such as 2%; empty = any</source>
+        <source>Largest distance of a segment from its curve or surface: a length in mm such as 0.05, or a share of the size such as 2%; empty = any</source>
         <translation>Écart admis entre un segment et sa courbe ou surface : une longueur en mm comme 0.05, ou une part de la taille comme 2% ; vide = quelconque</translation>
     </message>
     <message>
-        <source>How many segments edges get, such as Edge4=20; those that run along them get as many; empty = by size</source>
+        <source>Number of segments on edges, such as Edge4=20; opposite edges of grids get the same number; empty = by size</source>
         <translation>Nombre de segments des arêtes, par exemple Edge4=20 ; celles qui leur font face en reçoivent autant ; vide = selon la taille</translation>
     </message>
     <message>
-        <source>Length of each segment of an edge over that of the one before, such as Edge4=1.2; empty = none</source>
+        <source>Ratio of each segment&apos;s length to that of the one before, such as Edge4=1.2; empty = none</source>
         <translation>Rapport de la longueur de chaque segment d’une arête au précédent, par exemple Edge4=1.2 ; vide = aucun</translation>
     </message>
     <message>
-        <source>Millimeters to a unit of length in the grid, of its places and its sizes</source>
+        <source>Unit of length of the grid in millimeters, for its coordinates and its sizes</source>
         <translation>Millimètres par unité de longueur de la grille, pour les lieux et les tailles</translation>
     </message>
     <message>
@@ -667,7 +671,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Anneaux</translation>
     </message>
     <message>
-        <source>Rings of quads round each hole without corners, where there is room for them; 0 = none</source>
+        <source>Rings of quads around each hole without corners, if there is room for them; 0 = none</source>
         <translation>Anneaux de quadrangles autour de chaque trou sans coin, là où il y a de la place ; 0 = aucun</translation>
     </message>
     <message>
@@ -675,27 +679,27 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Symétrie</translation>
     </message>
     <message>
-        <source>Where the model has mirror planes, mesh one side of them and copy it, with nodes on the planes</source>
+        <source>If the model has mirror planes, mesh one side and copy it, with nodes on the planes</source>
         <translation>Là où le modèle a des plans de symétrie, mailler un côté et le copier en miroir, avec des nœuds sur les plans</translation>
     </message>
     <message>
-        <source>Sizes by distance from a face, edge or vertex, as heights of layers grow: first height, ratio and number, such as Edge4=0.1,1.2,6; empty = none</source>
+        <source>Sizes by distance from a face, edge or vertex that grow like the heights of layers: first height, ratio and number, such as Edge4=0.1,1.2,6; empty = none</source>
         <translation>Tailles selon la distance à une face, une arête ou un sommet, comme croissent des couches : première hauteur, rapport et nombre, par exemple Edge4=0.1,1.2,6 ; vide = aucune</translation>
     </message>
     <message>
-        <source>Sizes in space: box:x,y,z,x,y,z=SIZE, sphere:x,y,z,r=SIZE, cylinder:x,y,z,x,y,z,r=SIZE, halfspace:x,y,z,nx,ny,nz=SIZE (where the direction points to), in mm; SIZE,LENGTH: the size around grows to the global one over that length; empty = none</source>
+        <source>Sizes in space: box:x,y,z,x,y,z=SIZE, sphere:x,y,z,r=SIZE, cylinder:x,y,z,x,y,z,r=SIZE, halfspace:x,y,z,nx,ny,nz=SIZE (the side that the direction points to), in mm; SIZE,LENGTH: around the region the size grows to the global one over that length; empty = none</source>
         <translation>Tailles dans l’espace : box:x,y,z,x,y,z=TAILLE, sphere:x,y,z,r=TAILLE, cylinder:x,y,z,x,y,z,r=TAILLE, halfspace:x,y,z,nx,ny,nz=TAILLE (du côté de la direction), en mm ; TAILLE,LONGUEUR : autour, la taille croît jusqu’à la taille globale sur cette longueur ; vide = aucune</translation>
     </message>
     <message>
-        <source>Surface: sizes grow along faces and over their edges, not across gaps and through walls; space: through air too</source>
+        <source>Surface: sizes grow along faces and across their edges, but not across gaps or through walls; space: through air too</source>
         <translation>surface : les tailles croissent le long des faces et par leurs arêtes, ni en travers des vides ni à travers les parois ; space : à travers l’air aussi</translation>
     </message>
     <message>
-        <source>The same from both ends of an edge to its middle; empty = none</source>
+        <source>The same ratio from both ends of an edge to its middle; empty = none</source>
         <translation>De même des deux bouts d’une arête vers son milieu ; vide = aucun</translation>
     </message>
     <message>
-        <source>The sizes in the grid times this</source>
+        <source>Factor for the sizes in the grid</source>
         <translation>Les tailles de la grille multipliées par cette valeur</translation>
     </message>
     <message>
