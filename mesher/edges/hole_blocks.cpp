@@ -139,10 +139,11 @@ class HoleFitter {
   /// The count near `now` that suits the holes best. \param axis 0 = columns, 1 = rows
   int best_count(const std::vector<HolePlace>& shares, int axis, int now) const {
     constexpr double of_change = 2;
-    constexpr int reach = 2;
+    constexpr int fewest = 3, step = 2;  // an even step keeps the parity of the faces
     int best = now;
     double least = std::numeric_limits<double>::infinity();
-    for (int count = std::max(3, now - reach); count <= now + reach; count += reach) {
+    for (int count = now - step; count <= now + step; count += step) {
+      if (count < fewest) continue;
       double cost = of_change * std::abs(std::log(static_cast<double>(count) / now));
       for (const HolePlace& share : shares) {
         cost += across(share.low[axis] * count, share.high[axis] * count, share.even).cost /

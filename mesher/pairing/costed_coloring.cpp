@@ -73,7 +73,6 @@ CostedColoring::CostedColoring(const TriangleMesh& mesh, EdgeColoring colors)
 
 void CostedColoring::compute_costs(const std::vector<Vector3>& points, Objective objective,
                                    const ExecutionContext& context) {
-  constexpr float worst_cost = 1e6F;
   objective_ = objective;
   SparseCheck check(context);
   std::vector<TriangleShape> shapes(triangles_.size());
@@ -86,9 +85,8 @@ void CostedColoring::compute_costs(const std::vector<Vector3>& points, Objective
     for (int i = 0; i < 3; ++i) {
       const Side other = twin(make_side(t, i));
       if (other < make_side(t, i)) continue;  // boundary, or done from the other side
-      float cost = pair_cost(shapes[t], i, shapes[triangle_of(other)], index_of(other), objective);
-      if (!(cost < worst_cost)) cost = worst_cost;  // not a number where products overflow
-      triangles_[t].cost[i] = triangles_[triangle_of(other)].cost[index_of(other)] = cost;
+      set_cost(make_side(t, i),
+               pair_cost(shapes[t], i, shapes[triangle_of(other)], index_of(other), objective));
     }
   }
 }
@@ -141,10 +139,14 @@ void CostedColoring::update_cost(Side side, const std::vector<Vector3>& points) 
     if (normal.dot(mean) < 0) invert(result);
     return result;
   };
-  const float cost = pair_cost(shape(triangle_of(side)), index_of(side), shape(triangle_of(other)),
-                               index_of(other), objective_);
-  triangles_[triangle_of(side)].cost[index_of(side)] = cost;
-  triangles_[triangle_of(other)].cost[index_of(other)] = cost;
+  set_cost(side, pair_cost(shape(triangle_of(side)), index_of(side), shape(triangle_of(other)),
+                           index_of(other), objective_));
+}
+
+void CostedColoring::set_cost(Side side, float cost) {
+  constexpr float worst_cost = 1e6F;
+  if (!(cost < worst_cost)) cost = worst_cost;  // not a number where products overflow
+  for (const Side one : {side, twin(side)}) triangles_[triangle_of(one)].cost[index_of(one)] = cost;
 }
 
 namespace {

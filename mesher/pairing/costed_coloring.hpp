@@ -52,6 +52,8 @@ class CostedColoring : public EdgeColoring {
   };
 
   void update_cost(Side side, const std::vector<Vector3>& points);
+  /// Sets the cost of the pair that a side joins, for both of its triangles.
+  void set_cost(Side side, float cost);
 
   std::vector<Triangle> triangles_;
   Objective objective_ = Objective::regular;

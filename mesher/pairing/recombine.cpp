@@ -108,6 +108,7 @@ QuadMesh recombine_as_in_paper(const TriangleMesh& mesh, const RecombineOptions&
   if (options.leftovers == Leftovers::pair && augment(coloring, free, {.heading = &mesh}, context) > 0) {
     // Triangles that no path joins walk, which takes flips of edges.
     CostedColoring flipped(mesh, std::move(coloring));
+    flipped.compute_costs(mesh.points, options.objective, context);
     walk(flipped, mesh.points, context);
     return remove_color(flipped, mesh);
   }
