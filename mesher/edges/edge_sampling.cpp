@@ -165,9 +165,11 @@ class EdgeSampler {
       tables_[i] = tabulate(edge, sampler);
       const bool even = result_.stride == 1 && edge.is_used(plan_.subdivided);
       const int stride = result_.edges[i].stride = even ? 2 : result_.stride;
+      bool is_finer = false;
       for (const EdgeStretch& part : plan_.finer) {
         if (part.edge != i + 1) continue;
         tables_[i].make_finer(part.from, part.to, part.segments * stride);
+        is_finer = true;
       }
       double& wanted = wishes_.wanted[i];
       wanted = tables_[i].total() / result_.stride;
@@ -179,14 +181,17 @@ class EdgeSampler {
       const double turning = plan_.bare[i] ? 0 : tables_[i].turning;
       wishes_.least[i] =
           least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], result_.stride);
+      // What a face needs to be meshed at all does not give way to the wishes of opposite edges.
+      if (is_finer) wishes_.least[i] = std::max(wishes_.least[i], static_cast<int>(wanted));
       // Between grids, one segment may do for a straight edge. Curves keep their shape there as elsewhere.
-      wishes_.least_of_grids[i] = turning > 1e-3 ? result_.stride * wishes_.least[i] : 1;
+      wishes_.least_of_grids[i] = turning > 1e-3 || is_finer ? result_.stride * wishes_.least[i] : 1;
       if (is_prescribed(i)) {
         fix_count(i, shared_ends[i], inner[i]);
       } else if (even) {
         wishes_.even[i] = 1;
-        wishes_.least[i] =
-            stride * least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride);
+        wishes_.least[i] = std::max(
+            wishes_.least[i] + wishes_.least[i] % 2,
+            stride * least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride));
       }
     }
   }
