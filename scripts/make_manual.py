@@ -62,7 +62,7 @@ def page(name, version, help_text, see):
             term = f"\\fB{roff(entry)}\\fR" if heading == "Subcommands" else term_of(entry)
             lines += [".TP", term, roff(explanation)]
     lines += [".SH EXIT STATUS", "0 done, 1 could not, 2 makes no sense as asked, 130 cancelled.", ".SH SEE ALSO",
-              ",\n".join(f".BR {roff(other)} (1)" for other in see).replace("(1),", "(1),")]
+              ",\n".join(f".BR {roff(other)} (1)" for other in see)]
     return "\n".join(lines) + "\n"
 
 

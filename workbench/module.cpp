@@ -184,36 +184,38 @@ std::string settings_signature(Setting::Use use) {
   return text;
 }
 
-/// Calls `read` with its options, and sews the model if the settings ask for it. Ctrl-C interrupts reading.
-template <class Read>
-CadModel read_model(bool isolated, const Settings& settings, Read read) {
-  ProgressCall call{py::none()};
-  ExecutionContext context(1, std::ref(call));
-  context.expect({Stage::read});
+/// Does work, given its context, without holding Python's lock. Ctrl-C and `progress` can interrupt it.
+template <class Work>
+auto interruptible(int threads, const py::object& progress, Work work) {
+  ProgressCall call(progress);
+  ExecutionContext context(threads, std::ref(call));
   try {
     const py::gil_scoped_release release;
-    const CadModel model = read(ReadOptions{isolated, &context, settings.read_time_limit});
-    return settings.sew > 0 ? model.sewn(settings.sew) : model;
+    return work(context);
   } catch (const Error&) {
     call.rethrow();
     throw;
   }
 }
 
+/// Calls `read` with its options, and sews the model if the settings ask for it.
+template <class Read>
+CadModel read_model(bool isolated, const Settings& settings, Read read) {
+  return interruptible(1, py::none(), [&](ExecutionContext& context) {
+    context.expect({Stage::read});
+    const CadModel model = read(ReadOptions{isolated, &context, settings.read_time_limit});
+    return settings.sew > 0 ? model.sewn(settings.sew) : model;
+  });
+}
+
 /// \param Model CadModel or MidSurface.
 template <class Model>
 PythonMesh mesh_model(const Model& model, const py::object& progress, const py::kwargs& arguments) {
   const Settings settings = settings_of(arguments, Setting::Use::mesh, "mesh");
-  ProgressCall call(progress);
-  ExecutionContext context(settings.threads, std::ref(call));
-  if (settings.time_limit > 0) context.limit_time(settings.time_limit);
-  try {
-    const py::gil_scoped_release release;
+  return interruptible(settings.threads, progress, [&](ExecutionContext& context) {
+    if (settings.time_limit > 0) context.limit_time(settings.time_limit);
     return PythonMesh(mesh(model, settings.mesh, context));
-  } catch (const Error&) {
-    call.rethrow();
-    throw;
-  }
+  });
 }
 
 PythonMesh remesh_surface(const PythonMesh& surface, double size, double feature_angle,
@@ -226,10 +228,6 @@ PythonMesh remesh_surface(const PythonMesh& surface, double size, double feature
       throw py::type_error(fmt::format("remesh() got an unexpected keyword argument '{}'", name));
   }
   const Settings settings = settings_of(arguments, Setting::Use::mesh, "remesh");
-  ProgressCall call(progress);
-  ExecutionContext context(settings.threads, std::ref(call));
-  context.expect({Stage::sample, Stage::triangulate, Stage::mesh, Stage::assemble});
-  if (settings.time_limit > 0) context.limit_time(settings.time_limit);
   RemeshOptions options;
   options.size = size;
   options.feature_angle = feature_angle;
@@ -238,17 +236,14 @@ PythonMesh remesh_surface(const PythonMesh& surface, double size, double feature
   options.force = settings.mesh.force;
   std::vector<std::string> notes;
   RemeshFidelity fidelity;
-  std::optional<PythonMesh> result;
-  try {
-    const py::gil_scoped_release release;
-    result.emplace(remesh(surface.mesh, options, &fidelity, notes, context));
-  } catch (const Error&) {
-    call.rethrow();
-    throw;
-  }
-  result->fidelity = fidelity;
+  PythonMesh result = interruptible(settings.threads, progress, [&](ExecutionContext& context) {
+    context.expect({Stage::sample, Stage::triangulate, Stage::mesh, Stage::assemble});
+    if (settings.time_limit > 0) context.limit_time(settings.time_limit);
+    return PythonMesh(remesh(surface.mesh, options, &fidelity, notes, context));
+  });
+  result.fidelity = fidelity;
   for (const std::string& note : notes) py::module_::import("warnings").attr("warn")(note);
-  return std::move(*result);
+  return result;
 }
 
 const char* kind_name(Error::Kind kind) {
@@ -380,8 +375,8 @@ MidSurface midsurface_of(const CadModel& model, bool partial, bool join) {
   MidSurfaceOptions options;
   options.partial = partial;
   options.join = join;
-  ExecutionContext context;
-  return midsurface(model, options, context);
+  return interruptible(0, py::none(),
+                       [&](ExecutionContext& context) { return midsurface(model, options, context); });
 }
 
 void bind_midsurface(py::module_& module) {
@@ -396,7 +391,7 @@ void bind_midsurface(py::module_& module) {
             return result;
           },
           "By face number minus 1: dicts of area in mm^2, thickness (mean, _min and _max) in mm, solid, "
-          "solid_faces and step.")
+          "solid_faces,\nstep, fitted (there is no exact middle) and off, its largest error in mm.")
       .def_property_readonly(
           "rims",
           [](const MidSurface& self) {
@@ -406,7 +401,8 @@ void bind_midsurface(py::module_& module) {
           },
           "The free edges: (edge number, solid faces that it lies on).")
       .def_readonly("volume", &MidSurface::volume, "Of the solids, in mm^3.")
-      .def_readonly("shell_volume", &MidSurface::shell_volume, "Sum of area times thickness, in mm^3.")
+      .def_readonly("shell_volume", &MidSurface::shell_volume,
+                    "Sum of area times thickness, without steps, in mm^3.")
       .def_readonly("parts", &MidSurface::parts, "Connected parts.")
       .def_readonly("free_edges", &MidSurface::free_edges, "Edges of one face only.")
       .def_readonly("unpaired", &MidSurface::unpaired, "Solid faces that are neither side nor rim of a wall.")
@@ -418,7 +414,7 @@ void bind_midsurface(py::module_& module) {
                .c_str());
   module.def(
       "midsurface", &midsurface_of, py::arg("model"), py::kw_only(), py::arg("partial") = false,
-      py::arg("join") = false, py::call_guard<py::gil_scoped_release>(),
+      py::arg("join") = false,
       documented(
           "midsurface(model, *, partial=False, join=False)",
           "The MidSurface of the solids of a model. partial: give what could be paired where a solid is "
@@ -463,8 +459,8 @@ void bind_functions(py::module_& module) {
       },
       py::arg("path"),
       documented("read_mesh(path)",
-                 "Reads a surface mesh: .msh, .inp, .unv, .bdf, .stl, .obj, .ply, .vtk, .vtu or .vtp. Raises "
-                 "quadrille.Error.")
+                 "Reads a surface mesh: .msh, .inp, .unv, .bdf, .nas, .dat, .stl, .obj, .ply, .vtk, .vtu or "
+                 ".vtp. Raises quadrille.Error.")
           .c_str());
   bind_recombine(module);
   module.def(
@@ -488,10 +484,11 @@ void bind_functions(py::module_& module) {
   module.def(
       "suggested_size",
       [](const CadModel& model, int quads) {
-        ExecutionContext context;
-        return QuadEstimate(model, context).size_for(quads).size;
+        return interruptible(0, py::none(), [&](ExecutionContext& context) {
+          return QuadEstimate(model, context).size_for(quads).size;
+        });
       },
-      py::arg("model"), py::arg("quads") = 5000, py::call_guard<py::gil_scoped_release>(),
+      py::arg("model"), py::arg("quads") = 5000,
       documented("suggested_size(model, quads=5000)", "A size, in mm, that gives about this many quads.")
           .c_str());
   module.def(

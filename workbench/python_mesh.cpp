@@ -8,11 +8,11 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "mesher/quads/triangulated_surface.hpp"
-#include "mesher/shell/from_triangles.hpp"
+#include "mesher/quads/triangulated_surface.hpp"  // improve_on(), which is not in the public headers
 #include "workbench/python_mesh.hpp"
 
 namespace py = pybind11;
@@ -59,6 +59,20 @@ Error wrong_shape(const char* name, const std::string& wanted) {
   return usage_error(name, fmt::format("{} must be an array of the shape {}", name, wanted));
 }
 
+/// The whole numbers of an array. Throws Error (usage) if it holds others.
+Integers integers_of(const char* name, const py::array& given) {
+  const char kind = given.dtype().kind();
+  if (given.size() > 0 && kind != 'i' && kind != 'u')
+    throw usage_error(name, fmt::format("{} must hold whole numbers", name));
+  return Integers::ensure(given);
+}
+
+int narrowed(const char* name, std::size_t row, std::int64_t value) {
+  if (!std::in_range<int>(value))
+    throw usage_error(name, fmt::format("{}[{}] has the number {}, which is out of range", name, row, value));
+  return static_cast<int>(value);
+}
+
 /// The rows of an (n, columns) array of integers; None gives no rows. Throws Error (usage) for other arrays.
 /// \param bounded number of leading columns that hold node indices, from 0 to `below` - 1.
 template <std::size_t columns>
@@ -68,9 +82,7 @@ std::vector<std::array<int, columns>> rows(const char* name, const py::object& g
   const py::array plain = py::array::ensure(given);
   if (!plain || (plain.size() > 0 && (plain.ndim() != 2 || plain.shape(1) != columns)))
     throw wrong_shape(name, fmt::format("(any, {})", columns));
-  if (plain.size() > 0 && plain.dtype().kind() != 'i' && plain.dtype().kind() != 'u')
-    throw usage_error(name, fmt::format("{} must hold whole numbers", name));
-  const Integers numbers = Integers::ensure(plain);
+  const Integers numbers = integers_of(name, plain);
   std::vector<std::array<int, columns>> result(plain.size() > 0 ? plain.shape(0) : 0);
   for (std::size_t i = 0; i < result.size(); ++i) {
     for (std::size_t k = 0; k < columns; ++k) {
@@ -78,7 +90,7 @@ std::vector<std::array<int, columns>> rows(const char* name, const py::object& g
       if (k < bounded && (value < 0 || value >= static_cast<std::int64_t>(below)))
         throw usage_error(
             name, fmt::format("{}[{}] has the node {}, but there are {} points", name, i, value, below));
-      result[i][k] = static_cast<int>(value);
+      result[i][k] = narrowed(name, i, value);
     }
   }
   return result;
@@ -86,12 +98,13 @@ std::vector<std::array<int, columns>> rows(const char* name, const py::object& g
 
 std::vector<int> numbers_of(const char* name, const py::object& given, std::size_t count) {
   if (given.is_none()) return std::vector<int>(count, 0);
-  const Integers numbers = Integers::ensure(given);
-  if (!numbers || numbers.ndim() != 1 || static_cast<std::size_t>(numbers.size()) != count)
+  const py::array plain = py::array::ensure(given);
+  if (!plain || plain.ndim() != 1 || static_cast<std::size_t>(plain.size()) != count)
     throw wrong_shape(name, fmt::format("({},)", count));
+  const Integers numbers = integers_of(name, plain);
   std::vector<int> result(count);
   for (std::size_t i = 0; i < count; ++i) {
-    result[i] = static_cast<int>(numbers.at(i));
+    result[i] = narrowed(name, i, numbers.at(i));
     if (result[i] < 0)
       throw usage_error(name,
                         fmt::format("{}[{}] is {}: numbers of faces are not negative", name, i, result[i]));
@@ -134,7 +147,7 @@ PythonMesh mesh_of_arrays(const py::object& points, const py::object& quads, con
   mesh.quad_faces = numbers_of("face_ids", face_ids, mesh.quads.size());
   mesh.triangle_faces = numbers_of("triangle_face_ids", triangle_face_ids, mesh.triangles.size());
   for (const auto& row : rows<4>("segments", segments, 2, mesh.points.size())) {
-    if (row[2] >= static_cast<int>(mesh.points.size()))
+    if (row[2] < -1 || row[2] >= static_cast<int>(mesh.points.size()))
       throw usage_error("segments", fmt::format("segments have the midside node {}, but there are {} points",
                                                 row[2], mesh.points.size()));
     mesh.segments.push_back({{row[0], row[1]}, row[2], row[3]});

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Solves and meshes in turn until the estimated error of the stresses is as small as wanted.
 
     scripts/freecad_python examples/freecad/adapt_loop.py [DOCUMENT.FCStd] [--error 0.03] [--rounds 6] [--save ADAPTED.FCStd]
@@ -72,13 +73,12 @@ def solve_to_pipeline(solver, folder):
     tool.update_properties()
 
 
-def largest_stress(analysis):
-    """The largest von Mises stress in the result, MPa."""
-    objects = [member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject")]
-    if objects:
-        return max(max(result.vonMises) for result in objects)
-    pipeline = next(member for member in analysis.Group if member.isDerivedFrom("Fem::FemPostPipeline"))
-    return max(pipeline.Data.GetBlock(0).GetPointData().GetArray("von Mises Stress").GetRange())
+def largest_stress(mesh, analysis):
+    """The largest von Mises stress in the result that the error is estimated of, MPa."""
+    result = quadrille.adaption.last_result(mesh, analysis)
+    if result.isDerivedFrom("Fem::FemResultObject"):
+        return max(result.vonMises)
+    return max(quadrille.adaption.last_step(result).GetPointData().GetArray("von Mises Stress").GetRange())
 
 
 def main():
@@ -109,7 +109,7 @@ def main():
             last = number + 1 == arguments.rounds
             found = quadrille.adaption.estimate(mesh) if last else quadrille.adaption.adapt(mesh, error=arguments.error)
             error = found.error
-            print(f"{number + 1:5d} {quads:6d} {100 * error:8.2f} {largest_stress(analysis):19.4g}", flush=True)
+            print(f"{number + 1:5d} {quads:6d} {100 * error:8.2f} {largest_stress(mesh, analysis):19.4g}", flush=True)
             if error <= arguments.error:
                 break
     if arguments.save:

@@ -188,8 +188,7 @@ std::optional<double> off_along(int direction, const Handle(Geom_BSplineSurface)
 std::optional<FittedMiddle> fit(MiddlePoints& points, const std::array<ParameterRange, 2>& ranges,
                                 double tolerance) {
   constexpr int most_spans = 128;
-  constexpr double good_enough = 10;  // tolerances, if sides have kinks and finer grids gain little
-  constexpr double gain = 0.1;        // error ratio below which refining pays; 1/16 on smooth sides
+  constexpr double gain = 0.1;  // error ratio below which refining pays; 1/16 on smooth sides
   std::array<GridLine, 2> grid{GridLine(ranges[0], 1), GridLine(ranges[1], 1)};
   std::array<double, 2> before{HUGE_VAL, HUGE_VAL};
   for (;;) {
@@ -203,7 +202,7 @@ std::optional<FittedMiddle> fit(MiddlePoints& points, const std::array<Parameter
       const int spans = grid[direction].spans();
       const bool pays = off[direction] < gain * before[direction];
       const bool is_good =
-          off[direction] <= tolerance || (off[direction] <= good_enough * tolerance && !pays);
+          off[direction] <= tolerance || (off[direction] <= most_tolerances * tolerance && !pays);
       if (is_good || spans >= most_spans) continue;
       before[direction] = off[direction];
       grid[direction] = GridLine(ranges[direction], std::max(4, 2 * spans));

@@ -10,6 +10,9 @@
 
 namespace quadrille {
 
+/// Error of a fitted middle, in tolerances, up to which it is good enough if finer grids gain little.
+constexpr double most_tolerances = 10;
+
 struct FittedMiddle {
   Handle(Geom_BSplineSurface) surface;
   double off = 0;  ///< largest distance found from the true middle
@@ -17,10 +20,11 @@ struct FittedMiddle {
 
 /// Interpolates a grid of points that are equally far from both sides. The grid lies in the parameters of the
 /// first side. It is refined until the surface between its points is within the tolerance, or within ten
-/// times the tolerance if refinement gains little; at most to 128 spans per direction. The surface is then
-/// extended straight past its bounds. \param sides indices into Skin::faces(); the faces of the first side
-/// lie on one surface. \param tolerance a length. \param margin length of the extension. \return nothing if
-/// the sides do not face each other over the whole grid. Time: about five projections per point.
+/// times the tolerance if refinement gains little; at most to 128 spans per direction, where it may miss
+/// both. The surface is then extended straight past its bounds. \param sides indices into Skin::faces(); the
+/// faces of the first side lie on one surface. \param tolerance a length. \param margin length of the
+/// extension. \return nothing if the sides do not face each other over the whole grid. Time: about five
+/// projections per point.
 std::optional<FittedMiddle> fit_middle(const Skin& skin, const std::array<std::vector<int>, 2>& sides,
                                        double tolerance, double margin);
 

@@ -127,10 +127,9 @@ void take_back(Images& images) {
   }
 }
 
-/// Whether the fence of this end joins the step: that of the thicker wall does, of equal ones the first.
+/// Whether the fence of this end joins a step.
 bool joins_step(const WallEnd& end, const std::vector<Wall>& walls) {
-  const double t = walls[end.wall].thickness, next = walls[end.next].thickness;
-  return end.step && (t > next || (t == next && end.wall < end.next));
+  return end.step && stands_on(walls, end.wall, end.next);
 }
 
 Coverage whole_coverage(int wall, const std::vector<Wall>& walls) {
@@ -172,16 +171,6 @@ void add_steps(const BOPAlgo_Builder& fuse, const std::vector<Wall>& walls, cons
   faces.insert(faces.end(), strips.begin(), strips.end());
 }
 
-/// Whether a point lies on the skin.
-bool on_skin(const Skin& skin, const gp_Pnt& point, double near) {
-  const Bnd_Box at(point, point);
-  return std::any_of(skin.faces().begin(), skin.faces().end(), [&](const SkinFace& face) {
-    if (face.box().Distance(at) > near) return false;
-    const auto foot = face.foot(point);
-    return foot && foot->Distance(point) < near;
-  });
-}
-
 /// Joins a wall that ends in a corner of other walls beside the middle of the next one, as a beam's side does
 /// that is flush with a thicker column. The part of the third wall that hangs over, from one middle to the
 /// other, joins them.
@@ -194,7 +183,7 @@ void add_bridges(const Skin& skin, const std::vector<Wall>& walls, const std::ve
     if (uses.uses(edge).size() > 1 || use.orientation == TopAbs_INTERNAL) return false;
     const BRepAdaptor_Curve curve(shape);
     const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-    return !on_skin(skin, middle, 1e-3 * walls[faces[use.face].wall].thickness);
+    return skin.faces_at(middle, 1e-3 * walls[faces[use.face].wall].thickness).empty();
   };
   std::vector<JoinedFace> bridges;
   for (const JoinedFace& strip : hung_over) {
@@ -368,7 +357,7 @@ std::vector<int> connected_parts(const std::vector<JoinedFace>& faces) {
 
 std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& walls,
                                    const std::vector<WallEnd>& ends,
-                                   const std::vector<std::vector<TopoDS_Face>>& pieces) {
+                                   const std::vector<std::vector<TopoDS_Face>>& pieces, double tolerance) {
   BOPAlgo_Builder fuse;
   fuse.SetNonDestructive(Standard_True);
   fuse.SetUseOBB(Standard_True);
@@ -381,8 +370,7 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
   for (const Wall& wall : walls) {
     // The ends of two fitted surfaces are apart by the errors of both. Allow at least what fitting aims at.
     if (!wall.fitted) continue;
-    const double least = 1e-3 * wall.thickness;
-    fuse.SetFuzzyValue(std::max({fuse.FuzzyValue(), 4 * wall.off, least}));
+    fuse.SetFuzzyValue(std::max({fuse.FuzzyValue(), 4 * wall.off, tolerance * wall.thickness}));
   }
   if (fuse.Arguments().Extent() > 1) fuse.Perform();
   if (fuse.HasErrors()) throw failure("", "the middle surfaces could not be joined where they meet");

@@ -20,11 +20,11 @@ struct JoinedFace {
 
 /// Cuts the pieces of all walls at each other, so that they share edges. Drops the parts that extend past the
 /// sides of their wall, and merges faces that were cut without need. Orients faces alike where two meet.
-/// \param pieces for each wall, the pieces of its middle surface. Throws Error (failure) if OpenCASCADE
-/// cannot intersect them.
+/// \param pieces for each wall, the pieces of its middle surface. \param tolerance of fitted middles, over
+/// the thickness. Throws Error (failure) if OpenCASCADE cannot intersect them.
 std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& walls,
                                    const std::vector<WallEnd>& ends,
-                                   const std::vector<std::vector<TopoDS_Face>>& pieces);
+                                   const std::vector<std::vector<TopoDS_Face>>& pieces, double tolerance);
 
 /// The parts into which a fuse has cut one of its arguments; the argument itself if it was not cut.
 TopTools_ListOfShape images(const BOPAlgo_Builder& fuse, const TopoDS_Shape& face);

@@ -29,6 +29,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/midsurface/fitted_middle.hpp"
 #include "geometry/midsurface/joining.hpp"
 #include "geometry/midsurface/plain_faces.hpp"
 #include "geometry/midsurface/skin.hpp"
@@ -46,7 +47,7 @@ struct SolidMiddle {
   std::vector<JoinedFace> faces;
   std::vector<Wall> walls;
   double volume = 0;
-  std::string problem;  ///< what was left out, and why; empty if nothing
+  std::vector<std::string> problems;  ///< what was left out or is imprecise, and why
 };
 
 double volume_of(const TopoDS_Shape& shape) {
@@ -122,6 +123,13 @@ std::vector<char> find_thick(const SolidMiddle& middle, const std::vector<WallEn
   return result;
 }
 
+/// Adds a problem with options.partial; otherwise throws it as an error.
+void tell(const std::string& problem, const std::string& name, const MidSurfaceOptions& options,
+          std::vector<std::string>& problems) {
+  if (!options.partial) throw failure(name, problem + "; `partial` gives what could be paired");
+  problems.push_back(problem);
+}
+
 /// The error for a solid that is not thin.
 Error not_thin(const std::string& name, const MidSurfaceOptions& options) {
   return failure(name,
@@ -150,12 +158,21 @@ std::set<int> blended_walls(const std::vector<Wall>& walls, const std::vector<Wa
   return result;
 }
 
+/// The numbers of the faces on both sides of a wall.
+std::vector<int> side_numbers(const Skin& skin, const Wall& wall) {
+  std::vector<int> result;
+  for (const int face : both_sides(wall)) result.push_back(skin.faces()[face].number());
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
 /// The sentence that names the walls that cannot be joined.
 std::string cannot_join(const std::string& name, const Skin& skin, const std::vector<Wall>& walls,
                         const std::set<int>& blended) {
   std::vector<int> faces;
   for (const int wall : blended) {
-    for (const int face : both_sides(walls[wall])) faces.push_back(skin.faces()[face].number());
+    const std::vector<int> sides = side_numbers(skin, walls[wall]);
+    faces.insert(faces.end(), sides.begin(), sides.end());
   }
   std::sort(faces.begin(), faces.end());
   return fmt::format("{}: {} free-form walls go on into each other, which cannot be joined yet: {}", name,
@@ -183,10 +200,24 @@ void drop_thick(const Skin& skin, const std::string& name, const std::vector<Wal
   }
   if (thick_volume <= 0.5 * all && all > 0) return;
   if (thin.empty()) throw not_thin(name, options);
-  middle.problem = fmt::format("{} is thin in places only: {} are further apart than {:g} of their width",
-                               name, face_names({numbers.begin(), numbers.end()}), options.thickest);
-  if (!options.partial) throw failure(name, middle.problem + "; `partial` gives what could be paired");
+  tell(fmt::format("{} is thin in places only: {} are further apart than {:g} of their width", name,
+                   face_names({numbers.begin(), numbers.end()}), options.thickest),
+       name, options, middle.problems);
   middle.faces = std::move(thin);
+}
+
+/// Tells which fitted walls of the middle surface miss the tolerance even on the finest grid.
+void check_fits(const Skin& skin, const std::string& name, const MidSurfaceOptions& options,
+                SolidMiddle& middle) {
+  const double most = most_tolerances * options.tolerance;
+  std::set<int> checked;
+  for (const JoinedFace& face : middle.faces) {
+    const Wall& wall = middle.walls[face.wall];
+    if (face.step || wall.off <= most * wall.thickness || !checked.insert(face.wall).second) continue;
+    tell(fmt::format("{}: the middle between {} is off by up to {:.2g} mm, more than {:g} % of the thickness",
+                     name, face_names(side_numbers(skin, wall)), wall.off, 100 * most),
+         name, options, middle.problems);
+  }
 }
 
 /// \param told called with the fraction that is done.
@@ -201,10 +232,7 @@ SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const Mid
   constexpr std::size_t most_blended = 4;
   std::set<int> blended = blended_walls(result.walls, ends);
   if (blended.size() <= most_blended) blended.clear();
-  if (!blended.empty()) {
-    result.problem = cannot_join(name, skin, result.walls, blended);
-    if (!options.partial) throw failure(name, result.problem + "; `partial` gives what could be paired");
-  }
+  if (!blended.empty()) tell(cannot_join(name, skin, result.walls, blended), name, options, result.problems);
   std::vector<WallEnd> fences = find_rim_ends(skin, result.walls, surfaces);
   fences.insert(fences.end(), ends.begin(), ends.end());
   std::vector<std::vector<TopoDS_Face>> pieces(result.walls.size());
@@ -214,9 +242,10 @@ SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const Mid
       pieces[wall] = wall_pieces(skin, result.walls, static_cast<int>(wall), fences);
   }
   told(0.9);
-  result.faces = join_walls(skin, result.walls, ends, pieces);
+  result.faces = join_walls(skin, result.walls, ends, pieces, options.tolerance);
   add_fillets(skin, result.walls, result.volume, result.faces);
   drop_thick(skin, name, ends, options, result);
+  check_fits(skin, name, options, result);
   return result;
 }
 
@@ -247,17 +276,6 @@ TopoDS_Compound assemble(const std::vector<JoinedFace>& faces) {
     }
   }
   BRepTools::Clean(result);  // removes the triangles used for sampling
-  return result;
-}
-
-/// Indices of the skin's faces that a point lies on.
-std::vector<int> skin_at(const Skin& skin, const gp_Pnt& point, double tolerance) {
-  std::vector<int> result;
-  for (std::size_t i = 0; i < skin.faces().size(); ++i) {
-    if (skin.faces()[i].box().Distance(Bnd_Box(point, point)) > tolerance) continue;
-    const auto foot = skin.faces()[i].foot(point);
-    if (foot && foot->Distance(point) < tolerance) result.push_back(static_cast<int>(i));
-  }
   return result;
 }
 
@@ -349,7 +367,7 @@ void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_Inde
     std::map<int, int> rims;     // by face: number of points on it
     for (const double share : {0.5, 0.2, 0.8}) {
       const gp_Pnt point = curve.Value(curve.FirstParameter() + share * length);
-      const auto on = skin_at(skin, point, tolerance);
+      const auto on = skin.faces_at(point, tolerance);
       accounted.insert(on.begin(), on.end());
       for (const int face : on) ++rims[face];
       if (!on.empty()) continue;
@@ -383,9 +401,10 @@ std::vector<std::string> find_problems(const MidSurface& result, const std::stri
   const double share = result.shell_volume / result.volume;
   constexpr double most_twice = 0.1;  // where walls meet, the corner counts for both
   if (share < 1 - most_missing || share > 1 + most_twice) {
-    std::string sentence = fmt::format(
-        "{} is thin in places only: area times thickness of its middle surface is {:.1f} % of its volume",
-        name, 100 * share);
+    std::string sentence =
+        fmt::format("{} {}: area times thickness of its middle surface is {:.1f} % of its volume", name,
+                    share < 1 ? "is thin in places only" : "has walls that overlap too much where they meet",
+                    100 * share);
     if (!result.unpaired.empty()) sentence += "; without a partner: " + face_names(result.unpaired);
     problems.push_back(sentence);
   }
@@ -504,11 +523,10 @@ MidSurface make(const CadModel& model, const MidSurfaceOptions& options, Executi
   describe_faces(middles, skins, result);
   const auto thickness = thickness_source(middles, kept_skins, result);
   result.thickness_at = [thickness](int face, const Vector3& point) { return thickness->at(face, point); };
-  result.problems = find_problems(result, name);
   for (const SolidMiddle& middle : middles)
-    if (!middle.problem.empty()) result.problems.insert(result.problems.begin(), middle.problem);
-  if (!options.partial && !result.problems.empty())
-    throw failure(name, result.problems.front() + "; `partial` gives what could be paired");
+    result.problems.insert(result.problems.end(), middle.problems.begin(), middle.problems.end());
+  for (const std::string& problem : find_problems(result, name))
+    tell(problem, name, options, result.problems);
   return result;
 }
 

@@ -76,8 +76,9 @@ struct MidSurface {
 /// cones, spheres and tori; otherwise it is fitted. Surfaces are extended to where they meet and share edges
 /// there. Solids are kept apart unless options.join. Throws Error (failure, with one sentence) if the model
 /// has no solid, a solid is not thin, or solids or surfaces cannot be joined. Without options.partial also if
-/// a part is not thin, area times thickness is not 95 to 110 % of the volume, the numbers of parts and solids
-/// differ, or free edges end inside the material. Throws Error (cancelled). Deterministic.
+/// a part is not thin, area times thickness is not 95 to 110 % of the volume, a fitted surface misses its
+/// tolerance, the numbers of parts and solids differ, or free edges end inside the material. Throws Error
+/// (cancelled). Deterministic.
 QUADRILLE_API MidSurface midsurface(const CadModel& model, const MidSurfaceOptions& options,
                                     ExecutionContext& context);
 

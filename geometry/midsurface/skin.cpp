@@ -205,6 +205,17 @@ std::vector<int> Skin::faces_along(const gp_Lin& line, double from, double to) c
   return result;
 }
 
+std::vector<int> Skin::faces_at(const gp_Pnt& point, double tolerance) const {
+  const Bnd_Box at(point, point);
+  std::vector<int> result;
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    if (faces_[i].box().Distance(at) > tolerance) continue;
+    const auto foot = faces_[i].foot(point);
+    if (foot && foot->Distance(point) < tolerance) result.push_back(static_cast<int>(i));
+  }
+  return result;
+}
+
 std::optional<Skin::Hit> Skin::first_hit(const gp_Pnt& from, const gp_Dir& direction) const {
   const gp_Lin line(from, direction);
   Hit best;

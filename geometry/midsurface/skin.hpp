@@ -110,6 +110,8 @@ class Skin {
   /// Index of a face of the solid; -1 if it is none.
   int index_of(const TopoDS_Face& face) const { return map_.FindIndex(face) - 1; }
   double size() const { return size_; }  ///< diagonal of the bounding box
+  /// Indices of the faces that a point lies on, within a tolerance.
+  std::vector<int> faces_at(const gp_Pnt& point, double tolerance) const;
 
   /// The first face that a ray meets.
   std::optional<Hit> first_hit(const gp_Pnt& from, const gp_Dir& direction) const;

@@ -220,7 +220,8 @@ struct NextWall {
   double depth = 0;  ///< depth below the edge at which it was found
 };
 
-constexpr double close_by = 0.05;  // over the thickness
+constexpr double close_by = 0.05;       // over the thickness
+constexpr double at_one_vertex = 1e-4;  // over the thickness
 
 /// Whether a wall begins behind a point of an edge, at the distance and depth of `next`.
 bool begins_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, double at,
@@ -362,14 +363,15 @@ struct EdgeEnd {
   gp_Vec outward_along;  ///< unit tangent that leaves the edge at the vertex
 };
 
-std::vector<EdgeEnd> ends_at(const gp_Pnt& vertex, const std::vector<FaceEdge>& edges) {
+/// \param near edges that end closer to the vertex than this end at it.
+std::vector<EdgeEnd> ends_at(const gp_Pnt& vertex, const std::vector<FaceEdge>& edges, double near) {
   std::vector<EdgeEnd> result;
   for (const FaceEdge& edge : edges) {
     for (const double at : {edge.first(), edge.last()}) {
       gp_Pnt point;
       gp_Vec along;
       edge.curve().D1(at, point, along);
-      if (edge.closed() || point.Distance(vertex) > 1e-4 || along.Magnitude() < Precision::Confusion())
+      if (edge.closed() || point.Distance(vertex) > near || along.Magnitude() < Precision::Confusion())
         continue;
       if (at == edge.first()) along.Reverse();
       result.push_back({&edge, at, along.Normalized()});
@@ -405,12 +407,13 @@ class EdgeEnds {
   }
 
   /// The direction of the edge that leaves a point most nearly along a wanted direction; the wanted direction
-  /// if there is no edge within 45 degrees of it.
-  gp_Dir leaving(const gp_Pnt& point, const gp_Dir& wanted) const {
+  /// if there is no edge within 45 degrees of it. \param near edges that start closer to the point than this
+  /// leave it.
+  gp_Dir leaving(const gp_Pnt& point, const gp_Dir& wanted, double near) const {
     gp_Dir best = wanted;
     double most = nearly_parallel;
     for (const auto& [at, along] : ends_) {
-      if (at.Distance(point) > 1e-4 || along.Dot(wanted) < most) continue;
+      if (at.Distance(point) > near || along.Dot(wanted) < most) continue;
       most = along.Dot(wanted);
       best = along;
     }
@@ -439,7 +442,7 @@ class RimEnds {
     for (const FaceEdge& edge : edges) {
       if (edge.closed() || !goes_on(edge)) continue;
       for (const double at : {edge.first(), edge.last()}) {
-        const std::vector<EdgeEnd> around = ends_at(edge.curve().Value(at), edges);
+        const std::vector<EdgeEnd> around = ends_at(edge.curve().Value(at), edges, at_one_vertex * t);
         const auto own = std::find_if(around.begin(), around.end(),
                                       [&](const EdgeEnd& end) { return end.edge == &edge && end.at == at; });
         const auto rim = std::find_if(around.begin(), around.end(), [&](const EdgeEnd& end) {
@@ -466,7 +469,7 @@ class RimEnds {
     const auto hit = skin_.first_hit(start, gp_Dir(away));
     const double length = hit ? hit->distance + 0.1 * t : 2 * t;
     const gp_Pnt vertex = end.edge->curve().Value(end.at);
-    const gp_Dir across = edges_.leaving(vertex, end.edge->outward(end.at).Reversed());
+    const gp_Dir across = edges_.leaving(vertex, end.edge->outward(end.at).Reversed(), at_one_vertex * t);
     const gp_Ax3 frame(vertex.Translated(0.2 * t * gp_Vec(across)), across.Crossed(gp_Dir(away)), across);
     return BRepBuilderAPI_MakeFace(gp_Pln(frame), 0, 0.6 * t, 0, length).Face();
   }
@@ -510,13 +513,6 @@ void move_between(TopoDS_Face& fence, const FaceEdge& edge, double thickness) {
   gp_Trsf half;
   half.SetTranslation(0.5 * *way);
   fence = TopoDS::Face(BRepBuilderAPI_Transform(fence, half, Standard_True).Shape());
-}
-
-/// Whether the fence at a step stands at the end of `wall`: it stands at the thicker one, of equal ones the
-/// first.
-bool stands_on(const std::vector<Wall>& walls, int wall, int next) {
-  const double t = walls[wall].thickness, other = walls[next].thickness;
-  return t > other || (t == other && wall < next);
 }
 
 /// Finds where walls end and others begin.
@@ -606,6 +602,11 @@ bool is_hollow_fillet(const FaceEdge& edge, const SkinFace& face, const SkinFace
 }
 
 }  // namespace
+
+bool stands_on(const std::vector<Wall>& walls, int wall, int next) {
+  const double t = walls[wall].thickness, other = walls[next].thickness;
+  return t > other || (t == other && wall < next);
+}
 
 std::map<int, std::vector<FilletBorder>> find_fillet_borders(const Skin& skin,
                                                              const std::vector<Wall>& walls) {

@@ -19,6 +19,10 @@ struct WallEnd {
   bool step = false;       ///< the two middle surfaces do not meet; the fence reaches from one to the other
 };
 
+/// Whether the fence at a step stands at the end of `wall`: it stands at the thicker one, of equal ones the
+/// first.
+bool stands_on(const std::vector<Wall>& walls, int wall, int next);
+
 /// How much of a middle face lies between the sides of its wall, and how thick the wall is there.
 struct Coverage {
   double share = 0;  ///< share of the area that lies between both sides

@@ -13,7 +13,7 @@ struct Arguments {
   std::filesystem::path input;
   std::vector<std::filesystem::path> outputs;
   MidSurfaceOptions options;
-  bool quiet = false;
+  bool quiet = false, end_with_input = false;
 };
 
 std::string describe(const MidSurface& middle) {
@@ -58,6 +58,7 @@ void run(const Arguments& arguments) {
   report_crashes(arguments.input, "reading");
   context.expect({Stage::read, Stage::midsurface});
   const CancelOnSignal cancel(context);
+  if (arguments.end_with_input) end_with_input();
   const CadModel model = CadModel::read(arguments.input);
   report_crashes(arguments.input, "finding the middle surface of");
   const MidSurface middle = midsurface(model, arguments.options, context);
@@ -84,6 +85,8 @@ void add_midsurface_command(CLI::App& app) {
   command->add_flag("--partial", arguments->options.partial,
                     "write what could be paired where the solid is thin in places only");
   command->add_flag("--join", arguments->options.join, "take solids that touch for one part, as if welded");
+  command->add_flag("--end-with-input", arguments->end_with_input,
+                    "end the work when standard input closes, for programs that start this one");
   command->add_flag("--quiet", arguments->quiet, "no progress, no table");
   command->callback([arguments] { run(*arguments); });
 }

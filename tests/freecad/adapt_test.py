@@ -168,6 +168,13 @@ class AdaptTest(unittest.TestCase):
                 FreeCAD.closeDocument(self.document.Name)
                 self.document = FreeCAD.newDocument("Test")
 
+    def test_the_last_step_of_a_pipeline_counts(self):
+        class Blocks(list):
+            GetNumberOfBlocks, GetBlock = list.__len__, list.__getitem__
+
+        last = object()
+        self.assertIs(adaption.last_step(types.SimpleNamespace(Data=Blocks([object(), Blocks([last, None])]))), last)
+
     def test_moved_nodes_are_refused(self):
         """Also where they are moved by less than would be seen. What FreeCAD 1.1 gives, as far as it is looked at."""
         class Pipeline:

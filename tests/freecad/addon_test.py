@@ -538,11 +538,11 @@ class AddonTest(unittest.TestCase):
         part.Shape = Part.read(str(MODELS / "bracket.step"))
         for order in (1, 2):
             mesh = core.mesh_object(part, size=3, order=order)
-            summary = quality.measure(mesh.FemMesh).summary()
-            self.assertEqual(summary["quads"], mesh.QuadCount)
-            self.assertAlmostEqual(summary["q_min"], mesh.WorstQuality, 4)
-            self.assertAlmostEqual(summary["q_mean"], mesh.MeanQuality, 4)
-            self.assertAlmostEqual(summary["sj_min"], mesh.WorstJacobian, 4)
+            measured = quality.measure(mesh.FemMesh)
+            self.assertEqual(measured.ids.size, mesh.QuadCount)
+            self.assertAlmostEqual(measured.q.min(), mesh.WorstQuality, 4)
+            self.assertAlmostEqual(measured.q.mean(), mesh.MeanQuality, 4)
+            self.assertAlmostEqual(measured.scaled_jacobian.min(), mesh.WorstJacobian, 4)
 
     def test_estimate_and_suggestion_hold(self):
         for file in ("box.brep", "bracket.step", "cylinder.brep", "torus.brep", "plate_with_holes.brep"):

@@ -15,6 +15,7 @@ sys.path.insert(0, os.environ["QUADRILLE_PYTHON"])
 import FreeCAD
 import ObjectsFem
 import Part
+import numpy as np
 from FreeCAD import Vector
 
 import quadrille
@@ -185,10 +186,17 @@ class LinksTest(unittest.TestCase):
         measured = quality.measure(core.mesh_object(sheet, size=5, order=1).FemMesh)
         self.assertEqual((len(measured.free_sides()), len(measured.double_nodes())), (16, 3))
 
+    def test_nodes_that_round_apart_are_double_nodes(self):
+        left, right, out = 1.000001 - 1e-9, 1.000001 + 1e-9, 2.0
+        corners = np.array([[(x, y, 0) for x, y in ((low, 0), (high, 0), (high, 1), (low, 1))]
+                            for low, high in ((0, left), (right, out))])
+        measured = quality.measure_quads(np.arange(2), np.arange(8).reshape(2, 4), corners)
+        self.assertEqual(measured.double_nodes().round(3).tolist(), [[1, 0, 0], [1, 1, 0]])
+
     def test_criteria_are_the_meshers(self):
         part = self.document.addObject("Part::Feature", "Cone")
         part.Shape = Part.makeCone(10, 0.5, 6).fuse(Part.makeBox(13, 2, 4))
-        fem_mesh, report = core.mesh_shape(part.Shape, core.MeshSettings(size=2.5, order=1))
+        fem_mesh, report = core.ShapeJob(part.Shape, core.MeshSettings(size=2.5, order=1)).start().wait_for_result()
         measured = quality.measure(fem_mesh)
         counted = {name: int(measured.fails(name).sum()) for name in quality.CRITERIA}
         wanted = {name: entry["failing"] for name, entry in report["criteria"]["by_criterion"].items()}

@@ -408,6 +408,39 @@ TEST(MidSurface, TellsWhatIsFittedAndHowFarItIsOff) {
   EXPECT_EQ(fitted, 1);
 }
 
+TEST(MidSurface, NamesTheWallsThatCannotBeFittedWellEnough) {
+  MidSurfaceOptions options;
+  options.tolerance = 1e-7;  // the sides have kinks
+  ExecutionContext context;
+  const CadModel model = model_of(thin_model("loose_bend"));
+  try {
+    midsurface(model, options, context);
+    FAIL() << "its bend is off by more";
+  } catch (const Error& error) {
+    const std::string sentence = error.what();
+    EXPECT_NE(sentence.find("part: the middle between Face"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("more than 0.0001 % of the thickness"), std::string::npos) << sentence;
+  }
+  options.partial = true;
+  EXPECT_EQ(midsurface(model, options, context).problems.size(), 1U);
+}
+
+/// Where thick walls cross, area times thickness exceeds the volume, though nothing is missing.
+TEST(MidSurface, TellsWhereWallsOverlapTooMuch) {
+  MidSurfaceOptions options;
+  options.thickest = 1;
+  ExecutionContext context;
+  const std::vector<Corner2d> cross = {{-3, -10}, {3, -10}, {3, -3}, {10, -3}, {10, 3},   {3, 3},
+                                       {3, 10},   {-3, 10}, {-3, 3}, {-10, 3}, {-10, -3}, {-3, -3}};
+  try {
+    midsurface(model_of(profile({cross}, 100)), options, context);
+    FAIL() << "it is 117.6 % of the volume";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("part has walls that overlap too much"), std::string::npos)
+        << error.what();
+  }
+}
+
 /// Sewing keeps solids, the same one at two places too.
 TEST(MidSurface, OfSewnSolids) {
   const TopoDS_Shape sheet = thin_model("l_section");

@@ -63,7 +63,11 @@ class ArraysTest(unittest.TestCase):
             (dict(points=POINTS, quads=[[0.0, 1, 2, 3]]), "quads must hold whole numbers"),
             (dict(points=POINTS, quads=[[0, 1, 2, 3]], face_ids=[1, 2]), "face_ids must be"),
             (dict(points=POINTS, quads=[[0, 1, 2, 3]], face_ids=[-1]), "face_ids[0] is -1"),
+            (dict(points=POINTS, quads=[[0, 1, 2, 3]], face_ids=[1.7]), "face_ids must hold whole numbers"),
+            (dict(points=POINTS, quads=[[0, 1, 2, 3]], face_ids=[2**32 + 1]), "face_ids[0] has the number 4294967297"),
+            (dict(points=POINTS, quads=[[0, 1, 2, 3]], corners=[[0, 2**32 + 1]]), "corners[0] has the number 4294967297"),
             (dict(points=POINTS, quads=[[0, 1, 2, 3]], segments=[[0, 1, 9, 1]]), "midside node 9"),
+            (dict(points=POINTS, quads=[[0, 1, 2, 3]], segments=[[0, 1, -2, 1]]), "midside node -2"),
         ):
             with self.subTest(part=part), self.assertRaises(quadrille.Error) as caught:
                 quadrille.Mesh(**arguments)

@@ -1,10 +1,14 @@
 """quadrille.freecad in a Python that FreeCAD has not started, such as that of a virtual environment."""
 
+import ast
 import os
 import shutil
 import subprocess
 import sys
 import unittest
+from pathlib import Path
+
+import quadrille
 
 SCRIPT = """
 import quadrille.freecad
@@ -27,6 +31,18 @@ class OutsideFreeCAD(unittest.TestCase):
     def test_meshes_a_part(self):
         said = run(SCRIPT, os.environ["PATH"])
         self.assertIn("QUADS 150\n", said.stdout, said.stderr)
+
+    def test_python_3_8_imports_every_module(self):
+        """As scripts/make_wheel.py promises: annotations like list[int] and int | None need a later Python."""
+        files = sorted(Path(quadrille.__file__).resolve().parent.rglob("*.py"))
+        self.assertGreater(len(files), 40)
+        for file in files:
+            for node in ast.walk(ast.parse(file.read_text(), feature_version=(3, 8))):
+                given = [getattr(node, name, None) for name in ("annotation", "returns")]
+                inside = [part for one in given if one for part in ast.walk(one)]
+                wrong = [part for part in inside if isinstance(part, ast.BinOp) or isinstance(part, ast.Subscript)
+                         and getattr(part.value, "id", "") in ("dict", "frozenset", "list", "set", "tuple", "type")]
+                self.assertEqual([ast.unparse(part) for part in wrong], [], file)
 
     def test_without_freecad_says_what_is_missing(self):
         said = run("import quadrille.freecad", "/nowhere")

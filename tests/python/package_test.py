@@ -5,6 +5,7 @@ import os
 import pickle
 import random
 import re
+import signal
 import sys
 import tempfile
 import time
@@ -60,6 +61,20 @@ class PackageTest(unittest.TestCase):
                 made.write(Path(folder) / "thin.inp")
                 deck = (Path(folder) / "thin.inp").read_text()
                 self.assertEqual(("*SHELL SECTION" in deck, "ELSET=SolidFace" in deck), (sections, sections))
+
+    def test_signals_are_heard_while_it_works(self):
+        """Ctrl-C is one; before, it waited for the end."""
+        heard = []
+        self.addCleanup(signal.signal, signal.SIGALRM, signal.signal(signal.SIGALRM, lambda *_: heard.append(1)))
+        for work in (lambda: quadrille.midsurface(self.model, partial=True),
+                     lambda: quadrille.suggested_size(self.model, 30000000)):
+            heard.clear()
+            signal.setitimer(signal.ITIMER_REAL, 0.002, 0.002)
+            try:
+                work()
+            finally:
+                signal.setitimer(signal.ITIMER_REAL, 0)
+            self.assertGreater(len(heard), 2)
 
     def test_arrays(self):
         mesh = self.mesh

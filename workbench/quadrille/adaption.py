@@ -124,7 +124,7 @@ def _estimate(mesh, result, aim: List[str], folder: str, progress: Optional[Prog
     if analysis is None:
         raise Error(f"{mesh.Label}: is in no analysis: put it into one, and solve that first", "usage", mesh.Name)
     solved, displaced, sizes = (os.path.join(folder, name) for name in ("mesh.inp", "result.vtu", _SIZES))
-    result = result or _last_result(mesh, analysis)
+    result = result or last_result(mesh, analysis)
     _write_bricks(displaced, _bricks_of(result, analysis))
     _write_shells(solved, mesh.FemMesh)
     job = CommandJob(["adapt", solved, displaced, "-o", sizes, *aim, "--poisson", repr(_poisson(analysis)),
@@ -136,7 +136,7 @@ def _estimate(mesh, result, aim: List[str], folder: str, progress: Optional[Prog
     return Estimate(told["error"], told["quads"], told["quads_wanted"], told["size_min"], told["size_max"])
 
 
-def _last_result(mesh, analysis):
+def last_result(mesh, analysis):
     """The last result object in an analysis, or the last pipeline, which FreeCAD 1.1's CalculiX creates instead."""
     listed = [result for solver in solvers.solvers_of(analysis) for result in getattr(solver, "Results", ())]
     found = [member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject")
@@ -221,13 +221,19 @@ def _bricks_of_object(result) -> _Bricks:
     return _Bricks(points, moved, flat, np.cumsum([len(cell) for cell in cells], dtype=int), np.array(kinds, dtype=int))
 
 
+def last_step(pipeline):
+    """VTK's grid with the results of a pipeline, of the last of several steps; None if it has none."""
+    grid = pipeline.Data
+    while hasattr(grid, "GetNumberOfBlocks"):
+        blocks = [grid.GetBlock(number) for number in range(grid.GetNumberOfBlocks())]
+        grid = next((block for block in reversed(blocks) if block is not None), None)
+    return grid
+
+
 def _bricks_of_pipeline(pipeline) -> _Bricks:
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
-    grid = pipeline.Data
-    while hasattr(grid, "GetNumberOfBlocks"):  # take the last of several steps
-        blocks = [grid.GetBlock(number) for number in range(grid.GetNumberOfBlocks())]
-        grid = next((block for block in reversed(blocks) if block is not None), None)
+    grid = last_step(pipeline)
     moved = grid.GetPointData().GetArray("Displacement") if grid is not None else None
     if moved is None:
         raise Error(f"{pipeline.Label}: has no displacements: solve again", "usage", pipeline.Name)

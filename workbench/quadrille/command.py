@@ -75,7 +75,7 @@ def _scratch_prefix(place: str) -> str:
     return _scratch[key][0]
 
 
-def _which(path: str) -> Optional[str]:
+def which(path: str) -> Optional[str]:
     """The path of a program, as from shutil.which(); inside Flatpak, the path of a program on the host system."""
     path = os.path.expanduser(path)
     if not FLATPAK_INFO.exists():
@@ -116,22 +116,22 @@ def find_command(command: Optional[str] = None, preference: Optional[str] = None
         (preference, "the preference 'Command'"),
     ):
         if path:
-            found = _which(path)
+            found = which(path)
             if not found:
                 raise Error(f"{path}: cannot be run, though {origin} names it as the mesher", "usage", path)
             return found
     here = Path(__file__).absolute().parent
-    found = _own(here) or _which("quadrille")
+    found = _own(here) or which("quadrille")
     if found:
         return found
     recorded = here / "command_path"  # written by install-addon.sh
     if recorded.is_file():
-        found = _which(recorded.read_text(encoding="utf-8").strip())
+        found = which(recorded.read_text(encoding="utf-8").strip())
         if found:
             return found
     source = Path(__file__).resolve().parent  # where the addon is a link to the source
     for folder in (here.parent.parent, here.parent.parent / "build", source.parent.parent / "build"):
-        found = _which(str(folder / "quadrille"))
+        found = which(str(folder / "quadrille"))
         if found:
             return found
     raise Error(
@@ -246,13 +246,15 @@ class CommandJob:
     """One run of a subcommand that writes a report. Call start(), then either wait() or, from a timer, poll()."""
 
     _work = "the work"  #: what messages call it when it was cancelled
+    _report_option = "--report"  #: the option that takes the file of the report
     _stands_by = False  #: whether the standby process may do such jobs
 
     def __init__(self, arguments: Sequence[str], command: Optional[str] = None) -> None:
         """arguments: the name of the subcommand and its options, without --report."""
         self._folder = scratch_folder()
         self._report = Path(self._folder.name) / "report.json"
-        self._arguments = [command or find_command(), *arguments, "--report", str(self._report), "--end-with-input"]
+        self._arguments = [command or find_command(), *arguments, self._report_option, str(self._report),
+                           "--end-with-input"]
         self._lines: "queue.Queue[str]" = queue.Queue()
         self._process: Optional[subprocess.Popen] = None
         self._reader: Optional[threading.Thread] = None

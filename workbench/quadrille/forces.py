@@ -81,8 +81,7 @@ def _table(femmesh, femelement_table: Mapping, femnodes_mesh: Dict, force) -> Op
     mesh = next((member for member in analysis.Group if state.is_quad_mesh(member)), None) if analysis is not None else None
     if mesh is None or mesh.Shape is None or not femnodes_mesh:
         return None
-    asked = [(obj, name) for obj, names in force.References
-             for name in ((names,) if isinstance(names, str) else names)]
+    asked = shapes.pairs(force.References)
     try:
         names = shapes.references_to_names(mesh.Shape.Shape, mesh.Shape, force.References)
     except Error:

@@ -22,13 +22,13 @@ import FreeCAD  # noqa: E402
 from . import groups, links, old_documents, shapes, solvers, state, undo
 from .command import Progress, scratch_folder
 from .errors import Error
-from .jobs import PREFERENCES, ShapeJob, find_mesher, mesh_shape, read_mesh
+from .jobs import PREFERENCES, ShapeJob, find_mesher, read_mesh
 from .setting_table import BY_NAME, SETTINGS, MeshSettings, face_name, property_help, property_kind, to_property, words
 from .state import UP_TO_DATE, Wanted, complaint, shape_of
 
 __all__ = [
     "Error", "MeshFeature", "PREFERENCES", "ShapeJob", "UP_TO_DATE", "check_part", "complaint", "export", "find_mesher",
-    "finish", "flip", "make_mesh", "mesh_object", "mesh_shape", "mesh_surface", "read_mesh", "refine", "remesh", "start",
+    "finish", "flip", "make_mesh", "mesh_object", "mesh_surface", "read_mesh", "refine", "remesh", "start",
     "suggested_size",
 ]
 

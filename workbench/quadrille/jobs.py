@@ -148,18 +148,6 @@ def read_mesh(path: Union[str, Path]) -> "Fem.FemMesh":
     return fem_mesh
 
 
-def mesh_shape(
-    shape,
-    settings: MeshSettings,
-    progress: Optional[Progress] = None,
-    command: Optional[str] = None,
-    outputs: Sequence[Union[str, Path]] = (),
-    picture: Optional[Union[str, Path]] = None,
-) -> Tuple["Fem.FemMesh", Dict]:
-    """Meshes a Part shape. Returns the mesh with its groups, and the mesher's report (see `quadrille --report`)."""
-    return ShapeJob(shape, settings, command, outputs, picture).start().wait_for_result(progress)
-
-
 def _in_own_words(error: Error) -> Error:
     """The same error, with the command's options replaced by the names of FreeCAD's properties."""
     return Error(in_words_of_properties(str(error)), error.kind, error.subject)

@@ -49,15 +49,14 @@ def link(part, names: Iterable[str]) -> List[Tuple[Any, Tuple[str, ...]]]:
 
 def names_in(links: Links) -> List[str]:
     """The names in a list of links, in its order."""
-    return [name for _, names in links for name in ([names] if isinstance(names, str) else names)]
+    return [name for _, name in shapes.pairs(links)]
 
 
 def chosen(mesh) -> List[Chosen]:
     """All elements that a mesh object names, in its own properties and in its mesh regions."""
     sources = [(prop, prop, getattr(mesh, prop)) for prop in OWN]
     sources += [(region.Name, region.Label, region.References) for region in mesh.MeshRegionList]
-    return [Chosen(source, label, target, name) for source, label, links in sources for target, names in links
-            for name in ([names] if isinstance(names, str) else names)]
+    return [Chosen(source, label, target, name) for source, label, links in sources for target, name in shapes.pairs(links)]
 
 
 def note(mesh, anew: Container[str] = ()) -> None:
@@ -116,8 +115,8 @@ def rename(mesh, found: Dict[Key, str]) -> List[str]:
 
 def renamed(source: str, links: Links, found: Dict[Key, str]) -> List[Tuple[Any, Tuple[str, ...]]]:
     """The links of a source, with current names."""
-    return [(target, tuple(found.get((source, target.Name, name), name)
-                           for name in ([names] if isinstance(names, str) else names))) for target, names in links]
+    return [(entry[0], tuple(found.get((source, target.Name, name), name) for target, name in shapes.pairs([entry])))
+            for entry in links]
 
 
 def carried_by_freecad(shape) -> bool:

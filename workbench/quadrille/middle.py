@@ -8,19 +8,18 @@
 When the part is recomputed, the `quadrille` command recomputes the surface in a child process. The thickness objects made
 for the surface in an analysis are then updated. Runs inside FreeCAD."""
 
-import json
+import contextlib
 import os
-import subprocess
-from pathlib import Path
 from typing import Dict, List, NamedTuple, Optional, Sequence, Set, Tuple
 
 import FreeCAD
 import Part
 
 from . import observers, state
-from .command import child_environment, on_host, scratch_folder, sentence_of
+from .command import CommandJob, scratch_folder
 from .errors import Error
 from .jobs import find_mesher
+from .shapes import pairs
 
 #: The type of the Python side of our middle surfaces.
 TYPE = "Part::QuadrilleMiddleSurface"
@@ -28,7 +27,6 @@ TYPE = "Part::QuadrilleMiddleSurface"
 _MARK = "MiddleSurface"
 #: A part looks thin if its thickness is below this share of its width. The mesher's own limit is a fifth, for each wall.
 _THIN = 0.12
-_SECONDS = 600
 #: How an error's sentence continues if a part is thin only in places.
 _PARTIAL = "Partial gives"
 
@@ -175,7 +173,7 @@ def counterparts(middle, name: str) -> List[str]:
 def referring_to(part, analysis) -> List:
     """The members of an analysis that refer to a part, or to its faces, edges or vertices."""
     return [member for member in analysis.Group if hasattr(member, "References")
-            and any(target == part for target, _ in _pairs(member.References))]
+            and any(target == part for target, _ in pairs(member.References))]
 
 
 def move_references(middle, analysis) -> List[str]:
@@ -190,7 +188,7 @@ def move_references(middle, analysis) -> List[str]:
     for member in referring_to(middle.Source, analysis):
         references: List[Tuple[object, str]] = []
         missing = []
-        for target, name in _pairs(member.References):
+        for target, name in pairs(member.References):
             if target != middle.Source:
                 references.append((target, name))
                 continue
@@ -210,10 +208,6 @@ def move_references(middle, analysis) -> List[str]:
     return left
 
 
-def _pairs(references) -> List[Tuple[object, str]]:
-    return [(target, name) for target, names in references for name in ((names,) if isinstance(names, str) else names)]
-
-
 def _turned(member, middle) -> Optional[bool]:
     """Whether a pressure must be reversed on the middle surface, since the normals there are opposite. None if they are
     opposite on some of the faces only. False for other members."""
@@ -221,7 +215,7 @@ def _turned(member, middle) -> Optional[bool]:
         return False
     part, shell = middle.Source.Shape, middle.Shape
     turned: Set[bool] = set()
-    for target, name in _pairs(member.References):
+    for target, name in pairs(member.References):
         if target != middle.Source or not name.startswith("Face"):
             continue
         outer = part.getElement(name)
@@ -260,27 +254,36 @@ def _compute(part, partial: bool, join: bool) -> _Result:
     shape, label = state.shape_of(part), part.Label
     if not shape.Solids:
         raise Error(f"{label}: has no solid, which a middle surface needs", "usage", part.Name)
-    command = find_mesher()
     with scratch_folder() as folder:
-        model, surface, told = (os.path.join(folder, file) for file in ("part.brep", "middle.brep", "middle.json"))
+        model, surface = (os.path.join(folder, file) for file in ("part.brep", "middle.brep"))
         shape.exportBrep(model)
-        arguments = [command, "midsurface", model, "-o", surface, "-o", told, "--quiet"]
-        arguments += ["--partial"] * partial + ["--join"] * join
+        options = ["--partial"] * partial + ["--join"] * join
+        job = _MiddleJob(["midsurface", model, "-o", surface, *options], find_mesher())
         try:
-            done = subprocess.run(on_host(arguments), stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                                  errors="replace", timeout=_SECONDS, env=child_environment(), check=False)
-        except subprocess.TimeoutExpired as error:
-            raise Error(f"{label}: its middle surface was not found within {_SECONDS} seconds", "failure") from error
-        except OSError as error:
-            raise Error(f"{command}: cannot be started: {error.strerror}", "failure", command) from error
-        if done.returncode != 0:
-            sentence = sentence_of(done.stderr.strip().splitlines(), done.returncode)
-            raise Error(_of_part(sentence, model, label), "failure")
+            with _progress(part) as progress:
+                told = job.start().wait(progress)
+        except Error as error:
+            raise Error(_of_part(str(error), model, label), error.kind) from error
         middle = Part.Shape()
         middle.importBrep(surface)
-        result = _Result(middle, json.loads(Path(told).read_text(encoding="utf-8")))
-        result.told["problems"] = [_of_part(problem, model, label) for problem in result.told["problems"]]
-        return result
+        told["problems"] = [_of_part(problem, model, label) for problem in told["problems"]]
+        return _Result(middle, told)
+
+
+class _MiddleJob(CommandJob):
+    """One run of `quadrille midsurface`, whose report is its .json file."""
+
+    _work = "the search for the middle surface"
+    _report_option = "-o"
+
+
+def _progress(part):
+    """Yields what is called with the progress: in FreeCAD's window that of a bar with a Cancel button."""
+    if not FreeCAD.GuiUp:
+        return contextlib.nullcontext()
+    from .gui.middle_view import progress_bar_for
+
+    return progress_bar_for(part)
 
 
 def _of_part(sentence: str, model: str, label: str) -> str:

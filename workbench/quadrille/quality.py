@@ -12,6 +12,8 @@ CRITERIA = {
     "aspect": (1.0, 5.0), "warp": (0.0, 15.0), "skew": (0.0, 40.0), "angle_min": (90.0, 40.0), "angle_max": (90.0, 140.0),
     "jacobian_ratio": (1.0, 0.6), "taper": (0.0, 0.6),
 }
+#: A direction that no mesh has, of at most unit length: few nodes that lie apart are close together along it.
+_SLANTED = np.array([0.5271, 0.3817, 0.7590])
 
 
 class ElementQuality(NamedTuple):
@@ -39,10 +41,19 @@ class ElementQuality(NamedTuple):
         """The places where two or more nodes coincide, (m, 3)."""
         if not self.nodes.size:
             return np.zeros((0, 3))
-        points, first = self.corners.reshape(-1, 3), np.unique(self.nodes, return_index=True)[1]
-        grid = max(float(np.ptp(points, axis=0).max()) * 1e-6, 1e-300)
-        places, counts = np.unique(np.round(points[first] / grid), axis=0, return_counts=True)
-        return places[counts > 1] * grid
+        points = self.corners.reshape(-1, 3)[np.unique(self.nodes, return_index=True)[1]]
+        near = 1e-6 * float(np.ptp(points, axis=0).max())
+        points = points[np.argsort(points @ _SLANTED)]
+        along = points @ _SLANTED
+        before, after = np.zeros(len(points), bool), np.zeros(len(points), bool)  # whether one coincides with another
+        left, step = np.arange(len(points)), 0
+        while left.size:  # those that may coincide with the one so many steps further along
+            step += 1
+            left = left[left + step < len(points)]
+            left = left[along[left + step] - along[left] <= near]
+            same = left[np.linalg.norm(points[left + step] - points[left], axis=1) <= near]
+            after[same], before[same + step] = True, True
+        return points[after & ~before]
 
     def goodness(self, measure: str = "q") -> np.ndarray:
         """A measure scaled for colors: q itself; for a criterion 1 at the ideal, 0.5 at the limit, 0 twice as far from the
@@ -64,17 +75,6 @@ class ElementQuality(NamedTuple):
         if measure != "q" and CRITERIA[measure][1] > CRITERIA[measure][0]:
             values = -values
         return np.argsort(values, kind="stable")[:count]
-
-    def summary(self) -> Dict[str, float]:
-        """The number of quads and their worst and mean values, by the names of the mesher's report."""
-        return {
-            "quads": int(self.ids.size),
-            "q_min": float(self.q.min()),
-            "q_mean": float(self.q.mean()),
-            "sj_min": float(self.scaled_jacobian.min()),
-            "sj_mean": float(self.scaled_jacobian.mean()),
-            "aspect_max": float(self.aspect.max()),
-        }
 
 
 def measure(fem_mesh) -> ElementQuality:

@@ -10,8 +10,6 @@ import operator
 from pathlib import Path
 from typing import Any, Dict, List, Optional, SupportsIndex, Union
 
-from .errors import Error
-
 #: One dict per setting, with the keys name, option, property, label, kind, use, unit, default, low, high, above_low,
 #: choices, otherwise, help.
 SETTINGS: List[Dict[str, Any]] = json.loads(Path(__file__).with_name("settings.json").read_text(encoding="utf-8"))
@@ -21,7 +19,7 @@ BY_NAME = {setting["name"]: setting for setting in SETTINGS}
 _WITHOUT_EFFECT_ON_THE_MESH = frozenset(("threads", "time_limit", "read_time_limit", *(
     setting["name"] for setting in SETTINGS if setting["use"] == "write")))
 #: FreeCAD's own words for the order of elements.
-_ORDERS = ("1st", "2nd")
+ORDERS = ("1st", "2nd")
 
 
 class MeshSettings(Dict[str, Any]):
@@ -53,6 +51,11 @@ class MeshSettings(Dict[str, Any]):
     def of_the_mesh(self) -> Dict[str, Any]:
         """The settings that a mesh depends on."""
         return {name: value for name, value in self.items() if name not in _WITHOUT_EFFECT_ON_THE_MESH}
+
+
+def default_size(diagonal: float) -> float:
+    """The element size where none is given, for a model whose bounding box has this diagonal, mm."""
+    return diagonal / BY_NAME["elements_per_diagonal"]["default"]
 
 
 def face_name(face: Union[int, str, SupportsIndex]) -> str:
@@ -111,7 +114,7 @@ def property_help(setting: Dict[str, Any]) -> str:
 
 def words(setting: Dict[str, Any]) -> List[str]:
     """The values of an enumeration; a new object starts with the first one."""
-    return list(reversed(_ORDERS)) if setting["name"] == "order" else list(setting["choices"])
+    return list(reversed(ORDERS)) if setting["name"] == "order" else list(setting["choices"])
 
 
 def to_property(setting: Dict[str, Any], value: Any) -> Any:
@@ -124,7 +127,7 @@ def to_property(setting: Dict[str, Any], value: Any) -> Any:
     if value is None:
         value = default
     if setting["name"] == "order":
-        return _ORDERS[int(value or 2) - 1]
+        return ORDERS[int(value or 2) - 1]
     if value is None:
         return "" if kind in ("file", "text") else 0
     return int(value) if kind == "count" else value
@@ -135,7 +138,7 @@ def from_property(setting: Dict[str, Any], value: Any) -> Optional[Any]:
     value = getattr(value, "Value", value)
     kind = setting["kind"]
     if setting["name"] == "order":
-        return _ORDERS.index(value) + 1
+        return ORDERS.index(value) + 1
     if kind in ("names", "entries"):
         return list(value) or None
     if kind == "choice":

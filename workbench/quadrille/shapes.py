@@ -4,7 +4,7 @@ faces, and the names of referenced faces, edges and vertices. Runs inside FreeCA
 
 import hashlib
 import math
-from typing import Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple
 
 import Part
 import numpy as np
@@ -284,19 +284,23 @@ def with_reversed_faces(shape, names: Sequence[str]):
     return compound
 
 
+def pairs(links: Iterable[Tuple]) -> List[Tuple[Any, str]]:
+    """Links to elements as pairs (object, name). FreeCAD gives a single name as a text."""
+    return [(target, name) for target, names in links for name in ((names,) if isinstance(names, str) else names)]
+
+
 def references_to_names(shape, owner, references: Sequence[Tuple]) -> List[str]:
     """FEM references as names in the meshed shape ("Face3"). Elements of other objects are found by their geometry; a solid
     gives its faces."""
     names: List[str] = []
-    for target, elements in references:
-        for element in [elements] if isinstance(elements, str) else elements:
-            found = element if target == owner else find_element(shape, _element_in(owner, target, element))
-            if found and found.startswith("Solid"):
-                names += _faces_of_solid(shape, int(found[5:]))
-            elif found and _exists(shape, found):
-                names.append(found)
-            else:
-                raise Error(f"{target.Label}.{element}: is not in the meshed part", "usage", element)
+    for target, element in pairs(references):
+        found = element if target == owner else find_element(shape, _element_in(owner, target, element))
+        if found and found.startswith("Solid"):
+            names += _faces_of_solid(shape, int(found[5:]))
+        elif found and _exists(shape, found):
+            names.append(found)
+        else:
+            raise Error(f"{target.Label}.{element}: is not in the meshed part", "usage", element)
     return names
 
 

@@ -15,11 +15,7 @@ from . import groups, observers, solvers, state, undo
 from .command import MeshJob, Progress, scratch_folder
 from .errors import Error
 from .jobs import FemJob, find_mesher
-from .setting_table import MeshSettings
-
-#: Default element size, as a share of the surface's diagonal.
-_USUAL_SIZE = 1 / 60
-_ORDERS = ("2nd", "1st")
+from .setting_table import ORDERS, MeshSettings, default_size
 
 
 class Asked(NamedTuple):
@@ -48,8 +44,7 @@ def check_surface(surface, analysis=None) -> None:
 
 def usual_size(surface) -> float:
     """The default element size for a mesh object, in mm, rounded to two digits."""
-    length = surface.Mesh.BoundBox.DiagonalLength * _USUAL_SIZE
-    return float(f"{length:.2g}")
+    return float(f"{default_size(surface.Mesh.BoundBox.DiagonalLength):.2g}")
 
 
 def make(surface, asked: Asked, name: str = "QuadMesh", analysis=None, progress: Optional[Progress] = None,
@@ -83,7 +78,7 @@ def prepare(surface, asked: Asked, progress: Optional[Progress] = None) -> None:
 
 def asked_of(mesh) -> Asked:
     """The settings in a mesh object's properties."""
-    return Asked(mesh.Size.Value, 1 if mesh.ElementOrder == "1st" else 2, mesh.FeatureAngle.Value, mesh.MergeDistance.Value)
+    return Asked(mesh.Size.Value, ORDERS.index(mesh.ElementOrder) + 1, mesh.FeatureAngle.Value, mesh.MergeDistance.Value)
 
 
 def judge(mesh) -> Tuple[str, str]:
@@ -185,7 +180,7 @@ def _meshed(surface, asked: Asked, progress: Optional[Progress], command: Option
 
 def _ask(mesh, asked: Asked) -> None:
     mesh.Size, mesh.FeatureAngle, mesh.MergeDistance = asked.size, asked.feature_angle, asked.merge
-    mesh.ElementOrder = "1st" if asked.order == 1 else "2nd"
+    mesh.ElementOrder = ORDERS[asked.order - 1]
 
 
 def _store(mesh, fem_mesh, report: Dict, job: SurfaceJob) -> None:
@@ -237,7 +232,7 @@ class SurfaceMesh:
                 continue
             obj.addProperty(kind, name, group, text)
             if name == "ElementOrder":
-                obj.ElementOrder = list(_ORDERS)
+                obj.ElementOrder = list(reversed(ORDERS))
             elif name == "Status":
                 obj.Status = list(state.STATUSES)
             elif name == "ReducedShells":

@@ -73,8 +73,14 @@ def close_panel(button=None):
     process(0.2)
 
 
+def cancel_bars():
+    """Presses Cancel of the progress bars that are shown."""
+    for bar in window().findChildren(QtGui.QProgressDialog):
+        bar.cancel()
+
+
 class Boxes:
-    """Answers the modal boxes that come up inside a `with` and keeps their texts."""
+    """Answers the modal boxes that come up inside a `with` and keeps their texts; leaves progress bars alone."""
 
     def __init__(self, answer=None):
         self.texts = []
@@ -92,7 +98,7 @@ class Boxes:
 
     def _look(self):
         box = QtGui.QApplication.activeModalWidget()
-        if box is None:
+        if box is None or isinstance(box, QtGui.QProgressDialog):
             return
         if isinstance(box, QtGui.QMessageBox):
             self.texts.append(box.text())

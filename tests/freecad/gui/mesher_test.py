@@ -19,6 +19,7 @@ from PySide import QtGui
 
 from case import GuiCase, picture, run
 from driver import close_panel, find, process, wait_for, window
+from quadrille import command
 from quadrille.command import VERSION
 from quadrille.gui import mesher_choice, task_panel
 from quadrille.jobs import PREFERENCES
@@ -75,10 +76,36 @@ class MesherTest(GuiCase):
         wait_for(lambda: "cannot be downloaded" in find("QuadrilleMesherText").text(), 20, "the refusal")
         self.assertFalse(find("QuadrilleMesherInstall").isEnabled())
         archive = self.bundle()
+        for address, there in ((archive.as_uri(), True), ("file:///nowhere/bundle.tar.xz", False)):
+            find("QuadrilleMesherAddress").setText(address)
+            find("QuadrilleMesherDownload").click()
+            for name in ("QuadrilleMesherInstall", "QuadrilleMesherOnPath", "QuadrilleMesherFile"):
+                self.assertFalse(find(name).isEnabled())
+            wait_for(lambda: find("QuadrilleMesherFile").isEnabled(), 20, "the end")
+            self.assertEqual(find("QuadrilleMesherInstall").isEnabled(), there)
         find("QuadrilleMesherAddress").setText(archive.as_uri())
         find("QuadrilleMesherDownload").click()
         self.installed(archive)
         close_panel()
+
+    def test_in_flatpak_the_mesher_on_the_hosts_path_is_offered(self):
+        host, spawn, info = self.folder / "host", self.folder / "flatpak-spawn", self.folder / "info"
+        host.mkdir()
+        info.touch()
+        spawn.write_text(f'#!/bin/sh\nshift 2\nPATH={host}:/usr/bin:/bin\nexport PATH\nexec "$@"\n')
+        (host / "quadrille").write_text(f"#!/bin/sh\necho quadrille {VERSION}\n")
+        for path in (spawn, host / "quadrille"):
+            path.chmod(0o755)
+        used = []
+        with mock.patch.object(command, "FLATPAK_INFO", info), mock.patch.dict(os.environ, PATH=str(self.folder)):
+            choice = mesher_choice.MesherChoice(used.append)
+            self.assertEqual((choice.on_path.isEnabled(), choice.on_path.toolTip()), (True, str(host / "quadrille")))
+            choice.on_path.click()
+            spawn.unlink()
+            choice = mesher_choice.MesherChoice(used.append)
+            self.assertFalse(choice.on_path.isEnabled())
+            self.assertIn("flatpak override", choice.on_path.toolTip())
+        self.assertEqual(used, [str(host / "quadrille")])
 
     def test_panel_with_a_mesher_does_not_ask(self):
         self.open_panel(self.box())

@@ -3,7 +3,10 @@
     scripts/freecad_gui tests/freecad/gui/middle_test.py [FOLDER FOR SCREENSHOTS]
 """
 
+import os
 import sys
+import tempfile
+import time
 from pathlib import Path
 from unittest import mock
 
@@ -13,10 +16,12 @@ import FemGui
 import FreeCADGui
 import ObjectsFem
 import Part
+from PySide import QtCore
 
 from case import GuiCase, picture, run
-from driver import Boxes, close_panel, find, process, trigger, wait_for, window
+from driver import Boxes, cancel_bars, close_panel, find, process, trigger, wait_for, window
 from quadrille import middle
+from quadrille.command import VERSION
 from quadrille.gui.commands import MiddleCommand
 
 
@@ -112,6 +117,28 @@ class MiddleTest(GuiCase):
         self.assertEqual(len(questions), 1)
         self.assertIn("thin in places only", questions[0])
         self.assertTrue(self.surfaces()[0].Problems[0].startswith("Sheet is thin in places only"))
+
+    def test_what_takes_long_can_be_cancelled(self):
+        part = self.sheet()
+        self.make(part)
+        surface, = self.surfaces()
+        with tempfile.TemporaryDirectory() as folder:
+            slow = Path(folder) / "quadrille"
+            slow.write_text(f"#!/bin/sh\n[ $1 = --version ] && exec echo quadrille {VERSION}\nexec sleep 300\n")
+            slow.chmod(0o755)
+            with mock.patch.dict(os.environ, QUADRILLE_COMMAND=str(slow)), Boxes() as boxes:
+                for work in (lambda: trigger("Quadrille_Middle"), lambda: (surface.touch(), self.document.recompute())):
+                    FreeCADGui.Selection.clearSelection()
+                    FreeCADGui.Selection.addSelection(part)
+                    QtCore.QTimer.singleShot(1500, cancel_bars)
+                    start = time.monotonic()
+                    work()
+                    self.assertLess(time.monotonic() - start, 60)
+        self.assertEqual((boxes.texts, self.surfaces()), ([], [surface]))
+        self.assertFalse(surface.isValid())
+        surface.touch()
+        self.document.recompute()
+        self.assertTrue(surface.isValid())
 
     def test_several_parts_are_joined(self):
         post = self.part(Part.makeBox(3, 40, 60), "Post")

@@ -21,13 +21,13 @@ import Part
 from PySide import QtCore, QtGui
 
 from case import MODELS, GuiCase, picture, run
-from driver import Boxes, close_panel, find, process, trigger, window
+from driver import Boxes, cancel_bars, close_panel, find, process, trigger
 from quadrille import state
 from quadrille.gui import overlays, surface_view
 
 
 class SurfaceBoxes(Boxes):
-    """Fills the box that asks how to mesh, leaves the progress bar alone, keeps the texts of messages."""
+    """Fills the box that asks how to mesh, keeps the texts of messages."""
 
     def __init__(self, values, press):
         super().__init__()
@@ -36,8 +36,6 @@ class SurfaceBoxes(Boxes):
 
     def _look(self):
         box = QtGui.QApplication.activeModalWidget()
-        if isinstance(box, QtGui.QProgressDialog):
-            return
         if box is None or box.findChild(QtGui.QLineEdit, "QuadrilleSurfaceSize") is None:
             super()._look()
             return
@@ -150,7 +148,7 @@ class SurfaceTest(GuiCase):
 
     def test_cancelling_leaves_nothing(self):
         surface = self.surface(Mesh.createSphere(10.0, 200))
-        QtCore.QTimer.singleShot(1800, lambda: [bar.cancel() for bar in window().findChildren(QtGui.QProgressDialog)])
+        QtCore.QTimer.singleShot(1800, cancel_bars)
         self.assertEqual(self.click(surface, {"Size": "0.05 mm"}), [])
         self.assertEqual(self.meshes(), [])
         self.assertEqual([obj.Name for obj in self.document.Objects], [surface.Name])

@@ -8,6 +8,8 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtGui
 
+from ..shapes import pairs
+
 _FOLDER = Path(__file__).resolve().parents[2]
 ICONS = _FOLDER / "icons"
 TRANSLATIONS = _FOLDER / "translations"
@@ -55,8 +57,27 @@ def path_of(obj) -> str:
 
 def links_text(links) -> str:
     """A Python expression for links to faces, edges and vertices."""
-    return "[" + ", ".join(f"({path_of(target)}, {tuple(names) if not isinstance(names, str) else (names,)!r})"
-                           for target, names in links) + "]"
+    return "[" + ", ".join(f"({path_of(entry[0])}, {tuple(name for _, name in pairs([entry]))!r})" for entry in links) + "]"
+
+
+@contextmanager
+def progress_bar(text: str):
+    """Shows a progress bar with a Cancel button. Yields the function that a job calls with its progress."""
+    bar = QtGui.QProgressDialog(text, translate("Quadrille", "Cancel"), 0, 100, FreeCADGui.getMainWindow())
+    bar.setWindowTitle("Quadrille")
+    bar.setModal(True)  # only the bar accepts clicks meanwhile
+    bar.setMinimumDuration(500)
+
+    def show(_stage: str, fraction: float) -> bool:
+        bar.setValue(min(99, int(100 * fraction)))  # at 100 the bar would close
+        QtGui.QApplication.processEvents()
+        return not bar.wasCanceled()
+
+    try:
+        yield show
+    finally:
+        bar.close()
+        bar.deleteLater()
 
 
 @contextmanager

@@ -6,15 +6,16 @@ from typing import Optional
 
 import FreeCAD
 import FreeCADGui
-from PySide import QtCore, QtGui
+from PySide import QtGui
 
 import quadrille_commands
 
 from .. import freecad as core
 from .. import adaption, middle, picks, surfaces
 from ..errors import Error
+from ..setting_table import ORDERS, default_size
 from ..state import is_quad_mesh, is_surface_mesh, part_of, source_of
-from . import QT_TRANSLATE_NOOP, do, icon, links_text, overlays, path_of, preferences, tell, transaction, translate
+from . import QT_TRANSLATE_NOOP, do, icon, links_text, overlays, path_of, preferences, progress_bar, tell, transaction, translate
 from .length_field import LengthField
 
 TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Surface", "Quadrille_Refine", "Quadrille_Quality",
@@ -240,7 +241,7 @@ class SurfaceCommand(_Command):
         if asked is None:
             return
         do("import quadrille.freecad")
-        for name, value in (("Size", asked.size), ("ElementOrder", "1st" if asked.order == 1 else "2nd"),
+        for name, value in (("Size", asked.size), ("ElementOrder", ORDERS[asked.order - 1]),
                             ("FeatureAngle", asked.feature_angle), ("MergeDistance", asked.merge)):
             do(f"{path_of(mesh)}.{name} = {value!r}")
         do(f"quadrille.freecad.remesh({path_of(mesh)})")
@@ -290,7 +291,7 @@ class RefineCommand(_Command):
     @staticmethod
     def ask(mesh) -> Optional[float]:
         """Asks for the size in a dialog; None if it is cancelled."""
-        usual = mesh.Size.Value or mesh.Shape.Shape.BoundBox.DiagonalLength / 60
+        usual = mesh.Size.Value or default_size(mesh.Shape.Shape.BoundBox.DiagonalLength)
         dialog = QtGui.QDialog(FreeCADGui.getMainWindow())
         dialog.setWindowTitle(translate("Quadrille", "Refine"))
         label = translate("Quadrille", "Element size")
@@ -383,20 +384,8 @@ class AdaptCommand(_Command):
         percent = self.ask(mesh)
         if percent is None:
             return
-        dialog = QtGui.QProgressDialog(translate("Quadrille", "Adapting {}").format(mesh.Label), translate("Quadrille", "Stop"), 0, 100,
-                                       FreeCADGui.getMainWindow())
-        dialog.setWindowModality(QtCore.Qt.WindowModal)
-        dialog.setMinimumDuration(0)
-
-        def progress(_stage: str, fraction: float) -> bool:
-            dialog.setValue(min(99, round(100 * fraction)))  # at 100 the dialog would close
-            QtCore.QCoreApplication.processEvents()
-            return not dialog.wasCanceled()
-
-        try:
+        with progress_bar(translate("Quadrille", "Adapting {}").format(mesh.Label)) as progress:
             adaption.prepare(mesh, error=percent / 100, progress=progress)
-        finally:
-            dialog.close()
         do("import quadrille.adaption")
         do(f"quadrille.adaption.adapt({path_of(mesh)}, error={percent / 100!r})")
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Widget to get the mesher. The task panel shows it while there is no mesher, the preferences always."""
 
-import shutil
 import tempfile
 import threading
 from pathlib import Path
@@ -11,7 +10,7 @@ import FreeCAD
 from PySide import QtCore, QtGui
 
 from .. import mesher_setup
-from ..command import check_version
+from ..command import check_version, which
 from ..errors import Error
 from ..jobs import PREFERENCES, find_mesher
 from . import translate
@@ -53,9 +52,12 @@ class MesherChoice(QtGui.QGroupBox):
     def _build(self) -> None:
         self.on_path = QtGui.QPushButton(translate("Quadrille", "Use the one on PATH"))
         self.on_path.setObjectName("QuadrilleMesherOnPath")
-        found = shutil.which("quadrille")
-        self.on_path.setEnabled(found is not None)
-        self.on_path.setToolTip(found or translate("Quadrille", "There is no command quadrille on PATH"))
+        try:
+            self._found, why = which("quadrille"), translate("Quadrille", "There is no command quadrille on PATH")
+        except Error as error:  # inside Flatpak
+            self._found, why = None, str(error)
+        self.on_path.setEnabled(self._found is not None)
+        self.on_path.setToolTip(self._found or why)
         self.on_path.clicked.connect(self._take_path)
         self.file = QtGui.QPushButton(translate("Quadrille", "Take a bundle's file ..."))
         self.file.setObjectName("QuadrilleMesherFile")
@@ -83,12 +85,11 @@ class MesherChoice(QtGui.QGroupBox):
 
     def _take_path(self) -> None:
         try:
-            command = shutil.which("quadrille") or "quadrille"
-            check_version(command)
+            check_version(self._found)
         except Error as error:
             self.text.setText(str(error))
             return
-        self._use(command)
+        self._use(self._found)
 
     def _browse(self) -> None:
         path, _ = QtGui.QFileDialog.getOpenFileName(self, translate("Quadrille", "A bundle of Quadrille"), "",
@@ -115,12 +116,14 @@ class MesherChoice(QtGui.QGroupBox):
     def _install(self) -> None:
         archive = self._archive
         self.text.setText(translate("Quadrille", "unpacking {}").format(archive))
-        self._work(lambda: mesher_setup.install(archive, data_folder()))
+        self._work(lambda: mesher_setup.install(archive, data_folder()), archive)
 
-    def _work(self, function: Callable[[], object]) -> None:
-        """Runs a function in a thread. _poll() takes its result, or the Error that it raises."""
+    def _work(self, function: Callable[[], object], archive: Optional[Path] = None) -> None:
+        """Runs a function in a thread. _poll() takes its result, or the Error that it raises; then `archive` can be
+        installed, or the one that the function returns."""
         if self._thread is not None:
             return
+        self._archive = archive
 
         def run() -> None:
             try:
@@ -136,6 +139,7 @@ class MesherChoice(QtGui.QGroupBox):
     def _set_busy(self, busy: bool) -> None:
         for widget in (self.file, self.fetch, self.address):
             widget.setEnabled(not busy)
+        self.on_path.setEnabled(not busy and self._found is not None)
         self.install.setEnabled(not busy and self._archive is not None)
 
     def _poll(self) -> None:

@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How a middle surface appears in the tree. Saved documents refer to MiddleViewProvider by name: do not move it."""
 
-from . import icon
+from . import icon, progress_bar, translate
+
+
+def progress_bar_for(part):
+    """The progress bar for the search for a part's middle surface."""
+    return progress_bar(translate("Quadrille", "Finding the middle surface of {}...").format(part.Label))
 
 
 class MiddleViewProvider:

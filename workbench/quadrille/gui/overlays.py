@@ -4,7 +4,7 @@
 FreeCAD's own element colors are not used, since FreeCAD 0.20 assigns them to the wrong elements of second-order meshes.
 """
 
-from typing import Dict
+from typing import Dict, Tuple
 
 import numpy as np
 
@@ -91,7 +91,7 @@ def show_quality(mesh, measured: quality.ElementQuality, measure: str = "q") -> 
         mesh.ViewObject.DisplayMode = "Wireframe"
 
 
-def _plain_color(rgb: tuple[float, float, float]):
+def _plain_color(rgb: Tuple[float, float, float]):
     """Scene nodes that give what follows one color, independent of the light."""
     from pivy import coin
 

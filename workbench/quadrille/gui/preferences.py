@@ -11,8 +11,8 @@ from PySide import QtGui
 from ..command import check_version, find_command
 from ..errors import Error
 from ..jobs import PREFERENCES
-from ..setting_table import BY_NAME, to_property
-from . import icon, translate
+from ..setting_table import BY_NAME, from_property, to_property
+from . import ICONS, icon, translate
 from .mesher_choice import MesherChoice
 from .setting_widgets import SettingWidget
 
@@ -55,8 +55,6 @@ def defaults() -> Dict[str, Any]:
 
 def settings() -> Dict[str, Any]:
     """The defaults of new meshes that differ from the table's, by the names that scripts use."""
-    from ..setting_table import from_property
-
     values = {name: from_property(BY_NAME[name], defaults().get(BY_NAME[name]["property"], to_property(BY_NAME[name], None)))
               for name in _DEFAULTS}
     usual = {name: from_property(BY_NAME[name], to_property(BY_NAME[name], None)) for name in _DEFAULTS}
@@ -163,5 +161,5 @@ class PreferencesPage:
 
 def add_page() -> None:
     """Adds the page to FreeCAD's preferences."""
-    FreeCADGui.addIconPath(str(icon("quadrille").rsplit("/", 1)[0]))
+    FreeCADGui.addIconPath(str(ICONS))
     FreeCADGui.addPreferencePage(PreferencesPage, "Quadrille")

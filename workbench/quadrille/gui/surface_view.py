@@ -9,7 +9,8 @@ from PySide import QtGui
 
 from .. import surfaces
 from ..errors import Error
-from . import fem_workbench, translate
+from ..setting_table import ORDERS
+from . import fem_workbench, progress_bar, translate
 from .length_field import LengthField
 from .view_provider import MeshViewProvider
 
@@ -48,7 +49,7 @@ def ask(asked: surfaces.Asked, title: str) -> Optional[surfaces.Asked]:
     merge.show_length(asked.merge)
     order = QtGui.QComboBox()
     order.setObjectName("QuadrilleSurfaceOrder")
-    order.addItems(["1st", "2nd"])
+    order.addItems(ORDERS)
     order.setCurrentIndex(asked.order - 1)
     angle = QtGui.QDoubleSpinBox()
     angle.setObjectName("QuadrilleSurfaceAngle")
@@ -72,22 +73,8 @@ def ask(asked: surfaces.Asked, title: str) -> Optional[surfaces.Asked]:
 
 def mesh_with_bar(surface, asked: surfaces.Asked) -> None:
     """Makes the mesh that the next command uses, and shows a progress bar with a Cancel button."""
-    bar = QtGui.QProgressDialog(translate("Quadrille", "Meshing {}...").format(surface.Label),
-                                translate("Quadrille", "Cancel"), 0, 100, FreeCADGui.getMainWindow())
-    bar.setWindowTitle("Quadrille")
-    bar.setModal(True)  # only the bar accepts clicks meanwhile
-    bar.setMinimumDuration(500)
-
-    def show(_stage: str, fraction: float) -> bool:
-        bar.setValue(min(99, int(100 * fraction)))
-        QtGui.QApplication.processEvents()
-        return not bar.wasCanceled()
-
-    try:
-        surfaces.prepare(surface, asked, show)
-    finally:
-        bar.close()
-        bar.deleteLater()
+    with progress_bar(translate("Quadrille", "Meshing {}...").format(surface.Label)) as progress:
+        surfaces.prepare(surface, asked, progress)
 
 
 def check(asked: surfaces.Asked) -> None:

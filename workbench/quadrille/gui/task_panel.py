@@ -15,6 +15,7 @@ from PySide import QtCore, QtGui
 from .. import freecad as core
 from .. import command, groups, jobs, links, old_documents, picks, shapes, solvers, state
 from ..errors import Error
+from ..setting_table import default_size
 from . import do, icon, links_text, path_of, preferences, standard_buttons, tell, translate
 from .entry_rows import PROPERTIES as ENTRIES
 from .entry_rows import EntryRows
@@ -239,7 +240,7 @@ class MeshPanel:
             settings = state.settings_to_use(self.mesh, wanted, found)
             shape = state.part_of(self.mesh).Shape
             estimate = shapes.estimate_of(shape)
-            size = settings.get("size") or shape.BoundBox.DiagonalLength / 60
+            size = settings.get("size") or default_size(shape.BoundBox.DiagonalLength)
             counts = estimate.quads_by_face(
                 size, settings.get("size_min"), settings["elements_per_circle"], settings.get("sizes"), settings.get("faces", ()),
                 settings["growth"])
@@ -302,7 +303,7 @@ class MeshPanel:
     def _usual_size(self) -> Optional[float]:
         """The size where no other is asked for. None, with a message box, if it cannot be read."""
         try:
-            return self.settings["Size"].value() or state.part_of(self.mesh).Shape.BoundBox.DiagonalLength / 60
+            return self.settings["Size"].value() or default_size(state.part_of(self.mesh).Shape.BoundBox.DiagonalLength)
         except Error as error:
             tell(str(error))
             return None
