@@ -78,11 +78,13 @@ QuadEstimate::QuadEstimate(const CadModel& model, ExecutionContext& context)
 double QuadEstimate::quads(const MeshOptions& options) {
   check({options, {}}, model_);
   const CadShape& shape = model_.shape();
+  const std::vector<char> used = faces_used(model_, options);
   try {
     return on_threads(context_.threads(), [&] {
       const SettledBoundary boundary = settle_boundary(model_, options, context_);
       double count = 0;
       for (std::size_t face = 0; face < shape.faces.size(); ++face) {
+        if (!used[face]) continue;
         SizingField::Sampler size_at(boundary.field, static_cast<int>(face));
         const double in_grid = grid_quads(shape.faces[face], boundary.nodes.sides[face], boundary.nodes);
         double area = 0, inside = 0;

@@ -36,13 +36,13 @@
 
 namespace quadrille {
 
-namespace {
-
-std::vector<char> faces_used(const CadModel& model, const std::vector<int>& faces) {
-  std::vector<char> used(model.face_count(), faces.empty());
-  for (const int face : faces) used[face - 1] = 1;
+std::vector<char> faces_used(const CadModel& model, const MeshOptions& options) {
+  std::vector<char> used(model.face_count(), options.faces.empty());
+  for (const int face : options.faces) used[face - 1] = 1;
   return used;
 }
+
+namespace {
 
 class Job {
  public:
@@ -50,19 +50,20 @@ class Job {
       : model_(model),
         shape_(model.shape()),
         options_(options),
-        size_(size_limits(model, options.sizing).largest),
+        limits_(size_limits(model, options.sizing)),
         context_(context),
         edges_{SamplingPlan(shape_), std::vector<char>(shape_.edges.size(), 0)},
-        used_(faces_used(model, options.faces)),
+        used_(faces_used(model, options)),
         meshes_(shape_.faces.size()),
         problems_(shape_.faces.size()),
         problems_before_(shape_.faces.size()),
         records_(shape_.faces.size()),
         asked_(used_),
-        let_go_(shape_, asked_, reach_of_let_go(model, options)) {
+        let_go_(shape_, asked_, reach_of_let_go(limits_, options),
+                edges_below_size_min(model, options.sizing, limits_)) {
     if (options_.strategy == Strategy::subdivide)
       std::fill(edges_.plan.subdivided.begin(), edges_.plan.subdivided.end(), 1);
-    edges_.plan.prescribed = prescribed_edges(shape_, options.sizing, size_);
+    edges_.plan.prescribed = prescribed_edges(shape_, options.sizing, limits_.largest);
     leave_out_tiny();
     find_rows();
   }
@@ -155,9 +156,9 @@ class Job {
     if (sizing.spacings.empty() && sizing.layers.edges.empty()) return;
     std::vector<double> wanted;
     for (const CadEdge& edge : shape_.edges)
-      wanted.push_back(edge.length / (size_ * stride(options_.strategy)));
+      wanted.push_back(edge.length / (limits_.largest * stride(options_.strategy)));
     const auto sides = find_face_sides(shape_, used_, edges_.plan.tiny, wanted);
-    rows_ = find_grid_rows(shape_, sides, std::move(edges_.plan.prescribed), sizing, size_);
+    rows_ = find_grid_rows(shape_, sides, std::move(edges_.plan.prescribed), sizing, limits_.largest);
     edges_.plan.prescribed = rows_.prescribed;
   }
 
@@ -170,9 +171,9 @@ class Job {
     }
   }
 
-  static double reach_of_let_go(const CadModel& model, const MeshOptions& options) {
+  static double reach_of_let_go(const SizeLimits& limits, const MeshOptions& options) {
     constexpr double far_below = 0.5;
-    return options.keep_features ? 0 : far_below * size_limits(model, options.sizing).least;
+    return options.keep_features ? 0 : far_below * limits.size_min;
   }
 
   void sample(const SizingField& field) {
@@ -360,7 +361,7 @@ class Job {
         any = true;
         continue;
       }
-      record.given_up = !apply_remedy(shape_, *problems_[face], size_, record, edges_);
+      record.given_up = !apply_remedy(shape_, *problems_[face], limits_.largest, record, edges_);
       any |= !record.given_up;
     }
     if (any) leave_out_tiny();
@@ -373,7 +374,7 @@ class Job {
     for (int face = 0; face < static_cast<int>(problems_.size()); ++face) {
       if (!problems_[face]) continue;
       const double longest = longest_edge(shape_, face);
-      if (longest > tiny * size_) continue;
+      if (longest > tiny * limits_.largest) continue;
       const FaceProblem& problem = *problems_[face];
       problems_[face].emplace(problem.cause(), face + 1,
                               fmt::format("{}; its longest edge is {:.3g}: `merge_tiny` {:.3g} leaves it out",
@@ -436,7 +437,7 @@ class Job {
   const CadModel& model_;
   const CadShape& shape_;
   const MeshOptions& options_;
-  double size_;  ///< the global target size
+  SizeLimits limits_;
   ExecutionContext& context_;
   EdgeTreatment edges_;
   std::vector<char> used_;
@@ -499,7 +500,7 @@ ShellMesh mesh_by_symmetry(const CadModel& model, const MeshOptions& options, Ex
 /// Throws Error: usage for invalid options, failure for edges far outside the model.
 void check_input(const CadModel& model, const MeshOptions& options) {
   check({options, {}}, model);
-  for (const StrayEdge& stray : stray_edges(model.shape(), faces_used(model, options.faces)))
+  for (const StrayEdge& stray : stray_edges(model.shape(), faces_used(model, options)))
     throw failure(fmt::format("Edge{}", stray.edge), stray.sentence() + "; `faces` can leave its faces out");
 }
 

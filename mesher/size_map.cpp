@@ -160,18 +160,12 @@ void find_rulers(const CadModel& model, const MeshOptions& options, const Look& 
   }
 }
 
-std::vector<char> used_faces(const CadModel& model, const std::vector<int>& faces) {
-  std::vector<char> used(model.face_count(), faces.empty());
-  for (const int face : faces) used[face - 1] = 1;
-  return used;
-}
-
 SurfaceTriangles triangles_for(const CadModel& model, const MeshOptions& options, const SizingField& field,
                                const ExecutionContext& context) {
   const double share = longest_share * model.diagonal();
   const double deflection = std::min(0.1 * field.size_max(), share);
-  SurfaceTriangles surface = triangulate_surface(model.shape(), deflection, turn_of_triangle,
-                                                 used_faces(model, options.faces), context);
+  SurfaceTriangles surface =
+      triangulate_surface(model.shape(), deflection, turn_of_triangle, faces_used(model, options), context);
   std::vector<std::unique_ptr<SizingField::Sampler>> samplers(model.face_count());
   const auto longest = [&](int face, const Vector3& point) {
     auto& size_at = samplers[face - 1];

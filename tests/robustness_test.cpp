@@ -418,6 +418,13 @@ TEST(Robustness, KeepsTheNumbersOfEdgesThatAreSplit) {
   BRepGProp::LinearProperties(edges(edges.Extent()), rim);
   EXPECT_NEAR(length / rim.Mass(), 1, 0.02);
   EXPECT_GE(count, 30);
+  options.sizing.edge_sizes[edges.Extent()] = 1e-9;
+  try {
+    mesh(model, options, context);
+    ADD_FAILURE() << "the segments are not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).find("Edge" + std::to_string(edges.Extent()) + " of "), 0u);
+  }
   // The shape that was given stays as it was.
   TopTools_IndexedMapOfShape after;
   TopExp::MapShapes(shape, TopAbs_EDGE, after);

@@ -100,7 +100,7 @@ TEST(SizeMap, FieldIsTheLeastOfItsSources) {
     const SizeLimits limits = size_limits(model, all.sizing);
     SizingOptions none;
     none.size = limits.largest;
-    none.size_min = limits.least;
+    none.size_min = limits.size_min;
     none.gradation = gradation;
     none.elements_per_circle = 0;
     none.short_edges = false;
@@ -134,6 +134,19 @@ TEST(SizeMap, FieldIsTheLeastOfItsSources) {
     EXPECT_GT(near, 0.9 * static_cast<double>(face_of.size()));
     EXPECT_GE(rulers.size(), 3u);
   }
+}
+
+TEST(SizeMap, CountsChosenFacesOnly) {
+  const CadModel model = CadModel::read(sample_model("box").path());
+  MeshOptions options;
+  options.sizing.size = 1;
+  options.faces = {1};
+  const SizeMap map = map_of(model, options);
+  ExecutionContext context;
+  EXPECT_NEAR(map.quads / static_cast<double>(mesh(model, options, context).quads.size()), 1, 0.2);
+  double quads = 0;
+  for (const SizeMap::Source& source : map.sources) quads += source.quads;
+  EXPECT_NEAR(quads, map.quads, 1e-6 * map.quads);
 }
 
 TEST(SizeMap, NamesWhatRules) {

@@ -11,8 +11,6 @@
 #include <Message_PrinterOStream.hxx>
 #include <Standard_Failure.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
-#include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <istream>
 #include <sstream>
@@ -21,6 +19,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_ending.hpp"
 #include "geometry/base/module_loader.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/cad/isolated_reading.hpp"
@@ -50,13 +49,6 @@ class ViewBuffer : public std::streambuf {
     return seekoff(off_type(position), std::ios_base::beg, mode);
   }
 };
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 /// Without this, OpenCASCADE prints its transfer log to standard output.
 void silence_opencascade() {
@@ -139,7 +131,7 @@ CadModel CadModel::read(const std::filesystem::path& path, const ReadOptions& op
   if (!std::filesystem::exists(path, code)) throw failure(name, fmt::format("{} does not exist", name));
   if (std::filesystem::is_directory(path, code)) throw failure(name, fmt::format("{} is a folder", name));
   if (!std::ifstream(path)) throw failure(name, fmt::format("{} cannot be opened for reading", name));
-  const std::string extension = lower_extension(path);
+  const std::string extension = lower_ending(path);
   if (extension == ".step" || extension == ".stp")
     return guarded(name, options, [&] { return read_exchange(path, "quadrille_step"); });
   if (extension == ".iges" || extension == ".igs")

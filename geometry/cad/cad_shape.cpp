@@ -131,7 +131,7 @@ void CadShape::measure_edges() {
       const BRepAdaptor_Curve curve(edge.edge);
       edge.length = GCPnts_AbscissaPoint::Length(curve, edge.first, edge.last);
     } catch (const Standard_Failure&) {
-      problems.push_back(fmt::format("Edge{} has no usable curve", &edge - edges.data() + 1));
+      problems.push_back(fmt::format("Edge{} has no usable curve", edge.number));
     }
   }
 }
@@ -184,7 +184,8 @@ void CadShape::read_face(int index, const TopoDS_Face& source, const TopTools_In
       double first = 0, last = 0;
       coedge.parametric_curve = BRep_Tool::CurveOnSurface(edge, face.face, first, last);
       if (coedge.parametric_curve.IsNull()) {
-        problems.push_back(fmt::format("Edge{} has no parametric curve on Face{}", coedge.edge, index + 1));
+        problems.push_back(fmt::format("Edge{} has no parametric curve on Face{}",
+                                       edges[coedge.edge - 1].number, index + 1));
         continue;
       }
       CadEdge& cad_edge = edges[coedge.edge - 1];

@@ -60,6 +60,12 @@ double PrescribedEdge::size_at(double share, double length) const {
   return length * (*it - *(it - 1));
 }
 
+double PrescribedEdge::shortest(double length) const {
+  double share = shares.empty() ? 1.0 / segments : 1;
+  for (std::size_t i = 1; i < shares.size(); ++i) share = std::min(share, shares[i] - shares[i - 1]);
+  return length * share;
+}
+
 std::vector<std::optional<PrescribedEdge>> prescribed_edges(const CadShape& shape,
                                                             const SizingOptions& options, double size) {
   std::vector<std::optional<PrescribedEdge>> result(shape.edges.size());

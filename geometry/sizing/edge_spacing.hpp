@@ -18,6 +18,8 @@ struct PrescribedEdge {
 
   /// The length of the segment at a share of an edge of this length; the mean length if `shares` is empty.
   double size_at(double share, double length) const;
+  /// The length of the shortest segment on an edge of this length.
+  double shortest(double length) const;
 };
 
 /// (edges) what options.spacings prescribes; the pieces of a divided CAD edge have its number of segments

@@ -54,7 +54,7 @@ SizeSources::SizeSources(const CadShape& shape, const SizingOptions& options, co
       spatial_(spatial),
       context_(context),
       prescribed_(prescribed_edges(shape, options, limits.largest)) {
-  if (options.proximity_walls > 0) rays_.emplace(shape, options.proximity_walls * limits.least, context);
+  if (options.proximity_walls > 0) rays_.emplace(shape, options.proximity_walls * limits.size_min, context);
 }
 
 /// The size asked for on an edge itself and by its length.
@@ -64,7 +64,7 @@ double SizeSources::cap_of(const CadEdge& edge) const {
     cap = it->second;
   if (!options_.short_edges) return cap;
   // A short edge is one element, and the mesh around it is refined towards it.
-  return std::min(cap, std::max(edge.length, limits_.least));
+  return std::min(cap, std::max(edge.length, limits_.size_min));
 }
 
 void SizeSources::hold_segments() const {
@@ -94,7 +94,8 @@ Error SizeSources::too_many_segments(std::size_t edge, double segments) const {
       "size",
       fmt::format("Edge{} of {:.3g} mm would take about {:.3g} million segments at the sizes asked for, and "
                   "all edges more than {:g} million: `force` meshes all the same",
-                  edge + 1, shape_.edges[edge].length, segments / 1e6, options_.budget.segments / 1e6));
+                  shape_.edges[edge].number, shape_.edges[edge].length, segments / 1e6,
+                  options_.budget.segments / 1e6));
 }
 
 void SizeSources::edge(int index, const Sink& sink) const {
@@ -230,9 +231,9 @@ void SizeSources::uniform_face(int index, double spacing, const PointSink& sink)
 /// Asks for options.proximity elements across each gap.
 void SizeSources::gaps(int index, const Sink& sink) const {
   const double n = options_.proximity;
-  const FaceGaps gaps(shape_, index, n * limits_.largest, n * limits_.least);
+  const FaceGaps gaps(shape_, index, n * limits_.largest, n * limits_.size_min);
   for (const FaceGap& gap : gaps.find(context_)) {
-    const double size = std::max(gap.width() / n, limits_.least);
+    const double size = std::max(gap.width() / n, limits_.size_min);
     if (!(size < limits_.largest)) continue;
     const int steps = static_cast<int>(std::ceil(gap.width() / size));
     for (int k = 0; k <= steps; ++k) sink(gap.from + k * (gap.to - gap.from) / steps, size);
@@ -252,7 +253,7 @@ void SizeSources::walls(int index, const Sink& sink) const {
     const SurfacePoint at = surface.evaluate(middle);
     const auto thickness =
         rays_->thickness(at.point, inward * surface.normal(at, middle), n * limits_.largest);
-    const double size = thickness ? std::max(*thickness / n, limits_.least) : limits_.largest;
+    const double size = thickness ? std::max(*thickness / n, limits_.size_min) : limits_.largest;
     if (size < limits_.largest && domain.inside(middle)) sink(at.point, size);
     return CellSample{size, part.x() * at.du.norm(), part.y() * at.dv.norm()};
   };

@@ -1,6 +1,8 @@
 #include "geometry/sizing/sizing_field.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <BRepBndLib.hxx>
+#include <Bnd_Box.hxx>
 
 #include <algorithm>
 #include <atomic>
@@ -51,11 +53,11 @@ namespace {
 /// Collects the sources of a model into the grids of a field, and lets them grow.
 class Builder {
  public:
-  Builder(const CadModel& model, const SizingOptions& options, const UnsizedFeatures& unsized,
-          SizingField::Impl& field, ExecutionContext& context)
+  Builder(const CadModel& model, const SizingOptions& options, const SizeLimits& limits,
+          const UnsizedFeatures& unsized, SizingField::Impl& field, ExecutionContext& context)
       : shape_(model.shape()),
         options_(options),
-        limits_{field.frame.size_max, field.size_min},
+        limits_(limits),
         unsized_(unsized),
         field_(field),
         context_(context),
@@ -246,8 +248,7 @@ double smallest(const CadModel& model, const SizingOptions& options, double size
   const auto prescribed = prescribed_edges(model.shape(), options, size);
   for (std::size_t i = 0; i < prescribed.size(); ++i) {
     if (!prescribed[i]) continue;
-    const double length = model.shape().edges[i].length;
-    result = std::min({result, prescribed[i]->size_at(0, length), prescribed[i]->size_at(1, length)});
+    result = std::min(result, prescribed[i]->shortest(model.shape().edges[i].length));
   }
   return result;
 }
@@ -278,7 +279,7 @@ SizingField SizingField::build(const CadModel& model, const SizingOptions& optio
   impl->budget = options.budget;
   SizingOptions steady = options;
   steady.growth = impl->frame.growth;
-  Builder(model, steady, unsized, *impl, context).run();
+  Builder(model, steady, limits, unsized, *impl, context).run();
   return SizingField(std::move(impl));
 }
 
@@ -300,7 +301,59 @@ Error too_many_blocks(double blocks) {
 SizeLimits size_limits(const CadModel& model, const SizingOptions& options) {
   const double size = options.size > 0 ? options.size : model.diagonal() / options.elements_per_diagonal;
   const double least = options.size_min > 0 ? std::min(options.size_min, size) : size / 8;
-  return {size, std::min(least, smallest(model, options, size))};
+  return {size, std::min(least, smallest(model, options, size)), least};
+}
+
+std::vector<char> edges_below_size_min(const CadModel& model, const SizingOptions& options,
+                                       const SizeLimits& limits) {
+  const CadShape& shape = model.shape();
+  std::vector<char> result(shape.edges.size(), 0);
+  if (!(limits.least < limits.size_min)) return result;
+  std::vector<std::pair<Bnd_Box, double>> named;  // boxes around what has a size, and the size
+  const auto add = [&](const Bnd_Box& box, double size) {
+    if (size < limits.size_min && !box.IsVoid()) named.emplace_back(box, size);
+  };
+  const auto add_shape = [&](const TopoDS_Shape& part, double size) {
+    Bnd_Box box;
+    BRepBndLib::Add(part, box, Standard_False);
+    add(box, size);
+  };
+  const auto add_vertex = [&](int vertex, double size) {
+    const Vector3& p = shape.vertices[vertex - 1];
+    Bnd_Box box;
+    box.Add(gp_Pnt(p.x(), p.y(), p.z()));
+    add(box, size);
+  };
+  for (const auto& [face, size] : options.face_sizes) add_shape(shape.faces[face - 1].face, size);
+  for (const auto& [face, own] : options.layers.faces) add_shape(shape.faces[face - 1].face, own.first);
+  for (const auto& [vertex, size] : options.vertex_sizes) add_vertex(vertex, size);
+  for (const auto& [vertex, own] : options.layers.vertices) add_vertex(vertex, own.first);
+  const auto prescribed = prescribed_edges(shape, options, limits.largest);
+  for (std::size_t i = 0; i < shape.edges.size(); ++i) {
+    const CadEdge& edge = shape.edges[i];
+    if (prescribed[i]) add_shape(edge.edge, prescribed[i]->shortest(edge.length));
+    if (const auto own = options.edge_sizes.find(edge.number); own != options.edge_sizes.end())
+      add_shape(edge.edge, own->second);
+    const auto& layers = options.layers.edges;
+    if (const auto own = layers.find(edge.number); own != layers.end())
+      add_shape(edge.edge, own->second.first);
+  }
+  for (std::size_t i = 0; i < shape.edges.size(); ++i) {
+    Bnd_Box box;
+    BRepBndLib::Add(shape.edges[i].edge, box, Standard_False);
+    if (box.IsVoid()) continue;
+    const auto reaches = [&](double size, double distance) {
+      return size + options.growth * distance < limits.size_min;
+    };
+    const Vector3 low = to_vector(box.CornerMin()), high = to_vector(box.CornerMax());
+    const double radius = 0.5 * (high - low).norm();
+    result[i] = std::any_of(named.begin(), named.end(),
+                            [&](const auto& at) { return reaches(at.second, at.first.Distance(box)); }) ||
+                std::any_of(options.regions.begin(), options.regions.end(), [&](const SizeRegion& region) {
+                  return reaches(region.size, std::max(0.0, region.distance(0.5 * (low + high)) - radius));
+                });
+  }
+  return result;
 }
 
 bool has_curvature_sizes(const SizingOptions& options) {
@@ -318,7 +371,7 @@ double size_of_curvature(const SizingOptions& options, const SizeLimits& limits,
   };
   hold(options.chord_error.length);
   hold(options.chord_error.share * limits.largest);
-  return std::max(limits.least, size);
+  return std::max(limits.size_min, size);
 }
 
 const Budget& SizingField::Sampler::budget() const {

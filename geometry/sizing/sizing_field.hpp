@@ -17,12 +17,18 @@ struct CadEdge;
 
 /// The range of sizes of a field.
 struct SizeLimits {
-  double largest;  ///< the global size
-  double least;    ///< smallest size that any source may ask for
+  double largest;   ///< the global size
+  double least;     ///< smallest size anywhere: size_min, or a smaller one that users give by name
+  double size_min;  ///< smallest size of the sources that are not given by name, such as curvature
 };
 SizeLimits size_limits(const CadModel& model, const SizingOptions& options);  ///< limits for a model
 
-/// The size that a curvature (1 / length) asks for, within the limits.
+/// (edges) 1 = sizes below limits.size_min, given by name, may reach the edge. Complexity: edges times the
+/// number of those sizes.
+std::vector<char> edges_below_size_min(const CadModel& model, const SizingOptions& options,
+                                       const SizeLimits& limits);
+
+/// The size that a curvature (1 / length) asks for, from limits.size_min to limits.largest.
 double size_of_curvature(const SizingOptions& options, const SizeLimits& limits, double curvature);
 
 /// Features that set no sizes of their own: too small, or meshed by rows of flat quads. Empty = none.

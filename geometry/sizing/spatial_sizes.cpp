@@ -98,7 +98,8 @@ std::vector<SizePoint> read_size_points(const std::filesystem::path& path) {
   for (std::size_t number = 1; std::getline(file, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::vector<double> values = numbers_of(line);
-    if (values.empty() && number == 1) continue;  // header line
+    const bool has_names = numbers_of(std::string_view(line).substr(0, line.find(','))).empty();
+    if (number == 1 && has_names) continue;  // header line
     if (values.size() != 4) throw refused(number, "is not x,y,z,size");
     if (!std::all_of(values.begin(), values.end() - 1, [](double value) { return std::isfinite(value); }))
       throw refused(number, "has a place that is no finite number");
@@ -158,7 +159,7 @@ void SpatialSizes::open_external(const CadModel& model, const SizingOptions& opt
                     path, low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
   external_ = [at = std::move(sizes.at), unit, scale](const Vector3& p) { return scale * at(p / unit); };
   between_voxels_ = sizes.between_voxels;
-  spacing_ = std::min(spacing_, std::max(unit * sizes.voxel, limits_.least));
+  spacing_ = std::min(spacing_, std::max(unit * sizes.voxel, limits_.size_min));
 }
 
 void SpatialSizes::read_points(const CadModel& model, const SizingOptions& options, BlockCount& blocks,
@@ -166,7 +167,7 @@ void SpatialSizes::read_points(const CadModel& model, const SizingOptions& optio
   points_ = read_size_points(options.size_points);
   bool any = false;
   for (SizePoint& at : points_) {
-    at.size = std::clamp(at.size, limits_.least, limits_.largest);
+    at.size = std::clamp(at.size, limits_.size_min, limits_.largest);
     const double reach = (limits_.largest - at.size) / growth_;
     if (distance_to_box(at.point, model.box_min(), model.box_max()) > reach) continue;
     any = true;
@@ -191,18 +192,18 @@ double SpatialSizes::of_regions(const Vector3& point, double steepest) const {
 }
 
 double SpatialSizes::at(const Vector3& point) const {
-  double size = of_regions(point, growth_);
-  if (external_) size = std::min(size, external_(point));
+  double size = limits_.largest;
+  if (external_) size = std::clamp(external_(point), limits_.size_min, size);
   if (!points_.empty()) size = std::min(size, SizeCascade::Lookup(cascade_)(point));
-  return std::max(size, limits_.least);
+  return std::min(size, of_regions(point, growth_));
 }
 
 double SpatialSizes::at_corner(const SizePoint& point, const Vector3& corner) const {
   if (!between_voxels_) return point.size;
   constexpr double rounding = 1e-9;
-  const double here = std::max(external_(point.point), limits_.least);
+  const double here = std::max(external_(point.point), limits_.size_min);
   if (point.size < (1 - rounding) * here) return point.size;
-  return std::clamp(external_(corner), limits_.least, limits_.largest);
+  return std::clamp(external_(corner), limits_.size_min, limits_.largest);
 }
 
 double SpatialSizes::hint(const Vector3& point) const {

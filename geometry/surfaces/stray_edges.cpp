@@ -68,7 +68,7 @@ std::vector<StrayEdge> stray_edges(const CadShape& shape, const std::vector<char
   const double span = (high - low).norm();
   for (const int i : long_ones) {
     const double distance = distance_from_box(shape.edges[i], low, high);
-    if (distance > spans * span) result.push_back({i + 1, distance, span});
+    if (distance > spans * span) result.push_back({shape.edges[i].number, distance, span});
   }
   return result;
 }

@@ -9,7 +9,7 @@
 namespace quadrille {
 
 struct StrayEdge {
-  int edge = 0;         ///< from 1
+  int edge = 0;         ///< CadEdge::number
   double distance = 0;  ///< largest distance from the bounding box of the surfaces
   double span = 0;      ///< diagonal of that box
   /// "Edge7 runs 9998 mm away from the model's surfaces, ...".

@@ -79,8 +79,8 @@ class SizePlan {
 
   struct Draft {
     SizeCascade field;
-    double count, error;    ///< expected number of elements and error of the next mesh
-    double least, largest;  ///< smallest and largest size
+    double count = 0, error = 0;  ///< expected number of elements and error of the next mesh
+    double least = std::numeric_limits<double>::infinity(), largest = 0;  ///< smallest and largest size
   };
 
   /// Finds the sizes that reach the wanted count or error. Growth and the limit on changes alter the sizes,
@@ -108,7 +108,7 @@ class SizePlan {
     for_places(factor, [&](std::size_t, const Vector3& point, double size, double) {
       points.push_back({point, size});
     });
-    Draft draft{mean_sizes(points, options_.growth, context_), 0, 0, points.front().size, 0};
+    Draft draft{mean_sizes(points, options_.growth, context_)};
     SizeCascade::Lookup size_at(draft.field);
     double square = 0;
     for_places(factor, [&](std::size_t quad, const Vector3& point, double, double share) {

@@ -30,8 +30,9 @@ void run(const AdaptArguments& arguments) {
                            {"-o", arguments.output},
                            {"--report", arguments.report}});
   report_crashes(arguments.mesh, "reading");
-  if (arguments.end_with_input) end_with_input();
   ExecutionContext context;
+  const CancelOnSignal cancel(context);
+  if (arguments.end_with_input) end_with_input();
   const AdaptResult result =
       adapt(read_mesh(arguments.mesh), arguments.result, arguments.output, arguments.options, context);
   if (!arguments.report.empty()) {

@@ -9,6 +9,7 @@
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_access.hpp"
+#include "geometry/base/file_ending.hpp"
 #include "geometry/base/isolated_work.hpp"
 #include "mesher/quadrille.hpp"
 
@@ -37,7 +38,7 @@ void require_writable(const std::filesystem::path& path) {
 }
 
 void require_ending(const std::filesystem::path& path, std::string_view ending, std::string_view option) {
-  if (path.extension() != ending)
+  if (lower_ending(path) != ending)
     throw usage_error(std::string(option),
                       fmt::format("{}: the file name must end in {}, not {}", option, ending, path.string()));
   require_writable(path);
@@ -103,9 +104,11 @@ void require_usable(const ModelFiles& files) {
   if (!files.report.empty()) require_writable(files.report);
   if (!files.picture.empty()) require_ending(files.picture, ".png", "--picture");
   if (!files.write_size_field.empty()) require_ending(files.write_size_field, ".vdb", "--write-size-field");
-  if (!files.size_field.empty()) require_readable(files.size_field);
-  require_readable(files.input);
-  std::vector<NamedFile> named{{"IN", files.input}, {"--size-field", files.size_field}};
+  std::vector<NamedFile> named{{"IN", files.input},
+                               {"--size-field", files.sizing.size_field},
+                               {"--size-points", files.sizing.size_points}};
+  for (const auto& [argument, path] : named)
+    if (!path.empty() || argument == "IN") require_readable(path);
   for (const std::filesystem::path& output : files.outputs) named.push_back({"-o", output});
   named.insert(named.end(), {{"--report", files.report},
                              {"--picture", files.picture},

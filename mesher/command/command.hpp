@@ -59,7 +59,8 @@ void require_different_files(const std::vector<NamedFile>& files);
 struct ModelFiles {
   const std::filesystem::path& input;
   const std::vector<std::filesystem::path>& outputs;
-  const std::filesystem::path &size_field, &report, &picture, &write_size_field;
+  const SizingOptions& sizing;  ///< its files are inputs
+  const std::filesystem::path &report, &picture, &write_size_field;
 };
 
 /// Throws Error: failure unless the inputs can be read, usage unless the outputs can be written, have the

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "geometry/base/atomic_file.hpp"
 #include "geometry/base/threads.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/limits_option.hpp"
@@ -32,12 +31,9 @@ struct MeshArguments : GivenSettings {
 };
 
 void check_files(const MeshArguments& arguments) {
-  const int quad_nodes = arguments.settings.write.quad_nodes;
-  if (quad_nodes == 9 && order_of(arguments, arguments.outputs) == 1)
-    throw usage_error("nodes", "`nodes` 9 is for quads of second order: leave out `order` 1");
-  for (const std::filesystem::path& output : arguments.outputs) check_format(output, quad_nodes);
-  require_usable({arguments.input, arguments.outputs, arguments.settings.mesh.sizing.size_field,
-                  arguments.report, arguments.picture, arguments.write_size_field});
+  check_formats(arguments, arguments.outputs);
+  require_usable({arguments.input, arguments.outputs, arguments.settings.mesh.sizing, arguments.report,
+                  arguments.picture, arguments.write_size_field});
 }
 
 CadModel read_model(const MeshArguments& arguments, ExecutionContext& context) {
@@ -101,9 +97,7 @@ void tell_quality(const ShellMesh& result, const Measured& measured, std::vector
   if (!arguments.report.empty()) {
     nlohmann::json report = make_report(result, measured.elements, context, arguments.input, warnings);
     if (sizes) report["sizes"] = sizes->json();
-    // File names need not be UTF-8, but JSON must be.
-    constexpr auto replace = nlohmann::json::error_handler_t::replace;
-    write_file(arguments.report, report.dump(2, ' ', false, replace) + "\n");
+    write_report(report, arguments.report);
   }
   if (arguments.quiet) return;
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);

@@ -14,7 +14,10 @@ void add_quality_command(CLI::App& app) {
       "quality", "measure a mesh: counts, q, Jacobians, valence, and what fails industry's criteria");
   auto input = std::make_shared<std::filesystem::path>();
   auto limits_option = std::make_shared<LimitsOption>();
-  command->add_option("MESH", *input, "mesh file: .msh or .inp")->required();
+  command
+      ->add_option("MESH", *input,
+                   "mesh file: .msh, .inp, .unv, .bdf, .nas, .dat, .stl, .obj, .ply, .vtk, .vtu or .vtp")
+      ->required();
   limits_option->add_to(*command);
   command->callback([input, limits_option] {
     require_readable(*input);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "mesher/command/command.hpp"
@@ -78,7 +79,7 @@ void run(const RecombineArguments& arguments) {
   }
   const MeshMeasures measures = measure(result);
   if (!arguments.report.empty())
-    write_report(result, measures, context, arguments.input, arguments.report, notes);
+    write_report(make_report(result, measures, context, arguments.input, notes), arguments.report);
   for (const std::string& note : notes) fmt::print(stderr, "{}: {}\n", name, note);
   if (!arguments.quiet) print(quality_table(measures.quality));
 }
@@ -98,8 +99,8 @@ void add_recombine_command(CLI::App& app) {
   auto arguments = std::make_shared<RecombineArguments>();
   command
       ->add_option("TRI", arguments->input,
-                   "mesh of triangles, or of triangles and quads: .msh, .inp, .unv, .bdf, .stl, .obj, .ply, "
-                   ".vtk, .vtu or .vtp")
+                   "mesh of triangles, or of triangles and quads: .msh, .inp, .unv, .bdf, .nas, .dat, .stl, "
+                   ".obj, .ply, .vtk, .vtu or .vtp")
       ->required();
   command
       ->add_option("-o,--output", arguments->output, "mesh file: .msh, .inp, .unv, .med, .vtu, .vtk or .bdf")

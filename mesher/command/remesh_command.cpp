@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "geometry/base/atomic_file.hpp"
 #include "geometry/base/threads.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/limits_option.hpp"
@@ -29,12 +28,9 @@ struct RemeshArguments : GivenSettings {
 };
 
 void check_files(const RemeshArguments& arguments) {
-  const int quad_nodes = arguments.settings.write.quad_nodes;
-  if (quad_nodes == 9 && order_of(arguments, arguments.outputs) == 1)
-    throw usage_error("nodes", "`nodes` 9 is for quads of second order: leave out `order` 1");
+  check_formats(arguments, arguments.outputs);
   std::vector<NamedFile> files{{"SURFACE", arguments.input}};
   for (const std::filesystem::path& output : arguments.outputs) {
-    check_format(output, quad_nodes);
     require_writable(output);
     files.push_back({"-o", output});
   }
@@ -76,9 +72,7 @@ void tell(const ShellMesh& mesh, const RemeshFidelity& fidelity, const std::vect
   if (!arguments.report.empty()) {
     nlohmann::json report = make_report(mesh, measures, context, arguments.input, notes);
     report["fidelity"] = fidelity_json(fidelity);
-    // File names need not be UTF-8, but JSON must be.
-    constexpr auto replace = nlohmann::json::error_handler_t::replace;
-    write_file(arguments.report, report.dump(2, ' ', false, replace) + "\n");
+    write_report(report, arguments.report);
   }
   if (!arguments.quiet) print(quality_table(measures.quality) + fidelity_line(fidelity));
 }
@@ -132,8 +126,8 @@ void add_remesh_command(CLI::App& app) {
   command
       ->add_option(
           "SURFACE", arguments->input,
-          "triangles, or triangles and quads: .stl, .obj, .ply, .msh, .inp, .unv, .bdf, .vtk, .vtu or "
-          ".vtp")
+          "triangles, or triangles and quads: .stl, .obj, .ply, .msh, .inp, .unv, .bdf, .nas, .dat, .vtk, "
+          ".vtu or .vtp")
       ->required();
   command
       ->add_option("-o,--output", arguments->outputs,

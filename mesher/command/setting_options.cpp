@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/error.hpp"
 #include "mesher/io/io.hpp"
 
 namespace quadrille::command {
@@ -61,6 +62,13 @@ int order_of(const GivenSettings& given, const std::vector<std::filesystem::path
   if (given.given.count("order") > 0) return given.settings.mesh.order;
   if (given.settings.write.quad_nodes == 9) return 2;
   return std::any_of(outputs.begin(), outputs.end(), is_solver_format) ? 2 : 1;
+}
+
+void check_formats(const GivenSettings& given, const std::vector<std::filesystem::path>& outputs) {
+  const int quad_nodes = given.settings.write.quad_nodes;
+  if (quad_nodes == 9 && order_of(given, outputs) == 1)
+    throw usage_error("nodes", "`nodes` 9 is for quads of second order: leave out `order` 1");
+  for (const std::filesystem::path& output : outputs) check_format(output, quad_nodes);
 }
 
 std::string with_options(std::string sentence) {

@@ -25,6 +25,9 @@ void add_settings(CLI::App& command, GivenSettings& target, const std::set<std::
 /// The order of the mesh: the given one, else 2 for nine-node quads or if a solver reads one of the files.
 int order_of(const GivenSettings& given, const std::vector<std::filesystem::path>& outputs);
 
+/// Throws Error (usage) if one of the files cannot hold the mesh that was asked for.
+void check_formats(const GivenSettings& given, const std::vector<std::filesystem::path>& outputs);
+
 /// A library message with the names of the command's options: "`size_min`" becomes "--size-min".
 std::string with_options(std::string sentence);
 

@@ -11,6 +11,7 @@
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_ending.hpp"
 #include "geometry/base/threads.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/setting_options.hpp"
@@ -30,12 +31,12 @@ struct SizesArguments : GivenSettings {
 
 void check_files(const SizesArguments& arguments) {
   for (const std::filesystem::path& output : arguments.outputs) {
-    if (output.extension() != ".vtu" && output.extension() != ".json")
+    if (lower_ending(output) != ".vtu" && lower_ending(output) != ".json")
       throw usage_error("-o",
                         fmt::format("-o: the file name must end in .vtu or .json, not {}", output.string()));
   }
-  require_usable({arguments.input, arguments.outputs, arguments.settings.mesh.sizing.size_field,
-                  arguments.report, arguments.picture, arguments.write_size_field});
+  require_usable({arguments.input, arguments.outputs, arguments.settings.mesh.sizing, arguments.report,
+                  arguments.picture, arguments.write_size_field});
 }
 
 json sources_of(const SizeMap& map) {
@@ -111,7 +112,7 @@ void write_outputs(const SizeMap& map, const SizesArguments& arguments, Executio
   const StageTimer timer(context, Stage::write);
   for (const std::filesystem::path& output : arguments.outputs) {
     context.report(Stage::write, 0);
-    if (output.extension() == ".vtu")
+    if (lower_ending(output) == ".vtu")
       write_sizes_vtu(map, output);
     else
       write_file(output, all_of(map).dump() + "\n");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "geometry/base/file_ending.hpp"
 #include "mesher/command/setting_options.hpp"
 
 namespace quadrille::command {
@@ -13,7 +14,7 @@ double usual_feature_angle(const std::filesystem::path& file, const ShellMesh& m
   const std::vector<int>& faces = mesh.triangle_faces.empty() ? mesh.quad_faces : mesh.triangle_faces;
   const bool several =
       std::any_of(faces.begin(), faces.end(), [&](int face) { return face != faces.front(); });
-  return file.extension() == ".msh" && several ? 0 : usual;
+  return lower_ending(file) == ".msh" && several ? 0 : usual;
 }
 
 void add_surface_options(CLI::App& command, std::optional<double>& feature_angle,

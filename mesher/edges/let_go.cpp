@@ -76,13 +76,14 @@ class HarmFinder {
   bool is_small(const CadWire& wire) const {
     constexpr double least = 4;
     double length = 0;
-    int left = 0;
+    std::vector<const CadEdge*> left;
     for (const Coedge& coedge : wire.coedges) {
       if (is_gone(coedge)) continue;
-      length += shape_.edges[coedge.edge - 1].length;
-      ++left;
+      left.push_back(&shape_.edges[coedge.edge - 1]);
+      length += left.back()->length;
     }
-    return length < least * reach_ || left == 0 || left == 2;
+    return left.empty() || length < least * reach_ ||
+           (left.size() == 2 && lies_along(*left[0], *left[1], least * reach_));
   }
 
   /// Whether two edges meet at an angle between the limits.
@@ -118,14 +119,22 @@ class HarmFinder {
 
 }  // namespace
 
-LetGo::LetGo(const CadShape& shape, const std::vector<char>& used, double reach)
+LetGo::LetGo(const CadShape& shape, const std::vector<char>& used, double reach,
+             const std::vector<char>& fine)
     : shape_(shape),
       used_(used),
       reach_(reach),
       edges_(shape.edges.size(), 0),
       kept_faces_(shape.faces.size(), 0) {
   if (!(reach > 0)) return;
-  choose();
+  for (std::size_t face = 0; face < kept_faces_.size(); ++face) {
+    const auto& wires = shape.faces[face].wires;
+    kept_faces_[face] = std::all_of(wires.begin(), wires.end(), [&](const CadWire& wire) {
+      return std::all_of(wire.coedges.begin(), wire.coedges.end(),
+                         [&](const Coedge& coedge) { return fine[coedge.edge - 1] != 0; });
+    });
+  }
+  choose(fine);
   while (keep_harmed()) {
   }
 }
@@ -137,11 +146,11 @@ TinyFeatures LetGo::find(const std::vector<char>& collapse, double length) const
 }
 
 /// Takes edges, the shortest first, if all vertices that then share a node lie within reach of each other.
-void LetGo::choose() {
+void LetGo::choose(const std::vector<char>& fine) {
   std::vector<int> candidates, cluster(shape_.vertices.size());
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     const CadEdge& edge = shape_.edges[i];
-    if (edge.is_used(used_) && !edge.degenerate && !edge.closed() && edge.first_vertex > 0 &&
+    if (!fine[i] && edge.is_used(used_) && !edge.degenerate && !edge.closed() && edge.first_vertex > 0 &&
         edge.last_vertex > 0 && edge.length > 0 && edge.length < reach_)
       candidates.push_back(static_cast<int>(i));
   }

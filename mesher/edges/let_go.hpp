@@ -14,7 +14,8 @@ namespace quadrille {
 class LetGo {
  public:
   /// \param used (faces) 1 = the face is meshed. \param reach model units; 0 = nothing is let go.
-  LetGo(const CadShape& shape, const std::vector<char>& used, double reach);
+  /// \param fine (edges) 1 = must not become a point; nor does a face become an edge if all its edges are so.
+  LetGo(const CadShape& shape, const std::vector<char>& used, double reach, const std::vector<char>& fine);
 
   /// What is left out of the mesh if edges() and the edges marked in `collapse` become points; see
   /// find_tiny_features().
@@ -28,7 +29,7 @@ class LetGo {
   const std::vector<char>& edges() const { return edges_; }
 
  private:
-  void choose();
+  void choose(const std::vector<char>& fine);
   bool keep_harmed();
 
   const CadShape& shape_;

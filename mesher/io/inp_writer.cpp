@@ -149,6 +149,14 @@ void write_node_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& 
     }
 }
 
+/// Writes a surface for each set of elements. SPOS is the side to which the element normals point.
+void write_surfaces(const OutputMesh& mesh, const SetNames& names, TextWriter& out) {
+  for (std::size_t i = 0; i < mesh.groups(2).size(); ++i) {
+    if (mesh.members(2, mesh.groups(2)[i]).empty()) continue;
+    out << "*SURFACE, NAME=Surface_" << names.of(2, i) << ", TYPE=ELEMENT\n" << names.of(2, i) << ", SPOS\n";
+  }
+}
+
 /// Writes a set and a section for each thickness; varying thicknesses are given at the nodes. Who includes
 /// the file must define the material before.
 void write_sections(const OutputMesh& mesh, TextWriter& out) {
@@ -189,9 +197,7 @@ void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& 
   write_element_sets(mesh, names, out);
   write_node_sets(mesh, names, out);
   write_side_sets(mesh, names, out);
-  // SPOS is the side to which the element normals point.
-  for (std::size_t i = 0; i < mesh.groups(2).size(); ++i)
-    out << "*SURFACE, NAME=Surface_" << names.of(2, i) << ", TYPE=ELEMENT\n" << names.of(2, i) << ", SPOS\n";
+  write_surfaces(mesh, names, out);
   write_sections(mesh, out);
 }
 

@@ -1,13 +1,15 @@
 #include "mesher/io/io.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
+#include <array>
 #include <fstream>
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_ending.hpp"
 #include "geometry/base/printable.hpp"
 #include "geometry/base/threads.hpp"
 #include "mesher/io/modules.hpp"
@@ -18,13 +20,6 @@
 namespace quadrille {
 
 namespace {
-
-std::string lower_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
 
 void write_text(const OutputMesh& mesh, const std::string& ending, const WriteOptions& options,
                 const std::vector<double>& qualities, TextWriter& out) {
@@ -61,15 +56,20 @@ void write_format(const ShellMesh& mesh, const std::filesystem::path& path, Writ
   }
 }
 
+constexpr std::string_view readable[] = {".msh", ".inp", ".unv", ".bdf", ".nas", ".dat",
+                                         ".stl", ".obj", ".ply", ".vtk", ".vtu", ".vtp"};
+
+}  // namespace
+
 std::string whole_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string bytes;
-  if (file) bytes.assign(std::istreambuf_iterator<char>(file), {});
-  if (!file) throw failure(path.string(), fmt::format("{}: cannot be read", path.string()));
+  std::array<char, 1 << 16> block;
+  while (file.read(block.data(), block.size()) || file.gcount() > 0)
+    bytes.append(block.data(), static_cast<std::size_t>(file.gcount()));
+  if (!file.eof()) throw failure(path.string(), fmt::format("{}: cannot be read", path.string()));
   return bytes;
 }
-
-}  // namespace
 
 bool is_mesh_format(const std::filesystem::path& path) {
   constexpr std::string_view known[] = {".msh", ".inp", ".unv", ".bdf", ".med", ".vtu", ".vtk"};
@@ -125,26 +125,19 @@ void write_size_picture(const SizeMap& map, const std::filesystem::path& path, i
 }
 
 bool is_readable_format(const std::filesystem::path& path) {
-  constexpr std::string_view known[] = {".msh", ".inp", ".unv", ".bdf", ".nas", ".dat",
-                                        ".stl", ".obj", ".ply", ".vtk", ".vtu", ".vtp"};
-  return std::find(std::begin(known), std::end(known), lower_ending(path)) != std::end(known);
+  return std::find(std::begin(readable), std::end(readable), lower_ending(path)) != std::end(readable);
 }
 
 ShellMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>* notes) {
   const std::string ending = lower_ending(path), name = path.string();
   if (!is_readable_format(path))
     throw failure(name,
-                  fmt::format("{}: unknown mesh format: .msh, .inp, .unv, .bdf, .stl, .obj, .ply, .vtk, "
-                              ".vtu and .vtp are read",
-                              name));
-  const std::string bytes = ending == ".vtk" || ending == ".vtu" || ending == ".vtp" || ending == ".stl" ||
-                                    ending == ".obj" || ending == ".ply"
-                                ? std::string()
-                                : whole_file(path);
-  if (ending == ".msh") return read_msh(bytes, name, notes);
-  if (ending == ".inp") return read_inp(bytes, name, notes);
-  if (ending == ".unv") return read_unv(bytes, name, notes);
-  if (ending == ".bdf" || ending == ".nas" || ending == ".dat") return read_bdf(bytes, name, notes);
+                  fmt::format("{}: unknown mesh format (known are {})", name, fmt::join(readable, ", ")));
+  if (ending == ".msh") return read_msh(whole_file(path), name, notes);
+  if (ending == ".inp") return read_inp(whole_file(path), name, notes);
+  if (ending == ".unv") return read_unv(whole_file(path), name, notes);
+  if (ending == ".bdf" || ending == ".nas" || ending == ".dat")
+    return read_bdf(whole_file(path), name, notes);
   return read_by_vtk(path, notes);
 }
 

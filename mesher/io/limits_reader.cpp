@@ -4,12 +4,12 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 
 #include "geometry/base/error.hpp"
+#include "mesher/io/readers.hpp"
 
 namespace quadrille {
 namespace {
@@ -22,12 +22,10 @@ class LimitsReader {
   explicit LimitsReader(const std::filesystem::path& path) : name_(path.string()) {}
 
   CriteriaLimits read() {
-    std::ostringstream text;
-    std::ifstream file(name_, std::ios::binary);
-    if (!file || !(text << file.rdbuf())) fail("cannot be read, or is empty");
-    const std::string content = text.str();
+    const std::string content = whole_file(name_);
     const std::size_t first = content.find_first_not_of(" \t\r\n");
-    if (first != std::string::npos && content[first] == '{')
+    if (first == std::string::npos) fail("is empty");
+    if (content[first] == '{')
       read_json(content);
     else
       read_hypermesh(content);

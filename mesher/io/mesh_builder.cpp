@@ -194,6 +194,8 @@ int MeshBuilder::number_in_name(int groups, std::string_view kind) const {
   return 0;
 }
 
+namespace {
+
 /// Gives each combination of a CAD number and a set of groups a number of its own: the CAD number if that is
 /// free, else a new one.
 class EntityNumbers {
@@ -223,6 +225,8 @@ class EntityNumbers {
  private:
   std::map<std::pair<int, int>, int> keys_;
 };
+
+}  // namespace
 
 void MeshBuilder::number_entities() {
   constexpr std::string_view kinds[] = {"Vertex", "Edge", "Face"};

@@ -14,6 +14,7 @@
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_ending.hpp"
 #include "geometry/base/module_loader.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/cad/readers/exchange_module.hpp"
@@ -23,13 +24,6 @@ namespace quadrille {
 namespace {
 
 constexpr std::array<std::string_view, 5> endings{".brep", ".brp", ".step", ".stp", ".json"};
-
-std::string ending_of(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 std::string brep_text(const TopoDS_Shape& shape) {
   std::ostringstream text;
@@ -86,11 +80,11 @@ nlohmann::json describe(const MidSurface& middle) {
 }  // namespace
 
 bool is_midsurface_format(const std::filesystem::path& path) {
-  return std::find(endings.begin(), endings.end(), ending_of(path)) != endings.end();
+  return std::find(endings.begin(), endings.end(), lower_ending(path)) != endings.end();
 }
 
 void write_midsurface(const MidSurface& middle, const std::filesystem::path& path) {
-  const std::string ending = ending_of(path);
+  const std::string ending = lower_ending(path);
   const TopoDS_Shape& shape = middle.model.shape().shape;
   if (!is_midsurface_format(path))
     throw usage_error(path.string(),

@@ -30,11 +30,6 @@ Entities make_entities(int dimension, const std::vector<CadGroup>& groups,
   return entities;
 }
 
-ElementNodes element_nodes(const OutputMesh& mesh, int dimension, int member) {
-  if (dimension == 0) return {{mesh.corner_node(member)}, 1};
-  return dimension == 1 ? mesh.segment_nodes(member) : mesh.shell_nodes(member);
-}
-
 /// Assigns each unclaimed node to the first entity that has it. Call it by ascending dimension.
 void claim_nodes(const OutputMesh& mesh, Entities& entities, std::vector<char>& claimed) {
   for (std::size_t i = 0; i < entities.elements.size(); ++i)

@@ -32,6 +32,11 @@ int msh_element_type(const ElementNodes& element, int dimension) {
   }
 }
 
+ElementNodes element_nodes(const OutputMesh& mesh, int dimension, int member) {
+  if (dimension == 0) return {{mesh.corner_node(member)}, 1};
+  return dimension == 1 ? mesh.segment_nodes(member) : mesh.shell_nodes(member);
+}
+
 PhysicalNumbers::PhysicalNumbers(const OutputMesh& mesh, bool several) {
   const int first[] = {mesh.cad_face_count() + largest_number(mesh.edges()), mesh.cad_face_count(), 0};
   const int last_entity = first[0] + largest_number(mesh.vertices());

@@ -12,6 +12,9 @@ namespace quadrille {
 /// Gmsh's number for the type of an element. \param dimension 0, 1 or 2.
 int msh_element_type(const ElementNodes& element, int dimension);
 
+/// The nodes of a shell element (dimension 2), segment (1) or corner (0).
+ElementNodes element_nodes(const OutputMesh& mesh, int dimension, int member);
+
 /// Numbers of physical groups. A mesh that was read keeps its numbers. Else the number of a face is its CAD
 /// number; edges follow after the last face of the model, and vertices after the last edge, since several
 /// programs take groups with the same number for one group, whatever their dimensions. The groups of the

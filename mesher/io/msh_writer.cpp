@@ -28,7 +28,7 @@ class ElementLines {
       const auto [i, group] =
           first ? std::pair(static_cast<int>(line), std::size_t{0}) : repeated_[line - count_];
       const std::span<const int> numbers = physical_.of_entity(dimension_, entity(i));
-      const ElementNodes element = nodes(i);
+      const ElementNodes element = element_nodes(mesh_, dimension_, i);
       to << before + line + 1 << ' ' << msh_element_type(element, dimension_) << " 2 "
          << (numbers.empty() ? 0 : numbers[group]) << ' ' << entity(i);
       write_msh_nodes(mesh_, element, to);
@@ -38,10 +38,6 @@ class ElementLines {
  private:
   int entity(int i) const {
     return dimension_ == 2 ? mesh_.face(i) : dimension_ == 1 ? mesh_.edge(i) : mesh_.vertex(i);
-  }
-  ElementNodes nodes(int i) const {
-    if (dimension_ == 0) return {{mesh_.corner_node(i)}, 1};
-    return dimension_ == 1 ? mesh_.segment_nodes(i) : mesh_.shell_nodes(i);
   }
 
   const OutputMesh& mesh_;

@@ -133,6 +133,20 @@ class OutputMesh {
   std::vector<ThicknessGroup> thicknesses_;
 };
 
+/// VTK's cell type of a shell element.
+inline int vtk_cell_type(const ElementNodes& element) {
+  switch (element.count) {
+    case 3:
+      return 5;  // VTK_TRIANGLE
+    case 4:
+      return 9;  // VTK_QUAD
+    case 8:
+      return 23;  // VTK_QUADRATIC_QUAD
+    default:
+      return 28;  // VTK_BIQUADRATIC_QUAD
+  }
+}
+
 /// The name of the array for a set in VTK's formats: the name of the set, with `_` appended if it is one of
 /// our own array names, and with `_` in place of characters that VTK does not escape in XML.
 inline std::string array_of_set(std::string name) {

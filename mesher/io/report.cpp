@@ -157,12 +157,9 @@ std::string quality_json(const ShellMesh& mesh, const CriteriaLimits& limits) {
   return result.dump();
 }
 
-void write_report(const ShellMesh& mesh, const MeshMeasures& measures, const ExecutionContext& context,
-                  const std::filesystem::path& input, const std::filesystem::path& path,
-                  const std::vector<std::string>& warnings) {
+void write_report(const json& report, const std::filesystem::path& path) {
   // File names need not be UTF-8, but JSON must be.
-  constexpr auto replace = json::error_handler_t::replace;
-  write_file(path, make_report(mesh, measures, context, input, warnings).dump(2, ' ', false, replace) + "\n");
+  write_file(path, report.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace quadrille

@@ -30,9 +30,7 @@ nlohmann::json make_report(const ShellMesh& mesh, const MeshMeasures& measures,
                            const ExecutionContext& context, const std::filesystem::path& input,
                            const std::vector<std::string>& warnings = {});
 
-/// Writes make_report() to a file that appears whole or not at all. Throws Error (failure).
-void write_report(const ShellMesh& mesh, const MeshMeasures& measures, const ExecutionContext& context,
-                  const std::filesystem::path& input, const std::filesystem::path& path,
-                  const std::vector<std::string>& warnings = {});
+/// Writes a report to a file that appears whole or not at all. Throws Error (failure).
+void write_report(const nlohmann::json& report, const std::filesystem::path& path);
 
 }  // namespace quadrille

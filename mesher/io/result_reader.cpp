@@ -1,27 +1,24 @@
 #include "mesher/io/result_reader.hpp"
 
-#include <fstream>
-#include <iterator>
-
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_ending.hpp"
 #include "mesher/io/modules.hpp"
+#include "mesher/io/readers.hpp"
 
 namespace quadrille {
 
 SolverResult read_result(const std::filesystem::path& path) {
   const std::string name = path.string();
-  if (path.extension() == ".vtu") {
+  if (lower_ending(path) == ".vtu") {
     try {
       return vtk_result(name);
     } catch (const Error& problem) {
       throw failure(name, fmt::format("{}: {}", name, problem.what()));
     }
   }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw failure(name, fmt::format("{} cannot be read", name));
-  return read_frd(std::string(std::istreambuf_iterator<char>(file), {}), name);
+  return read_frd(whole_file(path), name);
 }
 
 }  // namespace quadrille

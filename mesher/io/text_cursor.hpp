@@ -14,6 +14,13 @@
 
 namespace quadrille {
 
+/// The text without blanks at its ends.
+inline std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+
 /// A position in a text (or a binary file with text in it). Its errors name the file and the line.
 class TextCursor {
  public:

@@ -57,12 +57,6 @@ class UnvReader {
   }
 
  private:
-  static std::string_view trimmed(std::string_view text) {
-    const std::size_t begin = text.find_first_not_of(" \t");
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-  }
-
   std::int64_t whole(std::string_view text, const char* what) const {
     text = trimmed(text);
     std::int64_t value = 0;

@@ -22,20 +22,6 @@ namespace quadrille {
 
 namespace {
 
-/// VTK's cell type of a shell element, by its number of nodes.
-int cell_type(int nodes) {
-  switch (nodes) {
-    case 3:
-      return VTK_TRIANGLE;
-    case 4:
-      return VTK_QUAD;
-    case 8:
-      return VTK_QUADRATIC_QUAD;
-    default:
-      return VTK_BIQUADRATIC_QUAD;
-  }
-}
-
 /// Makes a VTK grid of a mesh: shell elements, then lines, then points, each with its CAD numbers.
 class GridMaker {
  public:
@@ -49,7 +35,7 @@ class GridMaker {
   vtkNew<vtkUnstructuredGrid> make(const std::vector<double>& qualities) {
     for (int i = 0; i < mesh_.shell_count(); ++i) {
       const ElementNodes nodes = mesh_.shell_nodes(i);
-      add(nodes, cell_type(nodes.count), 2, mesh_.face(i));
+      add(nodes, vtk_cell_type(nodes), 2, mesh_.face(i));
       q_->InsertNextValue(mesh_.is_quad(i) ? qualities[i] : 0);
       thickness_->InsertNextValue(mean_thickness(mesh_, i));
     }

@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_ending.hpp"
 #include "geometry/base/free_memory.hpp"
 #include "geometry/base/isolated_work.hpp"
 #include "mesher/io/mesh_builder.hpp"
@@ -139,10 +140,7 @@ ImportedMesh read_isolated(const std::string& name, const std::string& ending) {
 }  // namespace
 
 ShellMesh read_by_vtk(const std::filesystem::path& path, std::vector<std::string>* notes) {
-  const std::string name = path.string();
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string name = path.string(), ending = lower_ending(path);
   ImportedMesh mesh = read_isolated(name, ending);
   MeshBuilder builder(name);
   const std::vector<int> set_groups = groups_of_sets(mesh, builder);

@@ -13,19 +13,6 @@ namespace quadrille {
 
 namespace {
 
-int cell_type(const ElementNodes& element) {
-  switch (element.count) {
-    case 3:
-      return 5;  // VTK_TRIANGLE
-    case 4:
-      return 9;  // VTK_QUAD
-    case 8:
-      return 23;  // VTK_QUADRATIC_QUAD
-    default:
-      return 28;  // VTK_BIQUADRATIC_QUAD
-  }
-}
-
 /// Writes one line per shell element.
 template <class Write>
 void write_lines(const OutputMesh& mesh, TextWriter& out, Write write) {
@@ -94,7 +81,7 @@ void write_vtk(const OutputMesh& mesh, const WriteOptions& options, const std::v
     for (const int node : element) to << ' ' << mesh.number(node) - 1;
   });
   out << "CELL_TYPES " << mesh.shell_count() << '\n';
-  write_lines(mesh, out, [&](int shell, TextWriter& to) { to << cell_type(mesh.shell_nodes(shell)); });
+  write_lines(mesh, out, [&](int shell, TextWriter& to) { to << vtk_cell_type(mesh.shell_nodes(shell)); });
   out << "CELL_DATA " << mesh.shell_count() << "\nSCALARS face int 1\nLOOKUP_TABLE default\n";
   write_lines(mesh, out, [&](int shell, TextWriter& to) { to << mesh.face(shell); });
   out << "SCALARS q double 1\nLOOKUP_TABLE default\n";

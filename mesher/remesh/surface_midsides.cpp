@@ -13,13 +13,13 @@ namespace quadrille {
 
 namespace {
 
-/// Straightens the sides of elements that fold, until none does or 20 rounds are over, since straightening
-/// may make neighbors fold.
+/// Straightens the sides of elements that fold until none does. Straightening may make neighbors fold, but
+/// each round adds straight sides, and an element with four of them does not fold: inverted quads were
+/// refused.
 void straighten(ShellMesh& mesh, std::vector<std::string>& notes) {
   std::map<int, double> off;  // node -> distance
-  constexpr int most_rounds = 20;
-  for (int round = 0; round < most_rounds; ++round) {
-    bool any = false;
+  for (bool any = true; any;) {
+    any = false;
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
       if (!folds(curved_quad(mesh, q))) continue;
       for (int k = 0; k < 4; ++k) {
@@ -33,7 +33,6 @@ void straighten(ShellMesh& mesh, std::vector<std::string>& notes) {
         any = true;
       }
     }
-    if (!any) break;
   }
   double largest = 0;
   for (const auto& [node, distance] : off) {

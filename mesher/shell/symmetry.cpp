@@ -63,7 +63,7 @@ MeshOptions options_for(const ModelPart& part, const CadModel& model, MeshOption
   SizingOptions& sizing = options.sizing;
   const SizeLimits limits = size_limits(model, sizing);
   sizing.size = limits.largest;
-  sizing.size_min = limits.least;
+  sizing.size_min = limits.size_min;
   const ModelPart::Image& names = part.images.front();
   sizing.face_sizes = on_part(sizing.face_sizes, names.faces);
   sizing.edge_sizes = on_part(sizing.edge_sizes, names.edges);

@@ -165,7 +165,7 @@ TEST(Adapt, ReadsVtuAsItReadsFrd) {
   const ShellMesh mesh = grid(3, flat);
   const auto moved = [](const Vector3& p) { return Vector3(0.02 * p.z() * p.x() * p.y(), 1e-3 * p.x(), 0); };
   const SolverResult eight = read_frd(frd(mesh, moved), "t.frd");
-  const auto path = std::filesystem::temp_directory_path() / "quadrille_result_test.vtu";
+  const auto path = std::filesystem::temp_directory_path() / "quadrille_result_test.VTU";
   for (const bool quadratic : {false, true}) {
     const SolverResult result = quadratic ? with_middles(eight) : eight;
     std::ofstream(path) << vtu(result, quadratic ? "Displacement" : "U", quadratic);
@@ -330,6 +330,16 @@ TEST(Adapt, ASmallerErrorTakesMoreQuads) {
   // Not below the half of what it takes where all sizes become smaller alike.
   EXPECT_GT(finer.result.quads_wanted, 200);
   EXPECT_LT(finer.result.quads_wanted, 400);
+}
+
+TEST(Adapt, TheLeastSizeIsOneOfTheField) {
+  const ShellMesh mesh = grid(10, flat);
+  const auto last = [](const Vector3& p) { return Vector3(std::exp(0.3 * p.x()), 0, 0); };
+  const auto first = [](const Vector3& p) { return Vector3(-std::exp(0.3 * (10 - p.x())), 0, 0); };
+  AdaptOptions options;
+  options.count = 100;
+  const double least = Adapted(mesh, last, options).result.least;
+  EXPECT_NEAR(Adapted(mesh, first, options).result.least, least, 0.01 * least);
 }
 
 TEST(ErrorEstimate, TellsWhereItIsConcentrated) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
 #include <unistd.h>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
@@ -279,11 +280,11 @@ TEST(Command, ShowsSizes) {
   const TemporaryFolder folder;
   const std::string options = box + " --size 2 --size-on Face1=0.5 --quiet ";
   const auto shown =
-      stdout_of(folder, "sizes " + options + "-o s.vtu -o s.json --picture s.png --report r.json");
+      stdout_of(folder, "sizes " + options + "-o s.VTU -o s.JSON --picture s.PNG --report r.json");
   EXPECT_EQ(shown.exit_code, 0);
   EXPECT_EQ(shown.out, "");
   const auto report = nlohmann::json::parse(test::file_text(folder / "r.json"));
-  const auto all = nlohmann::json::parse(test::file_text(folder / "s.json"));
+  const auto all = nlohmann::json::parse(test::file_text(folder / "s.JSON"));
   EXPECT_EQ(all["quads"], report["quads"]);
   const auto text = [&](const char* name) { return all[name].get<std::string>(); };
   // Four letters of base64 are three bytes: points have three numbers of four bytes, sizes one.
@@ -298,8 +299,8 @@ TEST(Command, ShowsSizes) {
   ASSERT_EQ(stdout_of(folder, "mesh " + options + "-o m.msh --report m.json").exit_code, 0);
   const double made = nlohmann::json::parse(test::file_text(folder / "m.json"))["counts"]["quads"];
   EXPECT_LT(std::abs(std::log(report["quads"].get<double>() / made)), std::log(1.5));
-  EXPECT_EQ(test::file_text(folder / "s.png").substr(1, 3), "PNG");
-  EXPECT_EQ(stdout_of(folder, "quality s.vtu").exit_code, 0);
+  EXPECT_EQ(test::file_text(folder / "s.PNG").substr(1, 3), "PNG");
+  EXPECT_EQ(stdout_of(folder, "quality s.VTU").exit_code, 0);
 }
 
 TEST(Command, MeshesTheBox) {
@@ -643,6 +644,7 @@ TEST(Command, AnswersHelpAndVersion) {
   EXPECT_EQ(stdout_of(folder, "--version").out, "quadrille " QUADRILLE_VERSION "\n");
   EXPECT_EQ(stdout_of(folder, "mesh --help").exit_code, 0);
   EXPECT_PRED2(contains, stdout_of(folder, "mesh --help").out, "--size-on");
+  EXPECT_PRED2(contains, stdout_of(folder, "quality --help").out, ".bdf, .nas, .dat");
 }
 
 /// Runs the command in a small file system of its own, mounted where nobody else sees it, with what it says
@@ -762,6 +764,7 @@ INSTANTIATE_TEST_SUITE_P(Command, OneFileTwice,
                                          "mesh in.brep -o a.msh --report p.png --picture p.png",
                                          "mesh in.brep -o a.msh --report s.vdb --write-size-field s.vdb",
                                          "mesh in.brep -o a.msh --size-field in.brep",
+                                         "mesh in.brep -o a.msh --report tri.msh --size-points tri.msh",
                                          "midsurface in.brep -o ./in.brep", "recombine tri.msh -o tri.msh",
                                          "recombine tri.msh -o a.msh --report a.msh"));
 
@@ -867,6 +870,19 @@ TEST_P(Interrupted, EndsAtOnceWithoutPartialFile) {
 
 INSTANTIATE_TEST_SUITE_P(Command, Interrupted,
                          testing::Combine(testing::Values(SIGINT, SIGTERM), testing::Values(100, 600, 1600)));
+
+/// Reading waits for what is written into the pipe: nothing.
+TEST(Command, AdaptEndsWithoutPartialFile) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "m.inp").c_str(), 0600), 0);
+  test::write_text(folder / "r.frd", "");
+  const Running command(folder, "adapt m.inp r.frd -o s.vdb");
+  command.wait_until_handled(SIGTERM);
+  command.send(SIGTERM);
+  EXPECT_EQ(command.exit_code(), 130);
+  EXPECT_EQ(test::file_text(folder / "err"), "quadrille: the work was cancelled\n");
+  EXPECT_EQ(folder.file_count(), 3);
+}
 
 /// The box with a seventh face beside it that no mesher can fill: its wire crosses itself.
 void write_with_folded_face(const std::filesystem::path& path) {

@@ -234,10 +234,10 @@ TEST(RecombineCommand, CutsUntaggedMeshesAtFeatures) {
   roof.tags.assign(roof.triangles.size(), 0);
   for (Vector3& p : roof.points) p.z() = -std::abs(p.x() - 4);
   test::write_text(folder / "in.msh", as_msh(roof));
-  const auto area = [&](const std::string& options) {
+  const auto area = [&](const std::string& options, const char* file = "in.msh") {
     const auto result =
-        test::run(fmt::format("cd {} && timeout 60 {} recombine in.msh -o out.msh --quiet {} 2>&1",
-                              folder.path().string(), program, options));
+        test::run(fmt::format("cd {} && timeout 60 {} recombine {} -o out.msh --quiet {} 2>&1",
+                              folder.path().string(), program, file, options));
     EXPECT_EQ(result.exit_code, 0) << result.out;
     const ShellMesh mesh = read_mesh(folder / "out.msh");
     double sum = 0;
@@ -247,6 +247,11 @@ TEST(RecombineCommand, CutsUntaggedMeshesAtFeatures) {
   };
   EXPECT_NEAR(area(""), 40 * std::sqrt(2.0), 1e-9);
   EXPECT_LT(area("--feature-angle 0"), 40 * std::sqrt(2.0) - 0.01);
+  // Two faces across the ridge: tags rule, whatever the case of the ending.
+  for (std::size_t t = 0; t < roof.triangles.size(); ++t)
+    roof.tags[t] = roof.points[roof.triangles[t][0]].y() < 2 ? 1 : 2;
+  test::write_text(folder / "IN.MSH", as_msh(roof));
+  EXPECT_LT(area("", "IN.MSH"), 40 * std::sqrt(2.0) - 0.01);
   const auto bad = test::run(fmt::format("cd {} && {} recombine in.msh -o out.msh --feature-angle 200 2>&1",
                                          folder.path().string(), program));
   EXPECT_EQ(bad.exit_code, 2) << bad.out;

@@ -4,9 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
+#include <Bnd_Box.hxx>
+#include <GC_MakeArcOfCircle.hxx>
 #include <gp_Vec.hxx>
 
 #include <algorithm>
@@ -90,7 +95,7 @@ TEST(LetGo, KeepsSlotsAndBlades) {
                                  {0, 40}},
                                 20);
     const std::vector<char> used(part.face_count(), 1);
-    const LetGo let_go(part.shape(), used, 0.5);
+    const LetGo let_go(part.shape(), used, 0.5, std::vector<char>(part.edge_count(), 0));
     EXPECT_EQ(std::count(let_go.edges().begin(), let_go.edges().end(), 1), 0) << depth;
   }
 }
@@ -103,13 +108,64 @@ TEST(LetGo, KeepsAFaceThatStandsAlone) {
   EXPECT_EQ(merged_faces(mesh_of(band, 5, false)), 0);
 }
 
+/// Two half circles that sliver faces join are left as a whole circle: a loop of two edges, but no lens.
+TEST(LetGo, LeavesACircleOfTwoHalves) {
+  constexpr double radius = 3, off = 0.0015;
+  const auto half = [&](double y, int side) {
+    const gp_Pnt start(side * radius, y, 0), middle(0, y + side * radius, 0), end(-side * radius, y, 0);
+    return BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(start, middle, end).Value()).Edge();
+  };
+  const auto line = [&](double x, double from, double to) {
+    return BRepBuilderAPI_MakeEdge(gp_Pnt(x, from, 0), gp_Pnt(x, to, 0)).Edge();
+  };
+  BRepBuilderAPI_MakeWire wire(half(off, 1), line(-radius, off, 0), half(0, -1), line(radius, 0, off));
+  const TopoDS_Shape solid =
+      BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Vec(0, 0, 1)).Shape();
+  const CadModel model(std::make_shared<CadShape>(solid, "halves"));
+  ASSERT_EQ(model.face_count(), 6);
+  const ShellMesh mesh = mesh_of(model, 1, false);
+  EXPECT_EQ(validate(mesh, true), std::vector<std::string>{});
+  EXPECT_EQ(merged_faces(mesh), 2);
+}
+
+/// A small size by name keeps features where it reaches, and no others.
+TEST(LetGo, KeepsFeaturesWhereSmallSizesAreNamed) {
+  const CadModel block = beveled_block(0.1);
+  MeshOptions options;
+  options.sizing.size = 5;
+  const auto merged_with = [&](int face) {
+    options.sizing.face_sizes = {{face, 0.4}};
+    ExecutionContext context(1);
+    return merged_faces(mesh(block, options, context));
+  };
+  const ShellMesh mesh = mesh_of(block, 5, false);
+  int bevel = 0, far = 0;
+  double farthest = 0;
+  for (int face = 1; face <= block.face_count(); ++face) {
+    if (mesh.faces[face - 1].status == FaceStatus::merged) bevel = face;
+  }
+  ASSERT_GT(bevel, 0);
+  Bnd_Box at;
+  BRepBndLib::Add(block.shape().faces[bevel - 1].face, at);
+  for (int face = 1; face <= block.face_count(); ++face) {
+    Bnd_Box box;
+    BRepBndLib::Add(block.shape().faces[face - 1].face, box);
+    if (box.Distance(at) <= farthest) continue;
+    farthest = box.Distance(at);
+    far = face;
+  }
+  ASSERT_GT(farthest, 10);
+  EXPECT_EQ(merged_with(bevel), 0);
+  EXPECT_EQ(merged_with(far), 1);
+}
+
 /// What is kept on request is kept with all that hangs together with it.
 TEST(LetGo, KeepsAroundAFaceOnRequest) {
   const CadModel block = beveled_block(0.1);
   const CadShape& shape = block.shape();
   const std::vector<char> used(block.face_count(), 1);
   const std::vector<char> none(shape.edges.size(), 0);
-  LetGo let_go(shape, used, 0.5);
+  LetGo let_go(shape, used, 0.5, none);
   const TinyFeatures tiny = let_go.find(none, 0);
   const auto bevel = std::find(tiny.merged_faces.begin(), tiny.merged_faces.end(), 1);
   ASSERT_NE(bevel, tiny.merged_faces.end());

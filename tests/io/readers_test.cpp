@@ -346,7 +346,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damaged{"a.msh",
                 "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 top\n$EndPhysicalNames\n",
                 "line 6: expected a name in quotes"},
-        Damaged{"a.xyz", "", "unknown mesh format"}),
+        Damaged{"a.xyz", "", "unknown mesh format (known are .msh, .inp, .unv, .bdf, .nas, .dat, "}),
     [](const auto& file) {
       std::string name = file.param.file;
       name[1] = '_';

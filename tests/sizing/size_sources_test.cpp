@@ -402,7 +402,7 @@ TEST(SizeSources, RefuseFilesThatMakeNoSense) {
   const CadModel box = sample("box");
   const auto path = std::filesystem::temp_directory_path() / "quadrille_bad_points_test.csv";
   for (const char* text : {"", "x,y,z,size\n", "1,2,3\n", "0,0,0,-1\n", "0,0,0,nan\n", "0,0,0,1,\n",
-                           "a,b\nc,d\n", "900,0,0,1\n"}) {
+                           "a,b\nc,d\n", "1,2,3,x\n0,0,0,1\n", "900,0,0,1\n"}) {
     std::ofstream(path) << text;
     SizingOptions options;
     options.size = 2;

@@ -281,6 +281,58 @@ TEST(SizingField, TakesSizesFromNamesAndCurvature) {
     EXPECT_LE(size_at(straight.point(edge.first + (edge.last - edge.first) * i / 10)), 1.05);
 }
 
+/// A small size by name must not let curvature elsewhere go below the minimum size.
+TEST(SizingField, NamedSizesLeaveTheMinimumSizeOfOtherSourcesAlone) {
+  const CadModel cylinder = CadModel::read(sample_model("cylinder").path());
+  const CadShape& shape = cylinder.shape();
+  SizingOptions options;
+  options.size = cylinder.diagonal() / 3;
+  options.size_min = options.size / 2;
+  options.elements_per_circle = 300;
+  options.growth = 2;
+  options.vertex_sizes[shape.edges[0].first_vertex] = options.size / 50;
+  const SizeLimits limits = size_limits(cylinder, options);
+  EXPECT_DOUBLE_EQ(limits.least, options.size / 50);
+  EXPECT_DOUBLE_EQ(limits.size_min, options.size_min);
+  EXPECT_DOUBLE_EQ(size_of_curvature(options, limits, 1e6), options.size_min);
+  const SizingField field = field_of(cylinder, options);
+  SizingField::Sampler size_at(field);
+  EXPECT_NEAR(size_at(shape.vertices[shape.edges[0].first_vertex - 1]), options.size / 50,
+              options.size / 500);
+  // Farther away, all sizes are those without the vertex.
+  const Vector3 vertex = shape.vertices[shape.edges[0].first_vertex - 1];
+  SizingOptions without = options;
+  without.vertex_sizes.clear();
+  const SizingField plain = field_of(cylinder, without);
+  SizingField::Sampler plain_at(plain);
+  int compared = 0;
+  for (const CadEdge& edge : shape.edges) {
+    const EdgeCurve curve(edge);
+    for (int i = 0; i < 20; ++i) {
+      const Vector3 p = curve.point(edge.first + (edge.last - edge.first) * i / 20);
+      if ((p - vertex).norm() < options.size) continue;
+      EXPECT_NEAR(size_at(p), plain_at(p), 1e-3 * options.size);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 5);
+  const std::vector<char> fine = edges_below_size_min(cylinder, options, limits);
+  EXPECT_TRUE(fine[0]);
+  EXPECT_LT(std::count(fine.begin(), fine.end(), 1), static_cast<int>(fine.size()));
+}
+
+/// Biases below 1 from both ends have their shortest segments in the middle.
+TEST(SizingField, GoesDownToTheShortestSegmentOfAnEdge) {
+  const CadModel box = CadModel::read(sample_model("box").path());
+  SizingOptions options;
+  options.size = 4;
+  options.spacings[1] = {21, 1, 0.6};
+  const SizeLimits limits = size_limits(box, options);
+  double sum = 0;
+  for (int k = 0; k < 21; ++k) sum += std::pow(0.6, std::min(k, 20 - k));
+  EXPECT_NEAR(limits.least, box.shape().edges[0].length * std::pow(0.6, 10) / sum, 1e-9);
+}
+
 TEST(SizingField, ComesBackFromItsFile) {
   const CadModel model = CadModel::read(sample_model("bracket").path());
   SizingOptions options;
@@ -363,6 +415,25 @@ TEST(EdgeSampling, MakesEveryFaceEvenWithSegmentsOfTheSize) {
           }
         }
       }
+    }
+  }
+}
+
+/// What a remedy asks for holds, although the opposite edges, which get the same count, want fewer segments.
+TEST(EdgeSampling, FinerStretchesGetTheirSegments) {
+  const CadModel box = CadModel::read(sample_model("box").path());
+  const CadEdge& edge = box.shape().edges[0];
+  SizingOptions options;
+  ExecutionContext context;
+  for (const int wanted : {3, 4, 7}) {
+    for (const int asked : {wanted + 1, 2 * wanted - 1, 2 * wanted, 5 * wanted}) {
+      options.size = 0.5 * edge.length / wanted;  // half of it: triangles have twice the size
+      SamplingPlan plan(box.shape());
+      plan.finer = {{1, edge.first, edge.last, asked}};
+      const BoundaryNodes nodes = sample_edges(box.shape(), field_of(box, options), 2,
+                                               std::vector<char>(box.face_count(), 1), plan, context);
+      EXPECT_GE(nodes.edges[0].segments(), 2 * asked) << wanted;
+      EXPECT_TRUE(nodes.odd_faces.empty());
     }
   }
 }
