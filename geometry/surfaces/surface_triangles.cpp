@@ -17,6 +17,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "geometry/base/side_key.hpp"
 #include "geometry/cad/cad_shape.hpp"
 
 namespace quadrille {
@@ -65,7 +66,7 @@ class Round {
     for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
       for (int k = 0; k < 3; ++k) {
         const auto [a, b] = side(i, k);
-        const auto [found, is_new] = middles_.try_emplace(key(a, b));
+        const auto [found, is_new] = middles_.try_emplace(side_key(a, b));
         Side& own = found->second;
         if (!is_new) {
           own.triangles[1] = static_cast<int>(i);
@@ -91,7 +92,7 @@ class Round {
     }
     std::vector<SurfaceTriangles::Line> lines;
     for (const SurfaceTriangles::Line& line : surface_.lines) {
-      const auto found = middles_.find(key(line.points[0], line.points[1]));
+      const auto found = middles_.find(side_key(line.points[0], line.points[1]));
       if (found == middles_.end() || found->second.middle < 0) {
         lines.push_back(line);
         continue;
@@ -117,9 +118,6 @@ class Round {
     divided_.push_back(&side);
   }
 
-  static std::uint64_t key(int a, int b) {
-    return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
-  }
   std::pair<int, int> side(std::size_t triangle, int k) const {
     return {surface_.triangles[triangle][k], surface_.triangles[triangle][(k + 1) % 3]};
   }
@@ -149,7 +147,7 @@ class Round {
 
   Side& side_of(std::size_t triangle, int k) {
     const auto [a, b] = side(triangle, k);
-    return middles_.at(key(a, b));
+    return middles_.at(side_key(a, b));
   }
 
   /// The midpoint of a side that is to be divided; negative for the others.

@@ -136,8 +136,6 @@ class Balancer {
     for (const int i : at_node_[at.node]) {
       const auto& terms = variables_[i].terms;
       const std::size_t here = terms[0].first == at.node ? 0 : 1;
-      const bool is_loop = terms.size() == 2 && terms[0].first == terms[1].first;
-      if (is_loop) continue;
       const auto other = terms.size() == 2 ? terms[1 - here] : std::pair<int, int>{-1, 0};
       for (const int change : {1, -1}) {
         if (at.need != 0 && change * terms[here].second != at.need) continue;

@@ -113,8 +113,8 @@ std::string name_of(const CadShape& shape, const FaceBoundary::Segment& segment)
                      std::min(segment.from, segment.to), std::max(segment.from, segment.to));
 }
 
-}  // namespace
-
+/// The pairs (i < j, ascending) of segments that meet anywhere but at common ends. Segments that coincide are
+/// the two sides of a slit and do not count. Exact. Time: O(n log n + pairs) if the segments are spread out.
 std::vector<std::pair<int, int>> crossing_segments(const FaceBoundary& boundary) {
   std::vector<Box> boxes;
   boxes.reserve(boundary.segments.size());
@@ -130,8 +130,6 @@ std::vector<std::pair<int, int>> crossing_segments(const FaceBoundary& boundary)
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
-
-namespace {
 
 /// The pairs of segments that crowd() each other, without those that share a node.
 std::vector<std::pair<int, int>> crowding_segments(const FaceBoundary& boundary) {

@@ -12,10 +12,6 @@
 
 namespace quadrille {
 
-/// The pairs (i < j, ascending) of segments that meet anywhere but at common ends. Segments that coincide are
-/// the two sides of a slit and do not count. Exact. Time: O(n log n + pairs) if the segments are spread out.
-std::vector<std::pair<int, int>> crossing_segments(const FaceBoundary& boundary);
-
 /// Why the boundary crosses itself, found from the curves between the nodes of the crossing segments.
 /// \param face CAD face, from 1. \return nothing if the boundary does not cross itself.
 std::optional<FaceProblem> crossing_problem(int face, const CadShape& shape, const FaceBoundary& boundary,

@@ -4,7 +4,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "mesher/mesh/side_key.hpp"
+#include "geometry/base/side_key.hpp"
 
 namespace quadrille {
 

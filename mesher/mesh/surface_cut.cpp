@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/side_key.hpp"
 #include "mesher/mesh/side_twins.hpp"
 
 namespace quadrille {
@@ -118,17 +119,13 @@ std::vector<int> agree_with(int seed, const TriangleMesh& mesh, const Twins& twi
   return piece;
 }
 
-std::uint64_t key(int a, int b) {
-  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
-}
-
 /// Removes the neighbor relation across sides that are to be cut.
 void cut_twins(const TriangleMesh& mesh, double angle, const std::vector<std::array<int, 2>>& sides,
                Twins& twins) {
   std::vector<std::uint64_t> keys;
   std::vector<char> on_side(mesh.points.size(), 0);
   for (const auto& [a, b] : sides) {
-    keys.push_back(key(a, b));
+    keys.push_back(side_key(a, b));
     on_side[a] = on_side[b] = 1;
   }
   std::sort(keys.begin(), keys.end());
@@ -146,7 +143,8 @@ void cut_twins(const TriangleMesh& mesh, double angle, const std::vector<std::ar
       if (twin < side) continue;
       const int a = from(mesh, side), b = to(mesh, side);
       const bool folded = angle > 0 && normals[t].dot(normals[triangle_of(twin)]) < least;
-      const bool listed = on_side[a] && on_side[b] && std::binary_search(keys.begin(), keys.end(), key(a, b));
+      const bool listed =
+          on_side[a] && on_side[b] && std::binary_search(keys.begin(), keys.end(), side_key(a, b));
       if (folded || listed) twins[t][i] = twins[triangle_of(twin)][index_of(twin)] = -1;
     }
   }

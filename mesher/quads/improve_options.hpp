@@ -10,7 +10,6 @@ struct ImproveOptions {
   /// Passes of the last optimization over all faces together, in which nodes slide along CAD edges too; 0 =
   /// none.
   int sliding_sweeps = 30;
-  double q_floor = 0.25;  ///< elements below this are smoothed together with their surroundings
 };
 
 }  // namespace quadrille

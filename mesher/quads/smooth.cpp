@@ -543,9 +543,9 @@ void smooth(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const Im
     for (int k = 0; k < 3 && smoother.sweep(); ++k) continue;
     smoother.measure_all();
   }
-  constexpr double half_pi = 1.57079632679489662;
+  constexpr double half_pi = 1.57079632679489662, q_floor = 0.25;
   constexpr int most_failures = 4;
-  if (smoother.loosen_below(std::sin(half_pi * std::clamp(options.q_floor, 0.0, 0.9)), most_failures))
+  if (smoother.loosen_below(std::sin(half_pi * q_floor), most_failures))
     for (int i = 0; i < 2 && smoother.optimize_below(bad_jacobian); ++i) continue;
   for (int i = 0; i < 2 && smoother.optimize_below(poor_jacobian); ++i) continue;
   for (int i = 0; i < 10 && smoother.untangle(); ++i) continue;

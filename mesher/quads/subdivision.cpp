@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "geometry/base/side_key.hpp"
 #include "mesher/edges/gap_nodes.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
-#include "mesher/mesh/side_key.hpp"
 
 namespace quadrille {
 

@@ -1,9 +1,8 @@
 #include "mesher/remesh/fidelity.hpp"
 
 #include <algorithm>
-#include <set>
 
-#include "mesher/mesh/side_key.hpp"
+#include "geometry/base/side_key.hpp"
 
 namespace quadrille {
 

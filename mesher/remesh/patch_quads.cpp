@@ -4,9 +4,9 @@
 #include <map>
 #include <unordered_map>
 
+#include "geometry/base/side_key.hpp"
 #include "mesher/faces/face_boundary.hpp"
 #include "mesher/mesh/quality.hpp"
-#include "mesher/mesh/side_key.hpp"
 #include "mesher/pairing/recombine.hpp"
 #include "mesher/quads/improve.hpp"
 #include "mesher/quads/subdivision.hpp"

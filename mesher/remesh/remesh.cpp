@@ -15,11 +15,11 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/free_memory.hpp"
+#include "geometry/base/side_key.hpp"
 #include "geometry/base/threads.hpp"
 #include "geometry/sizing/element_count.hpp"
 #include "geometry/sizing/sizing_options.hpp"
 #include "mesher/mesh/quality.hpp"
-#include "mesher/mesh/side_key.hpp"
 #include "mesher/mesh/side_twins.hpp"
 #include "mesher/mesh/surface_cut.hpp"
 #include "mesher/quads/triangulated_surface.hpp"

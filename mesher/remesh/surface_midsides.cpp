@@ -6,8 +6,8 @@
 #include <map>
 #include <unordered_map>
 
+#include "geometry/base/side_key.hpp"
 #include "mesher/mesh/second_order.hpp"
-#include "mesher/mesh/side_key.hpp"
 
 namespace quadrille {
 

@@ -13,9 +13,9 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/side_key.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
-#include "mesher/mesh/side_key.hpp"
 
 namespace quadrille {
 

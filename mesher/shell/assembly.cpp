@@ -17,7 +17,7 @@ namespace {
 class Assembler {
  public:
   Assembler(const MeshedFaces& meshed, const ExecutionContext& context)
-      : shape_(meshed.shape), nodes_(meshed.nodes), faces_(meshed.faces), context_(context), check_(context) {
+      : shape_(meshed.shape), nodes_(meshed.nodes), faces_(meshed.faces), context_(context) {
     numbering_.nodes.assign(nodes_.points.size(), -1);
   }
 
@@ -128,7 +128,6 @@ class Assembler {
   const BoundaryNodes& nodes_;
   const std::vector<std::optional<FaceMesh>>& faces_;
   const ExecutionContext& context_;
-  SparseCheck check_;
   ShellNumbering numbering_;
   ShellMesh mesh_;
 };

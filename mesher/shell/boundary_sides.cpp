@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mesher/mesh/side_key.hpp"
+#include "geometry/base/side_key.hpp"
 
 namespace quadrille {
 

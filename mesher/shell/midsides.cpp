@@ -7,8 +7,8 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "geometry/base/side_key.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
-#include "mesher/mesh/side_key.hpp"
 
 namespace quadrille {
 

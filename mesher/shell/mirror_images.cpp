@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "geometry/base/side_key.hpp"
+
 namespace quadrille {
 
 namespace {
@@ -68,16 +70,14 @@ class Mirror {
 
   /// Whether each side with only one quad lies in a plane or on a free edge.
   bool ends_in_planes() const {
-    using Side = std::pair<int, int>;
-    const auto key = [](int a, int b) { return Side(std::min(a, b), std::max(a, b)); };
-    std::vector<Side> sides, ends;
+    std::vector<std::uint64_t> sides, ends;
     for (const auto& quad : mesh_.quads) {
-      for (int j = 0; j < 4; ++j) sides.push_back(key(quad[j], quad[(j + 1) % 4]));
+      for (int j = 0; j < 4; ++j) sides.push_back(side_key(quad[j], quad[(j + 1) % 4]));
     }
     std::sort(sides.begin(), sides.end());
     for (const ShellMesh::Segment& segment : mesh_.segments) {
       if (part_.edges_in[segment.edge - 1] != 0 || is_free(segment.edge))
-        ends.push_back(key(segment.nodes[0], segment.nodes[1]));
+        ends.push_back(side_key(segment.nodes[0], segment.nodes[1]));
     }
     std::sort(ends.begin(), ends.end());
     for (std::size_t i = 0; i < sides.size();) {

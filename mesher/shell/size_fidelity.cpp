@@ -13,7 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "mesher/mesh/side_key.hpp"
+#include "geometry/base/side_key.hpp"
 
 namespace quadrille {
 

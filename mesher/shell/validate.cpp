@@ -12,9 +12,9 @@
 #include <span>
 #include <unordered_map>
 
+#include "geometry/base/side_key.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/second_order.hpp"
-#include "mesher/mesh/side_key.hpp"
 
 namespace quadrille {
 namespace {
