@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstring>
 #include <map>
+#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -551,8 +552,11 @@ TEST_P(RoundTrip, FreeCadReadsCountsAndGroups) {
   for (const char* file : {"a.med", "b.unv"})
     EXPECT_PRED2(contains, seen,
                  fmt::format("RESULT {} {} 28 32 32 {} {}", file, nodes, nodes_of_quad, groups));
-  for (const char* file : {"c.vtk", "d.vtu", "e.inp"})
-    EXPECT_PRED2(contains, seen, fmt::format("RESULT {} {} 0 32 32 {}", file, nodes, nodes_of_quad));
+  // Later versions of FreeCAD read the edges of .vtu files too.
+  for (const char* file : {"c.vtk", "d.vtu", "e.inp"}) {
+    const std::regex result(fmt::format("RESULT {} {} (0|28) 32 32 {} ", file, nodes, nodes_of_quad));
+    EXPECT_TRUE(std::regex_search(seen, result)) << file << "\n" << seen;
+  }
 }
 
 /// A strip of length 2 and width 1, clamped at x = 0, under pressure: the beam's deflection is p L^4 / (8 E
