@@ -234,22 +234,36 @@ class Builder {
   std::deque<std::mutex> mutexes_;  // one per cascade
 };
 
+/// What a size is given to. A piece is an entry of CadShape::edges, others are numbered as by users.
+enum class Named { face, edge, vertex, piece };
+
+/// Calls visit(what, number from 1, size) for each size that users give to faces, edges and vertices.
+template <class Visit>
+void visit_named_sizes(const CadModel& model, const SizingOptions& options, double size, Visit&& visit) {
+  const auto& layers = options.layers;
+  for (const auto& [what, sizes] :
+       {std::pair{Named::face, &options.face_sizes}, std::pair{Named::edge, &options.edge_sizes},
+        std::pair{Named::vertex, &options.vertex_sizes}}) {
+    for (const auto& [number, own] : *sizes) visit(what, number, own);
+  }
+  for (const auto& [what, sizes] :
+       {std::pair{Named::face, &layers.faces}, std::pair{Named::edge, &layers.edges},
+        std::pair{Named::vertex, &layers.vertices}}) {
+    for (const auto& [number, own] : *sizes) visit(what, number, own.first);
+  }
+  if (options.spacings.empty()) return;
+  const auto prescribed = prescribed_edges(model.shape(), options, size);
+  for (std::size_t i = 0; i < prescribed.size(); ++i) {
+    if (prescribed[i])
+      visit(Named::piece, static_cast<int>(i) + 1, prescribed[i]->shortest(model.shape().edges[i].length));
+  }
+}
+
 /// The smallest size that the user asks for anywhere.
 double smallest(const CadModel& model, const SizingOptions& options, double size) {
   double result = std::numeric_limits<double>::infinity();
-  for (const auto* sizes : {&options.face_sizes, &options.edge_sizes, &options.vertex_sizes}) {
-    for (const auto& [number, own] : *sizes) result = std::min(result, own);
-  }
+  visit_named_sizes(model, options, size, [&](Named, int, double own) { result = std::min(result, own); });
   for (const SizeRegion& region : options.regions) result = std::min(result, region.size);
-  for (const auto* layers : {&options.layers.faces, &options.layers.edges, &options.layers.vertices}) {
-    for (const auto& [number, own] : *layers) result = std::min(result, own.first);
-  }
-  if (options.spacings.empty()) return result;
-  const auto prescribed = prescribed_edges(model.shape(), options, size);
-  for (std::size_t i = 0; i < prescribed.size(); ++i) {
-    if (!prescribed[i]) continue;
-    result = std::min(result, prescribed[i]->shortest(model.shape().edges[i].length));
-  }
   return result;
 }
 
@@ -310,34 +324,24 @@ std::vector<char> edges_below_size_min(const CadModel& model, const SizingOption
   std::vector<char> result(shape.edges.size(), 0);
   if (!(limits.least < limits.size_min)) return result;
   std::vector<std::pair<Bnd_Box, double>> named;  // boxes around what has a size, and the size
-  const auto add = [&](const Bnd_Box& box, double size) {
-    if (size < limits.size_min && !box.IsVoid()) named.emplace_back(box, size);
-  };
-  const auto add_shape = [&](const TopoDS_Shape& part, double size) {
+  const auto add = [&](const TopoDS_Shape& part, double size) {
     Bnd_Box box;
     BRepBndLib::Add(part, box, Standard_False);
-    add(box, size);
+    if (!box.IsVoid()) named.emplace_back(box, size);
   };
-  const auto add_vertex = [&](int vertex, double size) {
-    const Vector3& p = shape.vertices[vertex - 1];
-    Bnd_Box box;
-    box.Add(gp_Pnt(p.x(), p.y(), p.z()));
-    add(box, size);
-  };
-  for (const auto& [face, size] : options.face_sizes) add_shape(shape.faces[face - 1].face, size);
-  for (const auto& [face, own] : options.layers.faces) add_shape(shape.faces[face - 1].face, own.first);
-  for (const auto& [vertex, size] : options.vertex_sizes) add_vertex(vertex, size);
-  for (const auto& [vertex, own] : options.layers.vertices) add_vertex(vertex, own.first);
-  const auto prescribed = prescribed_edges(shape, options, limits.largest);
-  for (std::size_t i = 0; i < shape.edges.size(); ++i) {
-    const CadEdge& edge = shape.edges[i];
-    if (prescribed[i]) add_shape(edge.edge, prescribed[i]->shortest(edge.length));
-    if (const auto own = options.edge_sizes.find(edge.number); own != options.edge_sizes.end())
-      add_shape(edge.edge, own->second);
-    const auto& layers = options.layers.edges;
-    if (const auto own = layers.find(edge.number); own != layers.end())
-      add_shape(edge.edge, own->second.first);
-  }
+  visit_named_sizes(model, options, limits.largest, [&](Named what, int number, double size) {
+    if (!(size < limits.size_min)) return;
+    if (what == Named::face) add(shape.faces[number - 1].face, size);
+    if (what == Named::piece) add(shape.edges[number - 1].edge, size);
+    if (what == Named::vertex) {
+      const Vector3& p = shape.vertices[number - 1];
+      named.emplace_back().second = size;
+      named.back().first.Add(gp_Pnt(p.x(), p.y(), p.z()));
+    }
+    for (const CadEdge& edge : shape.edges) {
+      if (what == Named::edge && edge.number == number) add(edge.edge, size);
+    }
+  });
   for (std::size_t i = 0; i < shape.edges.size(); ++i) {
     Bnd_Box box;
     BRepBndLib::Add(shape.edges[i].edge, box, Standard_False);

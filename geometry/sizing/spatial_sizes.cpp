@@ -97,9 +97,10 @@ std::vector<SizePoint> read_size_points(const std::filesystem::path& path) {
   std::string line;
   for (std::size_t number = 1; std::getline(file, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const bool is_header =
+        number == 1 && numbers_of(std::string_view(line).substr(0, line.find(','))).empty();
+    if (is_header) continue;
     const std::vector<double> values = numbers_of(line);
-    const bool has_names = numbers_of(std::string_view(line).substr(0, line.find(','))).empty();
-    if (number == 1 && has_names) continue;  // header line
     if (values.size() != 4) throw refused(number, "is not x,y,z,size");
     if (!std::all_of(values.begin(), values.end() - 1, [](double value) { return std::isfinite(value); }))
       throw refused(number, "has a place that is no finite number");
