@@ -169,7 +169,8 @@ class Builder {
   /// the same voxels, which the field then takes over.
   void add_layers() {
     const auto& layers = options_.layers;
-    for (const auto& [face, own] : layers.faces) {
+    for (const auto& [face, sizes] : layers.faces) {
+      const SizeLayers& own = sizes;  // Clang 14 captures no bindings in lambdas
       FaceCascades cascades = empty_cascades();
       SizeCascade& cascade = *cascades[field_.cascade_of(face - 1)];
       sources_.uniform_face(face - 1, own.first, [&](const Vector3& p) { add_layer(cascade, p, own); });
@@ -181,7 +182,8 @@ class Builder {
       }
       take_layers(cascades, own);
     }
-    for (const auto& [number, own] : layers.edges) {
+    for (const auto& [number, sizes] : layers.edges) {
+      const SizeLayers& own = sizes;  // Clang 14 captures no bindings in lambdas
       FaceCascades cascades = empty_cascades();
       for (const CadEdge& edge : shape_.edges) {
         if (edge.number != number || unsized_.is_layered(&edge - shape_.edges.data())) continue;
