@@ -27,6 +27,11 @@ def icon(name: str) -> str:
     return str(ICONS / f"{name}.svg")
 
 
+def drawn_icon(name: str) -> QtGui.QIcon:
+    """An icon of this addon for Qt's widgets. FreeCAD draws it, since Qt's own plugin for SVG may not be installed."""
+    return FreeCADGui.getIcon(icon(name))
+
+
 def tell(text: str, title: str = "Quadrille") -> None:
     """Tells the user what went wrong, in a message box and in the report view."""
     FreeCAD.Console.PrintError(f"{title}: {text}\n")

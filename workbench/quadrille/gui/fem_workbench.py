@@ -9,7 +9,7 @@ from typing import Dict, Optional, Sequence
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from . import icon, translate
+from . import drawn_icon, translate
 from .commands import COMMANDS, TOOLBAR
 
 _FEM = "FemWorkbench"
@@ -77,7 +77,7 @@ class _Manipulator:
 
 def _action(name: str, parent) -> QtGui.QAction:
     """An action that runs a command."""
-    action = QtGui.QAction(QtGui.QIcon(icon(COMMANDS[name].pixmap)), "", parent)
+    action = QtGui.QAction(drawn_icon(COMMANDS[name].pixmap), "", parent)
     _name(action, name)
     action.triggered.connect(lambda *_: FreeCADGui.runCommand(name))
     return action

@@ -12,7 +12,7 @@ from ..command import check_version, find_command
 from ..errors import Error
 from ..jobs import PREFERENCES
 from ..setting_table import BY_NAME, from_property, to_property
-from . import ICONS, icon, translate
+from . import ICONS, drawn_icon, translate
 from .mesher_choice import MesherChoice
 from .setting_widgets import SettingWidget
 
@@ -67,7 +67,7 @@ class PreferencesPage:
     def __init__(self, _parent=None) -> None:
         self.form = QtGui.QWidget()
         self.form.setWindowTitle(translate("Quadrille", "General"))
-        self.form.setWindowIcon(QtGui.QIcon(icon("quadrille")))
+        self.form.setWindowIcon(drawn_icon("quadrille"))
         layout = QtGui.QVBoxLayout(self.form)
         layout.addWidget(self._mesher())
         layout.addWidget(self._new_meshes())

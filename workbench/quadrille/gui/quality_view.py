@@ -8,7 +8,7 @@ import numpy as np
 from PySide import QtCore, QtGui
 
 from .. import quality
-from . import QT_TRANSLATE_NOOP, icon, overlays, standard_buttons, translate
+from . import QT_TRANSLATE_NOOP, drawn_icon, overlays, standard_buttons, translate
 
 WORST = 20
 BINS = 20
@@ -267,7 +267,7 @@ class QualityPanel:
         self.quality = QualityWidget(mesh)
         self.form = self.quality
         self.form.setWindowTitle(translate("Quadrille", "Quality of {}").format(mesh.Label))
-        self.form.setWindowIcon(QtGui.QIcon(icon("quadrille_quality")))
+        self.form.setWindowIcon(drawn_icon("quadrille_quality"))
         self.quality.color.setChecked(True)
 
     def getStandardButtons(self):

@@ -16,7 +16,7 @@ from .. import freecad as core
 from .. import command, groups, jobs, links, old_documents, picks, shapes, solvers, state
 from ..errors import Error
 from ..setting_table import default_size
-from . import do, icon, links_text, path_of, preferences, standard_buttons, tell, translate
+from . import do, drawn_icon, links_text, path_of, preferences, standard_buttons, tell, translate
 from .entry_rows import PROPERTIES as ENTRIES
 from .entry_rows import EntryRows
 from .face_counts import FaceCounts
@@ -68,7 +68,7 @@ class MeshPanel:
     def _build(self) -> None:
         self.form = QtGui.QWidget()
         self.form.setWindowTitle(translate("Quadrille", "Quad mesh"))
-        self.form.setWindowIcon(QtGui.QIcon(icon("quadrille_mesh")))
+        self.form.setWindowIcon(drawn_icon("quadrille_mesh"))
         self.settings = setting_widgets()
         self.suggest = _button("QuadrilleSuggest", translate("Quadrille", "Suggest"),
                                translate("Quadrille", "The size that gives about {} elements").format(preferences.suggested_quads()))
@@ -89,7 +89,7 @@ class MeshPanel:
         self.entries = EntryRows(self._divide_selection, self._update_estimate)
         self.preview = SizePreview(self.mesh, self._wanted, self._show_count)
         self.mesh_button = _button("QuadrilleMesh", translate("Quadrille", "Mesh"), "")
-        self.mesh_button.setIcon(QtGui.QIcon(icon("quadrille_mesh")))
+        self.mesh_button.setIcon(drawn_icon("quadrille_mesh"))
         self.stop_button = _button("QuadrilleStop", translate("Quadrille", "Stop"), translate("Quadrille", "Ends the mesher"))
         self.stop_button.setEnabled(False)
         self.bar = QtGui.QProgressBar()
