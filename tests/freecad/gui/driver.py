@@ -21,8 +21,9 @@ def prepare(width=1500, height=940):
     for dock in docks:
         if dock.objectName() in ("Python console", "Report view"):
             dock.hide()
-    combo = [dock for dock in docks if dock.objectName() == "Combo View"]
-    main.resizeDocks(combo, [430], QtCore.Qt.Horizontal)
+    # The tree and the task panel: one dock in FreeCAD 0.20, two from 1.0 on.
+    left = [dock for dock in docks if dock.objectName() in ("Combo View", "Model", "Tasks") and dock.isVisible()]
+    main.resizeDocks(left, [430] * len(left), QtCore.Qt.Horizontal)
     process(0.3)
 
 
