@@ -285,8 +285,20 @@ class TutorialTest(GuiCase):
         FreeCADGui.activeDocument().setEdit(result.Name)
         process(0.5)
         self.choose_stress(re.findall(r"choose \*([^*]+)\*", STEPS[11])[0])
+        self.hide_others(result, self.values(11))
         picture("tutorial_11")
         return max(von_mises(result))
+
+    def hide_others(self, result, names):
+        """Hides what a step names; then nothing but the result covers the part."""
+        for name in names:
+            other = self.document.getObject(name)
+            if other is not None:
+                other.ViewObject.hide()
+        process(0.3)
+        kinds = ("Part::Feature", "Fem::FemMeshObject", "Fem::FemPostObject")
+        seen = [obj for obj in self.document.Objects if obj.ViewObject.Visibility and any(map(obj.isDerivedFrom, kinds))]
+        self.assertEqual(seen, [getattr(result, "Mesh", None) or result], [obj.Name for obj in seen])
 
     def choose_stress(self, named):
         """In the panel of the result: buttons in 0.20 and 1.0, a list of fields in 1.1."""
