@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "geometry/base/error.hpp"
 #include "geometry/cad/cad_model.hpp"

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "geometry/base/error.hpp"
 #include "mesher/io/io.hpp"

@@ -1,6 +1,7 @@
 #include "mesher/remesh/remesh.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
