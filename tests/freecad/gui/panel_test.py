@@ -263,6 +263,7 @@ class PanelTest(GuiCase):
         mesh = self.open_panel(self.box())
         wait_for(lambda: command._standby, what="a mesher that stands by")
         command._standby[1].kill()
+        command._standby[1].wait()  # it may take a while to die
         self.press_mesh()
         self.assertEqual(mesh.Status, "up to date")
 
