@@ -109,34 +109,40 @@ QuadEstimate::Suggestion QuadEstimate::size_for(double quads) {
   constexpr double close = 1.05;   // well within the error of the estimate
   constexpr double narrow = 1.02;  // ratio of sizes between which the count jumps
   const auto rounded = [](double size) { return std::stod(fmt::format("{:.3g}", size)); };
+  const auto error = [&](const Suggestion& one) { return std::abs(std::log(one.quads / quads)); };
   const double largest = rounded(0.1 * model_.diagonal());
   double area = 0;
   for (const auto& face : samples_) {
     for (const FaceSample& sample : face) area += sample.area;
   }
-  Suggestion best, fine, coarse;  // fine gives too many quads, coarse too few
-  double size = std::min(largest, std::sqrt(area / quads));
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0;; ++step) {
+    Suggestion best, fine, coarse;  // the sizes on either side of the wanted one
+    for (const auto& [size, count] : tried_) {
+      const Suggestion one{size, count};
+      if (best.size == 0 || error(one) < error(best)) best = one;
+      if (count > quads) fine = one;
+      if (count <= quads && coarse.size == 0) coarse = one;
+    }
+    if (step == most_steps || fine.size >= largest) return best;
+    if (best.size > 0 && error(best) < std::log(close)) return best;
+    double size = std::min(largest, std::sqrt(area / quads));
+    if (fine.size > 0 && coarse.size > 0) {
+      if (coarse.size < narrow * fine.size) return best;
+      const double share = std::isfinite(fine.quads)
+                               ? std::log(fine.quads / quads) / std::log(fine.quads / coarse.quads)
+                               : 0.5;
+      size = fine.size * std::pow(coarse.size / fine.size, std::clamp(share, 0.1, 0.9));
+    } else if (fine.size > 0) {
+      // Counts fall at most with the square of the size, so this step is too long rather than too short.
+      size = std::min(largest, fine.size * (std::isfinite(fine.quads) ? fine.quads / quads : 2));
+    } else if (coarse.size > 0) {
+      size = std::min(size, coarse.size * coarse.quads / quads);
+    }
     MeshOptions options;
     options.sizing.size = rounded(size);
-    const Suggestion found{options.sizing.size, this->quads(options)};
-    const auto error = [&](const Suggestion& one) { return std::abs(std::log(one.quads / quads)); };
-    if (best.size == 0 || error(found) < error(best)) best = found;
-    const bool too_many = found.quads > quads;
-    if (error(found) < std::log(close) || (too_many && found.size >= largest)) break;
-    (too_many ? fine : coarse) = found;
-    if (fine.size == 0 || coarse.size == 0) {
-      // Counts fall at most with the square of the size, so this step is too long rather than too short.
-      const double factor = std::isfinite(found.quads) ? found.quads / quads : 2;
-      size = std::min(largest, found.size * factor);
-      continue;
-    }
-    if (coarse.size < narrow * fine.size) break;
-    const double share =
-        std::isfinite(fine.quads) ? std::log(fine.quads / quads) / std::log(fine.quads / coarse.quads) : 0.5;
-    size = fine.size * std::pow(coarse.size / fine.size, std::clamp(share, 0.1, 0.9));
+    if (tried_.contains(options.sizing.size)) return best;
+    tried_[options.sizing.size] = this->quads(options);
   }
-  return best;
 }
 
 }  // namespace quadrille

@@ -1,6 +1,7 @@
 #pragma once
 /// Estimates how many quads a size gives, without meshing.
 
+#include <map>
 #include <vector>
 
 #include "geometry/base/api.hpp"
@@ -28,12 +29,14 @@ class QUADRILLE_API QuadEstimate {
     double size = 0;   ///< millimeters
     double quads = 0;  ///< estimated number at this size
   };
-  Suggestion size_for(double quads);  ///< the size that gives about this number of quads
+  /// The size that gives about this number of quads. Starts from the sizes that earlier calls tried.
+  Suggestion size_for(double quads);
 
  private:
   const CadModel& model_;
   ExecutionContext& context_;
   std::vector<std::vector<FaceSample>> samples_;
+  std::map<double, double> tried_;  ///< quads by size, as size_for() found them
 };
 
 }  // namespace quadrille

@@ -1,0 +1,55 @@
+#include "mesher/estimate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/base/execution_context.hpp"
+#include "mesher/quadrille.hpp"
+#include "tests/support/sample_models.hpp"
+
+namespace quadrille {
+namespace {
+
+/// The factor by which two counts differ, 1 or more.
+double factor(double a, double b) {
+  return std::max(a / b, b / a);
+}
+
+TEST(QuadEstimate, IsCloseToTheMesh) {
+  for (const SampleModel& sample : sample_models()) {
+    SCOPED_TRACE(sample.name);
+    const CadModel model = CadModel::read(sample.path());
+    ExecutionContext context(1);
+    QuadEstimate estimate(model, context);
+    const QuadEstimate::Suggestion found = estimate.size_for(3000);
+    MeshOptions options;
+    options.sizing.size = found.size;
+    EXPECT_EQ(estimate.quads(options), found.quads);
+    EXPECT_LT(factor(static_cast<double>(mesh(model, options, context).quads.size()), found.quads), 1.5);
+  }
+}
+
+/// Whatever was asked before, a suggestion gives the number of quads, or is the largest size there is.
+TEST(QuadEstimate, FindsASizeForEachNumber) {
+  for (const SampleModel& sample : sample_models()) {
+    SCOPED_TRACE(sample.name);
+    const CadModel model = CadModel::read(sample.path());
+    ExecutionContext context(1);
+    QuadEstimate up(model, context), down(model, context);
+    const double numbers[] = {1e3, 1e4, 1e5};
+    for (std::size_t i = 0; i < std::size(numbers); ++i) {
+      for (QuadEstimate* estimate : {&up, &down}) {
+        const double wanted = numbers[estimate == &up ? i : std::size(numbers) - 1 - i];
+        const QuadEstimate::Suggestion found = estimate->size_for(wanted);
+        const bool is_largest = found.size > 0.0995 * model.diagonal() && found.quads > wanted;
+        EXPECT_TRUE(is_largest || factor(found.quads, wanted) < 1.15)
+            << wanted << ": size " << found.size << " for " << found.quads;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace quadrille
