@@ -61,13 +61,14 @@ TriangleMesh triangulate_along_field(const std::vector<Ring>& rings, const Gradi
   ExecutionContext context(1);
   const SizingField field = SizingField::build(model, options.sizing, context);
   const BoundaryNodes nodes =
-      sample_edges(shape, field, stride(options.strategy), {1}, SamplingPlan(shape), context);
-  const FaceSurface surface(shape.faces[0]);
-  const FaceBoundary boundary = face_boundary(shape, 0, surface, nodes);
+      sample_edges(shape, field, stride(options.strategy), FaceFlags(1, 1), SamplingPlan(shape), context);
+  const FaceId face = FaceId::from_index(0);
+  const FaceSurface surface(shape.faces[face]);
+  const FaceBoundary boundary = face_boundary(shape, face, surface, nodes);
   SizingField::Sampler size_at(field);
   const PlacedPoints placed =
       place_points(boundary, surface, enclosed_domain(boundary), size_at, {}, context);
-  return triangulate_face(1, boundary, placed, surface).mesh;
+  return triangulate_face(face, boundary, placed, surface).mesh;
 }
 
 }  // namespace quadrille::bench

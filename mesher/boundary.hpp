@@ -14,8 +14,8 @@ struct SettledBoundary {
   BoundaryNodes nodes;
 };
 
-/// (faces) 1 = the options have this face meshed.
-std::vector<char> faces_used(const CadModel& model, const MeshOptions& options);
+/// 1 = the options have this face meshed.
+FaceFlags faces_used(const CadModel& model, const MeshOptions& options);
 
 /// The sizing field that mesh() uses: features that are let go request no sizes. Call it within on_threads().
 /// Throws Error as mesh() does for invalid options or sizes that exceed the budget.

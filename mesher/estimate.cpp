@@ -28,7 +28,7 @@ double grid_quads(const CadFace& face, const FaceSides& sides, const BoundaryNod
   for (std::size_t side = 0; side < counts.size(); ++side) {
     std::size_t i = sides.starts[side];
     do {
-      counts[side] += std::max(0, nodes.edges[coedges[i].edge - 1].segments());
+      counts[side] += std::max(0, nodes.edges[coedges[i].edge].segments());
       i = (i + 1) % coedges.size();
     } while (static_cast<int>(i) != sides.starts[(side + 1) % counts.size()]);
   }
@@ -44,7 +44,7 @@ double free_quads(const CadFace& face, double area, double inside, double growth
   const auto for_each_segment = [&](const auto& act) {
     for (const CadWire& wire : face.wires) {
       for (const Coedge& coedge : wire.coedges) {
-        const auto& at = nodes.edges[coedge.edge - 1].nodes;
+        const auto& at = nodes.edges[coedge.edge].nodes;
         for (std::size_t i = 1; i < at.size(); ++i)
           act((nodes.points[at[i]] - nodes.points[at[i - 1]]).norm());
       }
@@ -71,21 +71,21 @@ double free_quads(const CadFace& face, double area, double inside, double growth
 
 QuadEstimate::QuadEstimate(const CadModel& model, ExecutionContext& context)
     : model_(model), context_(context) {
-  const std::vector<char> all(model.face_count(), 1);
+  const FaceFlags all(model.face_count(), 1);
   on_threads(context.threads(), [&] { samples_ = sample_faces(model.shape(), all, context); });
 }
 
 double QuadEstimate::quads(const MeshOptions& options) {
   check({options, {}}, model_);
   const CadShape& shape = model_.shape();
-  const std::vector<char> used = faces_used(model_, options);
+  const FaceFlags used = faces_used(model_, options);
   try {
     return on_threads(context_.threads(), [&] {
       const SettledBoundary boundary = settle_boundary(model_, options, context_);
       double count = 0;
-      for (std::size_t face = 0; face < shape.faces.size(); ++face) {
+      for (const FaceId face : shape.faces.ids()) {
         if (!used[face]) continue;
-        SizingField::Sampler size_at(boundary.field, static_cast<int>(face));
+        SizingField::Sampler size_at(boundary.field, face);
         const double in_grid = grid_quads(shape.faces[face], boundary.nodes.sides[face], boundary.nodes);
         double area = 0, inside = 0;
         for (const FaceSample& sample : samples_[face]) {

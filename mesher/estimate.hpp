@@ -35,7 +35,7 @@ class QUADRILLE_API QuadEstimate {
  private:
   const CadModel& model_;
   ExecutionContext& context_;
-  std::vector<std::vector<FaceSample>> samples_;
+  FaceSamples samples_;
   std::map<double, double> tried_;  ///< quads by size, as size_for() found them
 };
 

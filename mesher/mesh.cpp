@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
@@ -36,9 +35,9 @@
 
 namespace quadrille {
 
-std::vector<char> faces_used(const CadModel& model, const MeshOptions& options) {
-  std::vector<char> used(model.face_count(), options.faces.empty());
-  for (const int face : options.faces) used[face - 1] = 1;
+FaceFlags faces_used(const CadModel& model, const MeshOptions& options) {
+  FaceFlags used(model.face_count(), options.faces.empty());
+  for (const int face : options.faces) used[FaceId::from_number(face)] = 1;
   return used;
 }
 
@@ -52,7 +51,7 @@ class Job {
         options_(options),
         limits_(size_limits(model, options.sizing)),
         context_(context),
-        edges_{SamplingPlan(shape_), std::vector<char>(shape_.edges.size(), 0)},
+        edges_{SamplingPlan(shape_), EdgeFlags(shape_.edges.size())},
         used_(faces_used(model, options)),
         meshes_(shape_.faces.size()),
         problems_(shape_.faces.size()),
@@ -61,8 +60,7 @@ class Job {
         asked_(used_),
         let_go_(shape_, asked_, reach_of_let_go(limits_, options),
                 edges_below_size_min(model, options.sizing, limits_)) {
-    if (options_.strategy == Strategy::subdivide)
-      std::fill(edges_.plan.subdivided.begin(), edges_.plan.subdivided.end(), 1);
+    if (options_.strategy == Strategy::subdivide) edges_.plan.subdivided.assign(shape_.faces.size(), 1);
     edges_.plan.prescribed = prescribed_edges(shape_, options.sizing, limits_.largest);
     leave_out_tiny();
     find_rows();
@@ -114,7 +112,7 @@ class Job {
   void slide() {
     if (!is_limited()) return slide_nodes(shape_, nodes_, meshes_, options_.improve, context_);
     const BoundaryNodes nodes = nodes_;
-    const std::vector<std::optional<FaceMesh>> meshes = meshes_;
+    const FaceMeshes meshes = meshes_;
     try {
       context_.check();
       slide_nodes(shape_, nodes_, meshes_, options_.improve, context_);
@@ -154,7 +152,7 @@ class Job {
   void find_rows() {
     const SizingOptions& sizing = options_.sizing;
     if (sizing.spacings.empty() && sizing.layers.edges.empty()) return;
-    std::vector<double> wanted;
+    IdVector<EdgeId, double> wanted;
     for (const CadEdge& edge : shape_.edges)
       wanted.push_back(edge.length / (limits_.largest * stride(options_.strategy)));
     const auto sides = find_face_sides(shape_, used_, edges_.plan.tiny, wanted);
@@ -165,7 +163,7 @@ class Job {
   void leave_out_tiny() {
     TinyFeatures& tiny = edges_.plan.tiny;
     tiny = let_go_.find(edges_.collapse, options_.merge_tiny);
-    for (std::size_t face = 0; face < used_.size(); ++face) {
+    for (const FaceId face : used_.ids()) {
       used_[face] = asked_[face] && !tiny.merged_faces[face];
       if (!used_[face]) problems_[face].reset();
     }
@@ -195,20 +193,19 @@ class Job {
       int& number = renumbered[before];
       number = number == none || number == now ? now : several;
     };
-    std::vector<char> same(nodes.edges.size());
-    for (std::size_t i = 0; i < same.size(); ++i) {
+    EdgeFlags same(nodes.edges.size());
+    for (const EdgeId i : same.ids()) {
       const auto &before = nodes_.edges[i], &now = nodes.edges[i];
       same[i] = before.parameters == now.parameters;
       if (!same[i]) continue;
       for (std::size_t k = 0; k < now.nodes.size(); ++k) renumber(before.nodes[k], now.nodes[k]);
     }
-    for (std::size_t i = 0; i < nodes.vertex_nodes.size(); ++i)
-      renumber(nodes_.vertex_nodes[i], nodes.vertex_nodes[i]);
-    for (std::size_t face = 0; face < meshes_.size(); ++face) {
+    for (const VertexId i : nodes.vertex_nodes.ids()) renumber(nodes_.vertex_nodes[i], nodes.vertex_nodes[i]);
+    for (const FaceId face : meshes_.ids()) {
       if (!meshes_[face]) continue;
       bool keep = used_[face];
       for (const CadWire& wire : shape_.faces[face].wires) {
-        for (const Coedge& coedge : wire.coedges) keep = keep && same[coedge.edge - 1];
+        for (const Coedge& coedge : wire.coedges) keep = keep && same[coedge.edge];
       }
       for (int& node : meshes_[face]->nodes) {
         node = renumbered[node];
@@ -220,11 +217,10 @@ class Job {
 
   void find_charts() {
     const StageTimer timer(context_, Stage::sample);
-    charts_.clear();
-    charts_.resize(shape_.faces.size());
-    for_each_face_left(Stage::sample, 0.5, [&](int face) {
+    charts_.assign(shape_.faces.size(), std::nullopt);
+    for_each_face_left(Stage::sample, 0.5, [&](FaceId face) {
       FaceChart chart = make_chart(shape_, face, nodes_, records_[face].recipe.chart);
-      if (auto problem = crossing_problem(face + 1, shape_, chart.boundary, *chart.surface))
+      if (auto problem = crossing_problem(face, shape_, chart.boundary, *chart.surface))
         throw FaceProblem(std::move(*problem));
       widen_gaps(face, chart);
       charts_[face] = std::move(chart);
@@ -232,18 +228,18 @@ class Job {
   }
 
   /// Throws FaceProblem if sides of the face are too close. Grids need no room between their sides.
-  void widen_gaps(int face, const FaceChart& chart) {
+  void widen_gaps(FaceId face, const FaceChart& chart) {
     int& looks = records_[face].looks_at_gaps;
     const auto outline = nodes_.sides[face].outline;
     const bool is_grid = outline != FaceSides::Outline::other && outline != FaceSides::Outline::holed;
     if (looks == FaceRecord::most_looks || is_grid) return;
-    auto problem = crowding_problem(face + 1, chart.boundary, *chart.surface);
+    auto problem = crowding_problem(face, chart.boundary, *chart.surface);
     looks = problem ? looks + 1 : FaceRecord::most_looks;
     if (problem) throw FaceProblem(std::move(*problem));
   }
 
   void mesh_faces(const SizingField& field) {
-    for_each_face_left(Stage::mesh, 0, [&](int face) {
+    for_each_face_left(Stage::mesh, 0, [&](FaceId face) {
       if (!charts_[face]) throw FaceProblem(*problems_[face]);  // no remedy within the rounds
       FaceRecord& record = records_[face];
       const FaceChart chart = std::move(*charts_[face]);
@@ -271,15 +267,15 @@ class Job {
   }
 
   /// \return the problem of a face whose share of work or time is used up. Rethrows what ends the whole run.
-  FaceProblem share_problem(int face, const Error& error) const {
+  FaceProblem share_problem(FaceId face, const Error& error) const {
     if (error.subject() == ExecutionContext::work_subject) {
-      return {Cause::out_of_work, face + 1,
+      return {Cause::out_of_work, face,
               fmt::format("{}, and {} times the work of its first meshing mends nothing",
                           problems_before_[face]->what(), FaceRecord::most_work)};
     }
     if (!options_.partial) throw Error(error);
-    return {Cause::out_of_time, face + 1,
-            fmt::format("Face{} was not done in its share of the time limit of {:g} s", face + 1,
+    return {Cause::out_of_time, face,
+            fmt::format("Face{} was not done in its share of the time limit of {:g} s", face.number(),
                         context_.time_limit())};
   }
 
@@ -288,11 +284,11 @@ class Job {
   template <class Work>
   void for_each_face_left(Stage stage, double done_before, Work&& work) {
     const int n = static_cast<int>(shape_.faces.size());
-    std::vector<int> order = longest_first();
+    std::vector<FaceId> order = longest_first();
     // Small faces first, so that most faces are done when the time is over.
     if (is_limited()) std::reverse(order.begin(), order.end());
     std::atomic<int> started{0}, done{0};
-    const auto work_on = [&](int face) {
+    const auto work_on = [&](FaceId face) {
       if (!used_[face] || meshes_[face] || records_[face].given_up) return;
       try {
         work(face);
@@ -305,18 +301,19 @@ class Job {
             error.subject() == ExecutionContext::work_subject)
           problems_[face] = share_problem(face, error);
         else
-          problems_[face].emplace(
-              Cause::no_mesh, face + 1,
-              error.subject().empty() ? fmt::format("Face{}: {}", face + 1, error.what()) : error.what());
+          problems_[face].emplace(Cause::no_mesh, face,
+                                  error.subject().empty()
+                                      ? fmt::format("Face{}: {}", face.number(), error.what())
+                                      : error.what());
       } catch (const std::bad_alloc&) {
         throw;  // not the face's fault
       } catch (const std::exception& problem) {
-        problems_[face].emplace(Cause::no_mesh, face + 1,
-                                fmt::format("Face{} cannot be meshed ({})", face + 1, problem.what()));
+        problems_[face].emplace(Cause::no_mesh, face,
+                                fmt::format("Face{} cannot be meshed ({})", face.number(), problem.what()));
       } catch (const Standard_Failure& problem) {
         problems_[face].emplace(
-            Cause::no_mesh, face + 1,
-            fmt::format("Face{} cannot be evaluated ({})", face + 1, problem.GetMessageString()));
+            Cause::no_mesh, face,
+            fmt::format("Face{} cannot be evaluated ({})", face.number(), problem.GetMessageString()));
       }
       if (options_.partial && context_.seconds_left() < 0) return;
       const double share = static_cast<double>(done.fetch_add(1, std::memory_order_relaxed) + 1) / n;
@@ -330,15 +327,17 @@ class Job {
   }
 
   /// The faces, sorted by decreasing number of segments on their boundary.
-  std::vector<int> longest_first() const {
-    std::vector<int> segments(shape_.faces.size(), 0), order(shape_.faces.size());
-    for (std::size_t face = 0; face < segments.size(); ++face) {
+  std::vector<FaceId> longest_first() const {
+    IdVector<FaceId, int> segments(shape_.faces.size());
+    std::vector<FaceId> order;
+    for (const FaceId face : segments.ids()) {
+      order.push_back(face);
       for (const CadWire& wire : shape_.faces[face].wires) {
-        for (const Coedge& coedge : wire.coedges) segments[face] += nodes_.edges[coedge.edge - 1].segments();
+        for (const Coedge& coedge : wire.coedges) segments[face] += nodes_.edges[coedge.edge].segments();
       }
     }
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return segments[a] > segments[b]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](FaceId a, FaceId b) { return segments[a] > segments[b]; });
     return order;
   }
 
@@ -346,17 +345,16 @@ class Job {
   /// \return false if nothing could be done for any face.
   bool treat() {
     bool any = false;
-    for (std::size_t face = 0; face < problems_.size(); ++face) {
+    for (const FaceId face : problems_.ids()) {
       FaceRecord& record = records_[face];
       if (!problems_[face] || record.given_up) continue;
       // If not even a substitute chart can be made, the earlier problem is the one to report.
       const bool stands_in = record.recipe.chart != ChartKind::own;
       if (stands_in && problems_[face]->cause() == Cause::unusable_boundary && problems_before_[face])
-        problems_[face].emplace(Cause::unusable_boundary, static_cast<int>(face) + 1,
-                                problems_before_[face]->what());
+        problems_[face].emplace(Cause::unusable_boundary, face, problems_before_[face]->what());
       problems_before_[face] = problems_[face];
       const bool is_failure = problems_[face]->cause() != Cause::narrow_gaps;
-      if (is_failure && let_go_.keep_around(static_cast<int>(face), edges_.plan.tiny)) {
+      if (is_failure && let_go_.keep_around(face, edges_.plan.tiny)) {
         record.history.push_back("features kept that were let go");
         any = true;
         continue;
@@ -371,12 +369,12 @@ class Job {
   /// Adds a hint to the problem of each face that is far smaller than the elements: it can be left out.
   void advise_on_tiny_faces() {
     constexpr double tiny = 0.5;
-    for (int face = 0; face < static_cast<int>(problems_.size()); ++face) {
+    for (const FaceId face : problems_.ids()) {
       if (!problems_[face]) continue;
       const double longest = longest_edge(shape_, face);
       if (longest > tiny * limits_.largest) continue;
       const FaceProblem& problem = *problems_[face];
-      problems_[face].emplace(problem.cause(), face + 1,
+      problems_[face].emplace(problem.cause(), face,
                               fmt::format("{}; its longest edge is {:.3g}: `merge_tiny` {:.3g} leaves it out",
                                           problem.what(), longest, 1.1 * longest));
     }
@@ -392,27 +390,26 @@ class Job {
     using Kind = ShellMesh::LetGo::Kind;
     const TinyFeatures& tiny = edges_.plan.tiny;
     std::vector<ShellMesh::LetGo> result;
-    for (std::size_t i = 0; i < tiny.edges.size(); ++i) {
-      const CadEdge& edge = shape_.edges[i];
-      if (tiny.collapsed_edges[i])
-        result.push_back({Kind::edge, edge.number, Kind::vertex, tiny.end(edge.first_vertex)});
-      else if (tiny.edges[i] != static_cast<int>(i))
-        result.push_back({Kind::edge, edge.number, Kind::edge, shape_.edges[tiny.edges[i]].number});
+    for (const EdgeId id : tiny.edges.ids()) {
+      const CadEdge& edge = shape_.edges[id];
+      if (tiny.collapsed_edges[id])
+        result.push_back({Kind::edge, edge.number, Kind::vertex, tiny.end(edge.first_vertex).number()});
+      else if (tiny.edges[id] != id)
+        result.push_back({Kind::edge, edge.number, Kind::edge, shape_.edges[tiny.edges[id]].number});
     }
-    for (std::size_t i = 0; i < tiny.vertices.size(); ++i) {
-      const int vertex = static_cast<int>(i) + 1;
+    for (const VertexId vertex : tiny.vertices.ids()) {
       if (tiny.end(vertex) != vertex)
-        result.push_back({Kind::vertex, vertex, Kind::vertex, tiny.end(vertex)});
+        result.push_back({Kind::vertex, vertex.number(), Kind::vertex, tiny.end(vertex).number()});
     }
     return result;
   }
 
   std::vector<ShellMesh::Face> statuses() const {
     std::vector<ShellMesh::Face> result(shape_.faces.size());
-    for (std::size_t face = 0; face < result.size(); ++face) {
-      auto& status = result[face];
+    for (const FaceId face : shape_.faces.ids()) {
+      auto& status = result[face.index()];
       const FaceRecord& record = records_[face];
-      status.face = static_cast<int>(face) + 1;
+      status.face = face.number();
       status.attempts = record.attempts;
       status.seconds = record.seconds;
       status.work = record.work;
@@ -440,15 +437,15 @@ class Job {
   SizeLimits limits_;
   ExecutionContext& context_;
   EdgeTreatment edges_;
-  std::vector<char> used_;
+  FaceFlags used_;
   GridRows rows_;
   int chart_rounds_ = 0;
   BoundaryNodes nodes_;
-  std::vector<std::optional<FaceChart>> charts_;  ///< of the faces to be meshed next
-  std::vector<std::optional<FaceMesh>> meshes_;
-  std::vector<std::optional<FaceProblem>> problems_, problems_before_;
-  std::vector<FaceRecord> records_;
-  std::vector<char> asked_;
+  IdVector<FaceId, std::optional<FaceChart>> charts_;  ///< of the faces to be meshed next
+  FaceMeshes meshes_;
+  IdVector<FaceId, std::optional<FaceProblem>> problems_, problems_before_;
+  IdVector<FaceId, FaceRecord> records_;
+  FaceFlags asked_;
   LetGo let_go_;
 };
 

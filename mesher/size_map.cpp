@@ -90,18 +90,19 @@ SizingOptions without_sources(const SizingOptions& options, const SizeLimits& li
 /// Looks up sizes at the points of a map.
 class Look {
  public:
-  /// \param point_faces (points) CAD face of each point, from 1
-  Look(const SizeMap& map, const std::vector<int>& point_faces, std::size_t faces)
+  /// \param point_faces (points) CAD face of each point
+  Look(const SizeMap& map, const std::vector<FaceId>& point_faces, std::size_t faces)
       : map_(map), of_face_(faces) {
     for (std::size_t i = 0; i < point_faces.size(); ++i)
-      of_face_[point_faces[i] - 1].push_back(static_cast<int>(i));
+      of_face_[point_faces[i]].push_back(static_cast<int>(i));
   }
 
   std::vector<double> sizes(const SizingField& field) const {
     std::vector<double> result(map_.points.size(), 0);
-    oneapi::tbb::parallel_for(std::size_t{0}, of_face_.size(), [&](std::size_t face) {
+    oneapi::tbb::parallel_for(std::size_t{0}, of_face_.size(), [&](std::size_t index) {
+      const FaceId face = FaceId::from_index(index);
       if (of_face_[face].empty()) return;
-      SizingField::Sampler size_at(field, static_cast<int>(face));
+      SizingField::Sampler size_at(field, face);
       for (const int i : of_face_[face]) result[i] = size_at(map_.points[i]);
     });
     return result;
@@ -109,7 +110,7 @@ class Look {
 
  private:
   const SizeMap& map_;
-  std::vector<std::vector<int>> of_face_;  // (faces) indices of the points on each
+  IdVector<FaceId, std::vector<int>> of_face_;  // indices of the points on each
 };
 
 /// Sums up area and quads, and finds the range of sizes, where each source rules.
@@ -167,9 +168,9 @@ SurfaceTriangles triangles_for(const CadModel& model, const MeshOptions& options
   SurfaceTriangles surface =
       triangulate_surface(model.shape(), deflection, turn_of_triangle, faces_used(model, options), context);
   std::vector<std::unique_ptr<SizingField::Sampler>> samplers(model.face_count());
-  const auto longest = [&](int face, const Vector3& point) {
-    auto& size_at = samplers[face - 1];
-    if (!size_at) size_at = std::make_unique<SizingField::Sampler>(field, face - 1);
+  const auto longest = [&](FaceId face, const Vector3& point) {
+    auto& size_at = samplers[face.index()];
+    if (!size_at) size_at = std::make_unique<SizingField::Sampler>(field, face);
     return std::max(longest_sizes * (*size_at)(point), share);
   };
   divide_sides(surface, longest, most_triangles, context);
@@ -188,8 +189,8 @@ SizeMap size_map(const CadModel& model, const MeshOptions& options, ExecutionCon
     SurfaceTriangles surface = triangles_for(model, options, field, context);
     map.points = std::move(surface.points);
     map.triangles = std::move(surface.triangles);
-    map.faces = std::move(surface.faces);
-    map.missing = std::move(surface.missing);
+    for (const FaceId face : surface.faces) map.faces.push_back(face.number());
+    for (const FaceId face : surface.missing) map.missing.push_back(face.number());
     for (const SurfaceTriangles::Line& line : surface.lines) map.lines.push_back({line.points, line.edge});
     const Look look(map, surface.point_faces, static_cast<std::size_t>(model.face_count()));
     map.sizes = look.sizes(field);

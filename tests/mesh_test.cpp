@@ -20,6 +20,7 @@
 
 #include "geometry/cad/cad_shape.hpp"
 #include "mesher/quadrille.hpp"
+#include "tests/support/ids.hpp"
 #include "tests/support/sample_models.hpp"
 
 namespace quadrille {
@@ -98,18 +99,19 @@ TEST(Mesh, NodesLieOnTheGeometry) {
     const double tolerance = 2e-7 * model.diagonal();
     const std::size_t stride = mesh.quads.size() / 40 + 1;
     for (std::size_t i = 0; i < mesh.quads.size(); i += stride) {
-      const auto& face = model.shape().faces[mesh.quad_faces[i] - 1].face;
+      const auto& face = model.shape().faces[face_id(mesh.quad_faces[i])].face;
       for (int k = 0; k < 4; ++k) {
         EXPECT_LT(distance_to(face, mesh.points[mesh.quads[i][k]]), tolerance);
         EXPECT_LT(distance_to(face, mesh.points[mesh.midsides[i][k]]), tolerance);
       }
     }
     for (const auto& segment : mesh.segments) {
-      const auto& edge = model.shape().edges[segment.edge - 1].edge;
+      const auto& edge = model.shape().edges[edge_id(segment.edge)].edge;
       EXPECT_LT(distance_to(edge, mesh.points[segment.middle]), tolerance);
     }
     for (const auto& corner : mesh.corners) {
-      EXPECT_LT((mesh.points[corner.node] - model.shape().vertices[corner.vertex - 1]).norm(), tolerance);
+      EXPECT_LT((mesh.points[corner.node] - model.shape().vertices[vertex_id(corner.vertex)]).norm(),
+                tolerance);
     }
   }
 }
@@ -183,7 +185,8 @@ TEST(Mesh, MidsideNodesLieHalfwayOnEveryEdge) {
       const Vector3 &a = mesh.points[segment.nodes[0]], &b = mesh.points[segment.nodes[1]],
                     &middle = mesh.points[segment.middle];
       EXPECT_EQ(middles.at(std::minmax({segment.nodes[0], segment.nodes[1]})), std::set<int>{segment.middle});
-      EXPECT_LT(distance_to(model.shape().edges[segment.edge - 1].edge, middle), 2e-7 * model.diagonal());
+      EXPECT_LT(distance_to(model.shape().edges[edge_id(segment.edge)].edge, middle),
+                2e-7 * model.diagonal());
       EXPECT_NEAR((middle - a).norm(), (middle - b).norm(), 1e-6 * (b - a).norm());
       // On this piece of the edge: another one as far from both ends is further away.
       EXPECT_LT((middle - a).norm(), 0.8 * (b - a).norm());

@@ -13,6 +13,7 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/quadrille.hpp"
+#include "tests/support/ids.hpp"
 #include "tests/support/sample_models.hpp"
 
 namespace quadrille {
@@ -122,7 +123,7 @@ TEST(SizeMap, FieldIsTheLeastOfItsSources) {
     for (const auto& [point, face] : face_of) {
       double least = limits.largest;
       for (const SizingField& field : fields) {
-        SizingField::Sampler size_at(field, face - 1);
+        SizingField::Sampler size_at(field, face_id(face));
         least = std::min(least, size_at(map.points[point]));
       }
       // Voxels of other levels interpolate otherwise.
@@ -157,7 +158,7 @@ TEST(SizeMap, NamesWhatRules) {
   options.sizing.face_sizes[3] = 0.4;
   options.sizing.regions.push_back({});
   options.sizing.regions[0].shape = SizeRegion::Shape::sphere;
-  const Vector3 corner = model.shape().vertices[0];
+  const Vector3 corner = model.shape().vertices[vertex_id(1)];
   options.sizing.regions[0].a = corner;
   options.sizing.regions[0].radius = 2;
   options.sizing.regions[0].size = 0.3;

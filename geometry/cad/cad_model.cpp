@@ -210,13 +210,13 @@ const std::vector<std::string>& CadModel::problems() const {
 
 double CadModel::area(const ExecutionContext& context) const {
   double sum = 0;
-  for (std::size_t i = 0; i < shape_->faces.size(); ++i) {
+  for (const FaceId id : shape_->faces.ids()) {
     context.check();
     GProp_GProps properties;
     try {
-      BRepGProp::SurfaceProperties(shape_->faces[i].face, properties, 1e-4);
+      BRepGProp::SurfaceProperties(shape_->faces[id].face, properties, 1e-4);
     } catch (const Standard_Failure&) {
-      const std::string face = fmt::format("Face{}", i + 1);
+      const std::string face = fmt::format("Face{}", id.number());
       throw failure(face, fmt::format("the area of {} cannot be measured: the file may be damaged", face));
     }
     sum += std::abs(properties.Mass());

@@ -17,7 +17,7 @@
 #include <TopoDS_Iterator.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
-#include <numeric>
+#include <ranges>
 
 #include <fmt/format.h>
 
@@ -67,13 +67,13 @@ void CadShape::read_topology() {
     TopExp::MapShapes(face, TopAbs_VERTEX, vertex_map);
   }
   read_vertices(vertex_map);
-  read_edges(edge_map, vertex_map, vertex_numbers(vertex_map, own_vertices, sources));
+  read_edges(edge_map, vertex_map, vertex_ids(vertex_map, own_vertices, sources));
   for (const EdgePiece& piece : pieces) {
     const int index = edge_map.FindIndex(piece.piece);
-    if (index > own_edges) edges[index - 1].number = edge_map.FindIndex(piece.whole);
+    if (index > own_edges) edges[EdgeId::from_number(index)].number = edge_map.FindIndex(piece.whole);
   }
   faces.resize(face_map.Extent());
-  for (int i = 1; i <= face_map.Extent(); ++i) read_face(i - 1, sources[i - 1], edge_map, vertex_map);
+  for (const FaceId face : faces.ids()) read_face(face, sources[face.index()], edge_map, vertex_map);
   measure_edges();
 }
 
@@ -86,40 +86,44 @@ void CadShape::read_vertices(const TopTools_IndexedMapOfShape& vertex_map) {
   }
 }
 
-std::vector<int> CadShape::vertex_numbers(const TopTools_IndexedMapOfShape& vertex_map, int own_vertices,
-                                          const std::vector<TopoDS_Face>& sources) const {
-  std::vector<int> numbers(vertex_map.Extent() + 1);
-  std::iota(numbers.begin(), numbers.end(), 0);
-  if (own_vertices == vertex_map.Extent()) return numbers;
+IdVector<VertexId, VertexId> CadShape::vertex_ids(const TopTools_IndexedMapOfShape& vertex_map,
+                                                  int own_vertices,
+                                                  const std::vector<TopoDS_Face>& sources) const {
+  IdVector<VertexId, VertexId> ids(vertices.size());
+  for (const VertexId vertex : vertices.ids()) ids[vertex] = vertex;
+  if (own_vertices == vertex_map.Extent()) return ids;
   TopTools_IndexedMapOfShape used;
   for (const TopoDS_Face& face : sources) TopExp::MapShapes(face, TopAbs_VERTEX, used);
-  for (int index = own_vertices + 1; index <= vertex_map.Extent(); ++index) {
-    for (int i = 1; i <= own_vertices && numbers[index] == index; ++i) {
-      if (used.Contains(vertex_map(i))) continue;
-      const double reach = std::max(vertex_tolerances[i - 1], vertex_tolerances[index - 1]);
-      if ((vertices[i - 1] - vertices[index - 1]).norm() <= reach) numbers[index] = i;
+  for (VertexId& added : ids | std::views::drop(own_vertices)) {
+    for (const VertexId own : vertices.ids() | std::views::take(own_vertices)) {
+      if (used.Contains(vertex_map(own.number()))) continue;
+      const double reach = std::max(vertex_tolerances[own], vertex_tolerances[added]);
+      if ((vertices[own] - vertices[added]).norm() > reach) continue;
+      added = own;
+      break;
     }
   }
-  return numbers;
+  return ids;
 }
 
 void CadShape::read_edges(const TopTools_IndexedMapOfShape& edge_map,
-                          const TopTools_IndexedMapOfShape& vertex_map, const std::vector<int>& numbers) {
-  const auto number_of = [&](const TopoDS_Vertex& vertex) {
-    return vertex.IsNull() ? 0 : numbers[vertex_map.FindIndex(vertex)];
+                          const TopTools_IndexedMapOfShape& vertex_map,
+                          const IdVector<VertexId, VertexId>& ids) {
+  const auto id_of = [&](const TopoDS_Vertex& vertex) {
+    return vertex.IsNull() ? VertexId() : ids[VertexId::from_number(vertex_map.FindIndex(vertex))];
   };
   edges.resize(edge_map.Extent());
-  for (int i = 1; i <= edge_map.Extent(); ++i) {
-    CadEdge& edge = edges[i - 1];
-    edge.edge = TopoDS::Edge(edge_map(i).Oriented(TopAbs_FORWARD));
+  for (const EdgeId id : edges.ids()) {
+    CadEdge& edge = edges[id];
+    edge.number = id.number();
+    edge.edge = TopoDS::Edge(edge_map(edge.number).Oriented(TopAbs_FORWARD));
     edge.degenerate = BRep_Tool::Degenerated(edge.edge);
     edge.tolerance = BRep_Tool::Tolerance(edge.edge);
     TopoDS_Vertex first, last;
     TopExp::Vertices(edge.edge, first, last);
-    edge.first_vertex = number_of(first);
-    edge.last_vertex = number_of(last);
+    edge.first_vertex = id_of(first);
+    edge.last_vertex = id_of(last);
     BRep_Tool::Range(edge.edge, edge.first, edge.last);
-    edge.number = i;
   }
 }
 
@@ -161,9 +165,9 @@ Vector2 parameters_on(const TopoDS_Face& face, const TopoDS_Vertex& vertex) {
 
 }  // namespace
 
-void CadShape::read_face(int index, const TopoDS_Face& source, const TopTools_IndexedMapOfShape& edge_map,
+void CadShape::read_face(FaceId id, const TopoDS_Face& source, const TopTools_IndexedMapOfShape& edge_map,
                          const TopTools_IndexedMapOfShape& vertex_map) {
-  CadFace& face = faces[index];
+  CadFace& face = faces[id];
   face.reversed = source.Orientation() == TopAbs_REVERSED;
   face.face = TopoDS::Face(source.Oriented(TopAbs_FORWARD));
   face.tolerance = BRep_Tool::Tolerance(face.face);
@@ -171,26 +175,27 @@ void CadShape::read_face(int index, const TopoDS_Face& source, const TopTools_In
   for (TopoDS_Iterator it(face.face); it.More(); it.Next()) {
     if (it.Value().ShapeType() == TopAbs_VERTEX) {
       const TopoDS_Vertex& vertex = TopoDS::Vertex(it.Value());
-      face.inner_vertices.push_back({vertex_map.FindIndex(vertex), parameters_on(face.face, vertex)});
+      face.inner_vertices.push_back(
+          {VertexId::from_number(vertex_map.FindIndex(vertex)), parameters_on(face.face, vertex)});
     }
     if (it.Value().ShapeType() != TopAbs_WIRE) continue;
     CadWire wire;
     for (const TopoDS_Edge& edge : ordered_edges(TopoDS::Wire(it.Value()), face.face, wire.ordered)) {
       Coedge coedge;
-      coedge.edge = edge_map.FindIndex(edge);
+      coedge.edge = EdgeId::from_number(edge_map.FindIndex(edge));
       coedge.source = edge;
       coedge.internal = edge.Orientation() == TopAbs_INTERNAL || edge.Orientation() == TopAbs_EXTERNAL;
       coedge.forward = edge.Orientation() != TopAbs_REVERSED;
       double first = 0, last = 0;
       coedge.parametric_curve = BRep_Tool::CurveOnSurface(edge, face.face, first, last);
       if (coedge.parametric_curve.IsNull()) {
-        problems.push_back(fmt::format("Edge{} has no parametric curve on Face{}",
-                                       edges[coedge.edge - 1].number, index + 1));
+        problems.push_back(
+            fmt::format("Edge{} has no parametric curve on Face{}", edges[coedge.edge].number, id.number()));
         continue;
       }
-      CadEdge& cad_edge = edges[coedge.edge - 1];
-      cad_edge.faces.push_back(index + 1);
-      if (coedge.internal) cad_edge.faces.push_back(index + 1);  // the face lies on both sides
+      CadEdge& cad_edge = edges[coedge.edge];
+      cad_edge.faces.push_back(id);
+      if (coedge.internal) cad_edge.faces.push_back(id);  // the face lies on both sides
       wire.coedges.push_back(coedge);
     }
     if (!wire.coedges.empty()) face.wires.push_back(std::move(wire));

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "geometry/base/vector.hpp"
+#include "geometry/cad/ids.hpp"
 
 namespace quadrille {
 
@@ -25,28 +26,28 @@ inline Vector3 to_vector(const gp_Vec& p) {
   return {p.X(), p.Y(), p.Z()};
 }
 
-/// A CAD edge: a curve between two vertices. Numbers start at 1.
+/// A CAD edge: a curve between two vertices.
 struct CadEdge {
-  TopoDS_Edge edge;      ///< oriented forward: its parameter runs from `first` to `last`
-  int number = 0;        ///< number in the CAD file; a piece of a split edge has that of the whole edge
-  int first_vertex = 0;  ///< vertex at the parameter `first`; 0 on an edge without vertices
-  int last_vertex = 0;
+  TopoDS_Edge edge;       ///< oriented forward: its parameter runs from `first` to `last`
+  int number = 0;         ///< number in the CAD file; a piece of a split edge has that of the whole edge
+  VertexId first_vertex;  ///< vertex at the parameter `first`; none on an edge without vertices
+  VertexId last_vertex;
   double first = 0, last = 0;
   double length = 0;
   double tolerance = 0;
   bool degenerate = false;  ///< a single point in space (pole, apex)
   bool closed() const { return first_vertex == last_vertex; }
-  std::vector<int> faces;  ///< faces that use the edge, ascending; a seam's face twice
+  std::vector<FaceId> faces;  ///< faces that use the edge, ascending; a seam's face twice
 
-  /// Whether one of these faces uses the edge. \param used (faces) 1 = one of these.
-  bool is_used(const std::vector<char>& used) const {
-    return std::any_of(faces.begin(), faces.end(), [&](int face) { return used[face - 1] != 0; });
+  /// Whether one of these faces uses the edge.
+  bool is_used(const FaceFlags& used) const {
+    return std::any_of(faces.begin(), faces.end(), [&](FaceId face) { return used[face] != 0; });
   }
 };
 
 /// The use of an edge by a face.
 struct Coedge {
-  int edge = 0;
+  EdgeId edge;
   bool forward = true;                    ///< the wire runs in the direction of the edge's parameter
   bool internal = false;                  ///< the edge is a crack: the face lies on both sides of it
   Handle(Geom2d_Curve) parametric_curve;  ///< same parameter as the edge's curve
@@ -66,7 +67,7 @@ struct CadWire {
 
 /// A vertex inside a face, on none of its edges.
 struct InnerVertex {
-  int vertex = 0;
+  VertexId vertex;
   Vector2 uv{0, 0};
 };
 
@@ -79,7 +80,7 @@ struct CadFace {
   double tolerance = 0;
 };
 
-/// Immutable once built. Indices into the vectors are CAD numbers minus 1.
+/// Immutable once built.
 class CadShape {
  public:
   CadShape(const TopoDS_Shape& shape, std::string name);
@@ -87,10 +88,10 @@ class CadShape {
   std::string name;
   std::vector<std::string> problems;  ///< found while reading, one sentence each
   TopoDS_Shape shape;
-  std::vector<CadFace> faces;
-  std::vector<CadEdge> edges;
-  std::vector<Vector3> vertices;
-  std::vector<double> vertex_tolerances;
+  IdVector<FaceId, CadFace> faces;
+  IdVector<EdgeId, CadEdge> edges;
+  IdVector<VertexId, Vector3> vertices;
+  IdVector<VertexId, double> vertex_tolerances;
   int solids = 0, shells = 0;
   Vector3 box_min, box_max;
 
@@ -99,14 +100,14 @@ class CadShape {
  private:
   void read_topology();
   void read_vertices(const TopTools_IndexedMapOfShape& vertex_map);
-  /// (vertices in the map, from 1) vertex numbers. A new vertex that replaces one of the model's own vertices
-  /// gets the number of that vertex.
-  std::vector<int> vertex_numbers(const TopTools_IndexedMapOfShape& vertex_map, int own_vertices,
-                                  const std::vector<TopoDS_Face>& sources) const;
+  /// (vertices in the map) their ids. A new vertex that replaces one of the model's own vertices gets the id
+  /// of that vertex.
+  IdVector<VertexId, VertexId> vertex_ids(const TopTools_IndexedMapOfShape& vertex_map, int own_vertices,
+                                          const std::vector<TopoDS_Face>& sources) const;
   void read_edges(const TopTools_IndexedMapOfShape& edge_map, const TopTools_IndexedMapOfShape& vertex_map,
-                  const std::vector<int>& numbers);
+                  const IdVector<VertexId, VertexId>& ids);
   void measure_edges();
-  void read_face(int index, const TopoDS_Face& face, const TopTools_IndexedMapOfShape& edge_map,
+  void read_face(FaceId id, const TopoDS_Face& face, const TopTools_IndexedMapOfShape& edge_map,
                  const TopTools_IndexedMapOfShape& vertex_map);
   void measure();
 };

@@ -18,7 +18,7 @@ namespace {
 
 /// One end of an edge's curve.
 struct CurveEnd {
-  int edge = 0;  ///< from 1
+  EdgeId edge;
   bool last = false;
   Vector3 point;
 };
@@ -37,17 +37,17 @@ class CurveEndMender {
     }
     find_far_vertices();
     if (wrong_.empty()) return;
-    for (const int vertex : wrong_) split(vertex);
+    for (const VertexId vertex : wrong_) split(vertex);
     drop_dangling();
-    for (CadFace& face : shape_.faces) close_wires(face);
+    for (const FaceId face : shape_.faces.ids()) close_wires(face);
   }
 
  private:
   /// Whether the edge lies within the tolerance of its only vertex, but its ends do not lie at the vertex.
   bool is_swallowed(const CadEdge& edge) const {
-    if (edge.degenerate || !edge.closed() || edge.first_vertex == 0 || !(edge.length > 0)) return false;
-    const Vector3& vertex = shape_.vertices[edge.first_vertex - 1];
-    const double reach = shape_.vertex_tolerances[edge.first_vertex - 1];
+    if (edge.degenerate || !edge.closed() || !edge.first_vertex.exists() || !(edge.length > 0)) return false;
+    const Vector3& vertex = shape_.vertices[edge.first_vertex];
+    const double reach = shape_.vertex_tolerances[edge.first_vertex];
     const auto distance = [&](double share) { return (point_on(edge, share) - vertex).norm(); };
     constexpr double near = 1e-3;  // share of the edge's length
     if (std::max(distance(0), distance(1)) <= std::max(near * edge.length, edge.tolerance)) return false;
@@ -63,46 +63,45 @@ class CurveEndMender {
     struct Near {
       double distance = std::numeric_limits<double>::infinity(), shortest = distance;
     };
-    std::vector<Near> near(shape_.vertices.size());
+    IdVector<VertexId, Near> near(shape_.vertices.size());
     for (const CadEdge& edge : shape_.edges) {
       if (edge.degenerate || !(edge.length > 0)) continue;
       for (const bool last : {false, true}) {
-        const int vertex = last ? edge.last_vertex : edge.first_vertex;
-        if (vertex == 0) continue;
-        Near& at = near[vertex - 1];
-        at.distance =
-            std::min(at.distance, (point_on(edge, last ? 1 : 0) - shape_.vertices[vertex - 1]).norm());
+        const VertexId vertex = last ? edge.last_vertex : edge.first_vertex;
+        if (!vertex.exists()) continue;
+        Near& at = near[vertex];
+        at.distance = std::min(at.distance, (point_on(edge, last ? 1 : 0) - shape_.vertices[vertex]).norm());
         at.shortest = std::min(at.shortest, edge.length);
       }
     }
-    for (std::size_t i = 0; i < near.size(); ++i) {
-      if (std::isfinite(near[i].distance) &&
-          near[i].distance > std::max(near[i].shortest, shape_.vertex_tolerances[i]))
-        wrong_.insert(static_cast<int>(i) + 1);
+    for (const VertexId vertex : near.ids()) {
+      const Near& at = near[vertex];
+      if (std::isfinite(at.distance) && at.distance > std::max(at.shortest, shape_.vertex_tolerances[vertex]))
+        wrong_.insert(vertex);
     }
   }
 
-  std::vector<CurveEnd> ends_at(int vertex) const {
+  std::vector<CurveEnd> ends_at(VertexId vertex) const {
     std::vector<CurveEnd> ends;
-    for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
-      const CadEdge& edge = shape_.edges[i];
+    for (const EdgeId id : shape_.edges.ids()) {
+      const CadEdge& edge = shape_.edges[id];
       if (edge.degenerate || !(edge.length > 0)) continue;
       for (const bool last : {false, true}) {
         if ((last ? edge.last_vertex : edge.first_vertex) == vertex)
-          ends.push_back({static_cast<int>(i) + 1, last, point_on(edge, last ? 1 : 0)});
+          ends.push_back({id, last, point_on(edge, last ? 1 : 0)});
       }
     }
     return ends;
   }
 
   /// Makes one vertex of each place where curves end. The place with the most ends keeps the number.
-  void split(int vertex) {
+  void split(VertexId vertex) {
     constexpr double near = 0.01;  // share of the length of the shortest edge there
     std::vector<CurveEnd> left = ends_at(vertex);
-    double shortest = shape_.edges[left.front().edge - 1].length, tolerance = 0;
+    double shortest = shape_.edges[left.front().edge].length, tolerance = 0;
     for (const CurveEnd& end : left) {
-      shortest = std::min(shortest, shape_.edges[end.edge - 1].length);
-      tolerance = std::max(tolerance, shape_.edges[end.edge - 1].tolerance);
+      shortest = std::min(shortest, shape_.edges[end.edge].length);
+      tolerance = std::max(tolerance, shape_.edges[end.edge].tolerance);
     }
     const double reach = std::max(near * shortest, tolerance);
     std::vector<std::vector<CurveEnd>> places;
@@ -123,58 +122,60 @@ class CurveEndMender {
         "{}: {} taken in its stead", what_is_wrong(vertex, places),
         places.size() == 1 ? "the place where its curves end is"
                            : fmt::format("the {} places where its curves end are", places.size())));
-    for (std::size_t i = 0; i < places.size(); ++i) place_vertex(i == 0 ? vertex : 0, places[i], tolerance);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      place_vertex(i == 0 ? vertex : new_vertex(), places[i], tolerance);
   }
 
-  std::string what_is_wrong(int vertex, const std::vector<std::vector<CurveEnd>>& places) const {
-    const double tolerance = shape_.vertex_tolerances[vertex - 1];
+  std::string what_is_wrong(VertexId vertex, const std::vector<std::vector<CurveEnd>>& places) const {
+    const double tolerance = shape_.vertex_tolerances[vertex];
     double nearest = std::numeric_limits<double>::infinity();
     for (const auto& place : places) {
       for (const CurveEnd& end : place)
-        nearest = std::min(nearest, (end.point - shape_.vertices[vertex - 1]).norm());
+        nearest = std::min(nearest, (end.point - shape_.vertices[vertex]).norm());
     }
     if (nearest > tolerance)
-      return fmt::format("Vertex{} lies {:.3g} away from where its curves end", vertex, nearest);
-    return fmt::format("Vertex{} has a tolerance of {:.3g}, more than an edge of its own is long", vertex,
-                       tolerance);
+      return fmt::format("Vertex{} lies {:.3g} away from where its curves end", vertex.number(), nearest);
+    return fmt::format("Vertex{} has a tolerance of {:.3g}, more than an edge of its own is long",
+                       vertex.number(), tolerance);
   }
 
-  /// \param vertex from 1; 0 = a new vertex.
-  void place_vertex(int vertex, const std::vector<CurveEnd>& ends, double tolerance) {
-    if (vertex == 0) {
-      shape_.vertices.emplace_back();
-      shape_.vertex_tolerances.push_back(0);
-      vertex = static_cast<int>(shape_.vertices.size());
-    }
+  VertexId new_vertex() {
+    shape_.vertex_tolerances.push_back(0);
+    return shape_.vertices.push_back(Vector3::Zero());
+  }
+
+  void place_vertex(VertexId vertex, const std::vector<CurveEnd>& ends, double tolerance) {
     Vector3 sum = Vector3::Zero();
     for (const CurveEnd& end : ends) sum += end.point;
     const Vector3 middle = sum / static_cast<double>(ends.size());
     for (const CurveEnd& end : ends) {
-      CadEdge& edge = shape_.edges[end.edge - 1];
+      CadEdge& edge = shape_.edges[end.edge];
       (end.last ? edge.last_vertex : edge.first_vertex) = vertex;
       tolerance = std::max(tolerance, (end.point - middle).norm());
       touched_.insert(end.edge);
     }
-    shape_.vertices[vertex - 1] = middle;
-    shape_.vertex_tolerances[vertex - 1] = tolerance;
+    shape_.vertices[vertex] = middle;
+    shape_.vertex_tolerances[vertex] = tolerance;
   }
 
   /// Removes dangling edges (no other edge shares one of their ends) from all wires, one at a time.
   void drop_dangling() {
     for (bool changed = true; changed;) {
       changed = false;
-      std::vector<int> uses(shape_.vertices.size() + 1, 0);
+      IdVector<VertexId, int> uses(shape_.vertices.size());
       for (const CadEdge& edge : shape_.edges) {
         if (edge.faces.empty() || edge.degenerate) continue;
-        ++uses[edge.first_vertex];
-        ++uses[edge.last_vertex];
+        for (const VertexId vertex : {edge.first_vertex, edge.last_vertex}) {
+          if (vertex.exists()) ++uses[vertex];
+        }
       }
-      for (const int number : touched_) {
-        CadEdge& edge = shape_.edges[number - 1];
+      for (const EdgeId id : touched_) {
+        CadEdge& edge = shape_.edges[id];
         if (edge.faces.empty() || edge.closed()) continue;
-        if (uses[edge.first_vertex] > 1 && uses[edge.last_vertex] > 1) continue;
+        const auto is_shared = [&](VertexId vertex) { return vertex.exists() && uses[vertex] > 1; };
+        if (is_shared(edge.first_vertex) && is_shared(edge.last_vertex)) continue;
         shape_.problems.push_back(fmt::format("Edge{} leads nowhere and is left out", edge.number));
-        for (const int face : edge.faces) drop_from(shape_.faces[face - 1], number);
+        for (const FaceId face : edge.faces) drop_from(shape_.faces[face], id);
         edge.faces.clear();
         changed = true;
         break;
@@ -182,23 +183,24 @@ class CurveEndMender {
     }
   }
 
-  static void drop_from(CadFace& face, int edge) {
+  static void drop_from(CadFace& face, EdgeId edge) {
     for (CadWire& wire : face.wires)
       std::erase_if(wire.coedges, [&](const Coedge& coedge) { return coedge.edge == edge; });
     std::erase_if(face.wires, [](const CadWire& wire) { return wire.coedges.empty(); });
   }
 
-  int start_of(const Coedge& coedge) const {
-    const CadEdge& edge = shape_.edges[coedge.edge - 1];
+  VertexId start_of(const Coedge& coedge) const {
+    const CadEdge& edge = shape_.edges[coedge.edge];
     return coedge.forward ? edge.first_vertex : edge.last_vertex;
   }
-  int end_of(const Coedge& coedge) const {
-    const CadEdge& edge = shape_.edges[coedge.edge - 1];
+  VertexId end_of(const Coedge& coedge) const {
+    const CadEdge& edge = shape_.edges[coedge.edge];
     return coedge.forward ? edge.last_vertex : edge.first_vertex;
   }
 
   /// Closes gaps between the end of a coedge and the start of the next one by an edge of a split vertex.
-  void close_wires(CadFace& face) {
+  void close_wires(FaceId id) {
+    CadFace& face = shape_.faces[id];
     for (CadWire& wire : face.wires) {
       for (std::size_t i = 0; i < wire.coedges.size(); ++i) {
         const Coedge& now = wire.coedges[i];
@@ -206,21 +208,21 @@ class CurveEndMender {
         if (!touched_.contains(now.edge) || !touched_.contains(next.edge)) continue;
         if (end_of(now) == start_of(next)) continue;
         Coedge link = link_between(face, end_of(now), start_of(next));
-        if (link.edge == 0) continue;
-        CadEdge& edge = shape_.edges[link.edge - 1];
-        const int number = static_cast<int>(&face - shape_.faces.data()) + 1;
-        edge.faces.insert(std::upper_bound(edge.faces.begin(), edge.faces.end(), number), number);
+        if (!link.edge.exists()) continue;
+        CadEdge& edge = shape_.edges[link.edge];
+        edge.faces.insert(std::upper_bound(edge.faces.begin(), edge.faces.end(), id), id);
         shape_.problems.push_back(
-            fmt::format("a wire of Face{} is open: Edge{} closes it", number, edge.number));
+            fmt::format("a wire of Face{} is open: Edge{} closes it", id.number(), edge.number));
         wire.coedges.insert(wire.coedges.begin() + static_cast<long>(i) + 1, std::move(link));
       }
     }
   }
 
-  /// An edge of a split vertex that lies on the face and joins these two vertices; edge 0 if there is none.
-  Coedge link_between(const CadFace& face, int from, int to) const {
-    for (const int number : touched_) {
-      const CadEdge& edge = shape_.edges[number - 1];
+  /// An edge of a split vertex that lies on the face and joins these two vertices; without an edge if there
+  /// is none.
+  Coedge link_between(const CadFace& face, VertexId from, VertexId to) const {
+    for (const EdgeId id : touched_) {
+      const CadEdge& edge = shape_.edges[id];
       const bool forward = edge.first_vertex == from && edge.last_vertex == to;
       if (!forward && !(edge.first_vertex == to && edge.last_vertex == from)) continue;
       double first = 0, last = 0;
@@ -232,7 +234,7 @@ class CurveEndMender {
       link.parametric_curve = GeomProjLib::Curve2d(curve, first, last, surface, face.u_min, face.u_max,
                                                    face.v_min, face.v_max, tolerance);
       if (link.parametric_curve.IsNull()) continue;
-      link.edge = number;
+      link.edge = id;
       link.forward = forward;
       link.source = TopoDS::Edge(edge.edge.Oriented(forward ? TopAbs_FORWARD : TopAbs_REVERSED));
       const gp_Pnt2d middle = link.parametric_curve->Value(0.5 * (first + last));
@@ -243,8 +245,8 @@ class CurveEndMender {
   }
 
   CadShape& shape_;
-  std::set<int> wrong_;    ///< vertices to split
-  std::set<int> touched_;  ///< edges whose vertices changed
+  std::set<VertexId> wrong_;  ///< vertices to split
+  std::set<EdgeId> touched_;  ///< edges whose vertices changed
 };
 
 }  // namespace

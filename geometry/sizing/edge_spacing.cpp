@@ -23,22 +23,22 @@ std::vector<double> shares_of(int segments, const EdgeSpacing& spacing) {
   return shares;
 }
 
-/// The pieces of a CAD edge, from 0, in the order of the edge's parameter.
-std::vector<int> pieces_of(const CadShape& shape, int number) {
-  std::vector<int> pieces;
-  for (std::size_t i = 0; i < shape.edges.size(); ++i) {
-    if (shape.edges[i].number == number && !shape.edges[i].degenerate && shape.edges[i].length > 0)
-      pieces.push_back(static_cast<int>(i));
+/// The pieces of a CAD edge in the order of the edge's parameter.
+std::vector<EdgeId> pieces_of(const CadShape& shape, int number) {
+  std::vector<EdgeId> pieces;
+  for (const EdgeId id : shape.edges.ids()) {
+    const CadEdge& edge = shape.edges[id];
+    if (edge.number == number && !edge.degenerate && edge.length > 0) pieces.push_back(id);
   }
   std::sort(pieces.begin(), pieces.end(),
-            [&](int a, int b) { return shape.edges[a].first < shape.edges[b].first; });
+            [&](EdgeId a, EdgeId b) { return shape.edges[a].first < shape.edges[b].first; });
   return pieces;
 }
 
 /// The number of segments of each piece: in proportion to its length, but at least one.
-std::vector<int> split_count(const CadShape& shape, const std::vector<int>& pieces, int segments) {
+std::vector<int> split_count(const CadShape& shape, const std::vector<EdgeId>& pieces, int segments) {
   double length = 0, before = 0;
-  for (const int piece : pieces) length += shape.edges[piece].length;
+  for (const EdgeId piece : pieces) length += shape.edges[piece].length;
   std::vector<int> counts;
   int left = segments;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -66,18 +66,17 @@ double PrescribedEdge::shortest(double length) const {
   return length * share;
 }
 
-std::vector<std::optional<PrescribedEdge>> prescribed_edges(const CadShape& shape,
-                                                            const SizingOptions& options, double size) {
-  std::vector<std::optional<PrescribedEdge>> result(shape.edges.size());
+PrescribedEdges prescribed_edges(const CadShape& shape, const SizingOptions& options, double size) {
+  PrescribedEdges result(shape.edges.size());
   for (const auto& [number, spacing] : options.spacings) {
-    const std::vector<int> pieces = pieces_of(shape, number);
+    const std::vector<EdgeId> pieces = pieces_of(shape, number);
     if (pieces.empty()) continue;
     int segments = spacing.segments;
     if (segments == 0) {
       const auto own = options.edge_sizes.find(number);
       const double cap = own == options.edge_sizes.end() ? size : std::min(size, own->second);
       double length = 0;
-      for (const int piece : pieces) length += shape.edges[piece].length;
+      for (const EdgeId piece : pieces) length += shape.edges[piece].length;
       // An even number, so that subdivision can produce it.
       segments = 2 * std::max(1, static_cast<int>(std::lround(0.5 * length / cap)));
     }

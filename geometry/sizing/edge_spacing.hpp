@@ -22,10 +22,12 @@ struct PrescribedEdge {
   double shortest(double length) const;
 };
 
-/// (edges) what options.spacings prescribes; the pieces of a divided CAD edge have its number of segments
+/// The division of each edge, where one is prescribed.
+using PrescribedEdges = IdVector<EdgeId, std::optional<PrescribedEdge>>;
+
+/// What options.spacings prescribes; the pieces of a divided CAD edge have its number of segments
 /// together. \param size the size of edges with a bias but no number, unless options.edge_sizes gives a
 /// smaller one. Throws Error (usage) when an edge in pieces has fewer segments than pieces, or a bias.
-std::vector<std::optional<PrescribedEdge>> prescribed_edges(const CadShape& shape,
-                                                            const SizingOptions& options, double size);
+PrescribedEdges prescribed_edges(const CadShape& shape, const SizingOptions& options, double size);
 
 }  // namespace quadrille

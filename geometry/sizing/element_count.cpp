@@ -22,16 +22,17 @@ namespace {
 
 /// About the largest possible number of elements: each face counts as two squares over the diagonal of its
 /// bounding box (a sphere needs a little more than one).
-double most_elements(const CadShape& shape, const std::vector<char>& used, double size, double limit,
+double most_elements(const CadShape& shape, const FaceFlags& used, double size, double limit,
                      const ExecutionContext& context) {
   const double all = std::pow(shape.diagonal() / size, 2) * static_cast<double>(shape.faces.size());
   if (all < limit) return all;
   double count = 0;
-  for (std::size_t i = 0; i < shape.faces.size() && count <= limit; ++i) {
+  for (const FaceId face : shape.faces.ids()) {
+    if (count > limit) break;
     context.check();
-    if (!used[i]) continue;
+    if (!used[face]) continue;
     Bnd_Box box;
-    BRepBndLib::Add(shape.faces[i].face, box, Standard_False);
+    BRepBndLib::Add(shape.faces[face].face, box, Standard_False);
     if (!box.IsVoid()) count += 2 * box.SquareExtent() / (size * size);
   }
   return count;
@@ -115,12 +116,12 @@ class RegionSum {
 /// voxels thick and at any angle to the blocks; each coarser level repeats it with a quarter of the blocks.
 constexpr double blocks_a_square = 3.3 / 64;
 
-/// The size asked for on a face itself or by its layers, at most the global one. \param face from 0
-double size_on(const SizingOptions& options, const SizeLimits& limits, int face) {
+/// The size asked for on a face itself or by its layers, at most the global one.
+double size_on(const SizingOptions& options, const SizeLimits& limits, FaceId face) {
   double size = limits.largest;
-  if (const auto own = options.face_sizes.find(face + 1); own != options.face_sizes.end())
+  if (const auto own = options.face_sizes.find(face.number()); own != options.face_sizes.end())
     size = std::min(size, own->second);
-  if (const auto own = options.layers.faces.find(face + 1); own != options.layers.faces.end())
+  if (const auto own = options.layers.faces.find(face.number()); own != options.layers.faces.end())
     size = std::min(size, own->second.first);
   return size;
 }
@@ -130,7 +131,7 @@ bool may_pass_blocks(const CadShape& shape, const SizingOptions& options) {
   double squares = 0;
   const auto add = [&](int face, double size) {
     Bnd_Box box;
-    BRepBndLib::Add(shape.faces[face - 1].face, box, Standard_False);
+    BRepBndLib::Add(shape.faces[FaceId::from_number(face)].face, box, Standard_False);
     if (!box.IsVoid()) squares += 2 * box.SquareExtent() / (size * size);
   };
   for (const auto& [face, size] : options.face_sizes) add(face, size);
@@ -140,7 +141,7 @@ bool may_pass_blocks(const CadShape& shape, const SizingOptions& options) {
 
 /// Throws Error (usage) if regions ask for more elements or blocks on the used faces than allowed.
 void hold_regions(const CadShape& shape, const SizingOptions& options, const SizeLimits& limits,
-                  const std::vector<char>& used, double free, const ExecutionContext& context) {
+                  const FaceFlags& used, double free, const ExecutionContext& context) {
   const double most = std::min(options.budget.elements, options.budget.blocks / blocks_a_square);
   std::vector<SizeRegion> regions;
   for (const SizeRegion& region : options.regions) {
@@ -150,10 +151,10 @@ void hold_regions(const CadShape& shape, const SizingOptions& options, const Siz
   }
   if (regions.empty()) return;
   double elements = 0, blocks = 0;
-  for (std::size_t i = 0; i < shape.faces.size(); ++i) {
+  for (const FaceId face : shape.faces.ids()) {
     context.check();
-    if (!used[i]) continue;
-    RegionSum(shape, shape.faces[i], regions, limits.least).for_each([&](double area, double size) {
+    if (!used[face]) continue;
+    RegionSum(shape, shape.faces[face], regions, limits.least).for_each([&](double area, double size) {
       elements += area / (size * size);
       blocks += blocks_a_square * area / std::pow(field_voxel(limits.largest, size, options.growth), 2);
     });
@@ -170,7 +171,7 @@ TrimmedDomain coarse_domain(const CadShape& shape, const CadFace& face) {
   for (const CadWire& wire : face.wires) {
     for (const Coedge& coedge : wire.coedges) {
       if (coedge.internal) continue;
-      const CadEdge& edge = shape.edges[coedge.edge - 1];
+      const CadEdge& edge = shape.edges[coedge.edge];
       Vector2 from = parametric_point(coedge, edge.first);
       for (int i = 1; i <= intervals; ++i) {
         const Vector2 to = parametric_point(coedge, edge.first + (edge.last - edge.first) * i / intervals);
@@ -182,22 +183,21 @@ TrimmedDomain coarse_domain(const CadShape& shape, const CadFace& face) {
   return TrimmedDomain(std::move(segments));
 }
 
-std::vector<std::vector<FaceSample>> sample_faces(const CadShape& shape, const std::vector<char>& used,
-                                                  ExecutionContext& context) {
-  std::vector<std::vector<FaceSample>> samples(shape.faces.size());
-  oneapi::tbb::parallel_for(0, static_cast<int>(samples.size()), [&](int face) {
+FaceSamples sample_faces(const CadShape& shape, const FaceFlags& used, ExecutionContext& context) {
+  FaceSamples samples(shape.faces.size());
+  oneapi::tbb::parallel_for(0, static_cast<int>(samples.size()), [&](int index) {
     context.check();
+    const FaceId face = FaceId::from_index(index);
     if (used[face]) samples[face] = sample_face(shape, shape.faces[face]);
   });
   return samples;
 }
 
-double count_elements(const std::vector<std::vector<FaceSample>>& samples,
-                      const std::function<double(int face, const FaceSample&)>& size_at) {
+double count_elements(const FaceSamples& samples,
+                      const std::function<double(FaceId face, const FaceSample&)>& size_at) {
   double count = 0;
-  for (std::size_t face = 0; face < samples.size(); ++face) {
-    for (const FaceSample& sample : samples[face])
-      count += sample.area / std::pow(size_at(static_cast<int>(face), sample), 2);
+  for (const FaceId face : samples.ids()) {
+    for (const FaceSample& sample : samples[face]) count += sample.area / std::pow(size_at(face, sample), 2);
   }
   return count;
 }
@@ -216,8 +216,8 @@ void hold_elements(double count, const Budget& budget, double free) {
                             count / 1e6, bytes / 1e9, free / 1e9));
 }
 
-ElementBudget::ElementBudget(const CadModel& model, const SizingOptions& options,
-                             const std::vector<char>& used, ExecutionContext& context)
+ElementBudget::ElementBudget(const CadModel& model, const SizingOptions& options, const FaceFlags& used,
+                             ExecutionContext& context)
     : budget_(options.budget), free_(budget_.bytes_an_element > 0 ? free_memory() : 0) {
   const SizeLimits limits = size_limits(model, options);
   hold_regions(model.shape(), options, limits, used, free_, context);
@@ -229,7 +229,7 @@ ElementBudget::ElementBudget(const CadModel& model, const SizingOptions& options
     return;
   samples_ = sample_faces(model.shape(), used, context);
   hold_elements(count_elements(samples_,
-                               [&](int face, const FaceSample& sample) {
+                               [&](FaceId face, const FaceSample& sample) {
                                  return std::min(size_on(options, limits, face),
                                                  size_of_curvature(options, limits, sample.curvature));
                                }),
@@ -239,9 +239,9 @@ ElementBudget::ElementBudget(const CadModel& model, const SizingOptions& options
 
 void ElementBudget::check(const SizingField& field) const {
   std::optional<SizingField::Sampler> size_at;
-  int last = -1;
+  FaceId last;
   hold_elements(count_elements(samples_,
-                               [&](int face, const FaceSample& sample) {
+                               [&](FaceId face, const FaceSample& sample) {
                                  if (face != last) size_at.emplace(field, face);
                                  last = face;
                                  return (*size_at)(sample.point);
@@ -251,10 +251,10 @@ void ElementBudget::check(const SizingField& field) const {
 
 void ElementBudget::hold_blocks(const SizingOptions& options, const SizeLimits& limits) const {
   double blocks = 0;
-  for (std::size_t face = 0; face < samples_.size(); ++face) {
+  for (const FaceId face : samples_.ids()) {
     for (const FaceSample& sample : samples_[face]) {
-      const double size = std::min(size_on(options, limits, static_cast<int>(face)),
-                                   size_of_curvature(options, limits, sample.curvature));
+      const double size =
+          std::min(size_on(options, limits, face), size_of_curvature(options, limits, sample.curvature));
       if (!(size < limits.largest)) continue;
       blocks +=
           blocks_a_square * sample.area / std::pow(field_voxel(limits.largest, size, options.growth), 2);

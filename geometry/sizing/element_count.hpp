@@ -7,6 +7,7 @@
 #include "geometry/base/execution_context.hpp"
 #include "geometry/base/trimmed_domain.hpp"
 #include "geometry/cad/cad_model.hpp"
+#include "geometry/cad/ids.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/sizing/sizing_options.hpp"
 
@@ -24,13 +25,15 @@ struct FaceSample {
   double curvature = 0;  ///< largest absolute principal curvature, 1 / length
 };
 
-/// Points on a grid over each used face, some hundreds. \param used (faces) 1 = wanted. One thread per face.
-std::vector<std::vector<FaceSample>> sample_faces(const CadShape& shape, const std::vector<char>& used,
-                                                  ExecutionContext& context);
+/// The sample points of each face.
+using FaceSamples = IdVector<FaceId, std::vector<FaceSample>>;
+
+/// Points on a grid over each used face, some hundreds. One thread per face.
+FaceSamples sample_faces(const CadShape& shape, const FaceFlags& used, ExecutionContext& context);
 
 /// The integral of 1 / size^2 over all faces by their samples: about the number of quads.
-double count_elements(const std::vector<std::vector<FaceSample>>& samples,
-                      const std::function<double(int face, const FaceSample&)>& size_at);
+double count_elements(const FaceSamples& samples,
+                      const std::function<double(FaceId face, const FaceSample&)>& size_at);
 
 /// Throws Error (usage), with the number, if the elements exceed the budget or the memory. \param free bytes.
 void hold_elements(double count, const Budget& budget, double free);
@@ -40,8 +43,8 @@ void hold_elements(double count, const Budget& budget, double free);
 class ElementBudget {
  public:
   /// Throws Error (usage), with the number, if the sizes asked for on faces, in regions and by curvature
-  /// exceed the budget of elements or that of the sizing field. \param used (faces) 1 = meshed.
-  ElementBudget(const CadModel& model, const SizingOptions& options, const std::vector<char>& used,
+  /// exceed the budget of elements or that of the sizing field.
+  ElementBudget(const CadModel& model, const SizingOptions& options, const FaceFlags& used,
                 ExecutionContext& context);
 
   /// Throws Error (usage), with the number, if the graded field asks for more elements than allowed.
@@ -51,8 +54,8 @@ class ElementBudget {
   void hold_blocks(const SizingOptions& options, const SizeLimits& limits) const;
 
   Budget budget_;
-  double free_;                                   ///< free memory, bytes
-  std::vector<std::vector<FaceSample>> samples_;  ///< empty if the budget cannot be exceeded
+  double free_;          ///< free memory, bytes
+  FaceSamples samples_;  ///< empty if the budget cannot be exceeded
 };
 
 }  // namespace quadrille

@@ -38,17 +38,17 @@ double turning(const EdgeCurve& curve, const CadEdge& edge) {
 
 }  // namespace
 
-FaceGaps::FaceGaps(const CadShape& shape, int face, double widest, double narrowest)
+FaceGaps::FaceGaps(const CadShape& shape, FaceId face, double widest, double narrowest)
     : widest_(widest), narrowest_(narrowest) {
   const CadFace& cad = shape.faces[face];
   const FaceSurface surface(cad);
-  std::map<int, int> uses;  // seams are used twice and do not bound the face
+  std::map<EdgeId, int> uses;  // seams are used twice and do not bound the face
   for (const CadWire& wire : cad.wires) {
     for (const Coedge& coedge : wire.coedges) ++uses[coedge.edge];
   }
   for (const CadWire& wire : cad.wires) {
     for (const Coedge& coedge : wire.coedges) {
-      const CadEdge& edge = shape.edges[coedge.edge - 1];
+      const CadEdge& edge = shape.edges[coedge.edge];
       if (uses[coedge.edge] == 1 && !coedge.internal && !edge.degenerate && edge.length > 0)
         add_coedge(edge, coedge, surface);
     }

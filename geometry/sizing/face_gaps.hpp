@@ -24,8 +24,8 @@ struct FaceGap {
 /// with a smaller angle counts too.
 class FaceGaps {
  public:
-  /// \param face from 0. \param widest wider gaps are ignored. \param narrowest narrower gaps are all alike.
-  FaceGaps(const CadShape& shape, int face, double widest, double narrowest);
+  /// \param widest wider gaps are ignored. \param narrowest narrower gaps are all alike.
+  FaceGaps(const CadShape& shape, FaceId face, double widest, double narrowest);
 
   /// The gaps at places along the boundary. Neighboring places on a curve are no farther apart than half the
   /// gap width. Time: the number of places times that of the boundary pieces near each.

@@ -69,41 +69,40 @@ double SizeSources::cap_of(const CadEdge& edge) const {
 
 void SizeSources::hold_segments() const {
   double sum = 0, most = 0, blocks = 0;
-  std::size_t longest = 0;
-  for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
-    const CadEdge& edge = shape_.edges[i];
+  const CadEdge* longest = nullptr;
+  for (const EdgeId id : shape_.edges.ids()) {
+    const CadEdge& edge = shape_.edges[id];
     if (edge.degenerate || edge.faces.empty() || !(edge.length > 0)) continue;
     double cap = cap_of(edge);
     const auto& layers = options_.layers.edges;
-    if (const auto own = layers.find(edge.number); own != layers.end() && !unsized_.is_layered(i))
+    if (const auto own = layers.find(edge.number); own != layers.end() && !unsized_.is_layered(id))
       cap = std::min(cap, own->second.first);
-    const double segments = prescribed_[i] ? prescribed_[i]->segments : edge.length / cap;
+    const double segments = prescribed_[id] ? prescribed_[id]->segments : edge.length / cap;
     sum += segments;
     if (cap < limits_.largest)
       blocks += blocks_a_voxel * edge.length / field_voxel(limits_.largest, cap, options_.growth);
     if (segments <= most) continue;
     most = segments;
-    longest = i;
+    longest = &edge;
   }
-  if (sum > options_.budget.segments) throw too_many_segments(longest, most);
+  if (sum > options_.budget.segments) throw too_many_segments(*longest, most);
   if (blocks > options_.budget.blocks) throw too_many_blocks(blocks);
 }
 
-Error SizeSources::too_many_segments(std::size_t edge, double segments) const {
+Error SizeSources::too_many_segments(const CadEdge& edge, double segments) const {
   return usage_error(
       "size",
       fmt::format("Edge{} of {:.3g} mm would take about {:.3g} million segments at the sizes asked for, and "
                   "all edges more than {:g} million: `force` meshes all the same",
-                  shape_.edges[edge].number, shape_.edges[edge].length, segments / 1e6,
-                  options_.budget.segments / 1e6));
+                  edge.number, edge.length, segments / 1e6, options_.budget.segments / 1e6));
 }
 
-void SizeSources::edge(int index, const Sink& sink) const {
+void SizeSources::edge(EdgeId id, const Sink& sink) const {
   context_.check();
-  const CadEdge& edge = shape_.edges[index];
+  const CadEdge& edge = shape_.edges[id];
   if (edge.degenerate || edge.faces.empty() || edge.length <= 0) return;
-  if (prescribed_[index] && !unsized_.is_divided(index)) prescribed_edge(edge, *prescribed_[index], sink);
-  if (unsized_.edge(index) && !options_.edge_sizes.contains(edge.number)) return;
+  if (prescribed_[id] && !unsized_.is_divided(id)) prescribed_edge(edge, *prescribed_[id], sink);
+  if (unsized_.edge(id) && !options_.edge_sizes.contains(edge.number)) return;
   const EdgeCurve curve(edge);
   double cap = cap_of(edge);
   if (curve.straight()) {
@@ -150,7 +149,7 @@ void SizeSources::sample_edge(const EdgeCurve& curve, const CadEdge& edge, doubl
     check();
     const EdgeSample last = sample(edge.first + (edge.last - edge.first) * i / intervals);
     const double segments = (last.point - first.point).norm() / std::min(first.size, last.size);
-    if (segments > options_.budget.segments) throw too_many_segments(&edge - shape_.edges.data(), segments);
+    if (segments > options_.budget.segments) throw too_many_segments(edge, segments);
     split_interval(sample, first, last, 0, add, check);
     add(last);
     first = last;
@@ -170,14 +169,15 @@ void SizeSources::split_interval(const SampleAt& sample, const EdgeSample& first
   split_interval(sample, middle, last, depth + 1, add, check);
 }
 
-void SizeSources::face(int index, const Sink& sink) const {
-  const CadFace& face = shape_.faces[index];
-  if (unsized_.face(index) && !options_.face_sizes.contains(index + 1)) return;
-  if (options_.proximity > 0) gaps(index, sink);
-  if (rays_) walls(index, sink);
+void SizeSources::face(FaceId id, const Sink& sink) const {
+  const CadFace& face = shape_.faces[id];
+  if (unsized_.face(id) && !options_.face_sizes.contains(id.number())) return;
+  if (options_.proximity > 0) gaps(id, sink);
+  if (rays_) walls(id, sink);
   const FaceSurface surface(face);
   double cap = limits_.largest;
-  if (const auto it = options_.face_sizes.find(index + 1); it != options_.face_sizes.end()) cap = it->second;
+  if (const auto it = options_.face_sizes.find(id.number()); it != options_.face_sizes.end())
+    cap = it->second;
   const bool curved = !surface.planar() && has_curvature_sizes(options_);
   if (!curved && cap >= limits_.largest && spatial_.empty()) return;
   const TrimmedDomain domain = coarse_domain(shape_, face);
@@ -197,11 +197,12 @@ void SizeSources::face(int index, const Sink& sink) const {
   for (int k = 0; k < cells.nu * cells.nv; ++k) split_cell(sample, cells.middle(k), cells.cell, 0);
 }
 
-void SizeSources::uniform_edge(const CadEdge& edge, double spacing, const PointSink& sink) const {
+void SizeSources::uniform_edge(EdgeId id, double spacing, const PointSink& sink) const {
+  const CadEdge& edge = shape_.edges[id];
   if (edge.degenerate || !(edge.length > 0)) return;
   const EdgeCurve curve(edge);
   const double n = std::ceil(edge.length / spacing);
-  if (n > options_.budget.segments) throw too_many_segments(&edge - shape_.edges.data(), n);
+  if (n > options_.budget.segments) throw too_many_segments(edge, n);
   SparseCheck check(context_, 256);
   for (int i = 0; i <= n; ++i) {
     check();
@@ -209,8 +210,8 @@ void SizeSources::uniform_edge(const CadEdge& edge, double spacing, const PointS
   }
 }
 
-void SizeSources::uniform_face(int index, double spacing, const PointSink& sink) const {
-  const CadFace& face = shape_.faces[index];
+void SizeSources::uniform_face(FaceId id, double spacing, const PointSink& sink) const {
+  const CadFace& face = shape_.faces[id];
   const FaceSurface surface(face);
   const TrimmedDomain domain = coarse_domain(shape_, face);
   const Vector2 low(face.u_min, face.v_min), extent(face.u_max - face.u_min, face.v_max - face.v_min);
@@ -229,9 +230,9 @@ void SizeSources::uniform_face(int index, double spacing, const PointSink& sink)
 }
 
 /// Asks for options.proximity elements across each gap.
-void SizeSources::gaps(int index, const Sink& sink) const {
+void SizeSources::gaps(FaceId id, const Sink& sink) const {
   const double n = options_.proximity;
-  const FaceGaps gaps(shape_, index, n * limits_.largest, n * limits_.size_min);
+  const FaceGaps gaps(shape_, id, n * limits_.largest, n * limits_.size_min);
   for (const FaceGap& gap : gaps.find(context_)) {
     const double size = std::max(gap.width() / n, limits_.size_min);
     if (!(size < limits_.largest)) continue;
@@ -241,9 +242,9 @@ void SizeSources::gaps(int index, const Sink& sink) const {
 }
 
 /// Asks for options.proximity_walls elements through the thickness of each wall.
-void SizeSources::walls(int index, const Sink& sink) const {
+void SizeSources::walls(FaceId id, const Sink& sink) const {
   const double n = options_.proximity_walls;
-  const CadFace& face = shape_.faces[index];
+  const CadFace& face = shape_.faces[id];
   const FaceSurface surface(face);
   const TrimmedDomain domain = coarse_domain(shape_, face);
   const double inward = face.reversed ? 1 : -1;

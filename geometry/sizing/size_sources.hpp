@@ -28,15 +28,15 @@ class SizeSources {
   /// Throws Error (usage) if the sizes asked for on edges alone exceed the budget of segments or of blocks.
   void hold_segments() const;
 
-  /// What an edge asks for by its length, its curvature and its own size. \param index from 0
-  void edge(int index, const Sink& sink) const;
-  /// What a face asks for inside. \param index from 0
-  void face(int index, const Sink& sink) const;
+  /// What an edge asks for by its length, its curvature and its own size.
+  void edge(EdgeId id, const Sink& sink) const;
+  /// What a face asks for inside.
+  void face(FaceId id, const Sink& sink) const;
 
   using PointSink = std::function<void(const Vector3& point)>;
-  /// Points of an edge, and of the inside of a face (index from 0), about `spacing` apart.
-  void uniform_edge(const CadEdge& edge, double spacing, const PointSink& sink) const;
-  void uniform_face(int index, double spacing, const PointSink& sink) const;
+  /// Points of an edge, and of the inside of a face, about `spacing` apart.
+  void uniform_edge(EdgeId id, double spacing, const PointSink& sink) const;
+  void uniform_face(FaceId id, double spacing, const PointSink& sink) const;
 
  private:
   struct EdgeSample {
@@ -49,11 +49,11 @@ class SizeSources {
     double size, length, width;
   };
 
-  void gaps(int index, const Sink& sink) const;
-  void walls(int index, const Sink& sink) const;
+  void gaps(FaceId id, const Sink& sink) const;
+  void walls(FaceId id, const Sink& sink) const;
   double size_of(double curvature) const { return size_of_curvature(options_, limits_, curvature); }
   double cap_of(const CadEdge& edge) const;
-  Error too_many_segments(std::size_t edge, double segments) const;
+  Error too_many_segments(const CadEdge& edge, double segments) const;
   void prescribed_edge(const CadEdge& edge, const PrescribedEdge& prescribed, const Sink& sink) const;
   void sample_edge(const EdgeCurve& curve, const CadEdge& edge, double cap, bool with_curvature,
                    const Sink& sink) const;
@@ -69,8 +69,8 @@ class SizeSources {
   const UnsizedFeatures& unsized_;
   const SpatialSizes& spatial_;
   const ExecutionContext& context_;
-  std::vector<std::optional<PrescribedEdge>> prescribed_;  // (edges)
-  std::optional<WallRays> rays_;                           // set if walls ask for sizes
+  PrescribedEdges prescribed_;
+  std::optional<WallRays> rays_;  // set if walls ask for sizes
 };
 
 }  // namespace quadrille

@@ -39,11 +39,11 @@ class SizingField::Impl {
   FaceCascades cascades;  // one per face, or one for all
   bool on_surface = false;
 
-  int cascade_of(int face) const { return on_surface ? face : 0; }
-  /// The cascades of these faces (from 1), each once.
-  std::set<int> cascades_of(const std::vector<int>& faces) const {
+  int cascade_of(FaceId face) const { return on_surface ? face.index() : 0; }
+  /// The cascades of these faces, each once.
+  std::set<int> cascades_of(const std::vector<FaceId>& faces) const {
     std::set<int> result;
-    for (const int face : faces) result.insert(cascade_of(face - 1));
+    for (const FaceId face : faces) result.insert(cascade_of(face));
     return result;
   }
 };
@@ -71,17 +71,18 @@ class Builder {
 
   void run() {
     sources_.hold_segments();
-    for_all(shape_.edges.size(), [&](int edge) { add_edge(edge); });
+    for_all(shape_.edges, [&](EdgeId edge) { add_edge(edge); });
     std::atomic<int> done{0};
     const auto faces = static_cast<double>(shape_.faces.size());
-    for_all(shape_.faces.size(), [&](int face) {
+    for_all(shape_.faces, [&](FaceId face) {
       Batch batch(*this, {field_.cascade_of(face)});
       sources_.face(face, [&](const Vector3& p, double size) { batch.add(p, size); });
       batch.pass_on();
       context_.report(Stage::size, (done.fetch_add(1, std::memory_order_relaxed) + 1) / faces);
     });
     for (const auto& [vertex, size] : options_.vertex_sizes) {
-      if (size < limits_.largest) add(cascades_of_vertex(vertex), shape_.vertices[vertex - 1], size);
+      const VertexId id = VertexId::from_number(vertex);
+      if (size < limits_.largest) add(cascades_of_vertex(id), shape_.vertices[id], size);
     }
     add_points();
     add_layers();
@@ -114,9 +115,10 @@ class Builder {
     std::vector<SizePoint> points_;
   };
 
-  template <class Work>
-  static void for_all(std::size_t n, Work&& work) {
-    oneapi::tbb::parallel_for(0, static_cast<int>(n), work);
+  template <class Id, class Value, class Work>
+  static void for_all(const IdVector<Id, Value>& values, Work&& work) {
+    oneapi::tbb::parallel_for(0, static_cast<int>(values.size()),
+                              [&](int index) { work(Id::from_index(index)); });
   }
 
   void add(const std::set<int>& cascades, const Vector3& p, double size) {
@@ -129,22 +131,21 @@ class Builder {
                           [&](const Vector3& corner) { return spatial_.at_corner(at, corner); });
   }
 
-  void add_edge(int edge) {
+  void add_edge(EdgeId edge) {
     Batch batch(*this, field_.cascades_of(shape_.edges[edge].faces));
     sources_.edge(edge, [&](const Vector3& p, double size) { batch.add(p, size); });
     batch.pass_on();
   }
 
-  /// \param vertex from 1
-  std::set<int> cascades_of_vertex(int vertex) const {
-    std::vector<int> faces;
+  std::set<int> cascades_of_vertex(VertexId vertex) const {
+    std::vector<FaceId> faces;
     for (const CadEdge& edge : shape_.edges) {
       if (edge.first_vertex == vertex || edge.last_vertex == vertex)
         faces.insert(faces.end(), edge.faces.begin(), edge.faces.end());
     }
-    for (std::size_t face = 0; face < shape_.faces.size(); ++face) {
+    for (const FaceId face : shape_.faces.ids()) {
       for (const InnerVertex& inner : shape_.faces[face].inner_vertices) {
-        if (inner.vertex == vertex) faces.push_back(static_cast<int>(face) + 1);
+        if (inner.vertex == vertex) faces.push_back(face);
       }
     }
     return field_.cascades_of(faces);
@@ -169,14 +170,16 @@ class Builder {
   /// the same voxels, which the field then takes over.
   void add_layers() {
     const auto& layers = options_.layers;
-    for (const auto& [face, sizes] : layers.faces) {
+    for (const auto& [number, sizes] : layers.faces) {
+      const FaceId face = FaceId::from_number(number);
       const SizeLayers& own = sizes;  // Clang 14 captures no bindings in lambdas
       FaceCascades cascades = empty_cascades();
-      SizeCascade& cascade = *cascades[field_.cascade_of(face - 1)];
-      sources_.uniform_face(face - 1, own.first, [&](const Vector3& p) { add_layer(cascade, p, own); });
-      for (const CadEdge& edge : shape_.edges) {
+      SizeCascade& cascade = *cascades[field_.cascade_of(face)];
+      sources_.uniform_face(face, own.first, [&](const Vector3& p) { add_layer(cascade, p, own); });
+      for (const EdgeId id : shape_.edges.ids()) {
+        const CadEdge& edge = shape_.edges[id];
         if (std::find(edge.faces.begin(), edge.faces.end(), face) == edge.faces.end()) continue;
-        sources_.uniform_edge(edge, own.first, [&](const Vector3& p) {
+        sources_.uniform_edge(id, own.first, [&](const Vector3& p) {
           for (const int i : field_.cascades_of(edge.faces)) add_layer(*cascades[i], p, own);
         });
       }
@@ -185,18 +188,19 @@ class Builder {
     for (const auto& [number, sizes] : layers.edges) {
       const SizeLayers& own = sizes;  // Clang 14 captures no bindings in lambdas
       FaceCascades cascades = empty_cascades();
-      for (const CadEdge& edge : shape_.edges) {
-        if (edge.number != number || unsized_.is_layered(&edge - shape_.edges.data())) continue;
-        sources_.uniform_edge(edge, own.first, [&](const Vector3& p) {
+      for (const EdgeId id : shape_.edges.ids()) {
+        const CadEdge& edge = shape_.edges[id];
+        if (edge.number != number || unsized_.is_layered(id)) continue;
+        sources_.uniform_edge(id, own.first, [&](const Vector3& p) {
           for (const int i : field_.cascades_of(edge.faces)) add_layer(*cascades[i], p, own);
         });
       }
       take_layers(cascades, own);
     }
-    for (const auto& [vertex, own] : layers.vertices) {
+    for (const auto& [number, own] : layers.vertices) {
+      const VertexId vertex = VertexId::from_number(number);
       FaceCascades cascades = empty_cascades();
-      for (const int i : cascades_of_vertex(vertex))
-        add_layer(*cascades[i], shape_.vertices[vertex - 1], own);
+      for (const int i : cascades_of_vertex(vertex)) add_layer(*cascades[i], shape_.vertices[vertex], own);
       take_layers(cascades, own);
     }
   }
@@ -255,9 +259,9 @@ void visit_named_sizes(const CadModel& model, const SizingOptions& options, doub
   }
   if (options.spacings.empty()) return;
   const auto prescribed = prescribed_edges(model.shape(), options, size);
-  for (std::size_t i = 0; i < prescribed.size(); ++i) {
-    if (prescribed[i])
-      visit(Named::piece, static_cast<int>(i) + 1, prescribed[i]->shortest(model.shape().edges[i].length));
+  for (const EdgeId piece : prescribed.ids()) {
+    if (prescribed[piece])
+      visit(Named::piece, piece.number(), prescribed[piece]->shortest(model.shape().edges[piece].length));
   }
 }
 
@@ -320,10 +324,10 @@ SizeLimits size_limits(const CadModel& model, const SizingOptions& options) {
   return {size, std::min(least, smallest(model, options, size)), least};
 }
 
-std::vector<char> edges_below_size_min(const CadModel& model, const SizingOptions& options,
-                                       const SizeLimits& limits) {
+EdgeFlags edges_below_size_min(const CadModel& model, const SizingOptions& options,
+                               const SizeLimits& limits) {
   const CadShape& shape = model.shape();
-  std::vector<char> result(shape.edges.size(), 0);
+  EdgeFlags result(shape.edges.size());
   if (!(limits.least < limits.size_min)) return result;
   std::vector<std::pair<Bnd_Box, double>> named;  // boxes around what has a size, and the size
   const auto add = [&](const TopoDS_Shape& part, double size) {
@@ -333,10 +337,10 @@ std::vector<char> edges_below_size_min(const CadModel& model, const SizingOption
   };
   visit_named_sizes(model, options, limits.largest, [&](Named what, int number, double size) {
     if (!(size < limits.size_min)) return;
-    if (what == Named::face) add(shape.faces[number - 1].face, size);
-    if (what == Named::piece) add(shape.edges[number - 1].edge, size);
+    if (what == Named::face) add(shape.faces[FaceId::from_number(number)].face, size);
+    if (what == Named::piece) add(shape.edges[EdgeId::from_number(number)].edge, size);
     if (what == Named::vertex) {
-      const Vector3& p = shape.vertices[number - 1];
+      const Vector3& p = shape.vertices[VertexId::from_number(number)];
       named.emplace_back().second = size;
       named.back().first.Add(gp_Pnt(p.x(), p.y(), p.z()));
     }
@@ -344,20 +348,20 @@ std::vector<char> edges_below_size_min(const CadModel& model, const SizingOption
       if (what == Named::edge && edge.number == number) add(edge.edge, size);
     }
   });
-  for (std::size_t i = 0; i < shape.edges.size(); ++i) {
+  for (const EdgeId id : shape.edges.ids()) {
     Bnd_Box box;
-    BRepBndLib::Add(shape.edges[i].edge, box, Standard_False);
+    BRepBndLib::Add(shape.edges[id].edge, box, Standard_False);
     if (box.IsVoid()) continue;
     const auto reaches = [&](double size, double distance) {
       return size + options.growth * distance < limits.size_min;
     };
     const Vector3 low = to_vector(box.CornerMin()), high = to_vector(box.CornerMax());
     const double radius = 0.5 * (high - low).norm();
-    result[i] = std::any_of(named.begin(), named.end(),
-                            [&](const auto& at) { return reaches(at.second, at.first.Distance(box)); }) ||
-                std::any_of(options.regions.begin(), options.regions.end(), [&](const SizeRegion& region) {
-                  return reaches(region.size, std::max(0.0, region.distance(0.5 * (low + high)) - radius));
-                });
+    result[id] = std::any_of(named.begin(), named.end(),
+                             [&](const auto& at) { return reaches(at.second, at.first.Distance(box)); }) ||
+                 std::any_of(options.regions.begin(), options.regions.end(), [&](const SizeRegion& region) {
+                   return reaches(region.size, std::max(0.0, region.distance(0.5 * (low + high)) - radius));
+                 });
   }
   return result;
 }
@@ -421,7 +425,7 @@ SizingField::Sampler::Sampler(const SizingField& field)
   for (const auto& cascade : impl_.cascades) lookups_->all.emplace_back(*cascade);
 }
 
-SizingField::Sampler::Sampler(const SizingField& field, int face)
+SizingField::Sampler::Sampler(const SizingField& field, FaceId face)
     : lookups_(std::make_unique<Lookups>()), impl_(*field.impl_) {
   lookups_->all.emplace_back(*impl_.cascades[impl_.cascade_of(face)]);
 }

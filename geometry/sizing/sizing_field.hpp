@@ -9,6 +9,7 @@
 #include "geometry/base/execution_context.hpp"
 #include "geometry/base/vector.hpp"
 #include "geometry/cad/cad_model.hpp"
+#include "geometry/cad/ids.hpp"
 #include "geometry/sizing/sizing_options.hpp"
 
 namespace quadrille {
@@ -23,27 +24,27 @@ struct SizeLimits {
 };
 SizeLimits size_limits(const CadModel& model, const SizingOptions& options);  ///< limits for a model
 
-/// (edges) 1 = sizes below limits.size_min, given by name, may reach the edge. Complexity: edges times the
-/// number of those sizes.
-std::vector<char> edges_below_size_min(const CadModel& model, const SizingOptions& options,
-                                       const SizeLimits& limits);
+/// 1 = sizes below limits.size_min, given by name, may reach the edge. Complexity: edges times the number of
+/// those sizes.
+EdgeFlags edges_below_size_min(const CadModel& model, const SizingOptions& options, const SizeLimits& limits);
 
 /// The size that a curvature (1 / length) asks for, from limits.size_min to limits.largest.
 double size_of_curvature(const SizingOptions& options, const SizeLimits& limits, double curvature);
 
 /// Features that set no sizes of their own: too small, or meshed by rows of flat quads. Empty = none.
 struct UnsizedFeatures {
-  std::vector<char> edges /**< by edge */, faces; /**< by face */
-  std::vector<char> divided;                      ///< (edges) 1 = its prescribed division asks for no sizes
-  std::vector<char> layered;                      ///< (edges) 1 = its layers ask for no sizes
-  /// Whether an edge, from 0, asks for no sizes.
-  bool edge(std::size_t index) const { return index < edges.size() && edges[index] != 0; }
-  /// Whether the prescribed division of an edge, from 0, asks for no sizes.
-  bool is_divided(std::size_t index) const { return index < divided.size() && divided[index] != 0; }
-  /// Whether the layers of an edge, from 0, ask for no sizes.
-  bool is_layered(std::size_t index) const { return index < layered.size() && layered[index] != 0; }
-  /// Whether a face, from 0, asks for no sizes.
-  bool face(std::size_t index) const { return index < faces.size() && faces[index] != 0; }
+  EdgeFlags edges;
+  FaceFlags faces;
+  EdgeFlags divided;  ///< 1 = its prescribed division asks for no sizes
+  EdgeFlags layered;  ///< 1 = its layers ask for no sizes
+  /// Whether an edge asks for no sizes.
+  bool edge(EdgeId id) const { return !edges.empty() && edges[id] != 0; }
+  /// Whether the prescribed division of an edge asks for no sizes.
+  bool is_divided(EdgeId id) const { return !divided.empty() && divided[id] != 0; }
+  /// Whether the layers of an edge ask for no sizes.
+  bool is_layered(EdgeId id) const { return !layered.empty() && layered[id] != 0; }
+  /// Whether a face asks for no sizes.
+  bool face(FaceId id) const { return !faces.empty() && faces[id] != 0; }
 };
 
 /// The width of the voxels that hold a size in a field whose largest is `size_max`.
@@ -100,8 +101,8 @@ class SizingField {
    public:
     /// Takes the smallest size of all faces: slow for many faces.
     explicit Sampler(const SizingField& field);  ///< the field must outlive it
-    /// Sizes on a face, from 0.
-    Sampler(const SizingField& field, int face);
+    /// Sizes on a face.
+    Sampler(const SizingField& field, FaceId face);
     /// On an edge: the smallest size of its faces.
     Sampler(const SizingField& field, const CadEdge& edge);
     ~Sampler();

@@ -100,13 +100,13 @@ class SurfaceGradation {
         blocks_(blocks),
         context_(context),
         bands_(shape.faces.size()),
-        graded_(shape.faces.size(), 0),
+        graded_(shape.faces.size()),
         samples_(shape.edges.size()),
         lowered_(shape.edges.size()) {}
 
   void run() {
     // Most sizes that pass over edges lie at the edges, so pass them before the first grading.
-    for (std::size_t face = 0; face < graded_.size(); ++face) graded_[face] = cascades_[face]->is_fresh();
+    for (const FaceId face : graded_.ids()) graded_[face] = cascade_of(face).is_fresh();
     do {
       pass_over_edges();
       take_what_passed();
@@ -120,59 +120,61 @@ class SurfaceGradation {
   };
   /// A voxel that gets a smaller size from across an edge.
   struct Lowered {
-    int face, level;
+    FaceId face;
+    int level;
     Coord coord;
     float value;
   };
 
   /// \return whether there was anything to do.
   bool grade_faces() {
-    oneapi::tbb::parallel_for(0, static_cast<int>(cascades_.size()), [&](int face) {
-      graded_[face] = cascades_[face]->is_fresh();
+    oneapi::tbb::parallel_for(0, static_cast<int>(cascades_.size()), [&](int index) {
+      const FaceId face = FaceId::from_index(index);
+      graded_[face] = cascade_of(face).is_fresh();
       if (!graded_[face]) return;
-      if (!bands_[face]) bands_[face] = std::make_unique<FaceBand>(shape_.faces[face]);
-      const FaceBand& near = *bands_[face];
+      if (!bands_[index]) bands_[index] = std::make_unique<FaceBand>(shape_.faces[face]);
+      const FaceBand& near = *bands_[index];
       const auto is_near = [&near](const Vector3& p, double voxel) { return near(p, voxel); };
-      cascades_[face]->grade(slope_, most_, is_near, blocks_, context_);
+      cascade_of(face).grade(slope_, most_, is_near, blocks_, context_);
     });
     return std::any_of(graded_.begin(), graded_.end(), [](char graded) { return graded != 0; });
   }
 
   /// The faces of an edge, each once.
-  static std::vector<int> faces_of(const CadEdge& edge) {
-    std::vector<int> faces;
+  static std::vector<FaceId> faces_of(const CadEdge& edge) {
+    std::vector<FaceId> faces;
     std::unique_copy(edge.faces.begin(), edge.faces.end(), std::back_inserter(faces));
-    for (int& face : faces) --face;
     return faces;
   }
 
   void pass_over_edges() {
     oneapi::tbb::parallel_for(0, static_cast<int>(shape_.edges.size()), [&](int index) {
-      const CadEdge& edge = shape_.edges[index];
+      const EdgeId id = EdgeId::from_index(index);
+      const CadEdge& edge = shape_.edges[id];
       if (edge.degenerate || !(edge.length > 0)) return;
-      const std::vector<int> faces = faces_of(edge);
+      const std::vector<FaceId> faces = faces_of(edge);
       if (faces.size() < 2) return;
-      for (const int face : faces) {
-        if (graded_[face]) pass(index, face, faces);
+      for (const FaceId face : faces) {
+        if (graded_[face]) pass(id, face, faces);
       }
     });
   }
 
   /// Passes a face's sizes to its neighbors along an edge.
-  void pass(int index, int from, const std::vector<int>& faces) {
-    const CadEdge& edge = shape_.edges[index];
-    const SizeCascade& cascade = *cascades_[from];
+  void pass(EdgeId id, FaceId from, const std::vector<FaceId>& faces) {
+    const CadEdge& edge = shape_.edges[id];
+    const SizeCascade& cascade = cascade_of(from);
     if (cascade.levels() == 0) return;
     const EdgeCurve curve(edge);
-    std::vector<Sample>& samples = samples_[index];
+    std::vector<Sample>& samples = samples_[id];
     if (samples.empty()) {
       const int n = 1 + static_cast<int>(std::ceil(edge.length / cascade.frame().size_max));
       for (int i = 0; i <= n; ++i)
         samples.push_back(sample(curve, edge.first + (edge.last - edge.first) * i / n));
     }
-    Passing passing{index, from, SizeCascade::Lookup(cascade), VoxelFinder(cascade), {}, {}};
-    for (const int face : faces) {
-      if (face != from) passing.targets.emplace_back(face, VoxelFinder(*cascades_[face]));
+    Passing passing{id, from, SizeCascade::Lookup(cascade), VoxelFinder(cascade), {}, {}};
+    for (const FaceId face : faces) {
+      if (face != from) passing.targets.emplace_back(face, VoxelFinder(cascade_of(face)));
     }
     SparseCheck check(context_, 256);
     bool changed = pass_voxel(passing, samples.front().point);
@@ -192,10 +194,11 @@ class SurfaceGradation {
 
   /// The state of passing one face's sizes to others across an edge.
   struct Passing {
-    int edge, from;
+    EdgeId edge;
+    FaceId from;
     SizeCascade::Lookup size_at;
     VoxelFinder finder;
-    std::vector<std::pair<int, VoxelFinder>> targets;
+    std::vector<std::pair<FaceId, VoxelFinder>> targets;
     std::vector<Sample> samples;  // samples along the edge
   };
   struct SizedSample {
@@ -238,30 +241,33 @@ class SurfaceGradation {
   }
 
   void take_what_passed() {
-    std::vector<std::vector<int>> edges_of(cascades_.size());
-    for (std::size_t i = 0; i < lowered_.size(); ++i) {
-      if (lowered_[i].empty()) continue;
-      for (const int face : faces_of(shape_.edges[i])) edges_of[face].push_back(static_cast<int>(i));
+    IdVector<FaceId, std::vector<EdgeId>> edges_of(cascades_.size());
+    for (const EdgeId edge : lowered_.ids()) {
+      if (lowered_[edge].empty()) continue;
+      for (const FaceId face : faces_of(shape_.edges[edge])) edges_of[face].push_back(edge);
     }
-    oneapi::tbb::parallel_for(0, static_cast<int>(cascades_.size()), [&](int face) {
-      for (const int edge : edges_of[face]) {
+    oneapi::tbb::parallel_for(0, static_cast<int>(cascades_.size()), [&](int index) {
+      const FaceId face = FaceId::from_index(index);
+      for (const EdgeId edge : edges_of[face]) {
         for (const Lowered& voxel : lowered_[edge]) {
-          if (voxel.face == face) cascades_[face]->lower(voxel.level, voxel.coord, voxel.value, blocks_);
+          if (voxel.face == face) cascade_of(face).lower(voxel.level, voxel.coord, voxel.value, blocks_);
         }
       }
     });
     for (auto& lowered : lowered_) lowered.clear();
   }
 
+  SizeCascade& cascade_of(FaceId face) { return *cascades_[face.index()]; }
+
   const CadShape& shape_;
   FaceCascades& cascades_;
   double slope_, most_;
   BlockCount& blocks_;
   const ExecutionContext& context_;
-  std::vector<std::unique_ptr<FaceBand>> bands_;
-  std::vector<char> graded_;                   // (faces) graded in this round
-  std::vector<std::vector<Sample>> samples_;   // (edges) samples along the edge, refined to the sizes there
-  std::vector<std::vector<Lowered>> lowered_;  // (edges) voxels to lower
+  std::vector<std::unique_ptr<FaceBand>> bands_;    // by index of the face
+  FaceFlags graded_;                                // 1 = graded in this round
+  IdVector<EdgeId, std::vector<Sample>> samples_;   // samples along the edge, refined to the sizes there
+  IdVector<EdgeId, std::vector<Lowered>> lowered_;  // voxels to lower
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace quadrille {
 
-/// (faces) The sizes on each face.
+/// The sizes on each face, by its index; or one cascade for all faces.
 using FaceCascades = std::vector<std::unique_ptr<SizeCascade>>;
 
 /// Lets the sizes of all faces grow by at most `slope` per unit of length, up to `most`: within a face

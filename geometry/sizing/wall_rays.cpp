@@ -89,7 +89,7 @@ struct Exit {
 WallRays::WallRays(const CadShape& shape, double narrowest, const ExecutionContext& context)
     : tree_(std::make_unique<Tree>()) {
   tree_->surface = triangulate_surface(shape, deflection_share * narrowest, turn_of_triangle,
-                                       std::vector<char>(shape.faces.size(), 1), context);
+                                       FaceFlags(shape.faces.size(), 1), context);
   const SurfaceTriangles& surface = tree_->surface;
   std::vector<Box> boxes;
   std::vector<int> numbers;

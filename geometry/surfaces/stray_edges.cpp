@@ -22,7 +22,7 @@ Bnd_Box box_of_surfaces(const CadShape& shape) {
 
 double diagonal_of_vertices(const CadShape& shape) {
   if (shape.vertices.empty()) return 0;
-  Vector3 low = shape.vertices.front(), high = low;
+  Vector3 low = *shape.vertices.begin(), high = low;
   for (const Vector3& vertex : shape.vertices) {
     low = low.cwiseMin(vertex);
     high = high.cwiseMax(vertex);
@@ -50,15 +50,14 @@ std::string StrayEdge::sentence() const {
       edge, distance, span);
 }
 
-std::vector<StrayEdge> stray_edges(const CadShape& shape, const std::vector<char>& used) {
+std::vector<StrayEdge> stray_edges(const CadShape& shape, const FaceFlags& used) {
   constexpr double spans = 10;
-  std::vector<int> long_ones;
+  std::vector<EdgeId> long_ones;
   const double usual = diagonal_of_vertices(shape);
-  for (std::size_t i = 0; i < shape.edges.size(); ++i) {
-    const CadEdge& edge = shape.edges[i];
+  for (const EdgeId id : shape.edges.ids()) {
+    const CadEdge& edge = shape.edges[id];
     // Edges whose curves could not be measured have length 0.
-    if (edge.is_used(used) && !edge.degenerate && edge.length > spans * usual)
-      long_ones.push_back(static_cast<int>(i));
+    if (edge.is_used(used) && !edge.degenerate && edge.length > spans * usual) long_ones.push_back(id);
   }
   std::vector<StrayEdge> result;
   if (long_ones.empty()) return result;
@@ -66,9 +65,9 @@ std::vector<StrayEdge> stray_edges(const CadShape& shape, const std::vector<char
   if (box.IsVoid()) return result;
   const Vector3 low = to_vector(box.CornerMin()), high = to_vector(box.CornerMax());
   const double span = (high - low).norm();
-  for (const int i : long_ones) {
-    const double distance = distance_from_box(shape.edges[i], low, high);
-    if (distance > spans * span) result.push_back({shape.edges[i].number, distance, span});
+  for (const EdgeId id : long_ones) {
+    const double distance = distance_from_box(shape.edges[id], low, high);
+    if (distance > spans * span) result.push_back({shape.edges[id].number, distance, span});
   }
   return result;
 }

@@ -17,8 +17,8 @@ struct StrayEdge {
 };
 
 /// The edges of the used faces that leave the bounding box of the model's surfaces by more than ten of its
-/// diagonals. No size suits them: their length is not a length of the part. \param used (faces) 1 = wanted.
+/// diagonals. No size suits them: their length is not a length of the part.
 /// Time: some ten evaluations per long edge.
-std::vector<StrayEdge> stray_edges(const CadShape& shape, const std::vector<char>& used);
+std::vector<StrayEdge> stray_edges(const CadShape& shape, const FaceFlags& used);
 
 }  // namespace quadrille

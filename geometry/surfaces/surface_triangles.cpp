@@ -25,22 +25,22 @@ namespace quadrille {
 namespace {
 
 /// Adds the triangles of a face. \return false if it has none.
-bool add_face(const CadShape& shape, int index, const TopoDS_Face& face, SurfaceTriangles& surface) {
+bool add_face(const CadShape& shape, FaceId id, const TopoDS_Face& face, SurfaceTriangles& surface) {
   TopLoc_Location place;
   const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
   if (mesh.IsNull() || mesh->NbTriangles() == 0) return false;
   const int first = static_cast<int>(surface.points.size()) - 1;  // OpenCASCADE counts nodes from 1
-  const CadFace& cad = shape.faces[index];
+  const CadFace& cad = shape.faces[id];
   for (int i = 1; i <= mesh->NbNodes(); ++i) {
     surface.points.push_back(to_vector(mesh->Node(i).Transformed(place.Transformation())));
-    surface.point_faces.push_back(index + 1);
+    surface.point_faces.push_back(id);
   }
   for (int i = 1; i <= mesh->NbTriangles(); ++i) {
     std::array<int, 3> nodes{};
     mesh->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
     if (cad.reversed) std::swap(nodes[1], nodes[2]);
     surface.triangles.push_back({first + nodes[0], first + nodes[1], first + nodes[2]});
-    surface.faces.push_back(index + 1);
+    surface.faces.push_back(id);
   }
   return true;
 }
@@ -61,7 +61,7 @@ void add_lines(const TopoDS_Edge& edge, const TopoDS_Face& face, SurfaceTriangle
 /// One round of dividing sides.
 class Round {
  public:
-  Round(SurfaceTriangles& surface, const std::function<double(int, const Vector3&)>& longest)
+  Round(SurfaceTriangles& surface, const std::function<double(FaceId, const Vector3&)>& longest)
       : surface_(surface) {
     for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
       for (int k = 0; k < 3; ++k) {
@@ -84,7 +84,7 @@ class Round {
   void divide() {
     close();
     std::vector<std::array<int, 3>> triangles;
-    std::vector<int> faces;
+    std::vector<FaceId> faces;
     for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
       const std::size_t before = triangles.size();
       cut(i, triangles);
@@ -194,14 +194,14 @@ class Round {
 }  // namespace
 
 SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, double turn,
-                                     const std::vector<char>& used, const ExecutionContext& context) {
+                                     const FaceFlags& used, const ExecutionContext& context) {
   SurfaceTriangles surface;
   context.check();
   TopoDS_Compound faces;
   BRep_Builder builder;
   builder.MakeCompound(faces);
-  for (std::size_t i = 0; i < shape.faces.size(); ++i) {
-    if (used[i]) builder.Add(faces, shape.faces[i].face);
+  for (const FaceId id : shape.faces.ids()) {
+    if (used[id]) builder.Add(faces, shape.faces[id].face);
   }
   // A copy is triangulated, so that the model itself stays without triangles.
   BRepBuilderAPI_Copy copy(faces, Standard_False);
@@ -211,29 +211,30 @@ SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, d
     // Keep the faces that were triangulated before the failure.
   }
   context.check();
-  for (std::size_t i = 0; i < shape.faces.size(); ++i) {
-    if (!used[i]) continue;
-    const int number = static_cast<int>(i) + 1, first = static_cast<int>(surface.points.size());
-    const TopoDS_Face face = TopoDS::Face(copy.ModifiedShape(shape.faces[i].face));
-    if (!add_face(shape, static_cast<int>(i), face, surface)) {
-      surface.missing.push_back(number);
+  for (const FaceId id : shape.faces.ids()) {
+    if (!used[id]) continue;
+    const int first = static_cast<int>(surface.points.size());
+    const TopoDS_Face face = TopoDS::Face(copy.ModifiedShape(shape.faces[id].face));
+    if (!add_face(shape, id, face, surface)) {
+      surface.missing.push_back(id);
       continue;
     }
-    for (const CadWire& wire : shape.faces[i].wires) {
+    for (const CadWire& wire : shape.faces[id].wires) {
       for (const Coedge& coedge : wire.coedges) {
-        const CadEdge& edge = shape.edges[coedge.edge - 1];
+        const CadEdge& edge = shape.edges[coedge.edge];
         if (edge.degenerate) continue;
         // A seam has one polygon for each side, selected by its orientation.
         const TopoDS_Shape copied = copy.ModifiedShape(coedge.source).Oriented(coedge.source.Orientation());
-        add_lines(TopoDS::Edge(copied), face, {{-1, -1}, edge.number, number}, first, surface);
+        add_lines(TopoDS::Edge(copied), face, {{-1, -1}, edge.number, id}, first, surface);
       }
     }
   }
   return surface;
 }
 
-void divide_sides(SurfaceTriangles& surface, const std::function<double(int face, const Vector3&)>& longest,
-                  std::size_t most, const ExecutionContext& context) {
+void divide_sides(SurfaceTriangles& surface,
+                  const std::function<double(FaceId face, const Vector3&)>& longest, std::size_t most,
+                  const ExecutionContext& context) {
   constexpr int most_rounds = 40;
   for (int round = 0; round < most_rounds && surface.triangles.size() < most; ++round) {
     context.check();

@@ -14,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
@@ -33,21 +32,22 @@ struct Feature {
 };
 
 /// Finds features by their centers.
+template <class Id>
 class Places {
  public:
-  explicit Places(const std::vector<Feature>& features) : features_(features) {
-    for (std::size_t i = 0; i < features.size(); ++i) {
-      if (features[i].length > 0) order_.push_back(static_cast<int>(i));
+  explicit Places(const IdVector<Id, Feature>& features) : features_(features) {
+    for (const Id id : features.ids()) {
+      if (features[id].length > 0) order_.push_back(id);
     }
-    std::sort(order_.begin(), order_.end(), [&](int a, int b) { return key(a) < key(b); });
+    std::sort(order_.begin(), order_.end(), [&](Id a, Id b) { return key(a) < key(b); });
   }
 
-  /// Indices of the features with the center within `reach` and the length within 2 * reach of the wanted.
-  std::vector<int> at(const Feature& wanted, double reach) const {
+  /// The features with the center within `reach` and the length within 2 * reach of the wanted.
+  std::vector<Id> at(const Feature& wanted, double reach) const {
     const double low = direction_.dot(wanted.center) - reach;
     auto it =
-        std::lower_bound(order_.begin(), order_.end(), low, [&](int i, double x) { return key(i) < x; });
-    std::vector<int> found;
+        std::lower_bound(order_.begin(), order_.end(), low, [&](Id id, double x) { return key(id) < x; });
+    std::vector<Id> found;
     for (; it != order_.end() && key(*it) <= low + 2 * reach; ++it) {
       const Feature& feature = features_[*it];
       if ((feature.center - wanted.center).norm() <= reach &&
@@ -58,12 +58,12 @@ class Places {
   }
 
  private:
-  double key(int i) const { return direction_.dot(features_[i].center); }
+  double key(Id id) const { return direction_.dot(features_[id].center); }
 
-  const std::vector<Feature>& features_;
+  const IdVector<Id, Feature>& features_;
   // A direction that models are unlikely to be aligned with.
   const Vector3 direction_ = Vector3(0.61, 0.53, 0.59).normalized();
-  std::vector<int> order_;
+  std::vector<Id> order_;
 };
 
 bool is_seam(const CadEdge& edge) {
@@ -74,8 +74,8 @@ class Search {
  public:
   Search(const CadShape& shape, const ExecutionContext& context)
       : shape_(shape), context_(context), faces_(shape.faces.size()), edges_(shape.edges.size()) {
-    for (std::size_t i = 0; i < edges_.size(); ++i) measure_edge(i);
-    for (std::size_t i = 0; i < faces_.size(); ++i) add_face(i);
+    for (const EdgeId edge : edges_.ids()) measure_edge(edge);
+    for (const FaceId face : faces_.ids()) add_face(face);
     for (const Vector3& vertex : shape.vertices) vertices_.push_back({vertex, 1});
     edge_places_.emplace(edges_);
     face_places_.emplace(faces_);
@@ -104,31 +104,33 @@ class Search {
   }
 
  private:
-  void measure_edge(std::size_t index) {
+  using EdgeImages = IdVector<EdgeId, std::vector<EdgeId>>;  // edges that may be an edge's mirror image
+
+  void measure_edge(EdgeId id) {
     context_.check();
-    const CadEdge& edge = shape_.edges[index];
+    const CadEdge& edge = shape_.edges[id];
     if (edge.degenerate || edge.faces.empty() || is_seam(edge) || !(edge.length > 0)) return;
     GProp_GProps properties;
     BRepGProp::LinearProperties(edge.edge, properties);
-    edges_[index] = {to_vector(properties.CentreOfMass()), properties.Mass()};
+    edges_[id] = {to_vector(properties.CentreOfMass()), properties.Mass()};
     whole_.Add(properties);
   }
 
-  void add_face(std::size_t index) {
-    Feature& face = faces_[index];
-    for (const int edge : own_edges(static_cast<int>(index))) {
+  void add_face(FaceId id) {
+    Feature& face = faces_[id];
+    for (const EdgeId edge : own_edges(id)) {
       face.length += edges_[edge].length;
       face.center += edges_[edge].length * edges_[edge].center;
     }
     if (face.length > 0) face.center /= face.length;
   }
 
-  /// The edges of a face, from 0, each once, without seams and poles.
-  std::vector<int> own_edges(int face) const {
-    std::vector<int> result;
+  /// The edges of a face, each once, without seams and poles.
+  std::vector<EdgeId> own_edges(FaceId face) const {
+    std::vector<EdgeId> result;
     for (const CadWire& wire : shape_.faces[face].wires) {
       for (const Coedge& coedge : wire.coedges) {
-        if (edges_[coedge.edge - 1].length > 0) result.push_back(coedge.edge - 1);
+        if (edges_[coedge.edge].length > 0) result.push_back(coedge.edge);
       }
     }
     std::sort(result.begin(), result.end());
@@ -167,12 +169,12 @@ class Search {
     std::vector<Vector3> result{Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
     const Vector3 middle = to_vector(whole_.CentreOfMass());
     const double near = 1e-6 * shape_.diagonal();
-    std::vector<int> order(edges_.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::erase_if(order,
-                  [&](int i) { return (edges_[i].center - middle).norm() < 1e-3 * shape_.diagonal(); });
+    std::vector<EdgeId> order;
+    for (const EdgeId edge : edges_.ids()) {
+      if (!((edges_[edge].center - middle).norm() < 1e-3 * shape_.diagonal())) order.push_back(edge);
+    }
     std::stable_sort(order.begin(), order.end(),
-                     [&](int a, int b) { return edges_[a].length < edges_[b].length; });
+                     [&](EdgeId a, EdgeId b) { return edges_[a].length < edges_[b].length; });
     std::size_t from = 0, count = 0;
     for (std::size_t i = 0; i < order.size();) {
       std::size_t end = i + 1;
@@ -243,22 +245,22 @@ class Search {
 
   /// Completes the plane with the images of faces, edges and vertices; false if one has no image.
   bool accept(MirrorPlane& plane) const {
-    std::vector<std::vector<int>> edge_images(edges_.size());
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      const Feature& edge = edges_[i];
+    EdgeImages edge_images(edges_.size());
+    for (const EdgeId id : edges_.ids()) {
+      const Feature& edge = edges_[id];
       if (!(edge.length > 0)) continue;
       context_.check();
-      const double reach = tolerance(2 * shape_.edges[i].tolerance);
-      for (const int image : edge_places_->at({plane.mirrored(edge.center), edge.length}, reach)) {
-        if (is_image(plane, static_cast<int>(i), image, reach)) edge_images[i].push_back(image);
+      const double reach = tolerance(2 * shape_.edges[id].tolerance);
+      for (const EdgeId image : edge_places_->at({plane.mirrored(edge.center), edge.length}, reach)) {
+        if (is_image(plane, id, image, reach)) edge_images[id].push_back(image);
       }
-      if (edge_images[i].empty()) return false;
+      if (edge_images[id].empty()) return false;
     }
     return match_faces(plane, edge_images) && match_edges(plane, edge_images) && match_vertices(plane);
   }
 
   /// Whether the mirror image of an edge coincides with the edge `image`.
-  bool is_image(const MirrorPlane& plane, int edge, int image, double reach) const {
+  bool is_image(const MirrorPlane& plane, EdgeId edge, EdgeId image, double reach) const {
     const CadEdge &a = shape_.edges[edge], &b = shape_.edges[image];
     const EdgeCurve from(a), to(b);
     const auto at = [](const CadEdge& e, double share) { return e.first + share * (e.last - e.first); };
@@ -287,18 +289,18 @@ class Search {
     return true;
   }
 
-  bool match_faces(MirrorPlane& plane, const std::vector<std::vector<int>>& edge_images) const {
-    plane.faces.assign(faces_.size(), -1);
+  bool match_faces(MirrorPlane& plane, const EdgeImages& edge_images) const {
+    plane.faces.assign(faces_.size(), {});
     plane.turned.assign(faces_.size(), 0);
-    std::vector<char> taken(faces_.size(), 0);
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-      if (plane.faces[i] >= 0) continue;
+    FaceFlags taken(faces_.size());
+    for (const FaceId face : faces_.ids()) {
+      if (plane.faces[face].exists()) continue;
       context_.check();
-      const int face = static_cast<int>(i);
       // The length of a face is a sum over its edges, whose errors add up.
-      const double reach = 10 * tolerance(2 * shape_.faces[i].tolerance);
-      std::optional<std::pair<int, char>> best;
-      for (const int image : face_places_->at({plane.mirrored(faces_[i].center), faces_[i].length}, reach)) {
+      const double reach = 10 * tolerance(2 * shape_.faces[face].tolerance);
+      std::optional<std::pair<FaceId, char>> best;
+      for (const FaceId image :
+           face_places_->at({plane.mirrored(faces_[face].center), faces_[face].length}, reach)) {
         if (taken[image] || !has_edges(image, face, edge_images)) continue;
         const auto turned = mirrors(plane, face, image);
         if (turned && (!best || *turned < best->second)) best = {image, *turned};
@@ -316,10 +318,10 @@ class Search {
   }
 
   /// Whether each edge of a face has an image among the edges of `image`, and both have equally many edges.
-  bool has_edges(int image, int face, const std::vector<std::vector<int>>& edge_images) const {
-    const std::vector<int> edges = own_edges(face), others = own_edges(image);
-    return edges.size() == others.size() && std::all_of(edges.begin(), edges.end(), [&](int edge) {
-             return std::any_of(edge_images[edge].begin(), edge_images[edge].end(), [&](int other) {
+  bool has_edges(FaceId image, FaceId face, const EdgeImages& edge_images) const {
+    const std::vector<EdgeId> edges = own_edges(face), others = own_edges(image);
+    return edges.size() == others.size() && std::all_of(edges.begin(), edges.end(), [&](EdgeId edge) {
+             return std::any_of(edge_images[edge].begin(), edge_images[edge].end(), [&](EdgeId other) {
                return std::binary_search(others.begin(), others.end(), other);
              });
            });
@@ -327,7 +329,7 @@ class Search {
 
   /// 1 if a face's mirror image lies on the surface of the face `image` and is turned over, 0 if it lies on
   /// it and is not; nothing if it does not lie on it.
-  std::optional<char> mirrors(const MirrorPlane& plane, int face, int image) const {
+  std::optional<char> mirrors(const MirrorPlane& plane, FaceId face, FaceId image) const {
     const CadFace &from = shape_.faces[face], &to = shape_.faces[image];
     const FaceSurface surface(from), other(to);
     if (surface.planar() != other.planar()) return std::nullopt;
@@ -373,52 +375,52 @@ class Search {
   }
 
   /// Edges that coincide are told apart by their faces.
-  bool match_edges(MirrorPlane& plane, const std::vector<std::vector<int>>& edge_images) const {
-    plane.edges.assign(edges_.size(), -1);
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      if (!(edges_[i].length > 0)) continue;
-      std::vector<int> wanted;
-      for (const int face : shape_.edges[i].faces) wanted.push_back(plane.faces[face - 1] + 1);
+  bool match_edges(MirrorPlane& plane, const EdgeImages& edge_images) const {
+    plane.edges.assign(edges_.size(), {});
+    for (const EdgeId edge : edges_.ids()) {
+      if (!(edges_[edge].length > 0)) continue;
+      std::vector<FaceId> wanted;
+      for (const FaceId face : shape_.edges[edge].faces) wanted.push_back(plane.faces[face]);
       std::sort(wanted.begin(), wanted.end());
-      const auto found = std::find_if(edge_images[i].begin(), edge_images[i].end(),
-                                      [&](int image) { return shape_.edges[image].faces == wanted; });
-      if (found == edge_images[i].end()) return false;
-      plane.edges[i] = *found;
+      const auto found = std::find_if(edge_images[edge].begin(), edge_images[edge].end(),
+                                      [&](EdgeId image) { return shape_.edges[image].faces == wanted; });
+      if (found == edge_images[edge].end()) return false;
+      plane.edges[edge] = *found;
     }
     return true;
   }
 
   /// Matches vertices by the ends of edges; those that bound no open edge by their place.
   bool match_vertices(MirrorPlane& plane) const {
-    plane.vertices.assign(vertices_.size(), -1);
-    std::vector<char> needed(vertices_.size(), 0);
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      const CadEdge& edge = shape_.edges[i];
-      if (plane.edges[i] < 0 || edge.closed()) continue;
-      const CadEdge& image = shape_.edges[plane.edges[i]];
-      for (const int vertex : {edge.first_vertex, edge.last_vertex}) {
-        needed[vertex - 1] = 1;
-        for (const int other : {image.first_vertex, image.last_vertex}) {
-          if (lies_at(plane, vertex, other)) plane.vertices[vertex - 1] = other - 1;
+    plane.vertices.assign(vertices_.size(), {});
+    IdVector<VertexId, char> needed(vertices_.size());
+    for (const EdgeId id : edges_.ids()) {
+      const CadEdge& edge = shape_.edges[id];
+      if (!plane.edges[id].exists() || edge.closed()) continue;
+      const CadEdge& image = shape_.edges[plane.edges[id]];
+      for (const VertexId vertex : {edge.first_vertex, edge.last_vertex}) {
+        needed[vertex] = 1;
+        for (const VertexId other : {image.first_vertex, image.last_vertex}) {
+          if (lies_at(plane, vertex, other)) plane.vertices[vertex] = other;
         }
       }
     }
-    for (std::size_t i = 0; i < vertices_.size(); ++i) {
-      if (plane.vertices[i] < 0) {
-        const double reach = tolerance(2 * shape_.vertex_tolerances[i]);
-        const auto found = vertex_places_->at({plane.mirrored(vertices_[i].center), 1}, reach);
-        if (!found.empty()) plane.vertices[i] = found.front();
+    for (const VertexId vertex : vertices_.ids()) {
+      VertexId& image = plane.vertices[vertex];
+      if (!image.exists()) {
+        const double reach = tolerance(2 * shape_.vertex_tolerances[vertex]);
+        const auto found = vertex_places_->at({plane.mirrored(vertices_[vertex].center), 1}, reach);
+        if (!found.empty()) image = found.front();
       }
-      if (plane.vertices[i] < 0 && needed[i]) return false;
+      if (!image.exists() && needed[vertex]) return false;
     }
     return true;
   }
 
-  /// Whether the mirror image of a vertex lies at another vertex; numbers from 1.
-  bool lies_at(const MirrorPlane& plane, int vertex, int other) const {
-    const double own = shape_.vertex_tolerances[vertex - 1] + shape_.vertex_tolerances[other - 1];
-    return (plane.mirrored(shape_.vertices[vertex - 1]) - shape_.vertices[other - 1]).norm() <=
-           tolerance(own);
+  /// Whether the mirror image of a vertex lies at another vertex.
+  bool lies_at(const MirrorPlane& plane, VertexId vertex, VertexId other) const {
+    const double own = shape_.vertex_tolerances[vertex] + shape_.vertex_tolerances[other];
+    return (plane.mirrored(shape_.vertices[vertex]) - shape_.vertices[other]).norm() <= tolerance(own);
   }
 
   static constexpr double relative_tolerance = 1e-7;
@@ -426,8 +428,13 @@ class Search {
   const CadShape& shape_;
   const ExecutionContext& context_;
   GProp_GProps whole_;
-  std::vector<Feature> faces_, edges_, vertices_;  // length 0 = not compared
-  std::optional<Places> edge_places_, face_places_, vertex_places_;
+  // Features of length 0 are not compared.
+  IdVector<FaceId, Feature> faces_;
+  IdVector<EdgeId, Feature> edges_;
+  IdVector<VertexId, Feature> vertices_;
+  std::optional<Places<FaceId>> face_places_;
+  std::optional<Places<EdgeId>> edge_places_;
+  std::optional<Places<VertexId>> vertex_places_;
 };
 
 }  // namespace

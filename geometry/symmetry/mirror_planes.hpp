@@ -10,14 +10,14 @@
 
 namespace quadrille {
 
-/// One plane, and the mirror image of each face, edge and vertex. Indices from 0.
+/// One plane, and the mirror image of each face, edge and vertex.
 struct MirrorPlane {
-  Vector3 normal{1, 0, 0};    ///< of unit length
-  double offset = 0;          ///< from the origin along the normal
-  std::vector<int> faces;     ///< (faces) the image of each
-  std::vector<char> turned;   ///< (faces) 1 = the image's outer side is not the mirror image of the face's
-  std::vector<int> edges;     ///< (edges) the image of each; -1 = none, since a seam's place is arbitrary
-  std::vector<int> vertices;  ///< (vertices) the same; -1 = none: it is on closed edges or seams only
+  Vector3 normal{1, 0, 0};         ///< of unit length
+  double offset = 0;               ///< from the origin along the normal
+  IdVector<FaceId, FaceId> faces;  ///< the image of each
+  FaceFlags turned;                ///< 1 = the image's outer side is not the mirror image of the face's
+  IdVector<EdgeId, EdgeId> edges;  ///< the image of each, or none, since a seam's place is arbitrary
+  IdVector<VertexId, VertexId> vertices;  ///< the same; none for those on closed edges or seams only
 
   double distance(const Vector3& point) const { return normal.dot(point) - offset; }  ///< signed distance
   Vector3 mirrored(const Vector3& point) const { return point - 2 * distance(point) * normal; }

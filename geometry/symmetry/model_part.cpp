@@ -23,7 +23,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numeric>
+#include <set>
 #include <utility>
 
 #include "geometry/surfaces/edge_curve.hpp"
@@ -86,24 +86,39 @@ class Cutter {
   }
 
  private:
+  using Tools = IdVector<FaceId, TopTools_ListOfShape>;  // by component
+  struct Imprint {
+    TopoDS_Shape copy;
+    unsigned image = 0;
+    EdgeId edge;      // of the model, or
+    VertexId vertex;  // of the model
+    FaceId component{};
+  };
+  struct Vertex {
+    TopoDS_Shape shape;
+    VertexId id;  // none on no edge
+    FaceId face;  // one of its faces
+  };
+  struct Piece {
+    TopoDS_Shape face;
+    FaceId source;  // of the model
+  };
+
   /// The combined mirror image in all planes of an image, without normal and offset.
   MirrorPlane composed(unsigned image) const {
     MirrorPlane result;
-    const auto identity = [](std::size_t n) {
-      std::vector<int> numbers(n);
-      for (std::size_t i = 0; i < n; ++i) numbers[i] = static_cast<int>(i);
-      return numbers;
-    };
-    result.faces = identity(shape_.faces.size());
-    result.edges = identity(shape_.edges.size());
-    result.vertices = identity(shape_.vertices.size());
+    for (const FaceId face : shape_.faces.ids()) result.faces.push_back(face);
+    for (const EdgeId edge : shape_.edges.ids()) result.edges.push_back(edge);
+    for (const VertexId vertex : shape_.vertices.ids()) result.vertices.push_back(vertex);
     result.turned.assign(shape_.faces.size(), 0);
-    const auto map = [](std::vector<int>& numbers, const std::vector<int>& images) {
-      for (int& number : numbers) number = number < 0 ? -1 : images[number];
+    const auto map = [](auto& ids, const auto& images) {
+      for (auto& id : ids) {
+        if (id.exists()) id = images[id];
+      }
     };
     for (std::size_t i = 0; i < planes_.size(); ++i) {
       if ((image >> i & 1U) == 0) continue;
-      for (std::size_t face = 0; face < result.faces.size(); ++face)
+      for (const FaceId face : result.faces.ids())
         result.turned[face] ^= planes_[i].turned[result.faces[face]];
       map(result.faces, planes_[i].faces);
       map(result.edges, planes_[i].edges);
@@ -134,61 +149,59 @@ class Cutter {
       faces.Add(face.face);
       TopExp::MapShapesAndAncestors(face.face, TopAbs_VERTEX, TopAbs_FACE, users);
     }
-    component_of_.resize(shape_.faces.size());
-    std::iota(component_of_.begin(), component_of_.end(), 0);
-    const auto root = [&](int face) {
+    for (const FaceId face : shape_.faces.ids()) component_of_.push_back(face);
+    const auto root = [&](FaceId face) {
       while (component_of_[face] != face) face = component_of_[face] = component_of_[component_of_[face]];
       return face;
     };
+    const auto id_of = [&](const TopoDS_Shape& face) { return FaceId::from_number(faces.FindIndex(face)); };
     for (int i = 1; i <= users.Extent(); ++i) {
-      const int first = root(faces.FindIndex(users(i).First()) - 1);
-      for (const TopoDS_Shape& face : users(i)) component_of_[root(faces.FindIndex(face) - 1)] = first;
+      const FaceId first = root(id_of(users(i).First()));
+      for (const TopoDS_Shape& face : users(i)) component_of_[root(id_of(face))] = first;
     }
-    for (std::size_t i = 0; i < component_of_.size(); ++i) component_of_[i] = root(static_cast<int>(i));
+    for (const FaceId face : component_of_.ids()) component_of_[face] = root(face);
     for (int i = 1; i <= users.Extent(); ++i)
-      vertices_.push_back({users.FindKey(i), 0, faces.FindIndex(users(i).First()) - 1});
+      vertices_.push_back({users.FindKey(i), {}, id_of(users(i).First())});
     TopTools_IndexedMapOfShape map;
     for (const Vertex& vertex : vertices_) map.Add(vertex.shape);
     for (const CadEdge& edge : shape_.edges) {
       TopoDS_Vertex first, last;
       TopExp::Vertices(edge.edge, first, last);
-      if (!first.IsNull() && map.Contains(first))
-        vertices_[map.FindIndex(first) - 1].number = edge.first_vertex;
-      if (!last.IsNull() && map.Contains(last)) vertices_[map.FindIndex(last) - 1].number = edge.last_vertex;
+      if (!first.IsNull() && map.Contains(first)) vertices_[map.FindIndex(first) - 1].id = edge.first_vertex;
+      if (!last.IsNull() && map.Contains(last)) vertices_[map.FindIndex(last) - 1].id = edge.last_vertex;
     }
   }
 
   bool cut() {
-    std::vector<TopTools_ListOfShape> tools(shape_.faces.size());
+    Tools tools(shape_.faces.size());
     imprint(tools);
     splitters_.resize(shape_.faces.size());
     const Vector3 middle = 0.5 * (shape_.box_min + shape_.box_max);
-    for (std::size_t i = 0; i < splitters_.size(); ++i) {
-      const int component = static_cast<int>(i);
-      if (component_of_[i] != component) continue;
+    for (const FaceId component : shape_.faces.ids()) {
+      if (component_of_[component] != component) continue;
       for (const MirrorPlane& plane : planes_) {
-        if (component_of_[plane.faces[i]] != component) continue;  // its image is another component
+        if (component_of_[plane.faces[component]] != component) continue;  // its image is another component
         const Vector3 foot = middle - plane.distance(middle) * plane.normal;
         const gp_Pln surface(gp_Pnt(foot.x(), foot.y(), foot.z()),
                              gp_Dir(plane.normal.x(), plane.normal.y(), plane.normal.z()));
         const double reach = shape_.diagonal();
-        tools[i].Append(BRepBuilderAPI_MakeFace(surface, -reach, reach, -reach, reach).Face());
+        tools[component].Append(BRepBuilderAPI_MakeFace(surface, -reach, reach, -reach, reach).Face());
       }
-      if (!tools[i].IsEmpty() && !cut_component(component, tools[i])) return false;
+      if (!tools[component].IsEmpty() && !cut_component(component, tools[component])) return false;
     }
     return true;
   }
 
-  bool cut_component(int component, const TopTools_ListOfShape& tools) {
+  bool cut_component(FaceId component, const TopTools_ListOfShape& tools) {
     TopoDS_Compound whole;
     BRep_Builder().MakeCompound(whole);
-    for (std::size_t i = 0; i < shape_.faces.size(); ++i) {
-      if (component_of_[i] == component) BRep_Builder().Add(whole, own_face(shape_.faces[i]));
+    for (const FaceId face : shape_.faces.ids()) {
+      if (component_of_[face] == component) BRep_Builder().Add(whole, own_face(shape_.faces[face]));
     }
     TopTools_ListOfShape arguments;
     arguments.Append(whole);
-    splitters_[component] = std::make_unique<BRepAlgoAPI_Splitter>();
-    BRepAlgoAPI_Splitter& splitter = *splitters_[component];
+    splitters_[component.index()] = std::make_unique<BRepAlgoAPI_Splitter>();
+    BRepAlgoAPI_Splitter& splitter = *splitters_[component.index()];
     splitter.SetArguments(arguments);
     splitter.SetTools(tools);
     splitter.SetNonDestructive(Standard_True);
@@ -201,37 +214,37 @@ class Cutter {
 
   /// Mirrors the seams and vertices that have no image in the model. Adds the images that lie on the kept
   /// side to the tools of the components that they lie on.
-  void imprint(std::vector<TopTools_ListOfShape>& tools) {
+  void imprint(Tools& tools) {
     for (unsigned image = 1; image < images_.size(); ++image) {
       const gp_Trsf move = transformation(image);
-      std::vector<char> done(shape_.vertices.size() + 1, 0);
-      for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
-        const CadEdge& edge = shape_.edges[i];
-        if (edge.degenerate || edge.faces.empty() || images_[image].edges[i] >= 0) continue;
+      std::set<VertexId> done;
+      for (const EdgeId id : shape_.edges.ids()) {
+        const CadEdge& edge = shape_.edges[id];
+        if (edge.degenerate || edge.faces.empty() || images_[image].edges[id].exists()) continue;
         const EdgeCurve curve(edge);
         const std::array<double, 3> shares{0.25, 0.5, 0.75};
         if (std::none_of(shares.begin(), shares.end(), [&](double share) {
               return is_wanted(curve.point(edge.first + share * (edge.last - edge.first)), move);
             }))
           continue;
-        add_tool(edge.edge, image, static_cast<int>(i), edge.faces.front() - 1, tools);
-        done[edge.first_vertex] = done[edge.last_vertex] = 1;
+        add_tool({edge.edge, image, id, {}}, edge.faces.front(), tools);
+        done.insert({edge.first_vertex, edge.last_vertex});
       }
       for (const Vertex& vertex : vertices_) {
-        if (vertex.number == 0 || done[vertex.number] != 0 || images_[image].vertices[vertex.number - 1] >= 0)
+        if (!vertex.id.exists() || done.contains(vertex.id) || images_[image].vertices[vertex.id].exists())
           continue;
-        if (is_wanted(shape_.vertices[vertex.number - 1], move))
-          add_tool(vertex.shape, image, vertex.number - 1, vertex.face, tools);
+        if (is_wanted(shape_.vertices[vertex.id], move))
+          add_tool({vertex.shape, image, {}, vertex.id}, vertex.face, tools);
       }
     }
   }
 
-  void add_tool(const TopoDS_Shape& shape, unsigned image, int source, int face,
-                std::vector<TopTools_ListOfShape>& tools) {
-    const TopoDS_Shape copy = BRepBuilderAPI_Transform(shape, transformation(image), Standard_True).Shape();
-    const int component = component_of_[images_[image].faces[face]];
-    tools[component].Append(copy);
-    imprinted_.push_back({copy, image, source, component});
+  /// \param tool with the model's own edge or vertex. \param face that this bounds.
+  void add_tool(Imprint tool, FaceId face, Tools& tools) {
+    tool.copy = BRepBuilderAPI_Transform(tool.copy, transformation(tool.image), Standard_True).Shape();
+    tool.component = component_of_[images_[tool.image].faces[face]];
+    tools[tool.component].Append(tool.copy);
+    imprinted_.push_back(tool);
   }
 
   /// Whether the image of a point lies on the kept side, or in the planes, and differs from the point.
@@ -244,9 +257,9 @@ class Cutter {
 
   double near() const { return 1e-6 * shape_.diagonal(); }
 
-  TopTools_ListOfShape pieces_of(const TopoDS_Shape& shape, int component) {
+  TopTools_ListOfShape pieces_of(const TopoDS_Shape& shape, FaceId component) {
     TopTools_ListOfShape pieces;
-    BRepAlgoAPI_Splitter* splitter = splitters_[component].get();
+    BRepAlgoAPI_Splitter* splitter = splitters_[component.index()].get();
     if (splitter != nullptr) pieces = splitter->Modified(shape);
     if (pieces.IsEmpty() && (splitter == nullptr || !splitter->IsDeleted(shape))) pieces.Append(shape);
     return pieces;
@@ -254,11 +267,11 @@ class Cutter {
 
   void keep_positive() {
     BRep_Builder().MakeCompound(compound_);
-    for (std::size_t i = 0; i < shape_.faces.size(); ++i) {
-      for (const TopoDS_Shape& piece : pieces_of(own_face(shape_.faces[i]), component_of_[i])) {
+    for (const FaceId face : shape_.faces.ids()) {
+      for (const TopoDS_Shape& piece : pieces_of(own_face(shape_.faces[face]), component_of_[face])) {
         if (!is_positive(TopoDS::Face(piece))) continue;
         BRep_Builder().Add(compound_, piece);
-        kept_.push_back({piece, static_cast<int>(i)});
+        kept_.push_back({piece, face});
       }
     }
   }
@@ -313,7 +326,7 @@ class Cutter {
     for (const CadEdge& edge : part.edges) {
       std::vector<Vector3> points;
       if (edge.degenerate) {
-        if (edge.first_vertex > 0) points.push_back(part.vertices[edge.first_vertex - 1]);
+        if (edge.first_vertex.exists()) points.push_back(part.vertices[edge.first_vertex]);
       } else {
         const EdgeCurve curve(edge);
         for (const double share : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0})
@@ -321,75 +334,82 @@ class Cutter {
       }
       result.edges_in.push_back(planes_at(points, edge.tolerance));
     }
-    for (std::size_t i = 0; i < part.vertices.size(); ++i)
-      result.vertices_in.push_back(planes_at({part.vertices[i]}, part.vertex_tolerances[i]));
+    for (const VertexId vertex : part.vertices.ids())
+      result.vertices_in.push_back(planes_at({part.vertices[vertex]}, part.vertex_tolerances[vertex]));
   }
 
-  /// The model's numbers of the part's faces, edges and vertices in an image of the part.
+  /// The model's faces, edges and vertices that the part's become in an image.
   ModelPart::Image named(const CadShape& part, unsigned image, const ModelPart& result) {
     ModelPart::Image names;
-    names.faces.assign(part.faces.size(), 0);
-    names.turned.assign(part.faces.size(), 0);
-    names.edges.assign(part.edges.size(), 0);
-    names.vertices.assign(part.vertices.size(), 0);
+    names.faces.resize(part.faces.size());
+    names.turned.resize(part.faces.size());
+    names.edges.resize(part.edges.size());
+    names.vertices.resize(part.vertices.size());
     TopTools_IndexedMapOfShape faces;
     TopExp::MapShapes(compound_, TopAbs_FACE, faces);
     for (const auto& [piece, source] : kept_) {
-      const int index = faces.FindIndex(piece) - 1;
-      names.faces[index] = images_[image].faces[source] + 1;
-      names.turned[index] = images_[image].turned[source];
+      const FaceId face = FaceId::from_number(faces.FindIndex(piece));
+      names.faces[face] = images_[image].faces[source];
+      names.turned[face] = images_[image].turned[source];
     }
     name_edges_and_vertices(image, names);
     // What lies in a plane is its own mirror image there, even a seam.
-    for (std::size_t i = 0; i < names.edges.size(); ++i) {
-      if (names.edges[i] == 0)
-        names.edges[i] = of_lower(result, image, i, result.edges_in, &ModelPart::Image::edges);
+    for (const EdgeId edge : names.edges.ids()) {
+      const unsigned lower = image & ~result.edges_in[edge];
+      if (!names.edges[edge].exists() && lower != image) names.edges[edge] = result.images[lower].edges[edge];
     }
-    for (std::size_t i = 0; i < names.vertices.size(); ++i) {
-      if (names.vertices[i] == 0)
-        names.vertices[i] = of_lower(result, image, i, result.vertices_in, &ModelPart::Image::vertices);
+    for (const VertexId vertex : names.vertices.ids()) {
+      const unsigned lower = image & ~result.vertices_in[vertex];
+      if (!names.vertices[vertex].exists() && lower != image)
+        names.vertices[vertex] = result.images[lower].vertices[vertex];
     }
-    names.against.assign(part.edges.size(), 0);
-    for (std::size_t i = 0; i < names.edges.size(); ++i) {
-      if (names.edges[i] == 0) continue;
-      names.against[i] = runs_against(part.edges[i], result, image, shape_.edges[names.edges[i] - 1]);
+    names.against.resize(part.edges.size());
+    for (const EdgeId edge : names.edges.ids()) {
+      if (names.edges[edge].exists())
+        names.against[edge] = runs_against(part.edges[edge], result, image, shape_.edges[names.edges[edge]]);
     }
     return names;
   }
 
-  /// Numbers edges and vertices by tracing the model's through the cut.
+  /// Names edges and vertices by tracing the model's through the cut.
   void name_edges_and_vertices(unsigned image, ModelPart::Image& names) {
     TopTools_IndexedMapOfShape edges, vertices;
     TopExp::MapShapes(compound_, TopAbs_EDGE, edges);
     TopExp::MapShapes(compound_, TopAbs_VERTEX, vertices);
-    const auto name = [&](const TopoDS_Shape& source, int component, int number) {
-      if (number < 0 || source.IsNull()) return;
-      const bool is_edge = source.ShapeType() == TopAbs_EDGE;
+    const auto name_edge = [&](const TopoDS_Shape& source, FaceId component, EdgeId name) {
+      if (!name.exists()) return;
       for (const TopoDS_Shape& piece : pieces_of(source, component)) {
-        const int index = (is_edge ? edges : vertices).FindIndex(piece) - 1;
-        if (index >= 0) (is_edge ? names.edges : names.vertices)[index] = number + 1;
+        if (const EdgeId edge = EdgeId::from_number(edges.FindIndex(piece)); edge.exists())
+          names.edges[edge] = name;
+      }
+    };
+    const auto name_vertex = [&](const TopoDS_Shape& source, FaceId component, VertexId name) {
+      if (!name.exists() || source.IsNull()) return;
+      for (const TopoDS_Shape& piece : pieces_of(source, component)) {
+        if (const VertexId vertex = VertexId::from_number(vertices.FindIndex(piece)); vertex.exists())
+          names.vertices[vertex] = name;
       }
     };
     for (const Imprint& tool : imprinted_) {
       // The copy is the source mirrored by tool.image; mirrored by `image` too it is in image ^ tool.image.
       const MirrorPlane& there = images_[image ^ tool.image];
-      const bool is_edge = tool.copy.ShapeType() == TopAbs_EDGE;
-      name(tool.copy, tool.component, (is_edge ? there.edges : there.vertices)[tool.source]);
-      if (!is_edge) continue;
-      const CadEdge& edge = shape_.edges[tool.source];
+      if (tool.vertex.exists()) name_vertex(tool.copy, tool.component, there.vertices[tool.vertex]);
+      if (!tool.edge.exists()) continue;
+      name_edge(tool.copy, tool.component, there.edges[tool.edge]);
+      const CadEdge& edge = shape_.edges[tool.edge];
       TopoDS_Vertex first, last;
       TopExp::Vertices(TopoDS::Edge(tool.copy), first, last);
-      if (edge.first_vertex > 0) name(first, tool.component, there.vertices[edge.first_vertex - 1]);
-      if (edge.last_vertex > 0) name(last, tool.component, there.vertices[edge.last_vertex - 1]);
+      if (edge.first_vertex.exists()) name_vertex(first, tool.component, there.vertices[edge.first_vertex]);
+      if (edge.last_vertex.exists()) name_vertex(last, tool.component, there.vertices[edge.last_vertex]);
     }
-    for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
-      const CadEdge& edge = shape_.edges[i];
+    for (const EdgeId id : shape_.edges.ids()) {
+      const CadEdge& edge = shape_.edges[id];
       if (!edge.faces.empty())
-        name(edge.edge, component_of_[edge.faces.front() - 1], images_[image].edges[i]);
+        name_edge(edge.edge, component_of_[edge.faces.front()], images_[image].edges[id]);
     }
     for (const Vertex& vertex : vertices_) {
-      if (vertex.number > 0)
-        name(vertex.shape, component_of_[vertex.face], images_[image].vertices[vertex.number - 1]);
+      if (vertex.id.exists())
+        name_vertex(vertex.shape, component_of_[vertex.face], images_[image].vertices[vertex.id]);
     }
   }
 
@@ -408,75 +428,52 @@ class Cutter {
     return way.dot(EdgeCurve(whole).derivative(parameter)) < 0;
   }
 
-  /// The number of an edge or vertex in the image without the planes that it lies in; 0 if it lies in none.
-  static int of_lower(const ModelPart& part, unsigned image, std::size_t index,
-                      const std::vector<unsigned>& in, std::vector<int> ModelPart::Image::*names) {
-    const unsigned lower = image & ~in[index];
-    return lower == image ? 0 : (part.images[lower].*names)[index];
-  }
-
   /// Whether the images have the face areas, all the edges and vertices, and at each edge the number of faces
   /// of the model.
   bool makes_up_model(const CadShape& part, const ModelPart& result) const {
-    std::vector<double> area(shape_.faces.size(), 0);
-    std::vector<char> edges(shape_.edges.size(), 0), vertices(shape_.vertices.size(), 0);
-    std::vector<double> pieces;
+    IdVector<FaceId, double> area(shape_.faces.size()), pieces;
+    IdVector<EdgeId, char> edges(shape_.edges.size());
+    IdVector<VertexId, char> vertices(shape_.vertices.size());
     for (const CadFace& face : part.faces) pieces.push_back(area_of(face.face));
-    for (unsigned image = 0; image < images_.size(); ++image) {
-      const ModelPart::Image& names = result.images[image];
-      for (std::size_t i = 0; i < pieces.size(); ++i) area[names.faces[i] - 1] += pieces[i];
-      for (std::size_t i = 0; i < names.edges.size(); ++i) {
-        if (names.edges[i] == 0) continue;
-        edges[names.edges[i] - 1] = 1;
-        const std::size_t uses = shape_.edges[names.edges[i] - 1].faces.size();
-        if (result.edges_in[i] == 0 && part.edges[i].faces.size() != uses) return false;
+    for (const ModelPart::Image& names : result.images) {
+      for (const FaceId piece : pieces.ids()) area[names.faces[piece]] += pieces[piece];
+      for (const EdgeId edge : names.edges.ids()) {
+        const EdgeId name = names.edges[edge];
+        if (!name.exists()) continue;
+        edges[name] = 1;
+        if (result.edges_in[edge] == 0 && part.edges[edge].faces.size() != shape_.edges[name].faces.size())
+          return false;
       }
-      for (const int vertex : names.vertices) {
-        if (vertex > 0) vertices[vertex - 1] = 1;
+      for (const VertexId name : names.vertices) {
+        if (name.exists()) vertices[name] = 1;
       }
     }
-    for (std::size_t i = 0; i < area.size(); ++i) {
+    for (const FaceId face : area.ids()) {
       context_.check();
-      const double whole = area_of(shape_.faces[i].face);
-      if (std::abs(area[i] - whole) > 1e-2 * whole + near() * near()) return false;
+      const double whole = area_of(shape_.faces[face].face);
+      if (std::abs(area[face] - whole) > 1e-2 * whole + near() * near()) return false;
     }
     for (const CadFace& face : shape_.faces) {
       for (const InnerVertex& vertex : face.inner_vertices) {
-        if (!vertices[vertex.vertex - 1]) return false;
+        if (!vertices[vertex.vertex]) return false;
       }
     }
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      const CadEdge& edge = shape_.edges[i];
+    for (const EdgeId id : edges.ids()) {
+      const CadEdge& edge = shape_.edges[id];
       if (edge.degenerate || edge.faces.empty()) continue;
-      if (!edges[i]) return false;
-      for (const int vertex : {edge.first_vertex, edge.last_vertex}) {
-        if (vertex > 0 && !vertices[vertex - 1]) return false;
+      if (!edges[id]) return false;
+      for (const VertexId vertex : {edge.first_vertex, edge.last_vertex}) {
+        if (vertex.exists() && !vertices[vertex]) return false;
       }
     }
     return true;
   }
 
-  struct Imprint {
-    TopoDS_Shape copy;
-    unsigned image = 0;
-    int source = 0;  // edge or vertex of the model, from 0
-    int component = 0;
-  };
-  struct Vertex {
-    TopoDS_Shape shape;
-    int number = 0;  // from 1; 0 = on no edge
-    int face = 0;    // one of its faces, from 0
-  };
-  struct Piece {
-    TopoDS_Shape face;
-    int source = 0;  // face of the model, from 0
-  };
-
   const CadShape& shape_;
   const ExecutionContext& context_;
   std::vector<MirrorPlane> planes_;
-  std::vector<MirrorPlane> images_;  // by number of the image, see composed()
-  std::vector<int> component_of_;    // (faces) index of one face of the component, the same for all
+  std::vector<MirrorPlane> images_;        // by number of the image, see composed()
+  IdVector<FaceId, FaceId> component_of_;  // one face of the component, the same for all of it
   std::vector<Vertex> vertices_;
   std::vector<std::unique_ptr<BRepAlgoAPI_Splitter>> splitters_;  // by component; null = not cut
   std::vector<Imprint> imprinted_;

@@ -13,21 +13,21 @@ namespace quadrille {
 /// Half, a quarter or an eighth of a model. Its mirror images are numbered: bit i of the number is set if the
 /// image is mirrored in planes[i], so that image 0 is the part itself.
 struct ModelPart {
-  /// The numbers of an image's faces, edges and vertices in the whole model, by their number in the part
-  /// minus 1.
+  /// The whole model's faces, edges and vertices that the part's become in one image.
   struct Image {
-    std::vector<int> faces;
-    std::vector<char> turned;   ///< (faces) 1 = its outer side is not the mirror image of the part's
-    std::vector<int> edges;     ///< 0 = none: made by a cut or by a seam's image
-    std::vector<char> against;  ///< (edges) 1 = the image runs against the parameter of the model's edge
-    std::vector<int> vertices;  ///< 0 = none
+    IdVector<FaceId, FaceId> faces;
+    FaceFlags turned;                       ///< 1 = its outer side is not the mirror image of the part's
+    IdVector<EdgeId, EdgeId> edges;         ///< none if made by a cut or by a seam's image
+    IdVector<EdgeId, char> against;         ///< 1 = the image runs against the parameter of the model's edge
+    IdVector<VertexId, VertexId> vertices;  ///< or none
   };
 
   CadModel model;
   std::vector<MirrorPlane> planes;
   std::vector<Image> images;  ///< (2 ^ planes)
-  /// By number of the part's edge or vertex minus 1: bit i is set if it lies in planes[i].
-  std::vector<unsigned> edges_in, vertices_in;
+  /// The planes that the part's edges and vertices lie in: bit i is set for planes[i].
+  IdVector<EdgeId, unsigned> edges_in;
+  IdVector<VertexId, unsigned> vertices_in;
 
   Vector3 mirrored(Vector3 point, unsigned image) const {
     for (std::size_t i = 0; i < planes.size(); ++i) {

@@ -50,7 +50,7 @@ std::string describe(const CadModel& model, ExecutionContext& context) {
     unmeasured = error.what();
   }
   for (const MirrorPlane& plane : mirror_planes(model.shape(), context)) line("mirror", plane.name());
-  const auto strays = stray_edges(model.shape(), std::vector<char>(model.face_count(), 1));
+  const auto strays = stray_edges(model.shape(), FaceFlags(model.face_count(), 1));
   if (strays.empty()) add_sizes(model, context, line);
   for (const StrayEdge& stray : strays) line("problem", stray.sentence());
   if (!unmeasured.empty()) line("problem", unmeasured);

@@ -6,24 +6,24 @@
 
 namespace quadrille {
 
-Chords::Chords(const std::vector<double>& wanted)
-    : parent_(wanted.size()), against_(wanted.size(), 0), low_(wanted), high_(wanted) {
-  std::iota(parent_.begin(), parent_.end(), 0);
+Chords::Chords(const IdVector<EdgeId, double>& wanted)
+    : parent_(wanted.size()), against_(wanted.size()), low_(wanted), high_(wanted) {
+  for (const EdgeId edge : parent_.ids()) parent_[edge] = edge;
 }
 
-int Chords::of(int edge) const {
+EdgeId Chords::of(EdgeId edge) const {
   while (parent_[edge] != edge) edge = parent_[edge];
   return edge;
 }
 
-bool Chords::against(int edge) const {
+bool Chords::against(EdgeId edge) const {
   bool result = false;
   for (; parent_[edge] != edge; edge = parent_[edge]) result ^= against_[edge] != 0;
   return result;
 }
 
 bool Chords::tie(const SideEdge& a, const SideEdge& b, double largest_ratio) {
-  int root = of(a.edge), other = of(b.edge);
+  EdgeId root = of(a.edge), other = of(b.edge);
   if (root == other) return true;
   const bool opposed = (against(a.edge) != against(b.edge)) != (a.forward != b.forward);
   const double low = std::min(low_[root], low_[other]), high = std::max(high_[root], high_[other]);
@@ -40,15 +40,15 @@ namespace {
 
 class ChordSpacing {
  public:
-  ChordSpacing(const CadShape& shape, const Chords& chords, const std::vector<CountTable>& tables,
-               const std::vector<int>& counts, const std::vector<std::vector<double>>& prescribed)
+  ChordSpacing(const CadShape& shape, const Chords& chords, const IdVector<EdgeId, CountTable>& tables,
+               const IdVector<EdgeId, int>& counts, const EdgeShares& prescribed)
       : shape_(shape), chords_(chords), tables_(tables), counts_(counts), prescribed_(prescribed) {
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-      if (counts[i] > 0) members_[chords.of(static_cast<int>(i))].push_back(static_cast<int>(i));
+    for (const EdgeId edge : counts.ids()) {
+      if (counts[edge] > 0) members_[chords.of(edge)].push_back(edge);
     }
   }
 
-  std::vector<std::vector<double>> run(const std::vector<FaceSides>& sides) {
+  EdgeShares run(const FaceOutlines& sides) {
     for (const auto& [chord, members] : members_) shares_[chord] = equidistribute(members);
     for (const auto& [chord, members] : members_) prescribe(chord, members);
     for (const FaceSides& face : sides) {
@@ -57,27 +57,27 @@ class ChordSpacing {
         follow(pair.second, pair.first);
       }
     }
-    std::vector<std::vector<double>> result(counts_.size());
+    EdgeShares result(counts_.size());
     for (const auto& [chord, members] : members_) {
       if (members.size() == 1 && !followed_.contains(chord)) continue;
-      for (const int edge : members) {
+      for (const EdgeId edge : members) {
         if (is_prescribed_.contains(chord) || suits(edge)) result[edge] = shares_of(edge);
       }
     }
-    for (std::size_t edge = 0; edge < result.size(); ++edge) {
-      if (holds(static_cast<int>(edge))) result[edge] = prescribed_[edge];
+    for (const EdgeId edge : result.ids()) {
+      if (holds(edge)) result[edge] = prescribed_[edge];
     }
     return result;
   }
 
  private:
-  bool holds(int edge) const {
+  bool holds(EdgeId edge) const {
     return !prescribed_[edge].empty() && static_cast<int>(prescribed_[edge].size()) == counts_[edge] + 1;
   }
 
   /// The chord takes over the shares of its first member with prescribed ones.
-  void prescribe(int chord, const std::vector<int>& members) {
-    for (const int edge : members) {
+  void prescribe(EdgeId chord, const std::vector<EdgeId>& members) {
+    for (const EdgeId edge : members) {
       if (!holds(edge)) continue;
       shares_[chord] = prescribed_[edge];
       if (chords_.against(edge)) turn_round(shares_[chord]);
@@ -92,11 +92,11 @@ class ChordSpacing {
   }
 
   /// Shares that equidistribute the count over a chord, by the densest member at each place.
-  std::vector<double> equidistribute(const std::vector<int>& members) const {
+  std::vector<double> equidistribute(const std::vector<EdgeId>& members) const {
     const int n = counts_[members.front()];
     const int cells = std::clamp(8 * n, 64, 4096);
     std::vector<double> density(cells, 0);
-    for (const int edge : members) {
+    for (const EdgeId edge : members) {
       const CountTable& table = tables_[edge];
       double before = 0;
       for (int i = 0; i < cells; ++i) {
@@ -120,7 +120,7 @@ class ChordSpacing {
     return shares;
   }
 
-  std::vector<double> shares_of(int edge) const {
+  std::vector<double> shares_of(EdgeId edge) const {
     std::vector<double> shares = shares_.at(chords_.of(edge));
     if (chords_.against(edge)) turn_round(shares);
     return shares;
@@ -129,7 +129,7 @@ class ChordSpacing {
   /// A side that is a single edge takes over the spacing of several opposite edges.
   void follow(const Side& one, const Side& several) {
     if (one.size() != 1 || several.size() < 2) return;
-    const int edge = one[0].edge;
+    const EdgeId edge = one[0].edge;
     if (followed_.contains(chords_.of(edge))) return;
     std::vector<double> shares;
     double length = 0;
@@ -150,7 +150,7 @@ class ChordSpacing {
   }
 
   /// Whether no segment would be far longer than the edge's own sizes ask for.
-  bool suits(int edge) const {
+  bool suits(EdgeId edge) const {
     constexpr double most = 2;
     const CountTable& table = tables_[edge];
     const std::vector<double> shares = shares_of(edge);
@@ -165,20 +165,20 @@ class ChordSpacing {
 
   const CadShape& shape_;
   const Chords& chords_;
-  const std::vector<CountTable>& tables_;
-  const std::vector<int>& counts_;
-  std::map<int, std::vector<int>> members_;    // chord -> edges
-  std::map<int, std::vector<double>> shares_;  // chord -> shares of its representative
-  const std::vector<std::vector<double>>& prescribed_;
-  std::map<int, bool> followed_, is_prescribed_;  // chord -> shares from opposite edges or users; from users
+  const IdVector<EdgeId, CountTable>& tables_;
+  const IdVector<EdgeId, int>& counts_;
+  std::map<EdgeId, std::vector<EdgeId>> members_;  // chord -> edges
+  std::map<EdgeId, std::vector<double>> shares_;   // chord -> shares of its representative
+  const EdgeShares& prescribed_;
+  std::map<EdgeId, bool> followed_,
+      is_prescribed_;  // chord -> shares from opposite edges or users; from users
 };
 
 }  // namespace
 
-std::vector<std::vector<double>> space_chords(const CadShape& shape, const std::vector<FaceSides>& sides,
-                                              const Chords& chords, const std::vector<CountTable>& tables,
-                                              const std::vector<int>& counts,
-                                              const std::vector<std::vector<double>>& prescribed) {
+EdgeShares space_chords(const CadShape& shape, const FaceOutlines& sides, const Chords& chords,
+                        const IdVector<EdgeId, CountTable>& tables, const IdVector<EdgeId, int>& counts,
+                        const EdgeShares& prescribed) {
   return ChordSpacing(shape, chords, tables, counts, prescribed).run(sides);
 }
 

@@ -23,40 +23,40 @@ constexpr double largest_fixed_ratio = 4;  // the same if one of them is fixed
 
 class CountChooser {
  public:
-  CountChooser(const CountWishes& wishes, const TinyFeatures& tiny, std::vector<FaceSides>& sides)
-      : wishes_(wishes), tiny_(tiny), sides_(sides), chords_({}) {
-    for (std::size_t i = 0; i < wishes.wanted.size(); ++i)
-      effective_.push_back(std::max(wishes.wanted[i], 1.0 * wishes.least[i]));
+  CountChooser(const CountWishes& wishes, const TinyFeatures& tiny, FaceOutlines& sides)
+      : wishes_(wishes), tiny_(tiny), sides_(sides), chords_(IdVector<EdgeId, double>()) {
+    for (const EdgeId edge : wishes.wanted.ids())
+      effective_.push_back(std::max(wishes.wanted[edge], 1.0 * wishes.least[edge]));
   }
 
   EdgeCounts run() {
-    is_waiting_.assign(sides_.size(), 0);
-    for (std::size_t face = 0; face < sides_.size(); ++face)
+    is_waiting_.resize(sides_.size());
+    for (const FaceId face : sides_.ids())
       is_waiting_[face] = sides_[face].outline == FaceSides::Outline::stepped;
     tie_chords();
-    std::vector<int> odd = balance_faces();
+    std::vector<FaceId> odd = balance_faces();
     if (odd.empty() && take_steps()) {
       odd = balance_faces();
       if (!odd.empty()) odd = balance_without_steps();
     }
     if (!odd.empty()) {
       // Usually edges of three or more faces. First drop faces with sides of several edges, then all.
-      for (std::size_t face = 0; face < sides_.size(); ++face) {
-        if (has_sums(sides_[face])) drop(static_cast<int>(face));
+      for (const FaceId face : sides_.ids()) {
+        if (has_sums(sides_[face])) drop(face);
       }
       odd = make_faces_even();
     }
     if (!odd.empty()) {
-      for (std::size_t face = 0; face < sides_.size(); ++face) drop(static_cast<int>(face));
+      for (const FaceId face : sides_.ids()) drop(face);
       tie_chords();
       odd = make_faces_even();
     }
     hold_fixed(odd);
-    EdgeCounts result{std::vector<int>(effective_.size(), 0), chords_, odd};
-    for (std::size_t i = 0; i < effective_.size(); ++i) {
-      const int chord = chords_.of(static_cast<int>(i));
-      if (wishes_.least[i] == 0) continue;
-      result.counts[i] = fixed_[chord] > 0 ? fixed_[chord] : units_[chord] * problem_.variables[chord].value;
+    EdgeCounts result{IdVector<EdgeId, int>(effective_.size()), chords_, odd};
+    for (const EdgeId edge : effective_.ids()) {
+      const EdgeId chord = chords_.of(edge);
+      if (wishes_.least[edge] == 0) continue;
+      result.counts[edge] = fixed_[chord] > 0 ? fixed_[chord] : units_[chord] * variable(chord).value;
     }
     return result;
   }
@@ -70,7 +70,7 @@ class CountChooser {
   }
 
   /// Reduces a face to a parity condition.
-  void drop(int face) {
+  void drop(FaceId face) {
     FaceSides& sides = sides_[face];
     for (const FacingPair& pair : sides.facing) {
       for (const Side* side : {&pair.first, &pair.second}) {
@@ -113,37 +113,36 @@ class CountChooser {
   template <class Includes>
   std::string fixed_edges(Includes&& includes) const {
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < wishes_.fixed.size(); ++i) {
-      if (wishes_.fixed[i] > 0 && includes(static_cast<int>(i)))
-        names.push_back(fmt::format("Edge{}", i + 1));
+    for (const EdgeId edge : wishes_.fixed.ids()) {
+      if (wishes_.fixed[edge] > 0 && includes(edge)) names.push_back(fmt::format("Edge{}", edge.number()));
     }
     return fmt::format("{}", fmt::join(names, ", "));
   }
 
-  /// Throws if fixed numbers cannot be kept. \param odd faces (from 1) that stay odd.
-  void hold_fixed(const std::vector<int>& odd) const {
-    for (std::size_t i = 0; i < fixed_.size(); ++i) {
-      const int chord = static_cast<int>(i);
-      if (chords_.of(chord) != chord || fixed_[i] % units_[i] == 0) continue;
+  /// Throws if fixed numbers cannot be kept. \param odd faces that stay odd.
+  void hold_fixed(const std::vector<FaceId>& odd) const {
+    for (const EdgeId chord : fixed_.ids()) {
+      const int fixed = fixed_[chord];
+      if (chords_.of(chord) != chord || fixed % units_[chord] == 0) continue;
       throw usage_error(
           "segments",
           fmt::format(
               "`segments` gives {} to {}, and a face there that is no grid takes even numbers only: {} or "
               "{}, or `strategy` direct",
-              fixed_[i], fixed_edges([&](int edge) { return chords_.of(edge) == chord; }), fixed_[i] - 1,
-              fixed_[i] + 1));
+              fixed, fixed_edges([&](EdgeId edge) { return chords_.of(edge) == chord; }), fixed - 1,
+              fixed + 1));
     }
-    for (const int face : odd) {
-      const std::string names = fixed_edges([&](int edge) { return is_on(edge, sides_[face - 1]); });
+    for (const FaceId face : odd) {
+      const std::string names = fixed_edges([&](EdgeId edge) { return is_on(edge, sides_[face]); });
       if (names.empty()) continue;
       throw usage_error("segments",
                         fmt::format("`segments` leaves Face{} with an odd number of segments around it: "
                                     "one more or fewer on one of {}",
-                                    face, names));
+                                    face.number(), names));
     }
   }
 
-  static bool is_on(int edge, const FaceSides& sides) {
+  static bool is_on(EdgeId edge, const FaceSides& sides) {
     const auto is_it = [&](const SideEdge& side) { return side.edge == edge; };
     return std::find(sides.rest.begin(), sides.rest.end(), edge) != sides.rest.end() ||
            std::any_of(sides.facing.begin(), sides.facing.end(), [&](const FacingPair& pair) {
@@ -155,17 +154,17 @@ class CountChooser {
   void tie_chords() {
     chords_ = Chords(effective_);
     fixed_ = wishes_.fixed;
-    fixed_.resize(effective_.size(), 0);
-    for (std::size_t i = 0; i < effective_.size(); ++i) {
-      const int edge = static_cast<int>(i), same = tiny_.edges[i];
+    fixed_.resize(effective_.size());
+    for (const EdgeId edge : effective_.ids()) {
+      const EdgeId same = tiny_.edges[edge];
       if (same == edge) continue;
-      if (!tie({same, true}, {edge, !tiny_.reversed_edges[i]}, std::numeric_limits<double>::infinity()))
+      if (!tie({same, true}, {edge, !tiny_.reversed_edges[edge]}, std::numeric_limits<double>::infinity()))
         throw usage_error("segments",
                           fmt::format("`segments` gives different numbers to Edge{} and Edge{}, which "
                                       "have the same nodes",
-                                      same + 1, edge + 1));
+                                      same.number(), edge.number()));
     }
-    for (std::size_t face = 0; face < sides_.size(); ++face) {
+    for (const FaceId face : sides_.ids()) {
       const auto& facing = sides_[face].facing;
       if (is_waiting_[face]) continue;
       bool fits = std::none_of(facing.begin(), facing.end(),
@@ -174,7 +173,7 @@ class CountChooser {
         if (fits && pair.first.size() == 1 && pair.second.size() == 1)
           fits = tie(pair.first[0], pair.second[0], largest_ratio);
       }
-      if (!fits) drop(static_cast<int>(face));
+      if (!fits) drop(face);
     }
     start_values();
   }
@@ -183,24 +182,24 @@ class CountChooser {
   void start_values() {
     units_.assign(effective_.size(), wishes_.stride);
     members_.assign(effective_.size(), {});
-    for (std::size_t i = 0; i < effective_.size(); ++i) {
-      if (wishes_.least[i] != 0) members_[chords_.of(static_cast<int>(i))].push_back(static_cast<int>(i));
+    for (const EdgeId edge : effective_.ids()) {
+      if (wishes_.least[edge] != 0) members_[chords_.of(edge)].push_back(edge);
     }
     problem_.variables.assign(effective_.size(), {});
-    for (std::size_t i = 0; i < effective_.size(); ++i) start_value(static_cast<int>(i));
+    for (const EdgeId chord : effective_.ids()) start_value(chord);
   }
 
   /// Sets all of a chord's variable but its terms. One unit is `units_[chord]` segments of the final mesh.
-  void start_value(int chord) {
-    const std::vector<int>& members = members_[chord];
+  void start_value(EdgeId chord) {
+    const std::vector<EdgeId>& members = members_[chord];
     if (members.empty()) return;
-    auto& variable = problem_.variables[chord];
+    auto& variable = this->variable(chord);
     const int unit = units_[chord], parts = wishes_.stride / unit;
     const bool final_segments = unit < wishes_.stride;
     bool even = false;
     double wanted = 0;
     variable.least = 1;
-    for (const int i : members) {
+    for (const EdgeId i : members) {
       wanted += wishes_.wanted[i];
       variable.least =
           std::max(variable.least, final_segments ? wishes_.least_of_grids[i] : wishes_.least[i]);
@@ -231,14 +230,16 @@ class CountChooser {
       }
     }
     std::vector<int> units(problem_.variables.size(), 1);
-    for (std::size_t i = 0; i < units.size(); ++i) {
-      if (!is_between_grids_[i]) units[groups.find_set(i)] = wishes_.stride;
+    const auto unit_of = [&](EdgeId chord) -> int& {
+      return units[groups.find_set(static_cast<std::size_t>(chord.index()))];
+    };
+    for (const EdgeId chord : units_.ids()) {
+      if (!is_between_grids_[chord]) unit_of(chord) = wishes_.stride;
     }
-    for (std::size_t i = 0; i < units.size(); ++i) {
-      const int unit = units[groups.find_set(i)];
-      if (units_[i] == unit) continue;
-      units_[i] = unit;
-      start_value(static_cast<int>(i));
+    for (const EdgeId chord : units_.ids()) {
+      if (units_[chord] == unit_of(chord)) continue;
+      units_[chord] = unit_of(chord);
+      start_value(chord);
     }
   }
 
@@ -248,24 +249,24 @@ class CountChooser {
     problem_.rules.clear();
     faces_of_nodes_.clear();
     is_between_grids_.assign(problem_.variables.size(), 1);
-    for (std::size_t face = 0; face < sides_.size(); ++face) {
+    for (const FaceId face : sides_.ids()) {
       const FaceSides& sides = sides_[face];
       const bool is_grid =
           sides.rest.empty() && sides.outline != FaceSides::Outline::other && !is_waiting_[face];
-      for_each_edge(sides, [&](int edge) { is_between_grids_[chords_.of(edge)] &= is_grid; });
+      for_each_edge(sides, [&](EdgeId edge) { is_between_grids_[chords_.of(edge)] &= is_grid; });
       if (is_waiting_[face]) {
-        const int node = add_node(static_cast<int>(face), BalanceProblem::Rule::even);
-        for_each_edge(sides, [&](int edge) { add_term(edge, node, 1); });
+        const int node = add_node(face, BalanceProblem::Rule::even);
+        for_each_edge(sides, [&](EdgeId edge) { add_term(edge, node, 1); });
         continue;
       }
-      add_facing(static_cast<int>(face));
-      for (const int edge : sides.rest) is_between_grids_[chords_.of(edge)] = 0;
+      add_facing(face);
+      for (const EdgeId edge : sides.rest) is_between_grids_[chords_.of(edge)] = 0;
       // One more node at the base of a wedge or the end of a strip would make elements far shorter than they
       // are wide.
       const bool may_be_odd = !sides.facing.empty() && sides.outline != FaceSides::Outline::holed;
       if (sides.rest.empty() || (may_be_odd && wishes_.stride == 2)) continue;
-      const int node = add_node(static_cast<int>(face), BalanceProblem::Rule::even);
-      for (const int edge : sides.rest) add_term(edge, node, 1);
+      const int node = add_node(face, BalanceProblem::Rule::even);
+      for (const EdgeId edge : sides.rest) add_term(edge, node, 1);
     }
     drop_idle_terms();
     choose_units();
@@ -285,25 +286,25 @@ class CountChooser {
   /// \return whether there are stepped faces.
   bool take_steps() {
     bool any = false;
-    for (std::size_t face = 0; face < sides_.size(); ++face) {
+    for (const FaceId face : sides_.ids()) {
       if (!is_waiting_[face]) continue;
       any = true;
-      if (!take_steps_of(static_cast<int>(face))) drop(static_cast<int>(face));
+      if (!take_steps_of(face)) drop(face);
       is_waiting_[face] = 0;
     }
     if (any) set_up_rules();
     return any;
   }
 
-  std::vector<int> balance_without_steps() {
-    for (std::size_t face = 0; face < sides_.size(); ++face) {
-      if (sides_[face].outline == FaceSides::Outline::stepped) drop(static_cast<int>(face));
+  std::vector<FaceId> balance_without_steps() {
+    for (const FaceId face : sides_.ids()) {
+      if (sides_[face].outline == FaceSides::Outline::stepped) drop(face);
     }
     start_values();
     return balance_faces();
   }
 
-  bool take_steps_of(int face) {
+  bool take_steps_of(FaceId face) {
     const auto& facing = sides_[face].facing;
     if (std::any_of(facing.begin(), facing.end(), [&](const FacingPair& pair) { return is_far_off(pair); }))
       return false;
@@ -353,7 +354,7 @@ class CountChooser {
   }
 
   /// Adds the rules that facing sides have equal counts.
-  void add_facing(int face) {
+  void add_facing(FaceId face) {
     for (const FacingPair& pair : sides_[face].facing) {
       const int node = add_node(face, BalanceProblem::Rule::zero);
       for (const SideEdge& edge : pair.first) add_term(edge.edge, node, 1);
@@ -361,15 +362,15 @@ class CountChooser {
     }
   }
 
-  int add_node(int face, BalanceProblem::Rule rule) {
+  int add_node(FaceId face, BalanceProblem::Rule rule) {
     problem_.rules.push_back(rule);
     faces_of_nodes_.push_back(face);
     return static_cast<int>(problem_.rules.size()) - 1;
   }
 
-  void add_term(int edge, int node, int coefficient) {
+  void add_term(EdgeId edge, int node, int coefficient) {
     if (wishes_.least[edge] == 0) return;
-    auto& terms = problem_.variables[chords_.of(edge)].terms;
+    auto& terms = variable(chords_.of(edge)).terms;
     const auto it =
         std::find_if(terms.begin(), terms.end(), [&](const auto& term) { return term.first == node; });
     if (it == terms.end()) {
@@ -380,16 +381,16 @@ class CountChooser {
   }
 
   /// Balances all faces. Drops faces whose facing sides cannot have equal counts until the others can.
-  /// \return faces (from 1) that stay odd.
-  std::vector<int> balance_faces() {
-    std::vector<int> odd;
+  /// \return faces that stay odd.
+  std::vector<FaceId> balance_faces() {
+    std::vector<FaceId> odd;
     for (bool dropped = true; dropped;) {
       set_up_rules();
       dropped = false;
       odd.clear();
       for (const int node : balance(problem_)) {
-        const int face = faces_of_nodes_[node];
-        if (problem_.rules[node] == BalanceProblem::Rule::even) odd.push_back(face + 1);
+        const FaceId face = faces_of_nodes_[node];
+        if (problem_.rules[node] == BalanceProblem::Rule::even) odd.push_back(face);
         if (sides_[face].facing.empty()) continue;
         drop(face);
         dropped = true;
@@ -398,26 +399,26 @@ class CountChooser {
     return odd;
   }
 
-  /// Balances faces by parity alone. \return faces (from 1) that stay odd.
-  std::vector<int> make_faces_even() {
+  /// Balances faces by parity alone. \return faces that stay odd.
+  std::vector<FaceId> make_faces_even() {
     start_values();
     set_up_rules();
-    std::vector<ParityEdge> edges(problem_.variables.size());
-    std::vector<char> odd(sides_.size(), 0);
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      const auto& variable = problem_.variables[i];
-      edges[i].cost = variable.fixed ? std::numeric_limits<double>::infinity()
-                                     : variable.weight * cost_of_change(variable);
+    IdVector<EdgeId, ParityEdge> edges(problem_.variables.size());
+    FaceFlags odd(sides_.size());
+    for (const EdgeId chord : edges.ids()) {
+      const auto& variable = this->variable(chord);
+      edges[chord].cost = variable.fixed ? std::numeric_limits<double>::infinity()
+                                         : variable.weight * cost_of_change(variable);
       for (const auto& [node, coefficient] : variable.terms) {
-        const int face = faces_of_nodes_[node];
-        edges[i].faces.push_back(face);
+        const FaceId face = faces_of_nodes_[node];
+        edges[chord].faces.push_back(face);
         if (variable.value % 2 != 0) odd[face] ^= 1;
       }
     }
-    std::vector<int> left;
-    const std::vector<char> change = make_even(edges, odd, left);
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      if (change[i]) problem_.variables[i].value += change_of(problem_.variables[i]);
+    std::vector<FaceId> left;
+    const EdgeFlags change = make_even(edges, odd, left);
+    for (const EdgeId chord : edges.ids()) {
+      if (change[chord]) variable(chord).value += change_of(variable(chord));
     }
     return left;
   }
@@ -432,23 +433,26 @@ class CountChooser {
     return std::abs(std::log(ratio)) + 1e-6;
   }
 
+  BalanceProblem::Variable& variable(EdgeId chord) { return problem_.variables[chord.index()]; }
+
   const CountWishes& wishes_;
   const TinyFeatures& tiny_;
-  std::vector<FaceSides>& sides_;
-  std::vector<double> effective_;  // (edges) wanted count, at least `least`
+  FaceOutlines& sides_;
+  IdVector<EdgeId, double> effective_;  // wanted count, at least `least`
   Chords chords_;
-  std::vector<int> fixed_;                 // (chords) segments of the final mesh; 0 = any number
-  std::vector<std::vector<int>> members_;  // (chords) edges
-  std::vector<int> units_;                 // (chords) segments of the final mesh per unit of the count
-  BalanceProblem problem_;           // one variable for each edge; only those of chord representatives matter
-  std::vector<int> faces_of_nodes_;  // (nodes) from 0
-  std::vector<char> is_between_grids_;  // (chords) 1 = all its faces are grids
-  std::vector<char> is_waiting_;        // (faces) 1 = stepped, only its even sum counts so far
+  // By the representative edge of a chord:
+  IdVector<EdgeId, int> fixed_;                    // segments of the final mesh; 0 = any number
+  IdVector<EdgeId, std::vector<EdgeId>> members_;  // edges
+  IdVector<EdgeId, int> units_;                    // segments of the final mesh per unit of the count
+  EdgeFlags is_between_grids_;                     // 1 = all its faces are grids
+  BalanceProblem problem_;                         // one variable for each edge; only those of chords matter
+  std::vector<FaceId> faces_of_nodes_;             // (nodes)
+  FaceFlags is_waiting_;                           // 1 = stepped, only its even sum counts so far
 };
 
 }  // namespace
 
-EdgeCounts choose_counts(const CountWishes& wishes, const TinyFeatures& tiny, std::vector<FaceSides>& sides) {
+EdgeCounts choose_counts(const CountWishes& wishes, const TinyFeatures& tiny, FaceOutlines& sides) {
   return CountChooser(wishes, tiny, sides).run();
 }
 

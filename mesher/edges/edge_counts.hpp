@@ -12,29 +12,29 @@ namespace quadrille {
 
 /// What the counts of the edges of the faces used should be.
 struct CountWishes {
-  int stride = 1;              ///< see BoundaryNodes::stride
-  std::vector<double> wanted;  ///< (edges) segments by the sizing field, in the mesh that is recombined
-  std::vector<int> least;      ///< (edges) least number in the mesh that is recombined; 0 = edge not used
-  std::vector<int> least_of_grids;  ///< (edges) least number in the final mesh if only grids use the chord
-  std::vector<int> fixed;  ///< (edges) segments of the final mesh that users prescribe; 0 = any number
-  std::vector<char> even;  ///< (edges) 1 = even number of segments though the stride is 1; may be empty
+  int stride = 1;                        ///< see BoundaryNodes::stride
+  IdVector<EdgeId, double> wanted;       ///< segments by the sizing field, in the mesh that is recombined
+  IdVector<EdgeId, int> least;           ///< least number in the mesh that is recombined; 0 = edge not used
+  IdVector<EdgeId, int> least_of_grids;  ///< least number in the final mesh if only grids use the chord
+  IdVector<EdgeId, int> fixed;           ///< segments of the final mesh that users prescribe; 0 = any number
+  EdgeFlags even;                        ///< 1 = even number of segments though the stride is 1; may be empty
 };
 
 struct EdgeCounts {
-  std::vector<int> counts;  ///< (edges) segments of the final mesh; 0 = edge not used
+  IdVector<EdgeId, int> counts;  ///< segments of the final mesh; 0 = edge not used
   Chords chords;
-  std::vector<int> odd_faces;  ///< faces (from 1) that could not be made even
+  std::vector<FaceId> odd_faces;  ///< faces that could not be made even
 };
 
 /// Chooses the counts of all edges near the wanted ones: one count for each chord, equal counts on facing
 /// sides, and an even sum around every face. A face whose sides would get counts too far from the wanted ones
-/// loses its outline. \param sides (faces) in: as found; out: with facing sides only where their counts
+/// loses its outline. \param sides in: as found; out: with facing sides only where their counts
 /// match. Chords that only grids use are counted in segments of the final mesh, others in multiples of the
 /// stride. With stride 2, wedges and strips may keep an odd boundary, since the remaining triangle is
 /// subdivided too. Fixed counts are kept. The edges of the same chord take them over if they want at most
 /// four times and at least a quarter as many. Throws Error (usage, naming the edges) if a fixed count cannot
 /// be kept: an odd one on an edge of a face that needs even numbers, or one that leaves the boundary of a
 /// face odd.
-EdgeCounts choose_counts(const CountWishes& wishes, const TinyFeatures& tiny, std::vector<FaceSides>& sides);
+EdgeCounts choose_counts(const CountWishes& wishes, const TinyFeatures& tiny, FaceOutlines& sides);
 
 }  // namespace quadrille

@@ -34,40 +34,37 @@ int least_segments(bool closed, double turning, bool shares_both_ends, bool inne
 }
 
 /// Edges that share both end vertices with another edge: with one segment each, the two would coincide.
-std::vector<char> find_shared_ends(const CadShape& shape, const TinyFeatures& tiny) {
-  std::map<std::pair<int, int>, int> count;
-  const auto key = [&](const CadEdge& e) -> std::pair<int, int> {
+EdgeFlags find_shared_ends(const CadShape& shape, const TinyFeatures& tiny) {
+  std::map<std::pair<VertexId, VertexId>, int> count;
+  const auto key = [&](const CadEdge& e) -> std::pair<VertexId, VertexId> {
     return std::minmax({tiny.end(e.first_vertex), tiny.end(e.last_vertex)});
   };
-  std::vector<char> shared(shape.edges.size(), 0);
-  const auto is_open = [&](std::size_t i) {
-    return !shape.edges[i].degenerate && !tiny.closed(shape.edges[i]) && tiny.edges[i] == static_cast<int>(i);
+  EdgeFlags shared(shape.edges.size());
+  const auto is_open = [&](EdgeId i) {
+    return !shape.edges[i].degenerate && !tiny.closed(shape.edges[i]) && tiny.edges[i] == i;
   };
-  for (std::size_t i = 0; i < shared.size(); ++i) {
+  for (const EdgeId i : shared.ids()) {
     if (is_open(i)) ++count[key(shape.edges[i])];
   }
-  for (std::size_t i = 0; i < shared.size(); ++i) {
-    shared[i] = is_open(i) && count[key(shape.edges[i])] > 1;
-  }
+  for (const EdgeId i : shared.ids()) shared[i] = is_open(i) && count[key(shape.edges[i])] > 1;
   return shared;
 }
 
 /// Edges that lie inside a face (cracks).
-std::vector<char> find_inner_edges(const CadShape& shape) {
-  std::vector<char> inner(shape.edges.size(), 0);
+EdgeFlags find_inner_edges(const CadShape& shape) {
+  EdgeFlags inner(shape.edges.size());
   for (const CadFace& face : shape.faces) {
     for (const CadWire& wire : face.wires) {
-      for (const Coedge& coedge : wire.coedges) inner[coedge.edge - 1] |= coedge.internal;
+      for (const Coedge& coedge : wire.coedges) inner[coedge.edge] |= coedge.internal;
     }
   }
   return inner;
 }
 
 /// The edges that have nodes: those of the faces used, and those that lend their nodes to them.
-std::vector<char> find_used_edges(const CadShape& shape, const std::vector<char>& used,
-                                  const TinyFeatures& tiny) {
-  std::vector<char> result(shape.edges.size(), 0);
-  for (std::size_t i = 0; i < result.size(); ++i) {
+EdgeFlags find_used_edges(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny) {
+  EdgeFlags result(shape.edges.size());
+  for (const EdgeId i : result.ids()) {
     if (shape.edges[i].is_used(used)) result[i] = result[tiny.edges[i]] = 1;
   }
   return result;
@@ -102,25 +99,25 @@ double parameter_near_chord(const CadEdge& edge, const EdgeCurve& curve, int k, 
 
 class EdgeSampler {
  public:
-  EdgeSampler(const CadShape& shape, const SizingField& field, int stride, const std::vector<char>& used,
+  EdgeSampler(const CadShape& shape, const SizingField& field, int stride, const FaceFlags& used,
               const SamplingPlan& plan, ExecutionContext& context)
       : shape_(shape),
         field_(field),
         used_(used),
         plan_(plan),
         context_(context),
-        n_(static_cast<int>(shape.edges.size())),
+        n_(shape.edges.size()),
         used_edges_(find_used_edges(shape, used, plan.tiny)) {
     result_.stride = stride;
     result_.subdivided = plan.subdivided;
-    if (stride == 2) std::fill(result_.subdivided.begin(), result_.subdivided.end(), 1);
+    if (stride == 2) result_.subdivided.assign(shape.faces.size(), 1);
     result_.vertex_nodes.assign(shape.vertices.size(), -1);
     result_.edges.resize(n_);
   }
 
   BoundaryNodes run() {
     tabulate_edges();
-    const std::vector<FaceSides> found = find_face_sides(shape_, used_, plan_.tiny, wishes_.wanted);
+    const FaceOutlines found = find_face_sides(shape_, used_, plan_.tiny, wishes_.wanted);
     result_.sides = found;
     EdgeCounts chosen = choose_counts(wishes_, plan_.tiny, result_.sides);
     const bool refined = refine_along_strips(shape_, result_.sides, chosen, tables_, wishes_);
@@ -135,7 +132,7 @@ class EdgeSampler {
     place_vertices();
     context_.check();
     SparseCheck check(context_, 64);
-    for (int i = 0; i < n_; ++i) {
+    for (const EdgeId i : shape_.edges.ids()) {
       if (counts_[i] > 0) place_nodes(i, check);
     }
     align_narrow_faces(shape_, used_, find_split_strips(shape_, used_, wishes_.wanted), result_);
@@ -146,8 +143,8 @@ class EdgeSampler {
 
  private:
   void tabulate_edges() {
-    const std::vector<char> shared_ends = find_shared_ends(shape_, plan_.tiny);
-    const std::vector<char> inner = find_inner_edges(shape_);
+    const EdgeFlags shared_ends = find_shared_ends(shape_, plan_.tiny);
+    const EdgeFlags inner = find_inner_edges(shape_);
     tables_.resize(n_);
     wishes_.stride = result_.stride;
     wishes_.least.assign(n_, 0);
@@ -156,8 +153,8 @@ class EdgeSampler {
     wishes_.fixed.assign(n_, 0);
     wishes_.even.assign(n_, 0);
     double segments = 0;
-    for (int i = 0; i < n_; ++i) {
-      if (i % 256 == 0) context_.report(Stage::sample, 0.5 * i / n_);
+    for (const EdgeId i : shape_.edges.ids()) {
+      if (i.index() % 256 == 0) context_.report(Stage::sample, 0.5 * i.index() / static_cast<double>(n_));
       context_.check();
       const CadEdge& edge = shape_.edges[i];
       if (edge.degenerate || edge.length <= 0 || !used_edges_[i] || plan_.tiny.collapsed_edges[i]) continue;
@@ -167,7 +164,7 @@ class EdgeSampler {
       const int stride = result_.edges[i].stride = even ? 2 : result_.stride;
       bool is_finer = false;
       for (const EdgeStretch& part : plan_.finer) {
-        if (part.edge != i + 1) continue;
+        if (part.edge != i) continue;
         tables_[i].make_finer(part.from, part.to, part.segments * stride);
         is_finer = true;
       }
@@ -196,12 +193,12 @@ class EdgeSampler {
     }
   }
 
-  bool is_prescribed(int edge) const {
+  bool is_prescribed(EdgeId edge) const {
     return !plan_.prescribed.empty() && plan_.prescribed[edge].has_value();
   }
 
   /// Users may prescribe too few segments to keep the edge's shape, but a loop must stay open.
-  void fix_count(int i, bool shares_both_ends, bool inner) {
+  void fix_count(EdgeId i, bool shares_both_ends, bool inner) {
     const int segments = plan_.prescribed[i]->segments;
     const bool closed = plan_.tiny.closed(shape_.edges[i]);
     constexpr double hardly = 0.01;
@@ -217,9 +214,9 @@ class EdgeSampler {
     wishes_.least_of_grids[i] = std::min(wishes_.least_of_grids[i], segments);
   }
 
-  std::vector<std::vector<double>> prescribed_shares() const {
-    std::vector<std::vector<double>> shares(n_);
-    for (int i = 0; i < n_; ++i) {
+  EdgeShares prescribed_shares() const {
+    EdgeShares shares(n_);
+    for (const EdgeId i : shape_.edges.ids()) {
       if (is_prescribed(i)) shares[i] = plan_.prescribed[i]->shares;
     }
     return shares;
@@ -227,19 +224,19 @@ class EdgeSampler {
 
   /// Marks the edges of chords whose count (divided) or spacing (kept) users prescribe.
   void keep_spacing(const Chords& chords) {
-    std::vector<char> divided(n_, 0), kept(n_, 0);
-    for (int i = 0; i < n_; ++i) {
+    EdgeFlags divided(n_), kept(n_);
+    for (const EdgeId i : shape_.edges.ids()) {
       if (!is_prescribed(i)) continue;
       divided[chords.of(i)] = 1;
       if (!plan_.prescribed[i]->shares.empty()) kept[chords.of(i)] = 1;
     }
-    for (int i = 0; i < n_; ++i) {
+    for (const EdgeId i : shape_.edges.ids()) {
       result_.edges[i].divided = divided[chords.of(i)] != 0;
       result_.edges[i].kept = kept[chords.of(i)] != 0;
     }
   }
 
-  bool along_chord(int edge) const { return plan_.bare[edge] && !plan_.tiny.closed(shape_.edges[edge]); }
+  bool along_chord(EdgeId edge) const { return plan_.bare[edge] && !plan_.tiny.closed(shape_.edges[edge]); }
 
   int add_point(const Vector3& point) {
     result_.points.push_back(point);
@@ -247,30 +244,30 @@ class EdgeSampler {
   }
 
   /// The node of a vertex; a new one at `fallback` where the edge has no vertex.
-  int vertex_node(int vertex, const Vector3& fallback) {
-    if (vertex == 0) return add_point(fallback);
-    const int end = plan_.tiny.end(vertex);
-    int& node = result_.vertex_nodes[end - 1];
-    if (node < 0) node = add_point(shape_.vertices[end - 1]);
-    return result_.vertex_nodes[vertex - 1] = node;
+  int vertex_node(VertexId vertex, const Vector3& fallback) {
+    if (!vertex.exists()) return add_point(fallback);
+    const VertexId end = plan_.tiny.end(vertex);
+    int& node = result_.vertex_nodes[end];
+    if (node < 0) node = add_point(shape_.vertices[end]);
+    return result_.vertex_nodes[vertex] = node;
   }
 
   /// Vertices come first, so that their numbers do not depend on the counts.
   void place_vertices() {
-    for (int i = 0; i < n_; ++i) {
+    for (const EdgeId i : shape_.edges.ids()) {
       const CadEdge& edge = shape_.edges[i];
       if (!used_edges_[i]) continue;
-      if (edge.first_vertex > 0) vertex_node(edge.first_vertex, Vector3::Zero());
-      if (edge.last_vertex > 0) vertex_node(edge.last_vertex, Vector3::Zero());
+      if (edge.first_vertex.exists()) vertex_node(edge.first_vertex, Vector3::Zero());
+      if (edge.last_vertex.exists()) vertex_node(edge.last_vertex, Vector3::Zero());
     }
-    for (std::size_t face = 0; face < shape_.faces.size(); ++face) {
+    for (const FaceId face : shape_.faces.ids()) {
       if (!used_[face]) continue;
       for (const InnerVertex& point : shape_.faces[face].inner_vertices)
         vertex_node(point.vertex, Vector3::Zero());
     }
   }
 
-  void place_nodes(int i, SparseCheck& check) {
+  void place_nodes(EdgeId i, SparseCheck& check) {
     const CadEdge& edge = shape_.edges[i];
     const EdgeCurve curve(edge);
     BoundaryNodes::Edge& nodes = result_.edges[i];
@@ -296,7 +293,7 @@ class EdgeSampler {
   }
 
   void borrow_nodes() {
-    for (int i = 0; i < n_; ++i) {
+    for (const EdgeId i : shape_.edges.ids()) {
       if (counts_[i] == 0 || plan_.tiny.edges[i] == i) continue;
       auto& edge = result_.edges[i];
       edge.nodes = result_.edges[plan_.tiny.edges[i]].nodes;
@@ -307,15 +304,15 @@ class EdgeSampler {
 
   const CadShape& shape_;
   const SizingField& field_;
-  const std::vector<char>& used_;
+  const FaceFlags& used_;
   const SamplingPlan& plan_;
   ExecutionContext& context_;
-  int n_;
-  std::vector<char> used_edges_;
-  std::vector<CountTable> tables_;
+  std::size_t n_;  // edges
+  EdgeFlags used_edges_;
+  IdVector<EdgeId, CountTable> tables_;
   CountWishes wishes_;
-  std::vector<int> counts_;                  // segments of the final mesh
-  std::vector<std::vector<double>> shares_;  // (edges) places of nodes over length; empty = by own sizes
+  IdVector<EdgeId, int> counts_;  // segments of the final mesh
+  EdgeShares shares_;             // empty = by own sizes
   BoundaryNodes result_;
 };
 
@@ -323,15 +320,13 @@ class EdgeSampler {
 
 SamplingPlan::SamplingPlan(const CadShape& shape)
     : factor(shape.edges.size(), 1),
-      bare(shape.edges.size(), 0),
-      unaligned(shape.faces.size(), 0),
-      subdivided(shape.faces.size(), 0),
-      tiny(find_tiny_features(shape, std::vector<char>(shape.faces.size(), 1),
-                              std::vector<char>(shape.edges.size(), 0), 0)) {}
+      bare(shape.edges.size()),
+      unaligned(shape.faces.size()),
+      subdivided(shape.faces.size()),
+      tiny(find_tiny_features(shape, FaceFlags(shape.faces.size(), 1), EdgeFlags(shape.edges.size()), 0)) {}
 
-BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int stride,
-                           const std::vector<char>& used, const SamplingPlan& plan,
-                           ExecutionContext& context) {
+BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int stride, const FaceFlags& used,
+                           const SamplingPlan& plan, ExecutionContext& context) {
   return EdgeSampler(shape, field, stride, used, plan, context).run();
 }
 

@@ -25,19 +25,19 @@ struct BoundaryNodes {
     int segments() const { return static_cast<int>(nodes.size()) - 1; }
   };
   std::vector<Vector3> points;
-  std::vector<int> vertex_nodes;  ///< CAD vertex (from 1) minus 1 -> node, -1 = not used
-  std::vector<Edge> edges;        ///< CAD edge (from 1) minus 1
+  IdVector<VertexId, int> vertex_nodes;  ///< indices into `points`; -1 = not used
+  IdVector<EdgeId, Edge> edges;
   /// Segments of the final mesh for each segment of the mesh that is recombined: 2 with Strategy::subdivide,
   /// else 1. The faces in `subdivided` have 2 in any case.
   int stride = 1;
-  std::vector<char> subdivided;  ///< (faces) 1 = recombined at twice the size, whatever `stride` is
-  std::vector<FaceSides> sides;  ///< (faces) outlines, with facing sides whose counts match
-  std::vector<int> odd_faces;    ///< faces (from 1) whose count could not be made even; almost always empty
+  FaceFlags subdivided;           ///< 1 = recombined at twice the size, whatever `stride` is
+  FaceOutlines sides;             ///< with facing sides whose counts match
+  std::vector<FaceId> odd_faces;  ///< faces whose count could not be made even; almost always empty
 };
 
 /// A part of a CAD edge that needs a least number of segments in the mesh that is recombined.
 struct EdgeStretch {
-  int edge = 0;             ///< CAD edge, from 1
+  EdgeId edge;
   double from = 0, to = 0;  ///< range of the edge's parameter, from < to
   int segments = 0;         ///< least number
 };
@@ -46,20 +46,19 @@ struct EdgeStretch {
 /// users divide edges.
 struct SamplingPlan {
   explicit SamplingPlan(const CadShape& shape);  ///< by the sizing field alone
-  std::vector<int> factor;                       ///< (edges) multiplies the number of segments
+  IdVector<EdgeId, int> factor;                  ///< multiplies the number of segments
   std::vector<EdgeStretch> finer;
-  std::vector<char> bare;        ///< (edges) 1 = ignore how the curve turns, it may have loops
-  std::vector<char> unaligned;   ///< (faces) 1 = nodes need not face each other across the face's gaps
-  std::vector<char> subdivided;  ///< (faces) see BoundaryNodes::subdivided: the face's edges get even numbers
+  EdgeFlags bare;        ///< 1 = ignore how the curve turns, it may have loops
+  FaceFlags unaligned;   ///< 1 = nodes need not face each other across the face's gaps
+  FaceFlags subdivided;  ///< see BoundaryNodes::subdivided: the face's edges get even numbers
   TinyFeatures tiny;
-  std::vector<std::optional<PrescribedEdge>> prescribed;  ///< (edges) user divisions; may be empty
+  PrescribedEdges prescribed;  ///< user divisions; may be empty
 };
 
 /// Samples the edges of the used faces, by true arc length and the sizing field.
 /// \param stride see BoundaryNodes::stride
-/// \param used (faces) 1 = the face is meshed; 0 for all faces that plan.tiny merges.
-BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int stride,
-                           const std::vector<char>& used, const SamplingPlan& plan,
-                           ExecutionContext& context);
+/// \param used 1 = the face is meshed; 0 for all faces that plan.tiny merges.
+BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int stride, const FaceFlags& used,
+                           const SamplingPlan& plan, ExecutionContext& context);
 
 }  // namespace quadrille

@@ -29,7 +29,7 @@ struct Walk {
 
 class SideFinder {
  public:
-  SideFinder(const CadShape& shape, const TinyFeatures& tiny, const std::vector<double>& wanted)
+  SideFinder(const CadShape& shape, const TinyFeatures& tiny, const IdVector<EdgeId, double>& wanted)
       : shape_(shape), tiny_(tiny), wanted_(wanted) {}
 
   FaceSides find(const CadFace& face) const {
@@ -48,8 +48,8 @@ class SideFinder {
   void take_strip(const SplitStrip& strip, FaceSides& sides) const {
     if (!sides.facing.empty()) return;
     FacingPair& pair = sides.facing.emplace_back();
-    pair.first.push_back({strip.whole->edge - 1, strip.whole->forward});
-    for (const Coedge* part : strip.parts) pair.second.push_back({part->edge - 1, part->forward});
+    pair.first.push_back({strip.whole->edge, strip.whole->forward});
+    for (const Coedge* part : strip.parts) pair.second.push_back({part->edge, part->forward});
     pair.second = turned(pair.second);
     for (const Side* side : {&pair.first, &pair.second}) {
       for (const SideEdge& edge : *side) std::erase(sides.rest, edge.edge);
@@ -66,7 +66,7 @@ class SideFinder {
       if (!wire.ordered) return {};
       for (std::size_t k = 0; k < wire.coedges.size(); ++k) {
         const Coedge& coedge = wire.coedges[k];
-        const int edge = coedge.edge - 1;
+        const EdgeId edge = coedge.edge;
         if (coedge.internal || shape_.edges[edge].degenerate) return {};
         if (tiny_.collapsed_edges[edge]) continue;
         walk.coedges.push_back(static_cast<int>(k));
@@ -84,7 +84,7 @@ class SideFinder {
   }
 
   double turning(const FaceSurface& surface, const Coedge& from, const Coedge& to) const {
-    const CadEdge &before = shape_.edges[from.edge - 1], &after = shape_.edges[to.edge - 1];
+    const CadEdge &before = shape_.edges[from.edge], &after = shape_.edges[to.edge];
     const double t = to.forward ? after.first : after.last;
     const Vector3 in = (from.forward ? 1 : -1) *
                        EdgeCurve(before).derivative(from.forward ? before.last : before.first),
@@ -290,7 +290,7 @@ class SideFinder {
   void take_rest(const CadFace& face, FaceSides& sides) const {
     std::vector<const Coedge*> faced;
     for (const FacingSides& facing : facing_sides(shape_, face)) {
-      const int first = facing.first->edge - 1, second = facing.second->edge - 1;
+      const EdgeId first = facing.first->edge, second = facing.second->edge;
       if (has_unusual_edges(shape_, face)) continue;
       const std::size_t count = face.wires[0].coedges.size();
       const bool is_narrow = facing.width < narrow * segment_length(shape_, wanted_, first);
@@ -303,8 +303,7 @@ class SideFinder {
     }
     for (const CadWire& wire : face.wires) {
       for (const Coedge& coedge : wire.coedges) {
-        if (std::find(faced.begin(), faced.end(), &coedge) == faced.end())
-          sides.rest.push_back(coedge.edge - 1);
+        if (std::find(faced.begin(), faced.end(), &coedge) == faced.end()) sides.rest.push_back(coedge.edge);
       }
     }
   }
@@ -369,17 +368,17 @@ class SideFinder {
 
   const CadShape& shape_;
   const TinyFeatures& tiny_;
-  const std::vector<double>& wanted_;
+  const IdVector<EdgeId, double>& wanted_;
 };
 
 }  // namespace
 
-std::vector<FaceSides> find_face_sides(const CadShape& shape, const std::vector<char>& used,
-                                       const TinyFeatures& tiny, const std::vector<double>& wanted) {
+FaceOutlines find_face_sides(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny,
+                             const IdVector<EdgeId, double>& wanted) {
   const SideFinder finder(shape, tiny, wanted);
-  std::vector<FaceSides> result(shape.faces.size());
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    if (used[i]) result[i] = finder.find(shape.faces[i]);
+  FaceOutlines result(shape.faces.size());
+  for (const FaceId face : result.ids()) {
+    if (used[face]) result[face] = finder.find(shape.faces[face]);
   }
   for (const SplitStrip& strip : find_split_strips(shape, used, wanted))
     finder.take_strip(strip, result[strip.face]);

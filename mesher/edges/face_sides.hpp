@@ -9,7 +9,7 @@
 namespace quadrille {
 
 struct SideEdge {
-  int edge;      ///< from 0
+  EdgeId edge;
   bool forward;  ///< the side runs along the edge's parameter
 };
 
@@ -35,8 +35,8 @@ struct FaceSides {
   /// Pairs of sides whose counts must be equal. In a stepped outline, one side of a pair may join several
   /// sides of the face.
   std::vector<FacingPair> facing;
-  std::vector<int> rest;  ///< edges (from 0) whose counts must have an even sum
-  int outer = 0;          ///< index of the wire with the corners
+  std::vector<EdgeId> rest;  ///< edges whose counts must have an even sum
+  int outer = 0;             ///< index of the wire with the corners
   /// (four, odd, stepped, holed) index of the first coedge of each side in that wire
   std::vector<int> starts;
   /// (stepped) direction of each side in quarter turns from that of the first side, 0 to 3: sides with 0 and
@@ -44,11 +44,13 @@ struct FaceSides {
   std::vector<int> directions;
 };
 
+using FaceOutlines = IdVector<FaceId, FaceSides>;
+
 /// The outlines of the faces used. A corner is a vertex where the boundary turns by about a right angle, to
 /// the left or, in stepped outlines, to the right. A side may have several edges. Opposite sides are cut into
 /// several pairs where their vertices face each other, so that each part keeps its own count.
-/// \param wanted (edges) number of segments
-std::vector<FaceSides> find_face_sides(const CadShape& shape, const std::vector<char>& used,
-                                       const TinyFeatures& tiny, const std::vector<double>& wanted);
+/// \param wanted number of segments
+FaceOutlines find_face_sides(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny,
+                             const IdVector<EdgeId, double>& wanted);
 
 }  // namespace quadrille

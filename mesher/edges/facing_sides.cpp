@@ -13,7 +13,7 @@ namespace {
 double distance_across(const CadShape& shape, const CadFace& face, const Coedge& a, const Coedge& b) {
   constexpr int steps = 8;
   const auto middle = [&](const Coedge& coedge) {
-    const CadEdge& edge = shape.edges[coedge.edge - 1];
+    const CadEdge& edge = shape.edges[coedge.edge];
     return parametric_point(coedge, 0.5 * (edge.first + edge.last));
   };
   const FaceSurface surface(face);
@@ -29,13 +29,13 @@ double distance_across(const CadShape& shape, const CadFace& face, const Coedge&
 /// Whether all parts of a strip lie closer than `limit` to its whole side.
 bool is_narrower(const CadShape& shape, const SplitStrip& strip, double limit) {
   constexpr int places = 8, samples = 256;
-  const CadEdge& whole = shape.edges[strip.whole->edge - 1];
+  const CadEdge& whole = shape.edges[strip.whole->edge];
   const EdgeCurve curve(whole);
   std::vector<Vector3> points;
   for (int i = 0; i <= samples; ++i)
     points.push_back(curve.point(whole.first + (whole.last - whole.first) * i / samples));
   for (const Coedge* part : strip.parts) {
-    const CadEdge& edge = shape.edges[part->edge - 1];
+    const CadEdge& edge = shape.edges[part->edge];
     const EdgeCurve other(edge);
     for (int i = 0; i <= places; ++i) {
       const Vector3 p = other.point(edge.first + (edge.last - edge.first) * i / places);
@@ -49,21 +49,21 @@ bool is_narrower(const CadShape& shape, const SplitStrip& strip, double limit) {
 
 }  // namespace
 
-double segment_length(const CadShape& shape, const std::vector<double>& wanted, int edge) {
+double segment_length(const CadShape& shape, const IdVector<EdgeId, double>& wanted, EdgeId edge) {
   return shape.edges[edge].length / std::max(wanted[edge], 1.0);
 }
 
 bool has_unusual_edges(const CadShape& shape, const CadFace& face) {
   const auto& c = face.wires[0].coedges;
   return std::any_of(c.begin(), c.end(), [&](const Coedge& coedge) {
-    return coedge.internal || shape.edges[coedge.edge - 1].degenerate;
+    return coedge.internal || shape.edges[coedge.edge].degenerate;
   });
 }
 
 std::vector<FacingSides> facing_sides(const CadShape& shape, const CadFace& face) {
   if (face.wires.size() != 1 || !face.wires[0].ordered) return {};
   const auto& c = face.wires[0].coedges;
-  const auto edge = [&](std::size_t k) -> const CadEdge& { return shape.edges[c[k].edge - 1]; };
+  const auto edge = [&](std::size_t k) -> const CadEdge& { return shape.edges[c[k].edge]; };
   if (c.size() == 4) {
     return {{&c[0], &c[2], std::max(edge(1).length, edge(3).length)},
             {&c[1], &c[3], std::max(edge(0).length, edge(2).length)}};
@@ -81,18 +81,18 @@ std::vector<FacingSides> facing_sides(const CadShape& shape, const CadFace& face
   return {};
 }
 
-std::vector<SplitStrip> find_split_strips(const CadShape& shape, const std::vector<char>& used,
-                                          const std::vector<double>& wanted) {
+std::vector<SplitStrip> find_split_strips(const CadShape& shape, const FaceFlags& used,
+                                          const IdVector<EdgeId, double>& wanted) {
   constexpr double is_short = 0.1;  // length over that of the longest edge
   std::vector<SplitStrip> strips;
-  for (std::size_t i = 0; i < shape.faces.size(); ++i) {
-    const CadFace& face = shape.faces[i];
-    if (!used[i] || face.wires.size() != 1 || !face.wires[0].ordered || face.wires[0].coedges.size() < 4)
+  for (const FaceId id : shape.faces.ids()) {
+    const CadFace& face = shape.faces[id];
+    if (!used[id] || face.wires.size() != 1 || !face.wires[0].ordered || face.wires[0].coedges.size() < 4)
       continue;
     const auto& c = face.wires[0].coedges;
     const std::size_t n = c.size();
     if (has_unusual_edges(shape, face)) continue;
-    const auto length = [&](std::size_t k) { return shape.edges[c[k % n].edge - 1].length; };
+    const auto length = [&](std::size_t k) { return shape.edges[c[k % n].edge].length; };
     double longest = 0;
     for (std::size_t k = 0; k < n; ++k) longest = std::max(longest, length(k));
     std::size_t start = 0;
@@ -109,8 +109,8 @@ std::vector<SplitStrip> find_split_strips(const CadShape& shape, const std::vect
     if (runs.size() != 2) continue;
     if (runs[0].size() > 1) std::swap(runs[0], runs[1]);
     if (runs[0].size() != 1 || runs[1].size() < 2) continue;
-    const SplitStrip strip{static_cast<int>(i), runs[0][0], runs[1]};
-    if (is_narrower(shape, strip, narrow * segment_length(shape, wanted, strip.whole->edge - 1)))
+    const SplitStrip strip{id, runs[0][0], runs[1]};
+    if (is_narrower(shape, strip, narrow * segment_length(shape, wanted, strip.whole->edge)))
       strips.push_back(strip);
   }
   return strips;

@@ -25,17 +25,17 @@ constexpr double narrow = 0.5;
 
 /// A narrow face with one long side of one edge and another one of several edges.
 struct SplitStrip {
-  int face;  ///< from 0
+  FaceId face;
   const Coedge* whole;
   std::vector<const Coedge*> parts;  ///< in the order of the wire
 };
 
-/// Approximate length of an edge's segments. \param edge from 0.
-double segment_length(const CadShape& shape, const std::vector<double>& wanted, int edge);
+/// Approximate length of an edge's segments.
+double segment_length(const CadShape& shape, const IdVector<EdgeId, double>& wanted, EdgeId edge);
 
 /// The narrow faces whose only wire has two runs of long edges, one of them a single edge, between short
-/// ones. \param wanted (edges) number of segments
-std::vector<SplitStrip> find_split_strips(const CadShape& shape, const std::vector<char>& used,
-                                          const std::vector<double>& wanted);
+/// ones. \param wanted number of segments
+std::vector<SplitStrip> find_split_strips(const CadShape& shape, const FaceFlags& used,
+                                          const IdVector<EdgeId, double>& wanted);
 
 }  // namespace quadrille

@@ -18,7 +18,7 @@ using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
 
 /// A segment of the mesh that is recombined.
 struct Segment {
-  int edge;  ///< from 0
+  EdgeId edge;
   int wire;
   int first, last;  ///< indices of its nodes on the edge
   Vector3 a, b;
@@ -28,21 +28,20 @@ struct Segment {
 
 class GapNodes {
  public:
-  GapNodes(const CadShape& shape, const std::vector<char>& used, BoundaryNodes& nodes)
+  GapNodes(const CadShape& shape, const FaceFlags& used, BoundaryNodes& nodes)
       : shape_(shape), used_(used), nodes_(nodes), ties_(nodes.edges.size()) {}
 
-  void run(const std::vector<char>& unaligned) {
-    for (std::size_t face = 0; face < shape_.faces.size(); ++face) {
+  void run(const FaceFlags& unaligned) {
+    for (const FaceId face : shape_.faces.ids()) {
       const auto outline = nodes_.sides[face].outline;
       const bool free = outline == FaceSides::Outline::other || outline == FaceSides::Outline::holed;
-      if (used_[face] && !unaligned[face] && free && shape_.faces[face].wires.size() > 1)
-        find_pairs(static_cast<int>(face));
+      if (used_[face] && !unaligned[face] && free && shape_.faces[face].wires.size() > 1) find_pairs(face);
     }
     std::stable_sort(pairs_.begin(), pairs_.end(),
                      [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
     for (const Pair& pair : pairs_) align(pair);
-    for (std::size_t edge = 0; edge < ties_.size(); ++edge) {
-      if (!ties_[edge].empty()) move_nodes(static_cast<int>(edge));
+    for (const EdgeId edge : ties_.ids()) {
+      if (!ties_[edge].empty()) move_nodes(edge);
     }
   }
 
@@ -50,8 +49,10 @@ class GapNodes {
   /// A node and the segment that it faces across the gap.
   struct Pair {
     double distance;
-    int edge, place;   ///< edge of the node (from 0), index of the node on it
-    int other, first;  ///< edge of the segment (from 0), index of its first node on it
+    EdgeId edge;
+    int place;  ///< index of the node on `edge`
+    EdgeId other;
+    int first;  ///< index of the segment's first node on `other`
   };
 
   /// The current place of a node of the mesh that is recombined.
@@ -60,18 +61,17 @@ class GapNodes {
     double parameter = 0;
   };
 
-  void find_pairs(int face) {
+  void find_pairs(FaceId face) {
     std::vector<Segment> segments;
     int wires = 0;
     for (const CadWire& wire : shape_.faces[face].wires) {
       ++wires;
       for (const Coedge& coedge : wire.coedges) {
-        const BoundaryNodes::Edge& edge = nodes_.edges[coedge.edge - 1];
+        const BoundaryNodes::Edge& edge = nodes_.edges[coedge.edge];
         const int stride = edge.stride;
         if (edge.nodes.empty() || edge.segments() % stride != 0) continue;
         for (int i = 0; i + stride <= edge.segments(); i += stride)
-          segments.push_back(
-              {coedge.edge - 1, wires, i, i + stride, point(edge, i), point(edge, i + stride)});
+          segments.push_back({coedge.edge, wires, i, i + stride, point(edge, i), point(edge, i + stride)});
       }
     }
     std::vector<Box> boxes;
@@ -102,7 +102,7 @@ class GapNodes {
     return (point - a).dot(along) / along.squaredNorm();
   }
 
-  void add_pair(int edge, int place, const Segment& across) {
+  void add_pair(EdgeId edge, int place, const Segment& across) {
     const BoundaryNodes::Edge &own = nodes_.edges[edge], &other = nodes_.edges[across.edge];
     const int node = own.nodes[place];
     if (node == other.nodes[across.first] || node == other.nodes[across.last]) return;
@@ -114,7 +114,7 @@ class GapNodes {
       pairs_.push_back({distance, edge, place, across.edge, across.first});
   }
 
-  std::vector<Tie>& ties(int edge) {
+  std::vector<Tie>& ties(EdgeId edge) {
     std::vector<Tie>& ties = ties_[edge];
     const BoundaryNodes::Edge& own = nodes_.edges[edge];
     if (!ties.empty()) return ties;
@@ -159,7 +159,7 @@ class GapNodes {
   }
 
   /// Neighbors of moved nodes follow by decreasing amounts. Nodes inside segments keep their shares.
-  void move_nodes(int edge) {
+  void move_nodes(EdgeId edge) {
     constexpr int fading = 3;
     BoundaryNodes::Edge& own = nodes_.edges[edge];
     const std::vector<Tie>& ties = ties_[edge];
@@ -189,15 +189,15 @@ class GapNodes {
   }
 
   const CadShape& shape_;
-  const std::vector<char>& used_;
+  const FaceFlags& used_;
   BoundaryNodes& nodes_;
   std::vector<Pair> pairs_;
-  std::vector<std::vector<Tie>> ties_;  ///< (edges) one per node of the mesh that is recombined
+  IdVector<EdgeId, std::vector<Tie>> ties_;  ///< one per node of the mesh that is recombined
 };
 
 }  // namespace
 
-void align_gaps(const CadShape& shape, const std::vector<char>& used, const std::vector<char>& unaligned,
+void align_gaps(const CadShape& shape, const FaceFlags& used, const FaceFlags& unaligned,
                 BoundaryNodes& nodes) {
   GapNodes(shape, used, nodes).run(unaligned);
 }

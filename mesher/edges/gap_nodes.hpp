@@ -14,9 +14,9 @@ constexpr double widest_gap = 0.7;
 /// Where two wires of a face are closer than widest_gap segments, as between two holes, moves the nodes of
 /// one so that they face those of the other, the nearest pairs first: a row of quads between shifted nodes is
 /// sheared beyond use. Skips faces that are grids, unless these have holes. Nodes on edges with a prescribed
-/// spacing stay. \param unaligned (faces) 1 = skip the face. Time: O(n log n) in the segments of a face if
+/// spacing stay. \param unaligned 1 = skip the face. Time: O(n log n) in the segments of a face if
 /// few of them are close.
-void align_gaps(const CadShape& shape, const std::vector<char>& used, const std::vector<char>& unaligned,
+void align_gaps(const CadShape& shape, const FaceFlags& used, const FaceFlags& unaligned,
                 BoundaryNodes& nodes);
 
 }  // namespace quadrille

@@ -87,38 +87,37 @@ class StackedEdge {
 
 class RowFinder {
  public:
-  RowFinder(const CadShape& shape, const std::vector<FaceSides>& sides,
-            std::vector<std::optional<PrescribedEdge>> prescribed, const SizingOptions& options, double size)
+  RowFinder(const CadShape& shape, const FaceOutlines& sides, PrescribedEdges prescribed,
+            const SizingOptions& options, double size)
       : shape_(shape), sides_(sides), options_(options), size_(size) {
     rows_.prescribed = std::move(prescribed);
     rows_.prescribed.resize(shape.edges.size());
-    rows_.divided.assign(shape.edges.size(), 0);
-    rows_.layered.assign(shape.edges.size(), 0);
+    rows_.divided.resize(shape.edges.size());
+    rows_.layered.resize(shape.edges.size());
   }
 
   GridRows run() {
-    std::map<int, Stacks> stacks;  // by edge
-    std::vector<std::pair<int, std::vector<int>>> layered;
-    for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
-      const auto found = options_.layers.edges.find(shape_.edges[i].number);
+    std::map<EdgeId, Stacks> stacks;
+    std::vector<std::pair<EdgeId, std::vector<EdgeId>>> layered;
+    for (const EdgeId edge : shape_.edges.ids()) {
+      const auto found = options_.layers.edges.find(shape_.edges[edge].number);
       if (found == options_.layers.edges.end()) continue;
-      if (auto beside = stack(static_cast<int>(i), found->second, stacks))
-        layered.emplace_back(static_cast<int>(i), std::move(*beside));
+      if (auto beside = stack(edge, found->second, stacks)) layered.emplace_back(edge, std::move(*beside));
     }
-    std::map<int, PrescribedEdge> of_layers;
+    std::map<EdgeId, PrescribedEdge> of_layers;
     for (const auto& [edge, own] : stacks) divide(edge, stacks, of_layers);
     for (const auto& [edge, beside] : layered) {
-      const bool all = std::all_of(beside.begin(), beside.end(), [&](int side) {
+      const bool all = std::all_of(beside.begin(), beside.end(), [&](EdgeId side) {
         const auto it = of_layers.find(side);
         return it != of_layers.end() && is_in_grids(side, it->second.segments, of_layers);
       });
       if (!all) continue;
       rows_.layered[edge] = 1;
-      for (const int side : beside) rows_.prescribed[side] = of_layers.at(side);
+      for (const EdgeId side : beside) rows_.prescribed[side] = of_layers.at(side);
     }
-    for (std::size_t i = 0; i < rows_.prescribed.size(); ++i) {
-      if (rows_.prescribed[i])
-        rows_.divided[i] = is_in_grids(static_cast<int>(i), rows_.prescribed[i]->segments, of_layers);
+    for (const EdgeId edge : rows_.prescribed.ids()) {
+      if (const auto& own = rows_.prescribed[edge])
+        rows_.divided[edge] = is_in_grids(edge, own->segments, of_layers);
     }
     return std::move(rows_);
   }
@@ -126,21 +125,21 @@ class RowFinder {
  private:
   /// Records the layers of an edge on the edges that run away from it. \return those edges; nothing if a face
   /// is not four-sided, or if one of those sides has several edges or a prescribed division.
-  std::optional<std::vector<int>> stack(int index, const SizeLayers& layers,
-                                        std::map<int, Stacks>& stacks) const {
-    const CadEdge& edge = shape_.edges[index];
-    std::vector<int> beside;
-    std::vector<std::pair<int, bool>> found;  // edge, whether the layers start at its first vertex
-    for (const int face : edge.faces) {
-      const FaceSides& sides = sides_[face - 1];
+  std::optional<std::vector<EdgeId>> stack(EdgeId id, const SizeLayers& layers,
+                                           std::map<EdgeId, Stacks>& stacks) const {
+    const CadEdge& edge = shape_.edges[id];
+    std::vector<EdgeId> beside;
+    std::vector<std::pair<EdgeId, bool>> found;  // edge, whether the layers start at its first vertex
+    for (const FaceId face : edge.faces) {
+      const FaceSides& sides = sides_[face];
       if (sides.outline != FaceSides::Outline::four || sides.facing.size() != 2) return std::nullopt;
-      const bool in_first = holds(sides.facing[0], index);
+      const bool in_first = holds(sides.facing[0], id);
       const FacingPair& across = sides.facing[in_first ? 1 : 0];
       if (across.first.size() != 1 || across.second.size() != 1) return std::nullopt;
-      for (const int side : {across.first[0].edge, across.second[0].edge}) {
+      for (const EdgeId side : {across.first[0].edge, across.second[0].edge}) {
         const CadEdge& away = shape_.edges[side];
-        const auto touches = [&](int vertex) {
-          return vertex > 0 && (vertex == edge.first_vertex || vertex == edge.last_vertex);
+        const auto touches = [&](VertexId vertex) {
+          return vertex.exists() && (vertex == edge.first_vertex || vertex == edge.last_vertex);
         };
         if (touches(away.first_vertex) == touches(away.last_vertex)) return std::nullopt;
         found.emplace_back(side, touches(away.first_vertex));
@@ -154,26 +153,27 @@ class RowFinder {
     return beside;
   }
 
-  static bool holds(const FacingPair& pair, int edge) {
+  static bool holds(const FacingPair& pair, EdgeId edge) {
     const auto is = [&](const SideEdge& side) { return side.edge == edge; };
     return std::any_of(pair.first.begin(), pair.first.end(), is) ||
            std::any_of(pair.second.begin(), pair.second.end(), is);
   }
 
-  double size_on(int edge) const {
+  double size_on(EdgeId edge) const {
     const auto own = options_.edge_sizes.find(shape_.edges[edge].number);
     return own == options_.edge_sizes.end() ? size_ : std::min(size_, own->second);
   }
 
-  StackedEdge stacked(int edge, const Stacks& stacks) const {
+  StackedEdge stacked(EdgeId edge, const Stacks& stacks) const {
     return {shape_.edges[edge].length, stacks, size_on(edge), options_.growth};
   }
 
   /// Divides an edge with layers. It gets as many segments as the edge with layers in its chord that needs
   /// most, unless one of them has no room.
-  void divide(int edge, const std::map<int, Stacks>& stacks, std::map<int, PrescribedEdge>& divided) const {
+  void divide(EdgeId edge, const std::map<EdgeId, Stacks>& stacks,
+              std::map<EdgeId, PrescribedEdge>& divided) const {
     int segments = 0;
-    for (const int member : chord_of(edge)) {
+    for (const EdgeId member : chord_of(edge)) {
       const auto own = stacks.find(member);
       if (own == stacks.end()) continue;
       const StackedEdge stack = stacked(member, own->second);
@@ -184,37 +184,37 @@ class RowFinder {
     if (segments > own.layers()) divided[edge] = {segments, own.shares(segments)};
   }
 
-  /// The edge opposite another one across a four-sided face or ring; -1 if there is no single such edge.
-  int opposite(int face, int edge) const {
-    const FaceSides& sides = sides_[face - 1];
-    if (sides.outline != FaceSides::Outline::four && sides.outline != FaceSides::Outline::ring) return -1;
+  /// The edge opposite another one across a four-sided face or ring; none if there is no single such edge.
+  EdgeId opposite(FaceId face, EdgeId edge) const {
+    const FaceSides& sides = sides_[face];
+    if (sides.outline != FaceSides::Outline::four && sides.outline != FaceSides::Outline::ring) return {};
     for (const FacingPair& pair : sides.facing) {
       if (pair.first.size() != 1 || pair.second.size() != 1) continue;
       if (pair.first[0].edge == edge) return pair.second[0].edge;
       if (pair.second[0].edge == edge) return pair.first[0].edge;
     }
-    return -1;
+    return {};
   }
 
-  /// All edges connected to an edge through opposite(); includes -1 if some face has no opposite edge.
-  std::set<int> chord_of(int edge) const {
-    std::set<int> chord{edge};
-    std::vector<int> open{edge};
+  /// All edges connected to an edge through opposite(); includes none if some face has no opposite edge.
+  std::set<EdgeId> chord_of(EdgeId edge) const {
+    std::set<EdgeId> chord{edge};
+    std::vector<EdgeId> open{edge};
     while (!open.empty()) {
-      const int here = open.back();
+      const EdgeId here = open.back();
       open.pop_back();
-      for (const int face : shape_.edges[here].faces) {
-        const int next = opposite(face, here);
-        if (chord.insert(next).second && next >= 0) open.push_back(next);
+      for (const FaceId face : shape_.edges[here].faces) {
+        const EdgeId next = opposite(face, here);
+        if (chord.insert(next).second && next.exists()) open.push_back(next);
       }
     }
     return chord;
   }
 
-  bool is_in_grids(int edge, int segments, const std::map<int, PrescribedEdge>& of_layers) const {
-    const std::set<int> chord = chord_of(edge);
-    return std::all_of(chord.begin(), chord.end(), [&](int member) {
-      if (member < 0) return false;
+  bool is_in_grids(EdgeId edge, int segments, const std::map<EdgeId, PrescribedEdge>& of_layers) const {
+    const std::set<EdgeId> chord = chord_of(edge);
+    return std::all_of(chord.begin(), chord.end(), [&](EdgeId member) {
+      if (!member.exists()) return false;
       if (rows_.prescribed[member]) return rows_.prescribed[member]->segments == segments;
       if (const auto it = of_layers.find(member); it != of_layers.end())
         return it->second.segments == segments;
@@ -224,7 +224,7 @@ class RowFinder {
   }
 
   const CadShape& shape_;
-  const std::vector<FaceSides>& sides_;
+  const FaceOutlines& sides_;
   const SizingOptions& options_;
   double size_;
   GridRows rows_;
@@ -232,9 +232,8 @@ class RowFinder {
 
 }  // namespace
 
-GridRows find_grid_rows(const CadShape& shape, const std::vector<FaceSides>& sides,
-                        std::vector<std::optional<PrescribedEdge>> prescribed, const SizingOptions& options,
-                        double size) {
+GridRows find_grid_rows(const CadShape& shape, const FaceOutlines& sides, PrescribedEdges prescribed,
+                        const SizingOptions& options, double size) {
   return RowFinder(shape, sides, std::move(prescribed), options, size).run();
 }
 
@@ -243,7 +242,7 @@ namespace {
 bool has_edge(const CadFace& face, const BoundaryNodes& nodes, bool BoundaryNodes::Edge::*is) {
   return std::any_of(face.wires.begin(), face.wires.end(), [&](const CadWire& wire) {
     return std::any_of(wire.coedges.begin(), wire.coedges.end(),
-                       [&](const Coedge& coedge) { return nodes.edges[coedge.edge - 1].*is; });
+                       [&](const Coedge& coedge) { return nodes.edges[coedge.edge].*is; });
   });
 }
 

@@ -13,23 +13,22 @@
 namespace quadrille {
 
 struct GridRows {
-  /// (edges) what users prescribe, and the heights of layers on the edges that run away from the layers' own.
-  std::vector<std::optional<PrescribedEdge>> prescribed;
-  /// (edges) 1 = prescribed, and all faces along its chord are four-sided or rings: rows of flat quads keep
+  /// What users prescribe, and the heights of layers on the edges that run away from the layers' own.
+  PrescribedEdges prescribed;
+  /// 1 = prescribed, and all faces along its chord are four-sided or rings: rows of flat quads keep
   /// the division, and the sizes around need not follow.
-  std::vector<char> divided;
-  std::vector<char> layered;  ///< (edges) 1 = its layers become rows on all its faces
+  EdgeFlags divided;
+  EdgeFlags layered;  ///< 1 = its layers become rows on all its faces
 };
 
 /// Finds the divisions and layers in the options that grids can continue. The layers of an edge become rows
 /// if all its faces are four-sided, and the two sides that run away from it are single edges without a
 /// division of their own. The layers may take up to nine tenths of these sides. The edges that run along
 /// these sides must not have another prescribed number, nor want more than four times or less than a quarter
-/// as many. \param sides (faces) outlines \param prescribed (edges) what users prescribe \param size the size
+/// as many. \param sides outlines \param prescribed what users prescribe \param size the size
 /// on edges that options.edge_sizes does not name
-GridRows find_grid_rows(const CadShape& shape, const std::vector<FaceSides>& sides,
-                        std::vector<std::optional<PrescribedEdge>> prescribed, const SizingOptions& options,
-                        double size);
+GridRows find_grid_rows(const CadShape& shape, const FaceOutlines& sides, PrescribedEdges prescribed,
+                        const SizingOptions& options, double size);
 
 /// Whether users prescribe the spacing of an edge of the face (BoundaryNodes::Edge::kept).
 bool has_kept_edge(const CadFace& face, const BoundaryNodes& nodes);

@@ -58,7 +58,7 @@ struct Fit {
 
 class HoleFitter {
  public:
-  HoleFitter(const CadShape& shape, const EdgeCounts& chosen, const std::vector<CountTable>& tables)
+  HoleFitter(const CadShape& shape, const EdgeCounts& chosen, const IdVector<EdgeId, CountTable>& tables)
       : shape_(shape), chosen_(chosen), tables_(tables) {}
 
   std::optional<Fit> fit(const CadFace& face, const FaceSides& sides) const {
@@ -66,7 +66,7 @@ class HoleFitter {
     if (now.columns < 3 || now.rows < 3 || sides.starts.size() != 4) return std::nullopt;
     const auto& outline = face.wires[sides.outer].coedges;
     double length = 0;
-    for (const Coedge& coedge : outline) length += shape_.edges[coedge.edge - 1].length;
+    for (const Coedge& coedge : outline) length += shape_.edges[coedge.edge].length;
     const double side = length / (2 * (now.columns + now.rows));
     for (std::size_t wire = 0; wire < face.wires.size(); ++wire) {
       if (static_cast<int>(wire) != sides.outer && !has_size_of(face.wires[wire], side)) return std::nullopt;
@@ -132,7 +132,7 @@ class HoleFitter {
   }
 
   Vector2 start_of(const Coedge& coedge) const {
-    const CadEdge& edge = shape_.edges[coedge.edge - 1];
+    const CadEdge& edge = shape_.edges[coedge.edge];
     return parametric_point(coedge, coedge.forward ? edge.first : edge.last);
   }
 
@@ -159,8 +159,8 @@ class HoleFitter {
   bool has_size_of(const CadWire& wire, double side) const {
     double length = 0, segments = 0;
     for (const Coedge& coedge : wire.coedges) {
-      length += shape_.edges[coedge.edge - 1].length;
-      segments += tables_[coedge.edge - 1].total();
+      length += shape_.edges[coedge.edge].length;
+      segments += tables_[coedge.edge].total();
     }
     const double ratio = length / std::max(segments, 1.0) / side;
     return ratio > least_ratio && ratio < largest_ratio;
@@ -170,7 +170,7 @@ class HoleFitter {
     constexpr int samples = 32;
     std::vector<Vector2> points;
     for (const Coedge& coedge : wire.coedges) {
-      const CadEdge& edge = shape_.edges[coedge.edge - 1];
+      const CadEdge& edge = shape_.edges[coedge.edge];
       for (int i = 0; i <= samples; ++i)
         points.push_back(parametric_point(coedge, edge.first + (edge.last - edge.first) * i / samples));
     }
@@ -179,7 +179,7 @@ class HoleFitter {
 
   const CadShape& shape_;
   const EdgeCounts& chosen_;
-  const std::vector<CountTable>& tables_;
+  const IdVector<EdgeId, CountTable>& tables_;
 };
 
 }  // namespace
@@ -221,16 +221,16 @@ bool keep_apart(const std::vector<HoleBlock>& blocks, const GridSize& grid) {
   return true;
 }
 
-bool fit_holes_to_grids(const CadShape& shape, const std::vector<FaceSides>& sides, const EdgeCounts& chosen,
-                        const std::vector<CountTable>& tables, CountWishes& wishes) {
+bool fit_holes_to_grids(const CadShape& shape, const FaceOutlines& sides, const EdgeCounts& chosen,
+                        const IdVector<EdgeId, CountTable>& tables, CountWishes& wishes) {
   const HoleFitter fitter(shape, chosen, tables);
   bool any = false;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
+  for (const FaceId i : sides.ids()) {
     if (sides[i].outline != FaceSides::Outline::holed) continue;
     const CadFace& face = shape.faces[i];
     const auto fit = fitter.fit(face, sides[i]);
     if (!fit) continue;
-    const auto want = [&](int edge, double segments) {
+    const auto want = [&](EdgeId edge, double segments) {
       any |= std::abs(wishes.wanted[edge] * wishes.stride - segments) > 0.5;
       wishes.wanted[edge] = segments / wishes.stride;
     };
@@ -242,9 +242,9 @@ bool fit_holes_to_grids(const CadShape& shape, const std::vector<FaceSides>& sid
     }
     for (std::size_t wire = 0; wire < fit->around.size(); ++wire) {
       double length = 0;
-      for (const Coedge& coedge : face.wires[wire].coedges) length += shape.edges[coedge.edge - 1].length;
+      for (const Coedge& coedge : face.wires[wire].coedges) length += shape.edges[coedge.edge].length;
       for (const Coedge& coedge : face.wires[wire].coedges) {
-        const int edge = coedge.edge - 1;
+        const EdgeId edge = coedge.edge;
         if (fit->around[wire] > 0) want(edge, shape.edges[edge].length / length * fit->around[wire]);
       }
     }

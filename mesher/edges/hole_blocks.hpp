@@ -47,9 +47,9 @@ bool keep_apart(const std::vector<HoleBlock>& blocks, const GridSize& grid);
 /// Changes the wanted counts so that holes fit into the grids of faces with four corners. A hole then wants
 /// as many segments as its block has around it, provided that segments of the hole's size are about as long
 /// as those of the face's sides. Sides want two more or two fewer segments where that centers the blocks
-/// better on the holes. \param sides as choose_counts() left them. \param tables (edges) \return whether
+/// better on the holes. \param sides as choose_counts() left them. \return whether
 /// anything changed, so that counts must be chosen again.
-bool fit_holes_to_grids(const CadShape& shape, const std::vector<FaceSides>& sides, const EdgeCounts& chosen,
-                        const std::vector<CountTable>& tables, CountWishes& wishes);
+bool fit_holes_to_grids(const CadShape& shape, const FaceOutlines& sides, const EdgeCounts& chosen,
+                        const IdVector<EdgeId, CountTable>& tables, CountWishes& wishes);
 
 }  // namespace quadrille

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
+#include <set>
 
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
@@ -26,8 +26,8 @@ class HarmFinder {
 
   /// What was let go on a face but must be kept, since no good quads fit otherwise.
   struct Harm {
-    std::vector<int> points;   // edges that became points
-    std::vector<int> slivers;  // edges that share the nodes of others
+    std::vector<EdgeId> points;   // edges that became points
+    std::vector<EdgeId> slivers;  // edges that share the nodes of others
   };
 
   Harm find(const CadFace& face) const {
@@ -48,10 +48,10 @@ class HarmFinder {
   /// Consecutive edges of a wire that became points.
   struct Gap {
     std::size_t before = 0, after = 0;  // neighboring coedges; any if no edge of the wire is left
-    std::vector<int> edges;
+    std::vector<EdgeId> edges;
   };
 
-  bool is_gone(const Coedge& coedge) const { return tiny_.collapsed_edges[coedge.edge - 1] != 0; }
+  bool is_gone(const Coedge& coedge) const { return tiny_.collapsed_edges[coedge.edge] != 0; }
 
   std::vector<Gap> find_gaps(const CadWire& wire) const {
     const std::size_t n = wire.coedges.size();
@@ -64,7 +64,7 @@ class HarmFinder {
       const bool gone = is_gone(wire.coedges[k % n]);
       if (gone && !inside) gaps.push_back({(k + n - 1) % n, k % n, {}});
       if (gone) {
-        gaps.back().edges.push_back(wire.coedges[k % n].edge - 1);
+        gaps.back().edges.push_back(wire.coedges[k % n].edge);
         gaps.back().after = (k + 1) % n;
       }
       inside = gone;
@@ -79,7 +79,7 @@ class HarmFinder {
     std::vector<const CadEdge*> left;
     for (const Coedge& coedge : wire.coedges) {
       if (is_gone(coedge)) continue;
-      left.push_back(&shape_.edges[coedge.edge - 1]);
+      left.push_back(&shape_.edges[coedge.edge]);
       length += left.back()->length;
     }
     return left.empty() || length < least * reach_ ||
@@ -88,7 +88,7 @@ class HarmFinder {
 
   /// Whether two edges meet at an angle between the limits.
   bool meet_well(const CadFace& face, const Coedge& from, const Coedge& to) const {
-    const CadEdge &before = shape_.edges[from.edge - 1], &after = shape_.edges[to.edge - 1];
+    const CadEdge &before = shape_.edges[from.edge], &after = shape_.edges[to.edge];
     if (before.degenerate || after.degenerate || from.internal || to.internal) return false;
     const double t = to.forward ? after.first : after.last;
     const Vector3 in = (from.forward ? 1 : -1) *
@@ -101,10 +101,10 @@ class HarmFinder {
 
   /// Finds edges of a face that share their nodes, since the two sides of a slot must not become one.
   void find_edges_twice(const CadFace& face, Harm& harm) const {
-    std::map<int, int> first;  // edge whose nodes are used -> edge of the face
+    std::map<EdgeId, EdgeId> first;  // edge whose nodes are used -> edge of the face
     for (const CadWire& wire : face.wires) {
       for (const Coedge& coedge : wire.coedges) {
-        const int edge = coedge.edge - 1;
+        const EdgeId edge = coedge.edge;
         if (is_gone(coedge)) continue;
         const auto [at, is_new] = first.emplace(tiny_.edges[edge], edge);
         if (!is_new && at->second != edge) harm.slivers.insert(harm.slivers.end(), {edge, at->second});
@@ -119,19 +119,14 @@ class HarmFinder {
 
 }  // namespace
 
-LetGo::LetGo(const CadShape& shape, const std::vector<char>& used, double reach,
-             const std::vector<char>& fine)
-    : shape_(shape),
-      used_(used),
-      reach_(reach),
-      edges_(shape.edges.size(), 0),
-      kept_faces_(shape.faces.size(), 0) {
+LetGo::LetGo(const CadShape& shape, const FaceFlags& used, double reach, const EdgeFlags& fine)
+    : shape_(shape), used_(used), reach_(reach), edges_(shape.edges.size()), kept_faces_(shape.faces.size()) {
   if (!(reach > 0)) return;
-  for (std::size_t face = 0; face < kept_faces_.size(); ++face) {
+  for (const FaceId face : kept_faces_.ids()) {
     const auto& wires = shape.faces[face].wires;
     kept_faces_[face] = std::all_of(wires.begin(), wires.end(), [&](const CadWire& wire) {
       return std::all_of(wire.coedges.begin(), wire.coedges.end(),
-                         [&](const Coedge& coedge) { return fine[coedge.edge - 1] != 0; });
+                         [&](const Coedge& coedge) { return fine[coedge.edge] != 0; });
     });
   }
   choose(fine);
@@ -139,36 +134,40 @@ LetGo::LetGo(const CadShape& shape, const std::vector<char>& used, double reach,
   }
 }
 
-TinyFeatures LetGo::find(const std::vector<char>& collapse, double length) const {
-  std::vector<char> both = collapse;
-  for (std::size_t i = 0; i < both.size(); ++i) both[i] |= edges_[i];
+TinyFeatures LetGo::find(const EdgeFlags& collapse, double length) const {
+  EdgeFlags both = collapse;
+  for (const EdgeId edge : both.ids()) both[edge] |= edges_[edge];
   return find_tiny_features(shape_, used_, both, length, {reach_, &kept_faces_});
 }
 
 /// Takes edges, the shortest first, if all vertices that then share a node lie within reach of each other.
-void LetGo::choose(const std::vector<char>& fine) {
-  std::vector<int> candidates, cluster(shape_.vertices.size());
-  for (std::size_t i = 0; i < edges_.size(); ++i) {
-    const CadEdge& edge = shape_.edges[i];
-    if (!fine[i] && edge.is_used(used_) && !edge.degenerate && !edge.closed() && edge.first_vertex > 0 &&
-        edge.last_vertex > 0 && edge.length > 0 && edge.length < reach_)
-      candidates.push_back(static_cast<int>(i));
+void LetGo::choose(const EdgeFlags& fine) {
+  std::vector<EdgeId> candidates;
+  for (const EdgeId id : edges_.ids()) {
+    const CadEdge& edge = shape_.edges[id];
+    if (!fine[id] && edge.is_used(used_) && !edge.degenerate && !edge.closed() &&
+        edge.first_vertex.exists() && edge.last_vertex.exists() && edge.length > 0 && edge.length < reach_)
+      candidates.push_back(id);
   }
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [&](int a, int b) { return shape_.edges[a].length < shape_.edges[b].length; });
-  std::iota(cluster.begin(), cluster.end(), 0);
-  std::vector<std::vector<int>> members(cluster.size());
-  for (std::size_t i = 0; i < members.size(); ++i) members[i] = {static_cast<int>(i)};
-  for (const int i : candidates) {
-    const int a = cluster[shape_.edges[i].first_vertex - 1], b = cluster[shape_.edges[i].last_vertex - 1];
+                   [&](EdgeId a, EdgeId b) { return shape_.edges[a].length < shape_.edges[b].length; });
+  IdVector<VertexId, VertexId> cluster;
+  IdVector<VertexId, std::vector<VertexId>> members;
+  for (const VertexId vertex : shape_.vertices.ids()) {
+    cluster.push_back(vertex);
+    members.push_back({vertex});
+  }
+  for (const EdgeId edge : candidates) {
+    const VertexId a = cluster[shape_.edges[edge].first_vertex], b = cluster[shape_.edges[edge].last_vertex];
     if (a == b) continue;  // closes a loop of such edges
-    const auto fits = [&](int p) {
-      return std::all_of(members[b].begin(), members[b].end(),
-                         [&](int q) { return (shape_.vertices[p] - shape_.vertices[q]).norm() <= reach_; });
+    const auto fits = [&](VertexId p) {
+      return std::all_of(members[b].begin(), members[b].end(), [&](VertexId q) {
+        return (shape_.vertices[p] - shape_.vertices[q]).norm() <= reach_;
+      });
     };
     if (!std::all_of(members[a].begin(), members[a].end(), fits)) continue;
-    edges_[i] = 1;
-    for (const int vertex : members[b]) cluster[vertex] = a;
+    edges_[edge] = 1;
+    for (const VertexId vertex : members[b]) cluster[vertex] = a;
     members[a].insert(members[a].end(), members[b].begin(), members[b].end());
     members[b].clear();
   }
@@ -176,56 +175,55 @@ void LetGo::choose(const std::vector<char>& fine) {
 
 /// Keeps the features that would harm a face if let go. \return whether there was something to keep.
 bool LetGo::keep_harmed() {
-  const TinyFeatures tiny = find(std::vector<char>(edges_.size(), 0), 0);
+  const TinyFeatures tiny = find(EdgeFlags(edges_.size()), 0);
   const HarmFinder finder(shape_, tiny, reach_);
   bool any = false;
-  const auto keep_edge = [&](int edge) {
+  const auto keep_edge = [&](EdgeId edge) {
     any |= edges_[edge] != 0;
     edges_[edge] = 0;
   };
-  const auto keep_slivers_at = [&](int edge) {
-    for (const int face : shape_.edges[edge].faces) {
-      if (!tiny.merged_faces[face - 1] || kept_faces_[face - 1]) continue;
-      kept_faces_[face - 1] = 1;
+  const auto keep_slivers_at = [&](EdgeId edge) {
+    for (const FaceId face : shape_.edges[edge].faces) {
+      if (!tiny.merged_faces[face] || kept_faces_[face]) continue;
+      kept_faces_[face] = 1;
       any = true;
-      for (const CadWire& wire : shape_.faces[face - 1].wires) {
-        for (const Coedge& coedge : wire.coedges) keep_edge(coedge.edge - 1);
+      for (const CadWire& wire : shape_.faces[face].wires) {
+        for (const Coedge& coedge : wire.coedges) keep_edge(coedge.edge);
       }
     }
   };
-  for (std::size_t face = 0; face < used_.size(); ++face) {
+  for (const FaceId face : used_.ids()) {
     if (!used_[face] || tiny.merged_faces[face]) continue;
     const auto harm = finder.find(shape_.faces[face]);
-    for (const int edge : harm.points) keep_edge(edge);
-    for (const int edge : harm.slivers) keep_slivers_at(edge);
+    for (const EdgeId edge : harm.points) keep_edge(edge);
+    for (const EdgeId edge : harm.slivers) keep_slivers_at(edge);
   }
-  for (std::size_t i = 0; i < edges_.size(); ++i) {
-    const int edge = static_cast<int>(i);
-    if (tiny.edges[i] != edge && !lies_along(shape_.edges[i], shape_.edges[tiny.edges[i]], reach_))
+  for (const EdgeId edge : edges_.ids()) {
+    const EdgeId lender = tiny.edges[edge];
+    if (lender != edge && !lies_along(shape_.edges[edge], shape_.edges[lender], reach_))
       keep_slivers_at(edge);
   }
   return any;
 }
 
-bool LetGo::keep_around(int face, const TinyFeatures& tiny) {
+bool LetGo::keep_around(FaceId face, const TinyFeatures& tiny) {
   bool any = false;
-  std::vector<char> here(shape_.vertices.size() + 1, 0);
-  const auto keep_face = [&](int other) {
+  std::set<VertexId> here;
+  const auto keep_face = [&](FaceId other) {
     any |= tiny.merged_faces[other] && !kept_faces_[other];
     kept_faces_[other] = 1;
   };
   keep_face(face);
   for (const CadWire& wire : shape_.faces[face].wires) {
     for (const Coedge& coedge : wire.coedges) {
-      const CadEdge& edge = shape_.edges[coedge.edge - 1];
-      here[tiny.end(edge.first_vertex)] = here[tiny.end(edge.last_vertex)] = 1;
-      for (const int other : edge.faces) keep_face(other - 1);
+      const CadEdge& edge = shape_.edges[coedge.edge];
+      here.insert({tiny.end(edge.first_vertex), tiny.end(edge.last_vertex)});
+      for (const FaceId other : edge.faces) keep_face(other);
     }
   }
-  here[0] = 0;
-  for (std::size_t i = 0; i < edges_.size(); ++i) {
-    if (!edges_[i] || !here[tiny.end(shape_.edges[i].first_vertex)]) continue;
-    edges_[i] = 0;
+  for (const EdgeId edge : edges_.ids()) {
+    if (!edges_[edge] || !here.contains(tiny.end(shape_.edges[edge].first_vertex))) continue;
+    edges_[edge] = 0;
     any = true;
   }
   return any;

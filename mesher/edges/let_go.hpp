@@ -13,30 +13,30 @@ namespace quadrille {
 /// other become edges. No node lies further than `reach` from a vertex that it replaces.
 class LetGo {
  public:
-  /// \param used (faces) 1 = the face is meshed. \param reach model units; 0 = nothing is let go.
-  /// \param fine (edges) 1 = must not become a point; nor does a face become an edge if all its edges are so.
-  LetGo(const CadShape& shape, const std::vector<char>& used, double reach, const std::vector<char>& fine);
+  /// \param used 1 = the face is meshed. \param reach model units; 0 = nothing is let go.
+  /// \param fine 1 = must not become a point; nor does a face become an edge if all its edges are so.
+  LetGo(const CadShape& shape, const FaceFlags& used, double reach, const EdgeFlags& fine);
 
   /// What is left out of the mesh if edges() and the edges marked in `collapse` become points; see
   /// find_tiny_features().
-  TinyFeatures find(const std::vector<char>& collapse, double length) const;
+  TinyFeatures find(const EdgeFlags& collapse, double length) const;
 
-  /// Keeps what was let go on the face, on the faces beside it and at its vertices. \param face from 0.
+  /// Keeps what was let go on the face, on the faces beside it and at its vertices.
   /// \param tiny the result of find(). \return false if nothing was let go there.
-  bool keep_around(int face, const TinyFeatures& tiny);
+  bool keep_around(FaceId face, const TinyFeatures& tiny);
 
-  /// (edges) 1 = becomes a point.
-  const std::vector<char>& edges() const { return edges_; }
+  /// 1 = becomes a point.
+  const EdgeFlags& edges() const { return edges_; }
 
  private:
-  void choose(const std::vector<char>& fine);
+  void choose(const EdgeFlags& fine);
   bool keep_harmed();
 
   const CadShape& shape_;
-  const std::vector<char>& used_;
+  const FaceFlags& used_;
   double reach_;
-  std::vector<char> edges_;       // (edges) 1 = becomes a point
-  std::vector<char> kept_faces_;  // (faces) 1 = must not become an edge
+  EdgeFlags edges_;       // 1 = becomes a point
+  FaceFlags kept_faces_;  // 1 = must not become an edge
 };
 
 }  // namespace quadrille

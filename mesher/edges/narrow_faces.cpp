@@ -10,14 +10,14 @@ namespace {
 
 class NarrowFaces {
  public:
-  NarrowFaces(const CadShape& shape, const std::vector<char>& used, const std::vector<SplitStrip>& strips,
+  NarrowFaces(const CadShape& shape, const FaceFlags& used, const std::vector<SplitStrip>& strips,
               BoundaryNodes& nodes)
-      : shape_(shape), used_(used), strips_(strips), nodes_(nodes), settled_(shape.edges.size(), 0) {}
+      : shape_(shape), used_(used), strips_(strips), nodes_(nodes), settled_(shape.edges.size()) {}
 
   void run() {
-    for (std::size_t i = 0; i < shape_.faces.size(); ++i) {
-      if (!used_[i]) continue;
-      for (const FacingSides& sides : facing_sides(shape_, shape_.faces[i])) align(sides);
+    for (const FaceId face : shape_.faces.ids()) {
+      if (!used_[face]) continue;
+      for (const FacingSides& sides : facing_sides(shape_, shape_.faces[face])) align(sides);
     }
     for (const SplitStrip& strip : strips_) align(strip);
   }
@@ -25,7 +25,7 @@ class NarrowFaces {
  private:
   void align(const FacingSides& sides) {
     const Coedge &first = *sides.first, &second = *sides.second;
-    const int a = first.edge - 1, b = second.edge - 1;
+    const EdgeId a = first.edge, b = second.edge;
     const CadEdge &edge_a = shape_.edges[a], &edge_b = shape_.edges[b];
     const int n = nodes_.edges[a].segments();
     if (a == b || n < 2 || nodes_.edges[b].segments() != n || first.internal || second.internal) return;
@@ -33,7 +33,7 @@ class NarrowFaces {
     if (!(sides.width < narrow * edge_a.length / n) || (settled_[a] && settled_[b])) return;
     // Both coedges run around the face, so across it they run in opposite directions.
     const bool against = first.forward == second.forward;
-    const int leader = settled_[b] ? b : a;
+    const EdgeId leader = settled_[b] ? b : a;
     std::vector<int> targets = nodes_.edges[leader].nodes;
     if (against) std::reverse(targets.begin(), targets.end());
     follow(targets, leader == a ? b : a, false);
@@ -42,11 +42,11 @@ class NarrowFaces {
 
   /// Nodes between the parts of a strip cannot move, so its whole side follows.
   void align(const SplitStrip& strip) {
-    const int whole = strip.whole->edge - 1;
+    const EdgeId whole = strip.whole->edge;
     if (nodes_.edges[whole].borrowed || settled_[whole]) return;
     std::vector<int> targets;
     for (const Coedge* part : strip.parts) {
-      std::vector<int> nodes = nodes_.edges[part->edge - 1].nodes;
+      std::vector<int> nodes = nodes_.edges[part->edge].nodes;
       if (nodes.empty()) return;
       if (!part->forward) std::reverse(nodes.begin(), nodes.end());
       targets.insert(targets.end(), nodes.begin() + (targets.empty() ? 0 : 1), nodes.end());
@@ -61,7 +61,7 @@ class NarrowFaces {
   /// \param targets one node for each node of the edge \param after_moved the lower limit of a node depends
   /// on the new place of the node before it, not on the old one. \return false, with nothing moved, if a node
   /// would not come after the one before it.
-  bool follow(const std::vector<int>& targets, int follower, bool after_moved) {
+  bool follow(const std::vector<int>& targets, EdgeId follower, bool after_moved) {
     BoundaryNodes::Edge& to = nodes_.edges[follower];
     const EdgeCurve curve(shape_.edges[follower]);
     const int n = to.segments();
@@ -96,16 +96,16 @@ class NarrowFaces {
   }
 
   const CadShape& shape_;
-  const std::vector<char>& used_;
+  const FaceFlags& used_;
   const std::vector<SplitStrip>& strips_;
   BoundaryNodes& nodes_;
-  std::vector<char> settled_;
+  EdgeFlags settled_;
 };
 
 }  // namespace
 
-void align_narrow_faces(const CadShape& shape, const std::vector<char>& used,
-                        const std::vector<SplitStrip>& strips, BoundaryNodes& nodes) {
+void align_narrow_faces(const CadShape& shape, const FaceFlags& used, const std::vector<SplitStrip>& strips,
+                        BoundaryNodes& nodes) {
   NarrowFaces(shape, used, strips, nodes).run();
 }
 

@@ -17,22 +17,23 @@ namespace {
 /// Dijkstra's algorithm from an odd face to the nearest other one or to the outside. Flips the path's edges.
 class NearestPairs {
  public:
-  NearestPairs(const std::vector<ParityEdge>& edges, int faces)
-      : edges_(edges), outside_(faces), adjacency_(faces + 1), change_(edges.size(), 0) {
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      const auto& uses = edges[i].faces;
-      if (!std::isfinite(edges[i].cost) || uses.empty() || uses.size() > 2) continue;
-      const int a = uses[0], b = uses.size() == 2 ? uses[1] : outside_;
-      adjacency_[a].push_back({b, static_cast<int>(i)});
-      adjacency_[b].push_back({a, static_cast<int>(i)});
+  NearestPairs(const IdVector<EdgeId, ParityEdge>& edges, int faces)
+      : edges_(edges), outside_(faces), adjacency_(faces + 1), change_(edges.size()) {
+    for (const EdgeId edge : edges.ids()) {
+      const auto& uses = edges[edge].faces;
+      if (!std::isfinite(edges[edge].cost) || uses.empty() || uses.size() > 2) continue;
+      const int a = uses[0].index(), b = uses.size() == 2 ? uses[1].index() : outside_;
+      adjacency_[a].push_back({b, edge});
+      adjacency_[b].push_back({a, edge});
     }
   }
 
   /// \return false if no other odd face and no edge of a single face can be reached.
-  bool pair_up(int start, std::vector<char>& odd) {
+  bool pair_up(FaceId start_face, FaceFlags& odd) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
+    const int start = start_face.index();
     std::vector<double> distance(adjacency_.size(), infinity);
-    std::vector<std::pair<int, int>> from(adjacency_.size(), {-1, -1});
+    std::vector<std::pair<int, EdgeId>> from(adjacency_.size());
     std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> queue;
     distance[start] = 0;
     queue.push({0, start});
@@ -40,10 +41,10 @@ class NearestPairs {
       const auto [d, at] = queue.top();
       queue.pop();
       if (d > distance[at]) continue;
-      if (at != start && (at == outside_ || odd[at])) {
+      if (at != start && (at == outside_ || odd[FaceId::from_index(at)])) {
         for (int node = at; node != start; node = from[node].first) change_[from[node].second] ^= 1;
-        odd[start] = 0;
-        if (at != outside_) odd[at] = 0;
+        odd[start_face] = 0;
+        if (at != outside_) odd[FaceId::from_index(at)] = 0;
         return true;
       }
       for (const auto& [to, edge] : adjacency_[at]) {
@@ -58,19 +59,23 @@ class NearestPairs {
     return false;
   }
 
-  const std::vector<char>& change() const { return change_; }
+  const EdgeFlags& change() const { return change_; }
 
  private:
-  const std::vector<ParityEdge>& edges_;
-  int outside_;
-  std::vector<std::vector<std::pair<int, int>>> adjacency_;
-  std::vector<char> change_;
+  const IdVector<EdgeId, ParityEdge>& edges_;
+  int outside_;  // node of the graph; the others are indices of faces
+  std::vector<std::vector<std::pair<int, EdgeId>>> adjacency_;
+  EdgeFlags change_;
 };
 
 using Bits = std::vector<std::uint64_t>;
 
 void add_to(Bits& a, const Bits& b) {
   for (std::size_t i = 0; i < a.size(); ++i) a[i] ^= b[i];
+}
+
+void flip(Bits& bits, int bit) {
+  bits[bit / 64] ^= std::uint64_t{1} << (bit % 64);
 }
 
 int lowest_bit(const Bits& bits) {
@@ -81,21 +86,22 @@ int lowest_bit(const Bits& bits) {
 }
 
 /// Solves for the odd faces with the cheapest basis of columns. Faces that cannot be made even stay odd.
-std::vector<char> eliminate(const std::vector<ParityEdge>& edges, std::vector<char>& odd) {
+EdgeFlags eliminate(const IdVector<EdgeId, ParityEdge>& edges, FaceFlags& odd) {
   struct Row {
     Bits faces, combination;
   };
-  std::vector<int> order;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (std::isfinite(edges[i].cost) && !edges[i].faces.empty()) order.push_back(static_cast<int>(i));
+  std::vector<EdgeId> order;
+  for (const EdgeId edge : edges.ids()) {
+    if (std::isfinite(edges[edge].cost) && !edges[edge].faces.empty()) order.push_back(edge);
   }
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return edges[a].cost < edges[b].cost; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](EdgeId a, EdgeId b) { return edges[a].cost < edges[b].cost; });
   const std::size_t face_words = (odd.size() + 63) / 64, edge_words = (edges.size() + 63) / 64;
   std::map<int, Row> basis;  // by lowest bit
-  for (const int edge : order) {
+  for (const EdgeId edge : order) {
     Row row{Bits(face_words), Bits(edge_words)};
-    for (const int face : edges[edge].faces) row.faces[face / 64] ^= std::uint64_t{1} << (face % 64);
-    row.combination[edge / 64] |= std::uint64_t{1} << (edge % 64);
+    for (const FaceId face : edges[edge].faces) flip(row.faces, face.index());
+    flip(row.combination, edge.index());
     for (int bit = lowest_bit(row.faces); bit >= 0; bit = lowest_bit(row.faces)) {
       const auto it = basis.find(bit);
       if (it == basis.end()) {
@@ -107,42 +113,42 @@ std::vector<char> eliminate(const std::vector<ParityEdge>& edges, std::vector<ch
     }
   }
   Row target{Bits(face_words), Bits(edge_words)};
-  for (std::size_t face = 0; face < odd.size(); ++face) {
-    if (odd[face]) target.faces[face / 64] |= std::uint64_t{1} << (face % 64);
+  for (const FaceId face : odd.ids()) {
+    if (odd[face]) flip(target.faces, face.index());
   }
   std::fill(odd.begin(), odd.end(), 0);
   for (int bit = lowest_bit(target.faces); bit >= 0; bit = lowest_bit(target.faces)) {
     const auto it = basis.find(bit);
     if (it == basis.end()) {
-      odd[bit] = 1;
-      target.faces[bit / 64] ^= std::uint64_t{1} << (bit % 64);
+      odd[FaceId::from_index(bit)] = 1;
+      flip(target.faces, bit);
       continue;
     }
     add_to(target.faces, it->second.faces);
     add_to(target.combination, it->second.combination);
   }
-  std::vector<char> change(edges.size(), 0);
-  for (std::size_t i = 0; i < edges.size(); ++i) change[i] = target.combination[i / 64] >> (i % 64) & 1;
+  EdgeFlags change(edges.size());
+  for (const EdgeId edge : edges.ids())
+    change[edge] = target.combination[edge.index() / 64] >> (edge.index() % 64) & 1;
   return change;
 }
 
 }  // namespace
 
-std::vector<char> make_even(const std::vector<ParityEdge>& edges, std::vector<char> odd,
-                            std::vector<int>& left_odd) {
-  const std::vector<char> start = odd;
+EdgeFlags make_even(const IdVector<EdgeId, ParityEdge>& edges, FaceFlags odd, std::vector<FaceId>& left_odd) {
+  const FaceFlags start = odd;
   NearestPairs pairs(edges, static_cast<int>(odd.size()));
   bool solved = true;
-  for (std::size_t face = 0; face < odd.size() && solved; ++face) {
-    if (odd[face]) solved = pairs.pair_up(static_cast<int>(face), odd);
+  for (const FaceId face : odd.ids()) {
+    if (solved && odd[face]) solved = pairs.pair_up(face, odd);
   }
-  std::vector<char> change = pairs.change();
+  EdgeFlags change = pairs.change();
   if (!solved) {
     odd = start;
     change = eliminate(edges, odd);
   }
-  for (std::size_t face = 0; face < odd.size(); ++face) {
-    if (odd[face]) left_odd.push_back(static_cast<int>(face) + 1);
+  for (const FaceId face : odd.ids()) {
+    if (odd[face]) left_odd.push_back(face);
   }
   return change;
 }

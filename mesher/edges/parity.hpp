@@ -3,19 +3,20 @@
 
 #include <vector>
 
+#include "geometry/cad/ids.hpp"
+
 namespace quadrille {
 
 /// An edge of the parity problem: the faces that change parity with the edge's count.
 struct ParityEdge {
-  std::vector<int> faces;  ///< faces (from 0) that use the edge an odd number of times
-  double cost = 0;         ///< cost of changing the edge's count by one; infinite = must not change
+  std::vector<FaceId> faces;  ///< faces that use the edge an odd number of times
+  double cost = 0;            ///< cost of changing the edge's count by one; infinite = must not change
 };
 
 /// Chooses a cheap set of edges to change by one so that every odd face becomes even (a T-join). Shortest
 /// paths ignore edges of three faces and more; if they leave a face odd, elimination over GF(2) takes over.
-/// Faces (from 1) that cannot be made even are added to `left_odd`. \return (edges) 1 = change the edge's
+/// Faces that cannot be made even are added to `left_odd`. \return 1 = change the edge's
 /// count.
-std::vector<char> make_even(const std::vector<ParityEdge>& edges, std::vector<char> odd,
-                            std::vector<int>& left_odd);
+EdgeFlags make_even(const IdVector<EdgeId, ParityEdge>& edges, FaceFlags odd, std::vector<FaceId>& left_odd);
 
 }  // namespace quadrille

@@ -15,7 +15,7 @@ struct Extent {
   int count = 0;
 };
 
-Extent extent_of(const CadShape& shape, const FacingPair& pair, const std::vector<int>& counts) {
+Extent extent_of(const CadShape& shape, const FacingPair& pair, const IdVector<EdgeId, int>& counts) {
   Extent extent;
   for (const Side* side : {&pair.first, &pair.second}) {
     for (const SideEdge& edge : *side) extent.length += 0.5 * shape.edges[edge.edge].length;
@@ -26,9 +26,9 @@ Extent extent_of(const CadShape& shape, const FacingPair& pair, const std::vecto
 
 }  // namespace
 
-bool refine_along_strips(const CadShape& shape, const std::vector<FaceSides>& sides, const EdgeCounts& chosen,
-                         std::vector<CountTable>& tables, CountWishes& wishes) {
-  std::vector<double> densities(shape.edges.size(), 0);  // (chords) least segments for each whole edge
+bool refine_along_strips(const CadShape& shape, const FaceOutlines& sides, const EdgeCounts& chosen,
+                         IdVector<EdgeId, CountTable>& tables, CountWishes& wishes) {
+  IdVector<EdgeId, double> densities(shape.edges.size());  // (chords) least segments for each whole edge
   for (const FaceSides& face : sides) {
     if (face.outline != FaceSides::Outline::four || face.facing.size() != 2) continue;
     for (const int k : {0, 1}) {
@@ -46,8 +46,8 @@ bool refine_along_strips(const CadShape& shape, const std::vector<FaceSides>& si
     }
   }
   bool any = false;
-  for (std::size_t i = 0; i < tables.size(); ++i) {
-    const double density = densities[chosen.chords.of(static_cast<int>(i))];
+  for (const EdgeId i : tables.ids()) {
+    const double density = densities[chosen.chords.of(i)];
     if (wishes.least[i] == 0 || density <= 0) continue;
     const double before = tables[i].total();
     tables[i].raise_to(density / tables[i].length());

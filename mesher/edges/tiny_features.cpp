@@ -1,7 +1,6 @@
 #include "mesher/edges/tiny_features.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "geometry/surfaces/edge_curve.hpp"
 
@@ -11,45 +10,44 @@ namespace {
 
 class Finder {
  public:
-  Finder(const CadShape& shape, const std::vector<char>& used, double length, const SliverLimits& slivers)
+  Finder(const CadShape& shape, const FaceFlags& used, double length, const SliverLimits& slivers)
       : shape_(shape), used_(used), length_(length), slivers_(slivers) {
-    tiny_.vertices.resize(shape.vertices.size());
-    std::iota(tiny_.vertices.begin(), tiny_.vertices.end(), 0);
-    tiny_.edges.resize(shape.edges.size());
-    std::iota(tiny_.edges.begin(), tiny_.edges.end(), 0);
-    tiny_.collapsed_edges.assign(shape.edges.size(), 0);
-    tiny_.reversed_edges.assign(shape.edges.size(), 0);
-    tiny_.merged_faces.assign(shape.faces.size(), 0);
+    for (const VertexId vertex : shape.vertices.ids()) tiny_.vertices.push_back(vertex);
+    for (const EdgeId edge : shape.edges.ids()) tiny_.edges.push_back(edge);
+    tiny_.collapsed_edges.resize(shape.edges.size());
+    tiny_.reversed_edges.resize(shape.edges.size());
+    tiny_.merged_faces.resize(shape.faces.size());
   }
 
-  TinyFeatures run(const std::vector<char>& collapse) {
-    for (std::size_t i = 0; i < shape_.edges.size(); ++i) {
-      const CadEdge& edge = shape_.edges[i];
-      if (edge.degenerate || edge.first_vertex == 0 || edge.last_vertex == 0 || !(edge.length > 0)) continue;
-      if (edge.length < length_ || collapse[i]) make_point(static_cast<int>(i));
+  TinyFeatures run(const EdgeFlags& collapse) {
+    for (const EdgeId id : shape_.edges.ids()) {
+      const CadEdge& edge = shape_.edges[id];
+      if (edge.degenerate || !edge.first_vertex.exists() || !edge.last_vertex.exists() || !(edge.length > 0))
+        continue;
+      if (edge.length < length_ || collapse[id]) make_point(id);
     }
-    for (std::size_t face = 0; face < shape_.faces.size(); ++face) {
-      if (used_[face]) merge(static_cast<int>(face));
+    for (const FaceId face : shape_.faces.ids()) {
+      if (used_[face]) merge(face);
     }
     resolve_edges();
     return std::move(tiny_);
   }
 
  private:
-  void make_point(int index) {
-    const CadEdge& edge = shape_.edges[index];
-    tiny_.collapsed_edges[index] = 1;
-    const int a = tiny_.vertices[edge.first_vertex - 1], b = tiny_.vertices[edge.last_vertex - 1];
+  void make_point(EdgeId id) {
+    const CadEdge& edge = shape_.edges[id];
+    tiny_.collapsed_edges[id] = 1;
+    const VertexId a = tiny_.vertices[edge.first_vertex], b = tiny_.vertices[edge.last_vertex];
     std::replace(tiny_.vertices.begin(), tiny_.vertices.end(), std::max(a, b), std::min(a, b));
   }
 
   /// Removes a face that is left with no edges, or with two that lie close together.
-  void merge(int face) {
-    std::vector<int> left;
+  void merge(FaceId face) {
+    std::vector<EdgeId> left;
     bool any_collapsed = false;
     for (const CadWire& wire : shape_.faces[face].wires) {
       for (const Coedge& coedge : wire.coedges) {
-        const int edge = coedge.edge - 1;
+        const EdgeId edge = coedge.edge;
         any_collapsed |= tiny_.collapsed_edges[edge] != 0;
         if (!tiny_.collapsed_edges[edge] && !shape_.edges[edge].degenerate) left.push_back(edge);
       }
@@ -71,7 +69,7 @@ class Finder {
   }
 
   /// The largest distance between the two edges of a face that may become an edge.
-  double reach_of(int face, bool has_points, const CadEdge& a, const CadEdge& b) const {
+  double reach_of(FaceId face, bool has_points, const CadEdge& a, const CadEdge& b) const {
     constexpr double slender = 4;  // shorter faces without collapsed edges are discs, not slivers
     const bool is_sliver = (has_points || std::min(a.length, b.length) > slender * slivers_.reach) &&
                            lies_between_others(a) && lies_between_others(b) &&
@@ -82,7 +80,7 @@ class Finder {
   /// Whether the edge has another used face. A sliver without neighbors on both sides is a part of its own.
   bool lies_between_others(const CadEdge& edge) const {
     return std::count_if(edge.faces.begin(), edge.faces.end(),
-                         [&](int face) { return used_[face - 1] != 0; }) > 1;
+                         [&](FaceId face) { return used_[face] != 0; }) > 1;
   }
 
   static Vector3 at(const CadEdge& edge, double t) {
@@ -97,13 +95,13 @@ class Finder {
   /// Replaces chains of merged edges by their last edge, which keeps its nodes. Each merge removes a face, so
   /// a ring of merged edges is a closed fan of slivers: the edge that closes the ring keeps its own nodes.
   void resolve_edges() {
-    for (std::size_t i = 0; i < tiny_.edges.size(); ++i) {
-      int end = static_cast<int>(i);
+    for (const EdgeId i : tiny_.edges.ids()) {
+      EdgeId end = i;
       char reversed = 0;
       for (std::size_t step = 0; tiny_.edges[end] != end && step < tiny_.edges.size(); ++step) {
         reversed ^= tiny_.reversed_edges[end];
         end = tiny_.edges[end];
-        if (end == static_cast<int>(i)) {
+        if (end == i) {
           tiny_.edges[i] = end;
           reversed = 0;
         }
@@ -114,7 +112,7 @@ class Finder {
   }
 
   const CadShape& shape_;
-  const std::vector<char>& used_;
+  const FaceFlags& used_;
   double length_;
   SliverLimits slivers_;
   TinyFeatures tiny_;
@@ -145,9 +143,8 @@ bool lies_along(const CadEdge& edge, const CadEdge& other, double reach) {
   return true;
 }
 
-TinyFeatures find_tiny_features(const CadShape& shape, const std::vector<char>& used,
-                                const std::vector<char>& collapse, double length,
-                                const SliverLimits& slivers) {
+TinyFeatures find_tiny_features(const CadShape& shape, const FaceFlags& used, const EdgeFlags& collapse,
+                                double length, const SliverLimits& slivers) {
   return Finder(shape, used, length, slivers).run(collapse);
 }
 

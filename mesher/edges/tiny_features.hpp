@@ -7,24 +7,24 @@
 
 namespace quadrille {
 
-/// What is left out of the mesh because it is too small. Indices are CAD numbers minus 1.
+/// What is left out of the mesh because it is too small.
 struct TinyFeatures {
-  std::vector<int> vertices;          ///< (vertices) the vertex whose node this one shares; usually itself
-  std::vector<char> collapsed_edges;  ///< (edges) 1 = both ends share a node, the edge has no segments
-  std::vector<int> edges;             ///< (edges) the edge whose nodes this one shares; usually itself
-  std::vector<char> reversed_edges;   ///< (edges) 1 = it runs in the opposite direction to that edge
-  std::vector<char> merged_faces;     ///< (faces) 1 = the face vanishes
+  IdVector<VertexId, VertexId> vertices;  ///< the vertex whose node this one shares; usually itself
+  EdgeFlags collapsed_edges;              ///< 1 = both ends share a node, the edge has no segments
+  IdVector<EdgeId, EdgeId> edges;         ///< the edge whose nodes this one shares; usually itself
+  EdgeFlags reversed_edges;               ///< 1 = it runs in the opposite direction to that edge
+  FaceFlags merged_faces;                 ///< 1 = the face vanishes
 
   /// Whether both ends of an edge share a node.
   bool closed(const CadEdge& edge) const { return end(edge.first_vertex) == end(edge.last_vertex); }
-  /// The vertex (from 1) whose node a vertex (from 1) shares; 0 for vertex 0.
-  int end(int vertex) const { return vertex > 0 ? vertices[vertex - 1] + 1 : 0; }
+  /// The vertex whose node a vertex shares; none for none.
+  VertexId end(VertexId vertex) const { return vertex.exists() ? vertices[vertex] : VertexId(); }
 };
 
 /// Which faces become edges besides those narrower than the given length.
 struct SliverLimits {
-  double reach = 0;                         ///< largest distance between the face's two edges
-  const std::vector<char>* kept = nullptr;  ///< (faces) 1 = must not become an edge; null = any may
+  double reach = 0;                 ///< largest distance between the face's two edges
+  const FaceFlags* kept = nullptr;  ///< 1 = must not become an edge; null = any may
 };
 
 /// Whether an edge's curve stays within `reach` of another one's, at samples between its ends.
@@ -32,10 +32,9 @@ bool lies_along(const CadEdge& edge, const CadEdge& other, double reach);
 
 /// Marked edges and edges shorter than `length` become points. Then a face left with two edges that have the
 /// same ends and are less than `length` apart becomes an edge, and a face left with no edges vanishes.
-/// \param used (faces) 1 = the face is meshed. \param collapse (edges) 1 = marked \param length model units;
+/// \param used 1 = the face is meshed. \param collapse 1 = marked \param length model units;
 /// 0 = marked edges only. \param slivers further faces that may become edges.
-TinyFeatures find_tiny_features(const CadShape& shape, const std::vector<char>& used,
-                                const std::vector<char>& collapse, double length,
-                                const SliverLimits& slivers = {});
+TinyFeatures find_tiny_features(const CadShape& shape, const FaceFlags& used, const EdgeFlags& collapse,
+                                double length, const SliverLimits& slivers = {});
 
 }  // namespace quadrille

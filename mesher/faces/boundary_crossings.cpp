@@ -108,8 +108,8 @@ EdgeStretch stretch_of(const FaceBoundary::Segment& segment, int pieces) {
 
 /// The name of a segment's edge, and the part of the edge.
 std::string name_of(const CadShape& shape, const FaceBoundary::Segment& segment) {
-  if (segment.edge == 0) return "a pole";
-  return fmt::format("Edge{} (parameters {:.4g} to {:.4g})", shape.edges[segment.edge - 1].number,
+  if (!segment.edge.exists()) return "a pole";
+  return fmt::format("Edge{} (parameters {:.4g} to {:.4g})", shape.edges[segment.edge].number,
                      std::min(segment.from, segment.to), std::max(segment.from, segment.to));
 }
 
@@ -173,7 +173,7 @@ double largest_stray(const FaceBoundary& boundary, const FaceSurface& surface) {
   return largest;
 }
 
-std::optional<FaceProblem> crossing_problem(int face, const CadShape& shape, const FaceBoundary& boundary,
+std::optional<FaceProblem> crossing_problem(FaceId face, const CadShape& shape, const FaceBoundary& boundary,
                                             const FaceSurface& surface) {
   constexpr double stray = 0.5;  // in segment lengths
   const auto pairs = crossing_segments(boundary);
@@ -186,7 +186,7 @@ std::optional<FaceProblem> crossing_problem(int face, const CadShape& shape, con
     if (const int pieces = pieces_apart(boundary, surface, pair)) {
       for (const auto* segment : {&s, &t}) stretches.push_back(stretch_of(*segment, pieces));
     } else if (cause == Cause::coarse_segments) {
-      cause = s.edge == t.edge && s.edge > 0 ? Cause::looped_edge : Cause::crossing_curves;
+      cause = s.edge == t.edge && s.edge.exists() ? Cause::looped_edge : Cause::crossing_curves;
       worst = pair;
     }
   }
@@ -198,15 +198,15 @@ std::optional<FaceProblem> crossing_problem(int face, const CadShape& shape, con
       cause, face,
       fmt::format("the boundary of Face{} crosses or touches itself near ({:.6g}, {:.6g}, {:.6g}), "
                   "where {} meets {}",
-                  face, near.x(), near.y(), near.z(), name_of(shape, s), name_of(shape, t)));
-  for (const int edge : std::set{s.edge, t.edge}) {
-    if (edge > 0) problem.edges.push_back(edge);
+                  face.number(), near.x(), near.y(), near.z(), name_of(shape, s), name_of(shape, t)));
+  for (const EdgeId edge : std::set{s.edge, t.edge}) {
+    if (edge.exists()) problem.edges.push_back(edge);
   }
   problem.stretches = std::move(stretches);
   return problem;
 }
 
-std::optional<FaceProblem> crowding_problem(int face, const FaceBoundary& boundary,
+std::optional<FaceProblem> crowding_problem(FaceId face, const FaceBoundary& boundary,
                                             const FaceSurface& surface) {
   std::vector<EdgeStretch> stretches;
   const Vector3* near = nullptr;
@@ -220,8 +220,8 @@ std::optional<FaceProblem> crowding_problem(int face, const FaceBoundary& bounda
   if (stretches.empty()) return std::nullopt;
   FaceProblem problem(
       Cause::narrow_gaps, face,
-      fmt::format("Face{} is narrower near ({:.6g}, {:.6g}, {:.6g}) than its edges bend between nodes", face,
-                  near->x(), near->y(), near->z()));
+      fmt::format("Face{} is narrower near ({:.6g}, {:.6g}, {:.6g}) than its edges bend between nodes",
+                  face.number(), near->x(), near->y(), near->z()));
   problem.stretches = std::move(stretches);
   return problem;
 }

@@ -13,17 +13,16 @@
 namespace quadrille {
 
 /// Why the boundary crosses itself, found from the curves between the nodes of the crossing segments.
-/// \param face CAD face, from 1. \return nothing if the boundary does not cross itself.
-std::optional<FaceProblem> crossing_problem(int face, const CadShape& shape, const FaceBoundary& boundary,
+/// \return nothing if the boundary does not cross itself.
+std::optional<FaceProblem> crossing_problem(FaceId face, const CadShape& shape, const FaceBoundary& boundary,
                                             const FaceSurface& surface);
 
 /// Where a boundary that does not cross itself has gaps narrower than its curves bulge from their segments,
 /// as between holes that nearly touch. Nodes in the middle of these segments have no room then, however
-/// triangles join the segments. The problem's stretches hold numbers of segments that suffice. \param face
-/// CAD face, from
-/// 1. \return nothing if there are no such gaps, if finer segments do not help, or if all nodes are ends of
+/// triangles join the segments. The problem's stretches hold numbers of segments that suffice.
+/// \return nothing if there are no such gaps, if finer segments do not help, or if all nodes are ends of
 /// segments (Strategy::direct).
-std::optional<FaceProblem> crowding_problem(int face, const FaceBoundary& boundary,
+std::optional<FaceProblem> crowding_problem(FaceId face, const FaceBoundary& boundary,
                                             const FaceSurface& surface);
 
 /// The largest distance between a boundary node and the surface point at its parameters, over the length of a

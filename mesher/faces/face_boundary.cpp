@@ -29,7 +29,7 @@ class BoundaryWalker {
     std::vector<int> starts;
     for (const CadWire& wire : face_.wires) {
       for (const Coedge& coedge : wire.coedges) {
-        if (nodes_.edges[coedge.edge - 1].segments() % 2 == 1) boundary_.stride = 1;
+        if (nodes_.edges[coedge.edge].segments() % 2 == 1) boundary_.stride = 1;
       }
     }
     for (const CadWire& wire : face_.wires) {
@@ -41,7 +41,7 @@ class BoundaryWalker {
     if (surface_.v_periodic()) gather_wires(starts, 1, surface_.v_period());
     join_touching();
     for (const InnerVertex& inner : face_.inner_vertices) {
-      const int node = nodes_.vertex_nodes[inner.vertex - 1];
+      const int node = nodes_.vertex_nodes[inner.vertex];
       add_point(surface_.is_view() ? surface_.seen_at(nodes_.points[node]) : inner.uv, node);
     }
     return std::move(boundary_);
@@ -70,7 +70,7 @@ class BoundaryWalker {
     bool gap = false;
     for (std::size_t i = 0; i < wire.coedges.size(); ++i) {
       const Coedge& coedge = wire.coedges[i];
-      const CadEdge& edge = shape_.edges[coedge.edge - 1];
+      const CadEdge& edge = shape_.edges[coedge.edge];
       Run run = edge.degenerate ? walk_pole(wire, i, edge) : walk_edge(coedge);
       firsts.push_back(run.first >= 0 ? run.first_segment : -1);
       run.after_gap = gap;
@@ -114,7 +114,7 @@ class BoundaryWalker {
   }
 
   Run walk_edge(const Coedge& coedge) {
-    const BoundaryNodes::Edge& edge = nodes_.edges[coedge.edge - 1];
+    const BoundaryNodes::Edge& edge = nodes_.edges[coedge.edge];
     const int count = edge.segments() / boundary_.stride;
     if (count <= 0) return {};
     Run run;
@@ -144,7 +144,7 @@ class BoundaryWalker {
       run.last = point;
     }
     run.end_segment = static_cast<int>(boundary_.segments.size());
-    const EdgeCurve curve(shape_.edges[coedge.edge - 1]);
+    const EdgeCurve curve(shape_.edges[coedge.edge]);
     run.leaving = curve.derivative(edge.parameters.front());
     run.arriving = curve.derivative(edge.parameters.back());
     if (!coedge.forward) {
@@ -158,7 +158,7 @@ class BoundaryWalker {
 
   Run walk_pole(const CadWire& wire, std::size_t at, const CadEdge& edge) {
     const Coedge& coedge = wire.coedges[at];
-    const int node = edge.first_vertex > 0 ? nodes_.vertex_nodes[edge.first_vertex - 1] : -1;
+    const int node = edge.first_vertex.exists() ? nodes_.vertex_nodes[edge.first_vertex] : -1;
     if (node < 0 || surface_.is_view()) return {};
     Vector2 from = parametric_point(coedge, edge.first), to = parametric_point(coedge, edge.last);
     // CAD translators also close wires with edges marked degenerate that are not poles.
@@ -172,8 +172,7 @@ class BoundaryWalker {
     constexpr double narrow = 0.35;  // radians
     const std::size_t n = wire.coedges.size();
     const Coedge &before = wire.coedges[(at + n - 1) % n], &after = wire.coedges[(at + 1) % n];
-    const BoundaryNodes::Edge &arriving = nodes_.edges[before.edge - 1],
-                              &leaving = nodes_.edges[after.edge - 1];
+    const BoundaryNodes::Edge &arriving = nodes_.edges[before.edge], &leaving = nodes_.edges[after.edge];
     if (arriving.segments() < boundary_.stride || leaving.segments() < boundary_.stride) return false;
     const int from = before.forward ? arriving.segments() - boundary_.stride : boundary_.stride;
     const int to = after.forward ? boundary_.stride : leaving.segments() - boundary_.stride;
@@ -332,19 +331,19 @@ class BoundaryWalker {
 
 }  // namespace
 
-FaceBoundary face_boundary(const CadShape& shape, int face, const CadFace& cad_face,
+FaceBoundary face_boundary(const CadShape& shape, FaceId face, const CadFace& cad_face,
                            const FaceSurface& surface, const BoundaryNodes& nodes) {
   const int stride = nodes.subdivided[face] != 0 ? 2 : 1;
   FaceBoundary boundary = BoundaryWalker(shape, cad_face, surface, nodes, stride).walk();
   if (boundary.segments.empty()) {
-    const std::string name = fmt::format("Face{}", face + 1);
+    const std::string name = fmt::format("Face{}", face.number());
     throw failure(name, fmt::format("{} has no usable boundary in its parameter plane", name));
   }
   constexpr double largest = 1e50;  // products of several must not overflow
   const auto finite = [&](const auto& p) { return p.cwiseAbs().maxCoeff() < largest; };
   if (!std::all_of(boundary.uv.begin(), boundary.uv.end(), finite) ||
       !std::all_of(boundary.points.begin(), boundary.points.end(), finite)) {
-    const std::string name = fmt::format("Face{}", face + 1);
+    const std::string name = fmt::format("Face{}", face.number());
     throw failure(name, fmt::format("the boundary of {} runs to infinity: the file may be damaged", name));
   }
   return boundary;

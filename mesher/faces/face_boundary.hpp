@@ -15,7 +15,7 @@ namespace quadrille {
 struct FaceBoundary {
   struct Segment {
     int a = -1, b = -1;              ///< ends, in the direction of the wire
-    int edge = 0;                    ///< CAD edge, from 1; 0 if degenerate
+    EdgeId edge;                     ///< CAD edge; none if degenerate
     double from = 0, to = 0;         ///< parameters of a and b on that edge
     const Coedge* coedge = nullptr;  ///< the coedge of the face that was walked; null if degenerate
     int middle_node = -1;  ///< node of the final mesh between a and b (Strategy::subdivide), else -1
@@ -44,12 +44,12 @@ struct FaceBoundary {
   int size() const { return static_cast<int>(uv.size()); }
 };
 
-/// Walks the wires of a face. \param face from 0 \param cad_face the face, or a copy with other parametric
+/// Walks the wires of a face. \param cad_face the face, or a copy with other parametric
 /// curves. Throws Error (failure) naming the face if its boundary is not usable or runs to infinity.
-FaceBoundary face_boundary(const CadShape& shape, int face, const CadFace& cad_face,
+FaceBoundary face_boundary(const CadShape& shape, FaceId face, const CadFace& cad_face,
                            const FaceSurface& surface, const BoundaryNodes& nodes);
 
-inline FaceBoundary face_boundary(const CadShape& shape, int face, const FaceSurface& surface,
+inline FaceBoundary face_boundary(const CadShape& shape, FaceId face, const FaceSurface& surface,
                                   const BoundaryNodes& nodes) {
   return face_boundary(shape, face, shape.faces[face], surface, nodes);
 }

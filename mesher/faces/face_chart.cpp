@@ -17,7 +17,7 @@ std::vector<Vector3> widest_loop(const CadFace& face, const BoundaryNodes& nodes
   for (const CadWire& wire : face.wires) {
     std::vector<Vector3> loop;
     for (const Coedge& coedge : wire.coedges) {
-      const auto& edge = nodes.edges[coedge.edge - 1].nodes;
+      const auto& edge = nodes.edges[coedge.edge].nodes;
       // The last node is left out: it is the first of the next edge.
       for (std::size_t i = 0; i + 1 < edge.size(); ++i)
         loop.push_back(nodes.points[edge[coedge.forward ? i : edge.size() - 1 - i]]);
@@ -31,7 +31,7 @@ std::vector<Vector3> widest_loop(const CadFace& face, const BoundaryNodes& nodes
   return widest;
 }
 
-FaceChart chart_of(const CadShape& shape, int face, const BoundaryNodes& nodes, ChartKind kind) {
+FaceChart chart_of(const CadShape& shape, FaceId face, const BoundaryNodes& nodes, ChartKind kind) {
   FaceChart chart;
   if (kind == ChartKind::new_curves)
     chart.other = std::make_shared<const CadFace>(with_new_curves(shape.faces[face]));
@@ -41,27 +41,28 @@ FaceChart chart_of(const CadShape& shape, int face, const BoundaryNodes& nodes, 
                               : FaceSurface(cad_face));
   if (chart.surface->is_curve())
     throw FaceProblem(
-        Cause::no_area, face + 1,
+        Cause::no_area, face,
         fmt::format("the surface of Face{} is a curve, without area: the file may be damaged, or "
                     "`faces` leaves it out",
-                    face + 1));
+                    face.number()));
   chart.boundary = face_boundary(shape, face, cad_face, *chart.surface, nodes);
   return chart;
 }
 
 }  // namespace
 
-FaceChart make_chart(const CadShape& shape, int face, const BoundaryNodes& nodes, ChartKind kind) {
+FaceChart make_chart(const CadShape& shape, FaceId face, const BoundaryNodes& nodes, ChartKind kind) {
   try {
     return chart_of(shape, face, nodes, kind);
   } catch (const FaceProblem&) {
     throw;
   } catch (const Error& problem) {
     if (problem.kind() != Error::Kind::failure) throw;
-    throw FaceProblem(Cause::unusable_boundary, face + 1, problem.what());
+    throw FaceProblem(Cause::unusable_boundary, face, problem.what());
   } catch (const Standard_Failure& problem) {
-    throw FaceProblem(Cause::unusable_boundary, face + 1,
-                      fmt::format("Face{} cannot be evaluated ({})", face + 1, problem.GetMessageString()));
+    throw FaceProblem(
+        Cause::unusable_boundary, face,
+        fmt::format("Face{} cannot be evaluated ({})", face.number(), problem.GetMessageString()));
   }
 }
 

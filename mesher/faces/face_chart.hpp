@@ -25,7 +25,7 @@ struct FaceChart {
   FaceBoundary boundary;
 };
 
-/// \param face from 0. Throws FaceProblem if the face has no such chart.
-FaceChart make_chart(const CadShape& shape, int face, const BoundaryNodes& nodes, ChartKind kind);
+/// Throws FaceProblem if the face has no such chart.
+FaceChart make_chart(const CadShape& shape, FaceId face, const BoundaryNodes& nodes, ChartKind kind);
 
 }  // namespace quadrille

@@ -31,18 +31,18 @@ enum class Cause {
 /// `what()` is a sentence for the user that names the face, the edges and the place.
 class FaceProblem : public Error {
  public:
-  FaceProblem(Cause cause, int face, const std::string& sentence)
-      : Error(Kind::failure, "Face" + std::to_string(face), sentence), cause_(cause), face_(face) {}
+  FaceProblem(Cause cause, FaceId face, const std::string& sentence)
+      : Error(Kind::failure, "Face" + std::to_string(face.number()), sentence), cause_(cause), face_(face) {}
 
   Cause cause() const noexcept { return cause_; }
-  int face() const noexcept { return face_; }  ///< CAD face, from 1
+  FaceId face() const noexcept { return face_; }
 
   std::vector<EdgeStretch> stretches;  ///< parts of edges, with the numbers of segments that would suffice
-  std::vector<int> edges;              ///< the CAD edges concerned, from 1, ascending
+  std::vector<EdgeId> edges;           ///< the CAD edges concerned, ascending
 
  private:
   Cause cause_;
-  int face_;
+  FaceId face_;
 };
 
 }  // namespace quadrille

@@ -43,10 +43,10 @@ using Structure = CGAL::Triangulation_data_structure_2<VertexBase, MarkedFace<>>
 using Cdt =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
 
-FaceProblem no_triangles(int face, const Vector3& near) {
+FaceProblem no_triangles(FaceId face, const Vector3& near) {
   return {Cause::no_mesh, face,
-          fmt::format("the boundary of Face{} encloses no triangles near ({:.6g}, {:.6g}, {:.6g})", face,
-                      near.x(), near.y(), near.z())};
+          fmt::format("the boundary of Face{} encloses no triangles near ({:.6g}, {:.6g}, {:.6g})",
+                      face.number(), near.x(), near.y(), near.z())};
 }
 
 /// Points by index for CGAL's sorting. It is a single call, so accesses to points check the context at times.
@@ -65,8 +65,8 @@ struct CheckedPoints {
 
 class Triangulator {
  public:
-  Triangulator(int face, const FaceBoundary& boundary, const PlacedPoints& placed, const FaceSurface& surface,
-               const ExecutionContext& context)
+  Triangulator(FaceId face, const FaceBoundary& boundary, const PlacedPoints& placed,
+               const FaceSurface& surface, const ExecutionContext& context)
       : face_(face),
         boundary_(boundary),
         placed_(placed),
@@ -184,7 +184,7 @@ class Triangulator {
     }
   }
 
-  int face_;
+  FaceId face_;
   const FaceBoundary& boundary_;
   const PlacedPoints& placed_;
   Vector2 scale_;
@@ -197,7 +197,7 @@ class Triangulator {
 };
 
 /// Triangulates without the placed points that lie on segments, and removes these from `placed`.
-std::vector<std::array<int, 3>> triangles_of(int face, const FaceBoundary& boundary, PlacedPoints& placed,
+std::vector<std::array<int, 3>> triangles_of(FaceId face, const FaceBoundary& boundary, PlacedPoints& placed,
                                              const FaceSurface& surface, const ExecutionContext& context) {
   while (true) {
     Triangulator triangulator(face, boundary, placed, surface, context);
@@ -403,7 +403,7 @@ void choose_sides(FaceTriangulation& face) {
 
 }  // namespace
 
-FaceTriangulation triangulate_face(int face, FaceBoundary boundary, PlacedPoints placed,
+FaceTriangulation triangulate_face(FaceId face, FaceBoundary boundary, PlacedPoints placed,
                                    const FaceSurface& surface, const ExecutionContext& context) {
   std::vector<std::array<int, 3>> triangles = triangles_of(face, boundary, placed, surface, context);
   CrackOpener(boundary, triangles, context).run();

@@ -26,10 +26,10 @@ struct FaceTriangulation {
 
 /// Triangulates in the parameter plane scaled by the mean metric (constrained Delaunay, in bulk), then flips
 /// sides by the Delaunay criterion in space. Along cracks, each side of the crack has its own points. Placed
-/// points on boundary segments are left out. \param face from 1. Throws FaceProblem if there are no
+/// points on boundary segments are left out. Throws FaceProblem if there are no
 /// triangles, or if boundary segments cross or meet where they should not, which crossing_problem() finds
 /// beforehand.
-FaceTriangulation triangulate_face(int face, FaceBoundary boundary, PlacedPoints placed,
+FaceTriangulation triangulate_face(FaceId face, FaceBoundary boundary, PlacedPoints placed,
                                    const FaceSurface& surface, const ExecutionContext& context = {});
 
 }  // namespace quadrille

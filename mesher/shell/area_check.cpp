@@ -77,7 +77,7 @@ class FlatLoss {
     auto& turning = turnings_[number];
     if (turning) return *turning;
     constexpr int samples = 32;
-    const CadEdge& edge = shape_.edges[number - 1];
+    const CadEdge& edge = shape_.edges[EdgeId::from_number(number)];
     const EdgeCurve curve(edge);
     double sum = 0;
     for (int i = 0; i < samples; ++i) {
@@ -113,7 +113,7 @@ std::vector<std::string> area_differences(const CadModel& model, const ShellMesh
     if (!(areas[face] > 0)) return;
     try {
       GProp_GProps properties;
-      BRepGProp::SurfaceProperties(shape.faces[face].face, properties);
+      BRepGProp::SurfaceProperties(shape.faces[FaceId::from_index(face)].face, properties);
       integrals[face] = std::abs(properties.Mass());
     } catch (const Standard_Failure&) {
       return;  // no integral to compare with

@@ -34,17 +34,18 @@ class Assembler {
   /// Calls work(face) on all threads for each face that is meshed.
   template <class Work>
   void for_each_face(Work&& work) const {
-    oneapi::tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t face) {
+    oneapi::tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t index) {
+      const FaceId face = FaceId::from_index(index);
       if (faces_[face]) work(face);
     });
   }
 
   void number_boundary() {
-    std::vector<std::vector<char>> used_by(faces_.size());
-    for_each_face([&](std::size_t index) {
-      const FaceMesh& face = *faces_[index];
+    IdVector<FaceId, std::vector<char>> used_by(faces_.size());
+    for_each_face([&](FaceId id) {
+      const FaceMesh& face = *faces_[id];
       const int fixed = static_cast<int>(face.nodes.size());
-      std::vector<char>& used = used_by[index];
+      std::vector<char>& used = used_by[id];
       used.assign(fixed, 0);
       SparseCheck check(context_);
       for (const auto& quad : face.quads) {
@@ -55,7 +56,7 @@ class Assembler {
       }
     });
     std::vector<char> used(nodes_.points.size(), 0);
-    for (std::size_t face = 0; face < faces_.size(); ++face) {
+    for (const FaceId face : faces_.ids()) {
       for (std::size_t i = 0; i < used_by[face].size(); ++i) used[faces_[face]->nodes[i]] |= used_by[face][i];
     }
     for (std::size_t i = 0; i < used.size(); ++i) {
@@ -64,35 +65,37 @@ class Assembler {
       mesh_.points.push_back(nodes_.points[i]);
     }
     std::vector<char> listed(nodes_.points.size(), 0);
-    for (std::size_t vertex = 0; vertex < nodes_.vertex_nodes.size(); ++vertex) {
+    for (const VertexId vertex : nodes_.vertex_nodes.ids()) {
       const int node = nodes_.vertex_nodes[vertex];
       // The ends of an edge that became a point share a node: it is listed for the first vertex.
       if (node >= 0 && numbering_.nodes[node] >= 0 && !listed[node]) {
         listed[node] = 1;
-        mesh_.corners.push_back({numbering_.nodes[node], static_cast<int>(vertex) + 1});
+        mesh_.corners.push_back({numbering_.nodes[node], vertex.number()});
       }
     }
   }
 
   void add_faces() {
-    std::vector<std::size_t> first_point(faces_.size());
+    IdVector<FaceId, std::size_t> first_point(faces_.size());
     std::size_t points = mesh_.points.size();
     numbering_.first_quad.assign(faces_.size() + 1, 0);
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-      first_point[i] = points;
-      numbering_.first_quad[i + 1] = numbering_.first_quad[i];
-      if (!faces_[i]) continue;
-      points += faces_[i]->points.size() - faces_[i]->nodes.size();
-      numbering_.first_quad[i + 1] += faces_[i]->quads.size();
+    std::size_t quads = 0;
+    for (const FaceId face : faces_.ids()) {
+      first_point[face] = points;
+      numbering_.first_quad[face.index()] = quads;
+      if (!faces_[face]) continue;
+      points += faces_[face]->points.size() - faces_[face]->nodes.size();
+      quads += faces_[face]->quads.size();
     }
+    numbering_.first_quad.back() = quads;
     mesh_.points.resize(points);
-    mesh_.quads.resize(numbering_.first_quad.back());
-    mesh_.quad_faces.resize(numbering_.first_quad.back());
-    for_each_face([&](std::size_t face) { add_face(face, first_point[face]); });
+    mesh_.quads.resize(quads);
+    mesh_.quad_faces.resize(quads);
+    for_each_face([&](FaceId face) { add_face(face, first_point[face]); });
   }
 
-  void add_face(std::size_t index, std::size_t first_point) {
-    const FaceMesh& face = *faces_[index];
+  void add_face(FaceId id, std::size_t first_point) {
+    const FaceMesh& face = *faces_[id];
     const std::size_t fixed = face.nodes.size();
     SparseCheck check(context_);
     std::vector<int> global(face.points.size());
@@ -103,30 +106,30 @@ class Assembler {
       global[i] = static_cast<int>(node);
       mesh_.points[node] = face.points[i];
     }
-    std::size_t at = numbering_.first_quad[index];
+    std::size_t at = numbering_.first_quad[id.index()];
     for (const auto& quad : face.quads) {
       check();
       mesh_.quads[at] = {global[quad[0]], global[quad[1]], global[quad[2]], global[quad[3]]};
-      mesh_.quad_faces[at++] = static_cast<int>(index) + 1;
+      mesh_.quad_faces[at++] = id.number();
     }
   }
 
   void add_segments() {
-    for (std::size_t i = 0; i < nodes_.edges.size(); ++i) {
-      const auto& edge = nodes_.edges[i];
+    for (const EdgeId id : nodes_.edges.ids()) {
+      const auto& edge = nodes_.edges[id];
       if (edge.borrowed) continue;
       for (int k = 0; k < edge.segments(); ++k) {
         const int a = numbering_.nodes[edge.nodes[k]], b = numbering_.nodes[edge.nodes[k + 1]];
         if (a < 0 || b < 0) continue;
-        mesh_.segments.push_back({{a, b}, -1, shape_.edges[i].number});
-        numbering_.segments.push_back({static_cast<int>(i), k});
+        mesh_.segments.push_back({{a, b}, -1, shape_.edges[id].number});
+        numbering_.segments.push_back({id, k});
       }
     }
   }
 
   const CadShape& shape_;
   const BoundaryNodes& nodes_;
-  const std::vector<std::optional<FaceMesh>>& faces_;
+  const FaceMeshes& faces_;
   const ExecutionContext& context_;
   ShellNumbering numbering_;
   ShellMesh mesh_;
@@ -174,9 +177,9 @@ void note_off_geometry(ShellMesh& mesh) {
   }
 }
 
-ShellMesh assemble(const CadShape& shape, const BoundaryNodes& nodes,
-                   const std::vector<std::optional<FaceMesh>>& faces, std::vector<ShellMesh::Face> statuses,
-                   const MeshOptions& options, ExecutionContext& context) {
+ShellMesh assemble(const CadShape& shape, const BoundaryNodes& nodes, const FaceMeshes& faces,
+                   std::vector<ShellMesh::Face> statuses, const MeshOptions& options,
+                   ExecutionContext& context) {
   const StageTimer timer(context, Stage::assemble);
   context.report(Stage::assemble, 0);
   const MeshedFaces meshed{shape, nodes, faces};

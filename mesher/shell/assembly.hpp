@@ -14,9 +14,9 @@ namespace quadrille {
 /// Numbers the nodes (CAD vertices, CAD edges, then face by face), and at second order adds midside nodes on
 /// the geometry. Boundary nodes that no quad uses are left out. Throws Error (failure) if an element of
 /// second order folds even with straight sides.
-ShellMesh assemble(const CadShape& shape, const BoundaryNodes& nodes,
-                   const std::vector<std::optional<FaceMesh>>& faces, std::vector<ShellMesh::Face> statuses,
-                   const MeshOptions& options, ExecutionContext& context);
+ShellMesh assemble(const CadShape& shape, const BoundaryNodes& nodes, const FaceMeshes& faces,
+                   std::vector<ShellMesh::Face> statuses, const MeshOptions& options,
+                   ExecutionContext& context);
 
 /// Records in each face's entry and note how many of its midside nodes are off the geometry, and how far.
 void note_off_geometry(ShellMesh& mesh);

@@ -48,7 +48,7 @@ class CadSmoothingSurface : public SmoothingSurface {
 
 class FaceMesher {
  public:
-  FaceMesher(const CadShape& shape, int face, const FaceChart& chart, const BoundaryNodes& nodes,
+  FaceMesher(const CadShape& shape, FaceId face, const FaceChart& chart, const BoundaryNodes& nodes,
              const SizingField& field, const MeshOptions& options, const FaceRecipe& recipe,
              ExecutionContext& context)
       : shape_(shape),
@@ -263,7 +263,7 @@ class FaceMesher {
     placement.refusal = recipe_.refusal;
     PlacedPoints placed = place_points(boundary, surface_, domain, size_at_, placement, context_);
     context_.check();
-    return triangulate_face(face_ + 1, boundary, std::move(placed), surface_, context_);
+    return triangulate_face(face_, boundary, std::move(placed), surface_, context_);
   }
 
   FaceQuads recombine_face(const FaceTriangulation& triangulation, int stride) {
@@ -281,9 +281,9 @@ class FaceMesher {
     quads.pole = triangulation.pole;
     if (stride == 1 && !quads.surface_mesh.mesh.triangles.empty()) {
       throw FaceProblem(
-          Cause::odd_boundary, face_ + 1,
+          Cause::odd_boundary, face_,
           fmt::format("Face{} has an odd boundary that cannot be made even: `strategy` subdivide meshes it",
-                      face_ + 1));
+                      face_.number()));
     }
     return quads;
   }
@@ -341,9 +341,9 @@ class FaceMesher {
 
   FaceProblem boundary_problem(const Vector3& a, const Vector3& b) const {
     const Vector3 middle = 0.5 * (a + b);
-    return {Cause::no_mesh, face_ + 1,
+    return {Cause::no_mesh, face_,
             fmt::format("the mesh of Face{} does not end as its wires do near ({:.6g}, {:.6g}, {:.6g})",
-                        face_ + 1, middle.x(), middle.y(), middle.z())};
+                        face_.number(), middle.x(), middle.y(), middle.z())};
   }
 
   /// The problem of inverted quads, with the stretches of edges that they and the quads around them touch.
@@ -366,10 +366,10 @@ class FaceMesher {
                         : inside                                     ? Cause::inverted_inside
                                                                      : Cause::inverted_at_boundary;
     FaceProblem problem(
-        cause, face_ + 1,
+        cause, face_,
         fmt::format("Face{} keeps {} inverted quad{} at this size, the first at ({:.6g}, {:.6g}, {:.6g}), {}",
-                    face_ + 1, inverted.size(), inverted.size() == 1 ? "" : "s", near.x(), near.y(), near.z(),
-                    place_of(mesh, corner)));
+                    face_.number(), inverted.size(), inverted.size() == 1 ? "" : "s", near.x(), near.y(),
+                    near.z(), place_of(mesh, corner)));
     problem.stretches = stretches_at(touched);
     for (const EdgeStretch& part : problem.stretches) problem.edges.push_back(part.edge);
     return problem;
@@ -400,10 +400,10 @@ class FaceMesher {
     if (vertex != nodes_.vertex_nodes.end())
       return fmt::format("Vertex{}", vertex - nodes_.vertex_nodes.begin() + 1);
     for (const auto& segment : chart_.boundary.segments) {
-      if (segment.edge == 0) continue;
-      const auto& on_edge = nodes_.edges[segment.edge - 1].nodes;
+      if (!segment.edge.exists()) continue;
+      const auto& on_edge = nodes_.edges[segment.edge].nodes;
       if (std::find(on_edge.begin(), on_edge.end(), node) != on_edge.end())
-        return fmt::format("a node of Edge{}", shape_.edges[segment.edge - 1].number);
+        return fmt::format("a node of Edge{}", shape_.edges[segment.edge].number);
     }
     return "inside the face";
   }
@@ -412,12 +412,12 @@ class FaceMesher {
   std::vector<EdgeStretch> stretches_at(const std::set<int>& touched) const {
     const int stride = chart_.boundary.stride;
     std::vector<EdgeStretch> result;
-    std::set<int> edges;
+    std::set<EdgeId> edges;
     for (const auto& segment : chart_.boundary.segments) {
-      if (segment.edge > 0) edges.insert(segment.edge);
+      if (segment.edge.exists()) edges.insert(segment.edge);
     }
-    for (const int number : edges) {
-      const BoundaryNodes::Edge& edge = nodes_.edges[number - 1];
+    for (const EdgeId id : edges) {
+      const BoundaryNodes::Edge& edge = nodes_.edges[id];
       int last = -1;  // last segment in a stretch
       for (int i = 0; i + stride < static_cast<int>(edge.nodes.size()); i += stride) {
         if (!touched.contains(edge.nodes[i]) && !touched.contains(edge.nodes[i + stride])) continue;
@@ -426,7 +426,7 @@ class FaceMesher {
           result.back().to = to;
           result.back().segments += 4;
         } else {
-          result.push_back({number, from, to, 4});
+          result.push_back({id, from, to, 4});
         }
         last = i;
       }
@@ -435,7 +435,7 @@ class FaceMesher {
   }
 
   const CadShape& shape_;
-  int face_;
+  FaceId face_;
   const BoundaryNodes& nodes_;
   const MeshOptions& options_;
   const FaceRecipe& recipe_;
@@ -448,7 +448,7 @@ class FaceMesher {
 
 }  // namespace
 
-FaceMesh mesh_face(const CadShape& shape, int face, const FaceChart& chart, const BoundaryNodes& nodes,
+FaceMesh mesh_face(const CadShape& shape, FaceId face, const FaceChart& chart, const BoundaryNodes& nodes,
                    const SizingField& field, const MeshOptions& options, const FaceRecipe& recipe,
                    ExecutionContext& context) {
   return FaceMesher(shape, face, chart, nodes, field, options, recipe, context).run();

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
@@ -28,6 +29,9 @@ struct FaceMesh {
   std::shared_ptr<const FaceSurface> surface;  ///< surface that uv refer to; null = the face's own
 };
 
+/// The meshes of the faces; empty = not meshed.
+using FaceMeshes = IdVector<FaceId, std::optional<FaceMesh>>;
+
 /// How a face is meshed.
 struct FaceRecipe {
   ChartKind chart = ChartKind::own;             ///< plane that the face is triangulated in
@@ -37,8 +41,8 @@ struct FaceRecipe {
   int fineness = 1;                             ///< divides the spacing of inner points
 };
 
-/// Triangulates, recombines and improves a face in one attempt. \param face from 0. Throws FaceProblem.
-FaceMesh mesh_face(const CadShape& shape, int face, const FaceChart& chart, const BoundaryNodes& nodes,
+/// Triangulates, recombines and improves a face in one attempt. Throws FaceProblem.
+FaceMesh mesh_face(const CadShape& shape, FaceId face, const FaceChart& chart, const BoundaryNodes& nodes,
                    const SizingField& field, const MeshOptions& options, const FaceRecipe& recipe,
                    ExecutionContext& context);
 

@@ -67,8 +67,9 @@ class MidsidePlacement {
     place_on_edges();
     Midsides result;
     result.first_inner = mesh_.points.size();
-    std::vector<FaceMidsides> of_faces(meshed_.faces.size());
-    oneapi::tbb::parallel_for(std::size_t{0}, of_faces.size(), [&](std::size_t face) {
+    IdVector<FaceId, FaceMidsides> of_faces(meshed_.faces.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, of_faces.size(), [&](std::size_t index) {
+      const FaceId face = FaceId::from_index(index);
       if (meshed_.faces[face]) of_faces[face] = place_inside(face);
     });
     for (FaceMidsides& face : of_faces) {
@@ -102,9 +103,9 @@ class MidsidePlacement {
     }
   }
 
-  FaceMidsides place_inside(std::size_t index) const {
-    const FaceMesh& face = *meshed_.faces[index];
-    const auto surface = meshed_.surface(index);
+  FaceMidsides place_inside(FaceId id) const {
+    const FaceMesh& face = *meshed_.faces[id];
+    const auto surface = meshed_.surface(id);
     SparseCheck check(context_, 256);
     // Sides in rows by their lower end. The first free entry ends a row.
     struct Side {

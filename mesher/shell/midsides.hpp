@@ -19,10 +19,10 @@ namespace quadrille {
 struct MeshedFaces {
   const CadShape& shape;
   const BoundaryNodes& nodes;
-  const std::vector<std::optional<FaceMesh>>& faces;  ///< empty = not meshed
+  const FaceMeshes& faces;
 
   /// The surface that the uv of the face's nodes refer to.
-  std::shared_ptr<const FaceSurface> surface(std::size_t face) const {
+  std::shared_ptr<const FaceSurface> surface(FaceId face) const {
     return faces[face]->surface ? faces[face]->surface
                                 : std::make_shared<const FaceSurface>(shape.faces[face]);
   }
@@ -30,9 +30,14 @@ struct MeshedFaces {
 
 /// The numbering that maps nodes, faces and segments to the shell.
 struct ShellNumbering {
-  std::vector<int> nodes;                     ///< (boundary nodes) node of the shell; -1 = no quad uses it
-  std::vector<std::size_t> first_quad;        ///< (faces + 1) first quad of each face in the shell
-  std::vector<std::pair<int, int>> segments;  ///< (segments) CAD edge and segment on it, from 0
+  std::vector<int> nodes;                        ///< (boundary nodes) node of the shell; -1 = no quad uses it
+  std::vector<std::size_t> first_quad;           ///< (faces + 1) first quad of each face in the shell
+  std::vector<std::pair<EdgeId, int>> segments;  ///< (segments) CAD edge, and index of the segment on it
+
+  /// The first quad of a face in the shell, and the one after its last.
+  std::pair<std::size_t, std::size_t> quads_of(FaceId face) const {
+    return {first_quad[face.index()], first_quad[face.index() + 1]};
+  }
 };
 
 /// The midside nodes of a shell. They are its last points, those on CAD edges before those inside faces.

@@ -41,13 +41,13 @@ class Mirror {
   void find_nodes_in_planes() {
     in_.assign(mesh_.points.size(), 0);
     for (const ShellMesh::Segment& segment : mesh_.segments) {
-      const unsigned in = part_.edges_in[segment.edge - 1];
+      const unsigned in = part_.edges_in[EdgeId::from_number(segment.edge)];
       for (const int node : {segment.nodes[0], segment.nodes[1], segment.middle}) {
         if (node >= 0) in_[node] |= in;
       }
     }
     for (const ShellMesh::Corner& corner : mesh_.corners)
-      in_[corner.node] |= part_.vertices_in[corner.vertex - 1];
+      in_[corner.node] |= part_.vertices_in[VertexId::from_number(corner.vertex)];
   }
 
   bool nodes_are_in_planes() const {
@@ -62,10 +62,11 @@ class Mirror {
   }
 
   /// Whether an edge of the part bounds exactly one of the faces asked for.
-  bool is_free(int edge) const {
-    const auto& faces = part_.model.shape().edges[edge - 1].faces;
-    return std::count_if(faces.begin(), faces.end(),
-                         [&](int face) { return mesh_.faces[face - 1].status != FaceStatus::skipped; }) == 1;
+  bool is_free(EdgeId edge) const {
+    const auto& faces = part_.model.shape().edges[edge].faces;
+    return std::count_if(faces.begin(), faces.end(), [&](FaceId face) {
+             return mesh_.faces[face.index()].status != FaceStatus::skipped;
+           }) == 1;
   }
 
   /// Whether each side with only one quad lies in a plane or on a free edge.
@@ -76,7 +77,8 @@ class Mirror {
     }
     std::sort(sides.begin(), sides.end());
     for (const ShellMesh::Segment& segment : mesh_.segments) {
-      if (part_.edges_in[segment.edge - 1] != 0 || is_free(segment.edge))
+      const EdgeId edge = EdgeId::from_number(segment.edge);
+      if (part_.edges_in[edge] != 0 || is_free(edge))
         ends.push_back(side_key(segment.nodes[0], segment.nodes[1]));
     }
     std::sort(ends.begin(), ends.end());
@@ -117,6 +119,8 @@ class Mirror {
     }
   }
 
+  FaceId face_of(std::size_t quad) const { return FaceId::from_number(mesh_.quad_faces[quad]); }
+
   /// Quads are in the order of the faces, as in meshes of whole models.
   void add_quads() {
     std::vector<std::pair<unsigned, std::size_t>> order;
@@ -124,7 +128,7 @@ class Mirror {
       for (std::size_t i = 0; i < mesh_.quads.size(); ++i) order.emplace_back(image, i);
     }
     const auto face = [&](const auto& entry) {
-      return part_.images[entry.first].faces[mesh_.quad_faces[entry.second] - 1];
+      return part_.images[entry.first].faces[face_of(entry.second)];
     };
     std::stable_sort(order.begin(), order.end(),
                      [&](const auto& a, const auto& b) { return face(a) < face(b); });
@@ -132,10 +136,10 @@ class Mirror {
       const auto [image, index] = entry;
       std::array<int, 4> quad = mesh_.quads[index];
       for (int& corner : quad) corner = node(image, corner);
-      const bool reversed = is_reversed(image, part_.images[image].turned[mesh_.quad_faces[index] - 1] != 0);
+      const bool reversed = is_reversed(image, part_.images[image].turned[face_of(index)] != 0);
       if (reversed) std::swap(quad[1], quad[3]);
       result_.quads.push_back(quad);
-      result_.quad_faces.push_back(face(entry));
+      result_.quad_faces.push_back(face(entry).number());
       if (mesh_.order == 1) continue;
       std::array<int, 4> middles = mesh_.midsides[index];
       for (int& middle : middles) middle = node(image, middle);
@@ -148,12 +152,12 @@ class Mirror {
     for (unsigned image = 0; image < images_; ++image) {
       const ModelPart::Image& names = part_.images[image];
       for (ShellMesh::Segment segment : mesh_.segments) {
-        const int index = segment.edge - 1;
-        if (is_repeated(image, part_.edges_in[index]) || names.edges[index] == 0) continue;
+        const EdgeId edge = EdgeId::from_number(segment.edge);
+        if (is_repeated(image, part_.edges_in[edge]) || !names.edges[edge].exists()) continue;
         for (int& end : segment.nodes) end = node(image, end);
         segment.middle = node(image, segment.middle);
-        if (names.against[index] != 0) std::swap(segment.nodes[0], segment.nodes[1]);
-        segment.edge = whole_.edges[names.edges[index] - 1].number;
+        if (names.against[edge] != 0) std::swap(segment.nodes[0], segment.nodes[1]);
+        segment.edge = whole_.edges[names.edges[edge]].number;
         result_.segments.push_back(segment);
       }
     }
@@ -164,9 +168,10 @@ class Mirror {
   void add_corners() {
     for (unsigned image = 0; image < images_; ++image) {
       for (const ShellMesh::Corner& corner : mesh_.corners) {
-        const int vertex = part_.images[image].vertices[corner.vertex - 1];
-        if (vertex > 0 && !is_repeated(image, part_.vertices_in[corner.vertex - 1]))
-          result_.corners.push_back({node(image, corner.node), vertex});
+        const VertexId own = VertexId::from_number(corner.vertex);
+        const VertexId vertex = part_.images[image].vertices[own];
+        if (vertex.exists() && !is_repeated(image, part_.vertices_in[own]))
+          result_.corners.push_back({node(image, corner.node), vertex.number()});
       }
     }
     std::sort(result_.corners.begin(), result_.corners.end(), [](const auto& a, const auto& b) {
@@ -184,11 +189,11 @@ class Mirror {
     std::vector<std::vector<std::string>> notes(result_.faces.size());
     for (unsigned image = 0; image < images_; ++image) {
       for (const ShellMesh::Face& piece : mesh_.faces) {
-        const int number = part_.images[image].faces[piece.face - 1];
-        ShellMesh::Face& face = result_.faces[number - 1];
+        const int index = part_.images[image].faces[FaceId::from_number(piece.face)].index();
+        ShellMesh::Face& face = result_.faces[index];
         if (face.status != FaceStatus::meshed && piece.status != FaceStatus::skipped)
           face.status = piece.status;
-        auto& said = notes[number - 1];
+        auto& said = notes[index];
         if (!piece.note.empty() && std::find(said.begin(), said.end(), piece.note) == said.end()) {
           face.note += (said.empty() ? "" : "; ") + piece.note;
           said.push_back(piece.note);
@@ -224,9 +229,9 @@ class Mirror {
     for (unsigned image = 0; image < images_; ++image) {
       const ModelPart::Image& names = part_.images[image];
       const auto name = [&](Kind kind, int number) {
-        if (kind == Kind::vertex) return names.vertices[number - 1];
-        const int edge = names.edges[number - 1];
-        return edge == 0 ? 0 : whole_.edges[edge - 1].number;
+        if (kind == Kind::vertex) return names.vertices[VertexId::from_number(number)].number();
+        const EdgeId edge = names.edges[EdgeId::from_number(number)];
+        return edge.exists() ? whole_.edges[edge].number : 0;
       };
       for (const ShellMesh::LetGo& feature : mesh_.let_go) {
         const int number = name(feature.kind, feature.number), to = name(feature.to_kind, feature.to);

@@ -43,7 +43,8 @@ constexpr double shortest_interval = 0.5, longest_interval = 1.5, longest_curved
 
 /// A quad around a node, which is its corner `corner`.
 struct Use {
-  int face, quad, corner;
+  FaceId face;
+  int quad, corner;
 };
 
 /// The state of one face while nodes move.
@@ -85,14 +86,13 @@ class MovedOnFace : public SmoothingSurface {
 
 class NodeSliding {
  public:
-  NodeSliding(const CadShape& shape, BoundaryNodes& nodes, std::vector<std::optional<FaceMesh>>& faces,
-              ExecutionContext& context)
+  NodeSliding(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces, ExecutionContext& context)
       : shape_(shape), nodes_(nodes), context_(context), states_(faces.size()) {
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      if (!faces[i]) continue;
-      states_[i].mesh = &*faces[i];
-      states_[i].cad_face = &shape.faces[i];
-      turn_as_surface(states_[i]);
+    for (const FaceId face : faces.ids()) {
+      if (!faces[face]) continue;
+      states_[face].mesh = &*faces[face];
+      states_[face].cad_face = &shape.faces[face];
+      turn_as_surface(states_[face]);
     }
     for_each_face([&](FaceState& face) { prepare(face); });
     for (const auto& edge : nodes.edges) sampled_.push_back(edge.parameters);
@@ -120,7 +120,8 @@ class NodeSliding {
 
  private:
   struct Instance {
-    int face, point;
+    FaceId face;
+    int point = -1;
   };
 
   void slide(int sweeps, const Aim& aim) {
@@ -165,8 +166,9 @@ class NodeSliding {
 
   template <class Work>
   void for_each_face(Work&& work) {
-    oneapi::tbb::parallel_for(std::size_t{0}, states_.size(), [&](std::size_t i) {
-      if (states_[i].mesh != nullptr) work(states_[i]);
+    oneapi::tbb::parallel_for(std::size_t{0}, states_.size(), [&](std::size_t index) {
+      FaceState& face = states_[FaceId::from_index(index)];
+      if (face.mesh != nullptr) work(face);
     });
   }
 
@@ -211,11 +213,11 @@ class NodeSliding {
   void link_boundary() {
     first_instance_.assign(nodes_.points.size() + 1, 0);
     const auto each = [&](auto&& visit) {
-      for (std::size_t i = 0; i < states_.size(); ++i) {
-        if (states_[i].mesh == nullptr) continue;
-        const auto& of_face = states_[i].mesh->nodes;
+      for (const FaceId face : states_.ids()) {
+        if (states_[face].mesh == nullptr) continue;
+        const auto& of_face = states_[face].mesh->nodes;
         for (std::size_t k = 0; k < of_face.size(); ++k)
-          visit(of_face[k], Instance{static_cast<int>(i), static_cast<int>(k)});
+          visit(of_face[k], Instance{face, static_cast<int>(k)});
       }
     };
     each([&](int node, const Instance&) { ++first_instance_[node + 1]; });
@@ -242,7 +244,7 @@ class NodeSliding {
 
   // ---- the quads around a node ----
 
-  void gather(int face, int point, Round& round) {
+  void gather(FaceId face, int point, Round& round) {
     const FaceState& state = states_[face];
     for (int i = state.first[point]; i < state.first[point + 1]; ++i) {
       const int quad = state.corners[i] >> 2, corner = state.corners[i] & 3;
@@ -326,15 +328,15 @@ class NodeSliding {
     int moves = 0;
     Buffers buffers;
     SparseCheck check(context_, 64);
-    for (std::size_t i = 0; i < nodes_.edges.size(); ++i) {
-      const BoundaryNodes::Edge& edge = nodes_.edges[i];
+    for (const EdgeId id : nodes_.edges.ids()) {
+      const BoundaryNodes::Edge& edge = nodes_.edges[id];
       std::optional<EdgeCurve> curve;
       for (std::size_t k = 1; k + 1 < edge.nodes.size(); ++k) {
         const int node = edge.nodes[k];
         if (!slidable_[node] || !take_active(node)) continue;
         check();
-        if (!curve) curve.emplace(shape_.edges[i]);
-        moves += slide(*curve, i, k, buffers);
+        if (!curve) curve.emplace(shape_.edges[id]);
+        moves += slide(*curve, id, k, buffers);
       }
     }
     return moves;
@@ -352,15 +354,15 @@ class NodeSliding {
 
   /// The range of parameters for node k of an edge, such that its segments are at most `longest` times as
   /// long as at first.
-  std::array<double, 2> range_of(std::size_t edge, std::size_t k, double longest) const {
+  std::array<double, 2> range_of(EdgeId edge, std::size_t k, double longest) const {
     const auto &now = nodes_.edges[edge].parameters, &sampled = sampled_[edge];
     const double before = sampled[k] - sampled[k - 1], after = sampled[k + 1] - sampled[k];
     return {std::max(now[k - 1] + shortest_interval * before, now[k + 1] - longest * after),
             std::min(now[k + 1] - shortest_interval * after, now[k - 1] + longest * before)};
   }
 
-  bool slide(const EdgeCurve& curve, std::size_t index, std::size_t k, Buffers& buffers) {
-    BoundaryNodes::Edge& edge = nodes_.edges[index];
+  bool slide(const EdgeCurve& curve, EdgeId id, std::size_t k, Buffers& buffers) {
+    BoundaryNodes::Edge& edge = nodes_.edges[id];
     const int node = edge.nodes[k];
     auto& [round, trial] = buffers;
     round.clear();
@@ -370,8 +372,7 @@ class NodeSliding {
     measure_sides(round);
     if (round.is_fine()) return false;
     const double t = edge.parameters[k];
-    const auto [low, high] =
-        range_of(index, k, curve.straight() ? longest_interval : longest_curved_interval);
+    const auto [low, high] = range_of(id, k, curve.straight() ? longest_interval : longest_curved_interval);
     const Vector3 derivative = curve.derivative(t);
     const double speed = derivative.norm();
     CriteriaPatch patch(derivative / speed, Vector3::Zero(), aim_.squareness);
@@ -401,7 +402,7 @@ class NodeSliding {
   // ---- inside faces ----
 
   /// Whether a face is a grid beside an edge with prescribed spacing, which keeps its rows.
-  bool keeps_rows(int face) const {
+  bool keeps_rows(FaceId face) const {
     using Outline = FaceSides::Outline;
     const Outline outline = nodes_.sides[face].outline;
     if (!states_[face].mesh->grid || (outline != Outline::four && outline != Outline::ring)) return false;
@@ -410,8 +411,8 @@ class NodeSliding {
 
   void relax_face(FaceState& face) {
     face.moves = 0;
-    const int index = static_cast<int>(&face - states_.data());
-    if (keeps_rows(index)) return;
+    const FaceId id = FaceId::from_index(&face - &*states_.begin());
+    if (keeps_rows(id)) return;
     Buffers buffers;
     SparseCheck check(context_, 64);
     for (int node = static_cast<int>(face.mesh->nodes.size()); node < static_cast<int>(face.active.size());
@@ -420,17 +421,17 @@ class NodeSliding {
       check();
       face.active[node] = 0;
       try {
-        face.moves += relax(face, index, node, buffers);
+        face.moves += relax(face, id, node, buffers);
       } catch (const Standard_Failure&) {
         continue;  // the surface cannot be evaluated there: the node stays
       }
     }
   }
 
-  bool relax(FaceState& face, int index, int node, Buffers& buffers) {
+  bool relax(FaceState& face, FaceId id, int node, Buffers& buffers) {
     auto& [round, trial] = buffers;
     round.clear();
-    gather(index, node, round);
+    gather(id, node, round);
     if (round.uses.empty() || round.worst_objective <= aim_.poor) return false;
     measure_sides(round);
     if (round.is_fine()) return false;
@@ -525,8 +526,8 @@ class NodeSliding {
   BoundaryNodes& nodes_;
   ExecutionContext& context_;
   Aim aim_ = limits;
-  std::vector<FaceState> states_;
-  std::vector<std::vector<double>> sampled_;  // (edges) parameters before sliding
+  IdVector<FaceId, FaceState> states_;
+  IdVector<EdgeId, std::vector<double>> sampled_;  // (edges) parameters before sliding
   std::vector<int> first_instance_;
   std::vector<Instance> instances_;
   std::vector<char> slidable_;  // (boundary nodes) 1 = may slide along its edge
@@ -534,7 +535,7 @@ class NodeSliding {
 
 }  // namespace
 
-void slide_nodes(const CadShape& shape, BoundaryNodes& nodes, std::vector<std::optional<FaceMesh>>& faces,
+void slide_nodes(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces,
                  const ImproveOptions& options, ExecutionContext& context) {
   if (options.sliding_sweeps <= 0) return;
   const StageTimer timer(context, Stage::slide);

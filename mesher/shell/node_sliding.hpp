@@ -23,7 +23,7 @@ namespace quadrille {
 /// other quads (mend_quads()), except in grids, and nodes move once more. This renumbers points inside faces.
 /// Faces run in parallel between passes over the edges, so the result does not depend on the number of
 /// threads. Complexity: linear in the quads, plus about 2 us per sweep for each node of a poor quad.
-void slide_nodes(const CadShape& shape, BoundaryNodes& nodes, std::vector<std::optional<FaceMesh>>& faces,
+void slide_nodes(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces,
                  const ImproveOptions& options, ExecutionContext& context);
 
 }  // namespace quadrille

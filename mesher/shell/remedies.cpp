@@ -13,7 +13,7 @@ namespace {
 
 struct Case {
   const CadShape& shape;
-  int face;
+  FaceId face;
   const FaceProblem& problem;
   double size;
   FaceRecord& record;
@@ -35,22 +35,22 @@ bool finer_there(Case& patient) {
 /// one place may be too coarse.
 bool twice_as_fine(Case& patient) {
   SamplingPlan& plan = patient.edges.plan;
-  std::set<int> edges;
+  std::set<EdgeId> edges;
   for (const CadWire& wire : patient.shape.faces[patient.face].wires) {
     for (const Coedge& coedge : wire.coedges) edges.insert(coedge.edge);
   }
   std::erase_if(plan.finer, [&](const EdgeStretch& part) { return edges.contains(part.edge); });
   patient.record.recipe = {.chart = patient.record.recipe.chart,
                            .fineness = 2 * patient.record.recipe.fineness};
-  for (const int edge : edges)
-    plan.factor[edge - 1] = std::max(plan.factor[edge - 1], patient.record.recipe.fineness);
+  for (const EdgeId edge : edges)
+    plan.factor[edge] = std::max(plan.factor[edge], patient.record.recipe.fineness);
   return true;
 }
 
 bool along_chord(Case& patient) {
   bool any = false;
-  for (const int edge : patient.problem.edges) {
-    char& bare = patient.edges.plan.bare[edge - 1];
+  for (const EdgeId edge : patient.problem.edges) {
+    char& bare = patient.edges.plan.bare[edge];
     any |= bare == 0;
     bare = 1;
   }
@@ -65,7 +65,7 @@ bool as_point(Case& patient) {
   bool any = false;
   for (const CadWire& wire : patient.shape.faces[patient.face].wires) {
     for (const Coedge& coedge : wire.coedges) {
-      char& collapse = patient.edges.collapse[coedge.edge - 1];
+      char& collapse = patient.edges.collapse[coedge.edge];
       any |= collapse == 0;
       collapse = 1;
     }
@@ -154,11 +154,10 @@ constexpr std::array table{
 
 }  // namespace
 
-double longest_edge(const CadShape& shape, int face) {
+double longest_edge(const CadShape& shape, FaceId face) {
   double longest = 0;
   for (const CadWire& wire : shape.faces[face].wires) {
-    for (const Coedge& coedge : wire.coedges)
-      longest = std::max(longest, shape.edges[coedge.edge - 1].length);
+    for (const Coedge& coedge : wire.coedges) longest = std::max(longest, shape.edges[coedge.edge].length);
   }
   return longest;
 }
@@ -167,7 +166,7 @@ bool apply_remedy(const CadShape& shape, const FaceProblem& problem, double size
                   EdgeTreatment& edges) {
   if (record.attempts >= FaceRecord::most_attempts) return false;
   record.tried.resize(table.size(), 0);
-  Case patient{shape, problem.face() - 1, problem, size, record, edges};
+  Case patient{shape, problem.face(), problem, size, record, edges};
   for (std::size_t row = 0; row < table.size(); ++row) {
     const bool fits = (table[row].causes >> static_cast<unsigned>(problem.cause()) & 1U) != 0;
     if (!fits || record.tried[row] == table[row].times || !table[row].apply(patient)) continue;

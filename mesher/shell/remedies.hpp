@@ -37,12 +37,12 @@ struct FaceRecord {
 
 /// What remedies may change besides the record of the face.
 struct EdgeTreatment {
-  SamplingPlan plan;           ///< how edges are sampled
-  std::vector<char> collapse;  ///< (edges) 1 = the edge becomes a point
+  SamplingPlan plan;   ///< how edges are sampled
+  EdgeFlags collapse;  ///< 1 = the edge becomes a point
 };
 
-/// The length of a face's longest edge. \param face from 0.
-double longest_edge(const CadShape& shape, int face);
+/// The length of a face's longest edge.
+double longest_edge(const CadShape& shape, FaceId face);
 
 /// Applies the next remedy in the table that fits the problem of a face and changes something.
 /// \param size the global target size. \return false if no remedy is left.

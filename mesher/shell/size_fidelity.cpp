@@ -83,7 +83,8 @@ SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field) {
     std::optional<SizingField::Sampler> size_at;
     for (std::size_t quad = range.begin(); quad < range.end(); ++quad) {
       const int face = mesh.quad_faces[quad];
-      if (quad == range.begin() || face != mesh.quad_faces[quad - 1]) size_at.emplace(field, face - 1);
+      if (quad == range.begin() || face != mesh.quad_faces[quad - 1])
+        size_at.emplace(field, FaceId::from_number(face));
       for (int k = 0; k < 4; ++k) {
         const int a = mesh.quads[quad][k], b = mesh.quads[quad][(k + 1) % 4];
         const auto rim = rim_side(a, b);

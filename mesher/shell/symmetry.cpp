@@ -29,12 +29,13 @@ const char* one_sided_setting(const MeshOptions& options) {
   return nullptr;
 }
 
-/// Whether each entity has the same size as its image. \param images index of the image, from 0; -1 = none.
-bool is_symmetric(const std::map<int, double>& sizes, const std::vector<int>& images) {
+/// Whether each entity has the same size as its image. \param sizes by number.
+template <class Id>
+bool is_symmetric(const std::map<int, double>& sizes, const IdVector<Id, Id>& images) {
   return std::all_of(sizes.begin(), sizes.end(), [&](const auto& entry) {
-    const int image = images[entry.first - 1];
-    if (image < 0) return false;
-    const auto found = sizes.find(image + 1);
+    const Id image = images[Id::from_number(entry.first)];
+    if (!image.exists()) return false;
+    const auto found = sizes.find(image.number());
     return found != sizes.end() && found->second == entry.second;
   });
 }
@@ -45,16 +46,18 @@ bool is_symmetric(const MeshOptions& options, const MirrorPlane& plane) {
   return is_symmetric(options.sizing.face_sizes, plane.faces) &&
          is_symmetric(options.sizing.edge_sizes, plane.edges) &&
          is_symmetric(options.sizing.vertex_sizes, plane.vertices) &&
-         std::all_of(faces.begin(), faces.end(),
-                     [&](int face) { return faces.contains(plane.faces[face - 1] + 1); });
+         std::all_of(faces.begin(), faces.end(), [&](int face) {
+           return faces.contains(plane.faces[FaceId::from_number(face)].number());
+         });
 }
 
 /// Converts values by number in the whole model to values by number in the part.
-std::map<int, double> on_part(const std::map<int, double>& sizes, const std::vector<int>& names) {
+template <class Id>
+std::map<int, double> on_part(const std::map<int, double>& sizes, const IdVector<Id, Id>& names) {
   std::map<int, double> result;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto found = sizes.find(names[i]);
-    if (found != sizes.end()) result[static_cast<int>(i) + 1] = found->second;
+  for (const Id id : names.ids()) {
+    const auto found = sizes.find(names[id].number());
+    if (found != sizes.end()) result[id.number()] = found->second;
   }
   return result;
 }
@@ -70,8 +73,8 @@ MeshOptions options_for(const ModelPart& part, const CadModel& model, MeshOption
   sizing.vertex_sizes = on_part(sizing.vertex_sizes, names.vertices);
   const std::set<int> faces(options.faces.begin(), options.faces.end());
   options.faces.clear();
-  for (std::size_t i = 0; i < names.faces.size(); ++i) {
-    if (faces.contains(names.faces[i])) options.faces.push_back(static_cast<int>(i) + 1);
+  for (const FaceId face : names.faces.ids()) {
+    if (faces.contains(names.faces[face].number())) options.faces.push_back(face.number());
   }
   // Failures must name entities of the whole model, so after a failure the whole model is meshed.
   options.partial = false;

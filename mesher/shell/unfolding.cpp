@@ -242,13 +242,12 @@ class Unfolding {
       : meshed_(meshed), numbering_(numbering), midsides_(midsides), mesh_(mesh), context_(context) {}
 
   std::vector<std::size_t> run() {
-    const std::vector<std::vector<std::size_t>> at_first = folded();
-    for (std::size_t face = 0; face < at_first.size(); ++face) {
+    const QuadsOfFaces at_first = folded();
+    for (const FaceId face : at_first.ids()) {
       if (at_first[face].empty()) continue;
       const auto surface = meshed_.surface(face);
-      Sliding(mesh_, *surface, numbering_.first_quad[face], numbering_.first_quad[face + 1], midsides_,
-              context_)
-          .run(at_first[face]);
+      const auto [first, end] = numbering_.quads_of(face);
+      Sliding(mesh_, *surface, first, end, midsides_, context_).run(at_first[face]);
     }
     std::vector<std::size_t> left = joined(folded());
     if (left.empty()) return left;
@@ -259,12 +258,16 @@ class Unfolding {
   }
 
  private:
-  /// (faces) The elements that fold.
-  std::vector<std::vector<std::size_t>> folded() const {
-    std::vector<std::vector<std::size_t>> result(meshed_.faces.size());
-    oneapi::tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t face) {
+  using QuadsOfFaces = IdVector<FaceId, std::vector<std::size_t>>;
+
+  /// The elements that fold.
+  QuadsOfFaces folded() const {
+    QuadsOfFaces result(meshed_.faces.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t index) {
+      const FaceId face = FaceId::from_index(index);
       SparseCheck check(context_, 256);
-      for (std::size_t quad = numbering_.first_quad[face]; quad < numbering_.first_quad[face + 1]; ++quad) {
+      const auto [first, end] = numbering_.quads_of(face);
+      for (std::size_t quad = first; quad < end; ++quad) {
         check();
         if (folds_in(mesh_, quad)) result[face].push_back(quad);
       }
@@ -272,7 +275,7 @@ class Unfolding {
     return result;
   }
 
-  static std::vector<std::size_t> joined(const std::vector<std::vector<std::size_t>>& of_faces) {
+  static std::vector<std::size_t> joined(const QuadsOfFaces& of_faces) {
     std::vector<std::size_t> result;
     for (const auto& quads : of_faces) result.insert(result.end(), quads.begin(), quads.end());
     return result;
@@ -288,7 +291,7 @@ class Unfolding {
       if (node >= static_cast<int>(midsides_.first_inner)) {
         if (face != mesh_.quad_faces[side.quad]) {
           face = mesh_.quad_faces[side.quad];
-          surface = meshed_.surface(face - 1);
+          surface = meshed_.surface(FaceId::from_number(face));
         }
         Vector2 uv = midsides_.parameters[node - midsides_.first_inner];
         nearest = surface->project(uv, mesh_.points[node]).point;

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
+#include "tests/support/ids.hpp"
 #include "tests/support/process.hpp"
 
 namespace quadrille {
@@ -114,10 +115,10 @@ TopoDS_Face face_whose_wire_touches_itself() {
 /// Starts of edges by their numbers, and the edges of all wires in their order.
 std::vector<Vector3> order_of_edges(const CadModel& model) {
   std::vector<Vector3> result;
-  for (const CadEdge& edge : model.shape().edges)
-    result.push_back(model.shape().vertices[edge.first_vertex - 1]);
-  for (const CadWire& wire : model.shape().faces.at(0).wires) {
-    for (const Coedge& coedge : wire.coedges) result.emplace_back(coedge.edge, coedge.forward, wire.ordered);
+  for (const CadEdge& edge : model.shape().edges) result.push_back(model.shape().vertices[edge.first_vertex]);
+  for (const CadWire& wire : model.shape().faces[face_id(1)].wires) {
+    for (const Coedge& coedge : wire.coedges)
+      result.emplace_back(coedge.edge.number(), coedge.forward, wire.ordered);
   }
   return result;
 }

@@ -12,6 +12,7 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "mesher/quadrille.hpp"
+#include "tests/support/ids.hpp"
 #include "tests/support/sample_models.hpp"
 
 namespace quadrille {
@@ -30,7 +31,7 @@ int count_grids(const ShellMesh& mesh) {
 
 /// The distances from an edge of a straight-sided face at which the nodes of its quads stand, ascending.
 std::vector<double> heights_on(const CadModel& model, const ShellMesh& mesh, int edge, int face) {
-  const CadEdge& cad = model.shape().edges[edge - 1];
+  const CadEdge& cad = model.shape().edges[edge_id(edge)];
   const EdgeCurve curve(cad);
   const Vector3 a = curve.point(cad.first), along = (curve.point(cad.last) - a).normalized();
   std::vector<double> heights;
@@ -59,12 +60,13 @@ TEST(GridRows, LayersAreFlatRows) {
       options.sizing.layers.edges[edge] = {0.1, 1.2, 6};
       const ShellMesh mesh = mesh_of(box, options);
       EXPECT_EQ(count_grids(mesh), 6);
-      for (const int face : box.shape().edges[edge - 1].faces) {
-        const std::vector<double> heights = heights_on(box, mesh, edge, face);
+      for (const FaceId face : box.shape().edges[edge_id(edge)].faces) {
+        const std::vector<double> heights = heights_on(box, mesh, edge, face.number());
         ASSERT_GT(heights.size(), 7u);
         double height = 0;
         for (int i = 0; i <= 6; ++i) {
-          EXPECT_NEAR(heights[i], height, 1e-6) << "layer " << i << " of Edge" << edge << " on Face" << face;
+          EXPECT_NEAR(heights[i], height, 1e-6)
+              << "layer " << i << " of Edge" << edge << " on Face" << face.number();
           height += 0.1 * std::pow(1.2, i);
         }
         // Then they grow on, by no more than sizes may, up to the size.
@@ -73,7 +75,7 @@ TEST(GridRows, LayersAreFlatRows) {
           EXPECT_LT(heights[i] - heights[i - 1], 1.3 * options.sizing.size);
         }
       }
-      const double length = box.shape().edges[edge - 1].length;
+      const double length = box.shape().edges[edge_id(edge)].length;
       const auto on_edge =
           std::count_if(mesh.segments.begin(), mesh.segments.end(),
                         [&](const ShellMesh::Segment& segment) { return segment.edge == edge; });
@@ -85,16 +87,16 @@ TEST(GridRows, LayersAreFlatRows) {
 TEST(GridRows, LayersFromBothSidesMeet) {
   const CadModel box = CadModel::read(sample_model("box").path());
   const CadShape& shape = box.shape();
-  const int face = shape.edges[0].faces.front();
-  const auto& coedges = shape.faces[face - 1].wires.front().coedges;
+  const FaceId face = shape.edges[edge_id(1)].faces.front();
+  const auto& coedges = shape.faces[face].wires.front().coedges;
   ASSERT_EQ(coedges.size(), 4u);
   MeshOptions options;
   options.sizing.size = 2;
-  options.sizing.layers.edges[coedges[0].edge] = {0.1, 1.2, 5};
-  options.sizing.layers.edges[coedges[2].edge] = {0.2, 1.5, 3};
+  options.sizing.layers.edges[coedges[0].edge.number()] = {0.1, 1.2, 5};
+  options.sizing.layers.edges[coedges[2].edge.number()] = {0.2, 1.5, 3};
   const ShellMesh mesh = mesh_of(box, options);
-  const std::vector<double> one = heights_on(box, mesh, coedges[0].edge, face);
-  const std::vector<double> other = heights_on(box, mesh, coedges[2].edge, face);
+  const std::vector<double> one = heights_on(box, mesh, coedges[0].edge.number(), face.number());
+  const std::vector<double> other = heights_on(box, mesh, coedges[2].edge.number(), face.number());
   ASSERT_GT(one.size(), 9u);
   EXPECT_NEAR(one[1], 0.1, 1e-6);
   EXPECT_NEAR(one[2], 0.22, 1e-6);
@@ -129,9 +131,9 @@ TEST(GridRows, OtherFacesHaveSmallSizes) {
   MeshOptions options;
   options.sizing.size = disc.diagonal() / 15;
   options.sizing.layers.edges[1] = {options.sizing.size / 5, 1.2, 4};
-  ASSERT_FALSE(disc.shape().edges[0].degenerate);
+  ASSERT_FALSE(disc.shape().edges[edge_id(1)].degenerate);
   const ShellMesh mesh = mesh_of(disc, options);
-  const double length = disc.shape().edges[0].length;
+  const double length = disc.shape().edges[edge_id(1)].length;
   const auto on_edge = std::count_if(mesh.segments.begin(), mesh.segments.end(),
                                      [](const ShellMesh::Segment& segment) { return segment.edge == 1; });
   EXPECT_GT(static_cast<double>(on_edge), 0.7 * length / (options.sizing.size / 5));

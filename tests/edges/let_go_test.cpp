@@ -22,6 +22,7 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/validate.hpp"
+#include "tests/support/ids.hpp"
 
 namespace quadrille {
 namespace {
@@ -94,8 +95,8 @@ TEST(LetGo, KeepsSlotsAndBlades) {
                                  {60, 40},
                                  {0, 40}},
                                 20);
-    const std::vector<char> used(part.face_count(), 1);
-    const LetGo let_go(part.shape(), used, 0.5, std::vector<char>(part.edge_count(), 0));
+    const FaceFlags used(part.face_count(), 1);
+    const LetGo let_go(part.shape(), used, 0.5, EdgeFlags(part.edge_count()));
     EXPECT_EQ(std::count(let_go.edges().begin(), let_go.edges().end(), 1), 0) << depth;
   }
 }
@@ -146,10 +147,10 @@ TEST(LetGo, KeepsFeaturesWhereSmallSizesAreNamed) {
   }
   ASSERT_GT(bevel, 0);
   Bnd_Box at;
-  BRepBndLib::Add(block.shape().faces[bevel - 1].face, at);
+  BRepBndLib::Add(block.shape().faces[face_id(bevel)].face, at);
   for (int face = 1; face <= block.face_count(); ++face) {
     Bnd_Box box;
-    BRepBndLib::Add(block.shape().faces[face - 1].face, box);
+    BRepBndLib::Add(block.shape().faces[face_id(face)].face, box);
     if (box.Distance(at) <= farthest) continue;
     farthest = box.Distance(at);
     far = face;
@@ -163,17 +164,19 @@ TEST(LetGo, KeepsFeaturesWhereSmallSizesAreNamed) {
 TEST(LetGo, KeepsAroundAFaceOnRequest) {
   const CadModel block = beveled_block(0.1);
   const CadShape& shape = block.shape();
-  const std::vector<char> used(block.face_count(), 1);
-  const std::vector<char> none(shape.edges.size(), 0);
+  const FaceFlags used(block.face_count(), 1);
+  const EdgeFlags none(shape.edges.size());
   LetGo let_go(shape, used, 0.5, none);
   const TinyFeatures tiny = let_go.find(none, 0);
-  const auto bevel = std::find(tiny.merged_faces.begin(), tiny.merged_faces.end(), 1);
-  ASSERT_NE(bevel, tiny.merged_faces.end());
-  EXPECT_TRUE(let_go.keep_around(static_cast<int>(bevel - tiny.merged_faces.begin()), tiny));
+  const auto faces = tiny.merged_faces.ids();
+  const auto bevel =
+      std::find_if(faces.begin(), faces.end(), [&](FaceId face) { return tiny.merged_faces[face] != 0; });
+  ASSERT_NE(bevel, faces.end());
+  EXPECT_TRUE(let_go.keep_around(*bevel, tiny));
   const TinyFeatures after = let_go.find(none, 0);
   EXPECT_EQ(std::count(after.merged_faces.begin(), after.merged_faces.end(), 1), 0);
   EXPECT_EQ(std::count(after.collapsed_edges.begin(), after.collapsed_edges.end(), 1), 0);
-  EXPECT_FALSE(let_go.keep_around(0, after));
+  EXPECT_FALSE(let_go.keep_around(face_id(1), after));
 }
 
 }  // namespace

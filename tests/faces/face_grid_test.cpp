@@ -157,7 +157,7 @@ TEST(Chords, ShareTheirSpacing) {
   ExecutionContext context;
   const SizingField field = SizingField::build(model, sizing, context);
   const BoundaryNodes nodes =
-      sample_edges(model.shape(), field, 2, std::vector<char>(6, 1), SamplingPlan(model.shape()), context);
+      sample_edges(model.shape(), field, 2, FaceFlags(6, 1), SamplingPlan(model.shape()), context);
   const auto shares = [&](const SideEdge& side) {
     std::vector<double> result;
     const auto& edge = nodes.edges[side.edge];

@@ -27,6 +27,7 @@
 #include "mesher/quadrille.hpp"
 #include "mesher/settings.hpp"
 #include "mesher/shell/validate.hpp"
+#include "tests/support/ids.hpp"
 
 namespace quadrille {
 namespace {
@@ -133,12 +134,11 @@ std::vector<int> rings_at_holes(const TopoDS_Shape& shape, const ShellMesh& mesh
   const FaceQuadsBySide quads(mesh, face);
   const CadModel model = model_of(shape);
   std::vector<int> rings;
-  for (const CadWire& wire : model.shape().faces[face - 1].wires) {
+  for (const CadWire& wire : model.shape().faces[face_id(face)].wires) {
     if (wire.coedges.size() != 1) continue;
     std::vector<int> line;
     for (const auto& segment : mesh.segments) {
-      if (segment.edge == model.shape().edges[wire.coedges[0].edge - 1].number)
-        line.push_back(segment.nodes[0]);
+      if (segment.edge == model.shape().edges[wire.coedges[0].edge].number) line.push_back(segment.nodes[0]);
     }
     rings.push_back(quads.rings_round(line));
   }
@@ -174,7 +174,8 @@ TEST(HoleRings, GoRoundHolesInCurvedFaces) {
     const CadModel model = model_of(part);
     int holes = 0;
     for (int face = 1; face <= model.face_count(); ++face) {
-      if (model.shape().faces[face - 1].wires.size() != 3) continue;  // the wall: its outline and two holes
+      if (model.shape().faces[face_id(face)].wires.size() != 3)
+        continue;  // the wall: its outline and two holes
       for (const int count : rings_at_holes(part, mesh, face)) {
         EXPECT_GE(count, 1) << splines;
         ++holes;
@@ -222,7 +223,7 @@ TEST(HoleRings, LieInTheGridOfAWall) {
   const ShellMesh mesh = mesh_of(part, 2, 1);
   int grids = 0;
   for (const auto& face : mesh.faces) {
-    if (model_of(part).shape().faces[face.face - 1].wires.size() == 3) grids += face.note == "grid";
+    if (model_of(part).shape().faces[face_id(face.face)].wires.size() == 3) grids += face.note == "grid";
   }
   EXPECT_EQ(grids, 1);
 }
@@ -257,7 +258,7 @@ FaceBoundary boundary_of(double half_width, const Circle& hole, int segments) {
 
 HoleRings rings_in_square(double half_width, const Circle& hole, int rings) {
   const TopoDS_Shape face = BRepBuilderAPI_MakeFace(gp_Pln(), -50, 50, -50, 50).Face();
-  const FaceSurface surface(model_of(face).shape().faces[0]);
+  const FaceSurface surface(model_of(face).shape().faces[face_id(1)]);
   const FaceBoundary boundary = boundary_of(half_width, hole, 12);
   return place_rings(boundary, surface, enclosed_domain(boundary), rings);
 }

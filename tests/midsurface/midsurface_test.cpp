@@ -75,10 +75,10 @@ double area_of(const MidSurface& middle) {
 
 /// Closed chains that the free edges form; chains that touch count as one.
 int free_loops(const CadModel& model) {
-  std::vector<int> chain(model.vertex_count() + 1);
-  std::iota(chain.begin(), chain.end(), 0);
-  std::set<int> used;
-  const auto end_of = [&](int vertex) {
+  IdVector<VertexId, VertexId> chain;
+  for (const VertexId vertex : model.shape().vertices.ids()) chain.push_back(vertex);
+  std::set<VertexId> used;
+  const auto end_of = [&](VertexId vertex) {
     while (chain[vertex] != vertex) vertex = chain[vertex];
     return vertex;
   };
@@ -87,8 +87,8 @@ int free_loops(const CadModel& model) {
     chain[end_of(edge.first_vertex)] = end_of(edge.last_vertex);
     used.insert({edge.first_vertex, edge.last_vertex});
   }
-  std::set<int> ends;
-  for (const int vertex : used) ends.insert(end_of(vertex));
+  std::set<VertexId> ends;
+  for (const VertexId vertex : used) ends.insert(end_of(vertex));
   return static_cast<int>(ends.size());
 }
 

@@ -15,6 +15,7 @@
 #include "mesher/faces/face_triangulation.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/quads/subdivision.hpp"
+#include "tests/support/ids.hpp"
 #include "tests/support/sample_models.hpp"
 
 namespace quadrille {
@@ -38,7 +39,7 @@ struct Prepared {
       : model(CadModel::read(sample.path())),
         options(make_options(model, divisions, strategy)),
         field(SizingField::build(model, options.sizing, context)),
-        nodes(sample_edges(model.shape(), field, stride(options.strategy), std::vector<char>(sample.faces, 1),
+        nodes(sample_edges(model.shape(), field, stride(options.strategy), FaceFlags(sample.faces, 1),
                            SamplingPlan(model.shape()), context)) {}
 
   static MeshOptions make_options(const CadModel& model, double divisions, Strategy strategy) {
@@ -56,8 +57,8 @@ void for_each_face(Visit&& visit) {
     for (const Strategy strategy : {Strategy::direct, Strategy::subdivide}) {
       for (const double divisions : {10.0, 37.0}) {
         Prepared prepared(sample, divisions, strategy);
-        for (int face = 0; face < sample.faces; ++face) {
-          SCOPED_TRACE(sample.name + " Face" + std::to_string(face + 1) + " at 1/" +
+        for (const FaceId face : prepared.model.shape().faces.ids()) {
+          SCOPED_TRACE(sample.name + " Face" + std::to_string(face.number()) + " at 1/" +
                        std::to_string(divisions));
           const FaceSurface surface(prepared.model.shape().faces[face]);
           visit(prepared, face, surface,
@@ -78,7 +79,7 @@ PlacedPoints place(Prepared& prepared, const FaceSurface& surface, const FaceBou
 }
 
 TEST(FaceBoundary, LiesOnTheEdgesAndCloses) {
-  for_each_face([](Prepared& prepared, int, const FaceSurface& surface, const FaceBoundary& boundary) {
+  for_each_face([](Prepared& prepared, FaceId, const FaceSurface& surface, const FaceBoundary& boundary) {
     std::vector<int> leaving(boundary.size(), 0), arriving(boundary.size(), 0);
     for (const auto& segment : boundary.segments) {
       ++leaving[segment.a];
@@ -96,7 +97,7 @@ TEST(FaceBoundary, LiesOnTheEdgesAndCloses) {
 }
 
 TEST(Placement, KeepsItsDistanceAndStaysInside) {
-  for_each_face([](Prepared& prepared, int, const FaceSurface& surface, const FaceBoundary& boundary) {
+  for_each_face([](Prepared& prepared, FaceId, const FaceSurface& surface, const FaceBoundary& boundary) {
     const TrimmedDomain domain = enclosed_domain(boundary);
     const PlacedPoints placed = place(prepared, surface, boundary);
     SizingField::Sampler size_at(prepared.field);
@@ -120,38 +121,40 @@ TEST(Placement, KeepsItsDistanceAndStaysInside) {
 }
 
 TEST(Triangulation, IsValidAndKeepsTheBoundary) {
-  for_each_face([](Prepared& prepared, int face, const FaceSurface& surface, const FaceBoundary& boundary) {
-    const FaceTriangulation result =
-        triangulate_face(face + 1, boundary, place(prepared, surface, boundary), surface);
-    EXPECT_EQ(joined(validate(result.mesh)), "");
-    EXPECT_EQ(result.mesh.triangles.size() % 2, 0U);
-    std::set<std::pair<int, int>> open;
-    for (const auto& t : result.mesh.triangles) {
-      for (int k = 0; k < 3; ++k) {
-        const auto side = std::minmax(t[k], t[(k + 1) % 3]);
-        if (!open.insert(side).second) open.erase(side);
-      }
-    }
-    std::set<std::pair<int, int>> wanted;
-    for (const auto& segment : result.segments) wanted.insert(std::minmax(segment.a, segment.b));
-    EXPECT_EQ(open, wanted);
-  });
+  for_each_face(
+      [](Prepared& prepared, FaceId face, const FaceSurface& surface, const FaceBoundary& boundary) {
+        const FaceTriangulation result =
+            triangulate_face(face, boundary, place(prepared, surface, boundary), surface);
+        EXPECT_EQ(joined(validate(result.mesh)), "");
+        EXPECT_EQ(result.mesh.triangles.size() % 2, 0U);
+        std::set<std::pair<int, int>> open;
+        for (const auto& t : result.mesh.triangles) {
+          for (int k = 0; k < 3; ++k) {
+            const auto side = std::minmax(t[k], t[(k + 1) % 3]);
+            if (!open.insert(side).second) open.erase(side);
+          }
+        }
+        std::set<std::pair<int, int>> wanted;
+        for (const auto& segment : result.segments) wanted.insert(std::minmax(segment.a, segment.b));
+        EXPECT_EQ(open, wanted);
+      });
 }
 
 TEST(Recombination, LeavesNoTriangleAndKeepsTheArea) {
-  for_each_face([](Prepared& prepared, int face, const FaceSurface& surface, const FaceBoundary& boundary) {
-    const FaceTriangulation triangulation =
-        triangulate_face(face + 1, boundary, place(prepared, surface, boundary), surface);
-    const QuadMesh quads = recombine(triangulation.mesh, prepared.options.recombine, prepared.context);
-    EXPECT_EQ(joined(validate(quads)), "");
-    EXPECT_TRUE(quads.triangles.empty());
-    EXPECT_EQ(2 * quads.quads.size(), triangulation.mesh.triangles.size());
-  });
+  for_each_face(
+      [](Prepared& prepared, FaceId face, const FaceSurface& surface, const FaceBoundary& boundary) {
+        const FaceTriangulation triangulation =
+            triangulate_face(face, boundary, place(prepared, surface, boundary), surface);
+        const QuadMesh quads = recombine(triangulation.mesh, prepared.options.recombine, prepared.context);
+        EXPECT_EQ(joined(validate(quads)), "");
+        EXPECT_TRUE(quads.triangles.empty());
+        EXPECT_EQ(2 * quads.quads.size(), triangulation.mesh.triangles.size());
+      });
 }
 
 TEST(FaceSurface, IsTheSameSeenFromAbove) {
   const CadModel model = CadModel::read(sample_model("bezier_patch").path());
-  const CadFace& face = model.shape().faces[0];
+  const CadFace& face = model.shape().faces[face_id(1)];
   const FaceSurface own(face);
   std::vector<Vector3> loop;
   const Vector2 low(face.u_min, face.v_min), span(face.u_max - face.u_min, face.v_max - face.v_min);
@@ -223,7 +226,7 @@ TEST(CutFlatQuads, CutsTheMitreOfANarrowFrameInside) {
 }
 
 TEST(FaceBoundary, IsHalvedAtTheNodesBetween) {
-  for_each_face([](Prepared& prepared, int, const FaceSurface&, const FaceBoundary& boundary) {
+  for_each_face([](Prepared& prepared, FaceId, const FaceSurface&, const FaceBoundary& boundary) {
     const FaceBoundary half = halved(boundary);
     if (boundary.stride == 1) {
       EXPECT_EQ(half.size(), boundary.size());

@@ -22,6 +22,7 @@
 #include "geometry/symmetry/mirror_planes.hpp"
 #include "mesher/quadrille.hpp"
 #include "tests/models/trouble_models.hpp"
+#include "tests/support/ids.hpp"
 #include "tests/support/sample_models.hpp"
 
 namespace quadrille {
@@ -166,7 +167,7 @@ void expect_symmetric(const CadModel& model, const MeshOptions& options, std::si
             numbers(other.quad_faces, [](int face) { return face; }));
   EXPECT_EQ(entities(mesh), entities(other));
   for (const ShellMesh::Corner& corner : mesh.corners)
-    EXPECT_LT((mesh.points[corner.node] - model.shape().vertices[corner.vertex - 1]).norm(),
+    EXPECT_LT((mesh.points[corner.node] - model.shape().vertices[vertex_id(corner.vertex)]).norm(),
               1e-7 * model.diagonal());
 }
 

@@ -18,7 +18,7 @@ struct MeshedFaces {
   CadModel model;
   MeshOptions options;
   BoundaryNodes nodes;
-  std::vector<std::optional<FaceMesh>> faces;
+  FaceMeshes faces;
 
   MeshedFaces(const SampleModel& sample, double divisions, Strategy strategy)
       : model(CadModel::read(sample.path())) {
@@ -26,13 +26,13 @@ struct MeshedFaces {
     options.strategy = strategy;
     ExecutionContext context(1);
     const SizingField field = SizingField::build(model, options.sizing, context);
-    const std::vector<char> used(sample.faces, 1);
+    const FaceFlags used(sample.faces, 1);
     nodes = sample_edges(shape(), field, stride(strategy), used, SamplingPlan(shape()), context);
-    for (int face = 0; face < sample.faces; ++face) faces.emplace_back(mesh_of(face, field));
+    for (const FaceId face : shape().faces.ids()) faces.push_back(mesh_of(face, field));
   }
 
   /// With denser points where the usual ones give no mesh, as on the cone.
-  FaceMesh mesh_of(int face, const SizingField& field) const {
+  FaceMesh mesh_of(FaceId face, const SizingField& field) const {
     ExecutionContext context(1);
     const FaceChart chart = make_chart(shape(), face, nodes, ChartKind::own);
     try {
@@ -91,7 +91,7 @@ TEST(NodeSliding, KeepsNodesOnTheirCurvesInOrder) {
       if (node < 0) continue;
       EXPECT_EQ(faces.nodes.points[node], before.points[node]);
     }
-    for (std::size_t i = 0; i < before.edges.size(); ++i) {
+    for (const EdgeId i : before.edges.ids()) {
       const auto& edge = faces.nodes.edges[i];
       EXPECT_EQ(edge.nodes, before.edges[i].nodes);
       moved += edge.parameters != before.edges[i].parameters;
@@ -116,7 +116,7 @@ TEST(NodeSliding, KeepsNodesOnTheirSurfaces) {
     const auto before = faces.faces;
     faces.slide();
     const double near = 1e-7 * faces.model.diagonal();
-    for (std::size_t i = 0; i < before.size(); ++i) {
+    for (const FaceId i : before.ids()) {
       const FaceMesh& face = *faces.faces[i];
       mended += face.quads != before[i]->quads;
       EXPECT_TRUE(!face.grid || face.quads == before[i]->quads);
@@ -141,7 +141,7 @@ TEST(NodeSliding, KeepsTheQuadsWithoutCleanUp) {
     const auto before = faces.faces;
     faces.options.improve.clean_up = false;
     faces.slide();
-    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(faces.faces[i]->quads, before[i]->quads);
+    for (const FaceId i : before.ids()) EXPECT_EQ(faces.faces[i]->quads, before[i]->quads);
   });
 }
 
@@ -181,7 +181,7 @@ TEST(NodeSliding, DoesNotDependOnTheThreads) {
     one.slide(1);
     four.slide(4);
     EXPECT_EQ(one.nodes.points, four.nodes.points);
-    for (std::size_t i = 0; i < one.faces.size(); ++i) {
+    for (const FaceId i : one.faces.ids()) {
       EXPECT_EQ(one.faces[i]->points, four.faces[i]->points);
       EXPECT_EQ(one.faces[i]->quads, four.faces[i]->quads);
     }

@@ -15,6 +15,7 @@
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/assembly.hpp"
 #include "tests/models/trouble_models.hpp"
+#include "tests/support/ids.hpp"
 #include "tests/support/process.hpp"
 #include "tests/support/sample_models.hpp"
 
@@ -144,13 +145,14 @@ void expect_told(const CadModel& model, const ShellMesh& mesh) {
   for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
     const int face = mesh.quad_faces[quad];
     for (const int node : mesh.midsides[quad]) {
-      const double found = distance_to(model.shape().faces[face - 1].face, mesh.points[node]);
+      const double found = distance_to(model.shape().faces[face_id(face)].face, mesh.points[node]);
       EXPECT_LE(found, distance[node] + tolerance) << "node " << node;
       if (distance[node] > 0) of_faces[face - 1].insert(node);
     }
   }
   for (const auto& segment : mesh.segments) {
-    const double found = distance_to(model.shape().edges[segment.edge - 1].edge, mesh.points[segment.middle]);
+    const double found =
+        distance_to(model.shape().edges[edge_id(segment.edge)].edge, mesh.points[segment.middle]);
     EXPECT_NEAR(found, distance[segment.middle], 0.1 * distance[segment.middle] + tolerance);
   }
   for (std::size_t face = 0; face < of_faces.size(); ++face) {
@@ -197,15 +199,16 @@ TEST(Unfolding, NamesTheFaceThatNoStraightSideMends) {
   ExecutionContext context(1);
   const SizingField field = SizingField::build(model, options.sizing, context);
   const BoundaryNodes nodes =
-      sample_edges(model.shape(), field, stride(options.strategy), std::vector<char>(model.face_count(), 1),
+      sample_edges(model.shape(), field, stride(options.strategy), FaceFlags(model.face_count(), 1),
                    SamplingPlan(model.shape()), context);
-  std::vector<std::optional<FaceMesh>> faces(model.face_count());
-  faces[2] = mesh_face(model.shape(), 2, make_chart(model.shape(), 2, nodes, ChartKind::own), nodes, field,
-                       options, {}, context);
+  FaceMeshes faces(model.face_count());
+  const FaceId face = face_id(3);
+  faces[face] = mesh_face(model.shape(), face, make_chart(model.shape(), face, nodes, ChartKind::own), nodes,
+                          field, options, {}, context);
   std::vector<ShellMesh::Face> statuses(faces.size());
   EXPECT_NO_THROW(assemble(model.shape(), nodes, faces, statuses, options, context));
   // The last node, far across its neighbors.
-  faces[2]->points.back() += 3 * (faces[2]->points.front() - faces[2]->points.back());
+  faces[face]->points.back() += 3 * (faces[face]->points.front() - faces[face]->points.back());
   try {
     assemble(model.shape(), nodes, faces, statuses, options, context);
     ADD_FAILURE() << "no error";

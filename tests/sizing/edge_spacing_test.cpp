@@ -11,6 +11,7 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "mesher/quadrille.hpp"
+#include "tests/support/ids.hpp"
 #include "tests/support/sample_models.hpp"
 
 namespace quadrille {
@@ -24,8 +25,8 @@ CadModel sample(const std::string& name) {
 std::map<int, std::vector<double>> segments_of(const CadModel& model, const ShellMesh& mesh) {
   std::map<int, std::vector<double>> result;
   for (int edge = 1; edge <= model.edge_count(); ++edge) {
-    const EdgeCurve curve(model.shape().edges[edge - 1]);
-    const Vector3 start = curve.point(model.shape().edges[edge - 1].first);
+    const EdgeCurve curve(model.shape().edges[edge_id(edge)]);
+    const Vector3 start = curve.point(model.shape().edges[edge_id(edge)].first);
     std::vector<Vector3> chain;
     for (const auto& segment : mesh.segments) {
       if (segment.edge != edge) continue;
@@ -60,10 +61,10 @@ TEST(EdgeSpacing, NumbersAreKeptByEdgesAndTheirChords) {
       const ShellMesh mesh = mesh_with(box, {{4, {n, 1, 1}}}, strategy);
       const auto segments = segments_of(box, mesh);
       EXPECT_EQ(segments.at(4).size(), n);
-      const double length = box.shape().edges[3].length;
+      const double length = box.shape().edges[edge_id(4)].length;
       int alike = 0;
       for (int edge = 1; edge <= 12; ++edge)
-        alike += std::abs(box.shape().edges[edge - 1].length - length) < 1e-6 &&
+        alike += std::abs(box.shape().edges[edge_id(edge)].length - length) < 1e-6 &&
                  segments.at(edge).size() == static_cast<std::size_t>(n);
       EXPECT_EQ(alike, 4);
     }
@@ -78,7 +79,8 @@ TEST(EdgeSpacing, SegmentsFollowEachOtherByTheirBias) {
   for (std::size_t i = 0; i + 1 < one.size(); ++i) EXPECT_NEAR(one[i + 1] / one[i], 1.25, 1e-6);
   int alike = 0;  // the edges that run along it, in whichever direction
   for (const auto& [edge, lengths] : segments) {
-    if (std::abs(box.shape().edges[edge - 1].length - box.shape().edges[3].length) > 1e-6) continue;
+    if (std::abs(box.shape().edges[edge_id(edge)].length - box.shape().edges[edge_id(4)].length) > 1e-6)
+      continue;
     ASSERT_EQ(lengths.size(), 12u);
     EXPECT_NEAR(std::max(lengths[1] / lengths[0], lengths[0] / lengths[1]), 1.25, 1e-6);
     ++alike;
@@ -98,7 +100,7 @@ TEST(EdgeSpacing, AnyNumbersGiveAnAllQuadMesh) {
   const CadModel bracket = sample("bracket");
   int kept = 0;
   for (int edge = 1; edge <= bracket.edge_count(); edge += 3) {
-    if (bracket.shape().edges[edge - 1].degenerate) continue;
+    if (bracket.shape().edges[edge_id(edge)].degenerate) continue;
     const ShellMesh mesh = mesh_with(bracket, {{edge, {12, 1, 1}}});
     EXPECT_TRUE(mesh.triangles.empty());
     const auto segments = segments_of(bracket, mesh);
@@ -136,7 +138,8 @@ TEST(EdgeSpacing, ContradictionsAreRefusedByName) {
   const CadModel box = sample("box");
   std::map<int, EdgeSpacing> all;
   int n = 10;
-  for (const Coedge& coedge : box.shape().faces[0].wires[0].coedges) all[coedge.edge] = {n++, 1, 1};
+  for (const Coedge& coedge : box.shape().faces[face_id(1)].wires[0].coedges)
+    all[coedge.edge.number()] = {n++, 1, 1};
   all.begin()->second.segments += 1;
   refused(box, all, Strategy::direct, "Face1");
 }

@@ -23,6 +23,7 @@
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/settings.hpp"
+#include "tests/support/ids.hpp"
 #include "tests/support/sample_models.hpp"
 
 namespace quadrille {
@@ -45,8 +46,8 @@ template <class Visit>
 void look(const CadModel& model, const SizingOptions& options, Visit&& visit) {
   ExecutionContext context;
   const SizingField field = SizingField::build(model, options, context);
-  for (std::size_t face = 0; face < model.shape().faces.size(); ++face) {
-    SizingField::Sampler size_at(field, static_cast<int>(face));
+  for (const FaceId face : model.shape().faces.ids()) {
+    SizingField::Sampler size_at(field, face);
     const CadFace& cad = model.shape().faces[face];
     const FaceSurface surface(cad);
     constexpr int n = 40;
@@ -130,8 +131,9 @@ TEST(SizeSources, LayersGrowByTheirRatioAndEnd) {
     SizingOptions options = settings_of("layers", {"Edge1=0.2,1.1,10"}).mesh.sizing;
     options.size = 4;
     options.gradation = gradation;
-    const EdgeCurve curve(box.shape().edges[0]);
-    const Vector3 a = curve.point(box.shape().edges[0].first), b = curve.point(box.shape().edges[0].last);
+    const EdgeCurve curve(box.shape().edges[edge_id(1)]);
+    const Vector3 a = curve.point(box.shape().edges[edge_id(1)].first),
+                  b = curve.point(box.shape().edges[edge_id(1)].last);
     const Vector3 along = (b - a).normalized();
     int inside = 0;
     look(box, options, [&](const Vector3& p, double size) {
@@ -173,7 +175,7 @@ TEST(FaceGaps, FindsHolesByTheirRims) {
   const CadModel model = sample("bracket");
   ExecutionContext context;
   int found = 0;
-  for (int face = 0; face < model.face_count(); ++face) {
+  for (const FaceId face : model.shape().faces.ids()) {
     if (!FaceSurface(model.shape().faces[face]).planar()) continue;
     for (const FaceGap& gap : FaceGaps(model.shape(), face, 12, 0.1).find(context)) {
       ++found;
@@ -189,9 +191,9 @@ TEST(FaceGaps, FindsHolesByTheirRims) {
 TEST(FaceGaps, CornersOfABoxAreNone) {
   const CadModel model = sample("box");
   ExecutionContext context;
-  for (int face = 0; face < model.face_count(); ++face)
+  for (const FaceId face : model.shape().faces.ids())
     EXPECT_TRUE(FaceGaps(model.shape(), face, 9, 0.1).find(context).empty());
-  EXPECT_FALSE(FaceGaps(model.shape(), 0, 30, 0.1).find(context).empty());
+  EXPECT_FALSE(FaceGaps(model.shape(), face_id(1), 30, 0.1).find(context).empty());
 }
 
 TEST(SizeSources, SoManyElementsAreAcrossAGap) {
@@ -204,7 +206,7 @@ TEST(SizeSources, SoManyElementsAreAcrossAGap) {
   ExecutionContext context;
   const SizingField field = SizingField::build(model, options, context);
   int gaps = 0;
-  for (int face = 0; face < model.face_count(); ++face) {
+  for (const FaceId face : model.shape().faces.ids()) {
     SizingField::Sampler size_at(field, face);
     for (const FaceGap& gap : FaceGaps(model.shape(), face, 24, 0.8).find(context)) {
       ++gaps;
@@ -291,8 +293,8 @@ TEST(SizeSources, GridsOfOthersHaveAScaleAndAUnit) {
   const Vector3 corner = *std::min_element(vertices.begin(), vertices.end(),
                                            [](const auto& a, const auto& b) { return a.norm() < b.norm(); });
   ASSERT_LT(corner.norm(), 1e-6);  // so that it stays there in any unit
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (vertices[i] == corner) written.vertex_sizes[static_cast<int>(i) + 1] = 0.2;
+  for (const VertexId vertex : vertices.ids()) {
+    if (vertices[vertex] == corner) written.vertex_sizes[vertex.number()] = 0.2;
   }
   ExecutionContext context;
   SizingField::build(box, written, context).write(path);

@@ -20,6 +20,7 @@
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/edge_sampling.hpp"
 #include "mesher/options.hpp"
+#include "tests/support/ids.hpp"
 #include "tests/support/sample_models.hpp"
 
 namespace quadrille {
@@ -86,7 +87,7 @@ TEST(SizingField, GrowsFromASourceAsBruteForceSays) {
     options.vertex_sizes[1] = source;
     const SizingField field = field_of(model, options);
     SizingField::Sampler size_at(field);
-    const Vector3 vertex = model.shape().vertices[0];
+    const Vector3 vertex = model.shape().vertices[vertex_id(1)];
     int between = 0;
     double sum = 0;
     for (const CadFace& face : model.shape().faces) {
@@ -179,7 +180,7 @@ TEST(SizingField, AFilletOfATenThousandthTakesLittleRoom) {
 /// the size.
 TEST(ElementBudget, RegionsAndLayersAreEstimatedBeforeAFieldIsMade) {
   const CadModel model = CadModel::read(sample_model("box").path());
-  const std::vector<char> used(model.face_count(), 1);
+  const FaceFlags used(model.face_count(), 1);
   ExecutionContext context;
   SizingOptions options;
   options.size = model.diagonal() / 20;
@@ -229,7 +230,7 @@ TEST(SizingField, IsExactAtATinyVertexToo) {
   options.vertex_sizes[1] = 1e-7;
   const SizingField field = field_of(model, options);
   SizingField::Sampler size_at(field);
-  const Vector3 corner = model.shape().vertices[0];
+  const Vector3 corner = model.shape().vertices[vertex_id(1)];
   EXPECT_NEAR(size_at(corner), 1e-7, 1e-9);
   for (const double distance : {1e-6, 1e-4, 1e-2, 1.0}) {
     const double size = size_at(corner + Vector3(distance, 0, 0));
@@ -243,8 +244,8 @@ TEST(ElementCount, IsTheAreaOverTheSizeSquared) {
     SCOPED_TRACE(sample.name);
     const CadModel model = CadModel::read(sample.path());
     ExecutionContext context;
-    const auto samples = sample_faces(model.shape(), std::vector<char>(model.face_count(), 1), context);
-    const double count = count_elements(samples, [](int, const FaceSample&) { return 0.5; });
+    const auto samples = sample_faces(model.shape(), FaceFlags(model.face_count(), 1), context);
+    const double count = count_elements(samples, [](FaceId, const FaceSample&) { return 0.5; });
     EXPECT_NEAR(count / (4 * model.area()), 1, 0.1);
   }
 }
@@ -274,9 +275,9 @@ TEST(SizingField, TakesSizesFromNamesAndCurvature) {
   named.edge_sizes[5] = 1;
   const SizingField field = field_of(box, named);
   SizingField::Sampler size_at(field);
-  EXPECT_NEAR(size_at(box.shape().vertices[1]), 0.4, 0.1);
-  const EdgeCurve straight(box.shape().edges[4]);
-  const CadEdge& edge = box.shape().edges[4];
+  EXPECT_NEAR(size_at(box.shape().vertices[vertex_id(2)]), 0.4, 0.1);
+  const EdgeCurve straight(box.shape().edges[edge_id(5)]);
+  const CadEdge& edge = box.shape().edges[edge_id(5)];
   for (int i = 1; i < 10; ++i)
     EXPECT_LE(size_at(straight.point(edge.first + (edge.last - edge.first) * i / 10)), 1.05);
 }
@@ -290,17 +291,17 @@ TEST(SizingField, NamedSizesLeaveTheMinimumSizeOfOtherSourcesAlone) {
   options.size_min = options.size / 2;
   options.elements_per_circle = 300;
   options.growth = 2;
-  options.vertex_sizes[shape.edges[0].first_vertex] = options.size / 50;
+  options.vertex_sizes[shape.edges[edge_id(1)].first_vertex.number()] = options.size / 50;
   const SizeLimits limits = size_limits(cylinder, options);
   EXPECT_DOUBLE_EQ(limits.least, options.size / 50);
   EXPECT_DOUBLE_EQ(limits.size_min, options.size_min);
   EXPECT_DOUBLE_EQ(size_of_curvature(options, limits, 1e6), options.size_min);
   const SizingField field = field_of(cylinder, options);
   SizingField::Sampler size_at(field);
-  EXPECT_NEAR(size_at(shape.vertices[shape.edges[0].first_vertex - 1]), options.size / 50,
+  EXPECT_NEAR(size_at(shape.vertices[shape.edges[edge_id(1)].first_vertex]), options.size / 50,
               options.size / 500);
   // Farther away, all sizes are those without the vertex.
-  const Vector3 vertex = shape.vertices[shape.edges[0].first_vertex - 1];
+  const Vector3 vertex = shape.vertices[shape.edges[edge_id(1)].first_vertex];
   SizingOptions without = options;
   without.vertex_sizes.clear();
   const SizingField plain = field_of(cylinder, without);
@@ -316,8 +317,8 @@ TEST(SizingField, NamedSizesLeaveTheMinimumSizeOfOtherSourcesAlone) {
     }
   }
   EXPECT_GT(compared, 5);
-  const std::vector<char> fine = edges_below_size_min(cylinder, options, limits);
-  EXPECT_TRUE(fine[0]);
+  const EdgeFlags fine = edges_below_size_min(cylinder, options, limits);
+  EXPECT_TRUE(fine[edge_id(1)]);
   EXPECT_LT(std::count(fine.begin(), fine.end(), 1), static_cast<int>(fine.size()));
 }
 
@@ -330,7 +331,7 @@ TEST(SizingField, GoesDownToTheShortestSegmentOfAnEdge) {
   const SizeLimits limits = size_limits(box, options);
   double sum = 0;
   for (int k = 0; k < 21; ++k) sum += std::pow(0.6, std::min(k, 20 - k));
-  EXPECT_NEAR(limits.least, box.shape().edges[0].length * std::pow(0.6, 10) / sum, 1e-9);
+  EXPECT_NEAR(limits.least, box.shape().edges[edge_id(1)].length * std::pow(0.6, 10) / sum, 1e-9);
 }
 
 TEST(SizingField, ComesBackFromItsFile) {
@@ -367,11 +368,11 @@ TEST(SizingField, RefusesFilesThatAreNotGrids) {
 }
 
 /// Every face's number of segments, seams twice.
-std::vector<int> face_counts(const CadModel& model, const BoundaryNodes& nodes) {
-  std::vector<int> counts(model.face_count(), 0);
-  for (int i = 0; i < model.edge_count(); ++i) {
-    if (nodes.edges[i].nodes.empty()) continue;
-    for (const int face : model.shape().edges[i].faces) counts[face - 1] += nodes.edges[i].segments();
+IdVector<FaceId, int> face_counts(const CadModel& model, const BoundaryNodes& nodes) {
+  IdVector<FaceId, int> counts(model.face_count());
+  for (const EdgeId edge : model.shape().edges.ids()) {
+    if (nodes.edges[edge].nodes.empty()) continue;
+    for (const FaceId face : model.shape().edges[edge].faces) counts[face] += nodes.edges[edge].segments();
   }
   return counts;
 }
@@ -388,17 +389,17 @@ TEST(EdgeSampling, MakesEveryFaceEvenWithSegmentsOfTheSize) {
         ExecutionContext context;
         const SizingField field = field_of(model, options.sizing);
         const BoundaryNodes nodes =
-            sample_edges(model.shape(), field, stride(options.strategy), std::vector<char>(sample.faces, 1),
+            sample_edges(model.shape(), field, stride(options.strategy), FaceFlags(sample.faces, 1),
                          SamplingPlan(model.shape()), context);
         EXPECT_TRUE(nodes.odd_faces.empty());
-        const std::vector<int> counts = face_counts(model, nodes);
-        for (std::size_t face = 0; face < counts.size(); ++face) {
+        const IdVector<FaceId, int> counts = face_counts(model, nodes);
+        for (const FaceId face : counts.ids()) {
           // Only grids go without the stride.
           const bool is_grid = nodes.sides[face].rest.empty();
           EXPECT_EQ(counts[face] % (is_grid ? 2 : 2 * nodes.stride), 0);
           EXPECT_GE(counts[face], 4);
         }
-        for (int i = 0; i < model.edge_count(); ++i) {
+        for (const EdgeId i : model.shape().edges.ids()) {
           const auto& edge = nodes.edges[i];
           const CadEdge& cad = model.shape().edges[i];
           if (cad.degenerate) {
@@ -422,17 +423,17 @@ TEST(EdgeSampling, MakesEveryFaceEvenWithSegmentsOfTheSize) {
 /// What a remedy asks for holds, although the opposite edges, which get the same count, want fewer segments.
 TEST(EdgeSampling, FinerStretchesGetTheirSegments) {
   const CadModel box = CadModel::read(sample_model("box").path());
-  const CadEdge& edge = box.shape().edges[0];
+  const CadEdge& edge = box.shape().edges[edge_id(1)];
   SizingOptions options;
   ExecutionContext context;
   for (const int wanted : {3, 4, 7}) {
     for (const int asked : {wanted + 1, 2 * wanted - 1, 2 * wanted, 5 * wanted}) {
       options.size = 0.5 * edge.length / wanted;  // half of it: triangles have twice the size
       SamplingPlan plan(box.shape());
-      plan.finer = {{1, edge.first, edge.last, asked}};
-      const BoundaryNodes nodes = sample_edges(box.shape(), field_of(box, options), 2,
-                                               std::vector<char>(box.face_count(), 1), plan, context);
-      EXPECT_GE(nodes.edges[0].segments(), 2 * asked) << wanted;
+      plan.finer = {{edge_id(1), edge.first, edge.last, asked}};
+      const BoundaryNodes nodes =
+          sample_edges(box.shape(), field_of(box, options), 2, FaceFlags(box.face_count(), 1), plan, context);
+      EXPECT_GE(nodes.edges[edge_id(1)].segments(), 2 * asked) << wanted;
       EXPECT_TRUE(nodes.odd_faces.empty());
     }
   }
@@ -445,7 +446,7 @@ TEST(EdgeSampling, NoSegmentIsFarFromItsNeighborOnAUniformField) {
   options.sizing.elements_per_circle = 0;
   ExecutionContext context;
   const BoundaryNodes nodes =
-      sample_edges(model.shape(), field_of(model, options.sizing), stride(options.strategy), {1},
+      sample_edges(model.shape(), field_of(model, options.sizing), stride(options.strategy), FaceFlags(1, 1),
                    SamplingPlan(model.shape()), context);
   for (const auto& edge : nodes.edges) {
     double low = 1e9, high = 0;

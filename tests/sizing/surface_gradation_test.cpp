@@ -38,8 +38,8 @@ CadModel housing() {
 
 int vertex_at(const CadModel& model, const Vector3& place) {
   const auto& vertices = model.shape().vertices;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if ((vertices[i] - place).norm() < 1e-6) return static_cast<int>(i) + 1;
+  for (const VertexId vertex : vertices.ids()) {
+    if ((vertices[vertex] - place).norm() < 1e-6) return vertex.number();
   }
   ADD_FAILURE() << "no vertex at " << place.transpose();
   return 1;
@@ -130,7 +130,7 @@ TEST(SurfaceGradation, IsExactToTheVoxel) {
     for (const CadEdge& edge : model.shape().edges) ASSERT_GT(edge.length, 8);
     const SizingField field = field_of(model, options);
     std::vector<std::unique_ptr<SizingField::Sampler>> samplers;
-    for (int face = 0; face < model.face_count(); ++face)
+    for (const FaceId face : model.shape().faces.ids())
       samplers.push_back(std::make_unique<SizingField::Sampler>(field, face));
     int between = 0;
     exact.visit([&](int face, const Vector3& p, double distance) {
@@ -149,12 +149,12 @@ TEST(SurfaceGradation, IsExactToTheVoxel) {
 template <class Holds>
 double least_on(const CadModel& model, const SizingField& field, Holds&& holds) {
   double least = 1e9;
-  for (int index = 0; index < model.face_count(); ++index) {
-    const CadFace& face = model.shape().faces[index];
+  for (const FaceId id : model.shape().faces.ids()) {
+    const CadFace& face = model.shape().faces[id];
     const FaceSurface surface(face);
     const Vector2 low(face.u_min, face.v_min), extent(face.u_max - face.u_min, face.v_max - face.v_min);
     if (!holds(surface.point(low + 0.5 * extent))) continue;
-    SizingField::Sampler size_at(field, index);
+    SizingField::Sampler size_at(field, id);
     for (int k = 0; k <= 20 * 20; ++k)
       least =
           std::min(least, size_at(surface.point(low + extent.cwiseProduct(Vector2(k % 20, k / 20) / 20))));
@@ -173,11 +173,11 @@ TEST(SurfaceGradation, DetailsStayOnTheirSideOfAGap) {
   const auto below = [](const Vector3& middle) { return middle.z() == 10; };
   SizingOptions on_face;
   on_face.size = 5;
-  for (int face = 0; face < 6; ++face) {
+  for (const FaceId face : model.shape().faces.ids()) {
     const CadFace& cad = model.shape().faces[face];
     const Vector3 middle =
         FaceSurface(cad).point({0.5 * (cad.u_min + cad.u_max), 0.5 * (cad.v_min + cad.v_max)});
-    if (std::abs(middle.z() - 10) < 1e-9) on_face.face_sizes[face + 1] = 0.3;
+    if (std::abs(middle.z() - 10) < 1e-9) on_face.face_sizes[face.number()] = 0.3;
   }
   ASSERT_EQ(on_face.face_sizes.size(), 1u);
   on_face.gradation = Gradation::surface;
@@ -196,7 +196,7 @@ TEST(SurfaceGradation, DetailsStayOnTheirSideOfAWall) {
   options.gradation = Gradation::surface;
   const CadEdge* outer = nullptr;  // along the outer bottom
   for (const CadEdge& edge : model.shape().edges) {
-    if (edge.length > 59.5 && model.shape().vertices[edge.first_vertex - 1].z() == 0) outer = &edge;
+    if (edge.length > 59.5 && model.shape().vertices[edge.first_vertex].z() == 0) outer = &edge;
   }
   ASSERT_NE(outer, nullptr);
   options.edge_sizes = {{outer->number, 0.4}};

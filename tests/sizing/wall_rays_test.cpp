@@ -37,18 +37,18 @@ TopoDS_Shape tube(double inner, double outer) {
       .Shape();
 }
 
-/// Looks at a grid of points of each face that lie in it: visit(face from 0, point, inward).
+/// Looks at a grid of points of each face that lie in it: visit(face, point, inward).
 template <class Visit>
 void look(const CadModel& model, Visit&& visit) {
   const CadShape& shape = model.shape();
-  for (std::size_t i = 0; i < shape.faces.size(); ++i) {
-    const CadFace& face = shape.faces[i];
+  for (const FaceId id : shape.faces.ids()) {
+    const CadFace& face = shape.faces[id];
     const FaceSurface surface(face);
     constexpr int n = 11;
     for (int k = 0; k < n * n; ++k) {
       const Vector2 uv(face.u_min + (k % n + 0.5) / n * (face.u_max - face.u_min),
                        face.v_min + (k / n + 0.5) / n * (face.v_max - face.v_min));
-      visit(static_cast<int>(i), surface.point(uv), Vector3((face.reversed ? 1 : -1) * surface.normal(uv)));
+      visit(id, surface.point(uv), Vector3((face.reversed ? 1 : -1) * surface.normal(uv)));
     }
   }
 }
@@ -71,7 +71,7 @@ TEST(WallRays, TellTheThicknessOfFlatWalls) {
     const CadModel model = model_of(inside_out ? shape.Reversed() : shape);
     const WallRays rays(model.shape(), 0.5, {});
     int walls = 0;
-    look(model, [&](int, const Vector3& p, const Vector3& inward) {
+    look(model, [&](FaceId, const Vector3& p, const Vector3& inward) {
       if (!on_wall(p)) return;
       const auto thickness = rays.thickness(p, inward, 8);
       ASSERT_TRUE(thickness) << p.transpose();
@@ -88,10 +88,10 @@ TEST(WallRays, TellTheThicknessOfCurvedWalls) {
     const CadModel model = model_of(tube(10 - thickness, 10));
     const WallRays rays(model.shape(), thickness, {});
     int walls = 0;
-    look(model, [&](int face, const Vector3& p, const Vector3& inward) {
+    look(model, [&](FaceId face, const Vector3& p, const Vector3& inward) {
       if (std::abs(inward.z()) > 0.5) return;  // the rims
       const auto found = rays.thickness(p, inward, 8);
-      ASSERT_TRUE(found) << face << ": " << p.transpose();
+      ASSERT_TRUE(found) << face.number() << ": " << p.transpose();
       EXPECT_NEAR(*found, thickness, 0.1 * thickness);
       ++walls;
     });
@@ -104,7 +104,7 @@ TEST(WallRays, KnowNoWallsWhereThereAreNone) {
   const CadModel wedge = model_of(BRepPrimAPI_MakeWedge(10, 10 * std::sqrt(0.75), 10, 5, 0, 5, 10).Shape());
   const WallRays in_wedge(wedge.shape(), 1, {});
   int slanted = 0;
-  look(wedge, [&](int, const Vector3& p, const Vector3& inward) {
+  look(wedge, [&](FaceId, const Vector3& p, const Vector3& inward) {
     if (std::abs(inward.z()) > 0.5) return;
     EXPECT_FALSE(in_wedge.thickness(p, inward, 8)) << p.transpose();
     ++slanted;
@@ -112,7 +112,7 @@ TEST(WallRays, KnowNoWallsWhereThereAreNone) {
   EXPECT_GT(slanted, 100);
   const CadModel block = model_of(BRepPrimAPI_MakeBox(30, 20, 10).Shape());
   const WallRays in_block(block.shape(), 1, {});
-  look(block, [&](int, const Vector3& p, const Vector3& inward) {
+  look(block, [&](FaceId, const Vector3& p, const Vector3& inward) {
     EXPECT_FALSE(in_block.thickness(p, inward, 9.9)) << p.transpose();
   });
 }
@@ -129,7 +129,7 @@ TEST(WallRays, SizesAreTheThicknessOverTheElements) {
       options.proximity_walls = elements;
       const SizingField field = SizingField::build(model, options, context);
       int walls = 0;
-      look(model, [&](int face, const Vector3& p, const Vector3&) {
+      look(model, [&](FaceId face, const Vector3& p, const Vector3&) {
         if (!on_wall(p)) return;
         SizingField::Sampler size_at(field, face);
         // Samples are up to 1.5 sizes apart: between them sizes grow a little.
