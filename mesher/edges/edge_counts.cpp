@@ -52,7 +52,7 @@ class CountChooser {
       odd = make_faces_even();
     }
     hold_fixed(odd);
-    EdgeCounts result{IdVector<EdgeId, int>(effective_.size()), chords_, odd};
+    EdgeCounts result{IdVector<EdgeId, int>(effective_.size()), chords_};
     for (const EdgeId edge : effective_.ids()) {
       const EdgeId chord = chords_.of(edge);
       if (wishes_.least[edge] == 0) continue;

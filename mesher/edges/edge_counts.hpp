@@ -23,7 +23,6 @@ struct CountWishes {
 struct EdgeCounts {
   IdVector<EdgeId, int> counts;  ///< segments of the final mesh; 0 = edge not used
   Chords chords;
-  std::vector<FaceId> odd_faces;  ///< faces that could not be made even
 };
 
 /// Chooses the counts of all edges near the wanted ones: one count for each chord, equal counts on facing

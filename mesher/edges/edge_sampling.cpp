@@ -126,7 +126,6 @@ class EdgeSampler {
       chosen = choose_counts(wishes_, plan_.tiny, result_.sides);
     }
     counts_ = chosen.counts;
-    result_.odd_faces = chosen.odd_faces;
     shares_ = space_chords(shape_, result_.sides, chosen.chords, tables_, counts_, prescribed_shares());
     keep_spacing(chosen.chords);
     place_vertices();

@@ -30,9 +30,8 @@ struct BoundaryNodes {
   /// Segments of the final mesh for each segment of the mesh that is recombined: 2 with Strategy::subdivide,
   /// else 1. The faces in `subdivided` have 2 in any case.
   int stride = 1;
-  FaceFlags subdivided;           ///< 1 = recombined at twice the size, whatever `stride` is
-  FaceOutlines sides;             ///< with facing sides whose counts match
-  std::vector<FaceId> odd_faces;  ///< faces whose count could not be made even; almost always empty
+  FaceFlags subdivided;  ///< 1 = recombined at twice the size, whatever `stride` is
+  FaceOutlines sides;    ///< with facing sides whose counts match
 };
 
 /// A part of a CAD edge that needs a least number of segments in the mesh that is recombined.
