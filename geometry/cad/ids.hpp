@@ -4,7 +4,6 @@
 
 #include <compare>
 #include <cstddef>
-#include <functional>
 #include <ranges>
 #include <utility>
 #include <vector>
@@ -25,10 +24,11 @@ class Id {
   /// \param number from 1, as in FreeCAD's Face1, Edge1, Vertex1; 0 = none.
   static constexpr Id from_number(int number) { return Id(number - 1); }
 
-  constexpr int index() const { return index_; }       ///< from 0; -1 = none
-  constexpr int number() const { return index_ + 1; }  ///< from 1; 0 = none
-  constexpr bool exists() const { return index_ >= 0; }
+  constexpr int index() const { return index_; }         ///< from 0; -1 = none
+  constexpr int number() const { return index_ + 1; }    ///< from 1; 0 = none
+  constexpr bool exists() const { return index_ >= 0; }  ///< whether it identifies anything
 
+  /// By index; none comes first.
   friend constexpr auto operator<=>(const Id&, const Id&) = default;
 
  private:
@@ -37,60 +37,51 @@ class Id {
   int index_ = -1;
 };
 
-using FaceId = Id<struct FaceKind>;
-using EdgeId = Id<struct EdgeKind>;
-using VertexId = Id<struct VertexKind>;
+using FaceId = Id<struct FaceKind>;      ///< a face
+using EdgeId = Id<struct EdgeKind>;      ///< an edge
+using VertexId = Id<struct VertexKind>;  ///< a vertex
 
 /// A value for each face, edge or vertex, found by its id.
 template <class Id, class Value>
 class IdVector {
  public:
   IdVector() = default;
+  /// The same value for `size` ids.
   explicit IdVector(std::size_t size, const Value& value = {}) : values_(size, value) {}
-  explicit IdVector(std::vector<Value> values) : values_(std::move(values)) {}
 
-  decltype(auto) operator[](Id id) { return values_[id.index()]; }
-  decltype(auto) operator[](Id id) const { return values_[id.index()]; }
+  decltype(auto) operator[](Id id) { return values_[id.index()]; }        ///< the id must exist
+  decltype(auto) operator[](Id id) const { return values_[id.index()]; }  ///< the id must exist
 
   /// The ids of all values, ascending.
   auto ids() const {
     return std::views::iota(0, static_cast<int>(values_.size())) |
            std::views::transform([](int index) { return Id::from_index(index); });
   }
-  /// The id that the next value gets.
-  Id next() const { return Id::from_index(values_.size()); }
 
-  std::size_t size() const { return values_.size(); }
-  bool empty() const { return values_.empty(); }
-  void reserve(std::size_t size) { values_.reserve(size); }
+  std::size_t size() const { return values_.size(); }  ///< number of values
+  bool empty() const { return values_.empty(); }       ///< whether there are none
+  /// As std::vector::resize().
   void resize(std::size_t size, const Value& value = {}) { values_.resize(size, value); }
+  /// As std::vector::assign().
   void assign(std::size_t size, const Value& value) { values_.assign(size, value); }
+  void reserve(std::size_t size) { values_.reserve(size); }  ///< as std::vector::reserve()
+  /// Adds a value. \return its id
   Id push_back(Value value) {
     values_.push_back(std::move(value));
     return Id::from_index(values_.size() - 1);
   }
 
-  auto begin() { return values_.begin(); }
-  auto end() { return values_.end(); }
-  auto begin() const { return values_.begin(); }
-  auto end() const { return values_.end(); }
-
-  const std::vector<Value>& values() const { return values_; }  ///< in the order of the ids
-
-  friend bool operator==(const IdVector&, const IdVector&) = default;
+  auto begin() { return values_.begin(); }        ///< the values in the order of their ids
+  auto end() { return values_.end(); }            ///< the end of the values
+  auto begin() const { return values_.begin(); }  ///< the values in the order of their ids
+  auto end() const { return values_.end(); }      ///< the end of the values
 
  private:
   std::vector<Value> values_;
 };
 
-/// A property of each face, edge or vertex: 1 = it has it.
-using FaceFlags = IdVector<FaceId, char>;
-using EdgeFlags = IdVector<EdgeId, char>;
-using VertexFlags = IdVector<VertexId, char>;
+using FaceFlags = IdVector<FaceId, char>;      ///< a property of faces: 1 = the face has it
+using EdgeFlags = IdVector<EdgeId, char>;      ///< a property of edges: 1 = the edge has it
+using VertexFlags = IdVector<VertexId, char>;  ///< a property of vertices: 1 = the vertex has it
 
 }  // namespace quadrille
-
-template <class Kind>
-struct std::hash<quadrille::Id<Kind>> {
-  std::size_t operator()(quadrille::Id<Kind> id) const noexcept { return std::hash<int>()(id.index()); }
-};

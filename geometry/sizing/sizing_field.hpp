@@ -33,8 +33,8 @@ double size_of_curvature(const SizingOptions& options, const SizeLimits& limits,
 
 /// Features that set no sizes of their own: too small, or meshed by rows of flat quads. Empty = none.
 struct UnsizedFeatures {
-  EdgeFlags edges;
-  FaceFlags faces;
+  EdgeFlags edges;    ///< 1 = the edge
+  FaceFlags faces;    ///< 1 = the face
   EdgeFlags divided;  ///< 1 = its prescribed division asks for no sizes
   EdgeFlags layered;  ///< 1 = its layers ask for no sizes
   /// Whether an edge asks for no sizes.

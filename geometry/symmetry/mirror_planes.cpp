@@ -393,7 +393,7 @@ class Search {
   /// Matches vertices by the ends of edges; those that bound no open edge by their place.
   bool match_vertices(MirrorPlane& plane) const {
     plane.vertices.assign(vertices_.size(), {});
-    IdVector<VertexId, char> needed(vertices_.size());
+    VertexFlags needed(vertices_.size());
     for (const EdgeId id : edges_.ids()) {
       const CadEdge& edge = shape_.edges[id];
       if (!plane.edges[id].exists() || edge.closed()) continue;

@@ -433,7 +433,7 @@ class Cutter {
   bool makes_up_model(const CadShape& part, const ModelPart& result) const {
     IdVector<FaceId, double> area(shape_.faces.size()), pieces;
     IdVector<EdgeId, char> edges(shape_.edges.size());
-    IdVector<VertexId, char> vertices(shape_.vertices.size());
+    VertexFlags vertices(shape_.vertices.size());
     for (const CadFace& face : part.faces) pieces.push_back(area_of(face.face));
     for (const ModelPart::Image& names : result.images) {
       for (const FaceId piece : pieces.ids()) area[names.faces[piece]] += pieces[piece];
