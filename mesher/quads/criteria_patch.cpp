@@ -143,13 +143,14 @@ std::array<double, 2> FlatQuad::sides_at(int corner) const {
   return {side(corner + 1), side(corner + 3)};
 }
 
-bool CriteriaPatch::add(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+bool CriteriaPatch::add(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d,
+                        double weight) {
   const Frame frame(a, b, c, d);
   if (count_ == max_quads || frame.length == 0) return false;
   const Vector3 ab = b - a, ad = d - a;
   quads_[count_++] = {frame.x.dot(ab), frame.y.dot(ab), frame.length,    0,
                       frame.x.dot(ad), frame.y.dot(ad), frame.x.dot(u_), frame.y.dot(u_),
-                      frame.x.dot(v_), frame.y.dot(v_)};
+                      frame.x.dot(v_), frame.y.dot(v_), weight};
   return true;
 }
 
@@ -157,7 +158,7 @@ bool CriteriaPatch::add(const FlatQuad& quad, int corner) {
   if (count_ == max_quads) return false;
   const auto x = [&](int k) { return quad.x_[(corner + k) & 3] - quad.x_[corner]; };
   const auto y = [&](int k) { return quad.y_[(corner + k) & 3] - quad.y_[corner]; };
-  quads_[count_++] = {x(1), y(1), x(2), y(2), x(3), y(3), quad.ux_, quad.uy_, quad.vx_, quad.vy_};
+  quads_[count_++] = {x(1), y(1), x(2), y(2), x(3), y(3), quad.ux_, quad.uy_, quad.vx_, quad.vy_, 1};
   return true;
 }
 
@@ -169,7 +170,7 @@ CriteriaPatch::Lanes CriteriaPatch::evaluate(const Lanes& x, const Lanes& y) con
     for (int k = 0; k < lanes; ++k) {
       const Plane plane(x[k] * q.ux + y[k] * q.vx, x[k] * q.uy + y[k] * q.vy, q.bx, q.by, q.cx, q.cy, q.dx,
                         q.dy, squareness_);
-      result[k] += plane.value;
+      result[k] += q.weight * plane.value;
     }
   }
   return result;

@@ -56,11 +56,12 @@ class CriteriaPatch {
       : u_(u), v_(v), squareness_(squareness) {}
 
   /// Adds the quad with the node at `a`. False if the patch is full or the quad has no area.
-  bool add(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
+  /// \param weight of the quad's objective in evaluate()
+  bool add(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d, double weight = 1);
   /// Adds a quad with the node at a corner. False if the patch is full.
   bool add(const FlatQuad& quad, int corner);
 
-  /// The sum of the objectives with the node moved by x u + y v; huge if a quad would not be convex.
+  /// The weighted sum of the objectives with the node moved by x u + y v; huge if a quad would not be convex.
   Lanes evaluate(const Lanes& x, const Lanes& y) const;
 
   /// The least scaled Jacobian with the node moved by x u + y v; -1 if a quad is not convex. A positive value
@@ -76,6 +77,7 @@ class CriteriaPatch {
   struct Quad {
     double bx, by, cx, cy, dx, dy;  ///< relative to the node's present place
     double ux, uy, vx, vy;          ///< the directions
+    double weight;                  ///< of the objective
   };
   Vector3 u_, v_;
   double squareness_;

@@ -35,6 +35,11 @@ constexpr double least_gain = 0.001;
 /// Quads inside the limits that are this close to parallelograms (as a share of the mean side) stay. A skew
 /// grid of them is as accurate in bending as a square one, but not after its nodes move.
 constexpr double parallel_share = 0.1, inside_limits = 0.766;  // the sine of 50 degrees: skew 40
+/// Limit of the aspect. Rows of which some are beyond it, but not their mean, become more even.
+constexpr double inside_aspect = 5;
+/// A quad alone in a corner of its face that is sharper than the limit of 40 degrees stays outside whatever
+/// its other nodes do. With its full weight, its neighbors would be drawn outside too.
+constexpr double sharp_cosine = 0.766, sharp_weight = 0.1;
 /// After a move by more than this share of the mean side, the neighbors are visited again.
 constexpr double still_share = 0.01;
 /// Segments on edges stay between these shares of their original length in the curve's parameter. On curved
@@ -53,7 +58,8 @@ struct FaceState {
   const CadFace* cad_face = nullptr;
   std::shared_ptr<const FaceSurface> surface;  // made on first use
   std::vector<int> first, corners;             // 4 * quad + corner around each point, in compressed rows
-  std::vector<double> objective, least_sine;   // (quads)
+  std::vector<double> objective, least_sine;   // (quads) the objective is weighted
+  std::vector<double> weight;                  // (quads) of the objective
   std::vector<char> active;                    // (points) 1 = to be visited
   std::vector<char> slid;                      // (boundary points) 1 = moved; uv must be updated
   bool touched = false;                        // nodes or quads changed
@@ -68,7 +74,15 @@ struct FaceState {
   const Vector3& corner(int quad, int k) const { return mesh->points[mesh->quads[quad][k & 3]]; }
 
   QuadObjective measure(int quad, double squareness = 0) const {
-    return measure_objective(corner(quad, 0), corner(quad, 1), corner(quad, 2), corner(quad, 3), squareness);
+    return measure(quad, corner(quad, 0), corner(quad, 1), corner(quad, 2), corner(quad, 3), squareness);
+  }
+
+  /// Measures a quad with its corners at other places.
+  QuadObjective measure(int quad, const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d,
+                        double squareness) const {
+    QuadObjective result = measure_objective(a, b, c, d, squareness);
+    result.value *= weight[quad];
+    return result;
   }
 };
 
@@ -140,9 +154,14 @@ class NodeSliding {
     std::vector<Use> uses;
     double objective = 0, worst_objective = 0, least_sine = 1;
     double shortest = 0, mean = 0;  // shortest and mean length of the sides at the node
+    double aspect = 1;              // largest ratio of the two sides of a quad at the node
+    double mean_aspect = 1;         // the mean of the longer ones of these two over that of the shorter ones
     double off_parallel = 0;        // largest difference of opposite sides, over the mean length
 
-    bool is_fine() const { return least_sine > inside_limits && off_parallel < parallel_share; }
+    bool is_fine() const {
+      const bool uneven = aspect > inside_aspect && mean_aspect < inside_aspect;
+      return least_sine > inside_limits && !uneven && off_parallel < parallel_share;
+    }
 
     void clear() {
       uses.clear();
@@ -190,6 +209,19 @@ class NodeSliding {
     for (int quad = 0; quad < static_cast<int>(mesh.quads.size()); ++quad) {
       check();
       for (int k = 0; k < 4; ++k) face.corners[place[mesh.quads[quad][k]]++] = 4 * quad + k;
+    }
+    weigh(face);
+  }
+
+  /// Finds the quads in sharp corners. Nodes on the boundary come first.
+  static void weigh(FaceState& face) {
+    face.weight.assign(face.mesh->quads.size(), 1);
+    for (std::size_t i = 0; i < face.mesh->nodes.size(); ++i) {
+      if (face.first[i + 1] - face.first[i] != 1) continue;
+      const int quad = face.corners[face.first[i]] >> 2, k = face.corners[face.first[i]] & 3;
+      const Vector3& here = face.corner(quad, k);
+      const Vector3 next = face.corner(quad, k + 1) - here, previous = face.corner(quad, k + 3) - here;
+      if (next.dot(previous) > sharp_cosine * next.norm() * previous.norm()) face.weight[quad] = sharp_weight;
     }
   }
 
@@ -257,17 +289,21 @@ class NodeSliding {
 
   void measure_sides(Round& round) {
     round.shortest = std::numeric_limits<double>::max();
-    double sum = 0;
+    round.aspect = 1;
+    double sum = 0, short_sum = 0;
     for (const Use& use : round.uses) {
       const FaceState& state = states_[use.face];
       const Vector3& here = state.corner(use.quad, use.corner);
-      for (const int k : {use.corner + 1, use.corner + 3}) {
-        const double side = (state.corner(use.quad, k) - here).norm();
-        round.shortest = std::min(round.shortest, side);
-        sum += side;
-      }
+      const double next = (state.corner(use.quad, use.corner + 1) - here).norm(),
+                   previous = (state.corner(use.quad, use.corner + 3) - here).norm();
+      const auto [shorter, longer] = std::minmax(next, previous);
+      round.shortest = std::min(round.shortest, shorter);
+      round.aspect = std::max(round.aspect, longer / shorter);
+      sum += next + previous;
+      short_sum += shorter;
     }
     round.mean = sum / (2.0 * static_cast<double>(round.uses.size()));
+    round.mean_aspect = (sum - short_sum) / short_sum;
     round.off_parallel = 0;
     for (const Use& use : round.uses) {
       const FaceState& state = states_[use.face];
@@ -281,7 +317,8 @@ class NodeSliding {
     for (const Use& use : round.uses) {
       const FaceState& state = states_[use.face];
       if (!patch.add(state.corner(use.quad, use.corner), state.corner(use.quad, use.corner + 1),
-                     state.corner(use.quad, use.corner + 2), state.corner(use.quad, use.corner + 3)))
+                     state.corner(use.quad, use.corner + 2), state.corner(use.quad, use.corner + 3),
+                     state.weight[use.quad]))
         return false;
     }
     return true;
@@ -300,7 +337,8 @@ class NodeSliding {
                     &next = state.corner(use.quad, use.corner + 1),
                     &opposite = state.corner(use.quad, use.corner + 2),
                     &previous = state.corner(use.quad, use.corner + 3);
-      const QuadObjective quad = measure_objective(trial.point, next, opposite, previous, aim_.squareness);
+      const QuadObjective quad =
+          state.measure(use.quad, trial.point, next, opposite, previous, aim_.squareness);
       trial.objective += quad.value;
       if (!(trial.objective <= enough) || !(quad.least_sine >= floor) || !(quad.least_sine > 0)) return false;
       // The quad must not be inverted compared with before: surfaces bend less than that between quads.

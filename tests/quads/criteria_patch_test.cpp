@@ -51,18 +51,19 @@ TEST(CriteriaPatch, SquarenessCountsEachCorner) {
 TEST(CriteriaPatch, LanesAgreeWithTheExactMeasure) {
   const Vector3 a(0.1, 0.05, 0), b(1, 0.1, 0), c(1.2, 1.1, 0), d(-0.1, 0.9, 0), e(-1, 0, 0), f(-0.9, 1, 0);
   const Vector3 u(1, 0, 0), v(0, 1, 0);
+  constexpr double weight = 0.3;
   for (const double squareness : {0.0, 3.0}) {
     CriteriaPatch patch(u, v, squareness);
     ASSERT_TRUE(patch.add(a, b, c, d));
-    ASSERT_TRUE(patch.add(a, d, f, e));
+    ASSERT_TRUE(patch.add(a, d, f, e, weight));
     const CriteriaPatch::Lanes x{0, 0.1, -0.1, 0.2, 0, 0, 0.1, 5}, y{0, 0, 0, 0, 0.1, -0.1, 0.1, 5};
     const auto values = patch.evaluate(x, y);
     for (int k = 0; k + 1 < CriteriaPatch::lanes; ++k) {
       const Vector3 p = a + x[k] * u + y[k] * v;
-      EXPECT_NEAR(
-          values[k],
-          measure_objective(p, b, c, d, squareness).value + measure_objective(p, d, f, e, squareness).value,
-          1e-12);
+      EXPECT_NEAR(values[k],
+                  measure_objective(p, b, c, d, squareness).value +
+                      weight * measure_objective(p, d, f, e, squareness).value,
+                  1e-12);
     }
     EXPECT_GT(values[7], 1e29);  // not convex
   }

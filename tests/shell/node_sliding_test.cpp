@@ -4,14 +4,27 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <gp_Pnt.hxx>
+
 #include "geometry/base/threads.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/quads/criteria_patch.hpp"
+#include "tests/support/ids.hpp"
 #include "tests/support/sample_models.hpp"
 
 namespace quadrille {
 namespace {
+
+CadModel plane_polygon(const std::vector<gp_Pnt>& corners) {
+  BRepBuilderAPI_MakePolygon wire;
+  for (const gp_Pnt& corner : corners) wire.Add(corner);
+  wire.Close();
+  const TopoDS_Shape face = BRepBuilderAPI_MakeFace(wire.Wire()).Face();
+  return CadModel(std::make_shared<CadShape>(face, "polygon"));
+}
 
 /// A model's faces, meshed but not yet put together.
 struct MeshedFaces {
@@ -24,10 +37,26 @@ struct MeshedFaces {
       : model(CadModel::read(sample.path())) {
     options.sizing.size = model.diagonal() / divisions;
     options.strategy = strategy;
+    mesh_all(SamplingPlan(shape()));
+  }
+
+  /// \param rows segments of the edges shorter than `size`
+  MeshedFaces(const CadModel& source, double size, int rows) : model(source) {
+    options.sizing.size = size;
+    SamplingPlan plan(shape());
+    for (const CadEdge& edge : shape().edges) {
+      std::optional<PrescribedEdge> prescribed;
+      if (edge.length < size) prescribed = PrescribedEdge{.segments = rows, .shares = {}};
+      plan.prescribed.push_back(std::move(prescribed));
+    }
+    mesh_all(plan);
+  }
+
+  void mesh_all(const SamplingPlan& plan) {
     ExecutionContext context(1);
     const SizingField field = SizingField::build(model, options.sizing, context);
-    const FaceFlags used(sample.faces, 1);
-    nodes = sample_edges(shape(), field, stride(strategy), used, SamplingPlan(shape()), context);
+    const FaceFlags used(shape().faces.size(), 1);
+    nodes = sample_edges(shape(), field, stride(options.strategy), used, plan, context);
     for (const FaceId face : shape().faces.ids()) faces.push_back(mesh_of(face, field));
   }
 
@@ -51,6 +80,7 @@ struct MeshedFaces {
 
   struct Measures {
     double objective = 0, least_sine = 1;
+    double worst = 0;
     double turned = 0;  ///< the sum of the largest deviations from right angles, as shares of one
   };
 
@@ -61,6 +91,7 @@ struct MeshedFaces {
         const auto& p = face->points;
         const QuadObjective quad = measure_objective(p[a], p[b], p[c], p[d]);
         result.objective += quad.value;
+        result.worst = std::max(result.worst, quad.value);
         result.turned += 1 - quad_q(p[a], p[b], p[c], p[d]);
         result.least_sine = std::min(result.least_sine, quad.least_sine);
       }
@@ -194,6 +225,36 @@ TEST(NodeSliding, CanBeTurnedOff) {
   faces.options.improve.sliding_sweeps = 0;
   faces.slide();
   EXPECT_EQ(faces.nodes.points, before);
+}
+
+/// The quad in a corner below 40 degrees is outside the limits whatever its other nodes do. Those next to it
+/// are not.
+TEST(NodeSliding, LosesOneQuadInASharpCorner) {
+  for (const double degrees : {15.0, 25.0, 30.0, 36.0}) {
+    const double half = degrees * M_PI / 360;
+    const gp_Pnt low(20 * std::cos(half), -20 * std::sin(half), 0), high(low.X(), -low.Y(), 0);
+    const CadModel wedge = plane_polygon({{0, 0, 0}, low, high});
+    MeshOptions options;
+    options.sizing.size = 1;
+    ExecutionContext context(1);
+    EXPECT_EQ(check_criteria(mesh(wedge, options, context)).failing, 1) << degrees;
+  }
+}
+
+/// A grid of rectangles, over three times as long as its two rows are wide in the mean.
+TEST(NodeSliding, EvensRowsOfWhichSomeAreTooNarrow) {
+  MeshedFaces faces(plane_polygon({{0, 0, 0}, {40, 0, 0}, {40, 2, 0}, {0, 2, 0}}), 4, 2);
+  FaceMesh& face = *faces.faces[face_id(1)];
+  ASSERT_TRUE(face.grid);
+  const FaceSurface surface(faces.shape().faces[face_id(1)]);
+  for (std::size_t i = face.nodes.size(); i < face.points.size(); ++i) {
+    face.points[i].y() = 0.55 + 0.005 * std::abs(face.points[i].x() - 20);
+    surface.project(face.uv[i], face.points[i]);
+  }
+  const auto before = faces.measure();
+  EXPECT_GT(before.worst, 1);
+  faces.slide();
+  EXPECT_LT(faces.measure().worst, 0.6 * before.worst);
 }
 
 /// A chamfer whose two sides are spaced differently: what faces meshed one by one cannot mend.
