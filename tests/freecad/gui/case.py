@@ -44,6 +44,10 @@ class GuiCase(unittest.TestCase):
     """Each test has a document of its own."""
 
     def setUp(self):
+        unexpected = Boxes(patience=20)  # a box that no test answers would stay until ctest's limit
+        unexpected.__enter__()
+        self.addCleanup(lambda: self.assertEqual(unexpected.texts, [], "boxes that the test did not answer"))
+        self.addCleanup(unexpected.__exit__)
         prepare()
         self.document = FreeCAD.newDocument("Test")
         self.document.UndoMode = 1

@@ -81,11 +81,15 @@ def cancel_bars():
 
 
 class Boxes:
-    """Answers the modal boxes that come up inside a `with` and keeps their texts; leaves progress bars alone."""
+    """Answers the modal boxes that come up inside a `with` and keeps their texts; leaves progress bars alone.
 
-    def __init__(self, answer=None):
+    patience: seconds that a box is shown before it is answered."""
+
+    def __init__(self, answer=None, patience=0):
         self.texts = []
         self._answer = answer
+        self._patience = patience
+        self._shown, self._since = None, 0.0  # the box looked at last, and since when it is there
         self._timer = QtCore.QTimer()
         self._timer.timeout.connect(self._look)
 
@@ -99,7 +103,9 @@ class Boxes:
 
     def _look(self):
         box = QtGui.QApplication.activeModalWidget()
-        if box is None or isinstance(box, QtGui.QProgressDialog):
+        if box is not self._shown:
+            self._shown, self._since = box, time.monotonic()
+        if box is None or isinstance(box, QtGui.QProgressDialog) or time.monotonic() - self._since < self._patience:
             return
         if isinstance(box, QtGui.QMessageBox):
             self.texts.append(box.text())
