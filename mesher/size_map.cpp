@@ -1,7 +1,5 @@
 #include "mesher/size_map.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 
 #include "geometry/base/threads.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/cad/parallel_ids.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/surfaces/surface_triangles.hpp"
 #include "mesher/boundary.hpp"
@@ -99,8 +98,7 @@ class Look {
 
   std::vector<double> sizes(const SizingField& field) const {
     std::vector<double> result(map_.points.size(), 0);
-    oneapi::tbb::parallel_for(std::size_t{0}, of_face_.size(), [&](std::size_t index) {
-      const FaceId face = FaceId::from_index(index);
+    for_each_id(of_face_, [&](FaceId face) {
       if (of_face_[face].empty()) return;
       SizingField::Sampler size_at(field, face);
       for (const int i : of_face_[face]) result[i] = size_at(map_.points[i]);
@@ -167,9 +165,9 @@ SurfaceTriangles triangles_for(const CadModel& model, const MeshOptions& options
   const double deflection = std::min(0.1 * field.size_max(), share);
   SurfaceTriangles surface =
       triangulate_surface(model.shape(), deflection, turn_of_triangle, faces_used(model, options), context);
-  std::vector<std::unique_ptr<SizingField::Sampler>> samplers(model.face_count());
+  IdVector<FaceId, std::unique_ptr<SizingField::Sampler>> samplers(model.face_count());
   const auto longest = [&](FaceId face, const Vector3& point) {
-    auto& size_at = samplers[face.index()];
+    auto& size_at = samplers[face];
     if (!size_at) size_at = std::make_unique<SizingField::Sampler>(field, face);
     return std::max(longest_sizes * (*size_at)(point), share);
   };

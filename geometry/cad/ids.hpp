@@ -46,8 +46,8 @@ template <class Id, class Value>
 class IdVector {
  public:
   IdVector() = default;
-  /// The same value for `size` ids.
-  explicit IdVector(std::size_t size, const Value& value = {}) : values_(size, value) {}
+  explicit IdVector(std::size_t size) : values_(size) {}                    ///< value-initialized
+  IdVector(std::size_t size, const Value& value) : values_(size, value) {}  ///< the same value for all
 
   decltype(auto) operator[](Id id) { return values_[id.index()]; }        ///< the id must exist
   decltype(auto) operator[](Id id) const { return values_[id.index()]; }  ///< the id must exist
@@ -58,10 +58,9 @@ class IdVector {
            std::views::transform([](int index) { return Id::from_index(index); });
   }
 
-  std::size_t size() const { return values_.size(); }  ///< number of values
-  bool empty() const { return values_.empty(); }       ///< whether there are none
-  /// As std::vector::resize().
-  void resize(std::size_t size, const Value& value = {}) { values_.resize(size, value); }
+  std::size_t size() const { return values_.size(); }      ///< number of values
+  bool empty() const { return values_.empty(); }           ///< whether there are none
+  void resize(std::size_t size) { values_.resize(size); }  ///< as std::vector::resize()
   /// As std::vector::assign().
   void assign(std::size_t size, const Value& value) { values_.assign(size, value); }
   void reserve(std::size_t size) { values_.reserve(size); }  ///< as std::vector::reserve()

@@ -1,6 +1,5 @@
 #include "geometry/sizing/element_count.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
 #include <BRepBndLib.hxx>
 #include <Bnd_Box.hxx>
 
@@ -14,6 +13,7 @@
 
 #include "geometry/base/free_memory.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/cad/parallel_ids.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 
 namespace quadrille {
@@ -185,9 +185,8 @@ TrimmedDomain coarse_domain(const CadShape& shape, const CadFace& face) {
 
 FaceSamples sample_faces(const CadShape& shape, const FaceFlags& used, ExecutionContext& context) {
   FaceSamples samples(shape.faces.size());
-  oneapi::tbb::parallel_for(0, static_cast<int>(samples.size()), [&](int index) {
+  for_each_id(samples, [&](FaceId face) {
     context.check();
-    const FaceId face = FaceId::from_index(index);
     if (used[face]) samples[face] = sample_face(shape, shape.faces[face]);
   });
   return samples;

@@ -1,6 +1,5 @@
 #include "geometry/sizing/sizing_field.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
 #include <BRepBndLib.hxx>
 #include <Bnd_Box.hxx>
 
@@ -15,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/cad/parallel_ids.hpp"
 #include "geometry/sizing/edge_spacing.hpp"
 #include "geometry/sizing/size_cascade.hpp"
 #include "geometry/sizing/size_file.hpp"
@@ -71,10 +71,10 @@ class Builder {
 
   void run() {
     sources_.hold_segments();
-    for_all(shape_.edges, [&](EdgeId edge) { add_edge(edge); });
+    for_each_id(shape_.edges, [&](EdgeId edge) { add_edge(edge); });
     std::atomic<int> done{0};
     const auto faces = static_cast<double>(shape_.faces.size());
-    for_all(shape_.faces, [&](FaceId face) {
+    for_each_id(shape_.faces, [&](FaceId face) {
       Batch batch(*this, {field_.cascade_of(face)});
       sources_.face(face, [&](const Vector3& p, double size) { batch.add(p, size); });
       batch.pass_on();
@@ -114,12 +114,6 @@ class Builder {
     std::set<int> cascades_;
     std::vector<SizePoint> points_;
   };
-
-  template <class Id, class Value, class Work>
-  static void for_all(const IdVector<Id, Value>& values, Work&& work) {
-    oneapi::tbb::parallel_for(0, static_cast<int>(values.size()),
-                              [&](int index) { work(Id::from_index(index)); });
-  }
 
   void add(const std::set<int>& cascades, const Vector3& p, double size) {
     for (const int cascade : cascades) field_.cascades[cascade]->add(p, size, blocks_);

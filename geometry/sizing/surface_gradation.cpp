@@ -1,6 +1,5 @@
 #include "geometry/sizing/surface_gradation.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
 #include <BRepBndLib.hxx>
 #include <Bnd_Box.hxx>
 
@@ -11,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/cad/parallel_ids.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 
@@ -128,12 +128,11 @@ class SurfaceGradation {
 
   /// \return whether there was anything to do.
   bool grade_faces() {
-    oneapi::tbb::parallel_for(0, static_cast<int>(cascades_.size()), [&](int index) {
-      const FaceId face = FaceId::from_index(index);
+    for_each_id(graded_, [&](FaceId face) {
       graded_[face] = cascade_of(face).is_fresh();
       if (!graded_[face]) return;
-      if (!bands_[index]) bands_[index] = std::make_unique<FaceBand>(shape_.faces[face]);
-      const FaceBand& near = *bands_[index];
+      if (!bands_[face]) bands_[face] = std::make_unique<FaceBand>(shape_.faces[face]);
+      const FaceBand& near = *bands_[face];
       const auto is_near = [&near](const Vector3& p, double voxel) { return near(p, voxel); };
       cascade_of(face).grade(slope_, most_, is_near, blocks_, context_);
     });
@@ -148,8 +147,7 @@ class SurfaceGradation {
   }
 
   void pass_over_edges() {
-    oneapi::tbb::parallel_for(0, static_cast<int>(shape_.edges.size()), [&](int index) {
-      const EdgeId id = EdgeId::from_index(index);
+    for_each_id(shape_.edges, [&](EdgeId id) {
       const CadEdge& edge = shape_.edges[id];
       if (edge.degenerate || !(edge.length > 0)) return;
       const std::vector<FaceId> faces = faces_of(edge);
@@ -246,8 +244,7 @@ class SurfaceGradation {
       if (lowered_[edge].empty()) continue;
       for (const FaceId face : faces_of(shape_.edges[edge])) edges_of[face].push_back(edge);
     }
-    oneapi::tbb::parallel_for(0, static_cast<int>(cascades_.size()), [&](int index) {
-      const FaceId face = FaceId::from_index(index);
+    for_each_id(edges_of, [&](FaceId face) {
       for (const EdgeId edge : edges_of[face]) {
         for (const Lowered& voxel : lowered_[edge]) {
           if (voxel.face == face) cascade_of(face).lower(voxel.level, voxel.coord, voxel.value, blocks_);
@@ -264,7 +261,7 @@ class SurfaceGradation {
   double slope_, most_;
   BlockCount& blocks_;
   const ExecutionContext& context_;
-  std::vector<std::unique_ptr<FaceBand>> bands_;    // by index of the face
+  IdVector<FaceId, std::unique_ptr<FaceBand>> bands_;
   FaceFlags graded_;                                // 1 = graded in this round
   IdVector<EdgeId, std::vector<Sample>> samples_;   // samples along the edge, refined to the sizes there
   IdVector<EdgeId, std::vector<Lowered>> lowered_;  // voxels to lower

@@ -200,8 +200,8 @@ class Cutter {
     }
     TopTools_ListOfShape arguments;
     arguments.Append(whole);
-    splitters_[component.index()] = std::make_unique<BRepAlgoAPI_Splitter>();
-    BRepAlgoAPI_Splitter& splitter = *splitters_[component.index()];
+    splitters_[component] = std::make_unique<BRepAlgoAPI_Splitter>();
+    BRepAlgoAPI_Splitter& splitter = *splitters_[component];
     splitter.SetArguments(arguments);
     splitter.SetTools(tools);
     splitter.SetNonDestructive(Standard_True);
@@ -259,7 +259,7 @@ class Cutter {
 
   TopTools_ListOfShape pieces_of(const TopoDS_Shape& shape, FaceId component) {
     TopTools_ListOfShape pieces;
-    BRepAlgoAPI_Splitter* splitter = splitters_[component.index()].get();
+    BRepAlgoAPI_Splitter* splitter = splitters_[component].get();
     if (splitter != nullptr) pieces = splitter->Modified(shape);
     if (pieces.IsEmpty() && (splitter == nullptr || !splitter->IsDeleted(shape))) pieces.Append(shape);
     return pieces;
@@ -475,7 +475,7 @@ class Cutter {
   std::vector<MirrorPlane> images_;        // by number of the image, see composed()
   IdVector<FaceId, FaceId> component_of_;  // one face of the component, the same for all of it
   std::vector<Vertex> vertices_;
-  std::vector<std::unique_ptr<BRepAlgoAPI_Splitter>> splitters_;  // by component; null = not cut
+  IdVector<FaceId, std::unique_ptr<BRepAlgoAPI_Splitter>> splitters_;  // by component; null = not cut
   std::vector<Imprint> imprinted_;
   std::vector<Piece> kept_;
   TopoDS_Compound compound_;

@@ -4,8 +4,6 @@
 #include <GProp_GProps.hxx>
 #include <Standard_Failure.hxx>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -15,6 +13,7 @@
 
 #include "geometry/base/side_key.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/cad/parallel_ids.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 
 namespace quadrille {
@@ -31,21 +30,22 @@ Vector3 area_vector(const ShellMesh& mesh, std::size_t quad) {
 /// which elements and curves turn. Uses the ratio of a circular arc to its chord, to second order.
 class FlatLoss {
  public:
-  FlatLoss(const CadShape& shape, const ShellMesh& mesh, const std::vector<char>& faces)
-      : shape_(shape), mesh_(mesh), losses_(faces.size(), 0) {
+  FlatLoss(const CadShape& shape, const ShellMesh& mesh, const FaceFlags& faces)
+      : shape_(shape), mesh_(mesh), losses_(faces.size()) {
     for (const auto& segment : mesh.segments) ++segments_of_[segment.edge];
     for (const auto& segment : mesh.segments)
       edges_.emplace(side_key(segment.nodes[0], segment.nodes[1]), segment.edge);
     for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
-      if (!faces[mesh.quad_faces[i] - 1]) continue;
+      if (!faces[FaceId::from_number(mesh.quad_faces[i])]) continue;
       for (int k = 0; k < 4; ++k) sides_[key(i, k)].push_back(i);
     }
     for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
-      if (faces[mesh.quad_faces[i] - 1]) losses_[mesh.quad_faces[i] - 1] += loss_of(i);
+      const FaceId face = FaceId::from_number(mesh.quad_faces[i]);
+      if (faces[face]) losses_[face] += loss_of(i);
     }
   }
 
-  double of(std::size_t face) const { return losses_[face]; }
+  double of(FaceId face) const { return losses_[face]; }
 
  private:
   std::uint64_t key(std::size_t quad, int k) const {
@@ -92,7 +92,7 @@ class FlatLoss {
 
   const CadShape& shape_;
   const ShellMesh& mesh_;
-  std::vector<double> losses_;
+  IdVector<FaceId, double> losses_;
   std::unordered_map<std::uint64_t, int> edges_;
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> sides_;
   std::unordered_map<int, int> segments_of_;
@@ -104,34 +104,33 @@ class FlatLoss {
 std::vector<std::string> area_differences(const CadModel& model, const ShellMesh& mesh) {
   constexpr double largest = 0.03, of_loss = 2;
   const CadShape& shape = model.shape();
-  std::vector<double> areas(shape.faces.size(), 0);
+  IdVector<FaceId, double> areas(shape.faces.size());
   for (std::size_t i = 0; i < mesh.quads.size(); ++i)
-    areas[mesh.quad_faces[i] - 1] += area_vector(mesh, i).norm();
-  std::vector<double> integrals(areas.size(), 0);
-  oneapi::tbb::parallel_for(std::size_t{0}, areas.size(), [&](std::size_t face) {
+    areas[FaceId::from_number(mesh.quad_faces[i])] += area_vector(mesh, i).norm();
+  IdVector<FaceId, double> integrals(areas.size());
+  for_each_id(areas, [&](FaceId face) {
     integrals[face] = areas[face];
     if (!(areas[face] > 0)) return;
     try {
       GProp_GProps properties;
-      BRepGProp::SurfaceProperties(shape.faces[FaceId::from_index(face)].face, properties);
+      BRepGProp::SurfaceProperties(shape.faces[face].face, properties);
       integrals[face] = std::abs(properties.Mass());
     } catch (const Standard_Failure&) {
       return;  // no integral to compare with
     }
   });
-  const auto difference = [&](std::size_t face) { return std::abs(areas[face] - integrals[face]); };
-  std::vector<char> differ(areas.size(), 0);
-  for (std::size_t face = 0; face < areas.size(); ++face)
-    differ[face] = difference(face) > largest * integrals[face];
+  const auto difference = [&](FaceId face) { return std::abs(areas[face] - integrals[face]); };
+  FaceFlags differ(areas.size());
+  for (const FaceId face : areas.ids()) differ[face] = difference(face) > largest * integrals[face];
   std::vector<std::string> result;
   if (std::none_of(differ.begin(), differ.end(), [](char d) { return d != 0; })) return result;
   const FlatLoss loss(shape, mesh, differ);
-  for (std::size_t face = 0; face < areas.size(); ++face) {
+  for (const FaceId face : areas.ids()) {
     if (!differ[face] || difference(face) <= largest * integrals[face] + of_loss * loss.of(face)) continue;
     result.push_back(fmt::format(
         "Face{} has an area of {:.6g} in the mesh and of {:.6g} by OpenCASCADE's integration: the "
         "size is too coarse for its shape, or the file or the integral wrong",
-        face + 1, areas[face], integrals[face]));
+        face.number(), areas[face], integrals[face]));
   }
   return result;
 }

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/cad/parallel_ids.hpp"
 #include "mesher/shell/midsides.hpp"
 #include "mesher/shell/unfolding.hpp"
 
@@ -34,8 +34,7 @@ class Assembler {
   /// Calls work(face) on all threads for each face that is meshed.
   template <class Work>
   void for_each_face(Work&& work) const {
-    oneapi::tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t index) {
-      const FaceId face = FaceId::from_index(index);
+    for_each_id(faces_, [&](FaceId face) {
       if (faces_[face]) work(face);
     });
   }

@@ -5,9 +5,8 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include "geometry/base/side_key.hpp"
+#include "geometry/cad/parallel_ids.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 
 namespace quadrille {
@@ -68,8 +67,7 @@ class MidsidePlacement {
     Midsides result;
     result.first_inner = mesh_.points.size();
     IdVector<FaceId, FaceMidsides> of_faces(meshed_.faces.size());
-    oneapi::tbb::parallel_for(std::size_t{0}, of_faces.size(), [&](std::size_t index) {
-      const FaceId face = FaceId::from_index(index);
+    for_each_id(of_faces, [&](FaceId face) {
       if (meshed_.faces[face]) of_faces[face] = place_inside(face);
     });
     for (FaceMidsides& face : of_faces) {

@@ -3,13 +3,13 @@
 
 #include "mesher/shell/node_sliding.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
 #include <Standard_Failure.hxx>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
+#include "geometry/cad/parallel_ids.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/grid_rows.hpp"
@@ -185,9 +185,8 @@ class NodeSliding {
 
   template <class Work>
   void for_each_face(Work&& work) {
-    oneapi::tbb::parallel_for(std::size_t{0}, states_.size(), [&](std::size_t index) {
-      FaceState& face = states_[FaceId::from_index(index)];
-      if (face.mesh != nullptr) work(face);
+    for_each_id(states_, [&](FaceId face) {
+      if (states_[face].mesh != nullptr) work(states_[face]);
     });
   }
 

@@ -9,8 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include <oneapi/tbb/parallel_for.h>
-
+#include "geometry/cad/parallel_ids.hpp"
 #include "mesher/mesh/second_order.hpp"
 
 namespace quadrille {
@@ -263,8 +262,7 @@ class Unfolding {
   /// The elements that fold.
   QuadsOfFaces folded() const {
     QuadsOfFaces result(meshed_.faces.size());
-    oneapi::tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t index) {
-      const FaceId face = FaceId::from_index(index);
+    for_each_id(result, [&](FaceId face) {
       SparseCheck check(context_, 256);
       const auto [first, end] = numbering_.quads_of(face);
       for (std::size_t quad = first; quad < end; ++quad) {
