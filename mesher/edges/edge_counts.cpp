@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <string>
 
 #include <fmt/format.h>
@@ -23,8 +24,9 @@ constexpr double largest_fixed_ratio = 4;  // the same if one of them is fixed
 
 class CountChooser {
  public:
-  CountChooser(const CountWishes& wishes, const TinyFeatures& tiny, FaceOutlines& sides)
-      : wishes_(wishes), tiny_(tiny), sides_(sides), chords_(IdVector<EdgeId, double>()) {
+  CountChooser(const CadShape& shape, const CountWishes& wishes, const TinyFeatures& tiny,
+               FaceOutlines& sides)
+      : shape_(shape), wishes_(wishes), tiny_(tiny), sides_(sides), chords_(IdVector<EdgeId, double>()) {
     for (const EdgeId edge : wishes.wanted.ids())
       effective_.push_back(std::max(wishes.wanted[edge], 1.0 * wishes.least[edge]));
   }
@@ -112,10 +114,12 @@ class CountChooser {
   /// Names the included edges whose numbers are fixed, as "Edge4, Edge7".
   template <class Includes>
   std::string fixed_edges(Includes&& includes) const {
-    std::vector<std::string> names;
+    std::set<int> numbers;  // the pieces of an edge that a seam divides have one number
     for (const EdgeId edge : wishes_.fixed.ids()) {
-      if (wishes_.fixed[edge] > 0 && includes(edge)) names.push_back(fmt::format("Edge{}", edge.number()));
+      if (wishes_.fixed[edge] > 0 && includes(edge)) numbers.insert(shape_.edges[edge].number);
     }
+    std::vector<std::string> names;
+    for (const int number : numbers) names.push_back(fmt::format("Edge{}", number));
     return fmt::format("{}", fmt::join(names, ", "));
   }
 
@@ -162,7 +166,7 @@ class CountChooser {
         throw usage_error("segments",
                           fmt::format("`segments` gives different numbers to Edge{} and Edge{}, which "
                                       "have the same nodes",
-                                      same.number(), edge.number()));
+                                      shape_.edges[same].number, shape_.edges[edge].number));
     }
     for (const FaceId face : sides_.ids()) {
       const auto& facing = sides_[face].facing;
@@ -435,6 +439,7 @@ class CountChooser {
 
   BalanceProblem::Variable& variable(EdgeId chord) { return problem_.variables[chord.index()]; }
 
+  const CadShape& shape_;
   const CountWishes& wishes_;
   const TinyFeatures& tiny_;
   FaceOutlines& sides_;
@@ -452,8 +457,9 @@ class CountChooser {
 
 }  // namespace
 
-EdgeCounts choose_counts(const CountWishes& wishes, const TinyFeatures& tiny, FaceOutlines& sides) {
-  return CountChooser(wishes, tiny, sides).run();
+EdgeCounts choose_counts(const CadShape& shape, const CountWishes& wishes, const TinyFeatures& tiny,
+                         FaceOutlines& sides) {
+  return CountChooser(shape, wishes, tiny, sides).run();
 }
 
 }  // namespace quadrille

@@ -34,6 +34,7 @@ struct EdgeCounts {
 /// four times and at least a quarter as many. Throws Error (usage, naming the edges) if a fixed count cannot
 /// be kept: an odd one on an edge of a face that needs even numbers, or one that leaves the boundary of a
 /// face odd.
-EdgeCounts choose_counts(const CountWishes& wishes, const TinyFeatures& tiny, FaceOutlines& sides);
+EdgeCounts choose_counts(const CadShape& shape, const CountWishes& wishes, const TinyFeatures& tiny,
+                         FaceOutlines& sides);
 
 }  // namespace quadrille

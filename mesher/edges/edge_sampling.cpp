@@ -119,11 +119,11 @@ class EdgeSampler {
     tabulate_edges();
     const FaceOutlines found = find_face_sides(shape_, used_, plan_.tiny, wishes_.wanted);
     result_.sides = found;
-    EdgeCounts chosen = choose_counts(wishes_, plan_.tiny, result_.sides);
+    EdgeCounts chosen = choose_counts(shape_, wishes_, plan_.tiny, result_.sides);
     const bool refined = refine_along_strips(shape_, result_.sides, chosen, tables_, wishes_);
     if (fit_holes_to_grids(shape_, result_.sides, chosen, tables_, wishes_) || refined) {
       result_.sides = found;
-      chosen = choose_counts(wishes_, plan_.tiny, result_.sides);
+      chosen = choose_counts(shape_, wishes_, plan_.tiny, result_.sides);
     }
     counts_ = chosen.counts;
     shares_ = space_chords(shape_, result_.sides, chosen.chords, tables_, counts_, prescribed_shares());

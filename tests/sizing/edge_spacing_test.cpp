@@ -11,6 +11,7 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "mesher/quadrille.hpp"
+#include "tests/models/trouble_models.hpp"
 #include "tests/support/ids.hpp"
 #include "tests/support/sample_models.hpp"
 
@@ -151,6 +152,21 @@ TEST(EdgeSpacing, PiecesOfAnEdgeShareItsNumber) {
   EXPECT_DOUBLE_EQ(biased.size_at(0.1, 8), 2);
   EXPECT_DOUBLE_EQ(biased.size_at(0.5, 8), 6);
   EXPECT_DOUBLE_EQ(biased.size_at(1, 8), 6);
+}
+
+/// The pieces of an edge that a seam divides have ids that no user knows.
+TEST(EdgeSpacing, APieceIsNamedAsItsEdge) {
+  const auto& all = trouble_models();
+  const auto hole = std::find_if(all.begin(), all.end(),
+                                 [](const auto& trouble) { return trouble.name == "hole_over_seam"; });
+  const CadModel model(std::make_shared<CadShape>(hole->make(), hole->name));
+  try {
+    mesh_with(model, {{4, {5, 1, 1}}}, Strategy::direct);
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("one of Edge4"), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).find(','), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace
