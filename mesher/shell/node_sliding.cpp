@@ -108,7 +108,7 @@ class NodeSliding {
       states_[face].cad_face = &shape.faces[face];
       turn_as_surface(states_[face]);
     }
-    for_each_face([&](FaceState& face) { prepare(face); });
+    for_each_face([&](FaceId face) { prepare(states_[face]); });
     for (const auto& edge : nodes.edges) sampled_.push_back(edge.parameters);
     link_boundary();
     find_slidable();
@@ -123,13 +123,13 @@ class NodeSliding {
 
   /// Refills patches around quads outside the limits and activates their nodes. \return whether any changed.
   bool mend() {
-    for_each_face([&](FaceState& face) { mend(face); });
+    for_each_face([&](FaceId face) { mend(states_[face]); });
     return std::any_of(states_.begin(), states_.end(), [](const FaceState& face) { return face.mended; });
   }
 
   /// Updates uv and q_min after nodes moved.
   void finish() {
-    for_each_face([&](FaceState& face) { finish(face); });
+    for_each_face([&](FaceId face) { finish(states_[face]); });
   }
 
  private:
@@ -140,10 +140,10 @@ class NodeSliding {
 
   void slide(int sweeps, const Aim& aim) {
     aim_ = aim;
-    for_each_face([&](FaceState& face) { measure(face); });
+    for_each_face([&](FaceId face) { measure(states_[face]); });
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       int moves = slide_edges();
-      for_each_face([&](FaceState& face) { relax_face(face); });
+      for_each_face([&](FaceId face) { relax_face(face); });
       for (const FaceState& face : states_) moves += face.moves;
       if (moves == 0) break;
     }
@@ -186,7 +186,7 @@ class NodeSliding {
   template <class Work>
   void for_each_face(Work&& work) {
     for_each_id(states_, [&](FaceId face) {
-      if (states_[face].mesh != nullptr) work(states_[face]);
+      if (states_[face].mesh != nullptr) work(face);
     });
   }
 
@@ -446,9 +446,9 @@ class NodeSliding {
     return has_kept_edge(shape_.faces[face], nodes_);
   }
 
-  void relax_face(FaceState& face) {
+  void relax_face(FaceId id) {
+    FaceState& face = states_[id];
     face.moves = 0;
-    const FaceId id = FaceId::from_index(&face - &*states_.begin());
     if (keeps_rows(id)) return;
     Buffers buffers;
     SparseCheck check(context_, 64);
