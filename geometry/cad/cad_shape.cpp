@@ -2,12 +2,10 @@
 
 #include "geometry/cad/cad_shape.hpp"
 
-#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepTools.hxx>
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
-#include <Bnd_Box.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
 #include <Precision.hxx>
 #include <ShapeAnalysis_Surface.hxx>
@@ -21,6 +19,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/cad/bounding_box.hpp"
 #include "geometry/cad/curve_ends.hpp"
 #include "geometry/cad/seams.hpp"
 #include "geometry/cad/shape_completion.hpp"
@@ -38,7 +37,7 @@ void CadShape::read_topology() {
   TopTools_IndexedMapOfShape face_map, solid_map, shell_map;
   TopExp::MapShapes(shape, TopAbs_FACE, face_map);
   const bool seams_lack = std::any_of(face_map.cbegin(), face_map.cend(), [](const TopoDS_Shape& face) {
-    return lacks_seam(TopoDS::Face(face));
+    return lacks_seam(without_idle_wires(TopoDS::Face(face)));
   });
   if (seams_lack) {
     shape = BRepBuilderAPI_Copy(shape, Standard_True).Shape();
@@ -51,8 +50,12 @@ void CadShape::read_topology() {
   shells = shell_map.Extent();
   std::vector<TopoDS_Face> sources;
   for (int i = 1; i <= face_map.Extent(); ++i) {
-    sources.push_back(with_natural_bounds(TopoDS::Face(face_map(i))));
-    if (!sources.back().IsSame(face_map(i)))
+    const TopoDS_Face face = without_idle_wires(TopoDS::Face(face_map(i)));
+    if (!face.IsSame(face_map(i)))
+      problems.push_back(
+          fmt::format("a wire of Face{} runs there and back: it bounds nothing and is left out", i));
+    sources.push_back(with_natural_bounds(face));
+    if (!sources.back().IsSame(face))
       problems.push_back(fmt::format("Face{} has no wire: it is bounded where its surface ends", i));
   }
   TopTools_IndexedMapOfShape edge_map, vertex_map;
@@ -203,23 +206,9 @@ void CadShape::read_face(FaceId id, const TopoDS_Face& source, const TopTools_In
 }
 
 void CadShape::measure() {
-  Bnd_Box box;
-  BRepBndLib::Add(shape, box, Standard_False);  // AddOptimal takes longer than reading the file
-  // The boxes of some trimmed surfaces (tori that meet their axis) do not contain the bounding edges.
-  for (const CadEdge& edge : edges) {
-    if (edge.degenerate || !(edge.length > 0)) continue;
-    const BRepAdaptor_Curve curve(edge.edge);
-    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
-      box.Add(curve.Value(edge.first + share * (edge.last - edge.first)));
-  }
-  if (box.IsVoid()) {
-    box_min = box_max = Vector3::Zero();
-  } else {
-    double x0 = 0, y0 = 0, z0 = 0, x1 = 0, y1 = 0, z1 = 0;
-    box.Get(x0, y0, z0, x1, y1, z1);
-    box_min = {x0, y0, z0};
-    box_max = {x1, y1, z1};
-  }
+  const BoundingBox box = bounding_box(*this);
+  box_min = box.low;
+  box_max = box.high;
 }
 
 }  // namespace quadrille

@@ -13,9 +13,13 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_MapOfOrientedShape.hxx>
+#include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
+#include <TopoDS_Iterator.hxx>
 #include <TopoDS_Wire.hxx>
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -39,6 +43,73 @@ void add_curves(const TopoDS_Face& face) {
     ShapeFix_Wire fix(TopoDS::Wire(it.Current()), face, BRep_Tool::Tolerance(face));
     fix.FixEdgeCurves();  // changes the edges in place
   }
+}
+
+/// Whether each edge of a wire occurs once in either direction on one and the same parametric curve. A seam
+/// has two of them.
+bool runs_there_and_back(const TopoDS_Wire& wire, const TopoDS_Face& face) {
+  TopTools_MapOfOrientedShape pending;
+  std::vector<TopoDS_Edge> edges;
+  for (TopoDS_Iterator it(wire); it.More(); it.Next()) {
+    const TopoDS_Shape& edge = it.Value();
+    const TopAbs_Orientation turn = edge.Orientation();
+    if (edge.ShapeType() != TopAbs_EDGE || (turn != TopAbs_FORWARD && turn != TopAbs_REVERSED)) return false;
+    if (BRep_Tool::Degenerated(TopoDS::Edge(edge))) return false;
+    if (pending.Remove(edge.Reversed())) continue;
+    if (!pending.Add(edge)) return false;
+    edges.push_back(TopoDS::Edge(edge));
+  }
+  if (edges.empty() || !pending.IsEmpty()) return false;
+  return std::all_of(edges.begin(), edges.end(), [&](const TopoDS_Edge& edge) {
+    double first = 0, last = 0;
+    const Handle(Geom2d_Curve) there = BRep_Tool::CurveOnSurface(edge, face, first, last);
+    const Handle(Geom2d_Curve) back =
+        BRep_Tool::CurveOnSurface(TopoDS::Edge(edge.Reversed()), face, first, last);
+    if (there.IsNull() || back.IsNull() || Precision::IsInfinite(last - first)) return false;
+    for (const double share : {0.0, 0.3, 0.5, 0.7, 1.0}) {
+      const double t = first + share * (last - first);
+      if (!there->Value(t).IsEqual(back->Value(t), Precision::PConfusion())) return false;
+    }
+    return true;
+  });
+}
+
+/// Whether a vertex of a wire is on one of its edges only.
+bool has_loose_end(const TopoDS_Shape& wire) {
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(wire, TopAbs_EDGE, edges);
+  TopTools_MapOfShape odd;
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    for (TopExp_Explorer it(edges(i), TopAbs_VERTEX); it.More(); it.Next()) {
+      const TopoDS_Shape vertex = it.Current().Oriented(TopAbs_FORWARD);
+      if (!odd.Add(vertex)) odd.Remove(vertex);
+    }
+  }
+  return !odd.IsEmpty();
+}
+
+/// Whether a surface meets itself or ends in a point wherever its parameters end, as spheres and tori do.
+bool has_no_border(const Handle(Geom_Surface) & surface) {
+  double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
+  surface->Bounds(u0, u1, v0, v1);
+  for (const double bound : {u0, u1, v0, v1}) {
+    if (Precision::IsInfinite(bound)) return false;
+  }
+  const auto is_point = [](const auto& at) {
+    const gp_Pnt first = at(0.0);
+    for (const double share : {0.25, 0.4, 0.6, 1.0}) {
+      if (!first.IsEqual(at(share), Precision::Confusion())) return false;
+    }
+    return true;
+  };
+  const auto along_u = [&](double v) {
+    return is_point([&](double share) { return surface->Value(u0 + share * (u1 - u0), v); });
+  };
+  const auto along_v = [&](double u) {
+    return is_point([&](double share) { return surface->Value(u, v0 + share * (v1 - v0)); });
+  };
+  return (surface->IsUClosed() || (along_v(u0) && along_v(u1))) &&
+         (surface->IsVClosed() || (along_u(v0) && along_u(v1)));
 }
 
 }  // namespace
@@ -101,6 +172,28 @@ CadFace with_new_curves(const CadFace& face) {
     throw failure("", problem.GetMessageString());
   }
   return result;
+}
+
+TopoDS_Face without_idle_wires(const TopoDS_Face& face) {
+  const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
+  int wires = 0;
+  TopTools_MapOfShape idle, open;
+  for (TopoDS_Iterator it(forward); it.More(); it.Next()) {
+    if (it.Value().ShapeType() != TopAbs_WIRE) continue;
+    ++wires;
+    if (!runs_there_and_back(TopoDS::Wire(it.Value()), forward)) continue;
+    idle.Add(it.Value());
+    if (has_loose_end(it.Value())) open.Add(it.Value());
+  }
+  if (idle.IsEmpty() || !has_no_border(BRep_Tool::Surface(forward))) return face;
+  if (idle.Extent() < wires) idle.Subtract(open);  // a slit in a face that the other wires bound
+  if (idle.IsEmpty()) return face;
+  const BRep_Builder builder;
+  TopoDS_Face result = TopoDS::Face(forward.EmptyCopied());
+  for (TopoDS_Iterator it(forward); it.More(); it.Next()) {
+    if (!idle.Contains(it.Value())) builder.Add(result, it.Value());
+  }
+  return TopoDS::Face(result.Oriented(face.Orientation()));
 }
 
 TopoDS_Face with_natural_bounds(const TopoDS_Face& face) {

@@ -15,6 +15,12 @@ namespace quadrille {
 /// otherwise a copy. Each change adds a sentence to `problems`.
 TopoDS_Shape with_parametric_curves(const TopoDS_Shape& shape, std::vector<std::string>& problems);
 
+/// The face without wires that bound nothing: on a surface without a border (a sphere, a torus), those whose
+/// edges all occur once in either direction, such as a great circle there and back. Their edges keep their
+/// numbers, but no face uses them any more. Slits in a face that other wires bound stay. If there are no such
+/// wires, returns the face itself.
+TopoDS_Face without_idle_wires(const TopoDS_Face& face);
+
 /// For a face without wires: the face bounded by the natural bounds of its surface. Faces that have wires,
 /// and those on infinite surfaces, are returned unchanged.
 TopoDS_Face with_natural_bounds(const TopoDS_Face& face);

@@ -1,4 +1,5 @@
 #include "geometry/midsurface/skin.hpp"
+#include "geometry/base/whole_number.hpp"
 
 #include <BRepBndLib.hxx>
 #include <BRepGProp.hxx>
@@ -78,7 +79,7 @@ std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least) {
   for (const Triangle& triangle : triangles) {
     left_out += triangle.area;
     if (left_out < 0.5 * area / at_least && &triangle != &triangles.back()) continue;
-    const int n = std::clamp(static_cast<int>(std::ceil(std::sqrt(at_least * triangle.area / area))), 1, 64);
+    const int n = to_int(std::clamp(std::ceil(std::sqrt(at_least * triangle.area / area)), 1.0, 64.0));
     add_centers(triangle, left_out, n, surface, result);
     left_out = 0;
   }

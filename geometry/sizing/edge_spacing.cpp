@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/whole_number.hpp"
 
 namespace quadrille {
 
@@ -44,8 +45,7 @@ std::vector<int> split_count(const CadShape& shape, const std::vector<EdgeId>& p
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     before += shape.edges[pieces[i]].length;
     const int others = static_cast<int>(pieces.size() - 1 - i);
-    const int upto =
-        i + 1 == pieces.size() ? segments : static_cast<int>(std::lround(segments * before / length));
+    const int upto = i + 1 == pieces.size() ? segments : round_to_int(segments * before / length);
     counts.push_back(std::clamp(upto - (segments - left), 1, std::max(1, left - others)));
     left -= counts.back();
   }
@@ -78,7 +78,7 @@ PrescribedEdges prescribed_edges(const CadShape& shape, const SizingOptions& opt
       double length = 0;
       for (const EdgeId piece : pieces) length += shape.edges[piece].length;
       // An even number, so that subdivision can produce it.
-      segments = 2 * std::max(1, static_cast<int>(std::lround(0.5 * length / cap)));
+      segments = 2 * std::max(1, round_to_int(0.5 * length / cap));
     }
     if (segments < static_cast<int>(pieces.size()))
       throw usage_error("segments", fmt::format("`segments` asks for {} on Edge{}, which is in {} pieces",

@@ -13,6 +13,7 @@
 
 #include "geometry/base/free_memory.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/cad/coarse_domain.hpp"
 #include "geometry/cad/parallel_ids.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 
@@ -164,24 +165,6 @@ void hold_regions(const CadShape& shape, const SizingOptions& options, const Siz
 }
 
 }  // namespace
-
-TrimmedDomain coarse_domain(const CadShape& shape, const CadFace& face) {
-  constexpr int intervals = 16;
-  std::vector<TrimmedDomain::Segment> segments;
-  for (const CadWire& wire : face.wires) {
-    for (const Coedge& coedge : wire.coedges) {
-      if (coedge.internal) continue;
-      const CadEdge& edge = shape.edges[coedge.edge];
-      Vector2 from = parametric_point(coedge, edge.first);
-      for (int i = 1; i <= intervals; ++i) {
-        const Vector2 to = parametric_point(coedge, edge.first + (edge.last - edge.first) * i / intervals);
-        segments.push_back({from, to});
-        from = to;
-      }
-    }
-  }
-  return TrimmedDomain(std::move(segments));
-}
 
 FaceSamples sample_faces(const CadShape& shape, const FaceFlags& used, ExecutionContext& context) {
   FaceSamples samples(shape.faces.size());

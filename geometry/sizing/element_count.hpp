@@ -5,18 +5,12 @@
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
-#include "geometry/base/trimmed_domain.hpp"
 #include "geometry/cad/cad_model.hpp"
 #include "geometry/cad/ids.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/sizing/sizing_options.hpp"
 
 namespace quadrille {
-
-struct CadFace;
-
-/// The region of a face in its parameter plane, with each edge approximated by 16 chords.
-TrimmedDomain coarse_domain(const CadShape& shape, const CadFace& face);
 
 /// A sample point of a face.
 struct FaceSample {

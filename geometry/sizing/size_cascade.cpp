@@ -9,6 +9,7 @@
 #include <cmath>
 #include <queue>
 
+#include "geometry/base/whole_number.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/sizing/vdb_module.hpp"
 
@@ -50,7 +51,7 @@ double widening(double growth) {
 }
 
 int level_for(double size_max, double size) {
-  return static_cast<int>(std::floor(std::min(std::log2(size_max / size), 1.0 * max_size_levels)));
+  return to_int(std::floor(std::min(std::log2(size_max / size), 1.0 * max_size_levels)));
 }
 
 void BlockCount::add() {

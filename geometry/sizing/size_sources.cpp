@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "geometry/base/trimmed_domain.hpp"
+#include "geometry/base/whole_number.hpp"
+#include "geometry/cad/coarse_domain.hpp"
 #include "geometry/sizing/element_count.hpp"
 #include "geometry/sizing/face_gaps.hpp"
 #include "geometry/surfaces/face_surface.hpp"
@@ -37,8 +39,10 @@ struct Cells {
 Cells cells_of(const CadFace& face, const FaceSurface& surface, double spacing) {
   const Vector2 low(face.u_min, face.v_min), extent(face.u_max - face.u_min, face.v_max - face.v_min);
   const Vector2 lengths = extent.cwiseProduct(surface.mean_scale()) / spacing;
-  const int nu = std::clamp(static_cast<int>(std::ceil(lengths.x())), fewest_cells, most_cells);
-  const int nv = std::clamp(static_cast<int>(std::ceil(lengths.y())), fewest_cells, most_cells);
+  const auto cells = [](double count) {
+    return to_int(std::clamp<double>(std::ceil(count), fewest_cells, most_cells));
+  };
+  const int nu = cells(lengths.x()), nv = cells(lengths.y());
   return {nu, nv, low, {extent.x() / nu, extent.y() / nv}};
 }
 
@@ -130,8 +134,8 @@ void SizeSources::prescribed_edge(const CadEdge& edge, const PrescribedEdge& pre
 
 void SizeSources::sample_edge(const EdgeCurve& curve, const CadEdge& edge, double cap, bool with_curvature,
                               const Sink& sink) const {
-  const int intervals = std::max({4, with_curvature ? 3 * curve.spans() : 1,
-                                  static_cast<int>(std::ceil(edge.length / spatial_.spacing()))});
+  const int intervals = std::max(
+      {4, with_curvature ? 3 * curve.spans() : 1, to_int(std::ceil(edge.length / spatial_.spacing()))});
   const auto sample = [&](double t) {
     const Vector3 point = curve.point(t);
     double size = cap;
@@ -236,7 +240,7 @@ void SizeSources::gaps(FaceId id, const Sink& sink) const {
   for (const FaceGap& gap : gaps.find(context_)) {
     const double size = std::max(gap.width() / n, limits_.size_min);
     if (!(size < limits_.largest)) continue;
-    const int steps = static_cast<int>(std::ceil(gap.width() / size));
+    const int steps = to_int(std::ceil(gap.width() / size));
     for (int k = 0; k <= steps; ++k) sink(gap.from + k * (gap.to - gap.from) / steps, size);
   }
 }

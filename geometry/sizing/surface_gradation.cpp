@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/base/whole_number.hpp"
 #include "geometry/cad/parallel_ids.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
@@ -166,7 +167,7 @@ class SurfaceGradation {
     const EdgeCurve curve(edge);
     std::vector<Sample>& samples = samples_[id];
     if (samples.empty()) {
-      const int n = 1 + static_cast<int>(std::ceil(edge.length / cascade.frame().size_max));
+      const int n = 1 + to_int(std::ceil(edge.length / cascade.frame().size_max));
       for (int i = 0; i <= n; ++i)
         samples.push_back(sample(curve, edge.first + (edge.last - edge.first) * i / n));
     }

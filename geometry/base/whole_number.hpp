@@ -1,0 +1,28 @@
+#pragma once
+/// Conversion of computed numbers to integers. Internal.
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+
+namespace quadrille {
+
+/// The value without its fraction, as static_cast does it, but with every value defined. Throws Error
+/// (failure) if it does not fit an int: a count that large comes from damaged geometry, and a loop over it
+/// would not end.
+inline int to_int(double value) {
+  constexpr double most = std::numeric_limits<int>::max();
+  if (!(std::abs(value) < most))
+    throw failure("", fmt::format("a count of {:g} was computed: the geometry there may be damaged", value));
+  return static_cast<int>(value);
+}
+
+/// The nearest integer, halves away from zero. Throws as to_int() does.
+inline int round_to_int(double value) {
+  return to_int(std::round(value));
+}
+
+}  // namespace quadrille

@@ -1,0 +1,220 @@
+/// BRepBndLib::AddOptimal would do, but takes up to 70 ms for a face: seconds for parts that are read in
+/// a hundredth of one. Here only what reaches beyond the rest is measured.
+
+#include "geometry/cad/bounding_box.hpp"
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepBndLib.hxx>
+#include <Bnd_Box.hxx>
+#include <Precision.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "geometry/cad/coarse_domain.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// How far something reaches along x, y, z, -x, -y and -z.
+class Reach {
+ public:
+  Reach() { reach_.fill(-INFINITY); }
+
+  double& operator[](int direction) { return reach_[direction]; }
+  double operator[](int direction) const { return reach_[direction]; }
+
+  static double along(int direction, const Vector3& p) {
+    return direction < 3 ? p[direction] : -p[direction - 3];
+  }
+
+  void add(const Vector3& p) {
+    for (int d = 0; d < 6; ++d) reach_[d] = std::max(reach_[d], along(d, p));
+  }
+  void add(const Bnd_Box& box) {
+    if (box.IsVoid()) return;
+    double x0 = 0, y0 = 0, z0 = 0, x1 = 0, y1 = 0, z1 = 0;
+    box.Get(x0, y0, z0, x1, y1, z1);
+    add(Vector3(x0, y0, z0));
+    add(Vector3(x1, y1, z1));
+  }
+  void add(const Reach& other) {
+    for (int d = 0; d < 6; ++d) reach_[d] = std::max(reach_[d], other[d]);
+  }
+
+  bool empty() const { return reach_[0] == -INFINITY; }
+  bool finite() const {
+    return std::all_of(reach_.begin(), reach_.end(), [](double r) { return std::abs(r) < 1e50; });
+  }
+  double diagonal() const {
+    return Vector3(reach_[0] + reach_[3], reach_[1] + reach_[4], reach_[2] + reach_[5]).norm();
+  }
+  bool exceeds(const Reach& other, double by) const {
+    for (int d = 0; d < 6; ++d) {
+      if (reach_[d] > other[d] + by) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::array<double, 6> reach_;
+};
+
+Reach reach_of(const TopoDS_Shape& part) {
+  Bnd_Box box;
+  BRepBndLib::Add(part, box, Standard_False);
+  Reach reach;
+  reach.add(box);
+  return reach;
+}
+
+/// A curve (whose second parameter has no range) or a surface.
+struct Patch {
+  Vector2 low{0, 0}, high{0, 0};
+  std::array<int, 2> cells{0, 0};  ///< intervals of the samples
+  std::function<Vector3(const Vector2&)> point;
+  std::function<bool(const Vector2&)> inside;
+};
+
+/// Extends `known` to where a patch ends: from the farthest sample in each direction uphill, by steps that
+/// are halved. \param slack what lies farther behind is not looked at.
+void extend(Reach& known, const Patch& patch, double slack) {
+  const auto step = [&](int axis) {
+    return patch.cells[axis] > 0 ? (patch.high[axis] - patch.low[axis]) / patch.cells[axis] : 0;
+  };
+  const Vector2 cell(step(0), step(1));
+  Reach best;
+  std::array<Vector2, 6> at;
+  std::array<bool, 6> found{};
+  for (int d = 0; d < 6; ++d) best[d] = known[d] - slack;
+  /// Takes a point if it is farther in a direction than what was found.
+  const auto take = [&](int d, const Vector2& uv, const Vector3& p) {
+    if (!(Reach::along(d, p) > best[d]) || !patch.inside(uv)) return false;
+    best[d] = Reach::along(d, p);
+    at[d] = uv;
+    found[d] = true;
+    return true;
+  };
+  for (int i = 0; i <= patch.cells[0]; ++i) {
+    for (int j = 0; j <= patch.cells[1]; ++j) {
+      const Vector2 uv = patch.low + Vector2(i * cell.x(), j * cell.y());
+      const Vector3 p = patch.point(uv);
+      for (int d = 0; d < 6; ++d) take(d, uv, p);
+    }
+  }
+  constexpr double finest = 1e-4;  // of a cell; what is missed goes with the square
+  constexpr int most_steps = 200;
+  for (int d = 0; d < 6; ++d) {
+    double scale = 0.5;
+    for (int steps = 0; found[d] && scale > finest && steps < most_steps; ++steps) {
+      const Vector2 center = at[d];
+      for (int i = -1; i <= 1; ++i) {
+        for (int j = -1; j <= 1; ++j) {
+          if (patch.cells[1] == 0 && j != 0) continue;
+          const Vector2 uv =
+              (center + scale * Vector2(i * cell.x(), j * cell.y())).cwiseMax(patch.low).cwiseMin(patch.high);
+          take(d, uv, patch.point(uv));
+        }
+      }
+      if (at[d] == center) scale *= 0.5;
+    }
+  }
+  known.add(best);
+}
+
+constexpr double slack_share = 0.05;  // of a patch's size: an arc between two samples is lower
+
+int cells_for(int spans) {
+  return std::clamp(4 * spans, 16, 64);
+}
+
+void extend(Reach& known, const CadEdge& edge, double size) {
+  const BRepAdaptor_Curve curve(edge.edge);
+  Patch patch;
+  patch.low.x() = edge.first;
+  patch.high.x() = edge.last;
+  patch.cells[0] = curve.GetType() == GeomAbs_Line ? 1 : cells_for(curve.NbIntervals(GeomAbs_C2));
+  patch.point = [&](const Vector2& uv) { return to_vector(curve.Value(uv.x())); };
+  patch.inside = [](const Vector2&) { return true; };
+  extend(known, patch, slack_share * size);
+}
+
+void extend(Reach& known, const CadShape& shape, const CadFace& face, double size) {
+  const BRepAdaptor_Surface surface(face.face, Standard_False);
+  if (surface.GetType() == GeomAbs_Plane) return;  // ends at its edges
+  const TrimmedDomain domain = coarse_domain(shape, face);
+  Patch patch;
+  patch.low = {face.u_min, face.v_min};
+  patch.high = {face.u_max, face.v_max};
+  patch.cells = {cells_for(surface.NbUIntervals(GeomAbs_C2)), cells_for(surface.NbVIntervals(GeomAbs_C2))};
+  patch.point = [&](const Vector2& uv) { return to_vector(surface.Value(uv.x(), uv.y())); };
+  // On both sides of the point: at the height of a vertex, where two parametric curves do not quite meet, the
+  // ray of the test may pass between them. The border itself is that of the edges.
+  const Vector2 off(0, 1e-6 * (face.v_max - face.v_min));
+  patch.inside = [&, off](const Vector2& uv) {
+    return domain.empty() || (domain.inside(uv - off) && domain.inside(uv + off));
+  };
+  extend(known, patch, slack_share * size);
+}
+
+/// Extends `known` to where a part ends if its own box reaches farther, or else to that box.
+template <class Measure>
+void extend_to(Reach& known, const Reach& own, double margin, const Measure& measure) {
+  if (!own.exceeds(known, margin)) return;
+  try {
+    if (!own.finite()) throw Standard_Failure("without end");
+    measure(own.diagonal());
+  } catch (const Standard_Failure&) {
+    known.add(own);
+  }
+}
+
+}  // namespace
+
+BoundingBox bounding_box(const CadShape& shape) {
+  IdVector<FaceId, Reach> own(shape.faces.size());
+  Reach wide, known;
+  double tolerance = 0;
+  for (const FaceId id : shape.faces.ids()) {
+    own[id] = reach_of(shape.faces[id].face);
+    wide.add(own[id]);
+    tolerance = std::max(tolerance, shape.faces[id].tolerance);
+  }
+  for (TopExp_Explorer it(shape.shape, TopAbs_EDGE, TopAbs_FACE); it.More(); it.Next())
+    known.add(reach_of(it.Current()));
+  for (TopExp_Explorer it(shape.shape, TopAbs_VERTEX, TopAbs_EDGE); it.More(); it.Next())
+    known.add(reach_of(it.Current()));
+  // The boxes of some trimmed surfaces (tori that meet their axis) do not contain the bounding edges.
+  for (const CadEdge& edge : shape.edges) {
+    if (edge.degenerate || !(edge.length > 0)) continue;
+    tolerance = std::max(tolerance, edge.tolerance);
+    const BRepAdaptor_Curve curve(edge.edge);
+    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
+      known.add(to_vector(curve.Value(edge.first + share * (edge.last - edge.first))));
+  }
+  wide.add(known);
+  if (wide.empty()) return {};
+  // Sides that are right but for tolerances stay as they are, and with them the sizes that follow from them.
+  const double margin = 1e-5 * wide.diagonal() + 2 * tolerance;
+  if (wide.finite() && wide.exceeds(known, margin)) {
+    for (const CadEdge& edge : shape.edges) {
+      if (edge.degenerate || !(edge.length > 0)) continue;
+      extend_to(known, reach_of(edge.edge), margin, [&](double size) { extend(known, edge, size); });
+    }
+    for (const FaceId id : shape.faces.ids()) {
+      extend_to(known, own[id], margin, [&](double size) { extend(known, shape, shape.faces[id], size); });
+    }
+    for (int d = 0; d < 6; ++d) {
+      if (wide[d] > known[d] + margin) wide[d] = known[d];
+    }
+    wide.add(known);
+  }
+  return {{-wide[3], -wide[4], -wide[5]}, {wide[0], wide[1], wide[2]}};
+}
+
+}  // namespace quadrille
