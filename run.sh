@@ -25,7 +25,8 @@ fi
 cd "$(dirname "$(readlink -f "$0")")"
 
 scripts/install_dependencies.sh
-scripts/build.sh release quadrille quadrille_python
+# All that `cmake --install build` installs; the shared library is only linked.
+scripts/build.sh release quadrille quadrille_python quadrille_library
 
 echo "Working on ${part:-the sample} inside FreeCAD"
 export QUADRILLE_COMMAND="$PWD/build/quadrille"

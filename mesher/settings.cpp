@@ -256,6 +256,9 @@ std::vector<Setting> make_table() {
       {"bias_both", "bias-both", "BiasBoth", none, mesh, none, 0, 0, false, "none",
        "the same ratio from both ends of an edge to its middle",
        Setting::EntryList{set_bias_both, bias_both_of}},
+      {"imprint", "imprint", none, none, read, none, 0, 0, false, none,
+       "first cut parts that touch or cross where they meet, so that they share faces, edges and nodes",
+       [](Settings& v) -> bool& { return v.imprint; }},
       {"sew", "sew", "Sew", "Sew", read, mm, 0, infinity, true, "not sewn",
        "first join edges of neighboring faces that lie within this length of each other",
        [](Settings& v) -> double& { return v.sew; }},
@@ -273,6 +276,9 @@ std::vector<Setting> make_table() {
        [](Settings& v) -> bool& { return v.mesh.symmetry; }},
       {"partial", "partial", "Partial", "Partial", mesh, none, 0, 0, false, none,
        "keep what could be meshed if a face fails", [](Settings& v) -> bool& { return v.mesh.partial; }},
+      {"strict", "strict", none, none, mesh, none, 0, 0, false, none,
+       "refuse a face that has no valid mesh on its surface, instead of letting nodes leave it",
+       [](Settings& v) -> bool& { return v.mesh.strict; }},
       {"force", "force", "Force", none, mesh, none, 0, 0, false, none,
        "allow more than 50 million elements and 5 million segments on edges",
        [](Settings& v) -> bool& { return v.mesh.force; }},
@@ -426,6 +432,11 @@ void assign(Settings& settings, const Setting& setting, const SettingValue& valu
           [&](SizingOptions& (*at)(Settings&)) { set_sizes(setting, value, at(settings)); },
       },
       setting.place);
+}
+
+CadModel joined(const Settings& settings, const CadModel& model) {
+  const CadModel imprinted = settings.imprint ? model.imprinted(settings.sew) : model;
+  return settings.sew > 0 ? imprinted.sewn(settings.sew) : imprinted;
 }
 
 void check(const Settings& settings, const CadModel& model) {

@@ -21,6 +21,7 @@ class CadModel;
 struct Settings {
   MeshOptions mesh;             ///< how the model is meshed
   WriteOptions write;           ///< how files are written; title and threads are not in the table
+  bool imprint = false;         ///< see CadModel::imprinted(), with `sew` as its tolerance
   double sew = 0;               ///< millimeters, see CadModel::sewn(); 0 = not sewn
   double read_time_limit = 60;  ///< seconds for reading the CAD file; 0 = no limit
   double time_limit = 0;        ///< seconds for the whole run; 0 = no limit
@@ -90,6 +91,9 @@ QUADRILLE_API void assign(Settings& settings, const Setting& setting, const Sett
 /// Throws Error (usage, subject: the setting's name) if a value, or two values together, make no sense for
 /// the model: numbers outside their limits, names that the model does not have, lengths larger than it.
 QUADRILLE_API void check(const Settings& settings, const CadModel& model);
+
+/// The model as the settings want it read: imprinted, then sewn. Throws Error as those functions of CadModel.
+QUADRILLE_API CadModel joined(const Settings& settings, const CadModel& model);
 
 /// The table as an array of objects: name, option, property, label, kind, use, unit, default (null: see
 /// otherwise), low, high (null: none), above_low, choices, otherwise, help.

@@ -198,13 +198,12 @@ auto interruptible(int threads, const py::object& progress, Work work) {
   }
 }
 
-/// Calls `read` with its options, and sews the model if the settings ask for it.
+/// Calls `read` with its options, and imprints and sews the model if the settings ask for it.
 template <class Read>
 CadModel read_model(bool isolated, const Settings& settings, Read read) {
   return interruptible(1, py::none(), [&](ExecutionContext& context) {
     context.expect({Stage::read});
-    const CadModel model = read(ReadOptions{isolated, &context, settings.read_time_limit});
-    return settings.sew > 0 ? model.sewn(settings.sew) : model;
+    return joined(settings, read(ReadOptions{isolated, &context, settings.read_time_limit}));
   });
 }
 
@@ -291,6 +290,9 @@ void bind_model(py::module_& module) {
           "area", [](const CadModel& model) { return model.area(); }, "Sum of the face areas, in mm^2.")
       .def_property_readonly("problems", &CadModel::problems,
                              "Problems noticed while reading, one sentence each.")
+      .def_property_readonly("pieces", &CadModel::pieces,
+                             "After read(imprint=True): for each face of the file, the numbers of the faces "
+                             "that it became.")
       .def_property_readonly(
           "box",
           [](const CadModel& model) {

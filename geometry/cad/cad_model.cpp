@@ -11,17 +11,20 @@
 #include <Message_PrinterOStream.hxx>
 #include <Standard_Failure.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <algorithm>
 #include <fstream>
 #include <istream>
 #include <sstream>
 #include <streambuf>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_ending.hpp"
 #include "geometry/base/module_loader.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/cad/imprinting.hpp"
 #include "geometry/cad/isolated_reading.hpp"
 #include "geometry/cad/readers/exchange_module.hpp"
 #include "geometry/cad/sewing.hpp"
@@ -123,6 +126,25 @@ CadModel guarded(const std::string& name, const ReadOptions& options, Read read)
   }
 }
 
+/// The first sentences of a list, and how many more there are.
+std::string first_few(const std::vector<std::string>& all) {
+  constexpr std::size_t most = 8;
+  const std::size_t shown = std::min(all.size(), most);
+  std::string text =
+      fmt::format("{}", fmt::join(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(shown), "; "));
+  if (all.size() > shown) text += fmt::format("; and {} more", all.size() - shown);
+  return text;
+}
+
+/// Remembers what faces became by imprinting, and tells it.
+void keep_pieces(CadShape& shape, std::vector<std::vector<int>> pieces) {
+  const std::vector<std::string> changes = changes_of_faces(pieces);
+  if (!changes.empty())
+    shape.problems.push_back(fmt::format("imprinting changed {} of {} faces: {}", changes.size(),
+                                         pieces.size(), first_few(changes)));
+  shape.face_pieces = std::move(pieces);
+}
+
 }  // namespace
 
 CadModel CadModel::read(const std::filesystem::path& path, const ReadOptions& options) {
@@ -165,18 +187,50 @@ CadModel CadModel::sewn(double tolerance) const {
                            diagonal(), tolerance));
   }
   try {
-    int joined = 0;
-    auto result = std::make_shared<CadShape>(sew(shape_->shape, tolerance, joined), name);
+    const Sewn made = sew(shape_->shape, tolerance);
+    if (!made.coincident.empty()) {
+      const auto [first, second] = made.coincident.front();
+      throw failure(
+          name, fmt::format("Face{} and Face{} lie on each other, {} pair(s) in all: `imprint` joins parts "
+                            "that touch, sewing joins edges only",
+                            first, second, made.coincident.size()));
+    }
+    auto result = std::make_shared<CadShape>(made.shape, name);
     if (result->faces.size() != shape_->faces.size()) {
       throw failure(
           name, fmt::format("{} loses faces when it is sewn with a tolerance of {:.6g}: try a smaller one",
                             name, tolerance));
     }
-    result->problems.push_back(fmt::format("{} edges were joined to others by sewing", joined));
+    result->problems.push_back(fmt::format("{} edges were joined to others by sewing", made.joined));
+    if (!made.turned.empty()) {
+      std::vector<std::string> names;
+      for (const int face : made.turned) names.push_back(fmt::format("Face{}", face));
+      result->problems.push_back(fmt::format("{} faces were turned so that sewn faces face alike: {}",
+                                             names.size(), first_few(names)));
+    }
+    keep_pieces(*result, shape_->face_pieces);
     return CadModel(std::move(result));
   } catch (const Standard_Failure& problem) {
     throw failure(name, fmt::format("{} cannot be sewn with a tolerance of {:.6g} ({})", name, tolerance,
                                     problem.GetMessageString()));
+  }
+}
+
+CadModel CadModel::imprinted(double tolerance) const {
+  const std::string& name = shape_->name;
+  if (!(tolerance >= 0) || !(tolerance < diagonal()))
+    throw usage_error(
+        "sew", fmt::format("`sew` must be smaller than the model, whose diagonal is {:.6g}, not {:.6g}",
+                           diagonal(), tolerance));
+  try {
+    Imprint made = imprint(shape_->shape, tolerance);
+    auto result = std::make_shared<CadShape>(made.shape, name);
+    keep_pieces(*result, std::move(made.pieces));
+    return CadModel(std::move(result));
+  } catch (const Standard_Failure& problem) {
+    throw failure(name, fmt::format("{} cannot be imprinted ({}): mesh its parts one by one, or repair it in "
+                                    "the program that made it",
+                                    name, problem.GetMessageString()));
   }
 }
 
@@ -206,6 +260,9 @@ Vector3 CadModel::box_max() const {
 }
 const std::vector<std::string>& CadModel::problems() const {
   return shape_->problems;
+}
+const std::vector<std::vector<int>>& CadModel::pieces() const {
+  return shape_->face_pieces;
 }
 
 double CadModel::area(const ExecutionContext& context) const {

@@ -39,10 +39,19 @@ class QUADRILLE_API CadModel {
                             const ReadOptions& options = {});
 
   /// The model with all edges joined that lie within `tolerance` of each other, for files whose faces touch
-  /// without sharing edges. Faces, solids and shells are kept; edges and vertices get new numbers. Throws
-  /// Error: usage if the tolerance is not positive or not below the diagonal, failure if OpenCASCADE cannot
-  /// sew the model or loses faces. \param tolerance millimeters.
+  /// without sharing edges. Faces, solids and shells are kept; edges and vertices get new numbers; faces
+  /// outside solids are turned to face as their neighbors do. Throws Error: usage if the tolerance is not
+  /// positive or not below the diagonal, failure if OpenCASCADE cannot sew the model or loses faces, or if
+  /// faces lie on each other once sewn, which only imprinted() joins. \param tolerance millimeters.
   CadModel sewn(double tolerance) const;
+
+  /// The model cut so that solids, shells and faces that touch or cross share faces, edges and vertices
+  /// (OpenCASCADE's general fuse). Faces that nothing meets keep their numbers, and so does one piece of each
+  /// that is cut, see pieces(); edges and vertices get new numbers. A model of one part stays as it is. Takes
+  /// milliseconds a face where parts meet. Throws Error: usage if the tolerance is negative or not below the
+  /// diagonal, failure if OpenCASCADE cannot do it. \param tolerance millimeters: parts no farther apart
+  /// touch; 0 = within the tolerances of the model itself.
+  CadModel imprinted(double tolerance = 0) const;
 
   int face_count() const;    ///< faces are numbered 1 .. face_count() (FreeCAD's Face1, Face2, ...)
   int edge_count() const;    ///< edges are numbered 1 .. edge_count()
@@ -50,7 +59,7 @@ class QUADRILLE_API CadModel {
   int solid_count() const;   ///< number of solids
   int shell_count() const;   ///< number of shells
 
-  /// Length of the diagonal of the bounding box, as FreeCAD computes it (control points may widen the box).
+  /// Length of the diagonal of the bounding box, which control points do not widen.
   double diagonal() const;
   Vector3 box_min() const;  ///< lowest corner of the bounding box
   Vector3 box_max() const;  ///< highest corner of the bounding box
@@ -58,6 +67,10 @@ class QUADRILLE_API CadModel {
   double area(const ExecutionContext& context = {}) const;
   /// Problems found while reading (missing curves or seams, loose vertices, ...), one sentence each.
   const std::vector<std::string>& problems() const;
+  /// Of an imprinted model: for each face of the model before, by its number minus 1, the numbers of the
+  /// faces that it became, ascending. Faces of different parts may have become the same one. Empty for
+  /// others.
+  const std::vector<std::vector<int>>& pieces() const;
 
   const CadShape& shape() const { return *shape_; }  ///< internal representation
 

@@ -2,13 +2,26 @@
 /// Joining faces that touch but do not share their edges. Internal: users see CadModel::sewn().
 
 #include <TopoDS_Shape.hxx>
+#include <array>
+#include <vector>
 
 namespace quadrille {
 
+/// A shape whose faces share the edges at which they touch.
+struct Sewn {
+  TopoDS_Shape shape;
+  int joined = 0;  ///< number of edges that were joined to others
+  std::vector<int>
+      turned;  ///< numbers of the faces that were turned to face as their neighbors do, ascending
+  /// Numbers of faces that have the same edges and lie on each other, the lower number first.
+  std::vector<std::array<int, 2>> coincident;
+};
+
 /// Sews the faces of a shape (BRepBuilderAPI_Sewing, non-manifold edges allowed). The faces keep their order,
-/// and so their numbers, and form the same solids; edges and vertices are renumbered. Throws Standard_Failure
-/// where OpenCASCADE does. \param tolerance in the model's unit: edges no farther apart become one.
-/// \param joined returns the number of edges that were joined to others.
-TopoDS_Shape sew(const TopoDS_Shape& shape, double tolerance, int& joined);
+/// and so their numbers, and form the same solids; edges and vertices are renumbered. Where edges were
+/// joined, of faces outside solids the fewer of them are turned so that all of a connected piece face alike,
+/// unless they are a one-sided surface. Throws Standard_Failure where OpenCASCADE does. \param tolerance in
+/// the model's unit: edges no farther apart become one.
+Sewn sew(const TopoDS_Shape& shape, double tolerance);
 
 }  // namespace quadrille

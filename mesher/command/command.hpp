@@ -113,8 +113,9 @@ void end_with_input();
 /// Outside its lifetime there is nothing to clean up, and a signal ends the process at once.
 class CancelOnSignal {
  public:
-  /// \param time_limit seconds; 0 = none.
-  explicit CancelOnSignal(ExecutionContext& context, double time_limit = 0);
+  /// \param time_limit seconds; 0 = none. \param partial work that lifts the context's time limit within a
+  /// second after its end goes on, to deliver what is done.
+  explicit CancelOnSignal(ExecutionContext& context, double time_limit = 0, bool partial = false);
 
   /// Also limits the time until reading_is_done(): reading cannot be cancelled. \param seconds 0 = no limit.
   void reading(const std::filesystem::path& file, double seconds);

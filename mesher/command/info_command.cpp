@@ -6,6 +6,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/surfaces/contacts.hpp"
 #include "geometry/surfaces/stray_edges.hpp"
 #include "geometry/symmetry/mirror_planes.hpp"
 #include "mesher/command/command.hpp"
@@ -52,9 +53,12 @@ std::string describe(const CadModel& model, ExecutionContext& context) {
   for (const MirrorPlane& plane : mirror_planes(model.shape(), context)) line("mirror", plane.name());
   const auto strays = stray_edges(model.shape(), FaceFlags(model.face_count(), 1));
   if (strays.empty()) add_sizes(model, context, line);
+  const std::string touching = contacts(model.shape(), context).sentence();
+  if (!touching.empty()) line("problem", with_options(touching));
   for (const StrayEdge& stray : strays) line("problem", stray.sentence());
   if (!unmeasured.empty()) line("problem", unmeasured);
-  if (model.problems().empty() && strays.empty() && unmeasured.empty()) line("problems", "none found");
+  if (model.problems().empty() && strays.empty() && unmeasured.empty() && touching.empty())
+    line("problems", "none found");
   for (const std::string& problem : model.problems()) line("problem", problem);
   return text;
 }
@@ -66,14 +70,14 @@ void add_info_command(CLI::App& app) {
   auto input = std::make_shared<std::filesystem::path>();
   auto limits = std::make_shared<GivenSettings>();
   command->add_option("IN", *input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
-  add_settings(*command, *limits, {"read_time_limit", "time_limit"});
+  add_settings(*command, *limits, {"imprint", "sew", "read_time_limit", "time_limit"});
   command->callback([input, limits] {
     require_readable(*input);
     report_crashes(*input, "reading");
     ExecutionContext context;
     CancelOnSignal cancel(context, limits->settings.time_limit);
     cancel.reading(*input, limits->settings.read_time_limit);
-    const CadModel model = CadModel::read(*input);
+    const CadModel model = joined(limits->settings, CadModel::read(*input));
     cancel.reading_is_done();
     report_crashes(*input, "measuring");
     print(describe(model, context));

@@ -9,11 +9,13 @@
 #include <optional>
 
 #include "geometry/base/threads.hpp"
+#include "geometry/surfaces/contacts.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/limits_option.hpp"
 #include "mesher/command/print_quality.hpp"
 #include "mesher/command/setting_options.hpp"
 #include "mesher/io/report.hpp"
+#include "mesher/mesh/coincidences.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/area_check.hpp"
 #include "mesher/shell/size_fidelity.hpp"
@@ -38,8 +40,7 @@ void check_files(const MeshArguments& arguments) {
 
 CadModel read_model(const MeshArguments& arguments, ExecutionContext& context) {
   const StageTimer timer(context, Stage::read);
-  const CadModel model = CadModel::read(arguments.input);
-  return arguments.settings.sew > 0 ? model.sewn(arguments.settings.sew) : model;
+  return joined(arguments.settings, CadModel::read(arguments.input));
 }
 
 /// The middle surface of the model's solids with --thin; else empty.
@@ -60,22 +61,23 @@ void list_left_out(const ShellMesh& mesh) {
   }
 }
 
-/// Adds a warning if midside nodes lie off the geometry.
+/// Adds a warning if nodes lie off the geometry.
 void warn_off_geometry(const ShellMesh& mesh, std::vector<std::string>& warnings) {
   const auto worst = std::max_element(mesh.faces.begin(), mesh.faces.end(), [](const auto& a, const auto& b) {
     return a.off_geometry_max < b.off_geometry_max;
   });
   if (mesh.off_geometry.empty() || worst == mesh.faces.end()) return;
   warnings.push_back(
-      fmt::format("{} midside nodes lie off the geometry so that no element folds, most on "
-                  "Face{} (by {:.3g}): a smaller size there, or more elements by --curvature, "
-                  "keeps them on it",
+      fmt::format("{} nodes lie off the geometry, where elements would be invalid on it, most on "
+                  "Face{} (by {:.3g}): a smaller size there keeps them on it",
                   mesh.off_geometry.size(), worst->face, worst->off_geometry_max));
 }
 
 struct Measured {
   MeshMeasures elements;
   std::vector<std::string> area_differences;
+  Coincidences coincidences;
+  Contacts contacts;
 };
 
 /// Measures in a thread of its own while the files are written, if more than one thread may be used.
@@ -83,20 +85,58 @@ std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& mo
   const auto policy =
       std::launch::deferred | (usable_threads(threads) > 1 ? std::launch::async : std::launch::deferred);
   return std::async(policy, [&mesh, &model, threads] {
-    return on_threads(threads, [&] { return Measured{measure(mesh), area_differences(model, mesh)}; });
+    return on_threads(threads, [&] {
+      Measured measured{measure(mesh), area_differences(model, mesh), coincidences(mesh), {}};
+      // Parts that touch may have no node in common.
+      if (measured.coincidences.nodes == 0) measured.contacts = contacts(model.shape());
+      return measured;
+    });
   });
+}
+
+nlohmann::json names(const char* kind, const std::vector<int>& numbers) {
+  nlohmann::json result = nlohmann::json::array();
+  for (const int number : numbers) result.push_back(fmt::format("{}{}", kind, number));
+  return result;
+}
+
+/// What touches without being joined, in the mesh and between the parts of the model.
+nlohmann::json coincident_to_json(const Measured& measured) {
+  const Coincidences& found = measured.coincidences;
+  nlohmann::json touching = nlohmann::json::array();
+  for (const auto& [face, other] : measured.contacts.faces) touching.push_back(names("Face", {face, other}));
+  std::string remedy = option_of(found.remedy());
+  if (!measured.contacts.faces.empty()) remedy = option_of(measured.contacts.free_edges ? "sew" : "imprint");
+  return {{"nodes", found.nodes},
+          {"quads", found.quads},
+          {"free_edges", names("Edge", found.free_edges)},
+          {"faces", names("Face", found.faces)},
+          {"touching_faces", touching},
+          {"remedy", remedy.empty() ? nlohmann::json() : nlohmann::json(remedy)}};
+}
+
+/// The faces that each face of the file became.
+nlohmann::json imprinted_to_json(const std::vector<std::vector<int>>& pieces) {
+  nlohmann::json result = nlohmann::json::object();
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    result[fmt::format("Face{}", i + 1)] = names("Face", pieces[i]);
+  return result;
 }
 
 /// Writes the report, the warnings to stderr and the table to stdout, as far as they are wanted.
 void tell_quality(const ShellMesh& result, const Measured& measured, std::vector<std::string> warnings,
-                  const std::optional<SizeFidelity>& sizes, const MeshArguments& arguments,
-                  ExecutionContext& context) {
+                  const std::optional<SizeFidelity>& sizes, const std::vector<std::vector<int>>& pieces,
+                  const MeshArguments& arguments, ExecutionContext& context) {
   warn_off_geometry(result, warnings);
   if (!result.symmetry.note.empty()) warnings.push_back("symmetry: " + result.symmetry.note);
   warnings.insert(warnings.end(), measured.area_differences.begin(), measured.area_differences.end());
+  for (const std::string& sentence : {measured.coincidences.sentence(), measured.contacts.sentence()})
+    if (!sentence.empty()) warnings.push_back(with_options(sentence));
   if (!arguments.report.empty()) {
     nlohmann::json report = make_report(result, measured.elements, context, arguments.input, warnings);
     if (sizes) report["sizes"] = sizes->json();
+    report["coincident"] = coincident_to_json(measured);
+    if (!pieces.empty()) report["imprinted"] = imprinted_to_json(pieces);
     write_report(report, arguments.report);
   }
   if (arguments.quiet) return;
@@ -119,10 +159,7 @@ void run(const MeshArguments& arguments) {
   if (arguments.thin) stages.insert(stages.begin() + 1, Stage::midsurface);
   context.expect(stages);
   report_crashes(arguments.input, "reading");
-  // With `partial`, what is done when the time is over is still assembled and written.
-  const bool partial = settings.mesh.partial && settings.time_limit > 0;
-  CancelOnSignal cancel(context, partial ? 0 : settings.time_limit);
-  if (partial) context.limit_time(settings.time_limit);
+  CancelOnSignal cancel(context, settings.time_limit, settings.mesh.partial);
   if (arguments.end_with_input) end_with_input();
   cancel.reading(arguments.input, settings.read_time_limit);
   const CadModel source = read_model(arguments, context);
@@ -151,7 +188,7 @@ void run(const MeshArguments& arguments) {
   if (measured.valid()) {
     std::vector<std::string> warnings = model.problems();
     if (middle) warnings.insert(warnings.end(), middle->problems.begin(), middle->problems.end());
-    tell_quality(result, measured.get(), std::move(warnings), sizes, arguments, context);
+    tell_quality(result, measured.get(), std::move(warnings), sizes, model.pieces(), arguments, context);
   }
   // Last, so that a failing mesh has been written and can be inspected.
   if (arguments.limits.given())

@@ -82,6 +82,7 @@ int parse_and_work(std::vector<std::string> arguments) {
   CLI::App app("All-quad shell meshes of CAD models", "quadrille");
   try {
     add_commands(app);
+    arguments = with_options_repeated(arguments);
     std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 expects
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {

@@ -1,6 +1,8 @@
 #include "mesher/command/setting_options.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <regex>
 #include <vector>
 
 #include <fmt/format.h>
@@ -51,7 +53,58 @@ void add_setting(CLI::App& command, const Setting& setting, GivenSettings& targe
   }
 }
 
+/// Whether an argument is a value of a list, by its form: it may be a file too.
+bool is_value_of(const Setting& setting, const std::string& argument) {
+  static const std::regex names("Face[0-9]+(,Face[0-9]+)*");
+  static const std::regex entries("((Face|Edge|Vertex)[0-9]+=|(box|sphere|cylinder|halfspace):).*");
+  const std::string_view kind = setting.kind();
+  if (kind == "names") return std::regex_match(argument, names);
+  if (kind == "sizes" || kind == "entries") return std::regex_match(argument, entries);
+  if (kind != "words") return false;
+  const auto choices = setting.choices();
+  return std::find(choices.begin(), choices.end(), argument.substr(0, argument.find(','))) != choices.end();
+}
+
+/// The list that the option of an argument such as `--segments` or `--segments=Edge1=4` sets; null if none.
+const Setting* list_of(const std::string& argument) {
+  if (!argument.starts_with("--")) return nullptr;
+  const std::string_view option = std::string_view(argument).substr(2, argument.find('=') - 2);
+  const auto& all = all_settings();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Setting& s) { return s.option == option; });
+  if (found == all.end()) return nullptr;
+  const std::string_view kind = found->kind();
+  return kind == "names" || kind == "sizes" || kind == "words" || kind == "entries" ? &*found : nullptr;
+}
+
 }  // namespace
+
+std::vector<std::string> with_options_repeated(const std::vector<std::string>& arguments) {
+  std::vector<std::string> result;
+  const Setting* list = nullptr;
+  bool has_value = false;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    if (argument == "--") {  // only files follow
+      result.insert(result.end(), arguments.begin() + static_cast<std::ptrdiff_t>(i), arguments.end());
+      break;
+    }
+    if (argument.starts_with("-")) {
+      list = list_of(argument);
+      has_value = list != nullptr && argument.find('=') != std::string::npos;
+    } else if (list != nullptr && has_value) {
+      if (is_value_of(*list, argument)) {
+        result.push_back(fmt::format("--{}", list->option));
+      } else {
+        list = nullptr;
+      }
+    } else {
+      has_value = true;
+    }
+    result.push_back(argument);
+  }
+  return result;
+}
 
 void add_settings(CLI::App& command, GivenSettings& target, const std::set<std::string_view>& names) {
   for (const Setting& setting : all_settings()) {

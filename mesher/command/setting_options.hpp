@@ -22,6 +22,11 @@ struct GivenSettings {
 /// the command. Wrong values throw Error (usage) while the arguments are parsed.
 void add_settings(CLI::App& command, GivenSettings& target, const std::set<std::string_view>& names = {});
 
+/// The arguments with the option repeated before each further value of a list: `--segments Edge1=4 Edge2=6`
+/// becomes `--segments Edge1=4 --segments Edge2=6`. CLI11 would take everything up to the next option, the
+/// input file too, or one value alone.
+std::vector<std::string> with_options_repeated(const std::vector<std::string>& arguments);
+
 /// The order of the mesh: the given one, else 2 for nine-node quads or if a solver reads one of the files.
 int order_of(const GivenSettings& given, const std::vector<std::filesystem::path>& outputs);
 

@@ -29,10 +29,10 @@ namespace {
 
 // State of the handlers below, which may call only what is safe in a signal handler.
 std::atomic<ExecutionContext*> cancellable{nullptr};
-std::atomic<bool> ending{false};
+std::atomic<bool> ending{false}, delivers_part{false};
 char crash_line[512], time_line[512];
 constexpr char cancel_line[] = "quadrille: the work was cancelled\n";
-constexpr int grace_microseconds = 150000;
+constexpr int grace_microseconds = 150000, grace_of_parts_microseconds = 850000;
 
 void ring_after(double seconds) {
   struct itimerval timer {};
@@ -55,14 +55,16 @@ extern "C" void cancel_work(int signal_number) {
 }
 
 /// The first alarm means that the time is over: the context notices by itself and gets the grace period. The
-/// next alarm, or one after a signal, means that work that should have ended has not.
+/// next alarm, or one after a signal, means that work that should have ended has not. Where a part of the
+/// mesh is delivered, the limit was lifted by then, so that it is assembled and written.
 extern "C" void handle_alarm(int) {
   if (!ending.exchange(true)) {
-    ring_after(1e-6 * grace_microseconds);
+    ring_after(1e-6 * (delivers_part ? grace_of_parts_microseconds : grace_microseconds));
     return;
   }
   const ExecutionContext* context = cancellable.load();
   const bool was_cancelled = context != nullptr && context->cancelled();
+  if (delivers_part && !was_cancelled && context != nullptr && !context->has_time_limit()) return;
   end_process(was_cancelled ? cancel_line : time_line, was_cancelled ? 130 : 1);
 }
 
@@ -97,10 +99,11 @@ std::string left_behind() {
   return fmt::format(", and {} was written before", fmt::join(whole_files, ", "));
 }
 
-CancelOnSignal::CancelOnSignal(ExecutionContext& context, double time_limit)
+CancelOnSignal::CancelOnSignal(ExecutionContext& context, double time_limit, bool partial)
     : time_limit_(time_limit), start_(std::chrono::steady_clock::now()) {
   cancellable.store(&context);
   ending.store(false);
+  delivers_part.store(partial);
   whole_files.clear();
   prepare_time_line(time_limit);
   std::signal(SIGINT, cancel_work);

@@ -135,8 +135,7 @@ void run(const SizesArguments& arguments) {
   CancelOnSignal cancel(context, settings.time_limit);
   if (arguments.end_with_input) end_with_input();
   cancel.reading(arguments.input, settings.read_time_limit);
-  CadModel model = CadModel::read(arguments.input);
-  if (settings.sew > 0) model = model.sewn(settings.sew);
+  const CadModel model = joined(settings, CadModel::read(arguments.input));
   cancel.reading_is_done();
   report_crashes(arguments.input, "measuring");
   context.check();

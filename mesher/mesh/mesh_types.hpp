@@ -71,10 +71,11 @@ struct ShellMesh {
     int quads = 0;                ///< number of quads
     double q_min = 0;             ///< lowest q of the quads
     double seconds = 0;           ///< time that meshing took
-    int off_geometry = 0;         ///< number of its midside nodes in ShellMesh::off_geometry
+    int off_geometry = 0;         ///< number of its nodes in ShellMesh::off_geometry
     double off_geometry_max = 0;  ///< largest distance of those nodes
   };
-  /// A midside node that would fold an element if it lay on the geometry.
+  /// A node that lies off the geometry because elements would be inverted or fold with it there: a midside
+  /// node, or any node of a face that has no valid mesh on its surface.
   struct OffGeometry {
     int node = -1;        ///< index into points
     double distance = 0;  ///< distance to its place on the CAD edge, or to the face's surface
@@ -123,7 +124,7 @@ struct ShellMesh {
   std::vector<int> triangle_faces;            ///< CAD face of each triangle, from 1
   std::vector<Segment> segments;              ///< the sides on CAD edges, each once
   std::vector<Corner> corners;                ///< the nodes on CAD vertices
-  std::vector<OffGeometry> off_geometry;      ///< ascending by node; only coarse second-order meshes have any
+  std::vector<OffGeometry> off_geometry;      ///< ascending by node; usually empty
   std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; for faces see Face::status
   Symmetry symmetry;                          ///< mirror planes in use, see MeshOptions::symmetry
   std::vector<Face> faces;                    ///< one entry per CAD face; empty in meshes read from files

@@ -11,6 +11,8 @@ namespace quadrille {
 
 /// If a side is shorter than this times the longest side, its direction is only rounding error.
 constexpr double no_length = 1e-9;
+/// A scaled Jacobian up to this is only rounding error: three corners lie in a line.
+constexpr double no_jacobian = 1e-9;
 
 /// Scaled Jacobian of the quad a, b, c, d; negative also when the quad is folded against the surface normal.
 /// For convex quads q = (2 / pi) asin(scaled Jacobian). Both rank quads in the same order, and this one needs

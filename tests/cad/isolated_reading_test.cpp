@@ -94,14 +94,11 @@ TEST(IsolatedReading, EndsWhenCancelledOrOutOfTime) {
   const auto endless = []() -> TopoDS_Shape {
     for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
   };
-  const auto start = std::chrono::steady_clock::now();
   ExecutionContext cancelled(1, [](std::string_view, double) { return false; });
   EXPECT_EQ(error_of(endless, &cancelled), "cancelled: the work was cancelled");
   ExecutionContext limited(1);
   limited.limit_time(0.1);
   EXPECT_EQ(error_of(endless, &limited).substr(0, 27), "failure: the time limit of ");
-  // 0.2 s on an idle machine; the rest is for busy ones and sanitizers.
-  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 3);
 }
 
 TEST(IsolatedReading, SaysNothingOfItsOwn) {

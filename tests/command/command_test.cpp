@@ -466,7 +466,7 @@ TEST(Command, TellsWhatLeavesTheGeometry) {
       folder.path().string(), program, ellipsoid));
   ASSERT_EQ(result.exit_code, 0) << result.out;
   EXPECT_PRED2(contains, result.out,
-               "midside nodes lie off the geometry so that no element folds, most on Face1");
+               "nodes lie off the geometry, where elements would be invalid on it, most on Face1");
   EXPECT_PRED2(contains, result.out, "inverted           0");
   const auto report = nlohmann::json::parse(test::file_text(folder / "r.json"));
   EXPECT_GT(report["quality"]["jacobian_min"], 0);
@@ -492,6 +492,37 @@ TEST(Command, SewsFacesThatTouch) {
   ASSERT_EQ(stdout_of(folder, "mesh " + faces + " -o sewn.msh --size 2 --sew 0.01").exit_code, 0);
   // The ten segments of the common side have eleven nodes, once.
   EXPECT_EQ(read_mesh(folder / "sewn.msh").points.size() + 11, read_mesh(folder / "apart.msh").points.size());
+}
+
+/// Parts that touch are told with what joins them; joined by it, nothing is told. Sewing refuses to lay quads
+/// on quads.
+TEST(Command, ImprintsPartsThatTouch) {
+  const TemporaryFolder folder;
+  BRepTools::Write(rod_in_sleeve(), (folder / "rod.brep").c_str());
+  const std::string mesh_it = "mesh rod.brep -o a.msh --size 1 --report r.json ";
+  const auto report = [&] { return nlohmann::json::parse(test::file_text(folder / "r.json")); };
+
+  EXPECT_PRED2(contains, stdout_of(folder, "info rod.brep").out, "--imprint joins such parts");
+  EXPECT_PRED2(contains, stderr_of(folder, mesh_it).out, "--imprint joins parts that touch");
+  EXPECT_GT(report()["coincident"]["nodes"], 0);
+  EXPECT_EQ(report()["coincident"]["remedy"], "--imprint");
+  EXPECT_FALSE(report().contains("imprinted"));
+
+  EXPECT_FALSE(contains(stdout_of(folder, "info rod.brep --imprint").out, "joins such parts"));
+  EXPECT_EQ(stdout_of(folder, mesh_it + "--imprint").exit_code, 0);
+  EXPECT_EQ(report()["coincident"]["nodes"], 0);
+  EXPECT_EQ(report()["coincident"]["remedy"], nullptr);
+  EXPECT_EQ(report()["imprinted"].size(), 7u);
+  EXPECT_EQ(report()["imprinted"]["Face2"], nlohmann::json({"Face2"}));
+}
+
+TEST(Command, SewingRefusesFacesOnFaces) {
+  const TemporaryFolder folder;
+  BRepTools::Write(rod_in_sleeve(10), (folder / "rod.brep").c_str());
+  const auto sewn = stderr_of(folder, "mesh rod.brep -o a.msh --size 1 --sew 0.01 --quiet");
+  EXPECT_EQ(sewn.exit_code, 1);
+  EXPECT_PRED2(contains, sewn.out, "--imprint");
+  EXPECT_EQ(stdout_of(folder, "mesh rod.brep -o a.msh --size 1 --sew 0.01 --imprint").exit_code, 0);
 }
 
 TEST(Command, MergesTinyFaces) {
@@ -617,6 +648,38 @@ TEST(Command, QuietSaysNothing) {
                                             folder.path().string(), program, box));
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.out, "");
+}
+
+/// As the help shows them ("..."): several values after one option, wherever the input file stands.
+TEST(Command, TakesListsWithSpaces) {
+  const std::pair<const char*, const char*> lists[] = {
+      {"--segments Edge1=20 Edge5=24", "--segments Edge1=20 --segments Edge5=24"},
+      {"--segments=Edge1=20 Edge5=24", "--segments Edge1=20 --segments Edge5=24"},
+      {"--bias Edge1=1.2 Edge5=0.9", "--bias Edge1=1.2 --bias Edge5=0.9"},
+      {"--bias-both Edge1=1.2 Edge5=0.9", "--bias-both Edge1=1.2 --bias-both Edge5=0.9"},
+      {"--size-on Face1=1 Edge5=0.7,Vertex2=0.5 Vertex3=1",
+       "--size-on Face1=1,Edge5=0.7,Vertex2=0.5,Vertex3=1"},
+      {"--size-in box:0,0,0,5,5,5=1 sphere:30,20,10,4=0.8",
+       "--size-in box:0,0,0,5,5,5=1 --size-in sphere:30,20,10,4=0.8"},
+      {"--layers Edge4=0.3,1.2,6 Face6=0.4,1.2,3", "--layers Edge4=0.3,1.2,6 --layers Face6=0.4,1.2,3"},
+      {"--faces Face1 Face2,Face3 Face4", "--faces Face1,Face2,Face3,Face4"},
+      {"--groups faces edges", "--groups faces,edges"}};
+  for (const auto& [spaces, plain] : lists) {
+    SCOPED_TRACE(spaces);
+    const TemporaryFolder folder;
+    const auto expect_done = [&](const std::string& arguments) {
+      const auto result = stderr_of(folder, "mesh --quiet " + arguments);
+      EXPECT_EQ(result.exit_code, 0) << result.out;
+    };
+    expect_done(fmt::format("{} {} --size 2 -o a.msh", spaces, box));
+    expect_done(fmt::format("{} --size 2 {} -o b.msh", box, spaces));
+    expect_done(fmt::format("{} --size 2 {} -o c.msh", box, plain));
+    expect_done(fmt::format("{} --size 2 -o d.msh", box));
+    const std::string wanted = test::file_text(folder / "c.msh");
+    EXPECT_EQ(test::file_text(folder / "a.msh") == wanted, true);
+    EXPECT_EQ(test::file_text(folder / "b.msh") == wanted, true);
+    EXPECT_EQ(test::file_text(folder / "d.msh") == wanted, false);
+  }
 }
 
 TEST(Command, MeshesChosenFacesOnly) {
@@ -849,12 +912,11 @@ class Running {
 
 class Interrupted : public testing::TestWithParam<std::tuple<int, int>> {};
 
-/// Reading, sizing, the faces, writing: the signal comes at different times. Fine enough to be at work for
-/// some ten seconds.
+/// Reading, sizing, the faces: the signal comes at different times. Fine enough to be at work for minutes.
 TEST_P(Interrupted, EndsAtOnceWithoutPartialFile) {
   const auto [signal_number, milliseconds] = GetParam();
   const TemporaryFolder folder;
-  const Running command(folder, "mesh " + bracket + " -o a.msh --elements-per-diagonal 2000 --force --quiet");
+  const Running command(folder, "mesh " + bracket + " -o a.msh --elements-per-diagonal 4000 --force --quiet");
   command.wait_until_handled(signal_number);
   std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
   const auto start = std::chrono::steady_clock::now();
@@ -862,8 +924,8 @@ TEST_P(Interrupted, EndsAtOnceWithoutPartialFile) {
   EXPECT_EQ(command.exit_code(), 130);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RecordProperty("seconds", fmt::format("{:.3f}", seconds));
-  // 0.2 s on an idle machine; the rest is for busy ones and sanitizers.
-  EXPECT_LT(seconds, 2);
+  // 0.2 s on an idle machine; any time far below that of the whole work tells that it was ended.
+  EXPECT_LT(seconds, 20);
   EXPECT_EQ(test::file_text(folder / "err"), "quadrille: the work was cancelled\n");
   EXPECT_EQ(folder.file_count(), 1);
 }

@@ -66,10 +66,6 @@
 
 namespace quadrille {
 
-namespace {
-
-constexpr double pi = M_PI;
-
 TopoDS_Shape compound(const std::vector<TopoDS_Shape>& parts) {
   TopoDS_Compound result;
   const BRep_Builder builder;
@@ -77,6 +73,10 @@ TopoDS_Shape compound(const std::vector<TopoDS_Shape>& parts) {
   for (const TopoDS_Shape& part : parts) builder.Add(result, part);
   return result;
 }
+
+namespace {
+
+constexpr double pi = M_PI;
 
 TopoDS_Wire polygon(const std::vector<gp_Pnt>& points) {
   BRepBuilderAPI_MakePolygon maker;
@@ -498,6 +498,36 @@ TopoDS_Shape bare_face(const Handle(Geom_Surface) & surface) {
   return face;
 }
 
+/// A wire that runs along an edge there and back; the edge is a straight line in the parameters of the face's
+/// surface.
+TopoDS_Wire there_and_back(const TopoDS_Face& face, const Handle(Geom2d_Line) & line, double length) {
+  const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(line, BRep_Tool::Surface(face), 0, length);
+  BRepLib::BuildCurves3d(edge);
+  TopoDS_Wire wire;
+  const BRep_Builder builder;
+  builder.MakeWire(wire);
+  builder.Add(wire, edge);
+  builder.Add(wire, edge.Reversed());
+  return wire;
+}
+
+/// A closed surface bounded by one of its parameter curves, there and back.
+TopoDS_Shape bounded_by_nothing(const Handle(Geom_Surface) & surface, const Handle(Geom2d_Line) & line) {
+  TopoDS_Face face;
+  const BRep_Builder builder;
+  builder.MakeFace(face, surface, 1e-7);
+  builder.Add(face, there_and_back(face, line, 2 * pi));
+  return face;
+}
+
+/// A whole sphere and, as another wire, its equator there and back.
+TopoDS_Shape sphere_with_equator() {
+  TopoDS_Face face = TopoDS::Face(TopExp_Explorer(BRepPrimAPI_MakeSphere(10).Shape(), TopAbs_FACE).Current());
+  face.Free(Standard_True);
+  BRep_Builder().Add(face, there_and_back(face, new Geom2d_Line({1, 0}, {1, 0}), 2 * pi));
+  return face;
+}
+
 /// The side of a cylinder with a hole whose parametric curve lies a period away.
 TopoDS_Shape hole_a_period_away() {
   TopoDS_Face face = cylinder_side();
@@ -847,6 +877,19 @@ std::vector<TroubleModel> all_models() {
        [] { return bare_face(new Geom_SphericalSurface(gp::XOY(), 10)); }, true, 400 * pi, 2},
       {"bare_torus", "a torus without any wire",
        [] { return bare_face(new Geom_ToroidalSurface(gp::XOY(), 20, 6)); }, true, 480 * pi * pi, 1},
+      {"sphere_of_a_circle", "a sphere bounded by its equator, there and back",
+       [] {
+         return bounded_by_nothing(new Geom_SphericalSurface(gp::XOY(), 10), new Geom2d_Line({0, 0}, {1, 0}));
+       },
+       true, 400 * pi, 2},
+      {"torus_of_a_circle", "a torus bounded by a circle round its tube, there and back",
+       [] {
+         return bounded_by_nothing(new Geom_ToroidalSurface(gp::XOY(), 20, 6),
+                                   new Geom2d_Line({0, 0}, {0, 1}));
+       },
+       true, 480 * pi * pi, 1},
+      {"sphere_and_circle", "a sphere with its equator, there and back, as another wire", sphere_with_equator,
+       true, 400 * pi, 2},
       {"hole_a_period_away", "a hole whose parametric curve lies a period away", hole_a_period_away, false,
        600 * pi - 10 * pi * 2.25},
       {"turned_rim", "an edge whose parametric curve lies a period away", turned_rim, false, 600 * pi},
@@ -877,6 +920,17 @@ std::vector<TroubleModel> all_models() {
 }
 
 }  // namespace
+
+TopoDS_Shape rod_in_sleeve(double length) {
+  const gp_Ax2 low(gp_Pnt(0, 0, 0), gp::DZ()), foot(gp_Pnt(0, 0, 5 - length / 2), gp::DZ());
+  const TopoDS_Shape hole = BRepPrimAPI_MakeCylinder(low, 3, 10).Shape();
+  TopoDS_Compound both;
+  const BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, BRepPrimAPI_MakeCylinder(foot, 3, length).Shape());
+  builder.Add(both, BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(low, 6, 10).Shape(), hole).Shape());
+  return both;
+}
 
 TopoDS_Shape tiny_cusp() {
   const double length = 0.01, height = 4e-5;

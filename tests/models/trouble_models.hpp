@@ -20,6 +20,13 @@ struct TroubleModel {
 
 const std::vector<TroubleModel>& trouble_models();
 
+/// Shapes side by side, as files hold the parts of an assembly.
+TopoDS_Shape compound(const std::vector<TopoDS_Shape>& parts);
+
+/// A rod of radius 3 in the middle of a sleeve of length 10 that fits it without a gap: two solids that share
+/// nothing.
+TopoDS_Shape rod_in_sleeve(double length = 30);
+
 /// A square of 20 with a face of 0.01 by 0.00004 at its side, whose edges cross: no element fits there, and
 /// it is far below any size.
 TopoDS_Shape tiny_cusp();

@@ -240,6 +240,13 @@ class PackageTest(unittest.TestCase):
         for isolated in (True, False):
             self.assertEqual(quadrille.read(MODELS / "bracket.step", isolated=isolated).box, self.model.box)
 
+    def test_imprint(self):
+        model = quadrille.read(MODELS / "bracket.step", imprint=True)
+        self.assertEqual(model.pieces, [[face] for face in range(1, model.face_count + 1)])
+        self.assertEqual(self.model.pieces, [])
+        with self.assertRaises(quadrille.Error):
+            quadrille.read(MODELS / "bracket.step", imprint=1)
+
     def test_cancelled_between_reports(self):
         asked, start = [], time.monotonic()
 
@@ -250,8 +257,8 @@ class PackageTest(unittest.TestCase):
         with self.assertRaises(quadrille.Error) as caught:
             quadrille.mesh(self.model, elements_per_diagonal=1000, force=True, progress=go_on)
         self.assertEqual(caught.exception.kind, "cancelled")
-        # 0.2 s on an idle machine; the rest is for busy ones.
-        self.assertLess(time.monotonic() - start, 0.5 + 3)
+        # 0.2 s on an idle machine; all of the work takes minutes.
+        self.assertLess(time.monotonic() - start, 30)
 
     def test_cancel(self):
         with self.assertRaises(quadrille.Error) as caught:

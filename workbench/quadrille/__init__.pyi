@@ -23,6 +23,7 @@ class Model:
     diagonal: float
     area: float
     problems: List[str]
+    pieces: List[List[int]]
     box: Tuple[List[float], List[float]]
 
 class Mesh:
@@ -79,13 +80,19 @@ class MidSurface:
     def write(self, path: _Path) -> None: ...
 
 def read(
-    path: _Path, *, isolated: bool = True, sew: Optional[float] = None, read_time_limit: Optional[float] = None
+    path: _Path,
+    *,
+    isolated: bool = True,
+    imprint: Optional[bool] = None,
+    sew: Optional[float] = None,
+    read_time_limit: Optional[float] = None,
 ) -> Model: ...
 def read_brep(
     text: str,
     name: str = "shape",
     *,
     isolated: bool = True,
+    imprint: Optional[bool] = None,
     sew: Optional[float] = None,
     read_time_limit: Optional[float] = None,
 ) -> Model: ...
@@ -120,6 +127,7 @@ def mesh(
     rings: Optional[int] = None,
     symmetry: Optional[bool] = None,
     partial: Optional[bool] = None,
+    strict: Optional[bool] = None,
     keep_features: Optional[bool] = None,
     force: Optional[bool] = None,
     time_limit: Optional[float] = None,

@@ -1,0 +1,29 @@
+#pragma once
+/// Cutting parts that touch or cross so that they share faces, edges and vertices. Internal: users see
+/// CadModel::imprinted().
+
+#include <TopoDS_Shape.hxx>
+#include <string>
+#include <vector>
+
+namespace quadrille {
+
+/// A shape whose parts share what they have in common.
+struct Imprint {
+  TopoDS_Shape shape;
+  /// For each face of the shape before: the numbers of the faces that it became, ascending.
+  std::vector<std::vector<int>> pieces;
+};
+
+/// OpenCASCADE's general fuse of the solids, shells and faces of a shape. A face keeps its number, or one of
+/// its pieces does; further pieces are numbered after all faces, and a number that is left over is taken by
+/// the last face. Edges and vertices get new numbers. Throws Standard_Failure with the reason where
+/// OpenCASCADE cannot do it. \param tolerance in the model's unit: what is no farther apart touches; 0 = the
+/// tolerances of the shape alone.
+Imprint imprint(const TopoDS_Shape& shape, double tolerance);
+
+/// The faces that are not what they were, one entry each: "Face2 became Face2, Face13", "Face9 became
+/// Face3 (shared)". \param pieces see Imprint::pieces.
+std::vector<std::string> changes_of_faces(const std::vector<std::vector<int>>& pieces);
+
+}  // namespace quadrille

@@ -1,0 +1,241 @@
+#include "geometry/surfaces/contacts.hpp"
+
+#include <BRepBndLib.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
+#include <Bnd_Box.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "geometry/surfaces/edge_curve.hpp"
+
+namespace quadrille {
+
+namespace {
+
+constexpr double least_tolerance = 1e-7;  ///< share of the diagonal
+constexpr int most_tests = 20000;         ///< of an edge against a face
+
+/// Sets that can be united.
+class Unions {
+ public:
+  explicit Unions(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int root(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(int a, int b) {
+    a = root(a), b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// The faces of the model by part.
+std::vector<std::vector<FaceId>> parts_of(const CadShape& shape) {
+  const int count = static_cast<int>(shape.faces.size());
+  Unions unions(count + static_cast<int>(shape.vertices.size()));
+  for (const CadEdge& edge : shape.edges) {
+    for (const FaceId face : edge.faces) {
+      unions.unite(edge.faces.front().index(), face.index());
+      for (const VertexId vertex : {edge.first_vertex, edge.last_vertex})
+        if (vertex.exists()) unions.unite(face.index(), count + vertex.index());
+    }
+  }
+  if (shape.solids > 0) {
+    TopTools_IndexedMapOfShape faces;
+    TopExp::MapShapes(shape.shape, TopAbs_FACE, faces);
+    for (TopExp_Explorer solid(shape.shape, TopAbs_SOLID); solid.More(); solid.Next()) {
+      int first = -1;
+      for (TopExp_Explorer face(solid.Current(), TopAbs_FACE); face.More(); face.Next()) {
+        const int index = faces.FindIndex(face.Current()) - 1;
+        if (first >= 0) unions.unite(first, index);
+        first = index;
+      }
+    }
+  }
+  std::map<int, std::vector<FaceId>> by_root;
+  for (const FaceId face : shape.faces.ids()) by_root[unions.root(face.index())].push_back(face);
+  std::vector<std::vector<FaceId>> parts;
+  for (auto& [root, faces] : by_root) parts.push_back(std::move(faces));
+  return parts;
+}
+
+class Search {
+ public:
+  Search(const CadShape& shape, std::vector<std::vector<FaceId>> parts, const ExecutionContext& context)
+      : shape_(shape),
+        context_(context),
+        parts_(std::move(parts)),
+        tolerance_(least_tolerance * shape.diagonal()),
+        part_of_(shape.faces.size()),
+        boxes_(shape.faces.size()),
+        edge_boxes_(shape.edges.size()),
+        edges_of_(shape.faces.size()) {
+    for (std::size_t part = 0; part < parts_.size(); ++part) {
+      Bnd_Box all;
+      for (const FaceId face : parts_[part]) {
+        part_of_[face] = static_cast<int>(part);
+        boxes_[face] = box_of(shape.faces[face].face);
+        all.Add(boxes_[face]);
+      }
+      part_boxes_.push_back(all);
+    }
+    for (const EdgeId id : shape.edges.ids()) {
+      const CadEdge& edge = shape.edges[id];
+      if (edge.degenerate || edge.faces.empty() || !(edge.length > 0)) continue;
+      edge_boxes_[id] = box_of(edge.edge);
+      for (const FaceId face : edge.faces)
+        if (edges_of_[face].empty() || edges_of_[face].back() != id) edges_of_[face].push_back(id);
+    }
+  }
+
+  Contacts run() {
+    find_edges_on_edges();
+    for (std::size_t a = 0; a < parts_.size(); ++a) {
+      context_.check();
+      for (std::size_t b = a + 1; b < parts_.size(); ++b)
+        if (!part_boxes_[a].IsOut(part_boxes_[b])) test(static_cast<int>(a), static_cast<int>(b));
+    }
+    for (const auto& [parts, faces] : met_) result_.faces.push_back(faces);
+    std::sort(result_.faces.begin(), result_.faces.end());
+    result_.free_edges = !met_.empty() && free_ == met_.size();
+    return std::move(result_);
+  }
+
+ private:
+  Bnd_Box box_of(const TopoDS_Shape& shape) const {
+    Bnd_Box box;
+    BRepBndLib::Add(shape, box, Standard_False);
+    box.Enlarge(tolerance_);
+    return box;
+  }
+
+  double reach(double own, double other) const { return std::max({own, other, tolerance_}); }
+
+  /// Remembers that the parts of two faces touch. Returns whether that is new.
+  bool add(FaceId a, FaceId b) {
+    const std::array<int, 2> parts{std::min(part_of_[a], part_of_[b]), std::max(part_of_[a], part_of_[b])};
+    return met_.emplace(parts, std::array{std::min(a, b).number(), std::max(a, b).number()}).second;
+  }
+
+  /// Edges with the same ends and middle. Sorting by the middle keeps this fast where all faces lie apart.
+  void find_edges_on_edges() {
+    struct Middle {
+      Vector3 point;
+      EdgeId edge;
+    };
+    std::vector<Middle> middles;
+    double widest = tolerance_;
+    for (const EdgeId id : shape_.edges.ids()) {
+      const CadEdge& edge = shape_.edges[id];
+      if (edge_boxes_[id].IsVoid()) continue;
+      middles.push_back({EdgeCurve(edge).point((edge.first + edge.last) / 2), id});
+      widest = std::max(widest, edge.tolerance);
+    }
+    std::stable_sort(middles.begin(), middles.end(),
+                     [](const Middle& a, const Middle& b) { return a.point.x() < b.point.x(); });
+    for (std::size_t i = 0; i < middles.size(); ++i)
+      for (std::size_t j = i + 1; j < middles.size(); ++j) {
+        if (middles[j].point.x() - middles[i].point.x() > widest) break;
+        const CadEdge &a = shape_.edges[middles[i].edge], &b = shape_.edges[middles[j].edge];
+        if (part_of_[a.faces.front()] == part_of_[b.faces.front()]) continue;
+        const double near = reach(a.tolerance, b.tolerance);
+        if ((middles[i].point - middles[j].point).norm() > near || !same_ends(a, b, near)) continue;
+        ++result_.edges;
+        if (add(a.faces.front(), b.faces.front()) && a.faces.size() == 1 && b.faces.size() == 1) ++free_;
+      }
+  }
+
+  static bool same_ends(const CadEdge& a, const CadEdge& b, double near) {
+    const EdgeCurve first(a), second(b);
+    const Vector3 start = first.point(a.first), end = first.point(a.last);
+    const Vector3 other_start = second.point(b.first), other_end = second.point(b.last);
+    return ((start - other_start).norm() <= near && (end - other_end).norm() <= near) ||
+           ((start - other_end).norm() <= near && (end - other_start).norm() <= near);
+  }
+
+  /// Looks for the first two faces of two parts that touch.
+  void test(int a, int b) {
+    if (met_.count({a, b}) > 0) return;
+    for (const FaceId face : parts_[a]) {
+      if (boxes_[face].IsOut(part_boxes_[b])) continue;
+      for (const FaceId other : parts_[b]) {
+        if (boxes_[face].IsOut(boxes_[other])) continue;
+        if (!touch(face, other) && !touch(other, face)) continue;
+        add(face, other);
+        return;
+      }
+    }
+  }
+
+  /// Whether an edge of one face touches the other.
+  bool touch(FaceId edges_of, FaceId face) {
+    const CadFace& other = shape_.faces[face];
+    for (const EdgeId id : edges_of_[edges_of]) {
+      if (edge_boxes_[id].IsOut(boxes_[face])) continue;
+      if (++tests_ > most_tests) {
+        result_.all_tested = false;
+        return false;
+      }
+      context_.check();
+      try {
+        const BRepExtrema_DistShapeShape distance(shape_.edges[id].edge, other.face);
+        if (distance.IsDone() && distance.Value() <= reach(shape_.edges[id].tolerance, other.tolerance))
+          return true;
+      } catch (const Standard_Failure&) {
+        // Its distance is unknown. Other edges tell.
+      }
+    }
+    return false;
+  }
+
+  const CadShape& shape_;
+  const ExecutionContext& context_;
+  std::vector<std::vector<FaceId>> parts_;
+  double tolerance_;
+  IdVector<FaceId, int> part_of_;
+  IdVector<FaceId, Bnd_Box> boxes_;
+  IdVector<EdgeId, Bnd_Box> edge_boxes_;
+  IdVector<FaceId, std::vector<EdgeId>> edges_of_;
+  std::vector<Bnd_Box> part_boxes_;
+  std::map<std::array<int, 2>, std::array<int, 2>> met_;
+  std::size_t free_ = 0;
+  int tests_ = 0;
+  Contacts result_;
+};
+
+}  // namespace
+
+std::string Contacts::sentence() const {
+  if (faces.empty()) return "";
+  constexpr std::size_t most = 4;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(most, faces.size()); ++i)
+    names.push_back(fmt::format("Face{} and Face{}", faces[i][0], faces[i][1]));
+  const char* more = faces.size() > most ? ", ..." : "";
+  const std::string along =
+      edges > 0 ? fmt::format(", {} pair(s) of their edges lie on each other", edges) : "";
+  return fmt::format(
+      "{}{} pair(s) of parts touch or cross without sharing edges ({}{}){}, so that their meshes are "
+      "not joined: {}",
+      all_tested ? "" : "at least ", faces.size(), fmt::join(names, "; "), more, along,
+      free_edges ? "`sew` joins such edges" : "`imprint` joins such parts");
+}
+
+Contacts contacts(const CadShape& shape, const ExecutionContext& context) {
+  std::vector<std::vector<FaceId>> parts = parts_of(shape);
+  if (parts.size() < 2) return {};
+  return Search(shape, std::move(parts), context).run();
+}
+
+}  // namespace quadrille
