@@ -12,6 +12,7 @@
 #include <boost/pending/disjoint_sets.hpp>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/whole_number.hpp"
 #include "mesher/edges/count_balance.hpp"
 #include "mesher/edges/parity.hpp"
 
@@ -64,7 +65,7 @@ class CountChooser {
   }
 
  private:
-  static int rounded(double value) { return static_cast<int>(std::lround(value)); }
+  static int rounded(double value) { return round_to_int(value); }
 
   static bool has_sums(const FaceSides& sides) {
     return std::any_of(sides.facing.begin(), sides.facing.end(),

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/whole_number.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "mesher/edges/count_table.hpp"
 #include "mesher/edges/edge_counts.hpp"
@@ -26,7 +27,7 @@ namespace {
 int least_segments(bool closed, double turning, bool shares_both_ends, bool inner, int stride) {
   // Holes and pins need more segments than fillets to keep their area.
   const double turning_a_segment = turning > 2.5 ? 1.3 : 1.8;
-  int least = std::max(1, static_cast<int>(std::ceil(turning / turning_a_segment - 0.01)));
+  int least = std::max(1, to_int(std::ceil(turning / turning_a_segment - 0.01)));
   if (shares_both_ends && turning > 1e-3) least = std::max(least, 2);
   if (inner) least = std::max(least, 2);  // the face is cut open between the edge's ends
   if (closed) least = std::max(least, stride == 2 ? 3 : 4);

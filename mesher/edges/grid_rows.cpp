@@ -1,4 +1,5 @@
 #include "mesher/edges/grid_rows.hpp"
+#include "geometry/base/whole_number.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +54,7 @@ class StackedEdge {
   bool has_room() const { return length_ - inner_ <= most_of_side * length_; }
   /// An even number, so that it suits faces that are not grids too.
   int segments() const {
-    const int wanted = layers() + std::max(1, static_cast<int>(std::lround(counts_.back())));
+    const int wanted = layers() + std::max(1, round_to_int(counts_.back()));
     return wanted + wanted % 2;
   }
   int layers() const { return static_cast<int>(first_.size() + last_.size()); }

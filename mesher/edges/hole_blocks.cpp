@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/base/whole_number.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 
@@ -23,7 +24,7 @@ bool has_room(double extent, int cells) {
   return cells >= extent + least_beside && cells <= extent + most_beside;
 }
 
-/// Cells across a block in one direction, and the cost of that number.
+/// Cells across a block in one direction, and the cost of that number: infinite for holes that are too large.
 struct Across {
   int cells = 0;
   double cost = 0;
@@ -31,9 +32,10 @@ struct Across {
 
 Across across(double low, double high, bool even) {
   constexpr double off_the_vertex = 0.8, no_room = 10;
+  if (!(high - low < largest_hole)) return {0, std::numeric_limits<double>::infinity()};
   const double wanted = high - low + wanted_beside;
   Across best{0, std::numeric_limits<double>::infinity()};
-  for (int cells = static_cast<int>(std::floor(wanted)) - 1; cells <= wanted + 2; ++cells) {
+  for (int cells = to_int(std::floor(wanted)) - 1; cells <= wanted + 2; ++cells) {
     const double start = 0.5 * (low + high) - 0.5 * cells, off_center = std::abs(start - std::round(start));
     const double cost = std::abs(cells - wanted) + off_center +
                         (even && cells % 2 != 0 ? off_the_vertex : 0) +
@@ -47,7 +49,7 @@ Across across(double low, double high, bool even) {
 /// towards the center of the grid, so that mirrored holes have mirrored blocks.
 int start_of(double low, double high, int cells, int of) {
   const double middle = 0.5 * (low + high), bias = middle < 0.5 * of ? 1e-3 : -1e-3;
-  return static_cast<int>(std::lround(middle - 0.5 * cells + bias));
+  return round_to_int(middle - 0.5 * cells + bias);
 }
 
 /// The counts that fit the holes of a face into its grid.
@@ -108,7 +110,8 @@ class HoleFitter {
     const Vector2 along = 0.5 * (corners[1] - corners[0] + corners[2] - corners[3]),
                   up = 0.5 * (corners[3] - corners[0] + corners[2] - corners[1]);
     const double area = along.x() * up.y() - along.y() * up.x();
-    if (!(std::abs(area) > 0)) return {};
+    constexpr double least_sine = 0.1;  // below, the sides are no frame to measure places in
+    if (!(std::abs(area) > least_sine * along.norm() * up.norm())) return {};
     const auto share_of = [&](const Vector2& uv) {
       const Vector2 p = uv.cwiseProduct(scale) - corners[0];
       return Vector2((p.x() * up.y() - p.y() * up.x()) / area,
@@ -186,7 +189,10 @@ class HoleFitter {
 
 std::optional<HoleBlock> block_of(const HolePlace& hole, int nodes, const GridSize& grid) {
   const Vector2 extent = hole.high - hole.low;
-  if (nodes % 2 != 0 || !(extent.maxCoeff() < largest_hole)) return std::nullopt;
+  const Vector2 middle = 0.5 * (hole.low + hole.high);
+  const bool is_inside =
+      middle.x() > 0 && middle.y() > 0 && middle.x() < grid.columns && middle.y() < grid.rows;
+  if (nodes % 2 != 0 || !is_inside || !(extent.maxCoeff() < largest_hole)) return std::nullopt;
   HoleBlock block;
   block.columns = across(hole.low.x(), hole.high.x(), hole.even).cells;
   block.rows = across(hole.low.y(), hole.high.y(), hole.even).cells;

@@ -16,8 +16,9 @@ namespace quadrille {
 namespace {
 
 /// Limits of a face's angle (radians) where two edges meet that did not meet before. Below the first limit,
-/// the quads there would be slivers. Above the second, the edges would be the two sides of a slot.
-constexpr double sharpest = 0.9, bluntest = 5.4;
+/// the two would lie along each other: a sharp corner is better than a side below the least size. Above the
+/// second, the edges would be the two sides of a slot.
+constexpr double sharpest = 0.3, bluntest = 6;
 
 class HarmFinder {
  public:
@@ -120,7 +121,12 @@ class HarmFinder {
 }  // namespace
 
 LetGo::LetGo(const CadShape& shape, const FaceFlags& used, double reach, const EdgeFlags& fine)
-    : shape_(shape), used_(used), reach_(reach), edges_(shape.edges.size()), kept_faces_(shape.faces.size()) {
+    : shape_(shape),
+      used_(used),
+      reach_(reach),
+      slivers_(find_slivers(shape, used, reach)),
+      edges_(shape.edges.size()),
+      kept_faces_(shape.faces.size()) {
   if (!(reach > 0)) return;
   for (const FaceId face : kept_faces_.ids()) {
     const auto& wires = shape.faces[face].wires;
@@ -137,7 +143,7 @@ LetGo::LetGo(const CadShape& shape, const FaceFlags& used, double reach, const E
 TinyFeatures LetGo::find(const EdgeFlags& collapse, double length) const {
   EdgeFlags both = collapse;
   for (const EdgeId edge : both.ids()) both[edge] |= edges_[edge];
-  return find_tiny_features(shape_, used_, both, length, {reach_, &kept_faces_});
+  return find_tiny_features(shape_, used_, both, length, {&slivers_, &kept_faces_});
 }
 
 /// Takes edges, the shortest first, if all vertices that then share a node lie within reach of each other.
@@ -159,7 +165,10 @@ void LetGo::choose(const EdgeFlags& fine) {
   }
   for (const EdgeId edge : candidates) {
     const VertexId a = cluster[shape_.edges[edge].first_vertex], b = cluster[shape_.edges[edge].last_vertex];
-    if (a == b) continue;  // closes a loop of such edges
+    if (a == b) {  // closes a loop of such edges
+      edges_[edge] = 1;
+      continue;
+    }
     const auto fits = [&](VertexId p) {
       return std::all_of(members[b].begin(), members[b].end(), [&](VertexId q) {
         return (shape_.vertices[p] - shape_.vertices[q]).norm() <= reach_;

@@ -9,8 +9,8 @@
 namespace quadrille {
 
 /// Chooses the edges shorter than `reach` that can become points without harm ("virtual topology"): edges
-/// that meet as a result must meet at an angle fit for a quad. Faces between two edges within `reach` of each
-/// other become edges. No node lies further than `reach` from a vertex that it replaces.
+/// that meet as a result must not meet too sharply. Faces narrower than `reach` become edges (slivers.hpp).
+/// No node lies further than `reach` from a vertex that it replaces.
 class LetGo {
  public:
   /// \param used 1 = the face is meshed. \param reach model units; 0 = nothing is let go.
@@ -35,6 +35,7 @@ class LetGo {
   const CadShape& shape_;
   const FaceFlags& used_;
   double reach_;
+  std::vector<Sliver> slivers_;
   EdgeFlags edges_;       // 1 = becomes a point
   FaceFlags kept_faces_;  // 1 = must not become an edge
 };

@@ -10,7 +10,7 @@ namespace {
 
 class Finder {
  public:
-  Finder(const CadShape& shape, const FaceFlags& used, double length, const SliverLimits& slivers)
+  Finder(const CadShape& shape, const FaceFlags& used, double length, const SliverChoice& slivers)
       : shape_(shape), used_(used), length_(length), slivers_(slivers) {
     for (const VertexId vertex : shape.vertices.ids()) tiny_.vertices.push_back(vertex);
     for (const EdgeId edge : shape.edges.ids()) tiny_.edges.push_back(edge);
@@ -26,8 +26,11 @@ class Finder {
         continue;
       if (edge.length < length_ || collapse[id]) make_point(id);
     }
+    if (slivers_.slivers != nullptr) {
+      for (const Sliver& sliver : *slivers_.slivers) zip(sliver);
+    }
     for (const FaceId face : shape_.faces.ids()) {
-      if (used_[face]) merge(face);
+      if (used_[face] && !tiny_.merged_faces[face]) merge(face);
     }
     resolve_edges();
     return std::move(tiny_);
@@ -37,8 +40,33 @@ class Finder {
   void make_point(EdgeId id) {
     const CadEdge& edge = shape_.edges[id];
     tiny_.collapsed_edges[id] = 1;
-    const VertexId a = tiny_.vertices[edge.first_vertex], b = tiny_.vertices[edge.last_vertex];
-    std::replace(tiny_.vertices.begin(), tiny_.vertices.end(), std::max(a, b), std::min(a, b));
+    join(edge.first_vertex, edge.last_vertex);
+  }
+
+  void join(VertexId first, VertexId second) {
+    const VertexId a = tiny_.vertices[first], b = tiny_.vertices[second];
+    if (a != b) std::replace(tiny_.vertices.begin(), tiny_.vertices.end(), std::max(a, b), std::min(a, b));
+  }
+
+  /// Makes a sliver an edge, all of it or nothing.
+  void zip(const Sliver& sliver) {
+    if (!used_[sliver.face] || (slivers_.kept != nullptr && (*slivers_.kept)[sliver.face])) return;
+    const auto is_open = [&](const auto& joint) { return tiny_.end(joint[0]) != tiny_.end(joint[1]); };
+    const auto is_free = [&](EdgeId edge) {
+      return tiny_.edges[edge] == edge && !tiny_.collapsed_edges[edge];
+    };
+    if (std::any_of(sliver.joints.begin(), sliver.joints.end(), is_open)) return;
+    if (std::any_of(sliver.pairs.begin(), sliver.pairs.end(),
+                    [&](const Sliver::Pair& pair) { return !is_free(pair.edge) && !is_free(pair.other); }))
+      return;
+    for (const auto& [a, b] : sliver.ties) join(a, b);
+    for (const Sliver::Pair& pair : sliver.pairs) {
+      const bool as_is = is_free(pair.other);
+      const EdgeId edge = as_is ? pair.edge : pair.other, other = as_is ? pair.other : pair.edge;
+      tiny_.edges[other] = edge;
+      tiny_.reversed_edges[other] = pair.reversed;
+    }
+    tiny_.merged_faces[sliver.face] = 1;
   }
 
   /// Removes a face that is left with no edges, or with two that lie close together.
@@ -60,27 +88,12 @@ class Finder {
                        tiny_.end(a.last_vertex) == tiny_.end(b.last_vertex);
     const bool against = tiny_.end(a.first_vertex) == tiny_.end(b.last_vertex) &&
                          tiny_.end(a.last_vertex) == tiny_.end(b.first_vertex);
-    if (!(along || against) || !lies_along(a, b, reach_of(face, any_collapsed, a, b))) return;
+    if (!(along || against) || !lies_along(a, b, length_)) return;
     // Either direction fits the ends of two closed edges: the distances of points decide.
     const bool reversed = along && against ? !runs_along(a, b) : against;
     tiny_.merged_faces[face] = 1;
     tiny_.edges[left[1]] = left[0];
     tiny_.reversed_edges[left[1]] = reversed;
-  }
-
-  /// The largest distance between the two edges of a face that may become an edge.
-  double reach_of(FaceId face, bool has_points, const CadEdge& a, const CadEdge& b) const {
-    constexpr double slender = 4;  // shorter faces without collapsed edges are discs, not slivers
-    const bool is_sliver = (has_points || std::min(a.length, b.length) > slender * slivers_.reach) &&
-                           lies_between_others(a) && lies_between_others(b) &&
-                           (slivers_.kept == nullptr || !(*slivers_.kept)[face]);
-    return std::max(length_, is_sliver ? slivers_.reach : 0);
-  }
-
-  /// Whether the edge has another used face. A sliver without neighbors on both sides is a part of its own.
-  bool lies_between_others(const CadEdge& edge) const {
-    return std::count_if(edge.faces.begin(), edge.faces.end(),
-                         [&](FaceId face) { return used_[face] != 0; }) > 1;
   }
 
   static Vector3 at(const CadEdge& edge, double t) {
@@ -114,7 +127,7 @@ class Finder {
   const CadShape& shape_;
   const FaceFlags& used_;
   double length_;
-  SliverLimits slivers_;
+  SliverChoice slivers_;
   TinyFeatures tiny_;
 };
 
@@ -144,7 +157,7 @@ bool lies_along(const CadEdge& edge, const CadEdge& other, double reach) {
 }
 
 TinyFeatures find_tiny_features(const CadShape& shape, const FaceFlags& used, const EdgeFlags& collapse,
-                                double length, const SliverLimits& slivers) {
+                                double length, const SliverChoice& slivers) {
   return Finder(shape, used, length, slivers).run(collapse);
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
+#include "mesher/edges/slivers.hpp"
 
 namespace quadrille {
 
@@ -22,9 +23,9 @@ struct TinyFeatures {
 };
 
 /// Which faces become edges besides those narrower than the given length.
-struct SliverLimits {
-  double reach = 0;                 ///< largest distance between the face's two edges
-  const FaceFlags* kept = nullptr;  ///< 1 = must not become an edge; null = any may
+struct SliverChoice {
+  const std::vector<Sliver>* slivers = nullptr;  ///< null = none
+  const FaceFlags* kept = nullptr;               ///< 1 = must not become an edge; null = any may
 };
 
 /// Whether an edge's curve stays within `reach` of another one's, at samples between its ends.
@@ -33,8 +34,9 @@ bool lies_along(const CadEdge& edge, const CadEdge& other, double reach);
 /// Marked edges and edges shorter than `length` become points. Then a face left with two edges that have the
 /// same ends and are less than `length` apart becomes an edge, and a face left with no edges vanishes.
 /// \param used 1 = the face is meshed. \param collapse 1 = marked \param length model units;
-/// 0 = marked edges only. \param slivers further faces that may become edges.
+/// 0 = marked edges only. \param slivers further faces that become edges, if the short edges at their ends
+/// become points.
 TinyFeatures find_tiny_features(const CadShape& shape, const FaceFlags& used, const EdgeFlags& collapse,
-                                double length, const SliverLimits& slivers = {});
+                                double length, const SliverChoice& slivers = {});
 
 }  // namespace quadrille

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace quadrille {
 namespace {
 
@@ -56,6 +58,14 @@ TEST(HoleBlocks, TakeTheNodesThatThereAre) {
   ASSERT_TRUE(block);
   EXPECT_EQ(block->around(), 24);
   EXPECT_FALSE(block_of(hole_at(20, 20, 12, 12), 0, grid));
+}
+
+/// An outline whose corners enclose no area makes places of any size.
+TEST(HoleBlocks, AreNoneForPlacesOutOfTheGrid) {
+  EXPECT_FALSE(block_of(hole_at(1e15, 6.5, 2, 2), 0, grid));
+  EXPECT_FALSE(block_of(hole_at(-1e15, 6.5, 2, 2), 0, grid));
+  EXPECT_FALSE(block_of(hole_at(8.5, 6.5, 1e15, 2), 0, grid));
+  EXPECT_FALSE(block_of(hole_at(NAN, 6.5, 2, 2), 0, grid));
 }
 
 TEST(HoleBlocks, KeepARowBetweenThem) {

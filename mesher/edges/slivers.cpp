@@ -1,0 +1,376 @@
+// Based on: Sheffer, Bercovier, Blacker & Clements, Virtual topology operators for meshing (2000): a narrow
+// face is given to its neighbors.
+
+#include "mesher/edges/slivers.hpp"
+
+#include <GCPnts_AbscissaPoint.hxx>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "geometry/surfaces/edge_curve.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// Faces with more edges than this are not narrow in practice.
+constexpr std::size_t most_edges = 40;
+/// A chain is at least this many times as long as the sliver is wide.
+constexpr double slender = 2.5;
+
+/// A place on an edge where it is to be divided.
+struct Cut {
+  EdgeId edge;
+  double parameter = 0;
+  Vector3 point{0, 0, 0};
+};
+
+/// A long edge of a face, with samples in the direction of the wire.
+struct LongEdge {
+  EdgeId edge;
+  bool forward = true;
+  VertexId from, to;       // vertices, in the direction of the wire
+  int start = 0, end = 0;  // junctions
+  std::vector<double> parameters;
+  std::vector<Vector3> points;
+  double slack = 0;  // how far the curve may be from the line through the samples
+};
+
+/// The place of a chain that is nearest to a point.
+struct Nearest {
+  double distance = std::numeric_limits<double>::infinity();
+  std::size_t edge = 0;  // index in the chain
+  double parameter = 0;
+  Vector3 point{0, 0, 0};
+};
+
+class SliverFinder {
+ public:
+  SliverFinder(const CadShape& shape, const FaceFlags& used, double width)
+      : shape_(shape), used_(used), width_(width) {}
+
+  /// \param cuts gets the places that have to be divided first, if the face is a sliver otherwise
+  std::optional<Sliver> find(FaceId id, std::vector<Cut>& cuts) {
+    edges_.clear();
+    const CadFace& face = shape_.faces[id];
+    if (face.wires.empty() || face.wires.size() > 2 || !face.inner_vertices.empty()) return std::nullopt;
+    std::size_t first_wire = 0;
+    constexpr int coarse = 8, fine = 256;
+    for (const CadWire& wire : face.wires) {
+      if (!add_wire(wire)) return std::nullopt;
+      if (&wire == &face.wires.front()) first_wire = edges_.size();
+    }
+    if (edges_.size() < 2 || first_wire == 0 || !has_neighbors(id)) return std::nullopt;
+    for (LongEdge& edge : edges_) sample(edge, coarse);
+    if (!may_be_narrow()) return std::nullopt;
+    for (LongEdge& edge : edges_) sample(edge, fine);
+    const int n = static_cast<int>(edges_.size());
+    if (face.wires.size() == 2) {
+      if (first_wire == edges_.size()) return std::nullopt;
+      return zip(id, range(0, static_cast<int>(first_wire)), range(static_cast<int>(first_wire), n), cuts);
+    }
+    for (int first = 0; first < n; ++first) {
+      for (int second = first + 1; second < n; ++second) {
+        std::vector<int> other = range(second, n);
+        for (int k = 0; k < first; ++k) other.push_back(k);
+        if (auto sliver = zip(id, range(first, second), other, cuts)) return sliver;
+        if (!cuts.empty()) return std::nullopt;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static std::vector<int> range(int from, int to) {
+    std::vector<int> result;
+    for (int i = from; i < to; ++i) result.push_back(i);
+    return result;
+  }
+
+  /// Adds the long edges of a wire. Junction i lies before long edge i.
+  bool add_wire(const CadWire& wire) {
+    if (!wire.ordered || wire.coedges.size() > most_edges) return false;
+    const int first = static_cast<int>(edges_.size());
+    for (const Coedge& coedge : wire.coedges) {
+      const CadEdge& edge = shape_.edges[coedge.edge];
+      if (coedge.internal || edge.degenerate || !edge.first_vertex.exists() || !edge.last_vertex.exists())
+        return false;
+      if (edge.length < width_) continue;
+      LongEdge& added = edges_.emplace_back();
+      added.edge = coedge.edge;
+      added.forward = coedge.forward;
+      added.from = coedge.forward ? edge.first_vertex : edge.last_vertex;
+      added.to = coedge.forward ? edge.last_vertex : edge.first_vertex;
+    }
+    const int n = static_cast<int>(edges_.size());
+    for (int i = first; i < n; ++i) {
+      edges_[i].start = i;
+      edges_[i].end = i + 1 < n ? i + 1 : first;
+    }
+    return n > first;
+  }
+
+  /// Whether each edge is of another kind than a seam and one of them at least belongs to another face.
+  bool has_neighbors(FaceId id) const {
+    bool any = false;
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        if (edges_[i].edge == edges_[k].edge) return false;
+      }
+      any |= lies_beside(edges_[i].edge, id);
+    }
+    return any;
+  }
+
+  bool lies_beside(EdgeId edge, FaceId id) const {
+    const auto& faces = shape_.edges[edge].faces;
+    return std::any_of(faces.begin(), faces.end(),
+                       [&](FaceId face) { return face != id && used_[face] != 0; });
+  }
+
+  void sample(LongEdge& to, int intervals) const {
+    const CadEdge& edge = shape_.edges[to.edge];
+    const EdgeCurve curve(edge);
+    if (curve.straight()) intervals = std::min(intervals, 16);
+    to.parameters.clear();
+    to.points.clear();
+    to.slack = 0;
+    for (int i = 0; i <= intervals; ++i) {
+      const double share = static_cast<double>(i) / intervals;
+      to.parameters.push_back(edge.first + (to.forward ? share : 1 - share) * (edge.last - edge.first));
+      to.points.push_back(curve.point(to.parameters.back()));
+    }
+    if (curve.straight()) return;
+    // A curve of length s between points at distance c is nowhere farther from them than this; by parameter
+    // the pieces are not equally long, hence the factor.
+    const double s = 1.5 * edge.length / intervals;
+    for (int i = 0; i < intervals; ++i) {
+      const double c = (to.points[i + 1] - to.points[i]).norm();
+      to.slack = std::max(to.slack, 0.5 * std::sqrt(std::max(0.0, s * s - c * c)));
+    }
+  }
+
+  Nearest nearest(const Vector3& p, const std::vector<int>& chain) const {
+    Nearest result;
+    for (std::size_t at = 0; at < chain.size(); ++at) {
+      const LongEdge& edge = edges_[chain[at]];
+      for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
+        const Vector3 side = edge.points[i + 1] - edge.points[i];
+        const double square = side.squaredNorm();
+        const double t = square > 0 ? std::clamp((p - edge.points[i]).dot(side) / square, 0.0, 1.0) : 0;
+        const Vector3 point = edge.points[i] + t * side;
+        const double distance = (p - point).norm();
+        if (distance >= result.distance) continue;
+        result = {distance, at, edge.parameters[i] + t * (edge.parameters[i + 1] - edge.parameters[i]),
+                  point};
+      }
+    }
+    return result;
+  }
+
+  /// Whether the middle of the longest edge is near another one.
+  bool may_be_narrow() const {
+    int longest = 0;
+    for (int i = 0; i < static_cast<int>(edges_.size()); ++i) {
+      if (shape_.edges[edges_[i].edge].length > shape_.edges[edges_[longest].edge].length) longest = i;
+    }
+    const Vector3 middle = edges_[longest].points[edges_[longest].points.size() / 2];
+    for (int i = 0; i < static_cast<int>(edges_.size()); ++i) {
+      if (i != longest && nearest(middle, {i}).distance < width_ + edges_[i].slack) return true;
+    }
+    return false;
+  }
+
+  double length_of(const std::vector<int>& chain) const {
+    double length = 0;
+    for (const int i : chain) length += shape_.edges[edges_[i].edge].length;
+    return length;
+  }
+
+  bool lies_along(const std::vector<int>& chain, const std::vector<int>& other, double reach) const {
+    constexpr std::array<int, 7> eighths{4, 1, 2, 3, 5, 6, 7};  // what fails mostly fails in the middle
+    for (const int eighth : eighths) {
+      for (const int i : chain) {
+        const auto& points = edges_[i].points;
+        if (!(nearest(points[(points.size() - 1) * eighth / 8], other).distance < reach)) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Pairs the edges of two chains that lie along each other.
+  std::optional<Sliver> zip(FaceId id, const std::vector<int>& chain, const std::vector<int>& other,
+                            std::vector<Cut>& cuts) const {
+    const double length = std::min(length_of(chain), length_of(other));
+    const double reach = std::min(width_, length / slender);
+    if (std::abs(length_of(chain) - length_of(other)) > 0.2 * length + 2 * width_) return std::nullopt;
+    if (!lies_along(chain, other, reach) || !lies_along(other, chain, reach)) return std::nullopt;
+    std::map<int, int> match;  // junctions of the two chains, both ways
+    const bool is_ring = edges_[chain.back()].end == edges_[chain.front()].start;
+    if (!is_ring) {
+      for (const int end : {edges_[chain.front()].start, edges_[chain.back()].end}) match[end] = end;
+    }
+    std::vector<Cut> found;
+    if (!match_junctions(chain, other, match, found) || !match_junctions(other, chain, match, found))
+      return std::nullopt;
+    if (!found.empty()) {
+      cuts = std::move(found);
+      return std::nullopt;
+    }
+    return paired(id, chain, other, match);
+  }
+
+  /// Finds the junction of the other chain that faces each junction, or the place to divide an edge at.
+  bool match_junctions(const std::vector<int>& chain, const std::vector<int>& other,
+                       std::map<int, int>& match, std::vector<Cut>& cuts) const {
+    for (const int i : chain) {
+      const int junction = edges_[i].start;
+      if (match.contains(junction)) continue;
+      const Vector3& p = edges_[i].points.front();
+      const Nearest place = nearest(p, other);
+      if (!(place.distance < width_)) return false;
+      const LongEdge& edge = edges_[other[place.edge]];
+      const double to_start = (edge.points.front() - place.point).norm(),
+                   to_end = (edge.points.back() - place.point).norm();
+      if (std::min(to_start, to_end) < width_) {
+        const int there = to_start < to_end ? edge.start : edge.end;
+        if (match.contains(there)) return false;
+        match[junction] = there;
+        match[there] = junction;
+      } else {
+        cuts.push_back({edge.edge, place.parameter, place.point});
+      }
+    }
+    return true;
+  }
+
+  std::optional<Sliver> paired(FaceId id, const std::vector<int>& chain, const std::vector<int>& other,
+                               const std::map<int, int>& match) const {
+    if (chain.size() != other.size()) return std::nullopt;
+    Sliver sliver;
+    sliver.face = id;
+    for (const int i : chain) {
+      const LongEdge& edge = edges_[i];
+      const auto facing = std::find_if(other.begin(), other.end(), [&](int k) {
+        return edges_[k].start == match.at(edge.end) && edges_[k].end == match.at(edge.start);
+      });
+      if (facing == other.end()) return std::nullopt;
+      const LongEdge& across = edges_[*facing];
+      const bool lends = lies_beside(edge.edge, id);
+      sliver.pairs.push_back(
+          {lends ? edge.edge : across.edge, lends ? across.edge : edge.edge, edge.forward == across.forward});
+      if (match.at(edge.start) != edge.start) sliver.ties.push_back({edge.from, across.to});
+    }
+    for (const LongEdge& edge : edges_) sliver.joints.push_back({edge.to, edges_[edge.end].from});
+    return sliver;
+  }
+
+  const CadShape& shape_;
+  const FaceFlags& used_;
+  double width_;
+  std::vector<LongEdge> edges_;  // of the face that is looked at
+};
+
+/// Divides edges of a copy of a shape.
+class Divider {
+ public:
+  explicit Divider(const CadShape& shape) : shape_(std::make_shared<CadShape>(shape)) {}
+
+  void divide(std::vector<Cut> cuts, double nearest) {
+    std::stable_sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
+      return a.edge != b.edge ? a.edge < b.edge : a.parameter < b.parameter;
+    });
+    for (std::size_t i = 0; i < cuts.size();) {
+      std::vector<Cut> of_edge;
+      const EdgeId edge = cuts[i].edge;
+      for (; i < cuts.size() && cuts[i].edge == edge; ++i) {
+        if (of_edge.empty() || (cuts[i].point - of_edge.back().point).norm() > nearest)
+          of_edge.push_back(cuts[i]);
+      }
+      divide(edge, of_edge);
+    }
+  }
+
+  std::shared_ptr<const CadShape> result() const { return shape_; }
+
+ private:
+  void divide(EdgeId id, const std::vector<Cut>& cuts) {
+    std::vector<EdgeId> pieces{id};
+    for (const Cut& cut : cuts) {
+      CadEdge rest = shape_->edges[pieces.back()];
+      const EdgeCurve curve(rest);
+      const VertexId vertex = shape_->vertices.push_back(curve.point(cut.parameter));
+      shape_->vertex_tolerances.push_back(rest.tolerance);
+      CadEdge& before = shape_->edges[pieces.back()];
+      before.last = rest.first = cut.parameter;
+      before.last_vertex = rest.first_vertex = vertex;
+      measure(before);
+      measure(rest);
+      pieces.push_back(shape_->edges.push_back(rest));
+    }
+    for (CadFace& face : shape_->faces) {
+      for (CadWire& wire : face.wires) replace(wire, id, pieces);
+    }
+  }
+
+  static void measure(CadEdge& edge) {
+    edge.length = GCPnts_AbscissaPoint::Length(BRepAdaptor_Curve(edge.edge), edge.first, edge.last);
+  }
+
+  static void replace(CadWire& wire, EdgeId id, const std::vector<EdgeId>& pieces) {
+    for (std::size_t i = 0; i < wire.coedges.size(); ++i) {
+      if (wire.coedges[i].edge != id) continue;
+      std::vector<Coedge> parts(pieces.size(), wire.coedges[i]);
+      for (std::size_t k = 0; k < pieces.size(); ++k) parts[k].edge = pieces[k];
+      if (!parts.front().forward) std::reverse(parts.begin(), parts.end());
+      wire.coedges.erase(wire.coedges.begin() + static_cast<long>(i));
+      wire.coedges.insert(wire.coedges.begin() + static_cast<long>(i), parts.begin(), parts.end());
+      i += pieces.size() - 1;
+    }
+  }
+
+  std::shared_ptr<CadShape> shape_;
+};
+
+}  // namespace
+
+std::vector<Sliver> find_slivers(const CadShape& shape, const FaceFlags& used, double width) {
+  std::vector<Sliver> result;
+  if (!(width > 0)) return result;
+  SliverFinder finder(shape, used, width);
+  for (const FaceId face : used.ids()) {
+    std::vector<Cut> cuts;
+    if (!used[face]) continue;
+    if (auto sliver = finder.find(face, cuts)) result.push_back(std::move(*sliver));
+  }
+  return result;
+}
+
+std::shared_ptr<const CadShape> divided_at_slivers(const CadShape& shape, const FaceFlags& used,
+                                                   double width) {
+  constexpr int most_passes = 6;  // a cut passes from sliver to sliver
+  std::shared_ptr<const CadShape> result;
+  if (!(width > 0)) return result;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const CadShape& now = result ? *result : shape;
+    SliverFinder finder(now, used, width);
+    std::vector<Cut> all;
+    for (const FaceId face : used.ids()) {
+      std::vector<Cut> cuts;
+      if (!used[face]) continue;
+      finder.find(face, cuts);
+      all.insert(all.end(), cuts.begin(), cuts.end());
+    }
+    if (all.empty()) break;
+    Divider divider(now);
+    divider.divide(std::move(all), width);
+    result = divider.result();
+  }
+  return result;
+}
+
+}  // namespace quadrille
