@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,6 +29,7 @@
 #include "mesher/settings.hpp"
 #include "mesher/shell/assembly.hpp"
 #include "mesher/shell/face_mesher.hpp"
+#include "mesher/shell/last_resort.hpp"
 #include "mesher/shell/mirror_images.hpp"
 #include "mesher/shell/node_sliding.hpp"
 #include "mesher/shell/remedies.hpp"
@@ -45,9 +47,11 @@ namespace {
 
 class Job {
  public:
-  Job(const CadModel& model, const MeshOptions& options, ExecutionContext& context)
-      : model_(model),
-        shape_(model.shape()),
+  /// \param divides divide edges where slivers ask for it: edges and vertices are then not those of the model
+  Job(const CadModel& model, const MeshOptions& options, ExecutionContext& context, bool divides = true)
+      : vertices_(model.vertex_count()),
+        model_(divides ? divided(model, options) : model),
+        shape_(model_.shape()),
         options_(options),
         limits_(size_limits(model, options.sizing)),
         context_(context),
@@ -59,7 +63,7 @@ class Job {
         records_(shape_.faces.size()),
         asked_(used_),
         let_go_(shape_, asked_, reach_of_let_go(limits_, options),
-                edges_below_size_min(model, options.sizing, limits_)) {
+                edges_below_size_min(model_, options.sizing, limits_)) {
     if (options_.strategy == Strategy::subdivide) edges_.plan.subdivided.assign(shape_.faces.size(), 1);
     edges_.plan.prescribed = prescribed_edges(shape_, options.sizing, limits_.largest);
     leave_out_tiny();
@@ -88,6 +92,12 @@ class Job {
 
   ShellMesh run(const SizingField& field) {
     mesh_in_rounds(field);
+    if (!options_.strict && leave_surfaces(field) && undo_remedies()) {
+      sample(field);
+      find_charts();
+      mesh_faces(field);
+      leave_surfaces(field);
+    }
     advise_on_tiny_faces();
     const bool none =
         std::none_of(meshes_.begin(), meshes_.end(), [](const auto& m) { return m.has_value(); });
@@ -100,10 +110,19 @@ class Job {
     if (options_.partial) context_.lift_time_limit();
     ShellMesh result = assemble(shape_, nodes_, meshes_, statuses(), options_, context_);
     result.let_go = list_let_go();
+    std::erase_if(result.corners, [&](const auto& corner) { return corner.vertex > vertices_; });
     return result;
   }
 
  private:
+  /// The model with edges divided at slivers, unless users divide edges: what they name stays as it is.
+  static CadModel divided(const CadModel& model, const MeshOptions& options) {
+    if (!options.sizing.spacings.empty() || !options.sizing.layers.edges.empty()) return model;
+    const double reach = reach_of_let_go(size_limits(model, options.sizing), options);
+    const auto shape = divided_at_slivers(model.shape(), faces_used(model, options), reach);
+    return shape ? CadModel(shape) : model;
+  }
+
   static constexpr int most_chart_rounds = 12;
 
   bool is_limited() const { return options_.partial && context_.has_time_limit(); }
@@ -140,6 +159,49 @@ class Job {
       mesh_faces(field);
       changed = treat();
     }
+  }
+
+  /// Meshes the faces for which no remedy is left with nodes off their surfaces. \return whether some still
+  /// have no mesh.
+  bool leave_surfaces(const SizingField& field) {
+    bool any = false;
+    for (const FaceId face : problems_.ids()) {
+      const auto problem = problems_[face];
+      if (!problem || meshes_[face] || problem->cause() == Cause::out_of_time) continue;
+      try {
+        meshes_[face] =
+            mesh_off_surface(shape_, *problem, nodes_, field, limits_.size_min, options_, context_);
+      } catch (const FaceProblem&) {
+        any = true;
+        continue;  // the first problem is the one to report
+      }
+      problems_[face].reset();
+      records_[face].history.push_back(fmt::format("{}: nodes off its surface", problem->what()));
+    }
+    return any && may_go_on();
+  }
+
+  /// Takes back the finer segments that did not help the faces that have no mesh. \return whether there were
+  /// any.
+  bool undo_remedies() {
+    bool any = false;
+    EdgeFlags of_failed(shape_.edges.size());
+    for (const FaceId face : problems_.ids()) {
+      if (!problems_[face] || meshes_[face]) continue;
+      any |= !records_[face].history.empty();
+      records_[face].recipe = {};
+      records_[face].given_up = false;
+      problems_before_[face].reset();
+      for (const CadWire& wire : shape_.faces[face].wires) {
+        for (const Coedge& coedge : wire.coedges) of_failed[coedge.edge] = 1;
+      }
+    }
+    SamplingPlan& plan = edges_.plan;
+    for (const EdgeId edge : of_failed.ids()) {
+      if (of_failed[edge]) plan.factor[edge] = 1;
+    }
+    std::erase_if(plan.finer, [&](const EdgeStretch& part) { return of_failed[part.edge] != 0; });
+    return any;
   }
 
   /// Whether there is time for another round. With options.partial the last tenth of the time limit is kept
@@ -392,15 +454,24 @@ class Job {
     std::vector<ShellMesh::LetGo> result;
     for (const EdgeId id : tiny.edges.ids()) {
       const CadEdge& edge = shape_.edges[id];
-      if (tiny.collapsed_edges[id])
+      if (tiny.collapsed_edges[id] && tiny.end(edge.first_vertex).number() <= vertices_)
         result.push_back({Kind::edge, edge.number, Kind::vertex, tiny.end(edge.first_vertex).number()});
-      else if (tiny.edges[id] != id)
+      else if (tiny.edges[id] != id && shape_.edges[tiny.edges[id]].number != edge.number)
         result.push_back({Kind::edge, edge.number, Kind::edge, shape_.edges[tiny.edges[id]].number});
     }
     for (const VertexId vertex : tiny.vertices.ids()) {
-      if (tiny.end(vertex) != vertex)
+      if (tiny.end(vertex) != vertex && std::max(vertex.number(), tiny.end(vertex).number()) <= vertices_)
         result.push_back({Kind::vertex, vertex.number(), Kind::vertex, tiny.end(vertex).number()});
     }
+    // The pieces of a divided edge come last, and may be let go in the same way.
+    const auto place = [](const ShellMesh::LetGo& a) {
+      return std::tuple(a.kind, a.number, a.to_kind, a.to);
+    };
+    std::sort(result.begin(), result.end(),
+              [&](const auto& a, const auto& b) { return place(a) < place(b); });
+    result.erase(std::unique(result.begin(), result.end(),
+                             [&](const auto& a, const auto& b) { return place(a) == place(b); }),
+                 result.end());
     return result;
   }
 
@@ -431,7 +502,8 @@ class Job {
     return result;
   }
 
-  const CadModel& model_;
+  int vertices_;  // of the model; the others divide edges
+  const CadModel model_;
   const CadShape& shape_;
   const MeshOptions& options_;
   SizeLimits limits_;
@@ -510,12 +582,12 @@ ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionConte
 
 SizingField wanted_sizes(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
   check_input(model, options);
-  return Job(model, options, context).build_field();
+  return Job(model, options, context, false).build_field();
 }
 
 SettledBoundary settle_boundary(const CadModel& model, const MeshOptions& options,
                                 ExecutionContext& context) {
-  Job job(model, options, context);
+  Job job(model, options, context, false);
   SizingField field = job.build_field();
   BoundaryNodes nodes = job.boundary(field);
   return {std::move(field), std::move(nodes)};

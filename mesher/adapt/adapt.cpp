@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/whole_number.hpp"
 #include "geometry/sizing/size_cascade.hpp"
 #include "geometry/sizing/size_file.hpp"
 #include "mesher/adapt/error_estimate.hpp"
@@ -141,7 +142,7 @@ class SizePlan {
       double longest = 0;
       for (int k = 0; k < 4; ++k) longest = std::max(longest, (corners[(k + 1) % 4] - corners[k]).norm());
       const double least = *std::min_element(sizes.begin(), sizes.end());
-      const int n = std::clamp(static_cast<int>(std::ceil(longest / least)), 2, 32);
+      const int n = to_int(std::clamp(std::ceil(longest / least), 2.0, 32.0));
       for (int k = 0; k < n * n; ++k) {
         const int column = k % n, row = k / n;
         const double x = (column + 0.5) / n, y = (row + 0.5) / n;

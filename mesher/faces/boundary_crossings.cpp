@@ -14,6 +14,8 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/place_text.hpp"
+
 namespace quadrille {
 
 namespace {
@@ -194,11 +196,10 @@ std::optional<FaceProblem> crossing_problem(FaceId face, const CadShape& shape, 
     cause = Cause::stray_curves;
   const auto &s = boundary.segments[worst.first], &t = boundary.segments[worst.second];
   const Vector3& near = boundary.points[s.a];
-  FaceProblem problem(
-      cause, face,
-      fmt::format("the boundary of Face{} crosses or touches itself near ({:.6g}, {:.6g}, {:.6g}), "
-                  "where {} meets {}",
-                  face.number(), near.x(), near.y(), near.z(), name_of(shape, s), name_of(shape, t)));
+  FaceProblem problem(cause, face,
+                      fmt::format("the boundary of Face{} crosses or touches itself near {}, "
+                                  "where {} meets {}",
+                                  face.number(), place_text(near), name_of(shape, s), name_of(shape, t)));
   for (const EdgeId edge : std::set{s.edge, t.edge}) {
     if (edge.exists()) problem.edges.push_back(edge);
   }
@@ -218,10 +219,9 @@ std::optional<FaceProblem> crowding_problem(FaceId face, const FaceBoundary& bou
     if (near == nullptr) near = &boundary.segments[pair.first].middle_point;
   }
   if (stretches.empty()) return std::nullopt;
-  FaceProblem problem(
-      Cause::narrow_gaps, face,
-      fmt::format("Face{} is narrower near ({:.6g}, {:.6g}, {:.6g}) than its edges bend between nodes",
-                  face.number(), near->x(), near->y(), near->z()));
+  FaceProblem problem(Cause::narrow_gaps, face,
+                      fmt::format("Face{} is narrower near {} than its edges bend between nodes",
+                                  face.number(), place_text(*near)));
   problem.stretches = std::move(stretches);
   return problem;
 }

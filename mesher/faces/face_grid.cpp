@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/base/whole_number.hpp"
 #include "mesher/edges/hole_blocks.hpp"
 #include "mesher/faces/step_layout.hpp"
 #include "mesher/mesh/quality.hpp"
@@ -166,7 +167,7 @@ class GridMaker {
       counts.push_back(counts.back() + (here - before).norm() / size_at_(0.5 * (here + before)));
       before = here;
     }
-    const int rows = std::max(1, static_cast<int>(std::lround(counts.back())));
+    const int rows = std::max(1, round_to_int(counts.back()));
     std::vector<double> shares{0};
     int cell = 0;
     for (int k = 1; k < rows; ++k) {
@@ -326,8 +327,8 @@ class GridMaker {
                      y = (aa * way.dot(up) - au * way.dot(along)) / det;
         place = Vector2(i + x, j + y);
         if (!place.allFinite()) break;
-        const int next_i = std::clamp(i + std::clamp(static_cast<int>(std::lround(x)), -m, m), 1, m - 1),
-                  next_j = std::clamp(j + std::clamp(static_cast<int>(std::lround(y)), -n, n), 1, n - 1);
+        const int next_i = std::clamp(i + round_to_int(std::clamp<double>(x, -m, m)), 1, m - 1),
+                  next_j = std::clamp(j + round_to_int(std::clamp<double>(y, -n, n)), 1, n - 1);
         if (next_i == i && next_j == j) break;
         i = next_i;
         j = next_j;
@@ -376,7 +377,7 @@ class GridMaker {
       length += 0.5 * (grid_.points[outline[(k + 1) % n]] - grid_.points[outline[k]]).norm() +
                 0.5 * (grid_.points[hole[(k + 1) % n]] - grid_.points[hole[k]]).norm();
     }
-    const int rings = std::max(1, static_cast<int>(std::lround(way / length)));
+    const int rings = std::max(1, round_to_int(way / length));
     grid_.rings = grid_.rings == 0 ? rings : std::min(grid_.rings, rings);
     std::vector<Line> lines{outline};
     for (int ring = 1; ring < rings; ++ring) {

@@ -18,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/place_text.hpp"
 #include "mesher/faces/face_problem.hpp"
 #include "mesher/faces/triangle_flips.hpp"
 
@@ -44,9 +45,9 @@ using Cdt =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
 
 FaceProblem no_triangles(FaceId face, const Vector3& near) {
-  return {Cause::no_mesh, face,
-          fmt::format("the boundary of Face{} encloses no triangles near ({:.6g}, {:.6g}, {:.6g})",
-                      face.number(), near.x(), near.y(), near.z())};
+  return {
+      Cause::no_mesh, face,
+      fmt::format("the boundary of Face{} encloses no triangles near {}", face.number(), place_text(near))};
 }
 
 /// Points by index for CGAL's sorting. It is a single call, so accesses to points check the context at times.

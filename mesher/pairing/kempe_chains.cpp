@@ -15,6 +15,7 @@
 #include <boost/dynamic_bitset.hpp>
 
 #include "geometry/base/threads.hpp"
+#include "geometry/base/whole_number.hpp"
 #include "mesher/pairing/augmenting_paths.hpp"
 
 namespace quadrille {
@@ -108,7 +109,7 @@ class Valences {
       }
     }
     for (std::size_t v = 0; v < points.size(); ++v) {
-      deviation_[v] -= boundary[v] ? std::max(1, static_cast<int>(std::lround(angle[v] / 1.57079633F))) : 4;
+      deviation_[v] -= boundary[v] ? std::max(1, round_to_int(angle[v] / 1.57079633F)) : 4;
     }
   }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <unordered_set>
 
+#include "geometry/base/whole_number.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/edited_mesh.hpp"
 #include "mesher/quads/polygon_filling.hpp"
@@ -60,9 +61,7 @@ class Cavities : private EditedMesh {
   int valence(int node) const { return topology_.valence(topology_.side_of(node)); }
 
   /// The number of quads that the angle at a boundary node asks for.
-  int wanted(int node) const {
-    return std::max(1, static_cast<int>(std::lround(angles_[node] / (std::numbers::pi / 2))));
-  }
+  int wanted(int node) const { return std::max(1, round_to_int(angles_[node] / (std::numbers::pi / 2))); }
 
   int excess(int node) const { return valence(node) - (inner(node) ? 4 : wanted(node)); }
   int cost(int node) const { return excess(node) * excess(node); }
@@ -262,9 +261,7 @@ class Cavities : private EditedMesh {
     if (cost_ < 2 || !is_flat() || !seen_.insert(fingerprint()).second) return false;
     std::vector<Vector3> outline;
     for (const int node : ring_) outline.push_back(point(node));
-    const auto share = [&](double of) {
-      return static_cast<int>(std::lround(of * static_cast<double>(patch_.size())));
-    };
+    const auto share = [&](double of) { return round_to_int(of * static_cast<double>(patch_.size())); };
     // Quads gained or lost already may be given back, however many they are.
     const int drift = std::max({std::abs(drift_), few_quads, static_cast<int>(most_drift * first_count_)});
     const int count = static_cast<int>(patch_.size()) - drift_;

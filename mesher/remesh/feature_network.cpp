@@ -7,6 +7,7 @@
 #include <queue>
 #include <set>
 
+#include "geometry/base/whole_number.hpp"
 #include "mesher/mesh/side_twins.hpp"
 
 namespace quadrille {
@@ -277,8 +278,7 @@ double even_spacing(const FeatureCurve& curve, double target) {
   constexpr double finest = 1.0 / 8, sharp = 61 * to_radians, growth = 1.5;
   const bool closed = curve.closed();
   for (double spacing = target;; spacing /= growth) {
-    const int count =
-        std::max(closed ? 3 : 1, static_cast<int>(std::ceil(curve.length() / spacing * (1 - 1e-9))));
+    const int count = std::max(closed ? 3 : 1, to_int(std::ceil(curve.length() / spacing * (1 - 1e-9))));
     const double step = curve.length() / count;
     double worst = 0;
     for (int k = closed ? 0 : 1; k < count; ++k) {
@@ -342,7 +342,7 @@ std::vector<std::vector<double>> place_on_curves(const FeatureNetwork& network,
     // Number of steps in the integral of 1 / size.
     constexpr int most_steps = 1 << 16;
     const int steps =
-        std::clamp(static_cast<int>(16 * curve.length() / std::min({spacing[c], from, to})), 16, most_steps);
+        to_int(std::clamp<double>(16 * curve.length() / std::min({spacing[c], from, to}), 16, most_steps));
     std::vector<double> sum{0};
     for (int k = 0; k < steps; ++k) {
       const double s = (k + 0.5) / steps * curve.length();
@@ -350,7 +350,7 @@ std::vector<std::vector<double>> place_on_curves(const FeatureNetwork& network,
                     curve.length() / steps /
                         std::min({spacing[c], from + growth * s, to + growth * (curve.length() - s)}));
     }
-    const int count = std::max(curve.closed() ? 3 : 1, static_cast<int>(std::lround(sum.back())));
+    const int count = std::max(curve.closed() ? 3 : 1, round_to_int(sum.back()));
     std::vector<double>& nodes = result.emplace_back(1, 0.0);
     for (int n = 1, k = 0; n < count; ++n) {
       const double wanted = sum.back() * n / count;

@@ -1,15 +1,14 @@
 #include "mesher/remesh/patch_quads.hpp"
 
 #include <algorithm>
-#include <map>
 #include <unordered_map>
 
 #include "geometry/base/side_key.hpp"
 #include "mesher/faces/face_boundary.hpp"
-#include "mesher/mesh/quality.hpp"
 #include "mesher/pairing/recombine.hpp"
 #include "mesher/quads/improve.hpp"
 #include "mesher/quads/subdivision.hpp"
+#include "mesher/quads/unfold_in_space.hpp"
 
 namespace quadrille {
 
@@ -45,7 +44,8 @@ class PatchMesher {
     const StageTimer timer(context_, Stage::improve);
     smooth(fine_, surface(), improvement, report, context_);
     PatchQuads result;
-    result.off_surface = unfold();
+    const std::vector<char> moved = unfold_in_space(fine_.mesh, fine_.fixed, context_);
+    result.off_surface = static_cast<int>(std::count(moved.begin(), moved.end(), 1));
     result.patch = triangles_.patch;
     result.points = std::move(fine_.mesh.points);
     result.places = std::move(fine_.parameters);
@@ -69,77 +69,6 @@ class PatchMesher {
       coarse_.normals.push_back(normal);
       coarse_.fixed.push_back(v < boundary);
       coarse_.boundary_angles.push_back(v < boundary ? triangles_.angles[v] : 0);
-    }
-  }
-
-  /// Moves the free nodes of inverted quads off the surface: first to the mean of their neighbors, then to
-  /// the place where the worst quad around them is best. \return the number of nodes moved.
-  int unfold() {
-    constexpr int rounds = 20;
-    std::vector<Vector3>& p = fine_.mesh.points;
-    std::map<int, std::vector<int>> round_node;  // node -> quads around it
-    std::vector<char> moved(p.size(), 0);
-    const auto shape = [&](int quad) {
-      const auto& [a, b, c, d] = fine_.mesh.quads[quad];
-      return quad_scaled_jacobian(p[a], p[b], p[c], p[d]);
-    };
-    for (int round = 0; round < rounds; ++round) {
-      context_.check();
-      round_node.clear();
-      for (int quad = 0; quad < static_cast<int>(fine_.mesh.quads.size()); ++quad) {
-        if (shape(quad) > 0) continue;
-        for (const int v : fine_.mesh.quads[quad])
-          if (!fine_.fixed[v]) round_node[v];
-      }
-      if (round_node.empty()) break;
-      for (int quad = 0; quad < static_cast<int>(fine_.mesh.quads.size()); ++quad)
-        for (const int v : fine_.mesh.quads[quad])
-          if (const auto found = round_node.find(v); found != round_node.end()) found->second.push_back(quad);
-      for (const auto& [v, quads] : round_node) {
-        if (round == 0)
-          p[v] = middle_of_neighbors(v, quads);
-        else
-          search(v, quads, shape);
-        moved[v] = 1;
-      }
-    }
-    return static_cast<int>(std::count(moved.begin(), moved.end(), 1));
-  }
-
-  Vector3 middle_of_neighbors(int v, const std::vector<int>& quads) const {
-    Vector3 sum = Vector3::Zero();
-    for (const int quad : quads) {
-      const auto& corners = fine_.mesh.quads[quad];
-      for (int k = 0; k < 4; ++k)
-        if (corners[k] == v)
-          sum += fine_.mesh.points[corners[(k + 1) % 4]] + fine_.mesh.points[corners[(k + 3) % 4]];
-    }
-    return sum / (2.0 * static_cast<double>(quads.size()));
-  }
-
-  /// Moves node v by ever shorter steps along the axes to the place where the worst quad is best.
-  template <class Shape>
-  void search(int v, const std::vector<int>& quads, const Shape& shape) {
-    std::vector<Vector3>& p = fine_.mesh.points;
-    double step = 0;
-    for (const int quad : quads)
-      for (const int other : fine_.mesh.quads[quad]) step = std::max(step, 0.5 * (p[other] - p[v]).norm());
-    const auto worst = [&] {
-      double least = 1;
-      for (const int quad : quads) least = std::min(least, shape(quad));
-      return least;
-    };
-    double best = worst();
-    constexpr int halvings = 6;
-    for (int k = 0; k < halvings; ++k, step *= 0.5) {
-      for (int axis = 0; axis < 6; ++axis) {
-        const Vector3 before = p[v];
-        p[v] += (axis < 3 ? step : -step) * Vector3::Unit(axis % 3);
-        if (const double now = worst(); now > best)
-          best = now;
-        else
-          p[v] = before;
-      }
     }
   }
 

@@ -16,6 +16,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/free_memory.hpp"
+#include "geometry/base/place_text.hpp"
 #include "geometry/base/side_key.hpp"
 #include "geometry/base/threads.hpp"
 #include "geometry/sizing/element_count.hpp"
@@ -49,10 +50,6 @@ void check(const RemeshOptions& options) {
         fmt::format("the feature angle must be from 0 to 180 degrees, not {:g}", options.feature_angle));
 }
 
-std::string text_of(const Vector3& p) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
-}
-
 /// Throws Error (failure) if more than two triangles share a side, or if no two triangles share one.
 void check_manifold(const TriangleMesh& mesh) {
   std::vector<std::uint64_t> keys;
@@ -72,7 +69,7 @@ void check_manifold(const TriangleMesh& mesh) {
     throw failure("",
                   fmt::format("{} triangles meet at the side from {} to {}, where a surface has two at most: "
                               "split the surface there",
-                              count, text_of(a), text_of(b)));
+                              count, place_text(a), place_text(b)));
   }
 }
 
@@ -518,7 +515,7 @@ class Remesher {
         throw failure(fmt::format("Face{}", face),
                       fmt::format("quads of Face{} lie on one another at this size, the first at {}: try a "
                                   "smaller `size`, or another feature angle",
-                                  face, text_of(patch.points[doubled.front()])));
+                                  face, place_text(patch.points[doubled.front()])));
       }
     }
     check_inverted(mesh);
@@ -537,7 +534,7 @@ class Remesher {
     throw failure(fmt::format("Face{}", face),
                   fmt::format("{} quads stay inverted or without area at this size, the first on Face{} at "
                               "{}: try a smaller `size`, or another feature angle",
-                              count, face, text_of(mesh.points[mesh.quads[first][0]])));
+                              count, face, place_text(mesh.points[mesh.quads[first][0]])));
   }
 
   void place_midsides(ShellMesh& mesh) {

@@ -25,6 +25,7 @@ class Assembler {
     number_boundary();
     add_faces();
     add_segments();
+    note_off_surface();
     return std::move(mesh_);
   }
 
@@ -126,6 +127,21 @@ class Assembler {
     }
   }
 
+  void note_off_surface() {
+    std::size_t next = mesh_.points.size();
+    for (const FaceId id : faces_.ids()) {
+      if (faces_[id]) next -= faces_[id]->points.size() - faces_[id]->nodes.size();
+    }
+    for (const FaceId id : faces_.ids()) {
+      if (!faces_[id]) continue;
+      const FaceMesh& face = *faces_[id];
+      for (std::size_t i = face.nodes.size(); i < face.points.size(); ++i, ++next) {
+        if (!face.off.empty() && face.off[i] > 0)
+          mesh_.off_geometry.push_back({static_cast<int>(next), face.off[i]});
+      }
+    }
+  }
+
   const CadShape& shape_;
   const BoundaryNodes& nodes_;
   const FaceMeshes& faces_;
@@ -139,6 +155,8 @@ void make_second_order(const MeshedFaces& meshed, const ShellNumbering& numberin
                        const ExecutionContext& context) {
   Midsides midsides = add_midsides(meshed, numbering, mesh, context);
   const std::vector<std::size_t> folded = unfold(meshed, numbering, midsides, mesh, context);
+  std::stable_sort(mesh.off_geometry.begin(), mesh.off_geometry.end(),
+                   [](const auto& a, const auto& b) { return a.node < b.node; });
   if (folded.empty()) return;
   const int face = mesh.quad_faces[folded.front()];
   const auto count = std::count_if(folded.begin(), folded.end(),
@@ -157,9 +175,13 @@ void note_off_geometry(ShellMesh& mesh) {
   for (const auto& off : mesh.off_geometry) distance[off.node] = off.distance;
   std::vector<std::pair<int, int>> met;  // (face, node), once for each element
   for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
-    for (const int node : mesh.midsides[quad]) {
-      if (distance[node] >= 0) met.emplace_back(mesh.quad_faces[quad], node);
-    }
+    const auto look_at = [&](const std::array<int, 4>& nodes) {
+      for (const int node : nodes) {
+        if (distance[node] >= 0) met.emplace_back(mesh.quad_faces[quad], node);
+      }
+    };
+    look_at(mesh.quads[quad]);
+    if (mesh.order == 2) look_at(mesh.midsides[quad]);
   }
   std::sort(met.begin(), met.end());
   met.erase(std::unique(met.begin(), met.end()), met.end());
@@ -171,7 +193,7 @@ void note_off_geometry(ShellMesh& mesh) {
   for (ShellMesh::Face& face : mesh.faces) {
     if (face.off_geometry == 0) continue;
     if (!face.note.empty()) face.note += ", ";
-    face.note += fmt::format("{} midside nodes up to {:.3g} off the geometry, where elements would fold",
+    face.note += fmt::format("{} nodes up to {:.3g} off the geometry, where elements would be invalid",
                              face.off_geometry, face.off_geometry_max);
   }
 }

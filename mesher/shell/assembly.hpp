@@ -18,7 +18,7 @@ ShellMesh assemble(const CadShape& shape, const BoundaryNodes& nodes, const Face
                    std::vector<ShellMesh::Face> statuses, const MeshOptions& options,
                    ExecutionContext& context);
 
-/// Records in each face's entry and note how many of its midside nodes are off the geometry, and how far.
+/// Records in each face's entry and note how many of its nodes are off the geometry, and how far.
 void note_off_geometry(ShellMesh& mesh);
 
 }  // namespace quadrille

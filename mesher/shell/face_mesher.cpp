@@ -10,12 +10,14 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/place_text.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/grid_rows.hpp"
 #include "mesher/faces/boundary_crossings.hpp"
 #include "mesher/faces/face_grid.hpp"
 #include "mesher/faces/face_triangulation.hpp"
 #include "mesher/faces/hole_rings.hpp"
+#include "mesher/faces/loop_filling.hpp"
 #include "mesher/faces/point_placement.hpp"
 #include "mesher/mesh/criteria.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
@@ -27,6 +29,7 @@
 #include "mesher/quads/mending.hpp"
 #include "mesher/quads/ring_quads.hpp"
 #include "mesher/quads/subdivision.hpp"
+#include "mesher/quads/unfold_in_space.hpp"
 #include "mesher/shell/boundary_sides.hpp"
 
 namespace quadrille {
@@ -63,6 +66,7 @@ class FaceMesher {
         size_at_(field, face) {}
 
   FaceMesh run() {
+    if (recipe_.off != FaceRecipe::Off::none) return finish(mesh_freely(chart_.boundary, domain_));
     if (!recipe_.mapped) return mesh_without_grid();
     auto grid = mesh_as_grid();
     if (!grid) return mesh_without_grid();
@@ -197,13 +201,14 @@ class FaceMesher {
       improve(quads, false);
     }
     mend_folded(quads);
+    if (recipe_.off != FaceRecipe::Off::none) leave_surface(quads);
     return quads;
   }
 
   static bool is_folded(const QuadMesh& mesh) {
     const auto& p = mesh.points;
     return std::any_of(mesh.quads.begin(), mesh.quads.end(), [&](const std::array<int, 4>& q) {
-      return quad_scaled_jacobian(p[q[0]], p[q[1]], p[q[2]], p[q[3]]) <= 0;
+      return quad_scaled_jacobian(p[q[0]], p[q[1]], p[q[2]], p[q[3]]) <= no_jacobian;
     });
   }
 
@@ -214,6 +219,17 @@ class FaceMesher {
     std::vector<char> changed;
     mend_quads(quads.surface_mesh, CadSmoothingSurface(surface_), folded_objective, changed, context_);
     keep_poles(quads);
+  }
+
+  /// Moves nodes of inverted quads off the surface, and notes how far.
+  void leave_surface(FaceQuads& quads) {
+    SurfaceMesh& mesh = quads.surface_mesh;
+    const std::vector<char> moved = unfold_in_space(mesh.mesh, mesh.fixed, context_);
+    off_.assign(moved.size(), 0);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      const Vector3& at = mesh.mesh.points[i];
+      if (moved[i]) off_[i] = (surface_.project(mesh.parameters[i], at).point - at).norm();
+    }
   }
 
   /// Adapts `pole` after quads were replaced. Poles are fixed points, which keep their indices.
@@ -268,7 +284,15 @@ class FaceMesher {
 
   FaceQuads recombine_face(const FaceTriangulation& triangulation, int stride) {
     FaceQuads quads;
-    quads.surface_mesh.mesh = recombine(triangulation.mesh, options_.recombine, context_);
+    if (recipe_.off == FaceRecipe::Off::as_triangles) {
+      quads.surface_mesh.mesh.points = triangulation.mesh.points;
+      quads.surface_mesh.mesh.triangles = triangulation.mesh.triangles;
+      std::set<std::pair<int, int>> sides;
+      for (const auto& segment : triangulation.segments) sides.insert(std::minmax(segment.a, segment.b));
+      flip_flat(triangulation.mesh.points, sides, quads.surface_mesh.mesh.triangles);
+    } else {
+      quads.surface_mesh.mesh = recombine(triangulation.mesh, options_.recombine, context_);
+    }
     quads.surface_mesh.mesh.quad_tags.clear();
     quads.surface_mesh.mesh.triangle_tags.clear();
     quads.surface_mesh.parameters = triangulation.uv;
@@ -307,6 +331,7 @@ class FaceMesher {
     result.pole = std::move(quads.pole);
     result.nodes = std::move(quads.nodes);
     if (recipe_.chart != ChartKind::own) result.surface = chart_.surface;  // otherwise made again when needed
+    result.off = off_;
     result.q_min = 1;
     std::vector<int> inverted;
     SparseCheck check(context_);
@@ -314,7 +339,7 @@ class FaceMesher {
       check();
       if (shape_.faces[face_].reversed) std::swap(quad[1], quad[3]);
       const auto& p = result.points;
-      if (quad_scaled_jacobian(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]) <= 0)
+      if (quad_scaled_jacobian(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]) <= no_jacobian)
         inverted.push_back(static_cast<int>(&quad - result.quads.data()));
       result.q_min = std::min(result.q_min, quad_q(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]));
     }
@@ -337,13 +362,14 @@ class FaceMesher {
     permute(mesh.points);
     permute(mesh.uv);
     permute(mesh.pole);
+    if (!mesh.off.empty()) permute(mesh.off);
   }
 
   FaceProblem boundary_problem(const Vector3& a, const Vector3& b) const {
     const Vector3 middle = 0.5 * (a + b);
     return {Cause::no_mesh, face_,
-            fmt::format("the mesh of Face{} does not end as its wires do near ({:.6g}, {:.6g}, {:.6g})",
-                        face_.number(), middle.x(), middle.y(), middle.z())};
+            fmt::format("the mesh of Face{} does not end as its wires do near {}", face_.number(),
+                        place_text(middle))};
   }
 
   /// The problem of inverted quads, with the stretches of edges that they and the quads around them touch.
@@ -365,11 +391,10 @@ class FaceMesher {
     const Cause cause = largest_stray(chart_.boundary, surface_) > 1 ? Cause::stray_curves
                         : inside                                     ? Cause::inverted_inside
                                                                      : Cause::inverted_at_boundary;
-    FaceProblem problem(
-        cause, face_,
-        fmt::format("Face{} keeps {} inverted quad{} at this size, the first at ({:.6g}, {:.6g}, {:.6g}), {}",
-                    face_.number(), inverted.size(), inverted.size() == 1 ? "" : "s", near.x(), near.y(),
-                    near.z(), place_of(mesh, corner)));
+    FaceProblem problem(cause, face_,
+                        fmt::format("Face{} keeps {} inverted quad{} at this size, the first at {}, {}",
+                                    face_.number(), inverted.size(), inverted.size() == 1 ? "" : "s",
+                                    place_text(near), place_of(mesh, corner)));
     problem.stretches = stretches_at(touched);
     for (const EdgeStretch& part : problem.stretches) problem.edges.push_back(part.edge);
     return problem;
@@ -443,6 +468,7 @@ class FaceMesher {
   const FaceChart& chart_;
   const FaceSurface& surface_;
   TrimmedDomain domain_;
+  std::vector<double> off_;  // (points) see FaceMesh::off
   SizingField::Sampler size_at_;
 };
 

@@ -27,6 +27,9 @@ struct FaceMesh {
   double q_min = 0;                            ///< lowest q of the quads
   bool grid = false;                           ///< the face was meshed as a grid, see face_grid.hpp
   std::shared_ptr<const FaceSurface> surface;  ///< surface that uv refer to; null = the face's own
+  /// (n) distance of each point from the surface, where quads on it would be inverted; empty = all lie on it.
+  /// Otherwise no point inside the face moves any more.
+  std::vector<double> off;
 };
 
 /// The meshes of the faces; empty = not meshed.
@@ -34,11 +37,18 @@ using FaceMeshes = IdVector<FaceId, std::optional<FaceMesh>>;
 
 /// How a face is meshed.
 struct FaceRecipe {
+  /// Which nodes may leave the surface, as a last resort.
+  enum class Off {
+    none,
+    where_inverted,  ///< those of inverted quads
+    as_triangles     ///< likewise, on triangles that were not paired
+  };
   ChartKind chart = ChartKind::own;             ///< plane that the face is triangulated in
   bool mapped = true;                           ///< mesh the face as a grid if its outline allows
   bool clean_up = true;                         ///< do topological clean-up
   double refusal = PlacementOptions().refusal;  ///< least distance between points, see PlacementOptions
   int fineness = 1;                             ///< divides the spacing of inner points
+  Off off = Off::none;                          ///< which nodes may leave the surface
 };
 
 /// Triangulates, recombines and improves a face in one attempt. Throws FaceProblem.

@@ -84,6 +84,7 @@ class MidsidePlacement {
         of_quads;  ///< for each side: index into points, or -1 - node on a CAD edge
     std::vector<Vector3> points;
     std::vector<Vector2> parameters;
+    std::vector<std::pair<int, double>> off;  ///< points off the surface, and how far
     /// Sides between boundary nodes: index into points and key, ascending. Other faces may have them too.
     std::vector<std::pair<int, std::uint64_t>> chords;
   };
@@ -121,7 +122,13 @@ class MidsidePlacement {
     result.parameters.reserve(2 * face.quads.size());
     const int fixed = static_cast<int>(face.nodes.size());
     const auto place = [&](int a, int b) {
-      result.points.push_back(surface_middle(*surface, face, a, b, result.parameters.emplace_back()));
+      Vector2& uv = result.parameters.emplace_back();
+      const Vector3 middle = surface_middle(*surface, face, a, b, uv);
+      const bool is_off = !face.off.empty() && std::max(face.off[a], face.off[b]) > 0;
+      const Vector3 straight = 0.5 * (face.points[a] + face.points[b]);
+      result.points.push_back(is_off ? straight : middle);
+      if (is_off)
+        result.off.emplace_back(static_cast<int>(result.points.size()) - 1, (straight - middle).norm());
       return static_cast<int>(result.points.size()) - 1;
     };
     for (const auto& quad : face.quads) {
@@ -161,6 +168,7 @@ class MidsidePlacement {
       mesh_.points.push_back(face.points[i]);
       parameters.push_back(face.parameters[i]);
     }
+    for (const auto& [point, distance] : face.off) mesh_.off_geometry.push_back({numbers[point], distance});
     for (const auto& of_quad : face.of_quads) {
       check_();
       auto& midsides = mesh_.midsides.emplace_back();

@@ -449,7 +449,7 @@ class NodeSliding {
   void relax_face(FaceId id) {
     FaceState& face = states_[id];
     face.moves = 0;
-    if (keeps_rows(id)) return;
+    if (keeps_rows(id) || !face.mesh->off.empty()) return;
     Buffers buffers;
     SparseCheck check(context_, 64);
     for (int node = static_cast<int>(face.mesh->nodes.size()); node < static_cast<int>(face.active.size());
@@ -499,7 +499,9 @@ class NodeSliding {
   void mend(FaceState& face) {
     const auto outside = [](double value) { return value > outside_objective; };
     face.mended = false;
-    if (face.mesh->grid || std::none_of(face.objective.begin(), face.objective.end(), outside)) return;
+    if (face.mesh->grid || !face.mesh->off.empty() ||
+        std::none_of(face.objective.begin(), face.objective.end(), outside))
+      return;
     FaceMesh& mesh = *face.mesh;
     SurfaceMesh work = surface_mesh(mesh);
     std::vector<char> changed;

@@ -564,20 +564,35 @@ TEST(MidSurface, IsTheSameEachTime) {
   EXPECT_EQ(brep_of(middle_of(solid)), brep_of(middle_of(solid)));
 }
 
-TEST(MidSurface, IsQuickAndNeverEditsTheSolid) {
+TEST(MidSurface, NeverEditsTheSolid) {
   const TopoDS_Shape solid = ribbed_plate(6);
   std::ostringstream before, after;
   BRepTools::Write(solid, before);
-  const std::clock_t start = std::clock();
   const MidSurface middle = middle_of(solid);
-  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   BRepTools::Write(solid, after);
   EXPECT_GE(model_of(solid).face_count(), 200);
   EXPECT_EQ(middle.parts, 1);
   EXPECT_EQ(before.str(), after.str());
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  EXPECT_LT(seconds, 10) << "bench/midsurface_figures.py measures; this only tells a runaway";
-#endif
+}
+
+/// The least CPU time of several runs, which other work on the machine changes little.
+double seconds_for_the_middle_of(const TopoDS_Shape& solid) {
+  double least = INFINITY;
+  for (int i = 0; i < 2; ++i) {
+    const std::clock_t start = std::clock();
+    middle_of(solid);
+    least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  }
+  return least;
+}
+
+/// bench/midsurface_figures.py measures; this only tells a runaway, by times of one machine.
+TEST(MidSurface, TakesTimeInProportion) {
+  const TopoDS_Shape small = ribbed_plate(3), large = ribbed_plate(6);
+  const double faces = static_cast<double>(model_of(large).face_count()) / model_of(small).face_count();
+  const double seconds = seconds_for_the_middle_of(large) / seconds_for_the_middle_of(small);
+  RecordProperty("ratio", fmt::format("{:.2f} for {:.2f} times the faces", seconds, faces));
+  EXPECT_LT(seconds, 1.5 * faces * faces);
 }
 
 }  // namespace
