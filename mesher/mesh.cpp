@@ -110,6 +110,11 @@ class Job {
     if (options_.partial) context_.lift_time_limit();
     ShellMesh result = assemble(shape_, nodes_, meshes_, statuses(), options_, context_);
     result.let_go = list_let_go();
+    for (const auto& [face, why] : let_go_.kept_faces()) result.kept.push_back({2, face.number(), why});
+    for (const auto& [edge, why] : let_go_.kept_edges()) {
+      const int number = shape_.edges[edge].number;
+      if (result.kept.empty() || result.kept.back().number != number) result.kept.push_back({1, number, why});
+    }
     std::erase_if(result.corners, [&](const auto& corner) { return corner.vertex > vertices_; });
     return result;
   }
@@ -416,7 +421,7 @@ class Job {
         problems_[face].emplace(Cause::unusable_boundary, face, problems_before_[face]->what());
       problems_before_[face] = problems_[face];
       const bool is_failure = problems_[face]->cause() != Cause::narrow_gaps;
-      if (is_failure && let_go_.keep_around(face, edges_.plan.tiny)) {
+      if (is_failure && let_go_.keep_around(face, problems_[face]->edges, edges_.plan.tiny)) {
         record.history.push_back("features kept that were let go");
         any = true;
         continue;

@@ -266,9 +266,11 @@ class CountChooser {
       }
       add_facing(face);
       for (const EdgeId edge : sides.rest) is_between_grids_[chords_.of(edge)] = 0;
-      // One more node at the base of a wedge or the end of a strip would make elements far shorter than they
-      // are wide.
-      const bool may_be_odd = !sides.facing.empty() && sides.outline != FaceSides::Outline::holed;
+      // One more node at the base of a wedge, the end of a strip or on a side of a small triangle would make
+      // elements far shorter than they are wide. Faces with three or five corners need no even number: they
+      // are divided into grids that meet at a point inside.
+      const bool may_be_odd = sides.outline == FaceSides::Outline::odd ||
+                              (!sides.facing.empty() && sides.outline != FaceSides::Outline::holed);
       if (sides.rest.empty() || (may_be_odd && wishes_.stride == 2)) continue;
       const int node = add_node(face, BalanceProblem::Rule::even);
       for (const EdgeId edge : sides.rest) add_term(edge, node, 1);

@@ -8,6 +8,8 @@
 #include <map>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 
@@ -15,66 +17,66 @@ namespace quadrille {
 
 namespace {
 
-/// Limits of a face's angle (radians) where two edges meet that did not meet before. Below the first limit,
-/// the two would lie along each other: a sharp corner is better than a side below the least size. Above the
-/// second, the edges would be the two sides of a slot.
-constexpr double sharpest = 0.3, bluntest = 6;
-
 class HarmFinder {
  public:
-  HarmFinder(const CadShape& shape, const TinyFeatures& tiny, double reach)
-      : shape_(shape), tiny_(tiny), reach_(reach) {}
-
-  /// What was let go on a face but must be kept, since no good quads fit otherwise.
-  struct Harm {
-    std::vector<EdgeId> points;   // edges that became points
-    std::vector<EdgeId> slivers;  // edges that share the nodes of others
-  };
-
-  Harm find(const CadFace& face) const {
-    Harm harm;
-    for (const CadWire& wire : face.wires) {
-      const std::vector<Gap> gaps = find_gaps(wire);
-      const bool is_lost = !wire.ordered || is_small(wire);
-      for (const Gap& gap : gaps) {
-        if (is_lost || !meet_well(face, wire.coedges[gap.before], wire.coedges[gap.after]))
-          harm.points.insert(harm.points.end(), gap.edges.begin(), gap.edges.end());
+  HarmFinder(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny, double reach)
+      : shape_(shape), used_(used), tiny_(tiny), reach_(reach), uses_(shape.edges.size()) {
+    for (const FaceId face : used.ids()) {
+      if (!used[face] || tiny.merged_faces[face]) continue;
+      for (const CadWire& wire : shape.faces[face].wires) {
+        for (const Coedge& coedge : wire.coedges) ++uses_[tiny.edges[coedge.edge]];
       }
     }
-    find_edges_twice(face, harm);
-    return harm;
+  }
+
+  /// An edge that was let go on a face but must be kept, since no good quads fit otherwise.
+  struct Harm {
+    EdgeId edge;      // became a point, or shares the nodes of another
+    std::string why;  // what the face would get otherwise
+  };
+
+  std::vector<Harm> find(FaceId id) const {
+    const CadFace& face = shape_.faces[id];
+    std::vector<Harm> harms;
+    for (const CadWire& wire : face.wires) {
+      if (is_closed_hole(id, wire)) continue;
+      std::string why;
+      if (!wire.ordered || is_small_loop(wire)) {
+        why = fmt::format("a loop of Face{} would be too small for elements", id.number());
+      } else if (is_narrow(wire)) {
+        why = fmt::format("Face{} is so narrow that it would lose much of its area", id.number());
+      }
+      if (why.empty()) continue;
+      for (const Coedge& coedge : wire.coedges) {
+        if (is_gone(coedge)) harms.push_back({coedge.edge, why});
+      }
+    }
+    find_edges_twice(id, harms);
+    return harms;
   }
 
  private:
-  /// Consecutive edges of a wire that became points.
-  struct Gap {
-    std::size_t before = 0, after = 0;  // neighboring coedges; any if no edge of the wire is left
-    std::vector<EdgeId> edges;
-  };
-
   bool is_gone(const Coedge& coedge) const { return tiny_.collapsed_edges[coedge.edge] != 0; }
 
-  std::vector<Gap> find_gaps(const CadWire& wire) const {
-    const std::size_t n = wire.coedges.size();
-    std::vector<Gap> gaps;
-    std::size_t start = 0;
-    while (start < n && is_gone(wire.coedges[start])) ++start;
-    if (start == n) start = 0;
-    bool inside = false;
-    for (std::size_t k = start; k < start + n; ++k) {
-      const bool gone = is_gone(wire.coedges[k % n]);
-      if (gone && !inside) gaps.push_back({(k + n - 1) % n, k % n, {}});
-      if (gone) {
-        gaps.back().edges.push_back(wire.coedges[k % n].edge);
-        gaps.back().after = (k + 1) % n;
-      }
-      inside = gone;
-    }
-    return gaps;
+  /// Whether nothing is left of a hole and of the faces behind it, so that the face goes on over it.
+  bool is_closed_hole(FaceId id, const CadWire& hole) const {
+    const auto is_left = [&](const Coedge& coedge) { return !is_gone(coedge); };
+    const auto is_open = [&](const Coedge& coedge) {
+      const auto& faces = shape_.edges[coedge.edge].faces;
+      return std::any_of(faces.begin(), faces.end(), [&](FaceId other) {
+        return other != id && used_[other] && !tiny_.merged_faces[other];
+      });
+    };
+    const auto& wires = shape_.faces[id].wires;
+    return hole.ordered && std::none_of(hole.coedges.begin(), hole.coedges.end(), is_left) &&
+           std::none_of(hole.coedges.begin(), hole.coedges.end(), is_open) &&
+           std::any_of(wires.begin(), wires.end(), [&](const CadWire& wire) {
+             return std::any_of(wire.coedges.begin(), wire.coedges.end(), is_left);
+           });
   }
 
   /// Whether the rest of a loop is too small for elements.
-  bool is_small(const CadWire& wire) const {
+  bool is_small_loop(const CadWire& wire) const {
     constexpr double least = 4;
     double length = 0;
     std::vector<const CadEdge*> left;
@@ -87,35 +89,62 @@ class HarmFinder {
            (left.size() == 2 && lies_along(*left[0], *left[1], least * reach_));
   }
 
-  /// Whether two edges meet at an angle between the limits.
-  bool meet_well(const CadFace& face, const Coedge& from, const Coedge& to) const {
-    const CadEdge &before = shape_.edges[from.edge], &after = shape_.edges[to.edge];
-    if (before.degenerate || after.degenerate || from.internal || to.internal) return false;
-    const double t = to.forward ? after.first : after.last;
-    const Vector3 in = (from.forward ? 1 : -1) *
-                       EdgeCurve(before).derivative(from.forward ? before.last : before.first),
-                  out = (to.forward ? 1 : -1) * EdgeCurve(after).derivative(t);
-    const Vector3 normal = FaceSurface(face).normal(parametric_point(to, t));
-    const double angle = M_PI - std::atan2(in.cross(out).dot(normal), in.dot(out));
-    return angle > sharpest && angle < bluntest;
+  /// Whether a loop with free edges that would lose others is hardly wider than these may be long.
+  bool is_narrow(const CadWire& wire) const {
+    constexpr int samples = 8;
+    constexpr double hardly = 2;
+    const auto is_free = [&](const Coedge& coedge) {
+      return !is_gone(coedge) && shape_.edges[coedge.edge].faces.size() == 1;
+    };
+    if (std::none_of(wire.coedges.begin(), wire.coedges.end(), is_free) ||
+        std::none_of(wire.coedges.begin(), wire.coedges.end(), [&](const Coedge& c) { return is_gone(c); }))
+      return false;
+    std::vector<Vector3> loop;
+    double length = 0;
+    for (const Coedge& coedge : wire.coedges) {
+      const CadEdge& edge = shape_.edges[coedge.edge];
+      const EdgeCurve curve(edge);
+      for (int i = 0; i < samples; ++i) {
+        const double share = static_cast<double>(coedge.forward ? i : samples - i) / samples;
+        loop.push_back(curve.point(edge.first + share * (edge.last - edge.first)));
+      }
+      length += edge.length;
+    }
+    return vector_area(loop).norm() < 0.5 * length * hardly * reach_;
   }
 
-  /// Finds edges of a face that share their nodes, since the two sides of a slot must not become one.
-  void find_edges_twice(const CadFace& face, Harm& harm) const {
-    std::map<EdgeId, EdgeId> first;  // edge whose nodes are used -> edge of the face
-    for (const CadWire& wire : face.wires) {
+  /// Finds edges of a face that share their nodes, since the two sides of a slot must not become one. Two
+  /// sides of one loop may if nothing is left between them: then the edge lies inside the face.
+  void find_edges_twice(FaceId id, std::vector<Harm>& harms) const {
+    struct Use {
+      Coedge coedge;
+      const CadWire* wire;
+    };
+    std::map<EdgeId, Use> first;  // edge whose nodes are used -> first use
+    const auto runs_forward = [&](const Coedge& coedge) {
+      return coedge.forward != (tiny_.reversed_edges[coedge.edge] != 0);
+    };
+    for (const CadWire& wire : shape_.faces[id].wires) {
       for (const Coedge& coedge : wire.coedges) {
         const EdgeId edge = coedge.edge;
         if (is_gone(coedge)) continue;
-        const auto [at, is_new] = first.emplace(tiny_.edges[edge], edge);
-        if (!is_new && at->second != edge) harm.slivers.insert(harm.slivers.end(), {edge, at->second});
+        const auto [at, is_new] = first.emplace(tiny_.edges[edge], Use{coedge, &wire});
+        const Use& other = at->second;
+        if (is_new || other.coedge.edge == edge) continue;
+        if (uses_[tiny_.edges[edge]] == 2 && other.wire == &wire &&
+            runs_forward(coedge) != runs_forward(other.coedge))
+          continue;
+        for (const EdgeId one : {edge, other.coedge.edge})
+          harms.push_back({one, fmt::format("two edges of Face{} would share their nodes", id.number())});
       }
     }
   }
 
   const CadShape& shape_;
+  const FaceFlags& used_;
   const TinyFeatures& tiny_;
   double reach_;
+  IdVector<EdgeId, int> uses_;  // by faces that are left, of the edge that keeps the nodes
 };
 
 }  // namespace
@@ -151,8 +180,8 @@ void LetGo::choose(const EdgeFlags& fine) {
   std::vector<EdgeId> candidates;
   for (const EdgeId id : edges_.ids()) {
     const CadEdge& edge = shape_.edges[id];
-    if (!fine[id] && edge.is_used(used_) && !edge.degenerate && !edge.closed() &&
-        edge.first_vertex.exists() && edge.last_vertex.exists() && edge.length > 0 && edge.length < reach_)
+    if (!fine[id] && edge.is_used(used_) && !edge.degenerate && edge.first_vertex.exists() &&
+        edge.last_vertex.exists() && edge.length > 0 && is_small(edge, reach_))
       candidates.push_back(id);
   }
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -185,57 +214,70 @@ void LetGo::choose(const EdgeFlags& fine) {
 /// Keeps the features that would harm a face if let go. \return whether there was something to keep.
 bool LetGo::keep_harmed() {
   const TinyFeatures tiny = find(EdgeFlags(edges_.size()), 0);
-  const HarmFinder finder(shape_, tiny, reach_);
+  const HarmFinder finder(shape_, used_, tiny, reach_);
   bool any = false;
-  const auto keep_edge = [&](EdgeId edge) {
+  const auto keep_edge = [&](EdgeId edge, const std::string& why) {
+    if (edges_[edge]) kept_edges_.try_emplace(edge, why);
     any |= edges_[edge] != 0;
     edges_[edge] = 0;
   };
-  const auto keep_slivers_at = [&](EdgeId edge) {
+  const auto keep_slivers_at = [&](EdgeId edge, const std::string& why) {
     for (const FaceId face : shape_.edges[edge].faces) {
       if (!tiny.merged_faces[face] || kept_faces_[face]) continue;
-      kept_faces_[face] = 1;
+      keep_face(face, why);
       any = true;
       for (const CadWire& wire : shape_.faces[face].wires) {
-        for (const Coedge& coedge : wire.coedges) keep_edge(coedge.edge);
+        for (const Coedge& coedge : wire.coedges) keep_edge(coedge.edge, why);
       }
     }
   };
   for (const FaceId face : used_.ids()) {
     if (!used_[face] || tiny.merged_faces[face]) continue;
-    const auto harm = finder.find(shape_.faces[face]);
-    for (const EdgeId edge : harm.points) keep_edge(edge);
-    for (const EdgeId edge : harm.slivers) keep_slivers_at(edge);
+    for (const auto& [edge, why] : finder.find(face)) {
+      const bool is_point = edges_[edge] != 0;
+      keep_edge(edge, why);
+      if (!is_point) keep_slivers_at(edge, why);
+    }
   }
   for (const EdgeId edge : edges_.ids()) {
     const EdgeId lender = tiny.edges[edge];
-    if (lender != edge && !lies_along(shape_.edges[edge], shape_.edges[lender], reach_))
-      keep_slivers_at(edge);
+    if (lender != edge && !tiny.collapsed_edges[edge] &&
+        !lies_along(shape_.edges[edge], shape_.edges[lender], reach_))
+      keep_slivers_at(edge, "its long sides are not everywhere close together");
   }
   return any;
 }
 
-bool LetGo::keep_around(FaceId face, const TinyFeatures& tiny) {
+bool LetGo::keep_around(FaceId face, const std::vector<EdgeId>& edges, const TinyFeatures& tiny) {
+  const std::string why = fmt::format("Face{} has no valid mesh without it", face.number());
   bool any = false;
   std::set<VertexId> here;
-  const auto keep_face = [&](FaceId other) {
-    any |= tiny.merged_faces[other] && !kept_faces_[other];
-    kept_faces_[other] = 1;
+  const auto keep = [&](FaceId other) {
+    if (!tiny.merged_faces[other] || kept_faces_[other]) return;
+    any = true;
+    keep_face(other, why);
   };
-  keep_face(face);
+  keep(face);
   for (const CadWire& wire : shape_.faces[face].wires) {
     for (const Coedge& coedge : wire.coedges) {
+      if (!edges.empty() && std::find(edges.begin(), edges.end(), coedge.edge) == edges.end()) continue;
       const CadEdge& edge = shape_.edges[coedge.edge];
       here.insert({tiny.end(edge.first_vertex), tiny.end(edge.last_vertex)});
-      for (const FaceId other : edge.faces) keep_face(other);
+      for (const FaceId other : edge.faces) keep(other);
     }
   }
   for (const EdgeId edge : edges_.ids()) {
     if (!edges_[edge] || !here.contains(tiny.end(shape_.edges[edge].first_vertex))) continue;
     edges_[edge] = 0;
+    kept_edges_.try_emplace(edge, why);
     any = true;
   }
-  return any;
+  return any || (!edges.empty() && keep_around(face, {}, tiny));
+}
+
+void LetGo::keep_face(FaceId face, const std::string& why) {
+  kept_faces_[face] = 1;
+  reasons_.try_emplace(face, why);
 }
 
 }  // namespace quadrille

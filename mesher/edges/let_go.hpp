@@ -1,6 +1,8 @@
 #pragma once
 /// Features below the least size that are let go. Internal.
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
@@ -21,16 +23,22 @@ class LetGo {
   /// find_tiny_features().
   TinyFeatures find(const EdgeFlags& collapse, double length) const;
 
-  /// Keeps what was let go on the face, on the faces beside it and at its vertices.
-  /// \param tiny the result of find(). \return false if nothing was let go there.
-  bool keep_around(FaceId face, const TinyFeatures& tiny);
+  /// Keeps what was let go at these edges of the face, beside them and at their vertices or, if there is
+  /// nothing, all around the face. \param edges none = all of the face \param tiny the result of find().
+  /// \return false if nothing was let go there.
+  bool keep_around(FaceId face, const std::vector<EdgeId>& edges, const TinyFeatures& tiny);
 
   /// 1 = becomes a point.
   const EdgeFlags& edges() const { return edges_; }
 
+  /// Small edges and narrow faces that stay all the same, and why.
+  const std::map<EdgeId, std::string>& kept_edges() const { return kept_edges_; }
+  const std::map<FaceId, std::string>& kept_faces() const { return reasons_; }
+
  private:
   void choose(const EdgeFlags& fine);
   bool keep_harmed();
+  void keep_face(FaceId face, const std::string& why);
 
   const CadShape& shape_;
   const FaceFlags& used_;
@@ -38,6 +46,8 @@ class LetGo {
   std::vector<Sliver> slivers_;
   EdgeFlags edges_;       // 1 = becomes a point
   FaceFlags kept_faces_;  // 1 = must not become an edge
+  std::map<EdgeId, std::string> kept_edges_;
+  std::map<FaceId, std::string> reasons_;
 };
 
 }  // namespace quadrille

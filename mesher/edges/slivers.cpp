@@ -12,6 +12,8 @@
 #include <optional>
 
 #include "geometry/surfaces/edge_curve.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+#include "mesher/edges/tiny_features.hpp"
 
 namespace quadrille {
 
@@ -58,6 +60,7 @@ class SliverFinder {
     edges_.clear();
     const CadFace& face = shape_.faces[id];
     if (face.wires.empty() || face.wires.size() > 2 || !face.inner_vertices.empty()) return std::nullopt;
+    if (auto tube = find_tube(id)) return tube;
     std::size_t first_wire = 0;
     constexpr int coarse = 8, fine = 256;
     for (const CadWire& wire : face.wires) {
@@ -91,6 +94,69 @@ class SliverFinder {
     return result;
   }
 
+  /// A face that lies along its seam, between ends that are small.
+  std::optional<Sliver> find_tube(FaceId id) const {
+    const CadFace& face = shape_.faces[id];
+    Sliver tube;
+    tube.face = id;
+    EdgeId seam;
+    bool has_neighbor = false;
+    for (const CadWire& wire : face.wires) {
+      for (const Coedge& coedge : wire.coedges) {
+        const CadEdge& edge = shape_.edges[coedge.edge];
+        if (coedge.internal || edge.degenerate || !edge.first_vertex.exists() || !edge.last_vertex.exists())
+          return std::nullopt;
+        if (is_small(edge, width_)) {
+          tube.rims.push_back(coedge.edge);
+          has_neighbor |= std::any_of(edge.faces.begin(), edge.faces.end(),
+                                      [&](FaceId other) { return other != id && is_large(other); });
+        } else if (!seam.exists() || seam == coedge.edge) {
+          seam = coedge.edge;
+        } else {
+          return std::nullopt;
+        }
+      }
+    }
+    const bool is_seam = seam.exists() && shape_.edges[seam].faces == std::vector<FaceId>{id, id};
+    if (!is_seam || !has_neighbor || !lies_along(face, shape_.edges[seam])) return std::nullopt;
+    return tube;
+  }
+
+  bool is_large(FaceId face) const {
+    if (!used_[face]) return false;
+    for (const CadWire& wire : shape_.faces[face].wires) {
+      for (const Coedge& coedge : wire.coedges) {
+        if (!is_small(shape_.edges[coedge.edge], width_)) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Whether a face stays within the width of an edge, at samples all over it.
+  bool lies_along(const CadFace& face, const CadEdge& edge) const {
+    constexpr int places = 32, samples = 8;
+    const EdgeCurve curve(edge);
+    std::vector<Vector3> on_edge;
+    for (int i = 0; i <= places * samples; ++i) {
+      const double share = static_cast<double>(i) / (places * samples);
+      on_edge.push_back(curve.point(edge.first + share * (edge.last - edge.first)));
+    }
+    const double spacing = edge.length / (places * samples);
+    const FaceSurface surface(face);
+    const auto is_near = [&](const Vector3& point) {
+      return std::any_of(on_edge.begin(), on_edge.end(),
+                         [&](const Vector3& other) { return (point - other).norm() < width_ + spacing; });
+    };
+    for (int i = 0; i <= samples; ++i) {
+      for (int k = 0; k <= samples; ++k) {
+        const double u = static_cast<double>(i) / samples, v = static_cast<double>(k) / samples;
+        const Vector2 uv((1 - u) * face.u_min + u * face.u_max, (1 - v) * face.v_min + v * face.v_max);
+        if (!is_near(surface.point(uv))) return false;
+      }
+    }
+    return true;
+  }
+
   /// Adds the long edges of a wire. Junction i lies before long edge i.
   bool add_wire(const CadWire& wire) {
     if (!wire.ordered || wire.coedges.size() > most_edges) return false;
@@ -99,7 +165,7 @@ class SliverFinder {
       const CadEdge& edge = shape_.edges[coedge.edge];
       if (coedge.internal || edge.degenerate || !edge.first_vertex.exists() || !edge.last_vertex.exists())
         return false;
-      if (edge.length < width_) continue;
+      if (is_small(edge, width_)) continue;
       LongEdge& added = edges_.emplace_back();
       added.edge = coedge.edge;
       added.forward = coedge.forward;

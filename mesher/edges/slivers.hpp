@@ -10,7 +10,7 @@
 namespace quadrille {
 
 /// A face that is narrower than a given width everywhere, as two chains of edges that lie along each other: a
-/// loop between two ends, or the two loops of a ring.
+/// loop between two ends, or the two loops of a ring. A tube along a seam has no such chains; it vanishes.
 struct Sliver {
   /// Edges that lie along each other from end to end.
   struct Pair {
@@ -23,6 +23,7 @@ struct Sliver {
   std::vector<std::array<VertexId, 2>> ties;  ///< vertices inside the chains that face each other
   /// Vertices at the two sides of short edges, which must share a node for the pairs to fit.
   std::vector<std::array<VertexId, 2>> joints;
+  std::vector<EdgeId> rims;  ///< edges at the ends of a tube, which must become points
 };
 
 /// The slivers among the used faces whose vertices all face each other, see divided_at_slivers().

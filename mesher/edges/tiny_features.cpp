@@ -1,6 +1,7 @@
 #include "mesher/edges/tiny_features.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "geometry/surfaces/edge_curve.hpp"
 
@@ -33,6 +34,7 @@ class Finder {
       if (used_[face] && !tiny_.merged_faces[face]) merge(face);
     }
     resolve_edges();
+    drop_edges_inside();
     return std::move(tiny_);
   }
 
@@ -52,21 +54,32 @@ class Finder {
   void zip(const Sliver& sliver) {
     if (!used_[sliver.face] || (slivers_.kept != nullptr && (*slivers_.kept)[sliver.face])) return;
     const auto is_open = [&](const auto& joint) { return tiny_.end(joint[0]) != tiny_.end(joint[1]); };
-    const auto is_free = [&](EdgeId edge) {
-      return tiny_.edges[edge] == edge && !tiny_.collapsed_edges[edge];
-    };
-    if (std::any_of(sliver.joints.begin(), sliver.joints.end(), is_open)) return;
+    const auto is_left = [&](EdgeId edge) { return !tiny_.collapsed_edges[edge]; };
+    if (std::any_of(sliver.joints.begin(), sliver.joints.end(), is_open) ||
+        std::any_of(sliver.rims.begin(), sliver.rims.end(), is_left))
+      return;
     if (std::any_of(sliver.pairs.begin(), sliver.pairs.end(),
-                    [&](const Sliver::Pair& pair) { return !is_free(pair.edge) && !is_free(pair.other); }))
+                    [&](const Sliver::Pair& pair) { return !is_left(pair.edge) || !is_left(pair.other); }))
       return;
     for (const auto& [a, b] : sliver.ties) join(a, b);
-    for (const Sliver::Pair& pair : sliver.pairs) {
-      const bool as_is = is_free(pair.other);
-      const EdgeId edge = as_is ? pair.edge : pair.other, other = as_is ? pair.other : pair.edge;
-      tiny_.edges[other] = edge;
-      tiny_.reversed_edges[other] = pair.reversed;
-    }
+    for (const Sliver::Pair& pair : sliver.pairs) share(pair.edge, pair.other, pair.reversed);
     tiny_.merged_faces[sliver.face] = 1;
+  }
+
+  /// The edge whose nodes an edge has so far, and whether it runs in the opposite direction.
+  std::pair<EdgeId, bool> lender(EdgeId edge) const {
+    bool reversed = false;
+    for (; tiny_.edges[edge] != edge; edge = tiny_.edges[edge]) reversed ^= tiny_.reversed_edges[edge] != 0;
+    return {edge, reversed};
+  }
+
+  /// Gives an edge, and those that share its nodes already, the nodes of another one.
+  void share(EdgeId edge, EdgeId other, bool reversed) {
+    const auto [from, from_reversed] = lender(edge);
+    const auto [to, to_reversed] = lender(other);
+    if (from == to) return;
+    tiny_.edges[to] = from;
+    tiny_.reversed_edges[to] = static_cast<char>(reversed ^ from_reversed ^ to_reversed);
   }
 
   /// Removes a face that is left with no edges, or with two that lie close together.
@@ -92,8 +105,7 @@ class Finder {
     // Either direction fits the ends of two closed edges: the distances of points decide.
     const bool reversed = along && against ? !runs_along(a, b) : against;
     tiny_.merged_faces[face] = 1;
-    tiny_.edges[left[1]] = left[0];
-    tiny_.reversed_edges[left[1]] = reversed;
+    share(left[0], left[1], reversed);
   }
 
   static Vector3 at(const CadEdge& edge, double t) {
@@ -105,23 +117,66 @@ class Finder {
     return (p - at(b, 0.25)).norm() < (p - at(b, 0.75)).norm();
   }
 
-  /// Replaces chains of merged edges by their last edge, which keeps its nodes. Each merge removes a face, so
-  /// a ring of merged edges is a closed fan of slivers: the edge that closes the ring keeps its own nodes.
+  /// Replaces chains of merged edges by the edge that keeps its nodes.
   void resolve_edges() {
     for (const EdgeId i : tiny_.edges.ids()) {
-      EdgeId end = i;
-      char reversed = 0;
-      for (std::size_t step = 0; tiny_.edges[end] != end && step < tiny_.edges.size(); ++step) {
-        reversed ^= tiny_.reversed_edges[end];
-        end = tiny_.edges[end];
-        if (end == i) {
-          tiny_.edges[i] = end;
-          reversed = 0;
-        }
-      }
-      tiny_.edges[i] = end;
-      tiny_.reversed_edges[i] = reversed;
+      const auto [edge, reversed] = lender(i);
+      tiny_.edges[i] = edge;
+      tiny_.reversed_edges[i] = static_cast<char>(reversed);
     }
+  }
+
+  /// A wire's use of an edge that it shares with others.
+  struct Use {
+    EdgeId edge;  // keeps the nodes
+    bool forward;
+    bool is_back_of(const Use& other) const { return edge == other.edge && forward != other.forward; }
+  };
+
+  /// Merged edges that only one face is left with, on both sides, lie inside that face and are not needed.
+  void drop_edges_inside() {
+    IdVector<EdgeId, int> uses(shape_.edges.size());
+    EdgeFlags merged(shape_.edges.size()), inside(shape_.edges.size());
+    for (const EdgeId edge : tiny_.edges.ids()) {
+      if (tiny_.edges[edge] != edge) merged[tiny_.edges[edge]] = 1;
+    }
+    const auto is_met = [&](FaceId face) { return used_[face] && !tiny_.merged_faces[face]; };
+    for (const FaceId face : shape_.faces.ids()) {
+      for (const CadWire& wire : shape_.faces[face].wires) {
+        for (const Coedge& coedge : wire.coedges) uses[tiny_.edges[coedge.edge]] += is_met(face) ? 1 : 0;
+      }
+    }
+    for (const FaceId face : shape_.faces.ids()) {
+      if (!is_met(face)) continue;
+      for (const CadWire& wire : shape_.faces[face].wires) {
+        for (const EdgeId edge : there_and_back(wire)) inside[edge] = merged[edge] && uses[edge] == 2;
+      }
+    }
+    for (const EdgeId edge : tiny_.edges.ids()) {
+      if (inside[tiny_.edges[edge]]) tiny_.collapsed_edges[edge] = 1;
+    }
+  }
+
+  /// The edges along which a wire runs there and back without going elsewhere between.
+  std::vector<EdgeId> there_and_back(const CadWire& wire) const {
+    std::vector<EdgeId> result;
+    std::vector<Use> left;
+    for (const Coedge& coedge : wire.coedges) {
+      if (!wire.ordered || coedge.internal || shape_.edges[coedge.edge].degenerate) return {};
+      if (tiny_.collapsed_edges[coedge.edge]) continue;
+      const Use use{tiny_.edges[coedge.edge], coedge.forward != (tiny_.reversed_edges[coedge.edge] != 0)};
+      if (!left.empty() && use.is_back_of(left.back())) {
+        result.push_back(use.edge);
+        left.pop_back();
+      } else {
+        left.push_back(use);
+      }
+    }
+    for (std::size_t i = 0; 2 * i + 1 < left.size(); ++i) {
+      if (!left[i].is_back_of(left[left.size() - 1 - i])) break;
+      result.push_back(left[i].edge);
+    }
+    return result;
   }
 
   const CadShape& shape_;
@@ -132,6 +187,24 @@ class Finder {
 };
 
 }  // namespace
+
+bool is_small(const CadEdge& edge, double reach) {
+  if (edge.length < reach) return true;
+  // The longest smooth loop of that size without turning back is about a circle.
+  constexpr double longest = 4;
+  constexpr int samples = 16;
+  if (!(edge.length < longest * reach)) return false;
+  const EdgeCurve curve(edge);
+  if (curve.straight()) return false;
+  std::vector<Vector3> points;
+  for (int i = 0; i <= samples; ++i) {
+    points.push_back(curve.point(edge.first + (edge.last - edge.first) * (static_cast<double>(i) / samples)));
+    for (const Vector3& other : points) {
+      if ((points.back() - other).norm() > reach) return false;
+    }
+  }
+  return true;
+}
 
 bool lies_along(const CadEdge& edge, const CadEdge& other, double reach) {
   if (!(reach > 0)) return false;

@@ -11,7 +11,7 @@ namespace quadrille {
 /// What is left out of the mesh because it is too small.
 struct TinyFeatures {
   IdVector<VertexId, VertexId> vertices;  ///< the vertex whose node this one shares; usually itself
-  EdgeFlags collapsed_edges;              ///< 1 = both ends share a node, the edge has no segments
+  EdgeFlags collapsed_edges;              ///< 1 = the edge has no segments
   IdVector<EdgeId, EdgeId> edges;         ///< the edge whose nodes this one shares; usually itself
   EdgeFlags reversed_edges;               ///< 1 = it runs in the opposite direction to that edge
   FaceFlags merged_faces;                 ///< 1 = the face vanishes
@@ -31,11 +31,15 @@ struct SliverChoice {
 /// Whether an edge's curve stays within `reach` of another one's, at samples between its ends.
 bool lies_along(const CadEdge& edge, const CadEdge& other, double reach);
 
+/// Whether all points of an edge lie within `reach` of each other, by samples.
+bool is_small(const CadEdge& edge, double reach);
+
 /// Marked edges and edges shorter than `length` become points. Then a face left with two edges that have the
-/// same ends and are less than `length` apart becomes an edge, and a face left with no edges vanishes.
-/// \param used 1 = the face is meshed. \param collapse 1 = marked \param length model units;
-/// 0 = marked edges only. \param slivers further faces that become edges, if the short edges at their ends
-/// become points.
+/// same ends and are less than `length` apart becomes an edge, and a face left with no edges vanishes, as
+/// does a sliver without pairs. An edge that then lies inside a single face, where a rib or a groove was, has
+/// no segments. \param used 1 = the face is meshed. \param collapse 1 = marked \param length model units; 0 =
+/// marked edges only. \param slivers further faces that become edges, if the short edges at their ends become
+/// points.
 TinyFeatures find_tiny_features(const CadShape& shape, const FaceFlags& used, const EdgeFlags& collapse,
                                 double length, const SliverChoice& slivers = {});
 

@@ -109,8 +109,19 @@ class BoundaryWalker {
 
   /// Node i of an edge in the parameter plane.
   Vector2 place_of(const Coedge& coedge, const BoundaryNodes::Edge& edge, int i) const {
-    if (surface_.is_view()) return surface_.seen_at(nodes_.points[edge.nodes[i]]);
-    return parametric_point(coedge, edge.parameters[i]);
+    const Vector3& node = nodes_.points[edge.nodes[i]];
+    if (surface_.is_view()) return surface_.seen_at(node);
+    const Vector2 uv = parametric_point(coedge, edge.parameters[i]);
+    return edge.borrowed || i == 0 || i == edge.segments() ? near_node(coedge, uv, node) : uv;
+  }
+
+  /// A node that stands for features which were let go is not where the edge's own curve is.
+  Vector2 near_node(const Coedge& coedge, const Vector2& uv, const Vector3& node) const {
+    constexpr double tolerances = 10, closer = 0.5;
+    const double distance = (surface_.point(uv) - node).norm();
+    if (!(distance > tolerances * std::max(face_.tolerance, shape_.edges[coedge.edge].tolerance))) return uv;
+    Vector2 moved = uv;
+    return (surface_.project(moved, node).point - node).norm() < closer * distance ? moved : uv;
   }
 
   Run walk_edge(const Coedge& coedge) {

@@ -114,6 +114,14 @@ json let_go_to_json(const ShellMesh& mesh) {
   return features;
 }
 
+json kept_to_json(const ShellMesh& mesh) {
+  json features = json::array();
+  for (const ShellMesh::Kept& feature : mesh.kept)
+    features.push_back({{"name", (feature.dimension == 2 ? "Face" : "Edge") + std::to_string(feature.number)},
+                        {"why", feature.why}});
+  return features;
+}
+
 }  // namespace
 
 MeshMeasures measure(const ShellMesh& mesh) {
@@ -138,6 +146,7 @@ json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const Exec
           {"faces", faces_to_json(mesh)},
           {"off_geometry", off_geometry_to_json(mesh)},
           {"let_go", let_go_to_json(mesh)},
+          {"kept", kept_to_json(mesh)},
           {"symmetry", {{"planes", mesh.symmetry.planes}, {"note", mesh.symmetry.note}}},
           {"warnings", warnings},
           {"versions",

@@ -91,6 +91,13 @@ struct ShellMesh {
     int to = 0;                 ///< number of the edge or vertex whose nodes stand for it
   };
 
+  /// A CAD edge or face below the least size that is meshed all the same.
+  struct Kept {
+    int dimension = 1;  ///< 1: edge, 2: face
+    int number = 0;     ///< its number, from 1
+    std::string why;    ///< what the mesh would get without it
+  };
+
   /// The planes in which the mesh is symmetric.
   struct Symmetry {
     std::vector<std::string> planes;  ///< such as "x = 12.5"; empty = the model was meshed as a whole
@@ -126,6 +133,7 @@ struct ShellMesh {
   std::vector<Corner> corners;                ///< the nodes on CAD vertices
   std::vector<OffGeometry> off_geometry;      ///< ascending by node; usually empty
   std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; for faces see Face::status
+  std::vector<Kept> kept;                     ///< faces, then edges, ascending
   Symmetry symmetry;                          ///< mirror planes in use, see MeshOptions::symmetry
   std::vector<Face> faces;                    ///< one entry per CAD face; empty in meshes read from files
   /// The groups in a file that the mesh was read from, in file order. Groups may overlap: entities are made

@@ -4,14 +4,19 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <Bnd_Box.hxx>
 #include <GC_MakeArcOfCircle.hxx>
+#include <gp_Ax2.hxx>
 #include <gp_Vec.hxx>
 
 #include <algorithm>
@@ -82,10 +87,11 @@ TEST(LetGo, KeepsWhatElementsCanShow) {
   EXPECT_EQ(merged_faces(mesh_of(beveled_block(0.1), 0.4, false)), 0);
 }
 
-/// A slot closed, or a blade made a sheet without thickness, would be another part.
-TEST(LetGo, KeepsSlotsAndBlades) {
+/// The floor of a narrow slot, or the rim of a blade, becomes an edge; both walls stay.
+TEST(LetGo, TapersSlotsAndBlades) {
   constexpr double width = 0.1;
   for (const double depth : {15.0, -15.0}) {
+    SCOPED_TRACE(depth);
     const CadModel part = prism({{0, 0},
                                  {60, 0},
                                  {60, 20},
@@ -95,9 +101,53 @@ TEST(LetGo, KeepsSlotsAndBlades) {
                                  {60, 40},
                                  {0, 40}},
                                 20);
-    const FaceFlags used(part.face_count(), 1);
-    const LetGo let_go(part.shape(), used, 0.5, EdgeFlags(part.edge_count()));
-    EXPECT_EQ(std::count(let_go.edges().begin(), let_go.edges().end(), 1), 0) << depth;
+    const ShellMesh mesh = mesh_of(part, 5, false);
+    EXPECT_EQ(validate(mesh, true), std::vector<std::string>{});
+    EXPECT_EQ(merged_faces(mesh), 1);
+    EXPECT_LT(check_criteria(mesh).failing, check_criteria(mesh_of(part, 5, true)).failing);
+  }
+}
+
+CadModel model_of(const TopoDS_Shape& shape) {
+  return CadModel(std::make_shared<CadShape>(shape, "part"));
+}
+
+/// Holes and pins far thinner than elements vanish with their rims; the face goes on over them.
+TEST(LetGo, ClosesHolesAndPinsThinnerThanElements) {
+  const TopoDS_Shape block = BRepPrimAPI_MakeBox(60, 40, 20).Shape();
+  const TopoDS_Shape rod = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(30, 20, -10), gp::DZ()), 0.1, 50).Shape();
+  const CadModel drilled = model_of(BRepAlgoAPI_Cut(block, rod).Shape()),
+                 pinned = model_of(BRepAlgoAPI_Fuse(block, rod).Shape());
+  const std::size_t plain = mesh_of(model_of(block), 5, false).quads.size();
+  for (const CadModel* part : {&drilled, &pinned}) {
+    const ShellMesh mesh = mesh_of(*part, 5, false);
+    EXPECT_EQ(validate(mesh, true), std::vector<std::string>{});
+    EXPECT_EQ(merged_faces(mesh), part->face_count() - 6);
+    EXPECT_NEAR(static_cast<double>(mesh.quads.size()), static_cast<double>(plain), 0.2 * plain);
+    EXPECT_EQ(check_criteria(mesh).failing, 0);
+  }
+  // A rod by itself is a part.
+  const ShellMesh alone = mesh_of(model_of(rod), 5, false);
+  EXPECT_EQ(merged_faces(alone), 0);
+  EXPECT_EQ(validate(alone, true), std::vector<std::string>{});
+}
+
+/// A rib or groove with the same face on both sides leaves an edge inside that face, or nothing.
+TEST(LetGo, ClosesTheFaceUnderARib) {
+  const TopoDS_Shape block = BRepPrimAPI_MakeBox(60, 40, 20).Shape();
+  for (const double start : {10.0, -10.0}) {
+    SCOPED_TRACE(start);
+    const TopoDS_Shape bar = BRepPrimAPI_MakeBox(gp_Pnt(start, 20, 19.9), 30, 0.2, 0.2).Shape();
+    for (const TopoDS_Shape& shape :
+         {BRepAlgoAPI_Cut(block, bar).Shape(), BRepAlgoAPI_Fuse(block, bar).Shape()}) {
+      const CadModel part = model_of(shape);
+      if (start < 0 && part.face_count() > 10) continue;  // the bar stands out at the side
+      const ShellMesh mesh = mesh_of(part, 5, false);
+      for (const auto& kept : mesh.kept) ADD_FAILURE() << kept.number << ": " << kept.why;
+      EXPECT_EQ(validate(mesh, true), std::vector<std::string>{});
+      EXPECT_EQ(merged_faces(mesh), part.face_count() - 6);
+      EXPECT_EQ(check_criteria(mesh).failing, 0);
+    }
   }
 }
 
@@ -172,11 +222,11 @@ TEST(LetGo, KeepsAroundAFaceOnRequest) {
   const auto bevel =
       std::find_if(faces.begin(), faces.end(), [&](FaceId face) { return tiny.merged_faces[face] != 0; });
   ASSERT_NE(bevel, faces.end());
-  EXPECT_TRUE(let_go.keep_around(*bevel, tiny));
+  EXPECT_TRUE(let_go.keep_around(*bevel, {}, tiny));
   const TinyFeatures after = let_go.find(none, 0);
   EXPECT_EQ(std::count(after.merged_faces.begin(), after.merged_faces.end(), 1), 0);
   EXPECT_EQ(std::count(after.collapsed_edges.begin(), after.collapsed_edges.end(), 1), 0);
-  EXPECT_FALSE(let_go.keep_around(face_id(1), after));
+  EXPECT_FALSE(let_go.keep_around(face_id(1), {}, after));
 }
 
 }  // namespace
