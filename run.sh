@@ -24,12 +24,17 @@ else
 fi
 cd "$(dirname "$(readlink -f "$0")")"
 
+step() { printf '[%d:%02d] %s\n' $((SECONDS / 60)) $((SECONDS % 60)) "$*"; }
+step "1 of 4: Debian packages"
 scripts/install_dependencies.sh
+step "2 of 4: building; the first time takes minutes"
 # All that `cmake --install build` installs; the shared library is only linked.
 scripts/build.sh release quadrille quadrille_python quadrille_library
 
-echo "Working on ${part:-the sample} inside FreeCAD"
+step "3 of 4: ${part:-the sample} inside FreeCAD"
 export QUADRILLE_COMMAND="$PWD/build/quadrille"
 scripts/freecad_python "${job[@]}" --out "out/$name" "$@"
+step "4 of 4: the quality of the mesh"
 build/quadrille quality "out/$name.inp"
 ls -l "out/$name.FCStd" "out/$name.inp" "out/$name.png"
+step "done"

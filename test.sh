@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")"
 
-scripts/install_dependencies.sh
+scripts/install_dependencies.sh --tests
 scripts/build.sh ci
 run() { ctest --test-dir build --output-on-failure --parallel "$(nproc)" --no-tests=ignore "$@"; }
 status=0

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Checks the formatting (clang-format) and common mistakes (clang-tidy) of the C++ sources. Needs a configured build/.
+# Checks the formatting (clang-format) and common mistakes (clang-tidy) of the C++ sources, each by itself
+# (configured in build-plain/).
 #   scripts/check_style.sh [--fix-format]
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
@@ -8,5 +9,6 @@ if [[ "${1:-}" == --fix-format ]]; then
   clang-format -i "${sources[@]}"
 fi
 clang-format --dry-run --Werror "${sources[@]}"
+cmake --preset plain >/dev/null
 git ls-files 'geometry/*.cpp' 'mesher/*.cpp' 'bench/*.cpp' |
-  grep -v '_plugin.cpp$' | xargs -P "$(nproc)" -n 1 clang-tidy -p build --quiet
+  grep -v '_plugin.cpp$' | xargs -P "$(nproc)" -n 1 clang-tidy -p build-plain --quiet

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Installs the Debian packages needed to build, run and test Quadrille (Debian 12 and 13, and derivatives). Lists them
-# before installing. Safe to run again: does nothing if all are installed.
+# Installs the Debian packages needed to build and run Quadrille (Debian 12 and 13, and derivatives). Lists them before
+# installing. Safe to run again: does nothing if all are installed.
 #
-#   scripts/install_dependencies.sh           install what is missing
-#   scripts/install_dependencies.sh --list    print the packages and stop
+#   scripts/install_dependencies.sh           install what is missing for the command, the Python module and FreeCAD
+#   scripts/install_dependencies.sh --tests   and for the tests, benchmarks, packages and the manual
+#   scripts/install_dependencies.sh [--tests] --list    print the packages and stop
 set -euo pipefail
 
 packages=(
@@ -19,10 +20,11 @@ packages=(
   libmed-dev libmedc-dev libhdf5-dev libvtk9-dev libx11-dev xvfb xauth fonts-dejavu-core
   # Python module
   pybind11-dev python3 python3-dev python3-numpy
-  # tests, benchmarks
-  libgtest-dev
-  # the programs that use the meshes, or are compared with
-  freecad gmsh python3-matplotlib
+  # the program that uses the meshes
+  freecad python3-matplotlib
+)
+test_packages=(
+  libgtest-dev gmsh
   # translations of the FreeCAD workbench: lrelease, pylupdate5
   qttools5-dev-tools pyqt5-dev-tools
   # read written files back in the tests; scripts/install_consumers.sh installs the large ones
@@ -32,9 +34,24 @@ packages=(
 )
 # Skipped if a release of Debian does not have them (Debian 13 has no CalculiX). bench/paper computes the optimal pairing
 # with LEMON; `python3 -m quadrille.batch` needs python3-distributed.
-optional=(calculix-ccx calculix-cgx liblemon-dev python3-distributed)
+optional=(calculix-ccx)
+test_optional=(calculix-cgx liblemon-dev python3-distributed)
 
-if [[ "${1:-}" == --list ]]; then
+list=false
+for argument in "$@"; do
+  case "$argument" in
+    --list) list=true ;;
+    --tests)
+      packages+=("${test_packages[@]}")
+      optional+=("${test_optional[@]}")
+      ;;
+    *)
+      echo "usage: scripts/install_dependencies.sh [--tests] [--list]" >&2
+      exit 2
+      ;;
+  esac
+done
+if $list; then
   printf '%s\n' "${packages[@]}" "${optional[@]}"
   exit 0
 fi

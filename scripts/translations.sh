@@ -40,7 +40,7 @@ fi
 
 lrelease=$(command -v lrelease || true)
 if [[ -z "$lrelease" ]]; then
-  echo "error: lrelease is not on PATH; scripts/install_dependencies.sh installs it" >&2
+  echo "error: lrelease is not on PATH; scripts/install_dependencies.sh --tests installs it" >&2
   exit 127
 fi
 for file in translations/*.ts; do QT_SELECT=qt5 "$lrelease" -silent "$file" -qm "${file%.ts}.qm"; done

@@ -210,9 +210,9 @@ class SurfaceGradation {
   /// Passes sizes at samples between two others, by halving until they are about a voxel apart.
   void split(const EdgeCurve& curve, Passing& passing, const SizedSample& a, const SizedSample& b,
              int depth) {
-    constexpr int max_depth = 40;
+    constexpr int max_halvings = 40;
     constexpr double share = 0.7;  // share of the size, which is at most a voxel width
-    if (depth > max_depth || (a.at.point - b.at.point).norm() <= share * std::min(a.size, b.size)) return;
+    if (depth > max_halvings || (a.at.point - b.at.point).norm() <= share * std::min(a.size, b.size)) return;
     SizedSample middle{sample(curve, 0.5 * (a.at.t + b.at.t)), 0};
     middle.size = passing.size_at(middle.at.point);
     if (std::min({a.size, b.size, middle.size}) >= cascades_.front()->frame().size_max) return;

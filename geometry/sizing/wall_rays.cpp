@@ -18,7 +18,7 @@ using Box = Eigen::AlignedBox3d;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Cosine of the largest angle at which skins face each other, as in FaceGaps.
-const double facing = std::cos(40 * M_PI / 180);
+const double facing_wall = std::cos(40 * M_PI / 180);
 /// Largest distance of triangles from the surface, as a share of the narrowest thickness.
 constexpr double deflection_share = 0.05;
 constexpr double turn_of_triangle = 0.2;
@@ -109,7 +109,7 @@ std::optional<double> WallRays::thickness(const Vector3& point, const Vector3& i
   if (tree_->surface.triangles.empty()) return std::nullopt;
   Exit exit{tree_->surface, point, (tree_->inside_out ? -1 : 1) * inward, tree_->inside_out, widest};
   Eigen::BVMinimize(tree_->boxes, exit);
-  if (exit.nearest >= widest || exit.cosine < facing) return std::nullopt;
+  if (exit.nearest >= widest || exit.cosine < facing_wall) return std::nullopt;
   return exit.nearest;
 }
 

@@ -127,7 +127,7 @@ class ChordSpacing {
   }
 
   /// A side that is a single edge takes over the spacing of several opposite edges.
-  void follow(const Side& one, const Side& several) {
+  void follow(const FaceSide& one, const FaceSide& several) {
     if (one.size() != 1 || several.size() < 2) return;
     const EdgeId edge = one[0].edge;
     if (followed_.contains(chords_.of(edge))) return;

@@ -76,7 +76,7 @@ class CountChooser {
   void drop(FaceId face) {
     FaceSides& sides = sides_[face];
     for (const FacingPair& pair : sides.facing) {
-      for (const Side* side : {&pair.first, &pair.second}) {
+      for (const FaceSide* side : {&pair.first, &pair.second}) {
         for (const SideEdge& edge : *side) sides.rest.push_back(edge.edge);
       }
     }
@@ -85,7 +85,7 @@ class CountChooser {
     if (sides.outline != FaceSides::Outline::odd) sides.outline = FaceSides::Outline::other;
   }
 
-  double sum_of(const Side& side) const {
+  double sum_of(const FaceSide& side) const {
     double sum = 0;
     for (const SideEdge& edge : side) sum += effective_[edge.edge];
     return sum;
@@ -354,7 +354,7 @@ class CountChooser {
   template <class Visit>
   static void for_each_edge(const FaceSides& sides, Visit&& visit) {
     for (const FacingPair& pair : sides.facing) {
-      for (const Side* side : {&pair.first, &pair.second}) {
+      for (const FaceSide* side : {&pair.first, &pair.second}) {
         for (const SideEdge& edge : *side) visit(edge.edge);
       }
     }

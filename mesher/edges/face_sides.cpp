@@ -51,7 +51,7 @@ class SideFinder {
     pair.first.push_back({strip.whole->edge, strip.whole->forward});
     for (const Coedge* part : strip.parts) pair.second.push_back({part->edge, part->forward});
     pair.second = turned(pair.second);
-    for (const Side* side : {&pair.first, &pair.second}) {
+    for (const FaceSide* side : {&pair.first, &pair.second}) {
       for (const SideEdge& edge : *side) std::erase(sides.rest, edge.edge);
     }
   }
@@ -108,8 +108,8 @@ class SideFinder {
     return corners;
   }
 
-  static Side between(const Walk& walk, int from, int to) {
-    Side side;
+  static FaceSide between(const Walk& walk, int from, int to) {
+    FaceSide side;
     const int n = static_cast<int>(walk.edges.size());
     for (int k = from; side.empty() || k != to; k = (k + 1) % n) side.push_back(walk.edges[k]);
     return side;
@@ -126,7 +126,7 @@ class SideFinder {
     for (const int corner : *corners) sides.starts.push_back(walk.coedges[corner]);
     sides.outline = corners->size() == 4 ? FaceSides::Outline::four : FaceSides::Outline::odd;
     if (corners->size() != 4) return;
-    std::array<Side, 4> four;
+    std::array<FaceSide, 4> four;
     for (int c = 0; c < 4; ++c) four[c] = between(walk, (*corners)[c], (*corners)[(c + 1) % 4]);
     for (int c = 0; c < 2; ++c) add_pairs(four[c], turned(four[c + 2]), sides);
   }
@@ -135,7 +135,7 @@ class SideFinder {
   struct Tread {
     double from, to;  // range of its own coordinate
     double level;     // the other coordinate
-    Side side;
+    FaceSide side;
   };
 
   /// Finds stepped outlines, whose corners add up to one full turn to the left.
@@ -148,7 +148,7 @@ class SideFinder {
     int direction = 0;
     for (std::size_t c = 0; c < corners.size(); ++c) {
       if (c > 0) direction = (direction + (walk.turnings[corners[c]] > 0 ? 1 : 3)) % 4;
-      Side side = between(walk, corners[c], corners[(c + 1) % corners.size()]);
+      FaceSide side = between(walk, corners[c], corners[(c + 1) % corners.size()]);
       double& at = place[direction % 2];
       const double before = at, length = length_of(side);
       at += direction < 2 ? length : -length;
@@ -178,7 +178,7 @@ class SideFinder {
     });
   }
 
-  double segment_of(const Side& side) const {
+  double segment_of(const FaceSide& side) const {
     return length_of(side) / std::max(1.0, std::max(wanted_of(side), static_cast<double>(side.size())));
   }
 
@@ -239,7 +239,7 @@ class SideFinder {
     if (!is_smooth(first) || !is_smooth(second)) return;
     std::size_t a = 0, b = 0;
     double nearest = std::numeric_limits<double>::infinity();
-    const Side back = turned(second.edges);
+    const FaceSide back = turned(second.edges);
     for (std::size_t i = 0; i < first.edges.size(); ++i) {
       for (std::size_t k = 0; k < back.size(); ++k) {
         const double distance = (start_of(first.edges[i]) - start_of(back[k])).norm();
@@ -250,7 +250,7 @@ class SideFinder {
         }
       }
     }
-    Side one = first.edges, other = back;
+    FaceSide one = first.edges, other = back;
     std::rotate(one.begin(), one.begin() + static_cast<long>(a), one.end());
     std::rotate(other.begin(), other.begin() + static_cast<long>(b), other.end());
     if (!is_even_ring(one, other)) return;
@@ -259,7 +259,7 @@ class SideFinder {
   }
 
   /// Whether two loops neither touch nor lie far off center.
-  bool is_even_ring(const Side& one, const Side& other) const {
+  bool is_even_ring(const FaceSide& one, const FaceSide& other) const {
     constexpr double narrowest = 0.3;  // least width over largest width
     const std::vector<Vector3> a = points_along(one), b = points_along(other);
     double least = std::numeric_limits<double>::infinity(), most = 0;
@@ -272,7 +272,7 @@ class SideFinder {
     return least > narrowest * most;
   }
 
-  std::vector<Vector3> points_along(const Side& side) const {
+  std::vector<Vector3> points_along(const FaceSide& side) const {
     constexpr int samples = 64;
     const int each = std::max(4, samples / static_cast<int>(side.size()));
     std::vector<Vector3> points;
@@ -308,7 +308,7 @@ class SideFinder {
     }
   }
 
-  static Side turned(Side side) {
+  static FaceSide turned(FaceSide side) {
     std::reverse(side.begin(), side.end());
     for (SideEdge& edge : side) edge.forward = !edge.forward;
     return side;
@@ -320,7 +320,7 @@ class SideFinder {
   }
 
   /// The ends of a side's edges, as shares of the side's length.
-  std::vector<double> ends_of(const Side& side) const {
+  std::vector<double> ends_of(const FaceSide& side) const {
     std::vector<double> ends;
     for (const SideEdge& edge : side)
       ends.push_back((ends.empty() ? 0 : ends.back()) + shape_.edges[edge.edge].length);
@@ -328,19 +328,19 @@ class SideFinder {
     return ends;
   }
 
-  double length_of(const Side& side) const {
+  double length_of(const FaceSide& side) const {
     return std::accumulate(side.begin(), side.end(), 0.0, [&](double sum, const SideEdge& edge) {
       return sum + shape_.edges[edge.edge].length;
     });
   }
 
-  double wanted_of(const Side& side) const {
+  double wanted_of(const FaceSide& side) const {
     return std::accumulate(side.begin(), side.end(), 0.0,
                            [&](double sum, const SideEdge& edge) { return sum + wanted_[edge.edge]; });
   }
 
   /// Cuts two sides into pairs where their vertices face each other.
-  void add_pairs(const Side& first, const Side& second, FaceSides& sides) const {
+  void add_pairs(const FaceSide& first, const FaceSide& second, FaceSides& sides) const {
     const std::vector<double> a = ends_of(first), b = ends_of(second);
     constexpr double of_segment = 0.4, of_side = 0.05;
     const double near =

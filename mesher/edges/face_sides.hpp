@@ -14,11 +14,11 @@ struct SideEdge {
 };
 
 /// Consecutive edges.
-using Side = std::vector<SideEdge>;
+using FaceSide = std::vector<SideEdge>;
 
 /// Two sides that face each other across a face, both listed in the same direction.
 struct FacingPair {
-  Side first, second;
+  FaceSide first, second;
 };
 
 /// The outline of a face and the conditions that the counts around it must satisfy.

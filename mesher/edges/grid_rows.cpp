@@ -13,7 +13,7 @@ namespace quadrille {
 namespace {
 
 /// Largest ratio between the number that a member of a chord wants and the number that it gets, either way.
-constexpr double largest_ratio = 4;
+constexpr double largest_row_ratio = 4;
 /// Largest share of a side that layers may take.
 constexpr double most_of_side = 0.9;
 
@@ -220,7 +220,7 @@ class RowFinder {
       if (const auto it = of_layers.find(member); it != of_layers.end())
         return it->second.segments == segments;
       const double wanted = std::max(1.0, shape_.edges[member].length / size_on(member));
-      return segments <= largest_ratio * wanted && wanted <= largest_ratio * segments;
+      return segments <= largest_row_ratio * wanted && wanted <= largest_row_ratio * segments;
     });
   }
 

@@ -18,7 +18,7 @@ constexpr double wanted_beside = 1, least_beside = 0.2, most_beside = 3;
 /// Holes at least this many cells across bend the grid too much.
 constexpr double largest_hole = 8;
 /// Limits of the segment length at a hole over that on the sides. Beyond them, sizes change too much.
-constexpr double least_ratio = 0.8, largest_ratio = 1.5;
+constexpr double least_hole_ratio = 0.8, largest_hole_ratio = 1.5;
 
 bool has_room(double extent, int cells) {
   return cells >= extent + least_beside && cells <= extent + most_beside;
@@ -166,7 +166,7 @@ class HoleFitter {
       segments += tables_[coedge.edge].total();
     }
     const double ratio = length / std::max(segments, 1.0) / side;
-    return ratio > least_ratio && ratio < largest_ratio;
+    return ratio > least_hole_ratio && ratio < largest_hole_ratio;
   }
 
   std::vector<Vector2> points_along(const CadWire& wire) const {
@@ -242,7 +242,7 @@ bool fit_holes_to_grids(const CadShape& shape, const FaceOutlines& sides, const 
     };
     for (const std::size_t k : {0, 1}) {
       if (fit->sides[k] == 1) continue;
-      for (const Side* side : {&sides[i].facing[k].first, &sides[i].facing[k].second}) {
+      for (const FaceSide* side : {&sides[i].facing[k].first, &sides[i].facing[k].second}) {
         for (const SideEdge& edge : *side) want(edge.edge, fit->sides[k] * chosen.counts[edge.edge]);
       }
     }

@@ -30,9 +30,9 @@ class NearestPairs {
 
   /// \return false if no other odd face and no edge of a single face can be reached.
   bool pair_up(FaceId start_face, FaceFlags& odd) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr double unreached = std::numeric_limits<double>::infinity();
     const int start = start_face.index();
-    std::vector<double> distance(adjacency_.size(), infinity);
+    std::vector<double> distance(adjacency_.size(), unreached);
     std::vector<std::pair<int, EdgeId>> from(adjacency_.size());
     std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> queue;
     distance[start] = 0;

@@ -17,7 +17,7 @@ struct Extent {
 
 Extent extent_of(const CadShape& shape, const FacingPair& pair, const IdVector<EdgeId, int>& counts) {
   Extent extent;
-  for (const Side* side : {&pair.first, &pair.second}) {
+  for (const FaceSide* side : {&pair.first, &pair.second}) {
     for (const SideEdge& edge : *side) extent.length += 0.5 * shape.edges[edge.edge].length;
   }
   for (const SideEdge& edge : pair.first) extent.count += counts[edge.edge];
@@ -37,7 +37,7 @@ bool refine_along_strips(const CadShape& shape, const FaceOutlines& sides, const
       if (along.count == 0 || across.count == 0 || !(across.length > 0)) continue;
       const double needed = along.length * across.count / (wanted_aspect * across.length);
       if (needed > most * along.count) continue;
-      for (const Side* side : {&face.facing[k].first, &face.facing[k].second}) {
+      for (const FaceSide* side : {&face.facing[k].first, &face.facing[k].second}) {
         for (const SideEdge& edge : *side) {
           double& of_chord = densities[chosen.chords.of(edge.edge)];
           of_chord = std::max(of_chord, needed * shape.edges[edge.edge].length / along.length);

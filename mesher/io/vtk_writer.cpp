@@ -38,7 +38,7 @@ void write_set(const std::string& name, const std::vector<char>& members, TextWr
 }
 
 /// Writes sets of shell elements, then those of segments and corners, which are no cells here, as node sets.
-void write_sets(const OutputMesh& mesh, TextWriter& out) {
+void write_set_arrays(const OutputMesh& mesh, TextWriter& out) {
   std::vector<std::string> of_nodes;
   for (const std::string& name : mesh.set_names()) {
     const auto has_it = [&](int dimension) {
@@ -91,7 +91,7 @@ void write_vtk(const OutputMesh& mesh, const WriteOptions& options, const std::v
     out << "SCALARS thickness double 1\nLOOKUP_TABLE default\n";
     write_lines(mesh, out, [&](int shell, TextWriter& to) { to << mean_thickness(mesh, shell); });
   }
-  write_sets(mesh, out);
+  write_set_arrays(mesh, out);
 }
 
 }  // namespace quadrille

@@ -87,12 +87,12 @@ Corners measure(const std::array<const Vector3*, 4>& p) {
 }
 
 /// A side of one element, by its lower and higher node.
-struct Side {
+struct ElementSide {
   int low, high;
 };
 
 /// All sides of all elements, sorted. A side with k elements is listed k times.
-std::vector<Side> sorted_sides(const ShellMesh& mesh) {
+std::vector<ElementSide> sorted_sides(const ShellMesh& mesh) {
   const auto each_side = [&](auto&& visit) {
     for (const auto& quad : mesh.quads)
       for (int j = 0; j < 4; ++j) visit(quad[j], quad[(j + 1) & 3]);
@@ -103,13 +103,13 @@ std::vector<Side> sorted_sides(const ShellMesh& mesh) {
   std::vector<std::size_t> first(mesh.points.size() + 1, 0);
   each_side([&](int a, int b) { ++first[std::min(a, b) + 1]; });
   for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
-  std::vector<Side> sides(first.back());
+  std::vector<ElementSide> sides(first.back());
   std::vector<std::size_t> place(first.begin(), first.end() - 1);
   each_side([&](int a, int b) { sides[place[std::min(a, b)]++] = {std::min(a, b), std::max(a, b)}; });
   for (std::size_t i = 0; i + 1 < first.size(); ++i)
     std::sort(sides.begin() + static_cast<std::ptrdiff_t>(first[i]),
               sides.begin() + static_cast<std::ptrdiff_t>(first[i + 1]),
-              [](const Side& a, const Side& b) { return a.high < b.high; });
+              [](const ElementSide& a, const ElementSide& b) { return a.high < b.high; });
   return sides;
 }
 
@@ -191,7 +191,7 @@ void measure_elements(const ShellMesh& mesh, QualitySummary& summary) {
 }
 
 void measure_sides(const ShellMesh& mesh, QualitySummary& summary) {
-  const std::vector<Side> sides = sorted_sides(mesh);
+  const std::vector<ElementSide> sides = sorted_sides(mesh);
   std::vector<int> valence(mesh.points.size(), 0);
   std::vector<char> border(mesh.points.size(), 0);
   std::vector<double> lengths;

@@ -27,10 +27,10 @@ constexpr int max_rounds = 2;  ///< passes over all nodes
 constexpr double least_share = 0.7, most_share = 1.35, most_drift = 0.08;
 constexpr int few_quads = 8;  ///< this many quads may be gained or lost in any face
 /// Scaled Jacobian above which quads may start: smoothing mends them.
-constexpr double mendable = 0.2;
+constexpr double mendable_filling = 0.2;
 /// How much the sum of the quads' objectives may rise for each unit of valence cost saved. The nodes of the
 /// patch have been smoothed, those of a filling not yet.
-constexpr double per_cost = 0.3;
+constexpr double rise_per_cost = 0.3;
 
 class Cavities : private EditedMesh {
  public:
@@ -293,8 +293,8 @@ class Cavities : private EditedMesh {
       for (int& node : quad) node = nodes[node];
     const auto count = static_cast<double>(quads.size());
     const bool done =
-        !too_long(before, quads) && worst(quads) > std::min(worst(before), mendable) &&
-        mean_objective(quads) < mean_objective(before) + per_cost * (cost_ - filling.irregular) / count;
+        !too_long(before, quads) && worst(quads) > std::min(worst(before), mendable_filling) &&
+        mean_objective(quads) < mean_objective(before) + rise_per_cost * (cost_ - filling.irregular) / count;
     const std::vector<int> old = patch_;
     clear();
     if (done && topology_.replace(old, quads)) {

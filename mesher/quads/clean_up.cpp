@@ -24,7 +24,7 @@ using Quad = QuadTopology::Quad;
 constexpr double pi = std::numbers::pi;
 constexpr int max_patch = 32;  ///< quads in a patch
 /// Scaled Jacobian above which a better connected patch may start: smoothing mends it.
-constexpr double mendable = 0.05;
+constexpr double mendable_patch = 0.05;
 constexpr double regular_cost = 0.5;  ///< nodes that cost less are left alone
 constexpr double min_gain = 0.5;      ///< a patch is refilled only if it gains this much
 constexpr double worth_trying = 1.5;  ///< a patch whose nodes cost less in all cannot gain
@@ -161,7 +161,7 @@ double CleanUp::cost_change(const Change& change) const {
 }
 
 /// Carries out a change unless its cost is too high or its worst element is no better than the worst one
-/// before and than `mendable`.
+/// before and than `mendable_patch`.
 bool CleanUp::apply(Change& change, double allowed_cost) {
   if (change.count == 0 || cost_change(change) > allowed_cost) return false;
   std::array<Quad, max_patch> old;
@@ -186,7 +186,7 @@ bool CleanUp::apply(Change& change, double allowed_cost) {
     mesh_.mesh.points[node] =
         surface_.move(mesh_.parameters[node], sum / std::max(neighbors, 1), mesh_.normals[node]);
   }
-  const bool done = worst(change.new_span()) > std::min(worst_before, mendable) &&
+  const bool done = worst(change.new_span()) > std::min(worst_before, mendable_patch) &&
                     !too_long(before, change.new_span()) &&
                     topology_.replace(change.old_span(), change.new_span());
   if (!done && node >= 0) {
@@ -412,7 +412,7 @@ bool CleanUp::fill(const SmallPatch& patch, const Outline& outline, const PatchT
     old[i] = topology_.quad(patch.quads[i]);
   }
   const std::span<const Quad> before(old.data(), patch.count);
-  const double floor = std::min(worst(before), mendable);
+  const double floor = std::min(worst(before), mendable_patch);
   Filling filled = laid(outline, filling);
   if (!(filled.worst() > floor)) return false;
 

@@ -18,11 +18,11 @@ namespace {
 
 using Quad = QuadTopology::Quad;
 
-constexpr double fine = 0.1;  ///< a node stays if all its quads have a lower objective
+constexpr double fine_objective = 0.1;  ///< a node stays if all its quads have a lower objective
 /// A quad counts for no more than this, so that one that the CAD forces out of shape does not outweigh its
 /// neighbors. Folded quads count this much while nodes move.
-constexpr double most = 20;
-constexpr double min_gain = 0.3;
+constexpr double largest_objective = 20;
+constexpr double least_gain = 0.3;
 /// How much of the objective one unit of valence cost is worth.
 constexpr double per_cost = 0.2;
 /// Fillings are tried if their valences cost at most this much more than those before.
@@ -77,7 +77,7 @@ class Trial {
   /// Adds a quad of the mesh that is not replaced.
   void add_old(const Quad& quad, const QuadObjective& of) {
     quads.push_back(quad);
-    values_.push_back({std::min(most, of.value), true});
+    values_.push_back({std::min(largest_objective, of.value), true});
     floor = std::min(floor, of.least_sine);
   }
 
@@ -120,13 +120,13 @@ class Trial {
 
   Value judge(const QuadObjective& of, bool upright) const {
     const bool sound = upright && of.least_sine > 0 && of.least_sine >= floor;
-    return {sound ? std::min(most, of.value) : most, sound};
+    return {sound ? std::min(largest_objective, of.value) : largest_objective, sound};
   }
 
   void relax(int node) {
     double worst = 0;
     for (const auto& [quad, k] : uses_[node]) worst = std::max(worst, values_[quad].value);
-    if (worst < fine) return;
+    if (worst < fine_objective) return;
     CriteriaPatch patch(u_, v_);
     double shortest = std::numeric_limits<double>::max(), sum = 0;
     for (const auto& [quad, k] : uses_[node]) {
@@ -278,7 +278,8 @@ class Mending : private EditedMesh {
     if (!trace(patch, outline)) return;
     FillingCosts costs;
     const double cost = find_costs(outline, costs);
-    for (int i = 0; i < patch.count; ++i) candidate.before += std::min(most, measure(patch.quads[i]).value);
+    for (int i = 0; i < patch.count; ++i)
+      candidate.before += std::min(largest_objective, measure(patch.quads[i]).value);
     costs.resize.fill(0);
     costs.drift.fill(0);
     costs.limit = cost + slack;
@@ -353,7 +354,7 @@ class Mending : private EditedMesh {
     if (candidates.size() > max_attempts)
       candidates.erase(candidates.begin() + max_attempts, candidates.end());
     std::vector<Attempt> attempts;
-    double best = min_gain;
+    double best = least_gain;
     for (const Candidate& candidate : candidates) {
       Attempt now{&candidate, {}};
       if (!attempt(now, best)) continue;
@@ -405,7 +406,7 @@ class Mending : private EditedMesh {
     }
     trial.measure();
     now.weigh();
-    if (!(now.gain > min_gain) || !trial.sound()) return false;
+    if (!(now.gain > least_gain) || !trial.sound()) return false;
     if (!replace(candidate, trial, donor)) return false;
     settle(trial, uv, normals);
     for (int i = 0; i < candidate.patch.count; ++i) measured_[candidate.patch.quads[i]].reset();

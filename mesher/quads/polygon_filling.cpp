@@ -294,10 +294,10 @@ class Coarsening {
 };
 
 void relax(PolygonFilling& filling, std::size_t outline) {
-  constexpr int sweeps = 20;
+  constexpr int smoothing_sweeps = 20;
   std::vector<Vector3> sum(filling.places.size());
   std::vector<int> count(filling.places.size());
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
+  for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
     std::fill(sum.begin(), sum.end(), Vector3::Zero());
     std::fill(count.begin(), count.end(), 0);
     for (const Quad& quad : filling.quads)

@@ -11,14 +11,14 @@ namespace quadrille {
 namespace {
 
 /// A side of a quad, or a side that the boundary requires.
-struct Use {
+struct SideUse {
   int low, high;
   bool forward;      ///< the quad runs along it from low to high
   int quads, asked;  ///< quads on the side, quads required; one of them is 0
   bool spur;         ///< required by a spur, where no quads are needed
 };
 
-void add(std::vector<Use>& uses, int a, int b, int quads, int asked, bool spur = false) {
+void add(std::vector<SideUse>& uses, int a, int b, int quads, int asked, bool spur = false) {
   if (a != b) uses.push_back({std::min(a, b), std::max(a, b), a < b, quads, asked, spur});
 }
 
@@ -42,7 +42,7 @@ std::vector<std::uint64_t> spurs(const FaceBoundary& boundary) {
 std::optional<std::pair<int, int>> wrong_boundary_side(const FaceBoundary& boundary,
                                                        const std::vector<int>& nodes,
                                                        const std::vector<std::array<int, 4>>& quads) {
-  std::vector<Use> uses;
+  std::vector<SideUse> uses;
   const std::vector<std::uint64_t> there_and_back = spurs(boundary);
   for (const auto& segment : boundary.segments) {
     if (segment.degenerate) continue;
@@ -63,8 +63,9 @@ std::optional<std::pair<int, int>> wrong_boundary_side(const FaceBoundary& bound
       if (a < fixed && b < fixed) add(uses, nodes[a], nodes[b], 1, 0);
     }
   }
-  std::sort(uses.begin(), uses.end(),
-            [](const Use& a, const Use& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+  std::sort(uses.begin(), uses.end(), [](const SideUse& a, const SideUse& b) {
+    return a.low != b.low ? a.low < b.low : a.high < b.high;
+  });
   for (std::size_t i = 0, j = 0; i < uses.size(); i = j) {
     int met = 0, forward = 0, asked = 0;
     bool spur = false;

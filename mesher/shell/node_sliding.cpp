@@ -26,7 +26,7 @@ struct Aim {
   double poor;        ///< nodes of quads above this objective are moved
 };
 /// The first round aims at right angles everywhere, the second at quads that are still outside the limits.
-constexpr Aim right_angles{3, 0.1}, limits{0, outside_objective};
+constexpr Aim right_angles{3, 0.1}, toward_limits{0, outside_objective};
 /// Moves must not reduce a corner's sine below this, or below the least sine around the node if that is less.
 /// A floor at the limit of corner angles (sin 40 degrees) would block moves that many quads need.
 constexpr double floor_sine = 0.5;
@@ -47,7 +47,7 @@ constexpr double still_share = 0.01;
 constexpr double shortest_interval = 0.5, longest_interval = 1.5, longest_curved_interval = 1.15;
 
 /// A quad around a node, which is its corner `corner`.
-struct Use {
+struct QuadUse {
   FaceId face;
   int quad, corner;
 };
@@ -118,7 +118,7 @@ class NodeSliding {
   void run(int sweeps) {
     slide((sweeps + 2) / 3, right_angles);  // later sweeps gain little
     for (FaceState& face : states_) std::fill(face.active.begin(), face.active.end(), 1);
-    slide(sweeps, limits);
+    slide(sweeps, toward_limits);
   }
 
   /// Refills patches around quads outside the limits and activates their nodes. \return whether any changed.
@@ -151,7 +151,7 @@ class NodeSliding {
 
   /// The quads around a node before a move.
   struct Round {
-    std::vector<Use> uses;
+    std::vector<QuadUse> uses;
     double objective = 0, worst_objective = 0, least_sine = 1;
     double shortest = 0, mean = 0;  // shortest and mean length of the sides at the node
     double aspect = 1;              // largest ratio of the two sides of a quad at the node
@@ -290,7 +290,7 @@ class NodeSliding {
     round.shortest = std::numeric_limits<double>::max();
     round.aspect = 1;
     double sum = 0, short_sum = 0;
-    for (const Use& use : round.uses) {
+    for (const QuadUse& use : round.uses) {
       const FaceState& state = states_[use.face];
       const Vector3& here = state.corner(use.quad, use.corner);
       const double next = (state.corner(use.quad, use.corner + 1) - here).norm(),
@@ -304,7 +304,7 @@ class NodeSliding {
     round.mean = sum / (2.0 * static_cast<double>(round.uses.size()));
     round.mean_aspect = (sum - short_sum) / short_sum;
     round.off_parallel = 0;
-    for (const Use& use : round.uses) {
+    for (const QuadUse& use : round.uses) {
       const FaceState& state = states_[use.face];
       const Vector3 off = state.corner(use.quad, 0) - state.corner(use.quad, 1) + state.corner(use.quad, 2) -
                           state.corner(use.quad, 3);
@@ -313,7 +313,7 @@ class NodeSliding {
   }
 
   bool draw(const Round& round, CriteriaPatch& patch) const {
-    for (const Use& use : round.uses) {
+    for (const QuadUse& use : round.uses) {
       const FaceState& state = states_[use.face];
       if (!patch.add(state.corner(use.quad, use.corner), state.corner(use.quad, use.corner + 1),
                      state.corner(use.quad, use.corner + 2), state.corner(use.quad, use.corner + 3),
@@ -330,7 +330,7 @@ class NodeSliding {
     trial.objective = 0;
     const double floor = std::min(floor_sine, round.least_sine);
     const double enough = (1 - least_gain) * round.objective;
-    for (const Use& use : round.uses) {
+    for (const QuadUse& use : round.uses) {
       const FaceState& state = states_[use.face];
       const Vector3 &here = state.corner(use.quad, use.corner),
                     &next = state.corner(use.quad, use.corner + 1),
@@ -349,7 +349,7 @@ class NodeSliding {
 
   void store(const Round& round, const Trial& trial, bool wakes) {
     for (std::size_t i = 0; i < round.uses.size(); ++i) {
-      const Use& use = round.uses[i];
+      const QuadUse& use = round.uses[i];
       FaceState& state = states_[use.face];
       state.objective[use.quad] = trial.quads[i].value;
       state.least_sine[use.quad] = trial.quads[i].least_sine;
@@ -474,7 +474,7 @@ class NodeSliding {
     if (round.is_fine()) return false;
     const Vector3& here = face.mesh->points[node];
     Vector3 normal = Vector3::Zero();
-    for (const Use& use : round.uses)
+    for (const QuadUse& use : round.uses)
       normal += (face.corner(use.quad, 2) - face.corner(use.quad, 0))
                     .cross(face.corner(use.quad, 3) - face.corner(use.quad, 1));
     const Vector3 u = normal.unitOrthogonal(), v = normal.normalized().cross(u);
@@ -564,7 +564,7 @@ class NodeSliding {
   const CadShape& shape_;
   BoundaryNodes& nodes_;
   ExecutionContext& context_;
-  Aim aim_ = limits;
+  Aim aim_ = toward_limits;
   IdVector<FaceId, FaceState> states_;
   IdVector<EdgeId, std::vector<double>> sampled_;  // (edges) parameters before sliding
   std::vector<int> first_instance_;

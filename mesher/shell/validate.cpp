@@ -56,12 +56,12 @@ struct Elements {
 };
 
 /// A side of one element.
-struct Side {
+struct ElementSide {
   int low, high;
   int element;
   bool forward;  ///< the element runs along it from low to high
 
-  bool same_place(const Side& other) const { return low == other.low && high == other.high; }
+  bool same_place(const ElementSide& other) const { return low == other.low && high == other.high; }
 };
 
 bool check_indices(const Elements& elements, Findings& findings) {
@@ -95,8 +95,8 @@ std::vector<char> used_points(const Elements& elements) {
   return used;
 }
 
-std::vector<Side> sorted_sides(const Elements& elements) {
-  std::vector<Side> sides;
+std::vector<ElementSide> sorted_sides(const Elements& elements) {
+  std::vector<ElementSide> sides;
   sides.reserve(elements.quads.size() * 4 + elements.triangles.size() * 3);
   for (int e = 0; e < elements.count(); ++e) {
     const auto nodes = elements.nodes(e);
@@ -105,7 +105,7 @@ std::vector<Side> sorted_sides(const Elements& elements) {
       sides.push_back({std::min(a, b), std::max(a, b), e, a < b});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+  std::sort(sides.begin(), sides.end(), [](const ElementSide& a, const ElementSide& b) {
     if (a.low != b.low) return a.low < b.low;
     if (a.high != b.high) return a.high < b.high;
     return a.element < b.element;
@@ -115,16 +115,16 @@ std::vector<Side> sorted_sides(const Elements& elements) {
 
 /// Calls `visit` with each group of sides that have the same two points.
 template <typename Visit>
-void each_side(const std::vector<Side>& sides, Visit&& visit) {
+void each_side(const std::vector<ElementSide>& sides, Visit&& visit) {
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
     while (j < sides.size() && sides[j].same_place(sides[i])) ++j;
-    visit(std::span<const Side>(sides.data() + i, j - i));
+    visit(std::span<const ElementSide>(sides.data() + i, j - i));
   }
 }
 
 void check_manifold(const Elements& elements, Findings& findings) {
-  each_side(sorted_sides(elements), [&](std::span<const Side> group) {
-    const Side& side = group[0];
+  each_side(sorted_sides(elements), [&](std::span<const ElementSide> group) {
+    const ElementSide& side = group[0];
     if (group.size() > 2)
       findings.add("the side between points {} and {} has {} elements", side.low, side.high, group.size());
     else if (group.size() == 2 && group[0].forward == group[1].forward)
@@ -250,10 +250,10 @@ SegmentIndex index_segments(const ShellMesh& mesh, Findings& findings) {
 
 void check_shell_sides(const ShellMesh& mesh, const Elements& elements, bool closed, Findings& findings) {
   const SegmentIndex segments = index_segments(mesh, findings);
-  const auto face = [&](const Side& side) { return mesh.quad_faces[side.element]; };
+  const auto face = [&](const ElementSide& side) { return mesh.quad_faces[side.element]; };
   std::vector<char> met(mesh.segments.size(), 0);
-  each_side(sorted_sides(elements), [&](std::span<const Side> group) {
-    const Side& side = group[0];
+  each_side(sorted_sides(elements), [&](std::span<const ElementSide> group) {
+    const ElementSide& side = group[0];
     const auto segment = segments.find(side_key(side.low, side.high));
     if (segment != segments.end()) met[segment->second] = 1;
     if (closed && group.size() < 2)
