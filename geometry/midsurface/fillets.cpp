@@ -53,7 +53,12 @@ std::vector<JoinedFace> cut_faces(const BOPAlgo_Builder& fuse, const Skin& skin,
         triangulate(part.face, 0.2 * walls[whole.wall].thickness);
         const Coverage coverage = coverage_of(part.face, walls[whole.wall], skin);
         strip = coverage.share < least_share;
-        if (!strip) part.coverage = coverage;
+        if (!strip) {
+          part.coverage = coverage;
+        } else if (!walls[whole.wall].fitted && whole.coverage.thickest > 1.001 * whole.coverage.thinnest) {
+          part.coverage = coverage_past_sides(part.face, walls[whole.wall], skin);
+          part.coverage.faces = whole.coverage.faces;
+        }
       }
       result.push_back(part);
       strips.push_back(strip ? 1 : 0);
@@ -90,8 +95,8 @@ void thicken(const std::vector<std::size_t>& strips, double volume, int fillet,
   for (const std::size_t i : strips) area += area_of(faces[i].face);
   for (const std::size_t i : strips) {
     Coverage& coverage = faces[i].coverage;
-    coverage.mean += volume / area;
-    coverage.thinnest = coverage.thickest = coverage.mean;
+    for (double* of : {&coverage.mean, &coverage.thinnest, &coverage.thickest, &coverage.added})
+      *of += volume / area;
     coverage.faces.insert(fillet);
   }
 }
@@ -118,7 +123,8 @@ void add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume
   if (fuse.HasErrors()) return;  // the faces stay as they are
   std::vector<char> strips;
   std::vector<JoinedFace> cut = cut_faces(fuse, skin, walls, faces, strips);
-  const double share = std::min(1.0, missing / held);
+  // Of a wall that tapers, the strips alone may hold more or less than they did as parts of it.
+  const double share = std::clamp((volume - shell_volume(cut)) / held, 0.0, 1.0);
   for (const auto& [fillet, borders] : fillets) {
     const double each =
         share * volume_of(skin.faces()[fillet], borders) / static_cast<double>(borders.size());

@@ -29,6 +29,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/midsurface/checks.hpp"
 #include "geometry/midsurface/fitted_middle.hpp"
 #include "geometry/midsurface/joining.hpp"
 #include "geometry/midsurface/plain_faces.hpp"
@@ -279,135 +280,34 @@ TopoDS_Compound assemble(const std::vector<JoinedFace>& faces) {
   return result;
 }
 
-/// The distance of a point from the nearest surface of each side of a wall; skin.size() if none is near.
-std::array<double, 2> distances_to_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
-  std::array<double, 2> result{skin.size(), skin.size()};
-  for (int side = 0; side < 2; ++side) {
-    for (const int index : wall.sides[side]) {
-      const SkinFace& face = skin.faces()[index];
-      if (face.box().Distance(Bnd_Box(point, point)) > wall.thickness) continue;
-      result[side] = std::min(result[side], face.point(face.closest(point)).Distance(point));
-    }
-  }
-  return result;
+/// How area times thickness compares with the volume, in words.
+std::string volume_sentence(const MidSurface& result, const std::string& name, double share) {
+  std::string sentence = fmt::format(
+      "{} {}: area times thickness of its middle surface is {:.1f} % of its volume", name,
+      share < 1 ? "is thin in places only" : "has walls that overlap too much where they meet", 100 * share);
+  if (!result.unpaired.empty()) sentence += "; without a partner: " + face_names(result.unpaired);
+  if (!result.uneven.empty())
+    sentence +=
+        "; rays through the solid tell another thickness of the result's " + face_names(result.uneven);
+  return sentence;
 }
 
-/// Whether the point lies between the surfaces of a wall's sides, with a face of at least one side above or
-/// below it. Where another wall stands on this one, the other side is interrupted.
-bool between_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
-  const auto [first, second] = distances_to_sides(skin, wall, point);
-  if (first + second >= 1.05 * wall.thickness) return false;
-  const std::vector<int> sides = both_sides(wall);
-  return std::any_of(sides.begin(), sides.end(), [&](int index) {
-    const SkinFace& face = skin.faces()[index];
-    return face.box().Distance(Bnd_Box(point, point)) <= wall.thickness && face.foot(point);
-  });
-}
-
-/// How a point of a free edge lies in walls other than its face's own.
-struct InOthers {
-  bool within = false;      ///< inside one of them, as where a rib's rim continues to the plate's middle
-  std::set<int> halfway{};  ///< the walls on whose middle the point lies; they should share the edge
-};
-
-InOthers in_others(const Skin& skin, const SolidMiddle& middle, int own, const gp_Pnt& point) {
-  InOthers result;
-  for (int wall = 0; wall < static_cast<int>(middle.walls.size()); ++wall) {
-    if (wall == own) continue;
-    const Wall& other = middle.walls[wall];
-    if (!position_in(other, skin, point) && !between_sides(skin, other, point)) continue;
-    result.within = true;
-    const auto [first, second] = distances_to_sides(skin, other, point);
-    if (std::abs(first - second) < 0.02 * (first + second)) result.halfway.insert(wall);
-  }
-  return result;
-}
-
-/// Whether most of a face lies inside walls, as the riser of a step does. No free edge lies on a riser.
-bool across_a_wall(const Skin& skin, const SolidMiddle& middle, const SkinFace& face) {
-  double across = 0;
-  for (const FaceSample& sample : face.samples(8)) {
-    const auto holds = [&](const Wall& wall) { return position_in(wall, skin, sample.point).has_value(); };
-    if (std::any_of(middle.walls.begin(), middle.walls.end(), holds)) across += sample.area;
-  }
-  return across > 0.5 * face.area();
-}
-
-void sort_unique(std::vector<int>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
-/// Checks the free edges against the skin, records the faces that they lie on, and finds the faces that
-/// belong to no wall.
-void check_rims(const Skin& skin, const SolidMiddle& middle, const TopTools_IndexedMapOfShape& edge_numbers,
-                MidSurface& result) {
-  double thinnest = skin.size();
-  for (const Wall& wall : middle.walls) thinnest = std::min(thinnest, wall.thickness);
-  const double tolerance = 1e-3 * thinnest;
-  std::set<int> accounted;
-  for (const JoinedFace& face : middle.faces) {
-    accounted.insert(face.coverage.faces.begin(), face.coverage.faces.end());
-  }
-  TopTools_IndexedDataMapOfShapeListOfShape around;
-  TopTools_DataMapOfShapeInteger walls;
-  for (const JoinedFace& face : middle.faces) {
-    TopExp::MapShapesAndAncestors(face.face, TopAbs_EDGE, TopAbs_FACE, around);
-    walls.Bind(face.face, face.wall);
-  }
-  for (int i = 1; i <= around.Extent(); ++i) {
-    const TopoDS_Edge& edge = TopoDS::Edge(around.FindKey(i));
-    if (around(i).Extent() > 1 || BRep_Tool::Degenerated(edge)) continue;
-    if (BRep_Tool::IsClosed(edge, TopoDS::Face(around(i).First()))) continue;  // a seam
-    ++result.free_edges;
-    const BRepAdaptor_Curve curve(edge);
-    const double length = curve.LastParameter() - curve.FirstParameter();
-    bool stray = false;
-    std::map<int, int> halfway;  // by wall: number of points on its middle
-    std::map<int, int> rims;     // by face: number of points on it
-    for (const double share : {0.5, 0.2, 0.8}) {
-      const gp_Pnt point = curve.Value(curve.FirstParameter() + share * length);
-      const auto on = skin.faces_at(point, tolerance);
-      accounted.insert(on.begin(), on.end());
-      for (const int face : on) ++rims[face];
-      if (!on.empty()) continue;
-      const InOthers others = in_others(skin, middle, walls.Find(around(i).First()), point);
-      stray = stray || !others.within;
-      for (const int wall : others.halfway) stray = ++halfway[wall] == 3 || stray;
-    }
-    if (stray) result.stray_edges.push_back(edge_numbers.FindIndex(edge));
-    MiddleRim rim{edge_numbers.FindIndex(edge), {}};
-    for (const auto& [face, points] : rims) {
-      if (points == 3) rim.solid_faces.push_back(skin.faces()[face].number());
-    }
-    sort_unique(rim.solid_faces);
-    if (!rim.solid_faces.empty()) result.rims.push_back(rim);
-  }
-  // A face that was cut where solids were joined counts as one.
-  std::set<int> numbers;
-  for (const int face : accounted) numbers.insert(skin.faces()[face].number());
-  for (const SkinFace& face : skin.faces()) {
-    // Bevels, and strips that are left where solids were joined, belong to no wall.
-    const bool narrow = width_of(face.face()) < 0.5 * thinnest;
-    if (numbers.count(face.number()) == 0 && !narrow && !across_a_wall(skin, middle, face))
-      result.unpaired.push_back(face.number());
-  }
+/// Compares area times thickness with the volume: what differs is a problem or a warning. What is counted
+/// twice where walls meet makes up for nothing that is missing elsewhere.
+void check_volume(const std::string& name, MidSurface& result, std::vector<std::string>& problems) {
+  constexpr double most_missing = 0.05, most_twice = 0.1, worth_telling = 0.02;
+  const double all = result.shell_volume / result.volume;
+  const double once = all - result.counted_twice / result.volume;
+  if (once < 1 - most_missing || all > 1 + most_twice)
+    problems.push_back(volume_sentence(result, name, all > 1 + most_twice ? all : once));
+  else if (once < 1 - worth_telling || once > 1 + worth_telling)
+    result.warnings.push_back(volume_sentence(result, name, once));
 }
 
 /// One sentence for each check that failed.
-std::vector<std::string> find_problems(const MidSurface& result, const std::string& name) {
+std::vector<std::string> find_problems(MidSurface& result, const std::string& name) {
   std::vector<std::string> problems;
-  constexpr double most_missing = 0.05;
-  const double share = result.shell_volume / result.volume;
-  constexpr double most_twice = 0.1;  // where walls meet, the corner counts for both
-  if (share < 1 - most_missing || share > 1 + most_twice) {
-    std::string sentence =
-        fmt::format("{} {}: area times thickness of its middle surface is {:.1f} % of its volume", name,
-                    share < 1 ? "is thin in places only" : "has walls that overlap too much where they meet",
-                    100 * share);
-    if (!result.unpaired.empty()) sentence += "; without a partner: " + face_names(result.unpaired);
-    problems.push_back(sentence);
-  }
+  check_volume(name, result, problems);
   if (result.parts != result.solids) {
     problems.push_back(
         fmt::format("{}: the middle surface falls into {} parts where the model has {} solid{}", name,
@@ -432,6 +332,7 @@ void describe_faces(const std::vector<SolidMiddle>& middles, const std::deque<Sk
   for (std::size_t solid = 0; solid < middles.size(); ++solid) {
     const SolidMiddle& middle = middles[solid];
     for (const JoinedFace& joined : middle.faces) {
+      triangulate(joined.face, 0.2 * middle.walls[joined.wall].thickness);  // for samples
       const Coverage& coverage = joined.coverage;
       MiddleFace& face = result.faces.at(numbers.FindIndex(joined.face) - 1);
       face.thinnest = coverage.thinnest;
@@ -449,8 +350,13 @@ void describe_faces(const std::vector<SolidMiddle>& middles, const std::deque<Sk
       if (!face.step) result.shell_volume += face.area * face.thickness;
     }
     result.volume += middle.volume;
-    check_rims(skins[solid], middle, edge_numbers, result);
+    const auto number = [&](std::size_t i) { return numbers.FindIndex(middle.faces[i].face); };
+    check_rims(skins[solid], middle.walls, middle.faces, edge_numbers, result);
+    result.counted_twice += counted_twice(skins[solid], middle.walls, middle.faces);
+    for (const std::size_t i : faces_of_wrong_thickness(skins[solid], middle.walls, middle.faces))
+      result.uneven.push_back(number(i));
   }
+  BRepTools::Clean(shape);  // removes the triangles used for sampling
   std::sort(result.rims.begin(), result.rims.end(),
             [](const MiddleRim& a, const MiddleRim& b) { return a.edge < b.edge; });
   sort_unique(result.unpaired);
@@ -463,6 +369,7 @@ struct ThicknessSource {
     Wall wall;
     double thinnest = 0, thickest = 0, mean = 0;
     bool varies = false;
+    double added = 0;  ///< by fillets
   };
   std::shared_ptr<const std::deque<Skin>> skins;
   std::vector<Face> faces;  ///< by face number minus 1
@@ -470,7 +377,8 @@ struct ThicknessSource {
   double at(int face, const Vector3& point) const {
     const Face& own = faces.at(face - 1);
     if (!own.varies) return own.mean;
-    const double t = thickness_round(own.wall, *own.skin, gp_Pnt(point.x(), point.y(), point.z()));
+    const double t =
+        thickness_round(own.wall, *own.skin, gp_Pnt(point.x(), point.y(), point.z())) + own.added;
     return std::clamp(t, own.thinnest, own.thickest);
   }
 };
@@ -492,7 +400,8 @@ std::shared_ptr<const ThicknessSource> thickness_source(const std::vector<SolidM
                               face.thinnest,
                               face.thickest,
                               face.thickness,
-                              varies(face)};
+                              varies(face),
+                              joined.coverage.added};
     }
   }
   return source;

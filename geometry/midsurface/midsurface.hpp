@@ -59,6 +59,7 @@ struct MidSurface {
   std::vector<MiddleRim> rims{};    ///< the free edges that lie on the skin, ascending
   double volume = 0;                ///< volume of the solids
   double shell_volume = 0;          ///< sum of area times mean thickness, without steps
+  double counted_twice = 0;         ///< what of shell_volume is counted twice where walls meet
   int solids = 0;                   ///< number of solids; with options.join, after joining
   int parts = 0;                    ///< number of connected parts of the middle surface
   int free_edges = 0;               ///< number of edges that bound one face only
@@ -66,7 +67,9 @@ struct MidSurface {
   /// Numbers of the solid's faces that are neither a side nor a rim of a wall nor the riser of a step, and
   /// that are not narrower than half the thickness of the thinnest wall.
   std::vector<int> unpaired{};
+  std::vector<int> uneven{};  ///< numbers of the faces of which rays through the solid tell another thickness
   std::vector<std::string> problems{};  ///< with options.partial: what would have been an error
+  std::vector<std::string> warnings{};  ///< what is imprecise, but no error
   /// The thickness of a face (from 1) at a point; the mean if it does not vary. One thread at a time.
   std::function<double(int face, const Vector3& point)> thickness_at{};
 };
@@ -76,9 +79,9 @@ struct MidSurface {
 /// cones, spheres and tori; otherwise it is fitted. Surfaces are extended to where they meet and share edges
 /// there. Solids are kept apart unless options.join. Throws Error (failure, with one sentence) if the model
 /// has no solid, a solid is not thin, or solids or surfaces cannot be joined. Without options.partial also if
-/// a part is not thin, area times thickness is not 95 to 110 % of the volume, a fitted surface misses its
-/// tolerance, the numbers of parts and solids differ, or free edges end inside the material. Throws Error
-/// (cancelled). Deterministic.
+/// a part is not thin, area times thickness is over 110 % of the volume or, without what is counted twice
+/// where walls meet, under 95 %, a fitted surface misses its tolerance, the numbers of parts and solids
+/// differ, or a free edge lies elsewhere than at a rim of the solid. Throws Error (cancelled). Deterministic.
 QUADRILLE_API MidSurface midsurface(const CadModel& model, const MidSurfaceOptions& options,
                                     ExecutionContext& context);
 

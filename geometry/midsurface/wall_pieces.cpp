@@ -172,6 +172,21 @@ Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin
   return result;
 }
 
+Coverage coverage_past_sides(const TopoDS_Face& face, const Wall& wall, const Skin& skin) {
+  Coverage result;
+  double area = 0;
+  for (const FaceSample& sample : sample_face(face, 16)) {
+    const double t = thickness_round(wall, skin, sample.point);
+    result.thinnest = area > 0 ? std::min(result.thinnest, t) : t;
+    result.thickest = std::max(result.thickest, t);
+    result.mean += t * sample.area;
+    area += sample.area;
+  }
+  if (area > 0) result.mean /= area;
+  if (result.thickest > (1 + 1e-4) * result.thinnest) widen_to_corners(face, wall, skin, result);
+  return result;
+}
+
 namespace {
 
 /// The pieces into which others cut a face; the face if they do not meet it, none if OpenCASCADE fails.

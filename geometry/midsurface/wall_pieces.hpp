@@ -28,10 +28,15 @@ struct Coverage {
   double share = 0;  ///< share of the area that lies between both sides
   double thinnest = 0, thickest = 0, mean = 0;
   std::set<int> faces{};  ///< indices of the skin's faces that the middle face lies between
+  double added = 0;  ///< what fillets add to the distance between the sides; contained in the three above
 };
 
 /// \param face with triangles.
 Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin);
+
+/// How thick the wall would be at a middle face where its sides do not reach, as beside a corner with a
+/// fillet: the distance between their surfaces. \param face with triangles.
+Coverage coverage_past_sides(const TopoDS_Face& face, const Wall& wall, const Skin& skin);
 
 /// All ends of all walls. A step has two ends; the fence of only one of them joins the walls.
 std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,

@@ -187,7 +187,10 @@ void run(const MeshArguments& arguments) {
   list_left_out(result);
   if (measured.valid()) {
     std::vector<std::string> warnings = model.problems();
-    if (middle) warnings.insert(warnings.end(), middle->problems.begin(), middle->problems.end());
+    if (middle) {
+      warnings.insert(warnings.end(), middle->problems.begin(), middle->problems.end());
+      warnings.insert(warnings.end(), middle->warnings.begin(), middle->warnings.end());
+    }
     tell_quality(result, measured.get(), std::move(warnings), sizes, model.pieces(), arguments, context);
   }
   // Last, so that a failing mesh has been written and can be inspected.

@@ -17,21 +17,24 @@ struct Arguments {
 };
 
 std::string describe(const MidSurface& middle) {
-  std::string text = fmt::format("{:<8} {:>12} {:>12}  {}\n", "face", "area", "thickness", "between");
+  std::string text = fmt::format("{:<8} {:>12} {:>20}  {}\n", "face", "area", "thickness", "between");
   for (std::size_t i = 0; i < middle.faces.size(); ++i) {
     const MiddleFace& face = middle.faces[i];
     std::string thickness = fmt::format("{:.6g}", face.thickness);
-    if (varies(face)) thickness = fmt::format("{:.4g}..{:.4g}", face.thinnest, face.thickest);
-    text += fmt::format("Face{:<4} {:>12.6g} {:>12} ", i + 1, face.area, thickness);
+    if (varies(face))
+      thickness = fmt::format("{:.4g}..{:.4g} ({:.4g})", face.thinnest, face.thickest, face.thickness);
+    text += fmt::format("Face{:<4} {:>12.6g} {:>20} ", i + 1, face.area, thickness);
     if (face.step) text += " a step between";
     for (const int number : face.solid_faces) text += fmt::format(" Face{}", number);
     if (face.fitted) text += fmt::format(", fitted within {:.2g}", face.off);
     text += "\n";
   }
   text += fmt::format(
-      "area x thickness {:.6g} mm3, {:.2f} % of the volume; {} part(s) of {} solid(s), "
+      "area x thickness {:.6g} mm3, {:.2f} % of the volume ({:.2f} % without what counts twice where walls "
+      "meet); {} part(s) of {} solid(s), "
       "{} free edges\n",
-      middle.shell_volume, 100 * middle.shell_volume / middle.volume, middle.parts, middle.solids,
+      middle.shell_volume, 100 * middle.shell_volume / middle.volume,
+      100 * (middle.shell_volume - middle.counted_twice) / middle.volume, middle.parts, middle.solids,
       middle.free_edges);
   if (!middle.unpaired.empty()) {
     text += "neither side nor rim of a wall:";
@@ -64,6 +67,7 @@ void run(const Arguments& arguments) {
   const MidSurface middle = midsurface(model, arguments.options, context);
   context.check();
   for (const std::filesystem::path& output : arguments.outputs) write_midsurface(middle, output);
+  for (const std::string& warning : middle.warnings) fmt::print(stderr, "quadrille: {}\n", warning);
   for (const std::string& problem : middle.problems) fmt::print(stderr, "quadrille: {}\n", problem);
   if (!arguments.quiet) print(describe(middle));
 }

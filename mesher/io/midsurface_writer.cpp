@@ -74,6 +74,9 @@ nlohmann::json describe(const MidSurface& middle) {
           {"free_edges", middle.free_edges},
           {"edges_inside_the_material", middle.stray_edges},
           {"unpaired_solid_faces", middle.unpaired},
+          {"counted_twice", middle.counted_twice},
+          {"faces_of_another_thickness", middle.uneven},
+          {"warnings", middle.warnings},
           {"problems", middle.problems}};
 }
 

@@ -5,14 +5,19 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepGProp.hxx>
 #include <BRepOffsetAPI_MakeThickSolid.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
@@ -98,9 +103,11 @@ TEST_P(Thin, BecomesItsMiddleSurface) {
   const ThinModel& model = GetParam();
   const MidSurface middle = middle_of(model.make());
   EXPECT_TRUE(middle.problems.empty());
+  EXPECT_TRUE(middle.warnings.empty()) << middle.warnings.front();
   EXPECT_EQ(middle.parts, 1);
   EXPECT_TRUE(middle.stray_edges.empty());
   EXPECT_NEAR(middle.shell_volume / middle.volume, 1, model.share_off);
+  EXPECT_NEAR((middle.shell_volume - middle.counted_twice) / middle.volume, 1, 0.02);
   if (model.middle_area > 0) {
     EXPECT_NEAR(area_of(middle) / model.middle_area, 1, 1e-6);
   }
@@ -552,6 +559,97 @@ TEST(MidSurface, NamesTheFreeFormWallsThatItCannotJoin) {
   EXPECT_EQ(middle.faces.size(), 5U);  // the flat sides and the lid
   ASSERT_FALSE(middle.problems.empty());
   EXPECT_NE(middle.problems[0].find("free-form walls"), std::string::npos);
+}
+
+/// A sheet of 5 mm with a pocket whose floor leans.
+TopoDS_Shape leaning_pocket() {
+  BRepBuilderAPI_MakePolygon section(gp_Pnt(20, 20, 2.6), gp_Pnt(140, 20, 3.5), gp_Pnt(140, 20, 9),
+                                     gp_Pnt(20, 20, 9), Standard_True);
+  const TopoDS_Shape pocket =
+      BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(section.Wire()).Face(), gp_Vec(0, 60, 0)).Shape();
+  return BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(160, 100, 5).Shape(), pocket).Shape();
+}
+
+/// A plate with a rib in its middle that ends free, rounded at its two long sides only.
+TopoDS_Shape rib_rounded_at_its_sides() {
+  const TopoDS_Shape sharp = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(100, 60, 3).Shape(),
+                                              BRepPrimAPI_MakeBox(gp_Pnt(30, 28.5, 0), 40, 3, 18).Shape())
+                                 .Shape();
+  BRepFilletAPI_MakeFillet fillet(sharp);
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(sharp, TopAbs_EDGE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const BRepAdaptor_Curve curve(TopoDS::Edge(edges(i)));
+    const gp_Pnt from = curve.Value(curve.FirstParameter()), to = curve.Value(curve.LastParameter());
+    const bool foot = std::abs(from.Z() - 3) + std::abs(to.Z() - 3) < 1e-6;
+    if (foot && std::abs(std::abs(from.X() - to.X()) - 40) < 1e-6) fillet.Add(1, TopoDS::Edge(edges(i)));
+  }
+  return fillet.Shape();
+}
+
+/// A plate with two ribs that cross at 20 degrees.
+TopoDS_Shape ribs_at_an_acute_angle() {
+  TopoDS_Shape result = BRepPrimAPI_MakeBox(gp_Pnt(-60, -40, 0), 120, 80, 3).Shape();
+  for (const double degrees : {-10.0, 10.0}) {
+    gp_Trsf turn;
+    turn.SetRotation(gp::OZ(), degrees * M_PI / 180);
+    const TopoDS_Shape rib = BRepPrimAPI_MakeBox(gp_Pnt(-45, -1.5, 0), 90, 3, 20).Shape();
+    result = BRepAlgoAPI_Fuse(result, BRepBuilderAPI_Transform(rib, turn).Shape()).Shape();
+  }
+  return result;
+}
+
+/// A T-beam whose web is welded to its flange. \param weld width of either weld, which is flat.
+TopoDS_Shape welded_tee(double weld) {
+  const std::vector<Corner2d> outline = {{-60, 0}, {60, 0},  {60, 10},        {3 + weld, 10},  {3, 10 + weld},
+                                         {3, 90},  {-3, 90}, {-3, 10 + weld}, {-3 - weld, 10}, {-60, 10}};
+  return profile({outline}, 200);
+}
+
+/// What is delivered as right has no free edge but at a rim.
+TEST(MidSurface, RefusesFreeEdgesThatAreNotAtARim) {
+  for (const TopoDS_Shape& solid : {leaning_pocket(), rib_rounded_at_its_sides()}) {
+    try {
+      middle_of(solid);
+      ADD_FAILURE() << "its middle surface has free edges in the material";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("end inside the material"), std::string::npos) << error.what();
+    }
+    EXPECT_FALSE(middle_of(solid, true).stray_edges.empty());
+  }
+}
+
+/// The pairs of sides that face each other across both ribs are no walls.
+TEST(MidSurface, RefusesFalseWallsBetweenRibs) {
+  EXPECT_THROW(middle_of(ribs_at_an_acute_angle()), Error);
+}
+
+TEST(MidSurface, TellsWhatIsLeftOutOfTheVolume) {
+  const MidSurface middle = middle_of(welded_tee(6));
+  EXPECT_NEAR(middle.counted_twice, 6 * 5 * 200, 1e-3);
+  ASSERT_EQ(middle.warnings.size(), 1U);
+  EXPECT_NE(middle.warnings[0].find("97.9 % of its volume; without a partner: Face"), std::string::npos)
+      << middle.warnings[0];
+  try {
+    middle_of(welded_tee(10));
+    FAIL() << "5.6 % are left out";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("94.4 % of its volume; without a partner: Face"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+/// The flange of a rolled channel is thickest at its root, where the fillet adds to it.
+TEST(MidSurface, AddsFilletsToTheThicknessWhereTheyAre) {
+  const std::vector<Corner2d> outline = {
+      {0, 0}, {75, 0}, {75, 8.5}, {8.5, 13.82, 11.5}, {8.5, 186.18, 11.5}, {75, 191.5}, {75, 200}, {0, 200}};
+  const MidSurface middle = middle_of(profile({outline}, 300));
+  EXPECT_TRUE(middle.warnings.empty()) << middle.warnings.front();
+  EXPECT_NEAR(middle.shell_volume / middle.volume, 1, 0.01);
+  double thickest = 0;
+  for (const MiddleFace& face : middle.faces) thickest = std::max(thickest, face.thickness);
+  EXPECT_NEAR(thickest, 14.6, 0.5);
 }
 
 TEST(MidSurface, NeedsASolid) {

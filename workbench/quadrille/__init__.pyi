@@ -76,6 +76,8 @@ class MidSurface:
     parts: int
     free_edges: int
     unpaired: List[int]
+    counted_twice: float
+    warnings: List[str]
     problems: List[str]
     def write(self, path: _Path) -> None: ...
 

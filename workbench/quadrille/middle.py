@@ -266,7 +266,7 @@ def _compute(part, partial: bool, join: bool) -> _Result:
             raise Error(_of_part(str(error), model, label), error.kind) from error
         middle = Part.Shape()
         middle.importBrep(surface)
-        told["problems"] = [_of_part(problem, model, label) for problem in told["problems"]]
+        told["problems"] = [_of_part(problem, model, label) for problem in told["problems"] + told["warnings"]]
         return _Result(middle, told)
 
 

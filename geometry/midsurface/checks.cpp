@@ -1,0 +1,341 @@
+/// Checks the middle surface of a solid against the solid: free edges, what is counted twice, thicknesses.
+
+#include "geometry/midsurface/checks.hpp"
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepClass3d_SolidClassifier.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <Precision.hxx>
+#include <ShapeAnalysis_Surface.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_DataMapOfShapeInteger.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "geometry/midsurface/widths.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// The distance of a point from the nearest surface of each side of a wall; skin.size() if none is near.
+std::array<double, 2> distances_to_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
+  std::array<double, 2> result{skin.size(), skin.size()};
+  for (int side = 0; side < 2; ++side) {
+    for (const int index : wall.sides[side]) {
+      const SkinFace& face = skin.faces()[index];
+      if (face.box().Distance(Bnd_Box(point, point)) > wall.thickness) continue;
+      result[side] = std::min(result[side], face.point(face.closest(point)).Distance(point));
+    }
+  }
+  return result;
+}
+
+/// Whether the point lies between the surfaces of a wall's sides, with a face of at least one side above or
+/// below it. Where another wall stands on this one, the other side is interrupted.
+bool between_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
+  const auto [first, second] = distances_to_sides(skin, wall, point);
+  if (first + second >= 1.05 * wall.thickness) return false;
+  const std::vector<int> sides = both_sides(wall);
+  return std::any_of(sides.begin(), sides.end(), [&](int index) {
+    const SkinFace& face = skin.faces()[index];
+    return face.box().Distance(Bnd_Box(point, point)) <= wall.thickness && face.foot(point);
+  });
+}
+
+/// How a point of a free edge lies in walls other than its face's own.
+struct InOthers {
+  bool within = false;      ///< inside one of them, as where a rib's rim continues to the plate's middle
+  std::set<int> halfway{};  ///< the walls on whose middle the point lies; they should share the edge
+};
+
+InOthers in_others(const Skin& skin, const std::vector<Wall>& walls, int own, const gp_Pnt& point) {
+  InOthers result;
+  for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
+    if (wall == own) continue;
+    const Wall& other = walls[wall];
+    if (!position_in(other, skin, point) && !between_sides(skin, other, point)) continue;
+    result.within = true;
+    const auto [first, second] = distances_to_sides(skin, other, point);
+    if (std::abs(first - second) < 0.02 * (first + second)) result.halfway.insert(wall);
+  }
+  return result;
+}
+
+/// Whether most of a face lies inside walls, as the riser of a step does. No free edge lies on a riser.
+bool across_a_wall(const Skin& skin, const std::vector<Wall>& walls, const SkinFace& face) {
+  double across = 0;
+  for (const FaceSample& sample : face.samples(8)) {
+    const auto holds = [&](const Wall& wall) { return position_in(wall, skin, sample.point).has_value(); };
+    if (std::any_of(walls.begin(), walls.end(), holds)) across += sample.area;
+  }
+  return across > 0.5 * face.area();
+}
+
+/// A middle face at a point of one of its edges.
+struct Fan {
+  gp_Pnt point;
+  gp_Vec along;   ///< unit tangent of the edge, in the direction of its curve
+  gp_Vec normal;  ///< unit normal of the face
+  gp_Vec away;    ///< unit vector in the face, across the edge and out of the face
+};
+
+/// \param edge oriented as in the face. \param share of the edge's parameters.
+Fan fan_at(const TopoDS_Edge& edge, const TopoDS_Face& face, double share) {
+  Fan result;
+  const BRepAdaptor_Curve curve(edge);
+  curve.D1((1 - share) * curve.FirstParameter() + share * curve.LastParameter(), result.point, result.along);
+  const BRepAdaptor_Surface surface(face, Standard_False);
+  const gp_Pnt2d uv =
+      ShapeAnalysis_Surface(surface.Surface().Surface())
+          .ValueOfUV(result.point.Transformed(surface.Trsf().Inverted()), Precision::Confusion());
+  gp_Pnt at;
+  gp_Vec du, dv;
+  surface.D1(uv.X(), uv.Y(), at, du, dv);
+  result.normal = du.Crossed(dv);
+  if (result.along.Magnitude() > Precision::Confusion()) result.along.Normalize();
+  if (result.normal.Magnitude() > gp::Resolution()) result.normal.Normalize();
+  if (face.Orientation() == TopAbs_REVERSED) result.normal.Reverse();
+  result.away = result.along.Crossed(result.normal);
+  if (edge.Orientation() == TopAbs_REVERSED) result.away.Reverse();
+  return result;
+}
+
+/// Looks whether a wall ends where its middle has a free edge.
+class RimCheck {
+ public:
+  RimCheck(const Skin& skin, const std::vector<Wall>& walls)
+      : skin_(skin), walls_(walls), classifier_(skin.solid()) {}
+
+  /// Whether the skin closes the wall `own` at a point of the skin: no material is behind the point, and it
+  /// does not lie on the side of another wall.
+  bool closes(const Fan& fan, int own) {
+    const double step = 0.02 * walls_[own].thickness;
+    classifier_.Perform(fan.point.Translated(step * fan.away), 1e-3 * step);
+    if (classifier_.State() == TopAbs_IN) return false;
+    for (int wall = 0; wall < static_cast<int>(walls_.size()); ++wall) {
+      if (wall != own && on_side(walls_[wall], fan)) return false;
+    }
+    return true;
+  }
+
+  /// Whether the edge runs through the thickness of another wall, as the rim of a rib does below the skin of
+  /// its plate, up to the plate's middle.
+  bool runs_across(const Fan& fan, int own) const {
+    for (int wall = 0; wall < static_cast<int>(walls_.size()); ++wall) {
+      if (wall == own) continue;
+      const auto [first, second] = distances_to_sides(skin_, walls_[wall], fan.point);
+      if (first + second < 1.05 * walls_[wall].thickness && steep(walls_[wall], fan)) return true;
+    }
+    return false;
+  }
+
+ private:
+  /// Whether the edge is at more than 30 degrees to the nearest side of a wall.
+  bool steep(const Wall& wall, const Fan& fan) const {
+    double nearest = skin_.size();
+    bool result = false;
+    for (const int index : both_sides(wall)) {
+      const SkinFace& face = skin_.faces()[index];
+      if (face.box().Distance(Bnd_Box(fan.point, fan.point)) > wall.thickness) continue;
+      const gp_Pnt2d uv = face.closest(fan.point);
+      const double distance = face.point(uv).Distance(fan.point);
+      const auto outward = face.outward(uv);
+      if (!outward || distance >= nearest) continue;
+      nearest = distance;
+      result = std::abs(fan.along.Dot(gp_Vec(*outward))) > 0.5;
+    }
+    return result;
+  }
+
+  /// Whether the middle leaves the material through a side of the wall.
+  bool on_side(const Wall& wall, const Fan& fan) const {
+    const auto position = position_in(wall, skin_, fan.point);
+    if (!position) return false;
+    for (int side = 0; side < 2; ++side) {
+      if (position->feet[side].Distance(fan.point) > 1e-3 * wall.thickness) continue;
+      const SkinFace& face = skin_.faces()[position->faces[side]];
+      const auto outward = face.outward(face.closest(fan.point));
+      return outward && gp_Vec(*outward).Dot(fan.away) > 0.5;
+    }
+    return false;
+  }
+
+  const Skin& skin_;
+  const std::vector<Wall>& walls_;
+  BRepClass3d_SolidClassifier classifier_;
+};
+
+}  // namespace
+
+void sort_unique(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
+                const TopTools_IndexedMapOfShape& edge_numbers, MidSurface& result) {
+  double thinnest = skin.size();
+  for (const Wall& wall : walls) thinnest = std::min(thinnest, wall.thickness);
+  const double tolerance = 1e-3 * thinnest;
+  std::set<int> accounted;
+  for (const JoinedFace& face : faces) {
+    accounted.insert(face.coverage.faces.begin(), face.coverage.faces.end());
+  }
+  TopTools_IndexedDataMapOfShapeListOfShape around;
+  TopTools_DataMapOfShapeInteger wall_of;
+  for (const JoinedFace& face : faces) {
+    TopExp::MapShapesAndAncestors(face.face, TopAbs_EDGE, TopAbs_FACE, around);
+    wall_of.Bind(face.face, face.wall);
+  }
+  RimCheck check(skin, walls);
+  for (int i = 1; i <= around.Extent(); ++i) {
+    const TopoDS_Edge& edge = TopoDS::Edge(around.FindKey(i));
+    if (around(i).Extent() > 1 || BRep_Tool::Degenerated(edge)) continue;
+    const TopoDS_Face& face = TopoDS::Face(around(i).First());
+    if (BRep_Tool::IsClosed(edge, face)) continue;  // a seam
+    ++result.free_edges;
+    std::map<int, int> halfway;  // by wall: number of points on its middle
+    std::map<int, int> rims;     // by face: number of points on it
+    int astray = 0;
+    bool stray = false;
+    for (const double share : {0.5, 0.2, 0.8}) {
+      const Fan fan = fan_at(edge, face, share);
+      const auto on = skin.faces_at(fan.point, tolerance);
+      accounted.insert(on.begin(), on.end());
+      for (const int index : on) ++rims[index];
+      const int own = wall_of.Find(face);
+      if (!on.empty()) {
+        astray += check.closes(fan, own) ? 0 : 1;
+        continue;
+      }
+      const InOthers others = in_others(skin, walls, own, fan.point);
+      stray = stray || !others.within;
+      astray += others.within && !check.runs_across(fan, own) ? 1 : 0;
+      for (const int wall : others.halfway) stray = ++halfway[wall] == 3 || stray;
+    }
+    if (stray || astray > 1) result.stray_edges.push_back(edge_numbers.FindIndex(edge));
+    MiddleRim rim{edge_numbers.FindIndex(edge), {}};
+    for (const auto& [index, points] : rims) {
+      if (points == 3) rim.solid_faces.push_back(skin.faces()[index].number());
+    }
+    sort_unique(rim.solid_faces);
+    if (!rim.solid_faces.empty()) result.rims.push_back(rim);
+  }
+  // A face that was cut where solids were joined counts as one.
+  std::set<int> numbers;
+  for (const int face : accounted) numbers.insert(skin.faces()[face].number());
+  for (const SkinFace& face : skin.faces()) {
+    // Bevels, and strips that are left where solids were joined, belong to no wall.
+    const bool narrow = width_of(face.face()) < 0.5 * thinnest;
+    if (numbers.count(face.number()) == 0 && !narrow && !across_a_wall(skin, walls, face))
+      result.unpaired.push_back(face.number());
+  }
+}
+
+namespace {
+
+/// The area of the section that two half walls, which start at one edge, have in common. Negative where the
+/// angle from one to the other is over half a turn: there the corner between them is missing.
+double common_section(double angle, double first, double second) {
+  const double sine = std::sin(angle);
+  if (std::abs(sine) < 0.15) return 0;  // they continue each other
+  return (first * second + 0.5 * (first * first + second * second) * std::cos(angle)) / sine;
+}
+
+}  // namespace
+
+double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces) {
+  struct Use {
+    const JoinedFace* face;
+    TopoDS_Edge edge;
+  };
+  TopTools_IndexedMapOfShape edges;
+  std::vector<std::vector<Use>> uses;
+  for (const JoinedFace& face : faces) {
+    if (face.step) continue;
+    for (TopExp_Explorer it(face.face, TopAbs_EDGE); it.More(); it.Next()) {
+      const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
+      if (BRep_Tool::Degenerated(edge)) continue;
+      const int index = edges.Add(edge);
+      uses.resize(edges.Extent());
+      uses[index - 1].push_back({&face, edge});
+    }
+  }
+  double result = 0;
+  for (const std::vector<Use>& around : uses) {
+    struct Half {
+      double angle, thickness;
+    };
+    std::vector<Half> halves;
+    gp_Vec zero;
+    for (const Use& use : around) {
+      const Fan fan = fan_at(use.edge, use.face->face, 0.5);
+      if (halves.empty()) zero = fan.away;
+      const Coverage& coverage = use.face->coverage;
+      const double thickness = std::clamp(thickness_round(walls[use.face->wall], skin, fan.point),
+                                          coverage.thinnest, std::max(coverage.thinnest, coverage.thickest));
+      const auto add = [&](const gp_Vec& away) {
+        if (zero.Magnitude() < 0.5 || away.Magnitude() < 0.5) return;
+        const double angle = zero.AngleWithRef(away, fan.along);
+        halves.push_back({angle < 0 ? angle + 2 * M_PI : angle, 0.5 * thickness});
+      };
+      add(fan.away);
+      if (use.edge.Orientation() == TopAbs_INTERNAL) add(fan.away.Reversed());
+    }
+    if (halves.size() < 3) continue;
+    std::sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) { return a.angle < b.angle; });
+    double section = 0;
+    for (std::size_t i = 0; i < halves.size(); ++i) {
+      const Half& next = halves[(i + 1) % halves.size()];
+      const double turn = next.angle - halves[i].angle + (i + 1 == halves.size() ? 2 * M_PI : 0);
+      section += common_section(turn, halves[i].thickness, next.thickness);
+    }
+    result += section * length_of(around.front().edge);
+  }
+  return result;
+}
+
+std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::vector<Wall>& walls,
+                                                  const std::vector<JoinedFace>& faces) {
+  constexpr double most_off = 0.05;
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (faces[i].step) continue;
+    std::vector<double> told;  // over what the rays tell
+    for (const FaceSample& sample : sample_face(faces[i].face, 16)) {
+      const BRepAdaptor_Surface surface(faces[i].face, Standard_False);
+      gp_Pnt at;
+      gp_Vec du, dv;
+      surface.D1(sample.uv.X(), sample.uv.Y(), at, du, dv);
+      const gp_Vec normal = du.Crossed(dv);
+      if (normal.Magnitude() < gp::Resolution()) continue;
+      const auto up = skin.first_hit(sample.point, gp_Dir(normal));
+      const auto down = skin.first_hit(sample.point, gp_Dir(normal.Reversed()));
+      if (!up || !down) continue;
+      const Coverage& coverage = faces[i].coverage;
+      const double here =
+          coverage.thickest > coverage.thinnest
+              ? std::clamp(thickness_round(walls[faces[i].wall], skin, sample.point) + coverage.added,
+                           coverage.thinnest, coverage.thickest)
+              : coverage.mean;
+      told.push_back(here / (up->distance + down->distance));
+    }
+    if (told.empty()) continue;
+    std::nth_element(told.begin(), told.begin() + static_cast<std::ptrdiff_t>(told.size() / 2), told.end());
+    const double median = told[told.size() / 2];
+    if (std::abs(median - 1) > most_off) result.push_back(i);
+  }
+  return result;
+}
+
+}  // namespace quadrille

@@ -1,0 +1,32 @@
+#pragma once
+/// Checks of the middle surface of a solid against the solid. Internal.
+
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <vector>
+
+#include "geometry/midsurface/joining.hpp"
+#include "geometry/midsurface/midsurface.hpp"
+#include "geometry/midsurface/skin.hpp"
+#include "geometry/midsurface/walls.hpp"
+
+namespace quadrille {
+
+/// Sorts numbers and removes those that occur twice.
+void sort_unique(std::vector<int>& numbers);
+
+/// Checks the free edges: each must lie at a rim, where the skin closes the wall across its thickness.
+/// Records the solid's faces that they lie on, and the faces that belong to no wall. \param faces of one
+/// solid. \param edge_numbers of the result.
+void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
+                const TopTools_IndexedMapOfShape& edge_numbers, MidSurface& result);
+
+/// The volume that area times thickness counts twice where more than two middle surfaces meet. Corners of two
+/// walls count once: what is counted twice on their inside is missing on their outside. Linear in the edges.
+double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces);
+
+/// Indices of the faces whose thickness differs by more than a twentieth from what rays through the solid
+/// tell on most of them.
+std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::vector<Wall>& walls,
+                                                  const std::vector<JoinedFace>& faces);
+
+}  // namespace quadrille
