@@ -95,7 +95,7 @@ std::optional<FaceGap> FaceGaps::gap_at(const Vector3& point, const Vector3& inw
       if (!(length > 0) || length >= width) continue;
       if (way.dot(inward) < facing * length || -way.dot(piece.inward) < facing * length) continue;
       width = length;
-      gap = FaceGap{point, to};
+      gap = FaceGap{point, to, std::acos(std::clamp(-piece.inward.dot(inward), -1.0, 1.0))};
     }
   }
   return gap;

@@ -16,6 +16,7 @@ namespace quadrille {
 /// Two places of a face's boundary that face each other.
 struct FaceGap {
   Vector3 from, to;
+  double angle = 0;  ///< between the two parts of the boundary, radians
   double width() const { return (to - from).norm(); }
 };
 

@@ -176,7 +176,7 @@ void SizeSources::split_interval(const SampleAt& sample, const EdgeSample& first
 void SizeSources::face(FaceId id, const Sink& sink) const {
   const CadFace& face = shape_.faces[id];
   if (unsized_.face(id) && !options_.face_sizes.contains(id.number())) return;
-  if (options_.proximity > 0) gaps(id, sink);
+  if (options_.proximity > 0 || options_.short_edges) gaps(id, sink);
   if (rays_) walls(id, sink);
   const FaceSurface surface(face);
   double cap = limits_.largest;
@@ -233,12 +233,19 @@ void SizeSources::uniform_face(FaceId id, double spacing, const PointSink& sink)
   }
 }
 
-/// Asks for options.proximity elements across each gap.
+/// Asks for options.proximity elements across each gap and, with options.short_edges, for elements along it
+/// that are at most four times as long as its two rows are wide. Not where these are below half the least
+/// size together, or in wedges, where rows end.
 void SizeSources::gaps(FaceId id, const Sink& sink) const {
-  const double n = options_.proximity;
+  constexpr double rows = 2, longest = 4, least_width = 0.5, parallel = 0.2;
+  const double n = std::max(options_.proximity, rows / longest);
   const FaceGaps gaps(shape_, id, n * limits_.largest, n * limits_.size_min);
   for (const FaceGap& gap : gaps.find(context_)) {
-    const double size = std::max(gap.width() / n, limits_.size_min);
+    double wanted = limits_.largest;
+    if (options_.proximity > 0) wanted = gap.width() / options_.proximity;
+    if (options_.short_edges && gap.angle < parallel && gap.width() >= least_width * limits_.size_min)
+      wanted = std::min(wanted, longest / rows * gap.width());
+    const double size = std::max(wanted, limits_.size_min);
     if (!(size < limits_.largest)) continue;
     const int steps = to_int(std::ceil(gap.width() / size));
     for (int k = 0; k <= steps; ++k) sink(gap.from + k * (gap.to - gap.from) / steps, size);

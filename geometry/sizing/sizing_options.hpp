@@ -86,7 +86,7 @@ struct SizingOptions {
   double size_min = 0;                ///< lower limit of sizes, unless users ask for less; 0 = size / 8
   double elements_per_circle = 12;    ///< elements per 2 pi of curvature; 0 = curvature is ignored
   ChordError chord_error;             ///< applies in addition to elements_per_circle
-  bool short_edges = true;            ///< edges below the size ask for their length
+  bool short_edges = true;            ///< edges and parts of faces that are small ask for small sizes
   double proximity = 0;               ///< elements across a gap inside a face; 0 = any number
   double proximity_walls = 0;         ///< elements through the thickness of a wall; 0 = any number
   double growth = 0.3;                ///< gradation: largest |grad size|

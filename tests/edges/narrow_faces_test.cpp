@@ -32,6 +32,7 @@ TEST(NarrowFaces, NodesFaceEachOtherAcrossAWallWithASeam) {
   const CadModel model = make_band(0.4, 0.2);
   MeshOptions options;
   options.sizing.size = 1.5;
+  options.sizing.short_edges = false;  // the band is narrower than its elements are long
   options.improve.sliding_sweeps = 0;
   ExecutionContext context(1);
   const ShellMesh mesh = quadrille::mesh(model, options, context);

@@ -122,6 +122,7 @@ TEST(SurfaceGradation, IsExactToTheVoxel) {
   const BruteForce exact(model, source);
   SizingOptions options;
   options.size = 8;
+  options.short_edges = false;
   options.gradation = Gradation::surface;
   for (const double growth : {0.15, 0.3}) {
     options.growth = growth;
