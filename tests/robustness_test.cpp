@@ -229,6 +229,40 @@ TEST(Robustness, MakesRoomInGapsBeforeMeshing) {
   }
 }
 
+/// The number of quads in the plane z = 0 that a segment along x passes.
+int quads_along_x(const ShellMesh& mesh, double from, double to, double y) {
+  std::set<std::size_t> passed;
+  constexpr int samples = 400;
+  for (int k = 1; k < samples; ++k) {
+    const Vector3 p(from + (to - from) * k / samples, y, 0);
+    for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
+      int sign = 0;
+      bool inside = true;
+      for (int side = 0; side < 4; ++side) {
+        const Vector3 &a = mesh.points[mesh.quads[i][side]], &b = mesh.points[mesh.quads[i][(side + 1) % 4]];
+        const double turn = (b - a).cross(p - a).z();
+        inside = inside && std::abs(a.z()) < 1e-6 && (sign == 0 || turn * sign > 0);
+        sign = turn > 0 ? 1 : -1;
+      }
+      if (inside) passed.insert(i);
+    }
+  }
+  return static_cast<int>(passed.size());
+}
+
+TEST(Robustness, GivesAtLeastTheElementsAskedForAcrossAGap) {
+  const double gap = 2;
+  MeshOptions options;
+  options.sizing.size = 10;
+  for (const int asked : {2, 3, 4, 5}) {
+    options.sizing.proximity = asked;
+    ExecutionContext context(1);
+    const ShellMesh mesh = quadrille::mesh(plate_with_holes(2, 1, gap), options, context);
+    EXPECT_GE(quads_along_x(mesh, 10, 10 + gap, 1e-3), asked);
+    EXPECT_LE(quads_along_x(mesh, 10, 10 + gap, 1e-3), asked + 3);
+  }
+}
+
 /// Between holes nodes face each other, and quads go from one hole to the next: at the first attempt, without
 /// finer elements, and most of them within the limits.
 TEST(Robustness, CrossesLigamentsInOneRow) {

@@ -238,14 +238,17 @@ void SizeSources::uniform_face(FaceId id, double spacing, const PointSink& sink)
 /// size together, or in wedges, where rows end.
 void SizeSources::gaps(FaceId id, const Sink& sink) const {
   constexpr double rows = 2, longest = 4, least_width = 0.5, parallel = 0.2;
-  const double n = std::max(options_.proximity, rows / longest);
+  // Rows come in pairs where quads are cut in four: a number of elements is a least one.
+  const double asked =
+      options_.proximity > rows ? rows * std::ceil(options_.proximity / rows) : options_.proximity;
+  const double least = options_.size_min > 0 ? limits_.size_min : limits_.least;
+  const double n = std::max(asked, rows / longest);
   const FaceGaps gaps(shape_, id, n * limits_.largest, n * limits_.size_min);
   for (const FaceGap& gap : gaps.find(context_)) {
-    double wanted = limits_.largest;
-    if (options_.proximity > 0) wanted = gap.width() / options_.proximity;
+    double size = limits_.largest;
+    if (asked > 0) size = std::max(gap.width() / asked, least);
     if (options_.short_edges && gap.angle < parallel && gap.width() >= least_width * limits_.size_min)
-      wanted = std::min(wanted, longest / rows * gap.width());
-    const double size = std::max(wanted, limits_.size_min);
+      size = std::min(size, std::max(longest / rows * gap.width(), limits_.size_min));
     if (!(size < limits_.largest)) continue;
     const int steps = to_int(std::ceil(gap.width() / size));
     for (int k = 0; k <= steps; ++k) sink(gap.from + k * (gap.to - gap.from) / steps, size);

@@ -315,7 +315,9 @@ Error too_many_blocks(double blocks) {
 SizeLimits size_limits(const CadModel& model, const SizingOptions& options) {
   const double size = options.size > 0 ? options.size : model.diagonal() / options.elements_per_diagonal;
   const double least = options.size_min > 0 ? std::min(options.size_min, size) : size / 8;
-  return {size, std::min(least, smallest(model, options, size)), least};
+  // A number of elements across gaps is asked for by name; the default lower limit must not undercut it.
+  const double at_gaps = options.proximity > 0 && options.size_min <= 0 ? size / 32 : least;
+  return {size, std::min({least, at_gaps, smallest(model, options, size)}), least};
 }
 
 EdgeFlags edges_below_size_min(const CadModel& model, const SizingOptions& options,
