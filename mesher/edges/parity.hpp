@@ -13,10 +13,9 @@ struct ParityEdge {
   double cost = 0;            ///< cost of changing the edge's count by one; infinite = must not change
 };
 
-/// Chooses a cheap set of edges to change by one so that every odd face becomes even (a T-join). Shortest
-/// paths ignore edges of three faces and more; if they leave a face odd, elimination over GF(2) takes over.
-/// Faces that cannot be made even are added to `left_odd`. \return 1 = change the edge's
-/// count.
+/// Chooses a cheap set of edges to change by one so that every odd face becomes even (a T-join): no edge of
+/// the set costs more than it must. Edges may have any number of faces. Faces that cannot be made even are
+/// added to `left_odd`. \return 1 = change the edge's count.
 EdgeFlags make_even(const IdVector<EdgeId, ParityEdge>& edges, FaceFlags odd, std::vector<FaceId>& left_odd);
 
 }  // namespace quadrille

@@ -13,7 +13,6 @@ using MPI_Info = void*;
 #include <string>
 
 #include "geometry/base/error.hpp"
-#include "mesher/io/hdf5_times.hpp"
 #include "mesher/io/module_export.hpp"
 #include "mesher/io/modules.hpp"
 
@@ -219,7 +218,6 @@ QUADRILLE_EXPORT std::string quadrille_med_file(const quadrille::OutputMesh& mes
   quadrille::MemoryFile file;
   quadrille::MedWriter(file.id(), mesh, name).write(description);
   bytes = file.close();
-  quadrille::clear_times(bytes);
   return {};
 } catch (const std::exception& error) {
   return error.what();

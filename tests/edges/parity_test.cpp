@@ -1,6 +1,9 @@
+/// Even sums of counts around faces.
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -43,6 +46,22 @@ TEST(MakeEven, SolvesRandomClosedAndOpenTopologies) {
       for (const FaceId face : edges[edge].faces) odd[face] ^= 1;
     }
     EXPECT_EQ(std::count(odd.begin(), odd.end(), 1), 0);
+  }
+}
+
+TEST(MakeEven, TakesCheapEdgesAndLeavesFixedOnes) {
+  constexpr double fixed = std::numeric_limits<double>::infinity();
+  for (const double dear : {10.0, fixed}) {
+    IdVector<EdgeId, ParityEdge> edges;
+    edges.push_back({{face_id(1), face_id(3)}, dear});
+    edges.push_back({{face_id(1), face_id(2)}, 1.0});
+    edges.push_back({{face_id(2), face_id(3)}, 1.0});
+    FaceFlags odd(3);
+    odd[face_id(1)] = odd[face_id(3)] = 1;
+    std::vector<FaceId> left;
+    const EdgeFlags change = make_even(edges, odd, left);
+    EXPECT_TRUE(left.empty());
+    EXPECT_EQ(std::vector<char>(change.begin(), change.end()), (std::vector<char>{0, 1, 1}));
   }
 }
 
