@@ -112,18 +112,16 @@ class BoundaryWalker {
     const Vector3& node = nodes_.points[edge.nodes[i]];
     if (surface_.is_view()) return surface_.seen_at(node);
     const Vector2 uv = parametric_point(coedge, edge.parameters[i]);
-    return edge.borrowed || i == 0 || i == edge.segments() ? near_node(coedge, edge.parameters[i], node) : uv;
-  }
-
-  /// A node that stands for features which were let go is not where the edge's own curve is.
-  Vector2 near_node(const Coedge& coedge, double t, const Vector3& node) const {
-    const Vector2 uv = parametric_point(coedge, t);
+    const CadEdge& cad = shape_.edges[coedge.edge];
+    const VertexId end = i == 0 ? cad.first_vertex : i == edge.segments() ? cad.last_vertex : VertexId();
+    if (!edge.borrowed && !end.exists()) return uv;
+    // A node that stands for features which were let go is not where the edge's own curve is.
     constexpr double tolerances = 10, closer = 0.5;
-    const CadEdge& edge = shape_.edges[coedge.edge];
-    const double away = (EdgeCurve(edge).point(t) - node).norm();
-    if (!(away > tolerances * std::max(face_.tolerance, edge.tolerance))) return uv;
-    const double distance = (surface_.point(uv) - node).norm();
+    double tolerance = tolerances * std::max(face_.tolerance, cad.tolerance);
+    if (end.exists()) tolerance = std::max(tolerance, 2 * shape_.vertex_tolerances[end]);
+    if (!((EdgeCurve(cad).point(edge.parameters[i]) - node).norm() > tolerance)) return uv;
     Vector2 moved = uv;
+    const double distance = (surface_.point(uv) - node).norm();
     return (surface_.project(moved, node).point - node).norm() < closer * distance ? moved : uv;
   }
 
