@@ -64,6 +64,8 @@ struct MidSurface {
   int parts = 0;                    ///< number of connected parts of the middle surface
   int free_edges = 0;               ///< number of edges that bound one face only
   std::vector<int> stray_edges{};   ///< numbers of the free edges that end inside the material
+  /// For each of stray_edges, the numbers of the one or two faces of the solid that are nearest to it.
+  std::vector<std::vector<int>> stray_faces{};
   /// Numbers of the solid's faces that are neither a side nor a rim of a wall nor the riser of a step, and
   /// that are not narrower than half the thickness of the thinnest wall.
   std::vector<int> unpaired{};
