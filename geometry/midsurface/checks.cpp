@@ -279,7 +279,8 @@ double common_section(double angle, double first, double second) {
 
 }  // namespace
 
-double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces) {
+double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
+                     FilletVolumes fillets) {
   struct Use {
     const JoinedFace* face;
     TopoDS_Edge edge;
@@ -296,19 +297,22 @@ double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std
       uses[index - 1].push_back({&face, edge});
     }
   }
-  double result = 0;
+  FilletVolumes twice;  // by the walls that meet
   for (const std::vector<Use>& around : uses) {
     struct Half {
       double angle, thickness;
     };
+    std::set<int> meeting;
     std::vector<Half> halves;
     gp_Vec zero;
     for (const Use& use : around) {
       const Fan fan = fan_at(use.edge, use.face->face, 0.5);
       if (halves.empty()) zero = fan.away;
       const Coverage& coverage = use.face->coverage;
-      const double thickness = std::clamp(thickness_round(walls[use.face->wall], skin, fan.point),
-                                          coverage.thinnest, std::max(coverage.thinnest, coverage.thickest));
+      const double thinnest = coverage.thinnest - coverage.added;
+      const double thickness = std::clamp(thickness_round(walls[use.face->wall], skin, fan.point), thinnest,
+                                          std::max(thinnest, coverage.thickest - coverage.added));
+      meeting.insert(use.face->wall);
       const auto add = [&](const gp_Vec& away) {
         if (zero.Magnitude() < 0.5 || away.Magnitude() < 0.5) return;
         const double angle = zero.AngleWithRef(away, fan.along);
@@ -325,7 +329,17 @@ double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std
       const double turn = next.angle - halves[i].angle + (i + 1 == halves.size() ? 2 * M_PI : 0);
       section += common_section(turn, halves[i].thickness, next.thickness);
     }
-    result += section * length_of(around.front().edge);
+    twice[meeting] += section * length_of(around.front().edge);
+  }
+  double result = 0;
+  for (auto& [meeting, volume] : twice) {
+    for (auto& [corner, held] : fillets) {
+      if (!std::includes(meeting.begin(), meeting.end(), corner.begin(), corner.end())) continue;
+      const double made_up = std::clamp(volume, 0.0, held);
+      volume -= made_up;
+      held -= made_up;
+    }
+    result += volume;
   }
   return result;
 }

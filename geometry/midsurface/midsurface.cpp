@@ -48,6 +48,7 @@ namespace {
 struct SolidMiddle {
   std::vector<JoinedFace> faces;
   std::vector<Wall> walls;
+  FilletVolumes fillets;  ///< what no thickness contains
   double volume = 0;
   std::vector<std::string> problems;  ///< what was left out or is imprecise, and why
 };
@@ -245,7 +246,7 @@ SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const Mid
   }
   told(0.9);
   result.faces = join_walls(skin, result.walls, ends, pieces, options.tolerance);
-  add_fillets(skin, result.walls, result.volume, result.faces);
+  result.fillets = add_fillets(skin, result.walls, result.volume, result.faces);
   drop_thick(skin, name, ends, options, result);
   check_fits(skin, name, options, result);
   return result;
@@ -374,7 +375,7 @@ void describe_faces(const std::vector<SolidMiddle>& middles, const std::deque<Sk
     result.volume += middle.volume;
     const auto number = [&](std::size_t i) { return numbers.FindIndex(middle.faces[i].face); };
     check_rims(skins[solid], middle.walls, middle.faces, edge_numbers, result);
-    result.counted_twice += counted_twice(skins[solid], middle.walls, middle.faces);
+    result.counted_twice += counted_twice(skins[solid], middle.walls, middle.faces, middle.fillets);
     for (const std::size_t i : faces_of_wrong_thickness(skins[solid], middle.walls, middle.faces))
       result.uneven.push_back(number(i));
   }
