@@ -409,7 +409,7 @@ void bind_midsurface(py::module_& module) {
       .def_readonly("free_edges", &MidSurface::free_edges, "Edges of one face only.")
       .def_readonly("unpaired", &MidSurface::unpaired, "Solid faces that are neither side nor rim of a wall.")
       .def_readonly("counted_twice", &MidSurface::counted_twice,
-                    "What of shell_volume is counted twice where walls meet, in mm^3.")
+                    "What of shell_volume is counted twice where walls meet, fillets there aside, in mm^3.")
       .def_readonly("warnings", &MidSurface::warnings, "What is imprecise, but no error.")
       .def_readonly("problems", &MidSurface::problems, "With partial: what would have been an error.")
       .def("write", &write_midsurface, py::arg("path"), py::call_guard<py::gil_scoped_release>(),

@@ -4,7 +4,9 @@
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepClass3d_SolidClassifier.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Precision.hxx>
@@ -107,6 +109,26 @@ Fan fan_at(const TopoDS_Edge& edge, const TopoDS_Face& face, double share) {
   if (face.Orientation() == TopAbs_REVERSED) result.normal.Reverse();
   result.away = result.along.Crossed(result.normal);
   if (edge.Orientation() == TopAbs_REVERSED) result.away.Reverse();
+  return result;
+}
+
+/// The numbers of the two faces of the solid that are nearest to a point, ascending; one where both are parts
+/// of the same face. Linear in the faces, for points that a check has found wrong.
+std::vector<int> nearest_faces(const Skin& skin, const gp_Pnt& point) {
+  const TopoDS_Shape vertex = BRepBuilderAPI_MakeVertex(point).Vertex();
+  std::map<int, double> distances;  // by number: a face that was cut counts as one
+  for (const SkinFace& face : skin.faces()) {
+    const BRepExtrema_DistShapeShape distance(face.face(), vertex);
+    if (!distance.IsDone() || distance.NbSolution() == 0) continue;
+    double& least = distances.try_emplace(face.number(), skin.size()).first->second;
+    least = std::min(least, distance.Value());
+  }
+  std::vector<std::pair<double, int>> order;
+  for (const auto& [number, distance] : distances) order.emplace_back(distance, number);
+  std::sort(order.begin(), order.end());
+  std::vector<int> result;
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, order.size()); ++i) result.push_back(order[i].second);
+  std::sort(result.begin(), result.end());
   return result;
 }
 
@@ -223,7 +245,10 @@ void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vec
       astray += others.within && !check.runs_across(fan, own) ? 1 : 0;
       for (const int wall : others.halfway) stray = ++halfway[wall] == 3 || stray;
     }
-    if (stray || astray > 1) result.stray_edges.push_back(edge_numbers.FindIndex(edge));
+    if (stray || astray > 1) {
+      result.stray_edges.push_back(edge_numbers.FindIndex(edge));
+      result.stray_faces.push_back(nearest_faces(skin, fan_at(edge, face, 0.5).point));
+    }
     MiddleRim rim{edge_numbers.FindIndex(edge), {}};
     for (const auto& [index, points] : rims) {
       if (points == 3) rim.solid_faces.push_back(skin.faces()[index].number());
@@ -254,7 +279,8 @@ double common_section(double angle, double first, double second) {
 
 }  // namespace
 
-double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces) {
+double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
+                     FilletVolumes fillets) {
   struct Use {
     const JoinedFace* face;
     TopoDS_Edge edge;
@@ -271,19 +297,22 @@ double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std
       uses[index - 1].push_back({&face, edge});
     }
   }
-  double result = 0;
+  FilletVolumes twice;  // by the walls that meet
   for (const std::vector<Use>& around : uses) {
     struct Half {
       double angle, thickness;
     };
+    std::set<int> meeting;
     std::vector<Half> halves;
     gp_Vec zero;
     for (const Use& use : around) {
       const Fan fan = fan_at(use.edge, use.face->face, 0.5);
       if (halves.empty()) zero = fan.away;
       const Coverage& coverage = use.face->coverage;
-      const double thickness = std::clamp(thickness_round(walls[use.face->wall], skin, fan.point),
-                                          coverage.thinnest, std::max(coverage.thinnest, coverage.thickest));
+      const double thinnest = coverage.thinnest - coverage.added;
+      const double thickness = std::clamp(thickness_round(walls[use.face->wall], skin, fan.point), thinnest,
+                                          std::max(thinnest, coverage.thickest - coverage.added));
+      meeting.insert(use.face->wall);
       const auto add = [&](const gp_Vec& away) {
         if (zero.Magnitude() < 0.5 || away.Magnitude() < 0.5) return;
         const double angle = zero.AngleWithRef(away, fan.along);
@@ -300,7 +329,17 @@ double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std
       const double turn = next.angle - halves[i].angle + (i + 1 == halves.size() ? 2 * M_PI : 0);
       section += common_section(turn, halves[i].thickness, next.thickness);
     }
-    result += section * length_of(around.front().edge);
+    twice[meeting] += section * length_of(around.front().edge);
+  }
+  double result = 0;
+  for (auto& [meeting, volume] : twice) {
+    for (auto& [corner, held] : fillets) {
+      if (!std::includes(meeting.begin(), meeting.end(), corner.begin(), corner.end())) continue;
+      const double made_up = std::clamp(volume, 0.0, held);
+      volume -= made_up;
+      held -= made_up;
+    }
+    result += volume;
   }
   return result;
 }

@@ -8,8 +8,11 @@
 #include <TopoDS.hxx>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
 
+#include "geometry/midsurface/checks.hpp"
 #include "geometry/midsurface/joining.hpp"
 #include "geometry/midsurface/widths.hpp"
 
@@ -17,17 +20,43 @@ namespace quadrille {
 
 namespace {
 
-/// The volume that a fillet adds to the corner between its walls. Its section is taken as an arc.
-double volume_of(const SkinFace& fillet, const std::vector<FilletBorder>& borders) {
-  double turn = 0, length = 0;
+/// The volume that a fillet adds to the corner between its walls; 0 if it is none. Its section is taken as an
+/// arc, which is a line if the fillet turns nowhere but at its borders: the triangle between its chord and
+/// the corner, without what lies between chord and arc.
+double volume_of(const SkinFace& fillet, const std::vector<Wall>& walls,
+                 const std::vector<FilletBorder>& borders) {
+  const FilletBorder& first = borders.front();
+  const FilletBorder* second = &first;
+  double turn = 0, length = 0, thickness = 0;
   for (const FilletBorder& border : borders) {
-    turn = std::max(turn, border.outward.Angle(borders.front().outward));
+    if (border.outward.Angle(first.outward) > turn) second = &border;
+    turn = std::max(turn, border.outward.Angle(first.outward));
     length += border.length / static_cast<double>(borders.size());
+    thickness = std::max(thickness, walls[border.wall].thickness);
   }
   constexpr double least = 0.1, most = 3;  // radians; outside of this range it is not a corner
   if (turn < least || turn > most) return 0;
-  const double width = fillet.area() / length, radius = width / turn;
-  return radius * radius * (std::tan(0.5 * turn) - 0.5 * turn) * length;
+  const double width = fillet.area() / length, arc = turn - first.turn - second->turn;
+  double chord = width, segment = 0;
+  if (std::abs(arc) > 1e-3) {
+    const double radius = width / arc;
+    chord = 2 * radius * std::sin(0.5 * arc);
+    segment = 0.5 * radius * radius * (arc - std::sin(arc));
+  }
+  const double a = std::sin(first.turn + 0.5 * arc), b = std::sin(second->turn + 0.5 * arc);
+  if (a <= 0 || b <= 0) return 0;
+  // The end of a gusset is no fillet, nor is the inclined side of a block.
+  constexpr double longest_leg = 4;  // over the thickness
+  const bool strip = first.turn == 0 ||
+                     (width < length && chord * std::max(a, b) < longest_leg * thickness * std::sin(turn));
+  return strip ? std::max(0.0, 0.5 * chord * chord * a * b / std::sin(turn) - segment) * length : 0;
+}
+
+/// The walls of a fillet's corner.
+std::set<int> walls_of(const std::vector<FilletBorder>& borders) {
+  std::set<int> result;
+  for (const FilletBorder& border : borders) result.insert(border.wall);
+  return result;
 }
 
 double shell_volume(const std::vector<JoinedFace>& faces) {
@@ -103,15 +132,24 @@ void thicken(const std::vector<std::size_t>& strips, double volume, int fillet,
 
 }  // namespace
 
-void add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
-                 std::vector<JoinedFace>& faces) {
+FilletVolumes add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
+                          std::vector<JoinedFace>& faces) {
   constexpr double worth_it = 0.01;
-  const double missing = volume - shell_volume(faces);
-  if (missing < worth_it * volume) return;
-  const std::map<int, std::vector<FilletBorder>> fillets = find_fillet_borders(skin, walls);
+  std::map<int, std::vector<FilletBorder>> fillets = find_fillet_borders(skin, walls);
+  FilletVolumes beside;
   double held = 0;
-  for (const auto& [fillet, borders] : fillets) held += volume_of(skin.faces()[fillet], borders);
-  if (held < 0.5 * worth_it * volume) return;
+  for (auto it = fillets.begin(); it != fillets.end();) {
+    const double each = volume_of(skin.faces()[it->first], walls, it->second);
+    if (each > 0) {
+      beside[walls_of(it->second)] += each;
+      held += each;
+    }
+    it = each > 0 ? std::next(it) : fillets.erase(it);
+  }
+  const auto missing = [&](const std::vector<JoinedFace>& from) {
+    return volume - shell_volume(from) + counted_twice(skin, walls, from, beside);
+  };
+  if (held < 0.5 * worth_it * volume || missing(faces) < worth_it * volume) return beside;
   BOPAlgo_Builder fuse;
   fuse.SetNonDestructive(Standard_True);
   fuse.SetUseOBB(Standard_True);
@@ -120,20 +158,27 @@ void add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume
     for (const FilletBorder& border : borders) fuse.AddArgument(border.fence);
   }
   fuse.Perform();
-  if (fuse.HasErrors()) return;  // the faces stay as they are
+  if (fuse.HasErrors()) return beside;  // the faces stay as they are
   std::vector<char> strips;
   std::vector<JoinedFace> cut = cut_faces(fuse, skin, walls, faces, strips);
   // Of a wall that tapers, the strips alone may hold more or less than they did as parts of it.
-  const double share = std::clamp((volume - shell_volume(cut)) / held, 0.0, 1.0);
+  const double share = std::clamp(missing(cut) / held, 0.0, 1.0);
   for (const auto& [fillet, borders] : fillets) {
-    const double each =
-        share * volume_of(skin.faces()[fillet], borders) / static_cast<double>(borders.size());
-    for (const FilletBorder& border : borders)
-      thicken(strips_at(fuse, border, cut, strips), each, fillet, cut);
+    // A border that ends inside a wall cuts nothing off, and has no strips.
+    std::vector<std::vector<std::size_t>> places;
+    for (const FilletBorder& border : borders) {
+      std::vector<std::size_t> place = strips_at(fuse, border, cut, strips);
+      if (!place.empty()) places.push_back(std::move(place));
+    }
+    if (places.empty()) continue;
+    const double added = share * volume_of(skin.faces()[fillet], walls, borders);
+    for (const auto& place : places) thicken(place, added / static_cast<double>(places.size()), fillet, cut);
+    beside[walls_of(borders)] -= added;
   }
   drop_traces(cut);
   orient_alike(cut);
   faces = std::move(cut);
+  return beside;
 }
 
 }  // namespace quadrille

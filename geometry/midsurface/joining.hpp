@@ -4,6 +4,8 @@
 #include <BOPAlgo_Builder.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS_Face.hxx>
+#include <map>
+#include <set>
 #include <vector>
 
 #include "geometry/midsurface/wall_pieces.hpp"
@@ -35,11 +37,16 @@ void drop_traces(std::vector<JoinedFace>& faces);
 /// Reverses faces so that the two faces of an edge show the same side, as far as that is possible.
 void orient_alike(std::vector<JoinedFace>& faces);
 
+/// The volume of fillets by the walls, as indices, of their corners.
+using FilletVolumes = std::map<std::set<int>, double>;
+
 /// Adds the material of fillets in corners, as thickness, to the strips of the walls between the fillet and
 /// the corner. The faces are cut where the fillets begin. Does nothing unless the middle surfaces lack more
-/// than a hundredth of the volume and the fillets hold at least half of that. \param volume of the solid.
-void add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
-                 std::vector<JoinedFace>& faces);
+/// than a hundredth of the volume and the fillets hold at least half of that. What is counted twice where
+/// walls meet makes up for the fillets there, and for nothing else. \param volume of the solid. \return the
+/// material of fillets that no thickness contains.
+FilletVolumes add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
+                          std::vector<JoinedFace>& faces);
 
 /// For each face, the number of the connected part that it belongs to, from 0.
 std::vector<int> connected_parts(const std::vector<JoinedFace>& faces);

@@ -23,6 +23,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -47,6 +48,7 @@ namespace {
 struct SolidMiddle {
   std::vector<JoinedFace> faces;
   std::vector<Wall> walls;
+  FilletVolumes fillets;  ///< what no thickness contains
   double volume = 0;
   std::vector<std::string> problems;  ///< what was left out or is imprecise, and why
 };
@@ -124,10 +126,10 @@ std::vector<char> find_thick(const SolidMiddle& middle, const std::vector<WallEn
   return result;
 }
 
-/// Adds a problem with options.partial; otherwise throws it as an error.
+/// Adds a problem with options.partial; otherwise throws it as an error. \param given what the option gives.
 void tell(const std::string& problem, const std::string& name, const MidSurfaceOptions& options,
-          std::vector<std::string>& problems) {
-  if (!options.partial) throw failure(name, problem + "; `partial` gives what could be paired");
+          std::vector<std::string>& problems, std::string_view given = "what could be paired") {
+  if (!options.partial) throw failure(name, fmt::format("{}; `partial` gives {}", problem, given));
   problems.push_back(problem);
 }
 
@@ -244,7 +246,7 @@ SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const Mid
   }
   told(0.9);
   result.faces = join_walls(skin, result.walls, ends, pieces, options.tolerance);
-  add_fillets(skin, result.walls, result.volume, result.faces);
+  result.fillets = add_fillets(skin, result.walls, result.volume, result.faces);
   drop_thick(skin, name, ends, options, result);
   check_fits(skin, name, options, result);
   return result;
@@ -304,6 +306,30 @@ void check_volume(const std::string& name, MidSurface& result, std::vector<std::
     result.warnings.push_back(volume_sentence(result, name, once));
 }
 
+/// Where free edges end inside the material, by faces of the solid, and what to do about it.
+std::string stray_sentence(const MidSurface& result, const std::string& name) {
+  constexpr std::size_t most = 4;
+  std::vector<std::string> places;
+  for (const std::vector<int>& faces : result.stray_faces) {
+    std::vector<std::string> names;
+    for (const int face : faces) names.push_back(fmt::format("Face{}", face));
+    const std::string place =
+        (names.size() > 1 ? "between " : "at ") + fmt::format("{}", fmt::join(names, " and "));
+    if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
+  }
+  const std::size_t more = places.size() - std::min(most, places.size());
+  places.resize(places.size() - more);
+  if (more > 0) places.push_back(fmt::format("and in {} more place{}", more, more == 1 ? "" : "s"));
+  const bool one = result.stray_edges.size() == 1;
+  return fmt::format(
+      "{}: {} of the middle surface {} inside the material {} (faces of the solid): the walls there are not "
+      "joined, "
+      "or one is continued too far; let them meet at a plain corner or step, without the fillet or slope "
+      "between them",
+      name, one ? "a free edge" : fmt::format("{} free edges", result.stray_edges.size()),
+      one ? "ends" : "end", fmt::join(places, ", "));
+}
+
 /// One sentence for each check that failed.
 std::vector<std::string> find_problems(MidSurface& result, const std::string& name) {
   std::vector<std::string> problems;
@@ -314,10 +340,7 @@ std::vector<std::string> find_problems(MidSurface& result, const std::string& na
                     result.parts, result.solids, result.solids == 1 ? "" : "s"));
   }
   if (!result.stray_edges.empty()) {
-    problems.push_back(
-        fmt::format("{}: {} edges of the middle surface end inside the material, the first of them Edge{} of "
-                    "the result",
-                    name, result.stray_edges.size(), result.stray_edges.front()));
+    problems.push_back(stray_sentence(result, name));
   }
   return problems;
 }
@@ -352,7 +375,7 @@ void describe_faces(const std::vector<SolidMiddle>& middles, const std::deque<Sk
     result.volume += middle.volume;
     const auto number = [&](std::size_t i) { return numbers.FindIndex(middle.faces[i].face); };
     check_rims(skins[solid], middle.walls, middle.faces, edge_numbers, result);
-    result.counted_twice += counted_twice(skins[solid], middle.walls, middle.faces);
+    result.counted_twice += counted_twice(skins[solid], middle.walls, middle.faces, middle.fillets);
     for (const std::size_t i : faces_of_wrong_thickness(skins[solid], middle.walls, middle.faces))
       result.uneven.push_back(number(i));
   }
@@ -435,7 +458,7 @@ MidSurface make(const CadModel& model, const MidSurfaceOptions& options, Executi
   for (const SolidMiddle& middle : middles)
     result.problems.insert(result.problems.end(), middle.problems.begin(), middle.problems.end());
   for (const std::string& problem : find_problems(result, name))
-    tell(problem, name, options, result.problems);
+    tell(problem, name, options, result.problems, "it all the same");
   return result;
 }
 

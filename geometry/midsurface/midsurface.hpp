@@ -59,11 +59,14 @@ struct MidSurface {
   std::vector<MiddleRim> rims{};    ///< the free edges that lie on the skin, ascending
   double volume = 0;                ///< volume of the solids
   double shell_volume = 0;          ///< sum of area times mean thickness, without steps
-  double counted_twice = 0;         ///< what of shell_volume is counted twice where walls meet
-  int solids = 0;                   ///< number of solids; with options.join, after joining
-  int parts = 0;                    ///< number of connected parts of the middle surface
-  int free_edges = 0;               ///< number of edges that bound one face only
-  std::vector<int> stray_edges{};   ///< numbers of the free edges that end inside the material
+  /// What of shell_volume is counted twice where walls meet, and makes up for no fillet there.
+  double counted_twice = 0;
+  int solids = 0;                  ///< number of solids; with options.join, after joining
+  int parts = 0;                   ///< number of connected parts of the middle surface
+  int free_edges = 0;              ///< number of edges that bound one face only
+  std::vector<int> stray_edges{};  ///< numbers of the free edges that end inside the material
+  /// For each of stray_edges, the numbers of the one or two faces of the solid that are nearest to it.
+  std::vector<std::vector<int>> stray_faces{};
   /// Numbers of the solid's faces that are neither a side nor a rim of a wall nor the riser of a step, and
   /// that are not narrower than half the thickness of the thinnest wall.
   std::vector<int> unpaired{};

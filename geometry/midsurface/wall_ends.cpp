@@ -590,15 +590,20 @@ std::vector<int> walls_of_faces(const Skin& skin, const std::vector<Wall>& walls
   return result;
 }
 
-/// Whether `beside` continues tangent to `face` at the edge and bends away from the material.
-bool is_hollow_fillet(const FaceEdge& edge, const SkinFace& face, const SkinFace& beside) {
+/// The angle between the normals of `face` and `beside` at the edge, if `beside` rises from the face away
+/// from the material: tangent to it (0) or at an obtuse angle.
+std::optional<double> turn_of_fillet(const FaceEdge& edge, const SkinFace& face, const SkinFace& beside) {
+  constexpr double tangent = 5 * M_PI / 180, most = 85 * M_PI / 180;
   const gp_Pnt at = edge.curve().Value(0.5 * (edge.first() + edge.last()));
   const auto own = face.outward(face.closest(at)), other = beside.outward(beside.closest(at));
-  if (!own || !other || own->Dot(*other) < std::cos(5 * M_PI / 180)) return false;
+  if (!own || !other) return std::nullopt;
+  const double turn = own->Angle(*other);
+  if (turn > most || (turn > tangent && !edge.in_corner())) return std::nullopt;
   double above = 0;
   for (const FaceSample& sample : beside.samples(8))
     above += sample.area * gp_Vec(at, sample.point).Dot(gp_Vec(*own));
-  return above > 0;
+  if (above <= 0) return std::nullopt;
+  return turn > tangent ? turn : 0;
 }
 
 }  // namespace
@@ -622,13 +627,14 @@ std::map<int, std::vector<FilletBorder>> find_fillet_borders(const Skin& skin,
       for (const TopoDS_Shape& next : neighbors.FindFromKey(border)) {
         const int fillet = skin.index_of(TopoDS::Face(next));
         const SkinFace& beside = skin.faces()[fillet];
+        if (wall_of[fillet] >= 0 || BRep_Tool::Degenerated(border)) continue;
         const FaceEdge edge(face, beside, border);
-        if (wall_of[fillet] >= 0 || BRep_Tool::Degenerated(border) || !is_hollow_fillet(edge, face, beside))
-          continue;
+        const auto turn = turn_of_fillet(edge, face, beside);
+        if (!turn) continue;
         const double t = walls[wall].thickness;
         const TopoDS_Face fence = face_between(moved(edge, 0.3 * t, 0), moved(edge, 0.7 * t, 0));
         const gp_Dir outward = edge.outward(0.5 * (edge.first() + edge.last()));
-        result[fillet].push_back({wall, fence, outward, length_of(border)});
+        result[fillet].push_back({wall, fence, outward, *turn, length_of(border)});
       }
     }
   }

@@ -48,11 +48,13 @@ std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& w
 std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& walls,
                                    const std::vector<int>& surfaces);
 
-/// The border between a wall's side and a fillet.
+/// The border between a wall's side and a fillet: a strip that fills a corner between walls. It may be round
+/// and tangent to the walls, or flat or slightly curved and at an obtuse angle to them, as a weld is.
 struct FilletBorder {
   int wall = 0;       ///< index of the wall
   TopoDS_Face fence;  ///< a small face across the wall at the border
   gp_Dir outward;     ///< outward normal half way along the border
+  double turn = 0;  ///< angle there between the normals of the wall and of the fillet; 0 if they are tangent
   double length = 0;  ///< length of the border
 };
 

@@ -12,8 +12,10 @@
 #include "geometry/surfaces/contacts.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/limits_option.hpp"
+#include "mesher/command/middle_table.hpp"
 #include "mesher/command/print_quality.hpp"
 #include "mesher/command/setting_options.hpp"
+#include "mesher/io/midsurface_writer.hpp"
 #include "mesher/io/report.hpp"
 #include "mesher/mesh/coincidences.hpp"
 #include "mesher/quadrille.hpp"
@@ -123,10 +125,21 @@ nlohmann::json imprinted_to_json(const std::vector<std::vector<int>>& pieces) {
   return result;
 }
 
-/// Writes the report, the warnings to stderr and the table to stdout, as far as they are wanted.
-void tell_quality(const ShellMesh& result, const Measured& measured, std::vector<std::string> warnings,
-                  const std::optional<SizeFidelity>& sizes, const std::vector<std::vector<int>>& pieces,
+/// What was meshed, and what is known of it.
+struct Meshed {
+  const CadModel& model;
+  const std::optional<MidSurface>& middle;  ///< with --thin
+  const std::optional<SizeFidelity>& sizes;
+};
+
+/// Writes the report, the warnings to stderr and the tables to stdout, as far as they are wanted.
+void tell_quality(const ShellMesh& result, const Measured& measured, const Meshed& meshed,
                   const MeshArguments& arguments, ExecutionContext& context) {
+  std::vector<std::string> warnings = meshed.model.problems();
+  if (meshed.middle) {
+    for (const auto& told : {meshed.middle->problems, meshed.middle->warnings})
+      warnings.insert(warnings.end(), told.begin(), told.end());
+  }
   warn_off_geometry(result, warnings);
   if (!result.symmetry.note.empty()) warnings.push_back("symmetry: " + result.symmetry.note);
   warnings.insert(warnings.end(), measured.area_differences.begin(), measured.area_differences.end());
@@ -134,13 +147,15 @@ void tell_quality(const ShellMesh& result, const Measured& measured, std::vector
     if (!sentence.empty()) warnings.push_back(with_options(sentence));
   if (!arguments.report.empty()) {
     nlohmann::json report = make_report(result, measured.elements, context, arguments.input, warnings);
-    if (sizes) report["sizes"] = sizes->json();
+    if (meshed.sizes) report["sizes"] = meshed.sizes->json();
+    if (meshed.middle) report["middle_surface"] = midsurface_json(*meshed.middle);
     report["coincident"] = coincident_to_json(measured);
-    if (!pieces.empty()) report["imprinted"] = imprinted_to_json(pieces);
+    if (!meshed.model.pieces().empty()) report["imprinted"] = imprinted_to_json(meshed.model.pieces());
     write_report(report, arguments.report);
   }
   if (arguments.quiet) return;
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+  if (meshed.middle) print(middle_table(*meshed.middle));
   print(quality_table(measured.elements.quality));
   if (!result.symmetry.planes.empty())
     print(fmt::format("symmetric in {}\n", fmt::join(result.symmetry.planes, ", ")));
@@ -185,14 +200,7 @@ void run(const MeshArguments& arguments) {
   write_outputs(result, {arguments.input, arguments.outputs, arguments.picture}, arguments.settings, context,
                 cancel);
   list_left_out(result);
-  if (measured.valid()) {
-    std::vector<std::string> warnings = model.problems();
-    if (middle) {
-      warnings.insert(warnings.end(), middle->problems.begin(), middle->problems.end());
-      warnings.insert(warnings.end(), middle->warnings.begin(), middle->warnings.end());
-    }
-    tell_quality(result, measured.get(), std::move(warnings), sizes, model.pieces(), arguments, context);
-  }
+  if (measured.valid()) tell_quality(result, measured.get(), {model, middle, sizes}, arguments, context);
   // Last, so that a failing mesh has been written and can be inspected.
   if (arguments.limits.given())
     arguments.limits.hold(arguments.outputs.front(), check_criteria(result, limits));

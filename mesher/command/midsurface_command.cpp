@@ -3,46 +3,20 @@
 #include <fmt/format.h>
 
 #include "mesher/command/command.hpp"
+#include "mesher/command/middle_table.hpp"
+#include "mesher/command/setting_options.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille::command {
 
 namespace {
 
-struct Arguments {
+struct Arguments : GivenSettings {
   std::filesystem::path input;
   std::vector<std::filesystem::path> outputs;
   MidSurfaceOptions options;
   bool quiet = false, end_with_input = false;
 };
-
-std::string describe(const MidSurface& middle) {
-  std::string text = fmt::format("{:<8} {:>12} {:>20}  {}\n", "face", "area", "thickness", "between");
-  for (std::size_t i = 0; i < middle.faces.size(); ++i) {
-    const MiddleFace& face = middle.faces[i];
-    std::string thickness = fmt::format("{:.6g}", face.thickness);
-    if (varies(face))
-      thickness = fmt::format("{:.4g}..{:.4g} ({:.4g})", face.thinnest, face.thickest, face.thickness);
-    text += fmt::format("Face{:<4} {:>12.6g} {:>20} ", i + 1, face.area, thickness);
-    if (face.step) text += " a step between";
-    for (const int number : face.solid_faces) text += fmt::format(" Face{}", number);
-    if (face.fitted) text += fmt::format(", fitted within {:.2g}", face.off);
-    text += "\n";
-  }
-  text += fmt::format(
-      "area x thickness {:.6g} mm3, {:.2f} % of the volume ({:.2f} % without what counts twice where walls "
-      "meet); {} part(s) of {} solid(s), "
-      "{} free edges\n",
-      middle.shell_volume, 100 * middle.shell_volume / middle.volume,
-      100 * (middle.shell_volume - middle.counted_twice) / middle.volume, middle.parts, middle.solids,
-      middle.free_edges);
-  if (!middle.unpaired.empty()) {
-    text += "neither side nor rim of a wall:";
-    for (const int number : middle.unpaired) text += fmt::format(" Face{}", number);
-    text += "\n";
-  }
-  return text;
-}
 
 void run(const Arguments& arguments) {
   require_readable(arguments.input);
@@ -60,16 +34,21 @@ void run(const Arguments& arguments) {
       1, [&](std::string_view stage, double fraction) { return display.show(stage, fraction); });
   report_crashes(arguments.input, "reading");
   context.expect({Stage::read, Stage::midsurface});
-  const CancelOnSignal cancel(context);
+  CancelOnSignal cancel(context, arguments.settings.time_limit);
   if (arguments.end_with_input) end_with_input();
+  cancel.reading(arguments.input, arguments.settings.read_time_limit);
   const CadModel model = CadModel::read(arguments.input);
+  cancel.reading_is_done();
   report_crashes(arguments.input, "finding the middle surface of");
   const MidSurface middle = midsurface(model, arguments.options, context);
   context.check();
-  for (const std::filesystem::path& output : arguments.outputs) write_midsurface(middle, output);
+  for (const std::filesystem::path& output : arguments.outputs) {
+    write_midsurface(middle, output);
+    cancel.wrote(output);
+  }
   for (const std::string& warning : middle.warnings) fmt::print(stderr, "quadrille: {}\n", warning);
   for (const std::string& problem : middle.problems) fmt::print(stderr, "quadrille: {}\n", problem);
-  if (!arguments.quiet) print(describe(middle));
+  if (!arguments.quiet) print(middle_table(middle));
 }
 
 }  // namespace
@@ -89,6 +68,7 @@ void add_midsurface_command(CLI::App& app) {
   command->add_flag("--partial", arguments->options.partial,
                     "write what could be paired where the solid is thin in places only");
   command->add_flag("--join", arguments->options.join, "take solids that touch for one part, as if welded");
+  add_settings(*command, *arguments, {"read_time_limit", "time_limit"});
   command->add_flag("--end-with-input", arguments->end_with_input,
                     "end the work when standard input closes, for programs that start this one");
   command->add_flag("--quiet", arguments->quiet, "no progress, no table");

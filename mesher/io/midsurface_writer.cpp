@@ -47,7 +47,9 @@ std::string step_text(const TopoDS_Shape& shape) {
   return text.str();
 }
 
-nlohmann::json describe(const MidSurface& middle) {
+}  // namespace
+
+nlohmann::json midsurface_json(const MidSurface& middle) {
   nlohmann::json faces = nlohmann::json::array();
   for (std::size_t i = 0; i < middle.faces.size(); ++i) {
     const MiddleFace& face = middle.faces[i];
@@ -73,14 +75,13 @@ nlohmann::json describe(const MidSurface& middle) {
           {"parts", middle.parts},
           {"free_edges", middle.free_edges},
           {"edges_inside_the_material", middle.stray_edges},
+          {"solid_faces_at_edges_inside", middle.stray_faces},
           {"unpaired_solid_faces", middle.unpaired},
           {"counted_twice", middle.counted_twice},
           {"faces_of_another_thickness", middle.uneven},
           {"warnings", middle.warnings},
           {"problems", middle.problems}};
 }
-
-}  // namespace
 
 bool is_midsurface_format(const std::filesystem::path& path) {
   return std::find(endings.begin(), endings.end(), lower_ending(path)) != endings.end();
@@ -93,7 +94,7 @@ void write_midsurface(const MidSurface& middle, const std::filesystem::path& pat
     throw usage_error(path.string(),
                       fmt::format("{}: a middle surface is written as .brep, .step or .json", path.string()));
   if (ending == ".json")
-    write_file(path, describe(middle).dump(2) + "\n");
+    write_file(path, midsurface_json(middle).dump(2) + "\n");
   else if (ending == ".step" || ending == ".stp")
     write_file(path, step_text(shape));
   else

@@ -2,16 +2,20 @@
 /// Files of middle surfaces. The file's ending determines the format.
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 
 #include "geometry/base/api.hpp"
 #include "geometry/midsurface/midsurface.hpp"
 
 namespace quadrille {
 
-/// Writes the faces of the middle surface as .brep, .brp, .step or .stp, or a description as .json: for each
-/// face its area, thickness (mean, least and largest) and the faces of the solid between which it lies, and
-/// the results of the checks. The file appears whole or not at all. Throws Error: usage for an unknown
-/// ending, failure when the file cannot be written.
+/// What is known of a middle surface: for each face its area, thickness (mean, least and largest) and the
+/// faces of the solid between which it lies, and the results of the checks.
+QUADRILLE_API nlohmann::json midsurface_json(const MidSurface& middle);
+
+/// Writes the faces of the middle surface as .brep, .brp, .step or .stp, or midsurface_json() as .json. The
+/// file appears whole or not at all. Throws Error: usage for an unknown ending, failure when the file cannot
+/// be written.
 QUADRILLE_API void write_midsurface(const MidSurface& middle, const std::filesystem::path& path);
 
 /// True if write_midsurface knows the file's ending.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <BRepTools.hxx>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -39,6 +40,12 @@ class MidsurfaceCommand : public testing::Test {
   test::ProcessResult quadrille_says(const std::string& arguments) const {
     return test::run(fmt::format("cd {} && timeout 60 {}/quadrille {} 2>&1 >/dev/null",
                                  folder_.path().string(), QUADRILLE_BINARY_DIR, arguments));
+  }
+  /// What `quadrille` with these arguments says on stdout.
+  std::string quadrille_prints(const std::string& arguments) const {
+    return test::run(fmt::format("cd {} && timeout 60 {}/quadrille {} 2>/dev/null", folder_.path().string(),
+                                 QUADRILLE_BINARY_DIR, arguments))
+        .out;
   }
   std::string text(const std::string& name) const { return test::file_text(folder_ / name); }
   bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
@@ -164,6 +171,34 @@ TEST_F(MidsurfaceCommand, WritesThicknessesThatVaryForCalculix) {
   const double second_moment = 60 * 64 / 12.0;
   const double expected = 100 * 1e6 / (210000 * second_moment) * 8 * (std::log(2) - 0.625);
   EXPECT_NEAR(sum / count / expected, 1, 0.01);
+}
+
+/// Whoever meshes in one go learns as much as with the middle surface alone.
+TEST_F(MidsurfaceCommand, MeshTellsAllThatIsKnownOfTheMiddleSurface) {
+  ASSERT_EQ(quadrille_says("midsurface both.brep --partial -o m.json --quiet").exit_code, 0);
+  ASSERT_EQ(
+      quadrille_says("mesh both.brep --thin --partial --size 10 -o m.inp --report r.json --quiet").exit_code,
+      0);
+  const auto told = nlohmann::json::parse(text("m.json")), report = nlohmann::json::parse(text("r.json"));
+  EXPECT_EQ(report["middle_surface"], told);
+  ASSERT_FALSE(told["problems"].empty());
+  EXPECT_FALSE(told["unpaired_solid_faces"].empty());
+  for (const auto& problem : told["problems"])
+    EXPECT_NE(std::find(report["warnings"].begin(), report["warnings"].end(), problem),
+              report["warnings"].end());
+  const std::string table = quadrille_prints("midsurface both.brep --partial -o m.json");
+  EXPECT_PRED2(contains, table, "thickness  between\nFace1 ");
+  EXPECT_PRED2(contains, table, "% without what counts twice where walls meet); 1 part of 1 solid, ");
+  EXPECT_PRED2(contains, table, "neither side nor rim of a wall: Face");
+  EXPECT_EQ(quadrille_prints("mesh both.brep --thin --partial --size 10 -o m.inp").rfind(table, 0), 0U);
+}
+
+TEST_F(MidsurfaceCommand, EndsWithItsTimeLimit) {
+  const auto result = quadrille_says("midsurface thin.brep -o late.brep --time-limit 0.001");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_PRED2(contains, result.out, "the time limit of 0.001 s is over");
+  EXPECT_FALSE(exists("late.brep"));
+  EXPECT_EQ(quadrille_says("midsurface thin.brep -o m.brep --time-limit 100").exit_code, 0);
 }
 
 TEST_F(MidsurfaceCommand, JoinsSolidsThatTouch) {

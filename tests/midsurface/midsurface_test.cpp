@@ -39,6 +39,8 @@
 #include <set>
 #include <sstream>
 
+#include <fmt/format.h>
+
 #include "geometry/base/error.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "mesher/quadrille.hpp"
@@ -613,9 +615,18 @@ TEST(MidSurface, RefusesFreeEdgesThatAreNotAtARim) {
       middle_of(solid);
       ADD_FAILURE() << "its middle surface has free edges in the material";
     } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("end inside the material"), std::string::npos) << error.what();
+      const std::string told = error.what();
+      EXPECT_NE(told.find("inside the material between Face"), std::string::npos) << told;
+      EXPECT_NE(told.find("; `partial` gives it all the same"), std::string::npos) << told;
     }
-    EXPECT_FALSE(middle_of(solid, true).stray_edges.empty());
+    const MidSurface middle = middle_of(solid, true);
+    ASSERT_FALSE(middle.stray_edges.empty());
+    ASSERT_EQ(middle.stray_faces.size(), middle.stray_edges.size());
+    const std::size_t edges = middle.stray_edges.size();
+    const std::string count = edges == 1 ? "a free edge of the middle surface ends"
+                                         : fmt::format("{} free edges of the middle surface end", edges);
+    EXPECT_NE(middle.problems[0].find(count + " inside"), std::string::npos) << middle.problems[0];
+    for (const std::vector<int>& faces : middle.stray_faces) EXPECT_EQ(faces.size(), 2U);
   }
 }
 
@@ -624,20 +635,67 @@ TEST(MidSurface, RefusesFalseWallsBetweenRibs) {
   EXPECT_THROW(middle_of(ribs_at_an_acute_angle()), Error);
 }
 
+/// Studs are left out, what is counted twice where walls meet does not make up for them.
 TEST(MidSurface, TellsWhatIsLeftOutOfTheVolume) {
-  const MidSurface middle = middle_of(welded_tee(6));
+  const std::vector<Corner2d> outline = {{-60, 0}, {60, 0},  {60, 10}, {3, 10},
+                                         {3, 90},  {-3, 90}, {-3, 10}, {-60, 10}};
+  const TopoDS_Shape tee = profile({outline}, 200);
+  const auto with_stud = [&](double height) {
+    const gp_Ax2 axis(gp_Pnt(35, 0, 100), gp_Dir(0, -1, 0));
+    return BRepAlgoAPI_Fuse(tee, BRepPrimAPI_MakeCylinder(axis, 12, height).Shape()).Shape();
+  };
+  const MidSurface middle = middle_of(with_stud(20));
   EXPECT_NEAR(middle.counted_twice, 6 * 5 * 200, 1e-3);
   ASSERT_EQ(middle.warnings.size(), 1U);
-  EXPECT_NE(middle.warnings[0].find("97.9 % of its volume; without a partner: Face"), std::string::npos)
+  EXPECT_NE(middle.warnings[0].find("97.4 % of its volume; without a partner: Face"), std::string::npos)
       << middle.warnings[0];
   try {
-    middle_of(welded_tee(10));
-    FAIL() << "5.6 % are left out";
+    middle_of(with_stud(60));
+    FAIL() << "7.5 % are left out";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("94.4 % of its volume; without a partner: Face"),
-              std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("% of its volume; without a partner: Face"), std::string::npos)
         << error.what();
   }
+}
+
+/// Of a weld, what is counted twice at its corner is spared; the rest becomes thickness.
+TEST(MidSurface, AddsFlatFilletsToTheThickness) {
+  const MidSurface small = middle_of(welded_tee(6));
+  EXPECT_EQ(small.faces.size(), 3U);
+  EXPECT_TRUE(small.warnings.empty());
+  EXPECT_NEAR(small.counted_twice, 0, 1e-3);
+  EXPECT_NEAR(small.shell_volume / small.volume, 1, 0.005);
+  const MidSurface large = middle_of(welded_tee(10));
+  EXPECT_EQ(large.faces.size(), 6U);
+  EXPECT_TRUE(large.warnings.empty());
+  EXPECT_NEAR(large.shell_volume / large.volume, 1, 1e-6);
+  for (const MiddleFace& face : large.faces) {
+    const bool strip = face.area < 30 * 200;
+    EXPECT_EQ(face.thickness > 10.01 || (face.thickness > 6.01 && face.thickness < 9.99), strip)
+        << face.area << " " << face.thickness;
+  }
+}
+
+/// A box with flat fillets in its corners, which count nothing twice.
+TEST(MidSurface, AddsFlatFilletsInABox) {
+  const std::vector<Corner2d> outside = {{0, 0}, {80, 0}, {80, 60}, {0, 60}};
+  const std::vector<Corner2d> inside = {{10, 4},  {70, 4},  {76, 10}, {76, 50},
+                                        {70, 56}, {10, 56}, {4, 50},  {4, 10}};
+  const MidSurface middle = middle_of(profile({outside, inside}, 150));
+  EXPECT_TRUE(middle.warnings.empty());
+  EXPECT_EQ(middle.faces.size(), 12U);
+  EXPECT_NEAR(middle.shell_volume / middle.volume, 1, 1e-6);
+}
+
+/// The end of a gusset is inclined to both walls too, but no fillet.
+TEST(MidSurface, TakesNoGussetForAFillet) {
+  const std::vector<Corner2d> angle = {{0, 0}, {60, 0}, {60, 4}, {4, 4}, {4, 60}, {0, 60}};
+  const std::vector<Corner2d> gusset = {{2, 2}, {16, 2}, {16, 4}, {4, 16}, {2, 16}};
+  gp_Trsf to_the_middle;
+  to_the_middle.SetTranslation(gp_Vec(0, 0, 38));
+  const TopoDS_Shape rib = BRepBuilderAPI_Transform(profile({gusset}, 4), to_the_middle).Shape();
+  const MidSurface middle = middle_of(BRepAlgoAPI_Fuse(profile({angle}, 80), rib).Shape(), true);
+  for (const MiddleFace& face : middle.faces) EXPECT_NEAR(face.thickness, 4, 1e-6);
 }
 
 /// The flange of a rolled channel is thickest at its root, where the fillet adds to it.
