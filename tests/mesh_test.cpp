@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <random>
 #include <set>
 
 #include "geometry/cad/cad_shape.hpp"
@@ -400,7 +401,7 @@ TEST(Mesh, ChecksAllTheWhile) {
           steps.insert(steps.end(), {{"mesh", 135}});
         } else {
           const double clean_up = strategy == Strategy::direct ? 2.6 : 13;
-          steps.insert(steps.end(), {{"mesh", 9.5}, {"smooth", 30}, {"clean up", clean_up}});
+          steps.insert(steps.end(), {{"mesh", 13}, {"smooth", 30}, {"clean up", clean_up}});
         }
         MeshOptions options;
         options.strategy = strategy;
@@ -412,7 +413,8 @@ TEST(Mesh, ChecksAllTheWhile) {
         options.sizing.size *= 0.5;
         const Checks many = count_steps(model, options);
         for (const auto& [step, most_quads] : steps) {
-          SCOPED_TRACE(step);
+          SCOPED_TRACE(fmt::format("{}: {} checks for {} quads, {} for {}", step, few.of_stage.at(step),
+                                   few.quads, many.of_stage.at(step), many.quads));
           ASSERT_TRUE(few.of_stage.contains(step));
           EXPECT_GE(many.of_stage.at(step), least_growth * few.of_stage.at(step));
           EXPECT_LE(few.quads, most_quads * few.of_stage.at(step));
@@ -421,6 +423,44 @@ TEST(Mesh, ChecksAllTheWhile) {
       }
     }
   }
+}
+
+/// Squares cut in two along a diagonal that chance takes.
+TriangleMesh cut_squares(int n) {
+  TriangleMesh mesh;
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) mesh.points.emplace_back(i, j, 0);
+  }
+  std::mt19937 random(1);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const int a = i * (n + 1) + j, b = a + n + 1, c = b + 1, d = a + 1;
+      const bool first = random() % 2 == 0;
+      mesh.triangles.push_back(first ? std::array{a, b, c} : std::array{a, b, d});
+      mesh.triangles.push_back(first ? std::array{a, c, d} : std::array{b, c, d});
+    }
+  }
+  return mesh;
+}
+
+/// As above, for the pairing of triangles, in itself and with the exchange of colors.
+TEST(Mesh, ChecksWhilePairing) {
+  const auto checks = [](int n, Exchange exchange) {
+    ExecutionContext context(1);
+    RecombineOptions options;
+    options.exchange = exchange;
+    recombine(cut_squares(n), options, context);
+    return static_cast<double>(context.work());
+  };
+  const auto squares = [](double n) { return n * n; };
+  constexpr int n = 150;
+  const double few = checks(n, Exchange::never), many = checks(2 * n, Exchange::never);
+  const double few_more = checks(n, Exchange::where_it_gains) - few;
+  const double many_more = checks(2 * n, Exchange::where_it_gains) - many;
+  EXPECT_GE(many, 2.5 * few);
+  EXPECT_LE(squares(2 * n), 95 * many);
+  EXPECT_GE(many_more, 2.5 * few_more);
+  EXPECT_LE(squares(2 * n), 165 * many_more);
 }
 
 /// Sizes and samples do not depend on the number of quads, but on the edges and faces.
