@@ -93,10 +93,12 @@ class Job {
   ShellMesh run(const SizingField& field) {
     mesh_in_rounds(field);
     if (!options_.strict && leave_surfaces(field) && undo_remedies()) {
-      sample(field);
-      find_charts();
-      mesh_faces(field);
-      leave_surfaces(field);
+      in_time([&] {
+        sample(field);
+        find_charts();
+        mesh_faces(field);
+        leave_surfaces(field);
+      });
     }
     advise_on_tiny_faces();
     const bool none =
@@ -132,6 +134,18 @@ class Job {
 
   bool is_limited() const { return options_.partial && context_.has_time_limit(); }
 
+  /// \return false if the time limit ended the work and, with options.partial, what was done before counts.
+  template <class Work>
+  bool in_time(Work&& work) const {
+    try {
+      work();
+      return true;
+    } catch (const Error& error) {
+      if (!options_.partial || error.subject() != ExecutionContext::time_subject) throw;
+      return false;
+    }
+  }
+
   /// With options.partial and a time limit, undoes the sliding if there is no time for all of it.
   void slide() {
     if (!is_limited()) return slide_nodes(shape_, nodes_, meshes_, options_.improve, context_);
@@ -151,7 +165,10 @@ class Job {
   bool settle(const SizingField& field, bool again) {
     do {
       if (again && !may_go_on()) return false;
-      sample(field);
+      if (!again)
+        sample(field);
+      else if (!in_time([&] { sample(field); }))
+        return false;
       find_charts();
     } while (chart_rounds_++ < most_chart_rounds && treat());
     return true;
@@ -174,8 +191,11 @@ class Job {
       const auto problem = problems_[face];
       if (!problem || meshes_[face] || problem->cause() == Cause::out_of_time) continue;
       try {
-        meshes_[face] =
-            mesh_off_surface(shape_, *problem, nodes_, field, limits_.size_min, options_, context_);
+        const bool done = in_time([&] {
+          meshes_[face] =
+              mesh_off_surface(shape_, *problem, nodes_, field, limits_.size_min, options_, context_);
+        });
+        if (!done) return false;
       } catch (const FaceProblem&) {
         any = true;
         continue;  // the first problem is the one to report
@@ -382,10 +402,10 @@ class Job {
             Cause::no_mesh, face,
             fmt::format("Face{} cannot be evaluated ({})", face.number(), problem.GetMessageString()));
       }
-      if (options_.partial && context_.seconds_left() < 0) return;
       const double share = static_cast<double>(done.fetch_add(1, std::memory_order_relaxed) + 1) / n;
-      context_.report(stage, done_before + (1 - done_before) * share);
+      in_time([&] { context_.report(stage, done_before + (1 - done_before) * share); });
     };
+    in_time([&] { context_.report(stage, done_before); });
     const auto next = [&] { return started.fetch_add(1, std::memory_order_relaxed); };
     // Each thread takes the next face. With large faces first, no thread waits long for another at the end.
     oneapi::tbb::parallel_for(0, oneapi::tbb::this_task_arena::max_concurrency(), [&](int) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <time.h>
 
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
@@ -16,7 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
-#include <numeric>
+#include <random>
 #include <set>
 
 #include "geometry/cad/cad_shape.hpp"
@@ -353,63 +352,124 @@ TEST(Mesh, CanBeCancelled) {
   }
 }
 
-double thread_seconds() {
-  timespec now{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+/// How often the context was checked in each stage that was reported, and the quads that were made.
+struct Checks {
+  std::map<std::string, double, std::less<>> of_stage;
+  double quads = 0;
+};
 
-/// The computing time between each two checks of the context, in seconds.
-std::vector<double> unchecked_seconds(const CadModel& model, const MeshOptions& options) {
-  std::vector<double> seconds;
-  double last = thread_seconds();
-  const auto measure = [&] {
-    const double now = thread_seconds();
-    seconds.push_back(now - last);
-    last = now;
-  };
-  ExecutionContext context(1, [&](std::string_view, double) {
-    measure();
+Checks count_checks(const CadModel& model, const MeshOptions& options) {
+  Checks checks;
+  ExecutionContext context(1, [&](std::string_view stage, double) {
+    ++checks.of_stage[std::string(stage)];
     return true;
   });
   context.ask_every(std::chrono::milliseconds(0));
-  mesh(model, options, context);
-  measure();
-  return seconds;
+  checks.quads = static_cast<double>(mesh(model, options, context).quads.size());
+  return checks;
 }
 
-double largest_share(const std::vector<double>& seconds) {
-  return *std::max_element(seconds.begin(), seconds.end()) /
-         std::accumulate(seconds.begin(), seconds.end(), 0.0);
+/// The checks of each step, told apart by leaving out the steps after it.
+Checks count_steps(const CadModel& model, MeshOptions options) {
+  const ImproveOptions improve = options.improve;
+  const Checks whole = count_checks(model, options);
+  options.improve.clean_up = false;
+  const double smoothed = count_checks(model, options).of_stage["mesh"];
+  options.improve.smoothing_sweeps = 0;
+  const double bare = count_checks(model, options).of_stage["mesh"];
+  Checks steps = whole;
+  steps.of_stage["mesh"] = bare;
+  steps.of_stage["smooth"] = smoothed - bare;
+  steps.of_stage["clean up"] = whole.of_stage.at("mesh") - smoothed;
+  options.improve = improve;
+  return steps;
 }
 
-/// What takes time looks whether to go on: a face of any size is no single step.
+/// Steps look whether to go on at least once in so many quads of the mesh, at any size: there are nearly four
+/// times as many looks at half the size.
 TEST(Mesh, ChecksAllTheWhile) {
-  // A torus is one curved face, a grid, which takes little time; the plate a plane one with holes.
-  for (const auto& [name, quads] : {std::pair("torus", 5e5), std::pair("plate_with_holes", 1e5)}) {
+  constexpr double least_growth = 2.5;
+  using Step = std::pair<const char*, double>;  // quads per check, a third more than there are
+  // A torus is one curved face, a grid; the plate a plane one with holes.
+  for (const std::string name : {"torus", "plate_with_holes"}) {
     const CadModel model = CadModel::read(sample_model(name).path());
     for (const Strategy strategy : {Strategy::subdivide, Strategy::direct}) {
       for (const int order : {1, 2}) {
         SCOPED_TRACE(fmt::format("{}, strategy {}, order {}", name, static_cast<int>(strategy), order));
+        std::vector<Step> steps{{"assemble", order == 1 ? 450 : 75}, {"slide", 210}};
+        if (name == "torus") {
+          steps.insert(steps.end(), {{"mesh", 135}});
+        } else {
+          const double clean_up = strategy == Strategy::direct ? 2.6 : 13;
+          steps.insert(steps.end(), {{"mesh", 13}, {"smooth", 30}, {"clean up", clean_up}});
+        }
         MeshOptions options;
-        ExecutionContext measuring;
-        options.sizing.size = QuadEstimate(model, measuring).size_for(quads).size;
         options.strategy = strategy;
         options.order = order;
-        // A share of the whole does not depend on how fast the machine is. Every run does the same steps, so
-        // a step that other work on the machine delayed once is as short as in the next run.
-        constexpr double most = 0.1;
-        std::vector<double> seconds = unchecked_seconds(model, options);
-        for (int tries = 1; tries < 3 && largest_share(seconds) > most; ++tries) {
-          const std::vector<double> again = unchecked_seconds(model, options);
-          ASSERT_EQ(again.size(), seconds.size());
-          std::transform(seconds.begin(), seconds.end(), again.begin(), seconds.begin(),
-                         [](double one, double other) { return std::min(one, other); });
+        options.improve.sliding_sweeps = 3;  // more would end early
+        ExecutionContext measuring;
+        options.sizing.size = QuadEstimate(model, measuring).size_for(2e4).size;
+        const Checks few = count_steps(model, options);
+        options.sizing.size *= 0.5;
+        const Checks many = count_steps(model, options);
+        for (const auto& [step, most_quads] : steps) {
+          SCOPED_TRACE(fmt::format("{}: {} checks for {} quads, {} for {}", step, few.of_stage.at(step),
+                                   few.quads, many.of_stage.at(step), many.quads));
+          ASSERT_TRUE(few.of_stage.contains(step));
+          EXPECT_GE(many.of_stage.at(step), least_growth * few.of_stage.at(step));
+          EXPECT_LE(few.quads, most_quads * few.of_stage.at(step));
+          EXPECT_LE(many.quads, most_quads * many.of_stage.at(step));
         }
-        EXPECT_LE(largest_share(seconds), most) << seconds.size() << " steps";
       }
     }
   }
+}
+
+/// Squares cut in two along a diagonal that chance takes.
+TriangleMesh cut_squares(int n) {
+  TriangleMesh mesh;
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) mesh.points.emplace_back(i, j, 0);
+  }
+  std::mt19937 random(1);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const int a = i * (n + 1) + j, b = a + n + 1, c = b + 1, d = a + 1;
+      const bool first = random() % 2 == 0;
+      mesh.triangles.push_back(first ? std::array{a, b, c} : std::array{a, b, d});
+      mesh.triangles.push_back(first ? std::array{a, c, d} : std::array{b, c, d});
+    }
+  }
+  return mesh;
+}
+
+/// As above, for the pairing of triangles, in itself and with the exchange of colors.
+TEST(Mesh, ChecksWhilePairing) {
+  const auto checks = [](int n, Exchange exchange) {
+    ExecutionContext context(1);
+    RecombineOptions options;
+    options.exchange = exchange;
+    recombine(cut_squares(n), options, context);
+    return static_cast<double>(context.work());
+  };
+  const auto squares = [](double n) { return n * n; };
+  constexpr int n = 150;
+  const double few = checks(n, Exchange::never), many = checks(2 * n, Exchange::never);
+  const double few_more = checks(n, Exchange::where_it_gains) - few;
+  const double many_more = checks(2 * n, Exchange::where_it_gains) - many;
+  EXPECT_GE(many, 2.5 * few);
+  EXPECT_LE(squares(2 * n), 95 * many);
+  EXPECT_GE(many_more, 2.5 * few_more);
+  EXPECT_LE(squares(2 * n), 165 * many_more);
+}
+
+/// Sizes and samples do not depend on the number of quads, but on the edges and faces.
+TEST(Mesh, ChecksOnEachFaceAndEdge) {
+  const CadModel model = CadModel::read(sample_model("bracket").path());
+  const Checks checks = count_checks(model, options_for(model, 20));
+  EXPECT_GE(checks.of_stage.at("size"), model.face_count());
+  EXPECT_GE(checks.of_stage.at("sample"), model.edge_count() + model.face_count());
+  EXPECT_GE(checks.of_stage.at("mesh"), model.face_count());
 }
 
 TEST(CadModel, CountsWhatFreeCadCounts) {
