@@ -112,11 +112,7 @@ class Job {
     if (options_.partial) context_.lift_time_limit();
     ShellMesh result = assemble(shape_, nodes_, meshes_, statuses(), options_, context_);
     result.let_go = list_let_go();
-    for (const auto& [face, why] : let_go_.kept_faces()) result.kept.push_back({2, face.number(), why});
-    for (const auto& [edge, why] : let_go_.kept_edges()) {
-      const int number = shape_.edges[edge].number;
-      if (result.kept.empty() || result.kept.back().number != number) result.kept.push_back({1, number, why});
-    }
+    result.kept = list_kept();
     std::erase_if(result.corners, [&](const auto& corner) { return corner.vertex > vertices_; });
     return result;
   }
@@ -151,14 +147,13 @@ class Job {
     if (!is_limited()) return slide_nodes(shape_, nodes_, meshes_, options_.improve, context_);
     const BoundaryNodes nodes = nodes_;
     const FaceMeshes meshes = meshes_;
-    try {
+    const bool done = in_time([&] {
       context_.check();
       slide_nodes(shape_, nodes_, meshes_, options_.improve, context_);
-    } catch (const Error& error) {
-      if (error.subject() != ExecutionContext::time_subject) throw;
-      nodes_ = nodes;
-      meshes_ = meshes;
-    }
+    });
+    if (done) return;
+    nodes_ = nodes;
+    meshes_ = meshes;
   }
 
   /// \param again whether faces were meshed before. \return false if no time is left for another round.
@@ -497,6 +492,15 @@ class Job {
     result.erase(std::unique(result.begin(), result.end(),
                              [&](const auto& a, const auto& b) { return place(a) == place(b); }),
                  result.end());
+    return result;
+  }
+
+  std::vector<ShellMesh::Kept> list_kept() const {
+    std::vector<ShellMesh::Kept> result;
+    for (const auto& [face, why] : let_go_.kept_faces()) result.push_back({2, face.number(), why});
+    std::map<int, std::string> edges;  // by number, which the pieces of a divided edge share
+    for (const auto& [edge, why] : let_go_.kept_edges()) edges.try_emplace(shape_.edges[edge].number, why);
+    for (const auto& [number, why] : edges) result.push_back({1, number, why});
     return result;
   }
 

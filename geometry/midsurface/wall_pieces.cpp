@@ -150,20 +150,18 @@ void widen_to_corners(const TopoDS_Face& face, const Wall& wall, const Skin& ski
   }
 }
 
-}  // namespace
-
-Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin) {
+/// The thickness over a face, at the samples where there is one. \param thickness_at of a sample's place
+template <class ThicknessAt>
+Coverage measured(const TopoDS_Face& face, const Wall& wall, const Skin& skin, ThicknessAt&& thickness_at) {
   Coverage result;
   double area = 0, covered = 0;
   for (const FaceSample& sample : sample_face(face, 16)) {
     area += sample.area;
-    const auto position = position_in(wall, skin, sample.point);
-    if (!position) continue;
-    result.faces.insert(position->faces.begin(), position->faces.end());
-    const double t = position->thickness();
-    result.thinnest = covered > 0 ? std::min(result.thinnest, t) : t;
-    result.thickest = std::max(result.thickest, t);
-    result.mean += t * sample.area;
+    const std::optional<double> t = thickness_at(sample.point, result);
+    if (!t) continue;
+    result.thinnest = covered > 0 ? std::min(result.thinnest, *t) : *t;
+    result.thickest = std::max(result.thickest, *t);
+    result.mean += *t * sample.area;
     covered += sample.area;
   }
   if (covered > 0) result.mean /= covered;
@@ -172,18 +170,22 @@ Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin
   return result;
 }
 
+}  // namespace
+
+Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin) {
+  return measured(face, wall, skin, [&](const gp_Pnt& point, Coverage& so_far) -> std::optional<double> {
+    const auto position = position_in(wall, skin, point);
+    if (!position) return std::nullopt;
+    so_far.faces.insert(position->faces.begin(), position->faces.end());
+    return position->thickness();
+  });
+}
+
 Coverage coverage_past_sides(const TopoDS_Face& face, const Wall& wall, const Skin& skin) {
-  Coverage result;
-  double area = 0;
-  for (const FaceSample& sample : sample_face(face, 16)) {
-    const double t = thickness_round(wall, skin, sample.point);
-    result.thinnest = area > 0 ? std::min(result.thinnest, t) : t;
-    result.thickest = std::max(result.thickest, t);
-    result.mean += t * sample.area;
-    area += sample.area;
-  }
-  if (area > 0) result.mean /= area;
-  if (result.thickest > (1 + 1e-4) * result.thinnest) widen_to_corners(face, wall, skin, result);
+  Coverage result = measured(face, wall, skin, [&](const gp_Pnt& point, const Coverage&) {
+    return std::optional(thickness_round(wall, skin, point));
+  });
+  result.share = 0;  // none of it lies between both sides
   return result;
 }
 

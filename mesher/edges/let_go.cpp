@@ -20,14 +20,7 @@ namespace {
 class HarmFinder {
  public:
   HarmFinder(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny, double reach)
-      : shape_(shape), used_(used), tiny_(tiny), reach_(reach), uses_(shape.edges.size()) {
-    for (const FaceId face : used.ids()) {
-      if (!used[face] || tiny.merged_faces[face]) continue;
-      for (const CadWire& wire : shape.faces[face].wires) {
-        for (const Coedge& coedge : wire.coedges) ++uses_[tiny.edges[coedge.edge]];
-      }
-    }
-  }
+      : shape_(shape), used_(used), tiny_(tiny), reach_(reach), uses_(uses_of_nodes(shape, used, tiny)) {}
 
   /// An edge that was let go on a face but must be kept, since no good quads fit otherwise.
   struct Harm {
@@ -121,9 +114,6 @@ class HarmFinder {
       const CadWire* wire;
     };
     std::map<EdgeId, Use> first;  // edge whose nodes are used -> first use
-    const auto runs_forward = [&](const Coedge& coedge) {
-      return coedge.forward != (tiny_.reversed_edges[coedge.edge] != 0);
-    };
     for (const CadWire& wire : shape_.faces[id].wires) {
       for (const Coedge& coedge : wire.coedges) {
         const EdgeId edge = coedge.edge;
@@ -132,7 +122,7 @@ class HarmFinder {
         const Use& other = at->second;
         if (is_new || other.coedge.edge == edge) continue;
         if (uses_[tiny_.edges[edge]] == 2 && other.wire == &wire &&
-            runs_forward(coedge) != runs_forward(other.coedge))
+            tiny_.forward(coedge) != tiny_.forward(other.coedge))
           continue;
         for (const EdgeId one : {edge, other.coedge.edge})
           harms.push_back({one, fmt::format("two edges of Face{} would share their nodes", id.number())});

@@ -135,21 +135,16 @@ class Finder {
 
   /// Merged edges that only one face is left with, on both sides, lie inside that face and are not needed.
   void drop_edges_inside() {
-    IdVector<EdgeId, int> uses(shape_.edges.size());
+    const IdVector<EdgeId, int> uses = uses_of_nodes(shape_, used_, tiny_);
     EdgeFlags merged(shape_.edges.size()), inside(shape_.edges.size());
     for (const EdgeId edge : tiny_.edges.ids()) {
       if (tiny_.edges[edge] != edge) merged[tiny_.edges[edge]] = 1;
     }
-    const auto is_met = [&](FaceId face) { return used_[face] && !tiny_.merged_faces[face]; };
     for (const FaceId face : shape_.faces.ids()) {
+      if (!used_[face] || tiny_.merged_faces[face]) continue;
       for (const CadWire& wire : shape_.faces[face].wires) {
-        for (const Coedge& coedge : wire.coedges) uses[tiny_.edges[coedge.edge]] += is_met(face) ? 1 : 0;
-      }
-    }
-    for (const FaceId face : shape_.faces.ids()) {
-      if (!is_met(face)) continue;
-      for (const CadWire& wire : shape_.faces[face].wires) {
-        for (const EdgeId edge : there_and_back(wire)) inside[edge] = merged[edge] && uses[edge] == 2;
+        const auto may_go = [&](EdgeId edge) { return merged[edge] && uses[edge] == 2; };
+        for (const EdgeId edge : there_and_back(wire, may_go)) inside[edge] = 1;
       }
     }
     for (const EdgeId edge : tiny_.edges.ids()) {
@@ -157,15 +152,16 @@ class Finder {
     }
   }
 
-  /// The edges along which a wire runs there and back without going elsewhere between.
-  std::vector<EdgeId> there_and_back(const CadWire& wire) const {
+  /// The edges that may go along which a wire runs there and back, with nothing left between.
+  template <class MayGo>
+  std::vector<EdgeId> there_and_back(const CadWire& wire, MayGo&& may_go) const {
     std::vector<EdgeId> result;
     std::vector<Use> left;
     for (const Coedge& coedge : wire.coedges) {
       if (!wire.ordered || coedge.internal || shape_.edges[coedge.edge].degenerate) return {};
       if (tiny_.collapsed_edges[coedge.edge]) continue;
-      const Use use{tiny_.edges[coedge.edge], coedge.forward != (tiny_.reversed_edges[coedge.edge] != 0)};
-      if (!left.empty() && use.is_back_of(left.back())) {
+      const Use use{tiny_.edges[coedge.edge], tiny_.forward(coedge)};
+      if (!left.empty() && use.is_back_of(left.back()) && may_go(use.edge)) {
         result.push_back(use.edge);
         left.pop_back();
       } else {
@@ -173,7 +169,7 @@ class Finder {
       }
     }
     for (std::size_t i = 0; 2 * i + 1 < left.size(); ++i) {
-      if (!left[i].is_back_of(left[left.size() - 1 - i])) break;
+      if (!left[i].is_back_of(left[left.size() - 1 - i]) || !may_go(left[i].edge)) break;
       result.push_back(left[i].edge);
     }
     return result;
@@ -187,6 +183,17 @@ class Finder {
 };
 
 }  // namespace
+
+IdVector<EdgeId, int> uses_of_nodes(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny) {
+  IdVector<EdgeId, int> uses(shape.edges.size());
+  for (const FaceId face : used.ids()) {
+    if (!used[face] || tiny.merged_faces[face]) continue;
+    for (const CadWire& wire : shape.faces[face].wires) {
+      for (const Coedge& coedge : wire.coedges) ++uses[tiny.edges[coedge.edge]];
+    }
+  }
+  return uses;
+}
 
 bool is_small(const CadEdge& edge, double reach) {
   if (edge.length < reach) return true;

@@ -18,6 +18,8 @@ struct TinyFeatures {
 
   /// Whether both ends of an edge share a node.
   bool closed(const CadEdge& edge) const { return end(edge.first_vertex) == end(edge.last_vertex); }
+  /// Whether the wire runs along the edge whose nodes the coedge's edge has.
+  bool forward(const Coedge& coedge) const { return coedge.forward != (reversed_edges[coedge.edge] != 0); }
   /// The vertex whose node a vertex shares; none for none.
   VertexId end(VertexId vertex) const { return vertex.exists() ? vertices[vertex] : VertexId(); }
 };
@@ -27,6 +29,10 @@ struct SliverChoice {
   const std::vector<Sliver>* slivers = nullptr;  ///< null = none
   const FaceFlags* kept = nullptr;               ///< 1 = must not become an edge; null = any may
 };
+
+/// How often the faces that are left use the nodes of each edge; 0 for edges that have those of another.
+/// \param used 1 = the face is meshed
+IdVector<EdgeId, int> uses_of_nodes(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny);
 
 /// Whether an edge's curve stays within `reach` of another one's, at samples between its ends.
 bool lies_along(const CadEdge& edge, const CadEdge& other, double reach);

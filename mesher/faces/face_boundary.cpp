@@ -107,8 +107,9 @@ class BoundaryWalker {
     return true;
   }
 
-  /// Node i of an edge in the parameter plane.
-  Vector2 place_of(const Coedge& coedge, const BoundaryNodes::Edge& edge, int i) const {
+  /// Node i of an edge in the parameter plane. \param curve the edge's
+  Vector2 place_of(const Coedge& coedge, const EdgeCurve& curve, const BoundaryNodes::Edge& edge,
+                   int i) const {
     const Vector3& node = nodes_.points[edge.nodes[i]];
     if (surface_.is_view()) return surface_.seen_at(node);
     const Vector2 uv = parametric_point(coedge, edge.parameters[i]);
@@ -119,7 +120,7 @@ class BoundaryWalker {
     constexpr double tolerances = 10, closer = 0.5;
     double tolerance = tolerances * std::max(face_.tolerance, cad.tolerance);
     if (end.exists()) tolerance = std::max(tolerance, 2 * shape_.vertex_tolerances[end]);
-    if (!((EdgeCurve(cad).point(edge.parameters[i]) - node).norm() > tolerance)) return uv;
+    if (!((curve.point(edge.parameters[i]) - node).norm() > tolerance)) return uv;
     Vector2 moved = uv;
     const double distance = (surface_.point(uv) - node).norm();
     return (surface_.project(moved, node).point - node).norm() < closer * distance ? moved : uv;
@@ -129,11 +130,12 @@ class BoundaryWalker {
     const BoundaryNodes::Edge& edge = nodes_.edges[coedge.edge];
     const int count = edge.segments() / boundary_.stride;
     if (count <= 0) return {};
+    const EdgeCurve curve(shape_.edges[coedge.edge]);
     Run run;
     run.first_segment = static_cast<int>(boundary_.segments.size());
     for (int k = 0; k <= count; ++k) {
       const int i = boundary_.stride * (coedge.forward ? k : count - k);
-      const int point = add_point(place_of(coedge, edge, i), edge.nodes[i]);
+      const int point = add_point(place_of(coedge, curve, edge, i), edge.nodes[i]);
       if (k == 0) {
         run.first = point;
         continue;
@@ -149,14 +151,13 @@ class BoundaryWalker {
       if (boundary_.stride == 2) {
         const int middle = i + (coedge.forward ? -1 : 1);
         segment.middle_node = edge.nodes[middle];
-        segment.middle_uv = place_of(coedge, edge, middle);
+        segment.middle_uv = place_of(coedge, curve, edge, middle);
         segment.middle_point = nodes_.points[segment.middle_node];
       }
       boundary_.segments.push_back(segment);
       run.last = point;
     }
     run.end_segment = static_cast<int>(boundary_.segments.size());
-    const EdgeCurve curve(shape_.edges[coedge.edge]);
     run.leaving = curve.derivative(edge.parameters.front());
     run.arriving = curve.derivative(edge.parameters.back());
     if (!coedge.forward) {
@@ -188,7 +189,8 @@ class BoundaryWalker {
     if (arriving.segments() < boundary_.stride || leaving.segments() < boundary_.stride) return false;
     const int from = before.forward ? arriving.segments() - boundary_.stride : boundary_.stride;
     const int to = after.forward ? boundary_.stride : leaving.segments() - boundary_.stride;
-    const Vector2 a = place_of(before, arriving, from), b = place_of(after, leaving, to);
+    const Vector2 a = place_of(before, EdgeCurve(shape_.edges[before.edge]), arriving, from),
+                  b = place_of(after, EdgeCurve(shape_.edges[after.edge]), leaving, to);
     const Vector3 &pole = nodes_.points[leaving.nodes[after.forward ? 0 : leaving.segments()]],
                   &p = nodes_.points[arriving.nodes[from]], &q = nodes_.points[leaving.nodes[to]];
     double width = 0;

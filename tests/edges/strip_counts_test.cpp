@@ -29,8 +29,8 @@ TEST(StripCounts, KeepsTheQuadsOfAThinRimWithinTheLimits) {
   for (const double thickness : {0.9, 0.7, 0.5}) {
     const ShellMesh mesh = mesh_of_plate(thickness, 5);
     EXPECT_EQ(validate(mesh, true), std::vector<std::string>{});
-    // Two beside irregular vertices of either large face may fail; where rims keep the size, dozens do.
-    EXPECT_LE(check_criteria(mesh).failing, 4) << thickness;
+    // A few beside irregular vertices of the large faces may fail; where rims keep the size, dozens do.
+    EXPECT_LE(check_criteria(mesh).failing, 3) << thickness;
   }
 }
 
