@@ -176,7 +176,7 @@ def bracket_mesh(folder, build, size, layers):
     along their normals. Returns the nodes of the middle surface, those of the solid by node of the middle surface and level, their
     numbers (-1: none), and the elements."""
     run(build / "quadrille", "mesh", ROOT / "examples" / "freecad" / "sheet_bracket.step", "--thin", "--order", 2, "--size", size,
-        "--curvature", 20, "--symmetry", "--quiet", "-o", folder / "shell.inp", folder=folder)
+        "--curvature", 20, "--quiet", "-o", folder / "shell.inp", folder=folder)
     text = (folder / "shell.inp").read_text()
     flat, quads = nodes_of(text), [quad for quad, _ in quads_of(text)]
     (thickness,) = set(thicknesses_of(text).values())

@@ -9,7 +9,7 @@
 /// covers everything from arrays of triangles to arrays of quads.
 ///
 /// Makes the triangulations from --first to --domains of six (rectangle 1 2 3, Lake Ontario 1 2 3), pairs
-/// each by coloring (paper's mode), by Quadrille's default, for shape and by Blossom, improves all alike,
+/// each by coloring (paper's mode), by Quadrille's default and by Blossom, improves all alike,
 /// prints a table and writes FOLDER/paper.json.
 
 #include <fmt/format.h>
@@ -173,14 +173,16 @@ double bytes_per_triangle(const TriangleMesh& mesh, const RecombineOptions& opti
 }
 
 json run_memory(const TriangleMesh& mesh) {
-  RecombineOptions coloring, shape;
+  RecombineOptions coloring;
   coloring.method = Method::paper;
-  shape.objective = Objective::shape;
   const json entry = {{"coloring", bytes_per_triangle(mesh, coloring)},
-                      {"default", bytes_per_triangle(mesh, {})},
-                      {"shape", bytes_per_triangle(mesh, shape)}};
-  fmt::print("  peak memory, bytes a triangle: coloring {:.0f}, default {:.0f}, shape {:.0f}\n",
-             entry["coloring"].get<double>(), entry["default"].get<double>(), entry["shape"].get<double>());
+                      {"default", bytes_per_triangle(mesh, {})}};
+  fmt::print(
+      "  peak memory, bytes a triangle: coloring {:.0f}, default {:.0f}
+      ",
+      entry["coloring"]
+          .get<double>(),
+      entry["default"].get<double>());
   std::fflush(stdout);
   return entry;
 }
@@ -447,9 +449,6 @@ json run_domain(const Domain& domain, int blossom_limit, [[maybe_unused]] int be
   options = {};
   entry["default"] = run_quadrille(mesh, options);
   print_row("default", entry["default"]);
-  options.objective = Objective::shape;
-  entry["shape"] = run_quadrille(mesh, options);
-  print_row("shape", entry["shape"]);
 #ifdef QUADRILLE_LEMON
   if (static_cast<int>(count) <= best_limit) {
     entry["best"] = run_best(mesh);
@@ -472,11 +471,12 @@ json run_domain(const Domain& domain, int blossom_limit, [[maybe_unused]] int be
   const double blossom = entry["blossom"]["seconds"];
   fmt::print(
       "  Blossom / coloring {:.0f} (paper's count; paper {:.1f}), / all of coloring {:.0f}, / default "
-      "{:.0f}, / "
-      "shape {:.1f}\n",
-      blossom / stages["coloring_seconds"].get<double>(), domain.paper_blossom / domain.paper_coloring,
-      blossom / entry["coloring"]["seconds"].get<double>(),
-      blossom / entry["default"]["seconds"].get<double>(), blossom / entry["shape"]["seconds"].get<double>());
+      "{:.0f}
+      ",
+          blossom /
+          stages["coloring_seconds"].get<double>(),
+      domain.paper_blossom / domain.paper_coloring, blossom / entry["coloring"]["seconds"].get<double>(),
+      blossom / entry["default"]["seconds"].get<double>());
   std::fflush(stdout);
   return entry;
 }

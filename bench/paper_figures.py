@@ -30,7 +30,6 @@ def draw_histogram(domain, path):
     methods = [
         ("coloring", "coloring"),
         ("default", "default"),
-        ("shape", "--prefer shape"),
         ("blossom", "Blossom"),
     ]
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.2), sharey=True)

@@ -30,10 +30,8 @@
 #include "mesher/shell/assembly.hpp"
 #include "mesher/shell/face_mesher.hpp"
 #include "mesher/shell/last_resort.hpp"
-#include "mesher/shell/mirror_images.hpp"
 #include "mesher/shell/node_sliding.hpp"
 #include "mesher/shell/remedies.hpp"
-#include "mesher/shell/symmetry.hpp"
 
 namespace quadrille {
 
@@ -560,41 +558,6 @@ ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, Executio
   return result;
 }
 
-/// Empty if the part cannot be meshed or its mesh does not end at the planes. \param note gets the reason.
-std::optional<ShellMesh> mesh_part(const CadModel& model, const SymmetricJob& symmetric,
-                                   ExecutionContext& context, std::string& note) {
-  try {
-    Job job(symmetric.part->model, symmetric.options, context);
-    const SizingField field = job.build_field();
-    const ShellMesh part = job.run(field);
-    std::optional<ShellMesh> result = with_mirror_images(part, *symmetric.part, model.shape());
-    if (!result) note = "features let go at the planes keep the mesh from ending there";
-    if (result) note_off_geometry(*result);
-    if (result && symmetric.options.inspect) symmetric.options.inspect(part, field);
-    return result;
-  } catch (const Error& error) {
-    if (error.kind() != Error::Kind::failure || error.subject() == ExecutionContext::time_subject) throw;
-    note = "the part on one side of the planes could not be meshed";
-  }
-  return std::nullopt;
-}
-
-ShellMesh mesh_by_symmetry(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
-  std::optional<ShellMesh> result;
-  std::string note;
-  if (options.symmetry) {
-    const SymmetricJob symmetric = [&] {
-      const StageTimer timer(context, Stage::size);
-      return find_symmetry(model, options, context);
-    }();
-    note = symmetric.note;
-    if (symmetric.part) result = mesh_part(model, symmetric, context, note);
-  }
-  if (!result) result = mesh_whole(model, options, context);
-  result->symmetry.note = note;
-  return std::move(*result);
-}
-
 /// Throws Error: usage for invalid options, failure for edges far outside the model.
 void check_input(const CadModel& model, const MeshOptions& options) {
   check({options, {}}, model);
@@ -606,7 +569,7 @@ void check_input(const CadModel& model, const MeshOptions& options) {
 
 ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
   check_input(model, options);
-  return on_threads(context.threads(), [&] { return mesh_by_symmetry(model, options, context); });
+  return on_threads(context.threads(), [&] { return mesh_whole(model, options, context); });
 }
 
 SizingField wanted_sizes(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {

@@ -11,7 +11,6 @@ ROOMS = [
     "geometry/base",
     "geometry/cad",
     "geometry/surfaces",
-    "geometry/symmetry",
     "geometry/midsurface",
     "geometry/sizing",
     "mesher/mesh",

@@ -4,7 +4,7 @@
     scripts/freecad_python examples/freecad/sheet_bracket.py [--size 3] [--out out/sample]
 
 Steps in FreeCAD: the solid; its middle surface with the thickness; supports and loads, picked on the solid's faces and moved
-to the middle surface; a mirror-symmetric quad mesh; CalculiX. Writes out/sample.FCStd, out/sample.inp (the complete input for
+to the middle surface; an all-quad mesh; CalculiX. Writes out/sample.FCStd, out/sample.inp (the complete input for
 CalculiX) and out/sample.png. Four bolts hold the foot. 100 N pull at the four screws in the wall, along the bore.
 """
 
@@ -149,7 +149,7 @@ def job(out, size):
     analysis, solver = make_analysis(document, part)
     document.recompute()
     surface = quadrille.middle.make_middle(part, analysis=analysis, move_loads=True)
-    mesh = quadrille.freecad.mesh_object(surface, size=size, symmetry=True, elements_per_circle=20, analysis=analysis)
+    mesh = quadrille.freecad.mesh_object(surface, size=size, elements_per_circle=20, analysis=analysis)
     document.recompute()
     result, held = solve(analysis, solver, f"{out}.inp")
     document.saveAs(f"{out}.FCStd")

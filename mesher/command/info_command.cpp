@@ -8,7 +8,6 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/surfaces/contacts.hpp"
 #include "geometry/surfaces/stray_edges.hpp"
-#include "geometry/symmetry/mirror_planes.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/setting_options.hpp"
 #include "mesher/quadrille.hpp"
@@ -50,7 +49,6 @@ std::string describe(const CadModel& model, ExecutionContext& context) {
     if (error.kind() != Error::Kind::failure || !error.subject().starts_with("Face")) throw;
     unmeasured = error.what();
   }
-  for (const MirrorPlane& plane : mirror_planes(model.shape(), context)) line("mirror", plane.name());
   const auto strays = stray_edges(model.shape(), FaceFlags(model.face_count(), 1));
   if (strays.empty()) add_sizes(model, context, line);
   const std::string touching = contacts(model.shape(), context).sentence();

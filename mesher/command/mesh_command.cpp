@@ -141,7 +141,6 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
       warnings.insert(warnings.end(), told.begin(), told.end());
   }
   warn_off_geometry(result, warnings);
-  if (!result.symmetry.note.empty()) warnings.push_back("symmetry: " + result.symmetry.note);
   warnings.insert(warnings.end(), measured.area_differences.begin(), measured.area_differences.end());
   for (const std::string& sentence : {measured.coincidences.sentence(), measured.contacts.sentence()})
     if (!sentence.empty()) warnings.push_back(with_options(sentence));
@@ -157,8 +156,6 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
   if (meshed.middle) print(middle_table(*meshed.middle));
   print(quality_table(measured.elements.quality));
-  if (!result.symmetry.planes.empty())
-    print(fmt::format("symmetric in {}\n", fmt::join(result.symmetry.planes, ", ")));
 }
 
 void run(const MeshArguments& arguments) {

@@ -25,7 +25,6 @@ struct RecombineArguments {
   std::uint64_t seed = 1;
   GivenSettings options;
   bool no_improve = false, quiet = false;
-  std::string prefer = "regular";
   std::optional<double> merge, feature_angle;
 };
 
@@ -59,7 +58,6 @@ void run(const RecombineArguments& arguments) {
   options.improve = !arguments.no_improve;
   options.recombine.method = arguments.no_improve ? Method::paper : Method::quality;
   options.recombine.seed = arguments.seed;
-  options.recombine.objective = arguments.prefer == "shape" ? Objective::shape : Objective::regular;
   context.report(Stage::color, 0);
   const ShellMesh result = [&] {
     try {
@@ -109,11 +107,6 @@ void add_recombine_command(CLI::App& app) {
       ->check([](const std::string& text) { return seed_problem(text); });
   command->add_flag("--no-improve", arguments->no_improve,
                     "the method of the 2018 paper as it stands: color, swap, remove; no node moves");
-  command
-      ->add_option(
-          "--prefer", arguments->prefer,
-          "what pairs are exchanged for: regular (points with four quads, default) or shape (mean q)")
-      ->check(CLI::IsMember({"regular", "shape"}));
   add_surface_options(*command, arguments->feature_angle, arguments->merge,
                       "their side is an edge that stays; 0 = none");
   command->add_option("--report", arguments->report, "write counts, quality and times as JSON");

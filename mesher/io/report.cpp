@@ -147,7 +147,6 @@ json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const Exec
           {"off_geometry", off_geometry_to_json(mesh)},
           {"let_go", let_go_to_json(mesh)},
           {"kept", kept_to_json(mesh)},
-          {"symmetry", {{"planes", mesh.symmetry.planes}, {"note", mesh.symmetry.note}}},
           {"warnings", warnings},
           {"versions",
            {{"quadrille", QUADRILLE_VERSION},

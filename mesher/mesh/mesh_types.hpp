@@ -98,12 +98,6 @@ struct ShellMesh {
     std::string why;    ///< what the mesh would get without it
   };
 
-  /// The planes in which the mesh is symmetric.
-  struct Symmetry {
-    std::vector<std::string> planes;  ///< such as "x = 12.5"; empty = the model was meshed as a whole
-    std::string note;                 ///< why mirror planes of the model were not used; may be empty
-  };
-
   /// A set of entities that has a name or a number of its own in the file that the mesh was read from.
   struct Group {
     std::string name;           ///< empty = the group has only a number
@@ -134,7 +128,6 @@ struct ShellMesh {
   std::vector<OffGeometry> off_geometry;      ///< ascending by node; usually empty
   std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; for faces see Face::status
   std::vector<Kept> kept;                     ///< faces, then edges, ascending
-  Symmetry symmetry;                          ///< mirror planes in use, see MeshOptions::symmetry
   std::vector<Face> faces;                    ///< one entry per CAD face; empty in meshes read from files
   /// The groups in a file that the mesh was read from, in file order. Groups may overlap: entities are made
   /// small enough that each group is a set of whole entities. If this is empty, written files get one group

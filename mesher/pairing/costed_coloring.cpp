@@ -47,7 +47,7 @@ void invert(TriangleShape& shape) {
 
 }  // namespace
 
-float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, int j, Objective objective) {
+float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, int j) {
   constexpr float right = 1.57079633F;
   const float corners[4] = {first.angle[previous_index(i)], second.angle[previous_index(j)],
                             first.angle[i] + second.angle[next_index(j)],
@@ -60,7 +60,6 @@ float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, 
   }
   float aligned = 0;
   for (int k = 0; k < 3; ++k) aligned += first.normal[k] * second.normal[k];
-  if (objective == Objective::shape) return worst + 2 * (1 - aligned);
   const float bad = std::max(worst - 0.6F, 0.0F);
   const float reflex = std::max(worst - 0.95F, 0.0F);
   return 0.5F * worst + 0.3F * squares + 4 * bad * bad + 10 * reflex + 2 * (1 - aligned);
@@ -71,9 +70,7 @@ CostedColoring::CostedColoring(const TriangleMesh& mesh, EdgeColoring colors)
   for (int t = 0; t < size(); ++t) triangles_[t] = {mesh.triangles[t], {0, 0, 0}};
 }
 
-void CostedColoring::compute_costs(const std::vector<Vector3>& points, Objective objective,
-                                   const ExecutionContext& context) {
-  objective_ = objective;
+void CostedColoring::compute_costs(const std::vector<Vector3>& points, const ExecutionContext& context) {
   SparseCheck check(context);
   std::vector<TriangleShape> shapes(triangles_.size());
   for (int t = 0; t < size(); ++t) {
@@ -85,8 +82,7 @@ void CostedColoring::compute_costs(const std::vector<Vector3>& points, Objective
     for (int i = 0; i < 3; ++i) {
       const Side other = twin(make_side(t, i));
       if (other < make_side(t, i)) continue;  // boundary, or done from the other side
-      set_cost(make_side(t, i),
-               pair_cost(shapes[t], i, shapes[triangle_of(other)], index_of(other), objective));
+      set_cost(make_side(t, i), pair_cost(shapes[t], i, shapes[triangle_of(other)], index_of(other)));
     }
   }
 }
@@ -139,8 +135,8 @@ void CostedColoring::update_cost(Side side, const std::vector<Vector3>& points) 
     if (normal.dot(mean) < 0) invert(result);
     return result;
   };
-  set_cost(side, pair_cost(shape(triangle_of(side)), index_of(side), shape(triangle_of(other)),
-                           index_of(other), objective_));
+  set_cost(side,
+           pair_cost(shape(triangle_of(side)), index_of(side), shape(triangle_of(other)), index_of(other)));
 }
 
 void CostedColoring::set_cost(Side side, float cost) {

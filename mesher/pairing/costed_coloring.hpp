@@ -8,7 +8,6 @@
 #include "geometry/base/vector.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 #include "mesher/pairing/edge_coloring.hpp"
-#include "mesher/pairing/recombine_options.hpp"
 
 namespace quadrille {
 
@@ -34,11 +33,8 @@ class CostedColoring : public EdgeColoring {
     return i;
   }
 
-  Objective objective() const { return objective_; }
-
   /// Fills in the cost of every inner side. Time: about 20 ns per triangle.
-  void compute_costs(const std::vector<Vector3>& points, Objective objective,
-                     const ExecutionContext& context = {});
+  void compute_costs(const std::vector<Vector3>& points, const ExecutionContext& context = {});
 
   /// Flips an inner edge, so that it joins the other two corners of its triangles. Updates the costs around
   /// it. The edge keeps its color; the other four edges of the two triangles become blank.
@@ -56,7 +52,6 @@ class CostedColoring : public EdgeColoring {
   void set_cost(Side side, float cost);
 
   std::vector<Triangle> triangles_;
-  Objective objective_ = Objective::regular;
 };
 
 /// Gives the removed color to edges one after the other: to the only inner edge of a triangle that can still
@@ -72,7 +67,7 @@ struct TriangleShape {
 
 /// The cost of the quad made of two triangles across the side i of the first and j of the second, from its
 /// corner angles and the fold between the two: 0 for a rectangle, about 0.3 for two equilateral triangles,
-/// above 2 for a concave quad. For the objective `shape`: 1 - q, with q not clamped at 0, plus the fold.
-float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, int j, Objective objective);
+/// above 2 for a concave quad.
+float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, int j);
 
 }  // namespace quadrille

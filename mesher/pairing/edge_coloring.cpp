@@ -313,26 +313,6 @@ int remove_blanks(EdgeColoring& coloring, Random& random) {
   return left;
 }
 
-void complete(EdgeColoring& coloring) {
-  const auto color_along = [&](Side side, int color) {
-    while (side >= 0 && coloring.color(side) == EdgeColoring::blank) {
-      const int colors = available(coloring, side) & ~(1 << EdgeColoring::removed);
-      if (colors == 0) return;
-      if ((colors >> color & 1) == 0) color = lowest(colors);
-      coloring.color_blank(side, color);
-      const Side across = coloring.twin(side);
-      side = across < 0 ? -1 : coloring.blank_side_of(triangle_of(across));
-      color = 3 - color;
-    }
-  };
-  for (int t = 0; t < coloring.size(); ++t) {
-    for (int i = 0; i < 3 && coloring.colored_sides(t) != 7; ++i) {
-      color_along(make_side(t, i), 1);
-      color_along(coloring.blank_side_of(t), 2);  // the path in its other direction
-    }
-  }
-}
-
 std::array<int, 3> count_boundary_colors(const EdgeColoring& coloring, const std::vector<Side>& boundary) {
   std::array<int, 4> counts{};
   for (Side side : boundary) ++counts[coloring.color(side)];

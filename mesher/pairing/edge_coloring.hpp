@@ -219,10 +219,6 @@ int color_greedily(EdgeColoring& coloring, Random& random);
 /// \return the number of blanks left after many tries: 0 in practice.
 int remove_blanks(EdgeColoring& coloring, Random& random);
 
-/// Completes a coloring that has the removed color only: the other two alternate along the remaining paths
-/// and cycles. An odd cycle keeps one blank. Time: linear.
-void complete(EdgeColoring& coloring);
-
 /// How often each color occurs on the boundary, which is given as by EdgeColoring::boundary().
 std::array<int, 3> count_boundary_colors(const EdgeColoring& coloring, const std::vector<Side>& boundary);
 

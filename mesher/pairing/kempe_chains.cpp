@@ -88,8 +88,7 @@ namespace {
 class Valences {
  public:
   Valences(const CostedColoring& coloring, const std::vector<Vector3>& points)
-      : weight_(coloring.objective() == Objective::shape ? shape_weight : regular_weight),
-        deviation_(points.size(), 0) {
+      : deviation_(points.size(), 0) {
     std::vector<char> boundary(points.size(), 0);
     for (int t = 0; t < coloring.size(); ++t) {
       for (int i = 0; i < 3; ++i) {
@@ -118,27 +117,15 @@ class Valences {
   float more(int a, int b) { return change(a, 1) + change(b, 1); }
   float fewer(int a, int b) { return change(a, -1) + change(b, -1); }
 
-  /// Replaces the diagonals `before` by those `after` in the counts. \return the decrease of the cost.
-  float exchange(const CostedColoring& coloring, const std::vector<Side>& before,
-                 const std::vector<Side>& after) {
-    float gain = 0;
-    for (Side s : before) gain += coloring.cost_of(s) - more(coloring.corner_at(s), coloring.end_of(s));
-    for (Side s : after) gain -= coloring.cost_of(s) + fewer(coloring.corner_at(s), coloring.end_of(s));
-    return gain;
-  }
-
-  /// Estimates of more() and fewer() without making the change, for one step of a longer exchange.
-  float if_more(int a, int b) const {
-    return 2 * weight_ * (caution + static_cast<float>(deviation_[a] + deviation_[b]));
-  }
-  float if_fewer(int a, int b) const {
-    return 2 * weight_ * (caution - static_cast<float>(deviation_[a] + deviation_[b]));
+  /// Replaces the diagonals `before` by those `after` in the counts.
+  void exchange(const CostedColoring& coloring, const std::vector<Side>& before,
+                const std::vector<Side>& after) {
+    for (const Side s : before) more(coloring.corner_at(s), coloring.end_of(s));
+    for (const Side s : after) fewer(coloring.corner_at(s), coloring.end_of(s));
   }
 
  private:
-  static constexpr float regular_weight = 0.4F, shape_weight = 0.02F;
-  /// Stands for the second-order term (1) of a single change, which other steps of a cycle mostly undo.
-  static constexpr float caution = 0.25F;
+  static constexpr float weight = 0.4F;  // of one unit of squared deviation, against a pair's cost
 
   static float angle_at(const std::array<int, 3>& corner, int i, const std::vector<Vector3>& points) {
     const Vector3& p = points[corner[i]];
@@ -149,10 +136,9 @@ class Valences {
   float change(int v, int by) {
     const int before = deviation_[v], after = before + by;
     deviation_[v] = static_cast<std::int16_t>(after);
-    return weight_ * static_cast<float>(after * after - before * before);
+    return weight * static_cast<float>(after * after - before * before);
   }
 
-  float weight_;
   std::vector<std::int16_t> deviation_;
 };
 
@@ -161,9 +147,8 @@ class Valences {
 class Exchanger {
  public:
   /// \param open (triangles) 1 = may be used; null = all. Points of the others are not touched.
-  /// \param first,end the range of the triangles that may be used, `end` excluded
-  Exchanger(CostedColoring& coloring, Valences& valences, const char* open, int first, int end)
-      : coloring_(coloring), valences_(valences), open_(open), first_(first), count_(end - first) {}
+  Exchanger(CostedColoring& coloring, Valences& valences, const char* open)
+      : coloring_(coloring), valences_(valences), open_(open) {}
 
   bool may_use(int t) const { return !open_ || open_[t]; }
 
@@ -176,25 +161,12 @@ class Exchanger {
     touched_.clear();
     if (!usable(t)) return touched_;
     root_ = coloring_.mate_of(t);
-    if (coloring_.objective() == Objective::shape) {
-      search(t);
-    } else {
-      release(t, 0);
-    }
+    release(t, 0);
     if (!best_.empty()) apply();
     return touched_;
   }
 
  private:
-  /// A way that search() has found to an opened pair.
-  struct Label {
-    int triangle;  // the one of the pair that needs a mate
-    float gain;
-    int before;   // the label before; -1 = none
-    Side across;  // the side by which the way came
-  };
-
-  static constexpr int max_labels = 400;
   static constexpr int max_pairs = 20;
   static constexpr int broad_pairs = 5;
   static constexpr float slack = -0.15F;  // because of the valences, gains depend on the order
@@ -268,72 +240,6 @@ class Exchanger {
     return false;
   }
 
-  /// Searches all ways at once, but follows only the best one to each opened pair. This finds long cycles at
-  /// low cost. The charge for valences is estimated on the way, and computed where a cycle closes.
-  void search(int start) {
-    labels_.clear();
-    ++search_number_;
-    if (reached_in_.empty()) {
-      reached_in_.assign(count_, 0);
-      label_of_.resize(count_);
-    }
-    expose(start, 0, -1, -1);
-    for (int k = 0; k < static_cast<int>(labels_.size()) && k < max_labels; ++k) {
-      const Label label = labels_[k];
-      if (label_of_[label.triangle - first_] != k) continue;  // a better way has been found since
-      const Side diagonal = coloring_.diagonal_of(label.triangle);
-      for (Side side : {next_side(diagonal), previous_side(diagonal)}) {
-        const Side across = coloring_.twin(side);
-        if (across < 0 || !usable(triangle_of(across))) continue;
-        const float rest = label.gain - coloring_.cost_of(side) -
-                           valences_.if_fewer(coloring_.corner_at(side), coloring_.end_of(side));
-        if (rest <= 0) continue;
-        if (triangle_of(across) == root_) {
-          close(k, across);
-        } else if (!is_opened(k, triangle_of(across))) {
-          expose(coloring_.mate_of(triangle_of(across)), rest, k, across);
-        }
-      }
-    }
-  }
-
-  /// Opens the pair of `t`, unless another way here has gained as much.
-  void expose(int t, float gain, int before, Side across) {
-    const Side diagonal = coloring_.diagonal_of(t);
-    gain += coloring_.cost_of(diagonal) -
-            valences_.if_more(coloring_.corner_at(diagonal), coloring_.end_of(diagonal));
-    // Each cycle that gains has a start from which all partial gains are positive (Lin & Kernighan).
-    if (gain <= 0) return;
-    int& reached_in = reached_in_[t - first_];
-    int& label = label_of_[t - first_];
-    if (reached_in == search_number_ && labels_[label].gain >= gain - 1e-4F) return;
-    reached_in = search_number_;
-    label = static_cast<int>(labels_.size());
-    labels_.push_back({t, gain, before, across});
-  }
-
-  /// Whether the pair of t has been opened on the way to a label.
-  bool is_opened(int k, int t) const {
-    const int mate = coloring_.mate_of(t);
-    if (mate == root_) return true;
-    for (; k >= 0; k = labels_[k].before) {
-      if (labels_[k].triangle == t || labels_[k].triangle == mate) return true;
-    }
-    return false;
-  }
-
-  /// Keeps the cycle that a label and a side to the root close, if it gains more than those found before.
-  void close(int k, Side last) {
-    path_.assign(1, last);
-    for (; labels_[k].before >= 0; k = labels_[k].before) path_.push_back(labels_[k].across);
-    std::reverse(path_.begin(), path_.end());
-    const float gain = valences_.exchange(coloring_, diagonals_of(path_), path_);
-    valences_.exchange(coloring_, path_, diagonals_);
-    if (gain <= best_gain_) return;
-    best_gain_ = gain;
-    best_ = path_;
-  }
-
   /// The sides that lose the removed color, for the sides of a chain that get it.
   const std::vector<Side>& diagonals_of(const std::vector<Side>& chain) {
     diagonals_.clear();
@@ -352,14 +258,10 @@ class Exchanger {
   CostedColoring& coloring_;
   Valences& valences_;
   const char* open_;
-  int first_, count_;
   int root_ = -1;
   float best_gain_ = 0;
   std::vector<Side> path_, best_, diagonals_;
   std::vector<int> touched_;
-  std::vector<Label> labels_;
-  std::vector<int> reached_in_, label_of_;  // by triangle, from first_: number of the last search, label
-  int search_number_ = 0;
 };
 
 /// Exchanges around the given triangles until nothing gains; triangles around an exchange are tried again.
@@ -428,8 +330,7 @@ void exchange_laid_chains(CostedColoring& coloring, Valences& valences, std::siz
     const auto work = [&](int block) {
       std::vector<int> members(std::min(block_size, coloring.size() - block * block_size));
       std::iota(members.begin(), members.end(), block * block_size);
-      const int first = members.front();
-      Exchanger exchanger(coloring, valences, inner.data(), first, first + static_cast<int>(members.size()));
+      Exchanger exchanger(coloring, valences, inner.data());
       exchange_around(coloring, exchanger, std::move(members), queued, context);
     };
     on_threads(context.threads(), [&] { tbb::parallel_for(0, blocks, work); });
@@ -437,38 +338,8 @@ void exchange_laid_chains(CostedColoring& coloring, Valences& valences, std::siz
       if (!inner[t]) remaining.push_back(t);
     }
   }
-  Exchanger exchanger(coloring, valences, nullptr, 0, coloring.size());
+  Exchanger exchanger(coloring, valences, nullptr);
   exchange_around(coloring, exchanger, std::move(remaining), queued, context);
-}
-
-/// Exchanges along the closed chains, however long, of the removed color and `color` in a complete coloring.
-void exchange_whole_chains(CostedColoring& coloring, Valences& valences, int color,
-                           const ExecutionContext& context) {
-  SparseCheck check(context);
-  boost::dynamic_bitset<> seen(coloring.size());
-  std::vector<Side> removed, kept;
-  for (int start = 0; start < coloring.size(); ++start) {
-    check();
-    removed.clear();
-    kept.clear();
-    bool closed = false;
-    for (int t = start; t >= 0 && !seen.test_set(t) && !coloring.free(t);) {
-      removed.push_back(coloring.diagonal_of(t));
-      seen.set(coloring.mate_of(t));
-      kept.push_back(coloring.side_of(coloring.mate_of(t), color));
-      t = kept.back() < 0 ? -1 : triangle_of(coloring.twin(kept.back()));
-      closed = t == start;
-    }
-    if (!closed) continue;
-    if (valences.exchange(coloring, removed, kept) > least_gain) {
-      for (Side s : removed) {
-        coloring.swap_colors(triangle_of(s), EdgeColoring::removed, color);
-        coloring.swap_colors(triangle_of(coloring.twin(s)), EdgeColoring::removed, color);
-      }
-    } else {
-      valences.exchange(coloring, kept, removed);
-    }
-  }
 }
 
 }  // namespace
@@ -478,8 +349,6 @@ void exchange_chains(CostedColoring& coloring, const std::vector<Vector3>& point
   Valences valences(coloring, points);
   context.check();
   exchange_laid_chains(coloring, valences, points.size(), context);
-  complete(coloring);
-  for (int color : {1, 2}) exchange_whole_chains(coloring, valences, color, context);
 }
 
 }  // namespace quadrille

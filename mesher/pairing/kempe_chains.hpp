@@ -14,11 +14,9 @@ void move_free(CostedColoring& coloring, const ExecutionContext& context = {});
 
 /// Exchanges the removed color with another one along closed chains where that lowers the cost. The cost is
 /// the sum of pair_cost() over the pairs plus a charge at each point for the deviation from the ideal number
-/// of quads (4 inside; on the boundary one for every 90 degrees). The first step searches chains around each
-/// triangle until nothing gains. All other edges are blank, so a chain chooses the edges of its second color
-/// where it gains most; the objective decides how far it is searched. The second step completes the coloring
-/// and exchanges each closed chain of it that gains. Takes a coloring with the removed color alone; odd
-/// cycles of the other two keep one blank each. Needs the costs.
+/// of quads (4 inside; on the boundary one for every 90 degrees). Searches chains around each triangle until
+/// nothing gains. All other edges are blank, so a chain chooses the edges of its second color where it gains
+/// most. Takes a coloring with the removed color alone. Needs the costs.
 void exchange_chains(CostedColoring& coloring, const std::vector<Vector3>& points, ExecutionContext& context);
 
 }  // namespace quadrille

@@ -51,7 +51,7 @@ QuadMesh remove_color(const CostedColoring& coloring, const TriangleMesh& mesh) 
 CostedColoring color_by_quality(const TriangleMesh& mesh, const RecombineOptions& options,
                                 ExecutionContext& context) {
   CostedColoring coloring(mesh, context);
-  coloring.compute_costs(mesh.points, options.objective, context);
+  coloring.compute_costs(mesh.points, context);
   color_by_cost(coloring, context);
   if (augment(coloring, free_triangles(coloring), {}, context) > 0 &&
       walk(coloring, mesh.points, context) > 0)
@@ -108,7 +108,7 @@ QuadMesh recombine_as_in_paper(const TriangleMesh& mesh, const RecombineOptions&
   if (options.leftovers == Leftovers::pair && augment(coloring, free, {.heading = &mesh}, context) > 0) {
     // Triangles that no path joins walk, which takes flips of edges.
     CostedColoring flipped(mesh, std::move(coloring));
-    flipped.compute_costs(mesh.points, options.objective, context);
+    flipped.compute_costs(mesh.points, context);
     walk(flipped, mesh.points, context);
     return remove_color(flipped, mesh);
   }

@@ -11,12 +11,6 @@ enum class Method {
   paper     ///< as in the 2018 paper: three colors in the order of the mesh, some steps random
 };
 
-/// What costs and the exchange along chains aim at.
-enum class Objective {
-  regular,  ///< points with four quads first: clean-up and smoothing gain the most from these
-  shape     ///< greatest mean q with the points where they are, then regularity; three to eight times slower
-};
-
 /// Whether colors are exchanged along chains where angles or valence gain (quality only).
 enum class Exchange { where_it_gains, never };
 
@@ -30,7 +24,6 @@ enum class Leftovers {
 struct RecombineOptions {
   Method method = Method::quality;  ///< how colors are given
   std::uint64_t seed = 1;           ///< for the random choices of the paper's method; `quality` makes none
-  Objective objective = Objective::regular;      ///< what costs and exchange aim at
   Exchange exchange = Exchange::where_it_gains;  ///< whether colors are exchanged
   Leftovers leftovers = Leftovers::pair;         ///< what becomes of unpaired triangles
 };

@@ -146,7 +146,7 @@ TEST(RecombineCommand, TakesPiecesWithHolesEachFaceOnItsOwn) {
   test::write_text(folder / "in.msh", as_msh(input));
   std::map<std::string, int> before;
   add_open_sides(input.points, input.triangles, input.tags, before);
-  for (const char* mode : {"", "--prefer shape", "--no-improve", "--no-improve --seed 5"}) {
+  for (const char* mode : {"", "--no-improve", "--no-improve --seed 5"}) {
     const auto result =
         test::run(fmt::format("cd {} && timeout 60 {} recombine in.msh -o out.msh --quiet {} 2>&1",
                               folder.path().string(), program, mode));

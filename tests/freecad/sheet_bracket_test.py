@@ -49,12 +49,9 @@ class SheetBracketTest(unittest.TestCase):
             rims = [self.surface.Shape.getElement(edge) for edge in names]
             self.assertAlmostEqual(sum(rim.Length for rim in rims), 4 * 2 * np.pi * radius, 6)
 
-    def test_the_mesh_is_of_quads_and_its_own_mirror_image(self):
+    def test_the_mesh_is_of_quads(self):
         mesh = self.mesh.FemMesh
         self.assertEqual(mesh.QuadrangleCount, mesh.FaceCount)
-        points = np.array([tuple(point) for point in mesh.Nodes.values()])
-        sides = [np.unique(np.round(points * (1, side, 1), 6) + 0.0, axis=0) for side in (1, -1)]
-        np.testing.assert_allclose(*sides, atol=2e-6)
 
     def test_files(self):
         for ending in (".FCStd", ".inp", ".png"):

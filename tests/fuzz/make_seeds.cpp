@@ -59,7 +59,7 @@ constexpr const char* command_lines[] = {
     "mesh\nbox.brep\n-o\nout.med\n--size-field\nf.vdb\n--write-size-field\ng.vdb\n--report\nr.json\n--"
     "picture\np.png",
     "mesh\nbox.brep\n-o\nout.vtk\n--msh-version\n4.1",
-    "recombine\ntri.msh\n-o\nquad.msh\n--seed\n3\n--no-improve\n--prefer\nshape\n--threads\n1\n--quiet",
+    "recombine\ntri.msh\n-o\nquad.msh\n--seed\n3\n--no-improve\n--threads\n1\n--quiet",
     "info\nbox.brep",
     "quality\nmesh.msh",
     "--version",

@@ -16,9 +16,9 @@ namespace {
 using namespace testing;
 
 /// The coloring that exchanges start from.
-CostedColoring colored_by_cost(const TriangleMesh& mesh, Objective objective = Objective::regular) {
+CostedColoring colored_by_cost(const TriangleMesh& mesh) {
   CostedColoring coloring(mesh);
-  coloring.compute_costs(mesh.points, objective);
+  coloring.compute_costs(mesh.points);
   color_by_cost(coloring);
   augment(coloring, free_triangles(coloring));
   return coloring;
@@ -31,79 +31,20 @@ double cost_of_pairs(const CostedColoring& coloring) {
   return cost;
 }
 
-/// The cycles of edges without the removed color that have an odd number of them.
-int count_odd_cycles(const EdgeColoring& coloring) {
-  std::vector<char> seen(coloring.size(), 0);
-  int odd = 0;
-  for (int start = 0; start < coloring.size(); ++start) {
-    if (seen[start]) continue;
-    int length = 0;
-    Side side = next_side(coloring.diagonal_of(start));
-    for (;;) {
-      seen[triangle_of(side)] = 1;
-      ++length;
-      const Side across = coloring.twin(side);
-      if (across < 0) break;  // a path
-      const int t = triangle_of(across);
-      const Side diagonal = coloring.diagonal_of(t);
-      side = next_side(diagonal) == across ? previous_side(diagonal) : next_side(diagonal);
-      if (t == start) {
-        odd += length % 2;
-        break;
-      }
-    }
-  }
-  return odd;
-}
-
 TEST(KempeChains, KeepTheColoringProperAndPairAll) {
-  int blanks = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     for (const TriangleMesh& mesh : {random_square(400, seed), random_with_holes(600, 4, seed)}) {
-      for (const Objective objective : {Objective::regular, Objective::shape}) {
-        CostedColoring coloring = colored_by_cost(mesh, objective);
-        EXPECT_EQ(validate(coloring), "");
-        const std::size_t free = free_triangles(coloring).size();
-        ExecutionContext context;
-        exchange_chains(coloring, mesh.points, context);
-        EXPECT_EQ(validate(coloring), "");
-        EXPECT_EQ(free_triangles(coloring).size(), free);
-        blanks += count_blanks(coloring);
-      }
-    }
-  }
-  EXPECT_GT(blanks, 0) << "no sample has an odd cycle";
-}
-
-TEST(KempeChains, TheOtherColorsLeaveABlankInOddCyclesAlone) {
-  int odd = 0;
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    for (const TriangleMesh& mesh :
-         {random_square(400, seed), random_with_holes(600, 4, seed), icosphere(3)}) {
       CostedColoring coloring = colored_by_cost(mesh);
-      if (!free_triangles(coloring).empty()) continue;
-      complete(coloring);
       EXPECT_EQ(validate(coloring), "");
-      EXPECT_EQ(count_blanks(coloring), count_odd_cycles(coloring));
-      odd += count_odd_cycles(coloring);
+      const std::size_t free = free_triangles(coloring).size();
+      const double before = cost_of_pairs(coloring);
+      ExecutionContext context;
+      exchange_chains(coloring, mesh.points, context);
+      EXPECT_EQ(validate(coloring), "");
+      EXPECT_EQ(free_triangles(coloring).size(), free);
+      EXPECT_NE(cost_of_pairs(coloring), before) << "nothing was exchanged";
     }
   }
-  EXPECT_GT(odd, 0);
-}
-
-TEST(KempeChains, AreExchangedWholeWhereNoPartOfThemGains) {
-  // A ring of squares paired across their common sides has one chain, all the way round.
-  const TriangleMesh mesh = band(60);
-  CostedColoring coloring(mesh);
-  coloring.compute_costs(mesh.points, Objective::regular);
-  for (int t = 1; t < coloring.size(); t += 2) coloring.pair(make_side(t, 1));
-  ASSERT_TRUE(free_triangles(coloring).empty());
-  const double before = cost_of_pairs(coloring);
-  ExecutionContext context;
-  exchange_chains(coloring, mesh.points, context);
-  EXPECT_EQ(validate(coloring), "");
-  EXPECT_TRUE(free_triangles(coloring).empty());
-  EXPECT_LT(cost_of_pairs(coloring), 0.5 * before);
 }
 
 TEST(KempeChains, LeavesTheTriangleFreeThatCostsLeast) {
@@ -113,7 +54,7 @@ TEST(KempeChains, LeavesTheTriangleFreeThatCostsLeast) {
     TriangleMesh mesh = strip(n);
     for (Vector3& p : mesh.points) p.x() += place(random);
     CostedColoring coloring(mesh);
-    coloring.compute_costs(mesh.points, Objective::regular);
+    coloring.compute_costs(mesh.points);
     const auto side_to = [&](int t, int other) {
       for (int i = 0; i < 3; ++i) {
         if (const Side twin = coloring.twin(make_side(t, i)); twin >= 0 && triangle_of(twin) == other)

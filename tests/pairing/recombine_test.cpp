@@ -142,12 +142,8 @@ TEST(Recombine, AMillionTriangles) {
 TEST(Recombine, IsDeterministicForAnyThreadCount) {
   // Large enough to be worked on in several blocks.
   const TriangleMesh mesh = grid(400, 300, 9);
-  for (const Objective objective : {Objective::regular, Objective::shape}) {
-    RecombineOptions options;
-    options.objective = objective;
-    ExecutionContext one(1), four(4);
-    EXPECT_EQ(recombine(mesh, options, one).quads, recombine(mesh, options, four).quads);
-  }
+  ExecutionContext one(1), four(4);
+  EXPECT_EQ(recombine(mesh, {}, one).quads, recombine(mesh, {}, four).quads);
 }
 
 TEST(Recombine, PaperModeFollowsItsSeed) {
@@ -169,24 +165,6 @@ TEST(Recombine, ExchangeLowersTheNumberOfIrregularPoints) {
     return std::count_if(valence.begin(), valence.end(), [](int n) { return n != 4; });
   };
   EXPECT_LT(irregular(recombine(mesh, {}, context)), irregular(recombine(mesh, plain, context)));
-}
-
-TEST(Recombine, TheObjectiveShapeGivesTheGreaterMean) {
-  const auto mean_q = [](const QuadMesh& mesh) {
-    double sum = 0;
-    for (const auto& [a, b, c, d] : mesh.quads)
-      sum += quad_q(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]);
-    return sum / static_cast<double>(mesh.quads.size());
-  };
-  RecombineOptions shape;
-  shape.objective = Objective::shape;
-  ExecutionContext context;
-  for (unsigned seed = 1; seed <= 10; ++seed) {
-    const TriangleMesh mesh = random_with_holes(600, 3, seed);
-    const QuadMesh quads = recombine(mesh, shape, context);
-    EXPECT_EQ(faults(mesh, quads), "");
-    EXPECT_GT(mean_q(quads), mean_q(recombine(mesh, {}, context)));
-  }
 }
 
 TEST(Recombine, CanBeCancelled) {

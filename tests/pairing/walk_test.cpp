@@ -26,7 +26,7 @@ TEST(Walk, FreeTrianglesFarApartMeet) {
     if (along.x() * along.y() != 0 && coloring.twin(s) > s) coloring.pair(s);
   }
   EXPECT_EQ(free_triangles(coloring).size(), 2U);
-  coloring.compute_costs(cut.points, Objective::regular);
+  coloring.compute_costs(cut.points);
   EXPECT_EQ(walk(coloring, cut.points), 0);
   EXPECT_EQ(validate(coloring), "");
 }

@@ -127,7 +127,6 @@ def mesh(
     bias_both: Optional[_Entries] = None,
     merge_tiny: Optional[float] = None,
     rings: Optional[int] = None,
-    symmetry: Optional[bool] = None,
     partial: Optional[bool] = None,
     strict: Optional[bool] = None,
     keep_features: Optional[bool] = None,
