@@ -20,7 +20,9 @@ from FreeCAD import Vector
 
 import quadrille
 import quadrille.freecad as core
-from quadrille import links, picks, quality, shapes, solvers, state
+from quadrille.core import quality
+from quadrille.document import links, picks, shapes, state
+from quadrille.solvers import wrappers
 
 #: FreeCAD 1.1's. Imported now: it imports VTK, which cannot be loaded again once a test has put sys.modules back.
 NEWER_TOOLS = importlib.util.find_spec("femsolver.calculix.calculixtools")
@@ -278,8 +280,8 @@ class GuardTest(unittest.TestCase):
         kept = getattr(owner, last)
         delattr(owner, last)
         try:
-            with mock.patch.object(solvers, "_complaint", None), mock.patch("FreeCAD.Console.PrintWarning") as told:
-                solvers.wrap_solvers(core.complaint)
+            with mock.patch.object(wrappers, "_complaint", None), mock.patch("FreeCAD.Console.PrintWarning") as told:
+                wrappers.wrap_solvers(core.complaint)
                 mesh = core.mesh_object(self.part, size=5)
             self.assertEqual(mesh.Status, state.UP_TO_DATE)
             self.document.removeObject(mesh.Name)
@@ -288,16 +290,16 @@ class GuardTest(unittest.TestCase):
             setattr(owner, last, kept)
 
     def test_each_may_be_missing(self):
-        self.assertEqual(len(self.FUNCTIONS), len(solvers.WRAPPED))
+        self.assertEqual(len(self.FUNCTIONS), len(wrappers.WRAPPED))
         for module, name in self.FUNCTIONS:
             with self.subTest(name=name):
                 warnings = self.wrapped_without(module, name)
                 self.assertEqual(len([text for text in warnings if f"{module}.{name}" in text]), 1, warnings)
 
     def test_a_module_may_be_missing(self):
-        with mock.patch.dict(sys.modules, {"femmesh.meshtools": None}), mock.patch.object(solvers, "_complaint", None), \
+        with mock.patch.dict(sys.modules, {"femmesh.meshtools": None}), mock.patch.object(wrappers, "_complaint", None), \
                 mock.patch("FreeCAD.Console.PrintWarning") as told:
-            solvers.wrap_solvers(core.complaint)
+            wrappers.wrap_solvers(core.complaint)
             mesh = core.mesh_object(self.part, size=5)
         self.assertEqual(mesh.Status, state.UP_TO_DATE)
         self.assertEqual(len([call for call in told.call_args_list if "no femmesh.meshtools." in call.args[0]]), 7)

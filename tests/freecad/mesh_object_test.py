@@ -10,7 +10,6 @@ from pathlib import Path
 sys.path.insert(0, os.environ["QUADRILLE_PYTHON"])
 
 import FreeCAD
-import Fem
 import ObjectsFem
 import Part
 from FreeCAD import Vector

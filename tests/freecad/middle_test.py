@@ -14,8 +14,8 @@ import Part
 from FreeCAD import Vector
 
 import quadrille.freecad
-from quadrille import middle
-from quadrille.errors import Error
+from quadrille.core.errors import Error
+from quadrille.features import middle
 
 
 def angle(thickness, other=None):

@@ -17,8 +17,9 @@ from FreeCAD import Placement, Rotation, Vector
 
 import quadrille.freecad as core
 import solver_test
-from quadrille import state, surfaces
-from quadrille.errors import Error
+from quadrille.core.errors import Error
+from quadrille.document import state
+from quadrille.features import surfaces
 
 
 class SurfacesTest(unittest.TestCase):

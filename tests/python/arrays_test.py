@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import quadrille
-from quadrille.setting_table import SETTINGS, MeshSettings
+from quadrille.core.setting_table import SETTINGS, MeshSettings
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
 #: A square of 2 x 2 with a point in its middle at (1, 1).
