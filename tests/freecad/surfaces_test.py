@@ -147,6 +147,7 @@ class SurfacesTest(unittest.TestCase):
         again = self.document.getObject(name)
         self.document.recompute()
         self.assertTrue(state.is_surface_mesh(again))
+        self.assertEqual(type(again.Proxy).__module__, "quadrille.surfaces")  # as in documents of older versions
         self.assertEqual(surfaces.judge(again)[0], state.UP_TO_DATE)
         again.FeatureAngle = 100
         core.remesh(again)

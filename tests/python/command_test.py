@@ -1,4 +1,4 @@
-"""quadrille.command: finding the command, running it as a child, cancelling it, its errors."""
+"""quadrille.core.command: finding the command, running it as a child, cancelling it, its errors."""
 
 import json
 import os

@@ -28,7 +28,7 @@ class MeshSettings(Dict[str, Any]):
     def __init__(self, **values: Any) -> None:
         unknown = sorted(set(values) - set(BY_NAME))
         if unknown:
-            raise TypeError(f"there is no setting '{unknown[0]}' (see quadrille.setting_table.SETTINGS)")
+            raise TypeError(f"there is no setting '{unknown[0]}' (see quadrille.core.setting_table.SETTINGS)")
         super().__init__({name: value for name, value in values.items() if value is not None})
 
     def arguments(self) -> List[str]:
