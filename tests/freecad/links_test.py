@@ -21,6 +21,7 @@ from FreeCAD import Vector
 import quadrille
 import quadrille.freecad as core
 from quadrille.core import quality
+from quadrille.core.setting_table import MeshSettings
 from quadrille.document import links, picks, shapes, state
 from quadrille.solvers import wrappers
 
@@ -198,7 +199,7 @@ class LinksTest(unittest.TestCase):
     def test_criteria_are_the_meshers(self):
         part = self.document.addObject("Part::Feature", "Cone")
         part.Shape = Part.makeCone(10, 0.5, 6).fuse(Part.makeBox(13, 2, 4))
-        fem_mesh, report = core.ShapeJob(part.Shape, core.MeshSettings(size=2.5, order=1)).start().wait_for_result()
+        fem_mesh, report = core.ShapeJob(part.Shape, MeshSettings(size=2.5, order=1)).start().wait_for_result()
         measured = quality.measure(fem_mesh)
         counted = {name: int(measured.fails(name).sum()) for name in quality.CRITERIA}
         wanted = {name: entry["failing"] for name, entry in report["criteria"]["by_criterion"].items()}
