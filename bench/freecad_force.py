@@ -17,7 +17,7 @@ import ObjectsFem
 import Part
 
 import quadrille.freecad
-from quadrille import solvers
+from quadrille.solvers import wrappers
 
 
 def main():
@@ -30,7 +30,7 @@ def main():
     parser.add_argument("--without", action="store_true", help="as FreeCAD does it alone")
     options = parser.parse_args()
     if options.without:
-        solvers.WRAPPED = ()
+        wrappers.WRAPPED = ()
     document = FreeCAD.newDocument("Force")
     part = document.addObject("Part::Feature", "Part")
     part.Shape = Part.makeBox(100, 100, 10)

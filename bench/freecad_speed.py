@@ -30,7 +30,8 @@ from pivy import coin
 from PySide import QtCore, QtGui
 
 import quadrille.freecad
-from quadrille import jobs, undo
+from quadrille.core import jobs
+from quadrille.document import undo
 from quadrille.gui import quality_view
 from driver import Boxes, close_panel, find, prepare, process, trigger, wait_for
 

@@ -23,7 +23,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
 import quadrille
-from quadrille.quality import CRITERIA, measure_quads
+from quadrille.core.quality import CRITERIA, measure_quads
 
 #: Colors for shares of the limit from 0 to 2: green to yellow inside the limits, red beyond.
 COLORS = LinearSegmentedColormap.from_list("limits", [(0, "#1a9850"), (0.3, "#91cf60"), (0.499, "#fee08b"), (0.5, "#f46d43"), (1, "#a50026")])
@@ -125,8 +125,10 @@ def draw(rows: Dict[str, Dict[str, Optional[Meshed]]], out: Path) -> None:
                 axis.set_title(f"{name}: no mesh", fontsize=9)
                 continue
             axis.imshow(picture(meshed, 560, 400))
-            axis.set_title(f"{name}: {len(meshed.quads)} quads, q {meshed.q.mean():.3f}, {100 * (meshed.shares > 1).mean():.1f} % outside", fontsize=9)
-            line[-1].hist(np.clip(meshed.shares, 0, 2), edges, weights=np.full(len(meshed.shares), 100 / len(meshed.shares)), histtype="step", label=name)
+            axis.set_title(f"{name}: {len(meshed.quads)} quads, q {meshed.q.mean():.3f}, {100 * (meshed.shares > 1).mean():.1f} % outside",
+                           fontsize=9)
+            line[-1].hist(np.clip(meshed.shares, 0, 2), edges, weights=np.full(len(meshed.shares), 100 / len(meshed.shares)),
+                          histtype="step", label=name)
         line[-1].axvline(1, color="#a50026", linewidth=0.8)
         line[-1].set_title(part, fontsize=9)
         line[-1].tick_params(labelsize=7)

@@ -21,13 +21,13 @@ if [[ "${1:-}" == --update ]]; then
   PYTHONDONTWRITEBYTECODE=1 python3 - >"$marks" <<'PYTHON'
 import ast, importlib.util, pathlib, sys, types
 package = types.ModuleType("quadrille"); package.__path__ = ["quadrille"]; sys.modules["quadrille"] = package
-from quadrille.setting_table import SETTINGS, property_help, property_kind, words
+from quadrille.core.setting_table import SETTINGS, property_help, property_kind, words
 texts = {text for setting in SETTINGS if setting["property"] for text in (
     setting["label"], property_help(setting), setting["otherwise"],
     *(words(setting) if property_kind(setting) == "App::PropertyEnumeration" else ())) if text}
 for text in sorted(texts):
     print(f"QT_TRANSLATE_NOOP({'QuadrilleSettings'!r}, {text!r})")
-tree = ast.parse(pathlib.Path("quadrille/state.py").read_text())
+tree = ast.parse(pathlib.Path("quadrille/document/state.py").read_text())
 values = {node.targets[0].id: node.value.value for node in tree.body if isinstance(node, ast.Assign)
           and isinstance(node.value, ast.Constant) and node.targets[0].id.isupper() and not node.targets[0].id.endswith("TYPE")}
 for text in values.values():

@@ -1,6 +1,8 @@
-"""Data flows one way: each room of geometry/ and mesher/ includes only itself and rooms that stand before it. What they ask of
-the operating system lies in the files that docs/porting.md names."""
+"""Data flows one way: each room of geometry/ and mesher/ includes only itself and rooms that stand before it, and each package of
+workbench/quadrille/ imports only itself and packages that stand before it. What they ask of the operating system lies in the files
+that docs/porting.md names."""
 
+import ast
 import pathlib
 import re
 import unittest
@@ -85,6 +87,77 @@ class Rooms(unittest.TestCase):
                  if re.search(r"/usr/(?:lib|bin|include)|X11::|package\(X11|/etc/", p.read_text())
                  and p.name not in ("system.cmake", "packages.cmake")]
         self.assertEqual(wrong, [])
+
+
+PACKAGE = ROOT / "workbench" / "quadrille"
+# In the order of imports. A file in quadrille/ itself stands after all of them: scripts and FreeCAD begin there.
+PACKAGES = ["core", "document", "solvers", "features", "gui"]
+
+
+def python_modules():
+    """The modules of the Python package, by their names within it ("core.errors"; a package's own name for its __init__.py)."""
+    modules = {}
+    for path in sorted(PACKAGE.rglob("*.py")):
+        parts = path.relative_to(PACKAGE).with_suffix("").parts
+        modules[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return modules
+
+
+def imports_of(path, modules):
+    """The modules of the package that a file imports, at its top or in a function."""
+    here = path.relative_to(PACKAGE).parent.parts
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            names = [alias.name.partition(".")[2] for alias in node.names if alias.name.split(".")[0] == "quadrille"]
+        elif isinstance(node, ast.ImportFrom) and (node.level or (node.module or "").split(".")[0] == "quadrille"):
+            base = here[:len(here) - node.level + 1] if node.level else ()
+            inner = tuple((node.module or "").split("."))[0 if node.level else 1:]
+            above = ".".join((*base, *filter(None, inner)))
+            names = [f"{above}.{alias.name}".strip(".") for alias in node.names]
+            names = [name if name in modules else above for name in names]
+        else:
+            continue
+        found.update(name for name in names if name in modules)
+    return found
+
+
+def circles(imports):
+    """The groups of modules that import each other, directly or through others."""
+    reached = {}
+    for start in imports:
+        seen, left = set(), [start]
+        while left:
+            new = imports[left.pop()] - seen
+            seen |= new
+            left += new
+        reached[start] = seen
+    return sorted({tuple(sorted(other for other in reached[name] if name in reached[other]))
+                   for name in imports if name in reached[name]})
+
+
+class PythonPackage(unittest.TestCase):
+    def setUp(self):
+        modules = python_modules()
+        # The module itself is no import of interest: batch.py imports itself, so that Dask's workers find its functions.
+        self.imports = {name: imports_of(path, modules) - {name} for name, path in modules.items()}
+
+    def test_no_circle_of_imports(self):
+        self.assertGreater(len(self.imports), 50)
+        self.assertIn("core.command", self.imports[""])  # imported in a function
+        self.assertEqual(circles(self.imports), [])
+
+    def test_imports_go_one_way(self):
+        def place(name):
+            top = name.split(".")[0]
+            return PACKAGES.index(top) if top in PACKAGES else len(PACKAGES)
+
+        wrong = [f"{name} imports {other}" for name, others in self.imports.items() for other in sorted(others)
+                 if place(other) > place(name)]
+        self.assertEqual(wrong, [])
+
+    def test_circles_are_found(self):
+        self.assertEqual(circles({"a": {"b"}, "b": {"c"}, "c": {"b"}, "d": {"a"}}), [("b", "c")])
 
 
 if __name__ == "__main__":

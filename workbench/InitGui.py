@@ -37,7 +37,7 @@ def _start():
     FreeCADGui.updateLocale()
     preferences.add_page()
     commands.register()
-    fem_workbench.join()
+    fem_workbench.join(commands.COMMANDS, commands.TOOLBAR)
     ahead.join()
 
 

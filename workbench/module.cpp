@@ -262,7 +262,7 @@ void translate(std::exception_ptr pointer) {
   try {
     if (pointer) std::rethrow_exception(std::move(pointer));
   } catch (const Error& error) {
-    const py::object type = py::module_::import("quadrille.errors").attr("Error");
+    const py::object type = py::module_::import("quadrille.core.errors").attr("Error");
     std::string sentence = error.what();
     for (std::size_t start = 0; (start = sentence.find('`', start)) != std::string::npos;) {
       const std::size_t end = sentence.find('`', start + 1);

@@ -22,8 +22,9 @@ import FreeCAD
 import parameter_study
 import quadrille.adaption
 import quadrille.freecad
-from quadrille import groups, solvers
-from quadrille.state import is_quad_mesh
+from quadrille.document import groups
+from quadrille.document.state import is_quad_mesh
+from quadrille.solvers import results
 
 
 def sample():
@@ -41,7 +42,7 @@ def sample():
 
 def solve(analysis, folder):
     """Runs CalculiX through FreeCAD's solver object. The results of the last run are removed."""
-    for solver in solvers.solvers_of(analysis):
+    for solver in results.solvers_of(analysis):
         if solver.Proxy.Type == "Fem::SolverCalculiX":  # from FreeCAD 1.1 on
             solve_to_pipeline(solver, folder)
             return
@@ -98,8 +99,8 @@ def main():
     if analysis is None:
         raise SystemExit(f"{document.Label}: one quad mesh in an analysis is wanted")
     mesh = meshes[0]
-    for solver in solvers.solvers_of(analysis):
-        setattr(solver, solvers.SURFACE_RESULTS, True)
+    for solver in results.solvers_of(analysis):
+        setattr(solver, results.SURFACE_RESULTS, True)
     print("round  quads  error %  largest stress MPa")
     error = 1.0
     with tempfile.TemporaryDirectory() as folder:

@@ -22,7 +22,7 @@ import Part
 from FreeCAD import Vector
 
 import verification  # puts quadrille on sys.path
-import quadrille.command
+import quadrille.core.command
 from verification import Mesh, Problem, displacements, write_input
 
 MOST_ROUNDS = 10  #: limit on rounds of meshing and solving for each wanted error
@@ -102,7 +102,7 @@ CASES = {"le1": Membrane, "hole": Hole, "corner": Corner, "cylinder": Cylinder}
 
 def run(*arguments):
     """Runs the quadrille command. Returns its output."""
-    done = subprocess.run([str(quadrille.command.find_command()), *map(str, arguments)], capture_output=True, text=True,
+    done = subprocess.run([str(quadrille.core.command.find_command()), *map(str, arguments)], capture_output=True, text=True,
                           timeout=600, check=False)
     if done.returncode != 0:
         raise RuntimeError(done.stderr.strip())

@@ -20,9 +20,9 @@ import Part
 from FreeCAD import Vector
 
 import quadrille.freecad as core
-from quadrille import adaption, state
-from quadrille.command import CommandJob
-from solver_test import solve_standard
+from quadrille.core.command import CommandJob
+from quadrille.document import state
+from quadrille.features import adaption
 
 
 def edge_at(shape, axis, value):
@@ -186,7 +186,7 @@ class AdaptTest(unittest.TestCase):
 
         result = Pipeline()
         solver = types.SimpleNamespace(Label="Solver", Results=[result], DisplaceMesh=True)
-        with mock.patch.object(adaption.solvers, "solvers_of", return_value=[solver]):
+        with mock.patch.object(adaption.results, "solvers_of", return_value=[solver]):
             with self.assertRaisesRegex(core.Error, "^SolverResult: .* set DisplaceMesh of Solver to false"):
                 adaption._bricks_of(result, None)
 

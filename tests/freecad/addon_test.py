@@ -23,7 +23,9 @@ from FreeCAD import Vector
 
 import quadrille
 import quadrille.freecad as core
-from quadrille import command, groups, quality, shapes, shell_input, solvers
+from quadrille.core import command, quality
+from quadrille.document import groups, shapes
+from quadrille.solvers import shell_input, wrappers
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
 
@@ -244,7 +246,7 @@ class AddonTest(unittest.TestCase):
         elements, nodes = meshtools.get_femelement_faces_table(mesh.FemMesh), mesh.FemMesh.Nodes
         calls = []
         real = meshtools.get_femnodes_ele_table.__wrapped__
-        table = solvers._when_needed(lambda *given: calls.append(1) or real(*given))(nodes, elements)
+        table = wrappers._when_needed(lambda *given: calls.append(1) or real(*given))(nodes, elements)
         self.assertTrue(table)
         self.assertEqual((len(table), calls), (len(nodes), []))
         self.assertEqual(dict(table), real(nodes, elements))
@@ -474,7 +476,7 @@ class AddonTest(unittest.TestCase):
 
         box, analysis, mesh = self.stale_analysis()
         printed = []
-        real, solvers.FreeCAD = solvers.FreeCAD, types.SimpleNamespace(
+        real, wrappers.FreeCAD = wrappers.FreeCAD, types.SimpleNamespace(
             Console=types.SimpleNamespace(PrintError=printed.append))
         try:
             self.assertEqual(membertools.get_mesh_to_solve(analysis), (mesh, ""))
@@ -482,7 +484,7 @@ class AddonTest(unittest.TestCase):
             box.Height = 12
             self.assertEqual(membertools.get_mesh_to_solve(analysis), (mesh, ""))
         finally:
-            solvers.FreeCAD = real
+            wrappers.FreeCAD = real
         self.assertEqual(len(printed), 1)
         self.assertIn("QuadMesh: the part has changed", printed[0])
 

@@ -20,7 +20,10 @@ from FreeCAD import Vector
 
 import quadrille
 import quadrille.freecad as core
-from quadrille import links, picks, quality, shapes, solvers, state
+from quadrille.core import quality
+from quadrille.core.setting_table import MeshSettings
+from quadrille.document import links, picks, shapes, state
+from quadrille.solvers import wrappers
 
 #: FreeCAD 1.1's. Imported now: it imports VTK, which cannot be loaded again once a test has put sys.modules back.
 NEWER_TOOLS = importlib.util.find_spec("femsolver.calculix.calculixtools")
@@ -196,7 +199,7 @@ class LinksTest(unittest.TestCase):
     def test_criteria_are_the_meshers(self):
         part = self.document.addObject("Part::Feature", "Cone")
         part.Shape = Part.makeCone(10, 0.5, 6).fuse(Part.makeBox(13, 2, 4))
-        fem_mesh, report = core.ShapeJob(part.Shape, core.MeshSettings(size=2.5, order=1)).start().wait_for_result()
+        fem_mesh, report = core.ShapeJob(part.Shape, MeshSettings(size=2.5, order=1)).start().wait_for_result()
         measured = quality.measure(fem_mesh)
         counted = {name: int(measured.fails(name).sum()) for name in quality.CRITERIA}
         wanted = {name: entry["failing"] for name, entry in report["criteria"]["by_criterion"].items()}
@@ -278,8 +281,8 @@ class GuardTest(unittest.TestCase):
         kept = getattr(owner, last)
         delattr(owner, last)
         try:
-            with mock.patch.object(solvers, "_complaint", None), mock.patch("FreeCAD.Console.PrintWarning") as told:
-                solvers.wrap_solvers(core.complaint)
+            with mock.patch.object(wrappers, "_complaint", None), mock.patch("FreeCAD.Console.PrintWarning") as told:
+                wrappers.wrap_solvers(core.complaint)
                 mesh = core.mesh_object(self.part, size=5)
             self.assertEqual(mesh.Status, state.UP_TO_DATE)
             self.document.removeObject(mesh.Name)
@@ -288,16 +291,16 @@ class GuardTest(unittest.TestCase):
             setattr(owner, last, kept)
 
     def test_each_may_be_missing(self):
-        self.assertEqual(len(self.FUNCTIONS), len(solvers.WRAPPED))
+        self.assertEqual(len(self.FUNCTIONS), len(wrappers.WRAPPED))
         for module, name in self.FUNCTIONS:
             with self.subTest(name=name):
                 warnings = self.wrapped_without(module, name)
                 self.assertEqual(len([text for text in warnings if f"{module}.{name}" in text]), 1, warnings)
 
     def test_a_module_may_be_missing(self):
-        with mock.patch.dict(sys.modules, {"femmesh.meshtools": None}), mock.patch.object(solvers, "_complaint", None), \
+        with mock.patch.dict(sys.modules, {"femmesh.meshtools": None}), mock.patch.object(wrappers, "_complaint", None), \
                 mock.patch("FreeCAD.Console.PrintWarning") as told:
-            solvers.wrap_solvers(core.complaint)
+            wrappers.wrap_solvers(core.complaint)
             mesh = core.mesh_object(self.part, size=5)
         self.assertEqual(mesh.Status, state.UP_TO_DATE)
         self.assertEqual(len([call for call in told.call_args_list if "no femmesh.meshtools." in call.args[0]]), 7)

@@ -10,7 +10,6 @@ from pathlib import Path
 sys.path.insert(0, os.environ["QUADRILLE_PYTHON"])
 
 import FreeCAD
-import Fem
 import ObjectsFem
 import Part
 from FreeCAD import Vector
@@ -138,6 +137,7 @@ class MeshObjectTest(unittest.TestCase):
             self.document = FreeCAD.openDocument(path)
         mesh = self.document.Quads
         self.assertIsInstance(mesh.Proxy, quadrille.freecad.MeshFeature)
+        self.assertEqual(type(mesh.Proxy).__module__, "quadrille.freecad")  # as in documents of older versions
         self.assertEqual(mesh.Shape.Name, "Part")
         self.assertEqual((mesh.FemMesh.FaceCount, mesh.FemMesh.GroupCount), (quads, groups))
         self.assertEqual((mesh.Size.Value, mesh.ElementOrder), (6.0, "2nd"))

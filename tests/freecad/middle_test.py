@@ -14,8 +14,8 @@ import Part
 from FreeCAD import Vector
 
 import quadrille.freecad
-from quadrille import middle
-from quadrille.errors import Error
+from quadrille.core.errors import Error
+from quadrille.features import middle
 
 
 def angle(thickness, other=None):
@@ -131,6 +131,7 @@ class MiddleTest(unittest.TestCase):
         self.analysis = self.document.Analysis
         surface, part = self.document.MiddleSurface, self.document.Bracket
         self.assertTrue(middle.is_middle(surface))
+        self.assertEqual(type(surface.Proxy).__module__, "quadrille.middle")  # as in documents of older versions
         part.Shape = angle(4)
         self.document.recompute()
         self.assertEqual(self.thicknesses(surface), [(4, ("Face1", "Face2"))])

@@ -12,7 +12,8 @@ import numpy as np
 import Part
 
 import quadrille.freecad as core
-from quadrille import sizes, state
+from quadrille.document import state
+from quadrille.features import sizes
 
 
 class SizesTest(unittest.TestCase):

@@ -17,8 +17,9 @@ from FreeCAD import Placement, Rotation, Vector
 
 import quadrille.freecad as core
 import solver_test
-from quadrille import state, surfaces
-from quadrille.errors import Error
+from quadrille.core.errors import Error
+from quadrille.document import state
+from quadrille.features import surfaces
 
 
 class SurfacesTest(unittest.TestCase):
@@ -146,6 +147,7 @@ class SurfacesTest(unittest.TestCase):
         again = self.document.getObject(name)
         self.document.recompute()
         self.assertTrue(state.is_surface_mesh(again))
+        self.assertEqual(type(again.Proxy).__module__, "quadrille.surfaces")  # as in documents of older versions
         self.assertEqual(surfaces.judge(again)[0], state.UP_TO_DATE)
         again.FeatureAngle = 100
         core.remesh(again)

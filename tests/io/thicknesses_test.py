@@ -26,7 +26,7 @@ def blocks(text, keyword):
 def read_inp(path):
     """Nodes by number, elements as lists of nodes by number, names of sets of elements, and the thickness of each."""
     text = path.read_text()
-    nodes = {int(f[0]): tuple(map(float, f[1:])) for _, body in blocks(text, "NODE,") for f in map(lambda l: l.split(","), body.splitlines())}
+    nodes = {int(f[0]): tuple(map(float, f[1:])) for _, body in blocks(text, "NODE,") for f in (line.split(",") for line in body.splitlines())}
     elements, sets = {}, {}
     for head, body in blocks(text, "ELEMENT,"):
         found = re.search(r"ELSET=(\w+)", head)

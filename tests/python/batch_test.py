@@ -12,7 +12,7 @@ from contextlib import redirect_stderr, redirect_stdout, suppress
 from pathlib import Path
 
 from quadrille import batch
-from quadrille.command import find_command
+from quadrille.core.command import find_command
 
 try:
     import distributed

@@ -11,9 +11,9 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCRIPT = """
 import sys
-import quadrille, quadrille.freecad, quadrille.command
+import quadrille, quadrille.freecad, quadrille.core.command
 print("RESULT", quadrille.__file__)
-print("MESHER", quadrille.command.find_command())
+print("MESHER", quadrille.core.command.find_command())
 """
 
 

@@ -1,4 +1,4 @@
-"""quadrille.command: finding the command, running it as a child, cancelling it, its errors."""
+"""quadrille.core.command: finding the command, running it as a child, cancelling it, its errors."""
 
 import json
 import os
@@ -11,11 +11,11 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-import quadrille.command
+import quadrille.core.command
 from quadrille import Error
-from quadrille.command import MeshJob, MeshSettings, find_command
+from quadrille.core.command import MeshJob, MeshSettings, find_command
 
-from quadrille.setting_table import SETTINGS, from_property, to_property
+from quadrille.core.setting_table import SETTINGS, from_property, to_property
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
 
@@ -49,22 +49,22 @@ class CommandTest(unittest.TestCase):
             MeshSettings(seed=1)
 
     def test_a_mesher_stands_by_for_the_place_where_it_was_started(self):
-        self.addCleanup(quadrille.command.dismiss)
+        self.addCleanup(quadrille.core.command.dismiss)
         self.addCleanup(os.chdir, os.getcwd())
-        quadrille.command.stand_by(find_command())
-        first = quadrille.command._standby[1]
+        quadrille.core.command.stand_by(find_command())
+        first = quadrille.core.command._standby[1]
         box = MeshJob(MODELS.resolve() / "box.brep", [self.folder / "a.msh"], MeshSettings(size=5.0)).start()
         self.assertIs(box._process, first)
         self.assertGreater(box.wait()["counts"]["quads"], 0)
-        quadrille.command.stand_by(find_command())
-        second = quadrille.command._standby[1]
+        quadrille.core.command.stand_by(find_command())
+        second = quadrille.core.command._standby[1]
         os.chdir(self.folder)
         elsewhere = MeshJob(MODELS / "box.brep", ["b.msh"], MeshSettings(size=5.0)).start()
         self.assertIsNot(elsewhere._process, second)
         elsewhere.wait()
         self.assertEqual(sorted(os.listdir(self.folder)), ["a.msh", "b.msh"])
         self.assertIsNone(second.poll())
-        quadrille.command.dismiss()
+        quadrille.core.command.dismiss()
         self.assertIsNotNone(second.poll())
 
     def test_no_display_is_told_once(self):
@@ -155,7 +155,7 @@ class CommandTest(unittest.TestCase):
         command = self.script("trap '' TERM; sleep 60 & wait; wait\n")
         job = MeshJob("x.brep", ["x.msh"], command=command).start()
         start = time.monotonic()
-        with mock.patch("quadrille.command.KILL_AFTER_SECONDS", 0.2), self.assertRaises(Error) as caught:
+        with mock.patch("quadrille.core.command.KILL_AFTER_SECONDS", 0.2), self.assertRaises(Error) as caught:
             job.wait(lambda stage, fraction: False)
         self.assertEqual(caught.exception.kind, "cancelled")
         self.assertLess(time.monotonic() - start, 10)
@@ -168,11 +168,11 @@ class CommandTest(unittest.TestCase):
 
     def test_the_child_ends_with_a_killed_parent(self):
         code = ("import sys; sys.path.insert(0, sys.argv[1])\n"
-                "from quadrille.command import MeshJob, MeshSettings\n"
+                "from quadrille.core.command import MeshJob, MeshSettings\n"
                 "job = MeshJob(sys.argv[2], [sys.argv[3]], MeshSettings(size=0.01, force=True)).start()\n"
                 "print(job._process.pid, job._folder.name, flush=True)\n"
                 "job.wait()\n")
-        package = str(Path(quadrille.command.__file__).parent.parent)
+        package = str(Path(quadrille.core.command.__file__).parents[2])
         place = self.folder / "temporary"
         place.mkdir()
         parent = subprocess.Popen([sys.executable, "-c", code, package, str(MODELS / "box.brep"),

@@ -9,9 +9,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from quadrille import mesher_setup
-from quadrille.command import VERSION
-from quadrille.errors import Error
+from quadrille.core import mesher_setup
+from quadrille.core.command import VERSION
+from quadrille.core.errors import Error
 
 
 class Link(str):

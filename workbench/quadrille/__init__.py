@@ -16,7 +16,7 @@ The compiled part, `quadrille._quadrille`, is loaded when one of its names is fi
 `quadrille.freecad` does not need it.
 """
 
-from .errors import Error
+from .core.errors import Error
 
 __all__ = ["Error", "Mesh", "MidSurface", "Model", "__version__", "mesh", "midsurface", "read", "read_brep", "read_mesh",
            "recombine", "remesh", "settings", "suggested_size"]
@@ -27,7 +27,7 @@ _COMPILED = frozenset(__all__) - {"Error", "__version__"}
 def __getattr__(name: str):
     """Loads the compiled part on demand (PEP 562)."""
     if name == "__version__":  # the addon, which has no compiled part, needs it too
-        from .command import VERSION
+        from .core.command import VERSION
 
         return VERSION
     if name not in _COMPILED:

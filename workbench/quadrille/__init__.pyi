@@ -5,7 +5,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Suppo
 from numpy import float64, int32
 from numpy.typing import ArrayLike, NDArray
 
-from .errors import Error as Error
+from .core.errors import Error as Error
 
 __version__: str
 

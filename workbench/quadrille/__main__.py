@@ -4,8 +4,8 @@
 import os
 import sys
 
-from .command import find_command
-from .errors import Error
+from .core.command import find_command
+from .core.errors import Error
 
 
 def main() -> None:

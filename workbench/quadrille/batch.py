@@ -21,9 +21,9 @@ import warnings
 from pathlib import Path
 from typing import Any, Dict, Iterable, List, NamedTuple, Optional
 
-from .command import VERSION, MeshJob, check_version, find_command
-from .errors import Error
-from .setting_table import SETTINGS
+from .core.command import VERSION, MeshJob, check_version, find_command
+from .core.errors import Error
+from .core.setting_table import SETTINGS
 
 ENDINGS = (".step", ".stp", ".iges", ".igs", ".brep")
 FORMATS = ("msh", "inp", "unv", "med", "vtu", "vtk", "bdf")

@@ -6,8 +6,8 @@ import unittest
 import FreeCAD
 import Part
 
+from .core import quality
 from . import freecad as core
-from . import quality
 
 
 class SelfTest(unittest.TestCase):

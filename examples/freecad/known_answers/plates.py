@@ -18,8 +18,8 @@ class EllipticMembrane:
 
     def shape(self):
         def quarter(a, b):
-            ellipse = Part.Ellipse(Vector(), a, b) if a > b else Part.Ellipse(Vector(0, b, 0), Vector(-a, 0, 0),
-                                                                               Vector())
+            along_x, along_y = (Vector(), a, b), (Vector(0, b, 0), Vector(-a, 0, 0), Vector())
+            ellipse = Part.Ellipse(*(along_x if a > b else along_y))
             start = 0 if a > b else -math.pi / 2
             return ellipse.toShape(start, start + math.pi / 2)
 

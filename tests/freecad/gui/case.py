@@ -11,7 +11,7 @@ import Part
 from PySide import QtGui
 
 from driver import Boxes, close_panel, find, prepare, process, screenshot, trigger, wait_for
-from quadrille.state import is_quad_mesh
+from quadrille.document.state import is_quad_mesh
 
 ROOT = Path(__file__).resolve().parents[3]
 MODELS = ROOT / "examples" / "models"

@@ -8,7 +8,6 @@ import shutil
 import sys
 import tempfile
 import time
-import unittest
 from pathlib import Path
 from unittest import mock
 
@@ -21,13 +20,14 @@ import ObjectsFem
 import Part
 from PySide import QtGui
 
+import quadrille.core.quality
 import quadrille.freecad
-import quadrille.quality
 from case import MODELS, GuiCase, picture, run, type_size
 from driver import Boxes, close_panel, find, process, trigger, wait_for, window
+from quadrille.core.setting_table import SETTINGS
+from quadrille.document.state import is_quad_mesh
 from quadrille.gui import commands, overlays
-from quadrille.setting_table import SETTINGS
-from quadrille.state import is_quad_mesh
+
 
 def fem_entries():
     """What the FEM workbench shows of the addon: the texts in its menus, and of the buttons that can be seen."""
@@ -449,11 +449,11 @@ class GuiTest(GuiCase):
         self.assertTrue(overlays.is_shown(mesh, overlays.NORMALS))
         self.show()
         picture("normals")
-        before = quadrille.quality.measure(mesh.FemMesh)
+        before = quadrille.core.quality.measure(mesh.FemMesh)
         FreeCADGui.Selection.clearSelection()
         trigger("Quadrille_Flip")
         self.assertEqual(len(mesh.FlippedFaces[0][1]), len(mesh.Shape.Shape.Faces))
-        after = quadrille.quality.measure(mesh.FemMesh)
+        after = quadrille.core.quality.measure(mesh.FemMesh)
         self.assertEqual(len(before.ids), len(after.ids))
         trigger("Quadrille_Normals")
         self.assertFalse(overlays.is_shown(mesh, overlays.NORMALS))
@@ -534,7 +534,7 @@ class GuiTest(GuiCase):
         with Boxes() as boxes:
             find("QuadrilleMesh").click()
             process(0.3)
-            job = quadrille.freecad._running[(self.document.Name, mesh.Name)]
+            job = quadrille.features.mesh_object._running[(self.document.Name, mesh.Name)]
             job._job._process.kill()
             wait_for(lambda: find("QuadrilleMesh").isEnabled(), 10, "the end")
         self.assertEqual(len(boxes.texts), 1)
@@ -588,19 +588,19 @@ class GuiTest(GuiCase):
             quadrille.freecad.remesh(mesh)
         self.assertIn("already", str(caught.exception))
         close_panel()
-        self.assertEqual(quadrille.freecad._running, {})
+        self.assertEqual(quadrille.features.mesh_object._running, {})
 
     def test_the_document_is_closed_while_meshing(self):
         mesh = self.open_panel(self.box())
         find("QuadrilleSize").setProperty("rawValue", 0.008)
         find("QuadrilleMesh").click()
         process(0.3)
-        process_of_mesher = quadrille.freecad._running[(self.document.Name, mesh.Name)]._job._process
+        process_of_mesher = quadrille.features.mesh_object._running[(self.document.Name, mesh.Name)]._job._process
         FreeCAD.closeDocument(self.document.Name)
         process(0.5)
         self.assertIsNotNone(process_of_mesher.poll())
         self.assertFalse(FreeCADGui.Control.activeDialog())
-        self.assertEqual(quadrille.freecad._running, {})
+        self.assertEqual(quadrille.features.mesh_object._running, {})
 
     def test_the_mesh_object_is_undone_while_meshing(self):
         mesh = self.open_panel(self.box())
@@ -611,7 +611,7 @@ class GuiTest(GuiCase):
         self.document.removeObject(name)
         process(0.5)
         self.assertFalse(FreeCADGui.Control.activeDialog())
-        self.assertEqual(quadrille.freecad._running, {})
+        self.assertEqual(quadrille.features.mesh_object._running, {})
 
     def test_the_mesher_refuses(self):
         mesh = self.open_panel(self.box())

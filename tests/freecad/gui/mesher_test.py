@@ -19,10 +19,10 @@ from PySide import QtGui
 
 from case import GuiCase, picture, run
 from driver import close_panel, find, process, wait_for, window
-from quadrille import command
-from quadrille.command import VERSION
+from quadrille.core import command
+from quadrille.core.command import VERSION
+from quadrille.core.jobs import PREFERENCES
 from quadrille.gui import mesher_choice, task_panel
-from quadrille.jobs import PREFERENCES
 
 
 class MesherTest(GuiCase):

@@ -20,8 +20,8 @@ from PySide import QtCore
 
 from case import GuiCase, picture, run
 from driver import Boxes, cancel_bars, close_panel, find, process, trigger, wait_for, window
-from quadrille import middle
-from quadrille.command import VERSION
+from quadrille.core.command import VERSION
+from quadrille.features import middle
 from quadrille.gui.commands import MiddleCommand
 
 

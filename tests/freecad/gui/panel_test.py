@@ -14,18 +14,18 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import FreeCAD
 import FreeCADGui
-import ObjectsFem
 import Part
 from PySide import QtCore, QtGui
 
 import quadrille.freecad
 from case import GuiCase, picture, run, type_into
-from driver import Boxes, close_panel, find, process, trigger, wait_for, window
-from quadrille import command, links, quality, shapes, state
+from driver import Boxes, close_panel, find, process, trigger, wait_for
+from quadrille.core import command, quality
+from quadrille.core.setting_table import SETTINGS
+from quadrille.document import links, shapes, state
+from quadrille.document.state import is_quad_mesh
 from quadrille.gui import commands, overlays, preferences
 from quadrille.gui.task_panel import MeshPanel
-from quadrille.setting_table import SETTINGS
-from quadrille.state import is_quad_mesh
 
 CANCEL = QtGui.QDialogButtonBox.Cancel
 
@@ -110,7 +110,7 @@ class PanelTest(GuiCase):
         self.assertAlmostEqual(mesh.Size.Value, 6.35, 9)
 
     def test_nonsense_for_a_size(self):
-        mesh = self.open_panel(self.box())
+        self.open_panel(self.box())
         type_into("QuadrilleSize", "5 kg")
         self.assertIn("5 kg", find("QuadrilleEstimate").text())
         with Boxes() as boxes:
@@ -244,7 +244,7 @@ class PanelTest(GuiCase):
         process(0.2)
         close_panel(CANCEL)
         self.assertEqual([obj.Name for obj in self.document.Objects], ["Box"])
-        self.assertEqual(quadrille.freecad._running, {})
+        self.assertEqual(quadrille.features.mesh_object._running, {})
 
     def test_a_mesher_stands_by(self):
         self.open_panel(self.box())
@@ -318,6 +318,7 @@ class PanelTest(GuiCase):
     def test_recorded_in_a_macro_that_replays(self):
         """With FreeCAD's own recorder."""
         box = self.box()
+
         def start(dialog):
             dialog.findChild(QtGui.QLineEdit, "lineEditPath").setText("recorded")
             dialog.findChild(QtGui.QPushButton, "buttonStart").click()
@@ -350,23 +351,23 @@ class PanelTest(GuiCase):
     def test_transactions_end_on_every_exception(self):
         box = self.box()
         mesh = quadrille.freecad.mesh_object(box, size=2)
-        for command, function in (("Quadrille_Mesh", "make_mesh"), ("Quadrille_Flip", "flip"), ("Quadrille_Refine", "refine")):
-            with self.subTest(command=command):
+        for name, function in (("Quadrille_Mesh", "make_mesh"), ("Quadrille_Flip", "flip"), ("Quadrille_Refine", "refine")):
+            with self.subTest(command=name):
                 self.select(box, "Face1")
-                if command == "Quadrille_Mesh":
+                if name == "Quadrille_Mesh":
                     self.select(box, "")
                 steps, objects = self.document.UndoCount, len(self.document.Objects)
                 with mock.patch.object(quadrille.freecad, function, side_effect=ZeroDivisionError), \
                         mock.patch.object(commands.RefineCommand, "ask", lambda *_: 1.0):
-                    trigger(command)
+                    trigger(name)
                 self.assertFalse(self.document.HasPendingTransaction)
                 self.assertEqual((self.document.UndoCount, len(self.document.Objects)), (steps, objects))
         self.edit(mesh)
-        with mock.patch.object(quadrille.freecad.undo, "put", side_effect=ZeroDivisionError):
+        with mock.patch.object(quadrille.features.mesh_object.undo, "put", side_effect=ZeroDivisionError):
             find("QuadrilleMesh").click()
             wait_for(lambda: find("QuadrilleMesh").isEnabled(), 30, "the end")
         self.assertFalse(self.document.HasPendingTransaction)
-        self.assertEqual(quadrille.freecad._running, {})
+        self.assertEqual(quadrille.features.mesh_object._running, {})
         self.press_mesh()
         close_panel()
         self.assertEqual(mesh.Status, "up to date")
@@ -553,8 +554,8 @@ class PanelTest(GuiCase):
                 self.assertTrue(translation.text and translation.get("type") is None, f"{file.name}: {source}")
                 self.assertEqual(source.count("{}"), translation.text.count("{}"), source)
         marked = {message.find("source").text for message in ElementTree.parse(files[0]).getroot().iter("message")}
-        for command in commands.COMMANDS.values():
-            self.assertLessEqual({command.text, command.tip}, marked)
+        for entry in commands.COMMANDS.values():
+            self.assertLessEqual({entry.text, entry.tip}, marked)
         self.assertLessEqual(set(state.STATUSES), marked)
         self.assertLessEqual({setting["label"] for setting in SETTINGS if setting["label"]}, marked)
 
@@ -564,7 +565,7 @@ class PanelTest(GuiCase):
             shortcut = FreeCADGui.Command.get(name).getShortcut()
             if shortcut:
                 shortcuts.setdefault(shortcut, []).append(name)
-        for name, command in commands.COMMANDS.items():
+        for name in commands.COMMANDS:
             info = FreeCADGui.Command.get(name).getInfo()
             self.assertTrue(Path(info["pixmap"]).is_file())
             icons.add(Path(info["pixmap"]).read_text())

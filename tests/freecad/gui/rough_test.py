@@ -19,9 +19,9 @@ from PySide import QtCore, QtGui
 import quadrille.freecad
 from case import GuiCase, run, type_into
 from driver import Boxes, close_panel, find, process, wait_for, window
-from quadrille import undo
-from quadrille.jobs import find_mesher
-from quadrille.state import PART_CHANGED, PART_GONE, SETTINGS_CHANGED, UP_TO_DATE
+from quadrille.core.jobs import find_mesher
+from quadrille.document import undo
+from quadrille.document.state import PART_CHANGED, PART_GONE, SETTINGS_CHANGED, UP_TO_DATE
 
 CANCEL = QtGui.QDialogButtonBox.Cancel
 _MESHER_AT_A_GATE = """#!/usr/bin/env python3
@@ -69,7 +69,7 @@ class RoughTest(GuiCase):
         process(0.2)
         self.assertEqual(self.raised, [])
         self.assertNotIn("Traceback", report()[self.reported:])
-        self.assertEqual((quadrille.freecad._running, undo._held), ({}, {}))
+        self.assertEqual((quadrille.features.mesh_object._running, undo._held), ({}, {}))
         self.assertFalse(FreeCADGui.Control.activeDialog())
 
     def edit(self, mesh):

@@ -21,8 +21,10 @@ from PySide import QtCore, QtGui
 import quadrille.freecad
 from case import GuiCase, picture, run, type_into
 from driver import Boxes, close_panel, find, process, trigger, wait_for
-from quadrille import sizes, solvers, state
+from quadrille.document import state
+from quadrille.features import sizes
 from quadrille.gui import size_preview
+from quadrille.solvers import results
 
 real = sizes.SizesJob.drop
 CANCEL = QtGui.QDialogButtonBox.Cancel
@@ -195,8 +197,8 @@ class SizesTest(GuiCase):
         analysis, _, _, fixed, force = parameter_study.make_analysis(self.document, part)
         fixed.References = [(part, parameter_study.edge_at(part.Shape, 0.0))]
         force.References = [(part, parameter_study.edge_at(part.Shape, parameter_study.LENGTH))]
-        for solver in solvers.solvers_of(analysis):
-            setattr(solver, solvers.SURFACE_RESULTS, True)
+        for solver in results.solvers_of(analysis):
+            setattr(solver, results.SURFACE_RESULTS, True)
         mesh = quadrille.freecad.mesh_object(part, size=10, analysis=analysis)
         with tempfile.TemporaryDirectory() as folder:
             adapt_loop.solve(analysis, folder)

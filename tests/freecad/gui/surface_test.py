@@ -12,7 +12,6 @@ from unittest import mock
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import FemGui
-import FreeCAD
 import FreeCADGui
 import Mesh
 import MeshPart
@@ -21,8 +20,8 @@ import Part
 from PySide import QtCore, QtGui
 
 from case import MODELS, GuiCase, picture, run
-from driver import Boxes, cancel_bars, close_panel, find, process, trigger
-from quadrille import state
+from driver import Boxes, cancel_bars, close_panel, process, trigger
+from quadrille.document import state
 from quadrille.gui import overlays, surface_view
 
 

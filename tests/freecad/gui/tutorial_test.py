@@ -17,8 +17,8 @@ from PySide import QtCore, QtGui
 
 from case import ROOT, GuiCase, picture, run, type_into
 from driver import Boxes, find, process, wait_for, window
+from quadrille.document.state import is_quad_mesh
 from quadrille.middle import is_middle, thickness_objects
-from quadrille.state import is_quad_mesh
 
 
 def read_steps():
@@ -157,6 +157,7 @@ class TutorialTest(GuiCase):
         """Step 1."""
         FreeCAD.closeDocument(self.document.Name)
         FreeCADGui.activateWorkbench("PartWorkbench")
+
         def answer(box):
             if isinstance(box, QtGui.QFileDialog):
                 # selectFile() waits for the folder to be listed, which may come after the box is accepted.

@@ -8,7 +8,7 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtGui
 
-from ..shapes import pairs
+from ..document.shapes import pairs
 
 _FOLDER = Path(__file__).resolve().parents[2]
 ICONS = _FOLDER / "icons"

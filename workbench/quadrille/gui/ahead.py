@@ -8,7 +8,7 @@ from typing import List
 import FreeCADGui
 from PySide import QtCore
 
-from .. import solvers
+from ..solvers import wrappers
 
 _WORKBENCHES = ("FemWorkbench", "QuadrilleWorkbench")
 
@@ -17,7 +17,7 @@ class _Reader:
     """Imports one module at a time whenever the window is idle."""
 
     def __init__(self) -> None:
-        self._modules: List[str] = ["quadrille.gui.task_panel", *dict.fromkeys(module for module, _, _ in solvers.WRAPPED)]
+        self._modules: List[str] = ["quadrille.gui.task_panel", *dict.fromkeys(module for module, _, _ in wrappers.WRAPPED)]
         self._timer = QtCore.QTimer()
         self._timer.setInterval(0)
         self._timer.timeout.connect(self._next)

@@ -10,12 +10,16 @@ from PySide import QtGui
 
 import quadrille_commands
 
-from .. import freecad as core
-from .. import adaption, middle, picks, surfaces
-from ..errors import Error
-from ..setting_table import ORDERS, default_size
-from ..state import is_quad_mesh, is_surface_mesh, part_of, source_of
-from . import QT_TRANSLATE_NOOP, do, icon, links_text, overlays, path_of, preferences, progress_bar, tell, transaction, translate
+from ..core.errors import Error
+from ..core.jobs import find_mesher
+from ..core.setting_table import ORDERS, default_size
+from ..document import picks, regions
+from ..document.state import is_quad_mesh, is_surface_mesh, part_of, source_of
+from ..features import adaption, middle, surfaces
+from ..features import mesh_object as core
+from ..features import views as features_views
+from . import (QT_TRANSLATE_NOOP, do, icon, links_text, overlays, path_of, preferences, progress_bar, tell, transaction,
+               translate, views)
 from .length_field import LengthField
 
 TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Surface", "Quadrille_Refine", "Quadrille_Quality",
@@ -145,7 +149,7 @@ class MeshCommand(_Command):
         analysis = active_analysis(document)
         for part in selected:
             core.check_part(part, analysis)
-        core.find_mesher()
+        find_mesher()
         do("import quadrille.freecad")
         part = _one_part(selected)
         # The mesh object's panel finds a size.
@@ -226,7 +230,7 @@ class SurfaceCommand(_Command):
             return
         surface, analysis = chosen[0], active_analysis(document)
         surfaces.check_surface(surface, analysis)
-        core.find_mesher()
+        find_mesher()
         asked = self._asked(surface, surfaces.Asked(size=surfaces.usual_size(surface)))
         if asked is not None:
             do("import quadrille.freecad")
@@ -284,7 +288,7 @@ class RefineCommand(_Command):
         if size is None:
             return
         do("import quadrille.freecad")
-        core.check_references(mesh, references)
+        regions.check_references(mesh, references)
         do(f"quadrille.freecad.refine({path_of(mesh)}, {links_text(references)}, {size!r})")
         mesh.Document.recompute()
 
@@ -433,7 +437,8 @@ COMMANDS = {command.name: command for command in (MiddleCommand, MeshCommand, Su
 
 
 def register() -> None:
-    """Registers the commands with FreeCAD, unless it knows them already."""
+    """Registers the commands with FreeCAD, unless it knows them already, and the views of the objects that they make."""
+    features_views.use(lambda: views)
     known = FreeCADGui.listCommands()
     for name, command in COMMANDS.items():
         if name not in known:

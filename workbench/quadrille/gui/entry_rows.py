@@ -7,8 +7,8 @@ from typing import Any, Callable, Dict, List, NamedTuple, Sequence
 
 from PySide import QtGui
 
-from ..errors import Error
-from ..setting_table import SETTINGS
+from ..core.errors import Error
+from ..core.setting_table import SETTINGS
 from . import translate
 from .row_list import RowList
 

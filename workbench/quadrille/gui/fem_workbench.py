@@ -4,27 +4,28 @@
 FreeCAD makes a command's button when a workbench that lists the command is first activated, and addons cannot add to the FEM
 workbench's lists. So the entries here are separate actions that run the commands; they exist from the start."""
 
-from typing import Dict, Optional, Sequence
+from typing import Any, Dict, Mapping, Optional, Sequence
 
 import FreeCADGui
 from PySide import QtCore, QtGui
 
 from . import drawn_icon, translate
-from .commands import COMMANDS, TOOLBAR
 
 _FEM = "FemWorkbench"
 #: Milliseconds between two checks of which commands are active, the same as FreeCAD's.
 _INTERVAL = 300
 #: The commands in a mesh's context menu: those that need no selected faces, edges or vertices.
 _CONTEXT = ["Quadrille_Mesh", "Quadrille_Quality", "Quadrille_Normals", "Quadrille_Export"]
+#: The commands by name, as join() gets them.
+_commands: Dict[str, Any] = {}
 
 
 class _FemEntries:
     """The toolbar; also the menu entries if FreeCAD has no workbench manipulators (0.20)."""
 
-    def __init__(self) -> None:
+    def __init__(self, toolbar: Sequence[str]) -> None:
         window = FreeCADGui.getMainWindow()
-        self._actions: Dict[str, QtGui.QAction] = {name: _action(name, window) for name in TOOLBAR}
+        self._actions: Dict[str, QtGui.QAction] = {name: _action(name, window) for name in toolbar}
         self._toolbar = window.addToolBar("Quadrille in FEM")
         self._toolbar.setObjectName("QuadrilleInFem")
         self._toolbar.addActions(list(self._actions.values()))
@@ -32,7 +33,7 @@ class _FemEntries:
         self._timer.timeout.connect(self._enable)
         self._has_menu = hasattr(FreeCADGui, "addWorkbenchManipulator")
         if self._has_menu:
-            FreeCADGui.addWorkbenchManipulator(_Manipulator())
+            FreeCADGui.addWorkbenchManipulator(_Manipulator(toolbar))
         window.workbenchActivated.connect(self.show)
 
     def show(self, workbench: str) -> None:
@@ -70,14 +71,17 @@ class _FemEntries:
 class _Manipulator:
     """Adds the commands to the FEM workbench's menu, if FreeCAD lets addons do so (1.0)."""
 
+    def __init__(self, toolbar: Sequence[str]) -> None:
+        self._toolbar = toolbar
+
     def modifyMenuBar(self) -> list:
         """FreeCAD calls this for the entries to insert: all below FEM's own mesh command."""
-        return [{"insert": name, "menuItem": "FEM_MeshGmshFromShape", "after": ""} for name in reversed(TOOLBAR)]
+        return [{"insert": name, "menuItem": "FEM_MeshGmshFromShape", "after": ""} for name in reversed(self._toolbar)]
 
 
 def _action(name: str, parent) -> QtGui.QAction:
     """An action that runs a command."""
-    action = QtGui.QAction(drawn_icon(COMMANDS[name].pixmap), "", parent)
+    action = QtGui.QAction(drawn_icon(_commands[name].pixmap), "", parent)
     _name(action, name)
     action.triggered.connect(lambda *_: FreeCADGui.runCommand(name))
     return action
@@ -85,7 +89,7 @@ def _action(name: str, parent) -> QtGui.QAction:
 
 def _name(action, name: str) -> None:
     """Sets an action's texts in FreeCAD's language."""
-    command = COMMANDS[name]
+    command = _commands[name]
     action.setText(translate(name, command.text))
     action.setToolTip(translate(name, command.tip))
     action.setStatusTip(translate(name, command.tip))
@@ -109,10 +113,11 @@ def fill_context_menu(mesh, menu, names: Sequence[str] = _CONTEXT) -> None:
 _entries: Optional[_FemEntries] = None
 
 
-def join() -> None:
-    """Adds the commands to the FEM workbench; further calls do nothing."""
+def join(commands: Mapping[str, Any], toolbar: Sequence[str]) -> None:
+    """Adds the commands, by name, to the FEM workbench: those of the toolbar. Further calls do nothing."""
     global _entries
     if _entries is None:
-        _entries = _FemEntries()
+        _commands.update(commands)
+        _entries = _FemEntries(toolbar)
         # If FreeCAD starts with the FEM workbench, it activates it later than this.
         _entries.show("")

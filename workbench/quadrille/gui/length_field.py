@@ -10,7 +10,7 @@ import sys
 import FreeCAD
 from PySide import QtCore, QtGui
 
-from ..errors import Error
+from ..core.errors import Error
 from . import translate
 
 

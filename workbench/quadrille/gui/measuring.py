@@ -6,8 +6,8 @@ from typing import Callable, Iterator, Optional
 
 from PySide import QtCore
 
-from .. import shapes
-from ..errors import Error
+from ..core.errors import Error
+from ..document import shapes
 
 #: The window is blocked for this long at a time.
 _SECONDS = 0.02

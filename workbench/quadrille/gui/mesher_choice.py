@@ -9,10 +9,10 @@ from typing import Callable, Optional
 import FreeCAD
 from PySide import QtCore, QtGui
 
-from .. import mesher_setup
-from ..command import check_version, which
-from ..errors import Error
-from ..jobs import PREFERENCES, find_mesher
+from ..core import mesher_setup
+from ..core.command import check_version, which
+from ..core.errors import Error
+from ..core.jobs import PREFERENCES, find_mesher
 from . import translate
 
 _POLL_MILLISECONDS = 100

@@ -8,7 +8,7 @@ from typing import Dict, Tuple
 
 import numpy as np
 
-from .. import quality
+from ..core import quality
 from . import translate
 
 #: Larger numbers of arrows only blacken the view: larger meshes show some of their normals.

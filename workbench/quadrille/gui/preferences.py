@@ -8,10 +8,10 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtGui
 
-from ..command import check_version, find_command
-from ..errors import Error
-from ..jobs import PREFERENCES
-from ..setting_table import BY_NAME, from_property, to_property
+from ..core.command import check_version, find_command
+from ..core.errors import Error
+from ..core.jobs import PREFERENCES
+from ..core.setting_table import BY_NAME, from_property, to_property
 from . import ICONS, drawn_icon, translate
 from .mesher_choice import MesherChoice
 from .setting_widgets import SettingWidget

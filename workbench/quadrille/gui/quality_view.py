@@ -7,7 +7,7 @@ import FreeCADGui
 import numpy as np
 from PySide import QtCore, QtGui
 
-from .. import quality
+from ..core import quality
 from . import QT_TRANSLATE_NOOP, drawn_icon, overlays, standard_buttons, translate
 
 WORST = 20

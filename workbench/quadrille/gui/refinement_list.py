@@ -4,8 +4,8 @@ changes only when the panel stores them."""
 
 from typing import Any, Callable, NamedTuple, Tuple
 
-from ..links import Links, names_in
-from ..state import Refinement
+from ..document.links import Links, names_in
+from ..document.state import Refinement
 from . import translate
 from .length_field import LengthField
 from .row_list import RowList

@@ -4,7 +4,8 @@
 from contextlib import contextmanager
 from typing import Any, Dict, List
 
-from .. import links, state, undo
+from ..document import links, state, undo
+from ..document.regions import refine
 from . import transaction
 
 
@@ -66,8 +67,6 @@ class Session:
         undo.bring_back(mesh)
 
     def _restore_regions(self) -> None:
-        from ..freecad import refine
-
         for name, references, size in self._regions:
             region = self._document.getObject(name)
             if region is None:

@@ -6,8 +6,7 @@ from typing import Any, Callable, Dict, Tuple
 
 from PySide import QtGui
 
-from ..errors import Error
-from ..setting_table import SETTINGS, property_help, property_kind, words
+from ..core.setting_table import SETTINGS, property_help, property_kind, words
 from . import translate
 from .length_field import LengthField
 

@@ -8,9 +8,9 @@ import FreeCADGui
 import numpy as np
 from PySide import QtCore, QtGui
 
-from .. import sizes
-from ..errors import Error
-from ..state import Wanted
+from ..core.errors import Error
+from ..document.state import Wanted
+from ..features import sizes
 from . import translate
 
 _POLL_MILLISECONDS = 50

@@ -7,9 +7,9 @@ from typing import Optional
 import FreeCADGui
 from PySide import QtGui
 
-from .. import surfaces
-from ..errors import Error
-from ..setting_table import ORDERS
+from ..core.errors import Error
+from ..core.setting_table import ORDERS
+from ..features import surfaces
 from . import fem_workbench, progress_bar, translate
 from .length_field import LengthField
 from .view_provider import MeshViewProvider

@@ -12,13 +12,15 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from .. import freecad as core
-from .. import command, groups, jobs, links, old_documents, picks, shapes, solvers, state
-from ..errors import Error
-from ..setting_table import default_size
+from ..core import command, jobs
+from ..core.errors import Error
+from ..core.setting_table import default_size
+from ..document import groups, links, old_documents, picks, shapes, state
+from ..features import mesh_object as core
+from ..solvers import results
 from . import do, drawn_icon, links_text, path_of, preferences, standard_buttons, tell, translate
-from .entry_rows import PROPERTIES as ENTRIES
 from .entry_rows import EntryRows
+from .entry_rows import PROPERTIES as ENTRIES
 from .face_counts import FaceCounts
 from .measuring import FAILURES, Measuring
 from .mesher_choice import MesherChoice, is_missing
@@ -159,10 +161,10 @@ class MeshPanel:
         self.follows.setChecked(wanted.values[state.FOLLOWS])
         self.entries.show_all(wanted.values)
         self.refinements.show_all(wanted.refinements)
-        self.surfaces.setChecked(all(getattr(solver, solvers.SURFACE_RESULTS) for solver in self._solvers()))
+        self.surfaces.setChecked(all(getattr(solver, results.SURFACE_RESULTS) for solver in self._solvers()))
 
     def _solvers(self) -> list:
-        return solvers.solvers_of(groups.analysis_of(self.mesh))
+        return results.solvers_of(groups.analysis_of(self.mesh))
 
     # Settings
 
@@ -202,8 +204,8 @@ class MeshPanel:
             elif size != sizes.get(region, size):  # a region that was deleted meanwhile stays deleted
                 lines.append(f"{path_of(mesh.Document.getObject(region))}.CharacteristicLength = {size!r}")
         surfaces = self.surfaces.isChecked()
-        lines += [f"{path_of(solver)}.{solvers.SURFACE_RESULTS} = {surfaces!r}" for solver in self._solvers()
-                  if getattr(solver, solvers.SURFACE_RESULTS) != surfaces]
+        lines += [f"{path_of(solver)}.{results.SURFACE_RESULTS} = {surfaces!r}" for solver in self._solvers()
+                  if getattr(solver, results.SURFACE_RESULTS) != surfaces]
         return lines
 
     def _store(self, lines: list) -> None:

@@ -6,8 +6,8 @@ from typing import Callable, Optional
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from ..middle import looks_thin
-from ..shapes import estimate_of
+from ..document.shapes import estimate_of
+from ..features.middle import looks_thin
 from . import translate
 
 

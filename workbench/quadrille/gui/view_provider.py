@@ -4,8 +4,8 @@ it."""
 
 import FreeCADGui
 
-from ..freecad import UP_TO_DATE
-from . import icon, overlays, preferences, tell, translate
+from ..document.state import UP_TO_DATE
+from . import fem_workbench, icon, overlays, preferences, tell, translate
 
 
 class MeshViewProvider:
@@ -50,8 +50,6 @@ class MeshViewProvider:
 
     def setupContextMenu(self, vobj, menu) -> None:
         """Adds the commands for the mesh to its context menu in the tree."""
-        from . import fem_workbench
-
         fem_workbench.fill_context_menu(vobj.Object, menu)
 
     def setEdit(self, vobj, _mode=0) -> bool:

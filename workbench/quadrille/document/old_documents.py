@@ -2,9 +2,8 @@
 """Mesh objects in documents of older versions. 0.1.0 stored faces, sizes and flips as text, and the status as free text.
 Runs inside FreeCAD."""
 
-from typing import Dict, List
-
 from . import links, state
+from .regions import refine
 
 #: Properties that used to have another type, and their type now.
 _TYPES = {"Faces": links.PROPERTY, "FlippedFaces": links.PROPERTY, "Status": "App::PropertyEnumeration"}
@@ -27,21 +26,9 @@ def migrate(mesh) -> None:
             setattr(mesh, name, links.link(mesh.Shape, value))
 
 
-def sizes_of(mesh) -> Dict[float, List[str]]:
-    """The sizes that a mesh object of 0.1.0 holds itself: names of faces, edges and vertices by size. FreeCAD does not allow
-    new objects while a document is read, so they stay until mesh_regions() converts them to mesh regions."""
-    by_size: Dict[float, List[str]] = {}
-    if "Sizes" in mesh.PropertiesList:
-        for element, size in mesh.Sizes.items():
-            by_size.setdefault(float(size), []).append(element)
-    return by_size
-
-
 def mesh_regions(mesh) -> None:
     """Converts the sizes that a mesh object of 0.1.0 holds itself to mesh regions."""
-    from .freecad import refine
-
-    by_size = sizes_of(mesh)
+    by_size = state.sizes_of(mesh)
     if "Sizes" in mesh.PropertiesList:
         mesh.removeProperty("Sizes")
     for size, elements in by_size.items():

@@ -120,7 +120,7 @@ def find_command(command: Optional[str] = None, preference: Optional[str] = None
             if not found:
                 raise Error(f"{path}: cannot be run, though {origin} names it as the mesher", "usage", path)
             return found
-    here = Path(__file__).absolute().parent
+    here = Path(__file__).absolute().parent.parent  # the package
     found = _own(here) or which("quadrille")
     if found:
         return found
@@ -129,7 +129,7 @@ def find_command(command: Optional[str] = None, preference: Optional[str] = None
         found = which(recorded.read_text(encoding="utf-8").strip())
         if found:
             return found
-    source = Path(__file__).resolve().parent  # where the addon is a link to the source
+    source = Path(__file__).resolve().parent.parent  # where the addon is a link to the source
     for folder in (here.parent.parent, here.parent.parent / "build", source.parent.parent / "build"):
         found = which(str(folder / "quadrille"))
         if found:

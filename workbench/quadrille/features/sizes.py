@@ -10,11 +10,11 @@ from typing import Dict, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
-from . import links, state
-from .command import CommandJob, scratch_folder
-from .errors import Error
-from .jobs import find_mesher
-from .setting_table import BY_NAME, MeshSettings, in_words_of_properties
+from ..core.command import CommandJob, scratch_folder
+from ..core.errors import Error
+from ..core.jobs import find_mesher
+from ..core.setting_table import BY_NAME, MeshSettings, in_words_of_properties
+from ..document import links, state
 
 
 class Source(NamedTuple):

@@ -9,8 +9,8 @@ is the part. So a Body stays the part when features are added to it."""
 import re
 from typing import Iterable, List, Sequence, Tuple
 
+from ..core.errors import Error
 from . import shapes
-from .errors import Error
 
 #: The outermost object, and the path inside it of what is picked: (Body, "Pocket.Face9"), or (Box, "") for the whole object.
 Pick = Tuple[object, str]

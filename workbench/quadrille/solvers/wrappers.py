@@ -20,7 +20,8 @@ from typing import Callable, List, Optional, Tuple
 
 import FreeCAD
 
-from . import forces, groups, shell_input
+from ..document import groups
+from . import forces, shell_input
 from .shell_input import Later
 
 #: Returns why a mesh object's mesh must not be used; empty if it is up to date, and for objects that are not Quadrille's.
@@ -242,29 +243,6 @@ def reduce_and_offset(path, reduced: bool, offset: float) -> Tuple[int, int]:
     if blocks or sections:
         Path(path).write_bytes(text)
     return blocks, sections
-
-
-# Results of shells
-
-#: Property of FreeCAD's CalculiX solver objects: results at the shell's surfaces, not only at its middle.
-SURFACE_RESULTS = "BeamShellResultOutput3D"
-
-
-def solvers_of(analysis) -> List[object]:
-    """The solver objects of an analysis that can give results at the surfaces of shells."""
-    members = analysis.Group if analysis is not None else ()
-    return [member for member in members if SURFACE_RESULTS in member.PropertiesList]
-
-
-def hint_at_surfaces(result, analysis) -> None:
-    """Warns in the report view if a result is for the middle of the shell only. Its stresses are the mean through the
-    thickness, which in bending is almost zero."""
-    for solver in solvers_of(analysis):
-        if not getattr(solver, SURFACE_RESULTS):
-            FreeCAD.Console.PrintWarning(
-                f"{result.Label}: shows stresses at the middle of the shell; those of bending are at its surfaces: set "
-                f"{SURFACE_RESULTS} of {solver.Label} to true, and solve again\n")
-            return
 
 
 #: Further functions to wrap in FreeCAD 1.1 and later; skipped if the first module does not exist. Same form as WRAPPED.

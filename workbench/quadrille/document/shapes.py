@@ -9,7 +9,7 @@ from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Seque
 import Part
 import numpy as np
 
-from .errors import Error
+from ..core.errors import Error
 
 #: Curvature samples per face and parameter direction; fewer for shapes with more than _MANY_FACES faces.
 _SAMPLES, _FEW_SAMPLES, _MANY_FACES = 8, 4, 300

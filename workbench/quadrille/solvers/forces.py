@@ -12,9 +12,10 @@ import numpy as np
 
 from FreeCAD import Units
 
-from . import arrays, groups, shapes, state
-from .arrays import Shells
-from .errors import Error
+from ..core import arrays
+from ..core.arrays import Shells
+from ..core.errors import Error
+from ..document import groups, shapes, state
 from .shell_input import ElementTable, rows
 
 

@@ -12,7 +12,7 @@ from typing import Any, Dict, List, Optional, SupportsIndex, Union
 
 #: One dict per setting, with the keys name, option, property, label, kind, use, unit, default, low, high, above_low,
 #: choices, otherwise, help.
-SETTINGS: List[Dict[str, Any]] = json.loads(Path(__file__).with_name("settings.json").read_text(encoding="utf-8"))
+SETTINGS: List[Dict[str, Any]] = json.loads((Path(__file__).parent.parent / "settings.json").read_text(encoding="utf-8"))
 BY_NAME = {setting["name"]: setting for setting in SETTINGS}
 
 #: Settings that do not change the mesh.
@@ -28,7 +28,7 @@ class MeshSettings(Dict[str, Any]):
     def __init__(self, **values: Any) -> None:
         unknown = sorted(set(values) - set(BY_NAME))
         if unknown:
-            raise TypeError(f"there is no setting '{unknown[0]}' (see quadrille.setting_table.SETTINGS)")
+            raise TypeError(f"there is no setting '{unknown[0]}' (see quadrille.core.setting_table.SETTINGS)")
         super().__init__({name: value for name, value in values.items() if value is not None})
 
     def arguments(self) -> List[str]:

@@ -8,9 +8,9 @@ from typing import Any, Dict, FrozenSet, List, NamedTuple, Optional, Tuple
 
 import FreeCAD
 
-from . import groups, links, old_documents, shapes
-from .errors import Error
-from .setting_table import SETTINGS, MeshSettings, from_property
+from ..core.errors import Error
+from ..core.setting_table import SETTINGS, MeshSettings, from_property
+from . import groups, links, shapes
 
 #: The type of the Python side of our mesh objects.
 TYPE = "Fem::FemMeshQuadrille"
@@ -70,8 +70,18 @@ def wanted_of(mesh) -> Wanted:
     values.update((name, getattr(mesh, name, default)) for name, default in ((ADAPTED, ""), (FOLLOWS, False)))
     refinements = [Refinement(region.Name, region.References, _length(region)) for region in mesh.MeshRegionList]
     refinements += [Refinement("", links.link(mesh.Shape, names), size)
-                    for size, names in old_documents.sizes_of(mesh).items()]
+                    for size, names in sizes_of(mesh).items()]
     return Wanted(values, tuple(refinements))
+
+
+def sizes_of(mesh) -> Dict[float, List[str]]:
+    """The sizes that a mesh object of 0.1.0 holds itself: names of faces, edges and vertices by size. FreeCAD does not allow
+    new objects while a document is read, so they stay until mesh_regions() converts them to mesh regions."""
+    by_size: Dict[float, List[str]] = {}
+    if "Sizes" in mesh.PropertiesList:
+        for element, size in mesh.Sizes.items():
+            by_size.setdefault(float(size), []).append(element)
+    return by_size
 
 
 def _length(region) -> float:

@@ -9,7 +9,7 @@ from typing import Callable, Dict, Optional
 
 import numpy as np
 
-from . import arrays
+from ..core import arrays
 
 #: Number of lines formatted at once.
 _PIECE = 2000

@@ -20,8 +20,8 @@ def find() -> None:
         sys.path.append(str(home / "lib"))
         sys.path += [str(folder) for folder in sorted((home / "Mod").glob("*")) if folder.is_dir()]
         try:
-            import FreeCAD as _
-            import numpy as _  # noqa: F811
+            import FreeCAD as _  # noqa: F811
+            import numpy as _  # noqa: F401, F811
             return
         except ImportError as error:  # FreeCAD is for another Python, or NumPy is missing
             sys.path[:] = before

@@ -11,8 +11,8 @@ has changed, the one element that now lies in the old place is taken. Otherwise 
 import json
 from typing import Any, Container, Dict, Iterable, List, NamedTuple, Sequence, Tuple
 
+from ..core.errors import Error
 from . import shapes
-from .errors import Error
 
 #: FreeCAD's type of property for links to faces, edges and vertices, whatever container the part is in.
 PROPERTY = "App::PropertyLinkSubListGlobal"

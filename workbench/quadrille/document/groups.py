@@ -6,16 +6,19 @@ geometry, which is slow. The mesh holds a group for each face, edge and vertex o
 constraints can be made at any time without a search, even when a constraint is added or changed after meshing.
 Runs inside FreeCAD."""
 
-from typing import Dict, Iterable, List, Set, Tuple
+from typing import Callable, Dict, Iterable, List, Set, Tuple
 
 import FreeCAD
 
-from . import links, observers, shapes, solvers, undo
-from .errors import Error
+from ..core import observers
+from ..core.errors import Error
+from . import links, shapes, undo
 
 _KINDS = {"Face": "Face", "Edge": "Edge", "Vertex": "Node"}
 #: {(group name, element type): ids}
 Groups = Dict[Tuple[str, str], Tuple[int, ...]]
+#: Called with a result and its analysis once, when the result comes into the analysis of one of our meshes.
+Hint = Callable[[object, object], None]
 
 
 def add_groups(mesh, fem_mesh) -> None:
@@ -155,7 +158,8 @@ def _members(mesh) -> List:
 class _Watcher:
     """A document observer. Constraints that are added or changed after meshing get their groups immediately."""
 
-    def __init__(self) -> None:
+    def __init__(self, hint: Hint) -> None:
+        self._hint_at = hint
         self._told: Set[Tuple[str, str]] = set()
 
     def slotChangedObject(self, obj, name: str) -> None:
@@ -184,7 +188,7 @@ class _Watcher:
             key = (analysis.Document.Uid, member.Name)
             if key not in self._told:
                 self._told.add(key)
-                solvers.hint_at_surfaces(member, analysis)
+                self._hint_at(member, analysis)
 
     def slotUndoDocument(self, document) -> None:
         """FreeCAD calls this after an undo."""
@@ -217,6 +221,6 @@ def _is_ours(obj) -> bool:
             and "MeshToken" in obj.PropertiesList)
 
 
-def watch() -> None:
+def watch(hint: Hint) -> None:
     """Starts to watch documents; further calls do nothing."""
-    observers.watch(_Watcher)
+    observers.watch(_Watcher, hint)

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Work that is done ahead of the call that uses it. A window does the long work first and shows the progress; the call that
+macros record follows at once and takes the result from here."""
+
+from typing import Callable, Dict, Generic, Hashable, Optional, TypeVar
+
+Result = TypeVar("Result")
+
+
+class Prepared(Generic[Result]):
+    """At most one result, by what it was made of. A result that was not taken makes room for the next."""
+
+    def __init__(self) -> None:
+        self._kept: Dict[Hashable, Result] = {}
+
+    def put(self, key: Hashable, result: Result) -> None:
+        """Keeps a result in place of the one before."""
+        self._kept = {key: result}
+
+    def make(self, key: Hashable, work: Callable[[], Result]) -> None:
+        """Does the work and keeps its result. What was kept before is gone even if the work fails."""
+        self._kept = {}
+        self.put(key, work())
+
+    def take(self, key: Hashable) -> Optional[Result]:
+        """The result made of this, which is then kept no longer; None if there is none."""
+        return self._kept.pop(key, None)

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Results at the surfaces of shells: which solvers can give them, and a hint where they are missing. Runs inside FreeCAD."""
+
+from typing import List
+
+import FreeCAD
+
+#: Property of FreeCAD's CalculiX solver objects: results at the shell's surfaces, not only at its middle.
+SURFACE_RESULTS = "BeamShellResultOutput3D"
+
+
+def solvers_of(analysis) -> List[object]:
+    """The solver objects of an analysis that can give results at the surfaces of shells."""
+    members = analysis.Group if analysis is not None else ()
+    return [member for member in members if SURFACE_RESULTS in member.PropertiesList]
+
+
+def hint_at_surfaces(result, analysis) -> None:
+    """Warns in the report view if a result is for the middle of the shell only. Its stresses are the mean through the
+    thickness, which in bending is almost zero."""
+    for solver in solvers_of(analysis):
+        if not getattr(solver, SURFACE_RESULTS):
+            FreeCAD.Console.PrintWarning(
+                f"{result.Label}: shows stresses at the middle of the shell; those of bending are at its surfaces: set "
+                f"{SURFACE_RESULTS} of {solver.Label} to true, and solve again\n")
+            return
