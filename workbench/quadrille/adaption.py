@@ -19,7 +19,7 @@ from . import freecad as core
 from .arrays import nodes_of
 from .command import CommandJob, Progress, scratch_folder
 from .errors import Error
-from .jobs import find_mesher
+from .jobs import find_mesher, in_own_words
 from .state import ADAPTED, FOLLOWS
 
 
@@ -132,7 +132,8 @@ def _estimate(mesh, result, aim: List[str], folder: str, progress: Optional[Prog
     try:
         told = job.start().wait(progress)
     except Error as error:
-        raise Error(str(error).replace(displaced, result.Label).replace(solved, mesh.Label), error.kind, result.Name) from error
+        sentence = in_own_words(str(error)).replace(displaced, result.Label).replace(solved, mesh.Label)
+        raise Error(sentence, error.kind, result.Name) from error
     return Estimate(told["error"], told["quads"], told["quads_wanted"], told["size_min"], told["size_max"])
 
 

@@ -13,8 +13,8 @@ import numpy as np
 from . import links, state
 from .command import CommandJob, scratch_folder
 from .errors import Error
-from .jobs import find_mesher
-from .setting_table import BY_NAME, MeshSettings, in_words_of_properties
+from .jobs import error_in_own_words, find_mesher
+from .setting_table import BY_NAME, MeshSettings
 
 
 class Source(NamedTuple):
@@ -91,7 +91,7 @@ class SizesJob:
             with open(self._output, encoding="utf-8") as file:
                 return _map_of(json.load(file))
         except Error as error:
-            raise Error(in_words_of_properties(str(error)), error.kind, error.subject) from error
+            raise error_in_own_words(error) from error
         finally:
             self._folder.cleanup()
 

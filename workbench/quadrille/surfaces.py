@@ -14,7 +14,7 @@ from . import freecad as core
 from . import groups, observers, solvers, state, undo
 from .command import MeshJob, Progress, scratch_folder
 from .errors import Error
-from .jobs import FemJob, find_mesher
+from .jobs import FemJob, find_mesher, in_own_words
 from .setting_table import ORDERS, MeshSettings, default_size
 
 
@@ -125,7 +125,7 @@ class SurfaceJob(FemJob):
         surface.Mesh.write(model)  # single precision, like FreeCAD's meshes
         self._told_as = ((model, surface.Label), ("triangles and points counted from 0, as they come in the file",
                                                   "triangles and points counted from 0"),
-                         ("Force meshes all the same", "take a larger Size"), ("--feature-angle", "FeatureAngle"), ("--merge", "MergeDistance"))
+                         ("the property Force meshes all the same", "take a larger Size"))
         work = ("remesh", "--feature-angle", repr(float(asked.feature_angle)), "--merge", repr(float(asked.merge)))
         settings = MeshSettings(size=float(asked.size), order=int(asked.order))
         super().__init__(command, folder, output, MeshJob(model, [output, *outputs], settings, command, None, work))
@@ -191,7 +191,7 @@ def _store(mesh, fem_mesh, report: Dict, job: SurfaceJob) -> None:
     fidelity = report.get("fidelity", {})
     mesh.OffSurface = fidelity.get("mesh_from_surface", {}).get("distance", 0.0)
     for note in report.get("warnings", ()):
-        FreeCAD.Console.PrintWarning(f"{mesh.Label}: {note}\n")
+        FreeCAD.Console.PrintWarning(f"{mesh.Label}: {in_own_words(note)}\n")
 
 
 class SurfaceMesh:
