@@ -18,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/place_text.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 
@@ -441,11 +442,11 @@ class Search {
 
 std::string MirrorPlane::name() const {
   for (int i = 0; i < 3; ++i) {
-    if (normal == Vector3::Unit(i)) return fmt::format("{} = {:.6g}", "xyz"[i], offset);
+    if (normal == Vector3::Unit(i))
+      return fmt::format("{} = {:.6g}", "xyz"[i], offset);  // 0 where it is a rounding error
   }
   const Vector3 foot = offset * normal + Vector3::Zero();  // no "-0"
-  return fmt::format("normal ({:.6g}, {:.6g}, {:.6g}) through ({:.6g}, {:.6g}, {:.6g})", normal.x(),
-                     normal.y(), normal.z(), foot.x(), foot.y(), foot.z());
+  return fmt::format("normal {} through {}", place_text(normal), place_text(foot));
 }
 
 std::vector<MirrorPlane> mirror_planes(const CadShape& shape, const ExecutionContext& context) {

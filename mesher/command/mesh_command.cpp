@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "geometry/base/place_text.hpp"
 #include "geometry/base/threads.hpp"
 #include "geometry/surfaces/contacts.hpp"
 #include "mesher/command/command.hpp"
@@ -71,8 +72,8 @@ void warn_off_geometry(const ShellMesh& mesh, std::vector<std::string>& warnings
   if (mesh.off_geometry.empty() || worst == mesh.faces.end()) return;
   warnings.push_back(
       fmt::format("{} nodes lie off the geometry, where elements would be invalid on it, most on "
-                  "Face{} (by {:.3g}): a smaller size there keeps them on it",
-                  mesh.off_geometry.size(), worst->face, worst->off_geometry_max));
+                  "Face{} (by {}): a smaller size there keeps them on it",
+                  mesh.off_geometry.size(), worst->face, number_text(worst->off_geometry_max)));
 }
 
 struct Measured {
