@@ -118,11 +118,16 @@ nlohmann::json coincident_to_json(const Measured& measured) {
           {"remedy", remedy.empty() ? nlohmann::json() : nlohmann::json(remedy)}};
 }
 
-/// The faces that each face of the file became.
-nlohmann::json imprinted_to_json(const std::vector<std::vector<int>>& pieces) {
+/// What each face, edge and vertex of the file became.
+nlohmann::json imprinted_to_json(const CadModel& model) {
   nlohmann::json result = nlohmann::json::object();
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    result[fmt::format("Face{}", i + 1)] = names("Face", pieces[i]);
+  const auto add = [&](const char* kind, const std::vector<std::vector<int>>& pieces) {
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      result[fmt::format("{}{}", kind, i + 1)] = names(kind, pieces[i]);
+  };
+  add("Face", model.pieces());
+  add("Edge", model.edge_pieces());
+  add("Vertex", model.vertex_pieces());
   return result;
 }
 
@@ -151,7 +156,7 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
     if (meshed.sizes) report["sizes"] = meshed.sizes->json();
     if (meshed.middle) report["middle_surface"] = midsurface_json(*meshed.middle);
     report["coincident"] = coincident_to_json(measured);
-    if (!meshed.model.pieces().empty()) report["imprinted"] = imprinted_to_json(meshed.model.pieces());
+    if (!meshed.model.pieces().empty()) report["imprinted"] = imprinted_to_json(meshed.model);
     write_report(report, arguments.report);
   }
   if (arguments.quiet) return;
@@ -165,7 +170,7 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
 void run(const MeshArguments& arguments) {
   check_files(arguments);
   const CriteriaLimits limits = arguments.limits.limits();
-  const Settings& settings = arguments.settings;
+  Settings settings = arguments.settings;
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(settings.threads, [&](std::string_view stage, double fraction) {
     return display.show(stage, fraction);
@@ -184,6 +189,7 @@ void run(const MeshArguments& arguments) {
   const std::optional<MidSurface> middle = middle_of(source, arguments, context);
   const CadModel& model = middle ? middle->model : source;
   context.check();
+  if (!middle) settings = with_pieces(settings, model);
   check(settings, model);
   MeshOptions options = settings.mesh;
   options.order = order_of(arguments, arguments.outputs);

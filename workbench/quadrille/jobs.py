@@ -100,6 +100,8 @@ class FemJob:
         if fem_mesh.FaceCount != wanted or not wanted:
             raise Error(f"FreeCAD read {fem_mesh.FaceCount} of the {wanted} quads that {self._command} wrote",
                         "failure", self._command)
+        if "imprinted" in report:
+            _with_names_of_the_part(fem_mesh, report["imprinted"])
         return fem_mesh, report
 
     def wait_for_result(self, progress: Optional[Progress] = None) -> Tuple["Fem.FemMesh", Dict]:
@@ -158,3 +160,24 @@ def in_own_words(sentence: str) -> str:
 def error_in_own_words(error: Error) -> Error:
     """The same error, with its sentence in the panel's words."""
     return Error(in_own_words(str(error)), error.kind, error.subject)
+
+
+def _with_names_of_the_part(fem_mesh: "Fem.FemMesh", pieces: Dict[str, List[str]]) -> None:
+    """Gives the groups of an imprinted part's faces, edges and vertices the names that these have in FreeCAD.
+
+    Args:
+        pieces: by the name in FreeCAD, the names of what it became. Where sewing has numbered edges anew, none are known: such
+            groups are left out, and FreeCAD finds the nodes by their places.
+    """
+    kinds = {"Face": "Face", "Edge": "Edge", "Vertex": "Node"}
+    members: Dict[str, Tuple[int, ...]] = {}
+    for number in fem_mesh.Groups:
+        name = fem_mesh.getGroupName(number)
+        kind = name.rstrip("0123456789")
+        if kind != name and kinds.get(kind) == fem_mesh.getGroupElementType(number):
+            members[name] = fem_mesh.getGroupElements(number)
+            fem_mesh.removeGroup(number)
+    for name, own in pieces.items():
+        ids = sorted({element for piece in own for element in members.get(piece, ())})
+        if ids:
+            fem_mesh.addGroupElements(fem_mesh.addGroup(name, kinds[name.rstrip("0123456789")]), ids)
