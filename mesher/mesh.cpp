@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "geometry/base/place_text.hpp"
 #include "geometry/base/threads.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/element_count.hpp"
@@ -455,8 +456,8 @@ class Job {
       if (longest > tiny * limits_.largest) continue;
       const FaceProblem& problem = *problems_[face];
       problems_[face].emplace(problem.cause(), face,
-                              fmt::format("{}; its longest edge is {:.3g}: `merge_tiny` {:.3g} leaves it out",
-                                          problem.what(), longest, 1.1 * longest));
+                              fmt::format("{}; its longest edge is {}: `merge_tiny` {} leaves it out",
+                                          problem.what(), number_text(longest), number_text(1.1 * longest)));
     }
   }
 

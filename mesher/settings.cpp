@@ -256,7 +256,7 @@ std::vector<Setting> make_table() {
       {"bias_both", "bias-both", "BiasBoth", none, mesh, none, 0, 0, false, "none",
        "the same ratio from both ends of an edge to its middle",
        Setting::EntryList{set_bias_both, bias_both_of}},
-      {"imprint", "imprint", none, none, read, none, 0, 0, false, none,
+      {"imprint", "imprint", "Imprint", "Imprint", read, none, 0, 0, false, none,
        "first cut parts that touch or cross where they meet, so that they share faces, edges and nodes",
        [](Settings& v) -> bool& { return v.imprint; }},
       {"sew", "sew", "Sew", "Sew", read, mm, 0, infinity, true, "not sewn",
@@ -273,7 +273,7 @@ std::vector<Setting> make_table() {
        [](Settings& v) -> int& { return v.mesh.rings; }},
       {"partial", "partial", "Partial", "Partial", mesh, none, 0, 0, false, none,
        "keep what could be meshed if a face fails", [](Settings& v) -> bool& { return v.mesh.partial; }},
-      {"strict", "strict", none, none, mesh, none, 0, 0, false, none,
+      {"strict", "strict", "Strict", "Strict", mesh, none, 0, 0, false, none,
        "refuse a face that has no valid mesh on its surface, instead of letting nodes leave it",
        [](Settings& v) -> bool& { return v.mesh.strict; }},
       {"force", "force", "Force", none, mesh, none, 0, 0, false, none,
@@ -434,6 +434,68 @@ void assign(Settings& settings, const Setting& setting, const SettingValue& valu
 CadModel joined(const Settings& settings, const CadModel& model) {
   const CadModel imprinted = settings.imprint ? model.imprinted(settings.sew) : model;
   return settings.sew > 0 ? imprinted.sewn(settings.sew) : imprinted;
+}
+
+namespace {
+
+/// The numbers of the pieces of a face, edge or vertex.
+std::vector<int> pieces_of(const Setting& setting, std::string_view kind, int number,
+                           const std::vector<std::vector<int>>& pieces) {
+  if (pieces.empty())
+    throw refused(setting, fmt::format("names {}{}: edges and vertices cannot be named where a model is "
+                                       "imprinted with `sew`, which numbers them anew",
+                                       kind, number));
+  check_names(setting, {number}, kind, static_cast<int>(pieces.size()));
+  return pieces[static_cast<std::size_t>(number) - 1];
+}
+
+/// Of a piece that several have in common, the value for which `better` holds.
+template <class Value, class Better>
+void rename(const Setting& setting, std::string_view kind, const std::vector<std::vector<int>>& pieces,
+            std::map<int, Value>& values, Better better) {
+  std::map<int, Value> renamed;
+  for (const auto& [number, value] : values) {
+    for (const int piece : pieces_of(setting, kind, number, pieces)) {
+      const auto [place, is_new] = renamed.emplace(piece, value);
+      if (!is_new && better(value, place->second)) place->second = value;
+    }
+  }
+  values = std::move(renamed);
+}
+
+}  // namespace
+
+Settings with_pieces(const Settings& settings, const CadModel& model) {
+  if (model.pieces().empty()) return settings;
+  Settings result = settings;
+  std::vector<int>& faces = result.mesh.faces;
+  faces.clear();
+  for (const int face : settings.mesh.faces)
+    for (const int piece : pieces_of(entry("faces"), "Face", face, model.pieces()))
+      if (std::find(faces.begin(), faces.end(), piece) == faces.end()) faces.push_back(piece);
+  SizingOptions& sizing = result.mesh.sizing;
+  const auto smaller = [](double one, double other) { return one < other; };
+  rename(entry("sizes"), "Face", model.pieces(), sizing.face_sizes, smaller);
+  rename(entry("sizes"), "Edge", model.edge_pieces(), sizing.edge_sizes, smaller);
+  rename(entry("sizes"), "Vertex", model.vertex_pieces(), sizing.vertex_sizes, smaller);
+  const auto finer = [](const SizeLayers& one, const SizeLayers& other) { return one.first < other.first; };
+  rename(entry("layers"), "Face", model.pieces(), sizing.layers.faces, finer);
+  rename(entry("layers"), "Edge", model.edge_pieces(), sizing.layers.edges, finer);
+  rename(entry("layers"), "Vertex", model.vertex_pieces(), sizing.layers.vertices, finer);
+  std::map<int, EdgeSpacing> spacings;
+  for (const auto& [edge, spacing] : sizing.spacings) {
+    const Setting& setting = entry(spacing.segments > 0 ? "segments"
+                                   : spacing.bias != 1  ? "bias"
+                                                        : "bias_both");
+    const std::vector<int> pieces = pieces_of(setting, "Edge", edge, model.edge_pieces());
+    if (pieces.size() != 1 || !spacings.emplace(pieces.front(), spacing).second)
+      throw refused(setting,
+                    fmt::format("names Edge{}, which `imprint` cuts, joins with another edge that is "
+                                "named too, or drops",
+                                edge));
+  }
+  sizing.spacings = std::move(spacings);
+  return result;
 }
 
 void check(const Settings& settings, const CadModel& model) {

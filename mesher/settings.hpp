@@ -95,6 +95,11 @@ QUADRILLE_API void check(const Settings& settings, const CadModel& model);
 /// The model as the settings want it read: imprinted, then sewn. Throws Error as those functions of CadModel.
 QUADRILLE_API CadModel joined(const Settings& settings, const CadModel& model);
 
+/// The settings with the names of an imprinted model's faces, edges and vertices instead of those that they
+/// were before: a name becomes those of all its pieces. Unchanged for other models. Throws Error (usage)
+/// where a number of segments or a bias would go to several pieces. \param model as joined() gives it.
+QUADRILLE_API Settings with_pieces(const Settings& settings, const CadModel& model);
+
 /// The table as an array of objects: name, option, property, label, kind, use, unit, default (null: see
 /// otherwise), low, high (null: none), above_low, choices, otherwise, help.
 QUADRILLE_API nlohmann::ordered_json settings_table();

@@ -1,5 +1,5 @@
 #pragma once
-/// Points as messages show them. Internal.
+/// Measured numbers and points as messages show them. Values that users gave are shown as given. Internal.
 
 #include <cmath>
 #include <string>
@@ -10,10 +10,19 @@
 
 namespace quadrille {
 
-/// "(x, y, z)" with six digits. Coordinates that are rounding errors beside the others are 0.
+/// What is below this share of its like is a rounding error.
+inline constexpr double rounding_share = 1e-9;
+
+/// A number with four digits; 0 if it is a rounding error. \param like what it compares with; the default
+/// suits lengths in millimeters, of which a picometer is no length, and ratios.
+inline std::string number_text(double value, double like = 1e-3) {
+  return fmt::format("{:.4g}", std::abs(value) <= rounding_share * std::abs(like) ? 0.0 : value);
+}
+
+/// "(x, y, z)" with six digits, since coordinates may be large beside the model. Those that are rounding
+/// errors beside the others are 0.
 inline std::string place_text(const Vector3& point) {
-  constexpr double rounding = 1e-9;
-  const double least = rounding * point.cwiseAbs().maxCoeff();
+  const double least = rounding_share * point.cwiseAbs().maxCoeff();
   const auto shown = [&](double x) { return std::abs(x) <= least ? 0.0 : x; };
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", shown(point.x()), shown(point.y()), shown(point.z()));
 }

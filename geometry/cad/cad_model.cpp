@@ -226,6 +226,8 @@ CadModel CadModel::imprinted(double tolerance) const {
     Imprint made = imprint(shape_->shape, tolerance);
     auto result = std::make_shared<CadShape>(made.shape, name);
     keep_pieces(*result, std::move(made.pieces));
+    result->edge_pieces = std::move(made.edge_pieces);
+    result->vertex_pieces = std::move(made.vertex_pieces);
     return CadModel(std::move(result));
   } catch (const Standard_Failure& problem) {
     throw failure(name, fmt::format("{} cannot be imprinted ({}): mesh its parts one by one, or repair it in "
@@ -263,6 +265,12 @@ const std::vector<std::string>& CadModel::problems() const {
 }
 const std::vector<std::vector<int>>& CadModel::pieces() const {
   return shape_->face_pieces;
+}
+const std::vector<std::vector<int>>& CadModel::edge_pieces() const {
+  return shape_->edge_pieces;
+}
+const std::vector<std::vector<int>>& CadModel::vertex_pieces() const {
+  return shape_->vertex_pieces;
 }
 
 double CadModel::area(const ExecutionContext& context) const {

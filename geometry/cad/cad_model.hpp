@@ -71,6 +71,10 @@ class QUADRILLE_API CadModel {
   /// faces that it became, ascending. Faces of different parts may have become the same one. Empty for
   /// others.
   const std::vector<std::vector<int>>& pieces() const;
+  /// The same for edges, by their numbers. Empty also if the model was sewn after that.
+  const std::vector<std::vector<int>>& edge_pieces() const;
+  /// The same for vertices.
+  const std::vector<std::vector<int>>& vertex_pieces() const;
 
   const CadShape& shape() const { return *shape_; }  ///< internal representation
 

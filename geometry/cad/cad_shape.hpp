@@ -93,7 +93,8 @@ class CadShape {
   IdVector<VertexId, Vector3> vertices;
   IdVector<VertexId, double> vertex_tolerances;
   int solids = 0, shells = 0;
-  std::vector<std::vector<int>> face_pieces;  ///< see CadModel::pieces()
+  /// See CadModel::pieces(), edge_pieces(), vertex_pieces().
+  std::vector<std::vector<int>> face_pieces, edge_pieces, vertex_pieces;
   Vector3 box_min, box_max;
 
   double diagonal() const { return (box_max - box_min).norm(); }

@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/place_text.hpp"
+
 namespace quadrille {
 
 namespace {
@@ -134,9 +136,10 @@ class CurveEndMender {
         nearest = std::min(nearest, (end.point - shape_.vertices[vertex]).norm());
     }
     if (nearest > tolerance)
-      return fmt::format("Vertex{} lies {:.3g} away from where its curves end", vertex.number(), nearest);
-    return fmt::format("Vertex{} has a tolerance of {:.3g}, more than an edge of its own is long",
-                       vertex.number(), tolerance);
+      return fmt::format("Vertex{} lies {} away from where its curves end", vertex.number(),
+                         number_text(nearest));
+    return fmt::format("Vertex{} has a tolerance of {}, more than an edge of its own is long",
+                       vertex.number(), number_text(tolerance));
   }
 
   VertexId new_vertex() {

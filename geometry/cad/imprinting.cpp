@@ -81,6 +81,23 @@ std::string reason_of(const BOPAlgo_Builder& fuse) {
   return reason.empty() ? "no reason given" : reason;
 }
 
+/// For each face, edge or vertex of the shape before: the numbers of those that it became, ascending.
+std::vector<std::vector<int>> numbers_of_pieces(BOPAlgo_Builder& fuse, const TopoDS_Shape& before,
+                                                const TopoDS_Shape& after, TopAbs_ShapeEnum kind) {
+  TopTools_IndexedMapOfShape old, numbers;
+  TopExp::MapShapes(before, kind, old);
+  TopExp::MapShapes(after, kind, numbers);
+  std::vector<std::vector<int>> pieces;
+  for (int i = 1; i <= old.Extent(); ++i) {
+    std::vector<int>& found = pieces.emplace_back();
+    for (const TopoDS_Shape& piece : images_of(fuse, old(i)))
+      if (const int number = numbers.FindIndex(piece); number > 0) found.push_back(number);
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+  }
+  return pieces;
+}
+
 /// The pieces of the faces in the order in which they are numbered.
 class Numbering {
  public:
@@ -124,9 +141,14 @@ Imprint imprint(const TopoDS_Shape& shape, double tolerance) {
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(shape, TopAbs_FACE, faces);
   if (parts.size() < 2) {
-    Imprint same{shape, {}};
-    for (int i = 1; i <= faces.Extent(); ++i) same.pieces.push_back({i});
-    return same;
+    const auto all_of = [&](TopAbs_ShapeEnum kind) {
+      TopTools_IndexedMapOfShape all;
+      TopExp::MapShapes(shape, kind, all);
+      std::vector<std::vector<int>> same;
+      for (int i = 1; i <= all.Extent(); ++i) same.push_back({i});
+      return same;
+    };
+    return {shape, all_of(TopAbs_FACE), all_of(TopAbs_EDGE), all_of(TopAbs_VERTEX)};
   }
   BOPAlgo_Builder fuse;
   for (const TopoDS_Shape& part : parts) fuse.AddArgument(part);
@@ -160,13 +182,9 @@ Imprint imprint(const TopoDS_Shape& shape, double tolerance) {
   if (numbers.Extent() != static_cast<int>(numbering.faces().size()))
     throw Standard_Failure("faces appear that are no piece of the model's");
 
-  Imprint result{all, {}};
-  for (const std::vector<TopoDS_Shape>& own : pieces) {
-    std::vector<int>& found = result.pieces.emplace_back();
-    for (const TopoDS_Shape& piece : own) found.push_back(numbers.FindIndex(piece));
-    std::sort(found.begin(), found.end());
-  }
-  return result;
+  return {all, numbers_of_pieces(fuse, shape, all, TopAbs_FACE),
+          numbers_of_pieces(fuse, shape, all, TopAbs_EDGE),
+          numbers_of_pieces(fuse, shape, all, TopAbs_VERTEX)};
 }
 
 std::vector<std::string> changes_of_faces(const std::vector<std::vector<int>>& pieces) {

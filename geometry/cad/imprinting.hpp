@@ -13,6 +13,8 @@ struct Imprint {
   TopoDS_Shape shape;
   /// For each face of the shape before: the numbers of the faces that it became, ascending.
   std::vector<std::vector<int>> pieces;
+  /// The same for edges and vertices; those that the fuse has dropped became nothing.
+  std::vector<std::vector<int>> edge_pieces, vertex_pieces;
 };
 
 /// OpenCASCADE's general fuse of the solids, shells and faces of a shape. A face keeps its number, or one of

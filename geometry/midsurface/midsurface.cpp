@@ -29,6 +29,7 @@
 #include <fmt/ranges.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/place_text.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/midsurface/checks.hpp"
 #include "geometry/midsurface/fitted_middle.hpp"
@@ -217,8 +218,8 @@ void check_fits(const Skin& skin, const std::string& name, const MidSurfaceOptio
   for (const JoinedFace& face : middle.faces) {
     const Wall& wall = middle.walls[face.wall];
     if (face.step || wall.off <= most * wall.thickness || !checked.insert(face.wall).second) continue;
-    tell(fmt::format("{}: the middle between {} is off by up to {:.2g} mm, more than {:g} % of the thickness",
-                     name, face_names(side_numbers(skin, wall)), wall.off, 100 * most),
+    tell(fmt::format("{}: the middle between {} is off by up to {} mm, more than {:g} % of the thickness",
+                     name, face_names(side_numbers(skin, wall)), number_text(wall.off), 100 * most),
          name, options, middle.problems);
   }
 }

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/place_text.hpp"
 #include "geometry/base/trimmed_domain.hpp"
 #include "geometry/base/whole_number.hpp"
 #include "geometry/cad/coarse_domain.hpp"
@@ -96,9 +97,9 @@ void SizeSources::hold_segments() const {
 Error SizeSources::too_many_segments(const CadEdge& edge, double segments) const {
   return usage_error(
       "size",
-      fmt::format("Edge{} of {:.3g} mm would take about {:.3g} million segments at the sizes asked for, and "
+      fmt::format("Edge{} of {} mm would take about {:.3g} million segments at the sizes asked for, and "
                   "all edges more than {:g} million: `force` meshes all the same",
-                  edge.number, edge.length, segments / 1e6, options_.budget.segments / 1e6));
+                  edge.number, number_text(edge.length), segments / 1e6, options_.budget.segments / 1e6));
 }
 
 void SizeSources::edge(EdgeId id, const Sink& sink) const {

@@ -11,6 +11,7 @@
 
 #include "geometry/base/isolated_work.hpp"
 #include "geometry/base/module_loader.hpp"
+#include "geometry/base/place_text.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/vdb_module.hpp"
 
@@ -155,9 +156,8 @@ void SpatialSizes::open_external(const CadModel& model, const SizingOptions& opt
   if ((low.array() > model.box_max().array()).any() || (high.array() < model.box_min().array()).any())
     throw usage_error(
         "size_field",
-        fmt::format("{} lies beside the model: its sizes reach from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, "
-                    "{:.4g}, {:.4g}) mm; is `size_field_unit` right?",
-                    path, low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
+        fmt::format("{} lies beside the model: its sizes reach from {} to {} mm; is `size_field_unit` right?",
+                    path, place_text(low), place_text(high)));
   external_ = [at = std::move(sizes.at), unit, scale](const Vector3& p) { return scale * at(p / unit); };
   between_voxels_ = sizes.between_voxels;
   spacing_ = std::min(spacing_, std::max(unit * sizes.voxel, limits_.size_min));

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/module_loader.hpp"
+#include "geometry/base/place_text.hpp"
 
 namespace quadrille {
 
@@ -108,8 +109,8 @@ struct ExternalField {
       for (auto it = grid->cbeginValueOn(); it; ++it) {
         if (*it > 0 && std::isfinite(*it) && unit > 0 && std::isfinite(unit)) continue;
         const openvdb::Vec3d p = grid->indexToWorld(it.getCoord());
-        return fmt::format("the size {:g} at ({:.4g}, {:.4g}, {:.4g}), and sizes are positive numbers",
-                           unit * *it, p.x(), p.y(), p.z());
+        return fmt::format("the size {:g} at {}, and sizes are positive numbers", unit * *it,
+                           place_text(Vector3(p.x(), p.y(), p.z())));
       }
       const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
       if (box.empty()) continue;

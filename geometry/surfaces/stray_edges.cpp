@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/place_text.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 
 namespace quadrille {
@@ -46,8 +47,8 @@ double distance_from_box(const CadEdge& edge, const Vector3& low, const Vector3&
 
 std::string StrayEdge::sentence() const {
   return fmt::format(
-      "Edge{} runs {:.3g} mm away from the model's surfaces, which span {:.3g} mm: the file may be damaged",
-      edge, distance, span);
+      "Edge{} runs {} mm away from the model's surfaces, which span {} mm: the file may be damaged", edge,
+      number_text(distance), number_text(span));
 }
 
 std::vector<StrayEdge> stray_edges(const CadShape& shape, const FaceFlags& used) {

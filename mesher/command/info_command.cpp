@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/place_text.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/surfaces/contacts.hpp"
 #include "geometry/surfaces/stray_edges.hpp"
@@ -38,9 +39,7 @@ std::string describe(const CadModel& model, ExecutionContext& context) {
   line("faces", std::to_string(model.face_count()));
   line("edges", std::to_string(model.edge_count()));
   line("vertices", std::to_string(model.vertex_count()));
-  const Vector3 low = model.box_min(), high = model.box_max();
-  line("box", fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", low.x(), low.y(), low.z(),
-                          high.x(), high.y(), high.z()));
+  line("box", fmt::format("{} to {}", place_text(model.box_min()), place_text(model.box_max())));
   line("diagonal", fmt::format("{:.6g} mm", model.diagonal()));
   std::string unmeasured;
   try {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "geometry/base/place_text.hpp"
 #include "geometry/base/threads.hpp"
 #include "geometry/surfaces/contacts.hpp"
 #include "mesher/command/command.hpp"
@@ -71,8 +72,8 @@ void warn_off_geometry(const ShellMesh& mesh, std::vector<std::string>& warnings
   if (mesh.off_geometry.empty() || worst == mesh.faces.end()) return;
   warnings.push_back(
       fmt::format("{} nodes lie off the geometry, where elements would be invalid on it, most on "
-                  "Face{} (by {:.3g}): a smaller size there keeps them on it",
-                  mesh.off_geometry.size(), worst->face, worst->off_geometry_max));
+                  "Face{} (by {}): a smaller size there keeps them on it",
+                  mesh.off_geometry.size(), worst->face, number_text(worst->off_geometry_max)));
 }
 
 struct Measured {
@@ -117,11 +118,16 @@ nlohmann::json coincident_to_json(const Measured& measured) {
           {"remedy", remedy.empty() ? nlohmann::json() : nlohmann::json(remedy)}};
 }
 
-/// The faces that each face of the file became.
-nlohmann::json imprinted_to_json(const std::vector<std::vector<int>>& pieces) {
+/// What each face, edge and vertex of the file became.
+nlohmann::json imprinted_to_json(const CadModel& model) {
   nlohmann::json result = nlohmann::json::object();
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    result[fmt::format("Face{}", i + 1)] = names("Face", pieces[i]);
+  const auto add = [&](const char* kind, const std::vector<std::vector<int>>& pieces) {
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      result[fmt::format("{}{}", kind, i + 1)] = names(kind, pieces[i]);
+  };
+  add("Face", model.pieces());
+  add("Edge", model.edge_pieces());
+  add("Vertex", model.vertex_pieces());
   return result;
 }
 
@@ -149,7 +155,7 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
     if (meshed.sizes) report["sizes"] = meshed.sizes->json();
     if (meshed.middle) report["middle_surface"] = midsurface_json(*meshed.middle);
     report["coincident"] = coincident_to_json(measured);
-    if (!meshed.model.pieces().empty()) report["imprinted"] = imprinted_to_json(meshed.model.pieces());
+    if (!meshed.model.pieces().empty()) report["imprinted"] = imprinted_to_json(meshed.model);
     write_report(report, arguments.report);
   }
   if (arguments.quiet) return;
@@ -161,7 +167,7 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
 void run(const MeshArguments& arguments) {
   check_files(arguments);
   const CriteriaLimits limits = arguments.limits.limits();
-  const Settings& settings = arguments.settings;
+  Settings settings = arguments.settings;
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(settings.threads, [&](std::string_view stage, double fraction) {
     return display.show(stage, fraction);
@@ -180,6 +186,7 @@ void run(const MeshArguments& arguments) {
   const std::optional<MidSurface> middle = middle_of(source, arguments, context);
   const CadModel& model = middle ? middle->model : source;
   context.check();
+  if (!middle) settings = with_pieces(settings, model);
   check(settings, model);
   MeshOptions options = settings.mesh;
   options.order = order_of(arguments, arguments.outputs);

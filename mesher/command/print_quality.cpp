@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/base/place_text.hpp"
+
 namespace quadrille::command {
 
 std::string quality_table(const QualitySummary& summary) {
@@ -62,8 +64,8 @@ std::string criteria_table(const CriteriaSummary& summary, const CriteriaLimits&
   text += "\nworst quads\n";
   for (const auto& quad : summary.worst) {
     const CriterionInfo& info = criteria_info[static_cast<std::size_t>(quad.criterion)];
-    text += fmt::format("quad {} on Face{} at ({:.6g}, {:.6g}, {:.6g}): {} {:.4g}\n", quad.quad + 1,
-                        quad.face, quad.center.x(), quad.center.y(), quad.center.z(), info.name, quad.value);
+    text += fmt::format("quad {} on Face{} at {}: {} {}\n", quad.quad + 1, quad.face, place_text(quad.center),
+                        info.name, number_text(quad.value));
   }
   return text;
 }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "geometry/base/place_text.hpp"
 #include "geometry/base/threads.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/limits_option.hpp"
@@ -58,10 +59,10 @@ nlohmann::json fidelity_json(const RemeshFidelity& fidelity) {
 std::string fidelity_line(const RemeshFidelity& fidelity) {
   const double percent = 100 * (fidelity.mesh_area / fidelity.surface_area - 1);
   return fmt::format(
-      "surface: the mesh is up to {:.3g} off it (Face{}), it is up to {:.3g} off the mesh (Face{}), area "
+      "surface: the mesh is up to {} off it (Face{}), it is up to {} off the mesh (Face{}), area "
       "{:+.2g} %\n",
-      fidelity.of_mesh.length, fidelity.of_mesh.face, fidelity.of_surface.length, fidelity.of_surface.face,
-      percent);
+      number_text(fidelity.of_mesh.length), fidelity.of_mesh.face, number_text(fidelity.of_surface.length),
+      fidelity.of_surface.face, percent);
 }
 
 void tell(const ShellMesh& mesh, const RemeshFidelity& fidelity, const std::vector<std::string>& notes,

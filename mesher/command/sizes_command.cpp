@@ -125,7 +125,7 @@ void write_outputs(const SizeMap& map, const SizesArguments& arguments, Executio
 
 void run(const SizesArguments& arguments) {
   check_files(arguments);
-  const Settings& settings = arguments.settings;
+  Settings settings = arguments.settings;
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(settings.threads, [&](std::string_view stage, double fraction) {
     return display.show(stage, fraction);
@@ -139,6 +139,7 @@ void run(const SizesArguments& arguments) {
   cancel.reading_is_done();
   report_crashes(arguments.input, "measuring");
   context.check();
+  settings = with_pieces(settings, model);
   check(settings, model);
   MeshOptions options = settings.mesh;
   options.write_size_field = arguments.write_size_field;

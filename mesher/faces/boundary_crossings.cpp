@@ -111,8 +111,9 @@ EdgeStretch stretch_of(const FaceBoundary::Segment& segment, int pieces) {
 /// The name of a segment's edge, and the part of the edge.
 std::string name_of(const CadShape& shape, const FaceBoundary::Segment& segment) {
   if (!segment.edge.exists()) return "a pole";
-  return fmt::format("Edge{} (parameters {:.4g} to {:.4g})", shape.edges[segment.edge].number,
-                     std::min(segment.from, segment.to), std::max(segment.from, segment.to));
+  const auto [low, high] = std::minmax(segment.from, segment.to);
+  return fmt::format("Edge{} (parameters {} to {})", shape.edges[segment.edge].number, number_text(low, high),
+                     number_text(high, low));
 }
 
 /// The pairs (i < j, ascending) of segments that meet anywhere but at common ends. Segments that coincide are

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/place_text.hpp"
 
 namespace quadrille {
 
@@ -219,10 +220,9 @@ class Placer {
       if (length < 1.1 * size) continue;
       const double pieces = std::ceil(length / (0.6 * size));
       if (!(pieces + static_cast<double>(blockers_.size()) < static_cast<double>(most_points)))
-        throw failure("",
-                      fmt::format("a segment of its boundary is {:.4g} long where sizes are {:.4g}: the file "
-                                  "may be damaged",
-                                  length, size));
+        throw failure("", fmt::format("a segment of its boundary is {} long where sizes are {}: the file "
+                                      "may be damaged",
+                                      number_text(length), number_text(size)));
       for (int k = 1; k < static_cast<int>(pieces); ++k) {
         grid_.insert(a + (b - a) * k / pieces, size);
         grid_index_.push_back(-1 - static_cast<int>(blockers_.size()));

@@ -6,6 +6,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "geometry/base/place_text.hpp"
 #include "geometry/base/side_key.hpp"
 #include "mesher/mesh/second_order.hpp"
 
@@ -41,9 +42,9 @@ void straighten(ShellMesh& mesh, std::vector<std::string>& notes) {
   }
   if (!off.empty())
     notes.push_back(
-        fmt::format("{} midside nodes lie on straight sides, up to {:.3g} off the surface, so that no "
+        fmt::format("{} midside nodes lie on straight sides, up to {} off the surface, so that no "
                     "element folds",
-                    off.size(), largest));
+                    off.size(), number_text(largest)));
 }
 
 }  // namespace

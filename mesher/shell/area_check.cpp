@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/place_text.hpp"
 #include "geometry/base/side_key.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/cad/parallel_ids.hpp"
@@ -128,9 +129,9 @@ std::vector<std::string> area_differences(const CadModel& model, const ShellMesh
   for (const FaceId face : areas.ids()) {
     if (!differ[face] || difference(face) <= largest * integrals[face] + of_loss * loss.of(face)) continue;
     result.push_back(fmt::format(
-        "Face{} has an area of {:.6g} in the mesh and of {:.6g} by OpenCASCADE's integration: the "
+        "Face{} has an area of {} in the mesh and of {} by OpenCASCADE's integration: the "
         "size is too coarse for its shape, or the file or the integral wrong",
-        face.number(), areas[face], integrals[face]));
+        face.number(), number_text(areas[face], integrals[face]), number_text(integrals[face], areas[face])));
   }
   return result;
 }

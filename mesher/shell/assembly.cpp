@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/place_text.hpp"
 #include "geometry/cad/parallel_ids.hpp"
 #include "mesher/shell/midsides.hpp"
 #include "mesher/shell/unfolding.hpp"
@@ -193,8 +194,8 @@ void note_off_geometry(ShellMesh& mesh) {
   for (ShellMesh::Face& face : mesh.faces) {
     if (face.off_geometry == 0) continue;
     if (!face.note.empty()) face.note += ", ";
-    face.note += fmt::format("{} nodes up to {:.3g} off the geometry, where elements would be invalid",
-                             face.off_geometry, face.off_geometry_max);
+    face.note += fmt::format("{} nodes up to {} off the geometry, where elements would be invalid",
+                             face.off_geometry, number_text(face.off_geometry_max));
   }
 }
 

@@ -12,6 +12,7 @@
 #include <span>
 #include <unordered_map>
 
+#include "geometry/base/place_text.hpp"
 #include "geometry/base/side_key.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/second_order.hpp"
@@ -147,7 +148,7 @@ void check_convex(const Elements& elements, Findings& findings) {
     const auto& q = elements.quads[i];
     const double sj = quad_scaled_jacobian(elements.points[q[0]], elements.points[q[1]],
                                            elements.points[q[2]], elements.points[q[3]]);
-    if (!(sj > 0)) findings.add("quad {} is not convex: its scaled Jacobian is {:.3g}", i, sj);
+    if (!(sj > 0)) findings.add("quad {} is not convex: its scaled Jacobian is {}", i, number_text(sj));
   }
 }
 
@@ -356,7 +357,7 @@ void check_curved(const ShellMesh& mesh, Findings& findings) {
     const CurvedQuad element = curved_quad(mesh, i);
     if (!folds(element)) continue;
     const double bound = jacobian_bound(element);
-    findings.add("quad {} folds between its nodes: its Jacobian falls to {:.3g}", i, bound);
+    findings.add("quad {} folds between its nodes: its Jacobian falls to {}", i, number_text(bound));
   }
 }
 

@@ -15,6 +15,7 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "mesher/mesh/surface_cut.hpp"
 #include "mesher/quadrille.hpp"
+#include "mesher/settings.hpp"
 #include "mesher/shell/validate.hpp"
 #include "tests/models/trouble_models.hpp"
 
@@ -90,6 +91,56 @@ TEST(Imprinting, FacesKeepTheirNumbers) {
   ASSERT_EQ(changes_of_faces(model.pieces()).size(), 2u);
   ASSERT_FALSE(model.problems().empty());
   EXPECT_NE(model.problems().back().find("(shared)"), std::string::npos) << model.problems().back();
+}
+
+TEST(Imprinting, TellsWhatEdgesAndVerticesBecame) {
+  const CadModel apart = model_of({rod_in_sleeve(), BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), 30, 30, 3).Shape()}),
+                 model = apart.imprinted();
+  ASSERT_EQ(model.edge_pieces().size(), static_cast<std::size_t>(apart.edge_count()));
+  ASSERT_EQ(model.vertex_pieces().size(), static_cast<std::size_t>(apart.vertex_count()));
+  for (int edge = 1; edge <= apart.edge_count(); ++edge) {
+    double length = 0;
+    for (const int piece : model.edge_pieces()[edge - 1])
+      length += model.shape().edges[EdgeId::from_number(piece)].length;
+    EXPECT_NEAR(length, apart.shape().edges[EdgeId::from_number(edge)].length, 1e-6) << edge;
+  }
+  for (int vertex = 1; vertex <= apart.vertex_count(); ++vertex) {
+    const std::vector<int>& own = model.vertex_pieces()[vertex - 1];
+    ASSERT_EQ(own.size(), 1u);
+    const Vector3 moved = model.shape().vertices[VertexId::from_number(own.front())] -
+                          apart.shape().vertices[VertexId::from_number(vertex)];
+    EXPECT_LT(moved.norm(), 1e-6);
+  }
+}
+
+/// Names in settings are those before; of a piece that two have in common, the smaller size holds.
+TEST(Imprinting, NamesStandForAllPieces) {
+  const CadModel apart = two_boxes(), model = apart.imprinted();
+  const auto& pieces = model.pieces();
+  const auto cut = std::find_if(pieces.begin(), pieces.end(), [](const auto& own) { return own.size() > 1; });
+  ASSERT_NE(cut, pieces.end());
+  const int top = static_cast<int>(cut - pieces.begin()) + 1;
+  int foot = 0;  // of the upper box, one of the pieces of the lower one's top
+  for (int face = 1; face <= 12; ++face)
+    if (face != top && std::find(cut->begin(), cut->end(), pieces[face - 1].front()) != cut->end())
+      foot = face;
+  ASSERT_GT(foot, 0);
+
+  Settings settings;
+  settings.mesh.faces = {top, foot};
+  settings.mesh.sizing.face_sizes = {{top, 0.5}, {foot, 0.25}};
+  settings.mesh.sizing.spacings[1].segments = 7;
+  const Settings renamed = with_pieces(settings, model);
+  EXPECT_EQ(renamed.mesh.faces, *cut);
+  const int shared = pieces[foot - 1].front();
+  for (const int piece : *cut)
+    EXPECT_EQ(renamed.mesh.sizing.face_sizes.at(piece), piece == shared ? 0.25 : 0.5);
+  EXPECT_EQ(renamed.mesh.sizing.face_sizes.size(), cut->size());
+  EXPECT_EQ(renamed.mesh.sizing.spacings.at(model.edge_pieces()[0].front()).segments, 7);
+  EXPECT_EQ(with_pieces(settings, apart).mesh.faces, settings.mesh.faces);
+
+  settings.mesh.faces = {13};
+  EXPECT_THROW(with_pieces(settings, model), Error);
 }
 
 TEST(Imprinting, ARodSharesItsSleevesHole) {

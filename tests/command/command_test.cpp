@@ -44,12 +44,12 @@ bool contains(const std::string& text, const std::string& part) {
 /// Runs the command in a folder; the result holds stderr alone.
 test::ProcessResult stderr_of(const TemporaryFolder& folder, const std::string& arguments) {
   return test::run(
-      fmt::format("cd {} && timeout 60 {} {} 2>&1 >/dev/null", folder.path().string(), program, arguments));
+      fmt::format("cd {} && timeout 300 {} {} 2>&1 >/dev/null", folder.path().string(), program, arguments));
 }
 
 test::ProcessResult stdout_of(const TemporaryFolder& folder, const std::string& arguments) {
   return test::run(
-      fmt::format("cd {} && timeout 60 {} {} 2>/dev/null", folder.path().string(), program, arguments));
+      fmt::format("cd {} && timeout 300 {} {} 2>/dev/null", folder.path().string(), program, arguments));
 }
 
 struct Mistake {
@@ -375,7 +375,7 @@ TEST(Command, QualityWithLimitsFailsWhereQuadsDo) {
 /// as our modules.
 TEST(Command, OpensNoModuleOfTheCurrentFolder) {
   const TemporaryFolder folder;
-  const std::string by_name = fmt::format("PATH={}:$PATH timeout 60 quadrille", QUADRILLE_BINARY_DIR);
+  const std::string by_name = fmt::format("PATH={}:$PATH timeout 300 quadrille", QUADRILLE_BINARY_DIR);
   for (const char* thing : {"echo planted >quadrille", "mkdir quadrille", "cp /bin/true quadrille"}) {
     const auto result = test::run(fmt::format(
         "cd {} && mkdir -p a/b lib && cd a/b && {} && for place in . .. ../.. ../../lib quadrille; do "
@@ -406,7 +406,7 @@ TEST(Command, SaysOneSentenceWhereLibmedHasNoMemory) {
 TEST(Command, StandsBy) {
   const TemporaryFolder folder;
   const auto given = [&](const std::string& line) {
-    return test::run(fmt::format("cd {} && printf '{}' | timeout 60 {} standby 2>&1", folder.path().string(),
+    return test::run(fmt::format("cd {} && printf '{}' | timeout 300 {} standby 2>&1", folder.path().string(),
                                  line, program));
   };
   const auto meshed = given(fmt::format(R"(["mesh", "{}", "-o", "a.med", "--size", "3", "--quiet"]\n)", box));
@@ -448,11 +448,11 @@ std::string trouble_file(const TemporaryFolder& folder, const std::string& name)
 TEST(Command, RefusesALineWithoutDirectionAtOnce) {
   const TemporaryFolder folder;
   const std::string file = trouble_file(folder, "looped_edge");
-  const auto result = test::run(
-      fmt::format("cd {0} && sed -i 's/^1 20 0 0 0 1 0 *$/1 20 0 0 0 0 0 /; s/^20 20 0$/20 20 -2147483648/' "
-                  "{1} && grep -q '^20 20 -2' {1} && "
-                  "timeout 60 {2} mesh {1} -o a.msh --elements-per-diagonal 15 --time-limit 20 --quiet 2>&1",
-                  folder.path().string(), file, program));
+  const auto result = test::run(fmt::format(
+      "cd {0} && sed -i 's/^1 20 0 0 0 1 0 *$/1 20 0 0 0 0 0 /; s/^20 20 0$/20 20 -2147483648/' "
+      "{1} && grep -q '^20 20 -2' {1} && "
+      "timeout 300 {2} mesh {1} -o a.msh --elements-per-diagonal 15 --time-limit 200 --quiet 2>&1",
+      folder.path().string(), file, program));
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
   EXPECT_EQ(result.out.find("time limit"), std::string::npos) << result.out;
@@ -512,8 +512,16 @@ TEST(Command, ImprintsPartsThatTouch) {
   EXPECT_EQ(stdout_of(folder, mesh_it + "--imprint").exit_code, 0);
   EXPECT_EQ(report()["coincident"]["nodes"], 0);
   EXPECT_EQ(report()["coincident"]["remedy"], nullptr);
-  EXPECT_EQ(report()["imprinted"].size(), 7u);
-  EXPECT_EQ(report()["imprinted"]["Face2"], nlohmann::json({"Face2"}));
+  const nlohmann::json imprinted = report()["imprinted"];
+  const auto count_of = [&](std::string_view kind) {
+    int count = 0;
+    for (const auto& [name, pieces] : imprinted.items()) count += name.starts_with(kind);
+    return count;
+  };
+  EXPECT_EQ(count_of("Face"), 7);
+  EXPECT_GT(count_of("Edge"), 0);
+  EXPECT_GT(count_of("Vertex"), 0);
+  EXPECT_EQ(imprinted["Face2"], nlohmann::json({"Face2"}));
 }
 
 TEST(Command, SewingRefusesFacesOnFaces) {
@@ -569,8 +577,8 @@ TEST(Command, GivesUpReadingAfterItsLimit) {
     const auto read = [&](const std::string& limit) {
       return test::
           run(fmt::format(
-                  "cd {} && rm -f pipe.brep && mkfifo pipe.brep && (sleep 20 > pipe.brep & echo $! > pid); "
-                  "timeout 10 {} {} {} 2>&1; kill $(cat pid)",
+                  "cd {} && rm -f pipe.brep && mkfifo pipe.brep && (sleep 500 > pipe.brep & echo $! > pid); "
+                  "timeout 300 {} {} {} 2>&1; kill $(cat pid)",
                   folder.path().string(), program, subcommand, limit))
               .out;
     };
@@ -756,7 +764,7 @@ class FileSizeLimit : public testing::TestWithParam<const char*> {};
 TEST_P(FileSizeLimit, GivesOneSentenceAndNoFile) {
   const TemporaryFolder folder;
   const auto result =
-      test::run(fmt::format("cd {} && ulimit -f 1 && timeout 60 {} mesh {} {} --size 0.5 --quiet 2>&1",
+      test::run(fmt::format("cd {} && ulimit -f 1 && timeout 300 {} mesh {} {} --size 0.5 --quiet 2>&1",
                             folder.path().string(), program, box, GetParam()));
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_PRED2(contains, result.out,
@@ -772,7 +780,7 @@ INSTANTIATE_TEST_SUITE_P(Command, FileSizeLimit,
 TEST(Command, ReportsTheLimitOfCpuTime) {
   const TemporaryFolder folder;
   const auto result = test::run(
-      fmt::format("cd {} && ulimit -S -t 1 && timeout 60 {} mesh {} -o a.msh --elements-per-diagonal 2000 "
+      fmt::format("cd {} && ulimit -S -t 1 && timeout 300 {} mesh {} -o a.msh --elements-per-diagonal 2000 "
                   "--force --quiet 2>&1",
                   folder.path().string(), program, bracket));
   EXPECT_EQ(result.exit_code, 1);
@@ -860,7 +868,7 @@ TEST(Command, ReportsAFolderThatTakesNoFiles) {
 TEST(Command, ReportsAPipeWhoseReaderHasGone) {
   const TemporaryFolder folder;
   const auto result = test::run(fmt::format(
-      "cd {} && mkfifo out.msh && {{ head -c 10 out.msh >/dev/null & timeout 60 {} mesh {} -o out.msh "
+      "cd {} && mkfifo out.msh && {{ head -c 10 out.msh >/dev/null & timeout 300 {} mesh {} -o out.msh "
       "--size 0.25 --quiet 2>&1; }}",
       folder.path().string(), program, box));
   EXPECT_EQ(result.exit_code, 1);
@@ -889,7 +897,7 @@ class Running {
   void send(int signal_number) const { ::kill(id_, signal_number); }
   /// Until the program handles the signal: starting takes long on busy machines and under sanitizers.
   void wait_until_handled(int signal_number) const {
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 20000; ++i) {
       std::ifstream status(fmt::format("/proc/{}/status", id_));
       for (std::string line; std::getline(status, line);) {
         if (line.rfind("SigCgt:", 0) != 0) continue;

@@ -38,12 +38,12 @@ class MidsurfaceCommand : public testing::Test {
 
   /// Runs `quadrille` with these arguments; gives the exit code and what it says on stderr.
   test::ProcessResult quadrille_says(const std::string& arguments) const {
-    return test::run(fmt::format("cd {} && timeout 60 {}/quadrille {} 2>&1 >/dev/null",
+    return test::run(fmt::format("cd {} && timeout 300 {}/quadrille {} 2>&1 >/dev/null",
                                  folder_.path().string(), QUADRILLE_BINARY_DIR, arguments));
   }
   /// What `quadrille` with these arguments says on stdout.
   std::string quadrille_prints(const std::string& arguments) const {
-    return test::run(fmt::format("cd {} && timeout 60 {}/quadrille {} 2>/dev/null", folder_.path().string(),
+    return test::run(fmt::format("cd {} && timeout 300 {}/quadrille {} 2>/dev/null", folder_.path().string(),
                                  QUADRILLE_BINARY_DIR, arguments))
         .out;
   }

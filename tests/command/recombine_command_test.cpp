@@ -45,7 +45,7 @@ TEST_P(BadInputs, GiveOneSentenceAndNoFile) {
   test::write_text(folder / "in.msh", GetParam().text);
   for (const char* mode : {"", "--no-improve"}) {
     const auto result =
-        test::run(fmt::format("cd {} && timeout 60 {} recombine in.msh -o out.msh --quiet {} 2>&1",
+        test::run(fmt::format("cd {} && timeout 300 {} recombine in.msh -o out.msh --quiet {} 2>&1",
                               folder.path().string(), program, mode));
     EXPECT_EQ(result.exit_code, 1) << result.out;
     EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
@@ -148,7 +148,7 @@ TEST(RecombineCommand, TakesPiecesWithHolesEachFaceOnItsOwn) {
   add_open_sides(input.points, input.triangles, input.tags, before);
   for (const char* mode : {"", "--no-improve", "--no-improve --seed 5"}) {
     const auto result =
-        test::run(fmt::format("cd {} && timeout 60 {} recombine in.msh -o out.msh --quiet {} 2>&1",
+        test::run(fmt::format("cd {} && timeout 300 {} recombine in.msh -o out.msh --quiet {} 2>&1",
                               folder.path().string(), program, mode));
     ASSERT_EQ(result.exit_code, 0) << result.out;
     const ShellMesh mesh = read_mesh(folder / "out.msh");
@@ -166,7 +166,7 @@ TEST(RecombineCommand, TheSeedDecidesThePapersMode) {
   test::write_text(folder / "in.msh", as_msh(two_pieces()));
   const auto quads = [&](const std::string& options) {
     const auto result =
-        test::run(fmt::format("cd {} && timeout 60 {} recombine in.msh -o out.msh --quiet {} 2>&1",
+        test::run(fmt::format("cd {} && timeout 300 {} recombine in.msh -o out.msh --quiet {} 2>&1",
                               folder.path().string(), program, options));
     EXPECT_EQ(result.exit_code, 0) << result.out;
     return read_mesh(folder / "out.msh").quads;
@@ -179,7 +179,7 @@ TEST(RecombineCommand, TheSeedDecidesThePapersMode) {
 TEST(RecombineCommand, DropsNodesThatNoElementUses) {
   const TemporaryFolder folder;
   test::write_text(folder / "in.msh", square("7 5 5 5\n", 5, two, 2));
-  const auto result = test::run(fmt::format("cd {} && timeout 60 {} recombine in.msh -o out.msh --quiet 2>&1",
+  const auto result = test::run(fmt::format("cd {} && timeout 300 {} recombine in.msh -o out.msh --quiet 2>&1",
                                             folder.path().string(), program));
   EXPECT_EQ(result.exit_code, 0) << result.out;
   const ShellMesh mesh = read_mesh(folder / "out.msh");
@@ -197,7 +197,7 @@ TEST(RecombineCommand, NamesAreKeptWhateverTheNumbers) {
   text.insert(text.find("$Nodes"), "$PhysicalNames\n2\n2 1 \"the left\"\n2 6 \"Face1\"\n$EndPhysicalNames\n");
   test::write_text(folder / "in.msh", text);
   for (const char* out : {"out.msh", "out.unv", "out.inp"}) {
-    const auto result = test::run(fmt::format("cd {} && timeout 60 {} recombine in.msh -o {} --quiet 2>&1",
+    const auto result = test::run(fmt::format("cd {} && timeout 300 {} recombine in.msh -o {} --quiet 2>&1",
                                               folder.path().string(), program, out));
     ASSERT_EQ(result.exit_code, 0) << result.out;
     const ShellMesh mesh = read_mesh(folder / out);
@@ -220,7 +220,7 @@ TEST(RecombineCommand, TakesTrianglesAndQuadsAndTurnsWhatDisagrees) {
   const TemporaryFolder folder;
   test::write_text(folder / "in.msh", square("5 2 0 0\n6 2 1 0\n", 6,
                                              "1 2 2 0 1 1 2 3\n2 2 2 0 1 1 4 3\n3 3 2 0 1 2 5 6 3\n", 3));
-  const auto result = test::run(fmt::format("cd {} && timeout 60 {} recombine in.msh -o out.msh --quiet 2>&1",
+  const auto result = test::run(fmt::format("cd {} && timeout 300 {} recombine in.msh -o out.msh --quiet 2>&1",
                                             folder.path().string(), program));
   EXPECT_EQ(result.exit_code, 0) << result.out;
   EXPECT_EQ(result.out, "in.msh: 1 triangles were turned to agree with their neighbors\n");
@@ -236,7 +236,7 @@ TEST(RecombineCommand, CutsUntaggedMeshesAtFeatures) {
   test::write_text(folder / "in.msh", as_msh(roof));
   const auto area = [&](const std::string& options, const char* file = "in.msh") {
     const auto result =
-        test::run(fmt::format("cd {} && timeout 60 {} recombine {} -o out.msh --quiet {} 2>&1",
+        test::run(fmt::format("cd {} && timeout 300 {} recombine {} -o out.msh --quiet {} 2>&1",
                               folder.path().string(), program, file, options));
     EXPECT_EQ(result.exit_code, 0) << result.out;
     const ShellMesh mesh = read_mesh(folder / "out.msh");

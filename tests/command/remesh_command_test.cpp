@@ -32,7 +32,7 @@ std::string tetrahedron() {
 
 test::ProcessResult remesh(const TemporaryFolder& folder, const std::string& arguments) {
   return test::run(
-      fmt::format("cd {} && timeout 60 {} remesh {} 2>&1", folder.path().string(), program, arguments));
+      fmt::format("cd {} && timeout 300 {} remesh {} 2>&1", folder.path().string(), program, arguments));
 }
 
 TEST(RemeshCommand, WritesWhatIsAskedForAndTellsDistances) {

@@ -119,6 +119,73 @@ class MeshObjectTest(unittest.TestCase):
         fine = mesh_object(part, size=5, sizes={"Face6": 1.0})
         self.assertGreater(len(group(fine, "Face6", "Face")), 4 * len(group(coarse, "Face6", "Face")))
 
+    def stacked(self):
+        """A box of 10, and one of 4 that stands on the middle of its top, in one compound."""
+        return self.part(Part.makeCompound([Part.makeBox(10, 10, 10), Part.makeBox(4, 4, 6, Vector(3, 3, 10))]))
+
+    def test_imprint(self):
+        part = self.stacked()
+        self.assertFalse(mesh_object(part, size=2, order=1).Imprint)
+        mesh = mesh_object(part, size=2, order=1, imprint=True)
+        self.assertTrue(mesh.Imprint)
+        self.assertEqual(mesh.Status, "up to date")
+        fem_mesh, shape = mesh.FemMesh, part.Shape
+        nodes = fem_mesh.Nodes
+        self.assertEqual(len({tuple(round(x, 6) for x in point) for point in nodes.values()}), len(nodes))
+
+        def corners(element):
+            return [nodes[node] for node in fem_mesh.getElementNodes(element)]
+
+        # The groups are those of FreeCAD's faces, edges and vertices, also of those that were cut or became one.
+        for i, face in enumerate(shape.Faces, 1):
+            area = 0.0
+            for element in group(mesh, f"Face{i}", "Face"):
+                a, b, c, d = corners(element)
+                area += (c - a).cross(d - b).Length / 2
+            self.assertAlmostEqual(area, face.Area, 6, f"Face{i}")
+        for i, edge in enumerate(shape.Edges, 1):
+            length = sum((b - a).Length for a, b in map(corners, group(mesh, f"Edge{i}", "Edge")))
+            self.assertAlmostEqual(length, edge.Length, 6, f"Edge{i}")
+        for i, vertex in enumerate(shape.Vertexes, 1):
+            node, = group(mesh, f"Vertex{i}", "Node")
+            self.assertLess((nodes[node] - vertex.Point).Length, 1e-6, f"Vertex{i}")
+        names = [fem_mesh.getGroupName(number) for number in fem_mesh.Groups]
+        self.assertEqual(len(names), len(set(names)))
+        self.assertEqual(len(names), len(shape.Faces) + len(shape.Edges) + len(shape.Vertexes))
+
+    def test_imprint_takes_the_names_of_the_part(self):
+        part = self.stacked()
+        shape = part.Shape
+        top = next(i for i, face in enumerate(shape.Faces, 1) if abs(face.Area - 100) < 1e-6 and face.CenterOfMass.z > 9)
+        foot = next(i for i, edge in enumerate(shape.Edges, 1) if abs(edge.Length - 4) < 1e-6 and abs(edge.CenterOfMass.z - 10) < 1e-6)
+        upright = next(i for i, edge in enumerate(shape.Edges, 1) if abs(edge.Length - 6) < 1e-6)
+        coarse = mesh_object(part, size=2, order=1, imprint=True)
+        fine = mesh_object(part, size=2, order=1, imprint=True, sizes={f"Face{top}": 0.5, f"Edge{upright}": 0.25})
+        self.assertGreater(len(group(fine, f"Face{top}", "Face")), 8 * len(group(coarse, f"Face{top}", "Face")))
+        self.assertGreaterEqual(len(group(fine, f"Edge{upright}", "Edge")), 20)
+        divided = mesh_object(part, size=2, order=1, imprint=True, segments=[f"Edge{foot}=10"])
+        self.assertEqual(len(group(divided, f"Edge{foot}", "Edge")), 10)
+        only = mesh_object(part, size=2, order=1, imprint=True, faces=[top])
+        self.assertEqual(only.FemMesh.FaceCount, len(group(only, f"Face{top}", "Face")))
+
+    def test_imprint_of_a_single_part_changes_nothing(self):
+        box = self.part(Part.makeBox(10, 10, 10))
+        plain, mesh = (mesh_object(box, size=2, imprint=imprint) for imprint in (False, True))
+        self.check_mesh(mesh, 2)
+        self.assertEqual(mesh.FemMesh.FaceCount, plain.FemMesh.FaceCount)
+
+    def test_strict(self):
+        box = self.part(Part.makeBox(10, 10, 10))
+        mesh = mesh_object(box, size=2, strict=True)
+        self.assertTrue(mesh.Strict)
+        job = quadrille.freecad.start(mesh)
+        self.assertIn("--strict", job._job._arguments)
+        quadrille.freecad.finish(mesh, job)
+        mesh.Strict = False
+        self.document.recompute()
+        self.assertEqual(mesh.Status, "the settings have changed: mesh again")
+        self.assertNotIn("strict", [name for name, value in quadrille.freecad.defaults().items() if value])
+
     def test_lengths_with_units(self):
         part = self.part(Part.makeBox(20, 20, 20))
         millimeters = mesh_object(part, size=5).FemMesh
@@ -212,12 +279,12 @@ class MeshObjectTest(unittest.TestCase):
         self.check_error("usage", "no faces", line)
         self.check_error("usage", "no faces", empty)
         self.check_error("usage", "no shape", note)
-        self.check_error("usage", "Size must be", box, size=-1.0)
-        self.check_error("usage", "Size must be", box, size=float("nan"))
+        self.check_error("usage", '"Size" must be', box, size=-1.0)
+        self.check_error("usage", '"Size" must be', box, size=float("nan"))
         self.check_error("usage", "larger than the model", box, size=1000.0)
-        self.check_error("usage", "ElementOrder", box, size=2.0, order=3)
+        self.check_error("usage", '"Order"', box, size=2.0, order=3)
         self.check_error("usage", "Face77", box, size=2.0, faces=[77])
-        self.check_error("usage", "Strategy", box, size=2.0, strategy="magic")
+        self.check_error("usage", '"Strategy"', box, size=2.0, strategy="magic")
         self.check_error("usage", "is not a FEM analysis", box, size=2.0, analysis=line)
         self.check_error("usage", "cannot be run", box, size=2.0, command="/nowhere/quadrille")
         analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")

@@ -46,12 +46,12 @@ class SizesTest(unittest.TestCase):
         found = sizes.start(mesh, wanted._replace(values=dict(wanted.values, Size=1.0))).wait()
         self.assertEqual(round(found.quads), 600)
 
-    def test_errors_are_in_words_of_properties(self):
+    def test_errors_are_in_words_of_the_panel(self):
         mesh = core.make_mesh(self.part, size=2, size_min=1)
         mesh.SizeMin = 3
         with self.assertRaises(core.Error) as caught:
             sizes.start(mesh).wait()
-        self.assertIn("SizeMin", str(caught.exception))
+        self.assertIn('"Minimum"', str(caught.exception))
         self.assertNotIn("--", str(caught.exception))
 
     def test_dropped_work_leaves_nothing(self):

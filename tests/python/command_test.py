@@ -154,12 +154,11 @@ class CommandTest(unittest.TestCase):
     def test_cancel_ends_the_child(self):
         command = self.script("trap '' TERM; sleep 60 & wait; wait\n")
         job = MeshJob("x.brep", ["x.msh"], command=command).start()
-        start = time.monotonic()
         with mock.patch("quadrille.core.command.KILL_AFTER_SECONDS", 0.2), self.assertRaises(Error) as caught:
             job.wait(lambda stage, fraction: False)
         self.assertEqual(caught.exception.kind, "cancelled")
-        self.assertLess(time.monotonic() - start, 10)
         self.assertFalse(job.running)
+        self.assertEqual(job._process.returncode, -9)  # it did not end by itself
 
     def test_killed_child(self):
         with self.assertRaises(Error) as caught:
@@ -182,7 +181,7 @@ class CommandTest(unittest.TestCase):
         parent.kill()
         parent.wait()
         parent.stdout.close()
-        end = time.monotonic() + 20
+        end = time.monotonic() + 120
         while (os.path.exists(f"/proc/{child}") or os.path.isdir(folder)) and time.monotonic() < end:
             time.sleep(0.05)
         self.assertFalse(os.path.exists(f"/proc/{child}"))

@@ -471,6 +471,22 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
 <context>
     <name>QuadrilleSettings</name>
     <message>
+        <source>Imprint</source>
+        <translation>Verschneiden</translation>
+    </message>
+    <message>
+        <source>First cut parts that touch or cross where they meet, so that they share faces, edges and nodes</source>
+        <translation>Teile, die sich berühren oder kreuzen, zuerst dort schneiden, wo sie sich treffen, sodass sie Flächen, Kanten und Knoten gemeinsam haben</translation>
+    </message>
+    <message>
+        <source>Strict</source>
+        <translation>Streng</translation>
+    </message>
+    <message>
+        <source>Refuse a face that has no valid mesh on its surface, instead of letting nodes leave it</source>
+        <translation>Eine Fläche ablehnen, auf der es kein gültiges Netz gibt, statt Knoten sie verlassen zu lassen</translation>
+    </message>
+    <message>
         <source>Keep features</source>
         <translation>Feinheiten behalten</translation>
     </message>

@@ -471,6 +471,22 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
 <context>
     <name>QuadrilleSettings</name>
     <message>
+        <source>Imprint</source>
+        <translation>Imprimer</translation>
+    </message>
+    <message>
+        <source>First cut parts that touch or cross where they meet, so that they share faces, edges and nodes</source>
+        <translation>Couper d’abord les pièces qui se touchent ou se croisent là où elles se rencontrent, pour qu’elles partagent faces, arêtes et nœuds</translation>
+    </message>
+    <message>
+        <source>Strict</source>
+        <translation>Strict</translation>
+    </message>
+    <message>
+        <source>Refuse a face that has no valid mesh on its surface, instead of letting nodes leave it</source>
+        <translation>Refuser une face qui n’a pas de maillage valide sur sa surface, au lieu de laisser des nœuds la quitter</translation>
+    </message>
+    <message>
         <source>Keep features</source>
         <translation>Garder les détails</translation>
     </message>

@@ -92,14 +92,14 @@ class GuiCase(unittest.TestCase):
         self.assertEqual(boxes.texts, [])
         self.assertTrue(FreeCADGui.Control.activeDialog())
         estimate = find("QuadrilleEstimate")
-        wait_for(lambda: estimate.text() != "...", 20, "the estimate")
+        wait_for(lambda: estimate.text() != "...", what="the estimate")
         return [obj for obj in self.document.Objects if is_quad_mesh(obj)][-1]
 
-    def press_mesh(self, seconds=60):
+    def press_mesh(self):
         """Presses Mesh and waits for the end."""
         find("QuadrilleMesh").click()
         self.assertFalse(find("QuadrilleMesh").isEnabled())
-        wait_for(lambda: find("QuadrilleMesh").isEnabled(), seconds, "meshing")
+        wait_for(lambda: find("QuadrilleMesh").isEnabled(), what="meshing")
 
     def meshed(self, part):
         """A mesh made through the panel."""

@@ -27,6 +27,10 @@ def prepare(width=1500, height=940):
     process(0.3)
 
 
+#: Seconds until something that should happen counts as missing: many, for busy machines.
+PATIENCE = 300
+
+
 def process(seconds=0.05):
     """Lets the window live for a while."""
     end = time.monotonic() + seconds
@@ -37,7 +41,7 @@ def process(seconds=0.05):
         time.sleep(0.005)
 
 
-def wait_for(condition, seconds=60, what="the condition"):
+def wait_for(condition, seconds=PATIENCE, what="the condition"):
     """Lets the window live until a condition holds."""
     end = time.monotonic() + seconds
     while not condition():
@@ -69,7 +73,7 @@ def close_panel(button=None):
         found = [box.button(kind) for box in window().findChildren(QtGui.QDialogButtonBox) for kind in wanted]
         return next((one for one in found if one is not None and one.isVisible()), None)
 
-    wait_for(there, 5, "the panel's button")
+    wait_for(there, what="the panel's button")
     there().click()
     process(0.2)
 

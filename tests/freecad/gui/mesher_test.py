@@ -48,12 +48,12 @@ class MesherTest(GuiCase):
     def installed(self, archive):
         """Presses Install once the checksum is shown; the preference then names the command."""
         digest = hashlib.sha256(archive.read_bytes()).hexdigest()
-        wait_for(lambda: digest in find("QuadrilleMesherText").text().replace("\n", ""), 20, "the checksum")
+        wait_for(lambda: digest in find("QuadrilleMesherText").text().replace("\n", ""), what="the checksum")
         picture("mesher_choice")
         self.assertFalse((self.folder / "data").exists())
         find("QuadrilleMesherInstall").click()
         command = str(self.folder / "data" / "mesher" / "bin" / "quadrille")
-        wait_for(lambda: FreeCAD.ParamGet(PREFERENCES).GetString("Command", "") == command, 20, "the command")
+        wait_for(lambda: FreeCAD.ParamGet(PREFERENCES).GetString("Command", "") == command, what="the command")
         self.assertTrue(os.access(command, os.X_OK))
         process(0.2)
         self.assertTrue(find("QuadrilleMesherChoice").isHidden())
@@ -73,7 +73,7 @@ class MesherTest(GuiCase):
             self.open_panel(self.box())
         find("QuadrilleMesherAddress").setText("file:///nowhere/bundle.tar.xz")
         find("QuadrilleMesherDownload").click()
-        wait_for(lambda: "cannot be downloaded" in find("QuadrilleMesherText").text(), 20, "the refusal")
+        wait_for(lambda: "cannot be downloaded" in find("QuadrilleMesherText").text(), what="the refusal")
         self.assertFalse(find("QuadrilleMesherInstall").isEnabled())
         archive = self.bundle()
         for address, there in ((archive.as_uri(), True), ("file:///nowhere/bundle.tar.xz", False)):
@@ -81,7 +81,7 @@ class MesherTest(GuiCase):
             find("QuadrilleMesherDownload").click()
             for name in ("QuadrilleMesherInstall", "QuadrilleMesherOnPath", "QuadrilleMesherFile"):
                 self.assertFalse(find(name).isEnabled())
-            wait_for(lambda: find("QuadrilleMesherFile").isEnabled(), 20, "the end")
+            wait_for(lambda: find("QuadrilleMesherFile").isEnabled(), what="the end")
             self.assertEqual(find("QuadrilleMesherInstall").isEnabled(), there)
         find("QuadrilleMesherAddress").setText(archive.as_uri())
         find("QuadrilleMesherDownload").click()

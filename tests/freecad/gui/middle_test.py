@@ -6,7 +6,6 @@
 import os
 import sys
 import tempfile
-import time
 from pathlib import Path
 from unittest import mock
 
@@ -95,7 +94,7 @@ class MiddleTest(GuiCase):
         self.assertIn("looks like a thin solid", hint.text())
         picture("thin_hint")
         hint.linkActivated.emit("middle")
-        wait_for(self.surfaces, 20, "the middle surface")
+        wait_for(self.surfaces, what="the middle surface")
         process(0.3)
         self.assertFalse(FreeCADGui.Control.activeDialog())
         self.assertEqual([obj.Name for obj in self.document.Objects if hasattr(obj, "FemMesh")], [])
@@ -124,16 +123,14 @@ class MiddleTest(GuiCase):
         surface, = self.surfaces()
         with tempfile.TemporaryDirectory() as folder:
             slow = Path(folder) / "quadrille"
-            slow.write_text(f"#!/bin/sh\n[ $1 = --version ] && exec echo quadrille {VERSION}\nexec sleep 300\n")
+            slow.write_text(f"#!/bin/sh\n[ $1 = --version ] && exec echo quadrille {VERSION}\nexec sleep 3000\n")
             slow.chmod(0o755)
             with mock.patch.dict(os.environ, QUADRILLE_COMMAND=str(slow)), Boxes() as boxes:
                 for work in (lambda: trigger("Quadrille_Middle"), lambda: (surface.touch(), self.document.recompute())):
                     FreeCADGui.Selection.clearSelection()
                     FreeCADGui.Selection.addSelection(part)
                     QtCore.QTimer.singleShot(1500, cancel_bars)
-                    start = time.monotonic()
                     work()
-                    self.assertLess(time.monotonic() - start, 60)
         self.assertEqual((boxes.texts, self.surfaces()), ([], [surface]))
         self.assertFalse(surface.isValid())
         surface.touch()

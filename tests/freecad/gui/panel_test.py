@@ -5,7 +5,6 @@
 
 import os
 import sys
-import time
 from pathlib import Path
 from unittest import mock
 from xml.etree import ElementTree
@@ -141,7 +140,7 @@ class PanelTest(GuiCase):
         layout.addWidget(form)
         outside.resize(250, 1400)
         outside.show()
-        wait_for(panel.quality.worst.count, 10, "the worst elements")
+        wait_for(panel.quality.worst.count, what="the worst elements")
         if os.environ.get("QUADRILLE_NARROW"):
             outside.grab().save(os.environ["QUADRILLE_NARROW"])
         for widget in outside.findChildren(QtGui.QWidget):
@@ -365,7 +364,7 @@ class PanelTest(GuiCase):
         self.edit(mesh)
         with mock.patch.object(quadrille.features.mesh_object.undo, "put", side_effect=ZeroDivisionError):
             find("QuadrilleMesh").click()
-            wait_for(lambda: find("QuadrilleMesh").isEnabled(), 30, "the end")
+            wait_for(lambda: find("QuadrilleMesh").isEnabled(), what="the end")
         self.assertFalse(self.document.HasPendingTransaction)
         self.assertEqual(quadrille.features.mesh_object._running, {})
         self.press_mesh()
@@ -428,7 +427,7 @@ class PanelTest(GuiCase):
         part.Shape = Part.makeBox(20, 20, 20).cut(Part.makeCylinder(3, 30, FreeCAD.Vector(10, 10, 0)))
         self.document.recompute()
         self.edit(mesh)
-        wait_for(lambda: "Face6" in find("QuadrilleEstimate").text(), 10, "the name of the face")
+        wait_for(lambda: "Face6" in find("QuadrilleEstimate").text(), what="the name of the face")
         self.select(part, "Face6")  # the same name, of another face: that is for the user to say
         find("QuadrilleTakeSelection").click()
         self.press_mesh()
@@ -459,7 +458,7 @@ class PanelTest(GuiCase):
         self.show()
         mesh = quadrille.freecad.mesh_object(part, size=2.5, order=1)
         self.edit(mesh)
-        wait_for(lambda: find("QuadrilleWorst").count(), 10, "the worst elements")
+        wait_for(lambda: find("QuadrilleWorst").count(), what="the worst elements")
         table, measured = find("QuadrilleCriteria"), quality.measure(mesh.FemMesh)
         counts = [int(table.item(row, 2).text()) for row in range(table.rowCount())]
         self.assertEqual(counts, [int(measured.fails(name).sum()) for name in quality.CRITERIA])
@@ -576,22 +575,20 @@ class PanelTest(GuiCase):
     # Figures
 
     def opened_at_once(self, part):
-        """Opens the panel of a new mesh, and nothing more happens; the seconds of CPU until it is drawn."""
+        """Opens the panel of a new mesh, and nothing more happens."""
         FreeCADGui.Selection.clearSelection()
         FreeCADGui.Selection.addSelection(part)  # the first click
         process(0.5)
         action = FreeCADGui.Command.get("Quadrille_Mesh").getAction()[0]
-        started = time.process_time()
         action.trigger()  # the second
         find("QuadrilleSize")
-        return time.process_time() - started
 
     def test_the_part_is_measured_when_the_panel_is_open(self):
         part = self.bracket()
         self.opened_at_once(part)
         self.assertEqual(find("QuadrilleEstimate").text(), "...")
         find("QuadrilleSize").setProperty("rawValue", 3.25)  # the user is faster
-        wait_for(lambda: "about" in find("QuadrilleEstimate").text(), 10, "the estimate")
+        wait_for(lambda: "about" in find("QuadrilleEstimate").text(), what="the estimate")
         self.assertEqual(find("QuadrilleSize").property("rawValue"), 3.25)
         close_panel(CANCEL)
         suggested = quadrille.freecad.suggested_size(part)
@@ -604,7 +601,8 @@ class PanelTest(GuiCase):
         close_panel()
 
     def test_four_clicks_and_a_quick_panel(self):
-        """The part, the command, Mesh, OK: four clicks. A part of 700 faces opens its panel in 0.3 s."""
+        """The part, the command, Mesh, OK: four clicks. The panel of a part of 700 faces opens before any face is measured, and
+        each is measured once."""
         plate = Part.makeBox(400, 400, 10)
         for tools in ([Part.makeCylinder(8, 6, FreeCAD.Vector(20 + 28 * i, 20 + 28 * j, 4)) for i in range(14)
                        for j in range(14)],):
@@ -615,17 +613,12 @@ class PanelTest(GuiCase):
         part.Shape = plate
         self.assertGreater(len(plate.Faces), 700)
         self.show()
-        seconds = self.opened_at_once(part)
-        started = time.process_time()
-        process(0)
-        drawn = seconds + time.process_time() - started
-        label = find("QuadrilleEstimate")
-        wait_for(lambda: "about" in label.text(), 20, "the estimate")
-        measured = seconds + time.process_time() - started
-        print(f"the panel of a part of {len(plate.Faces)} faces opens in {seconds:.3f} s, is drawn after {drawn:.3f} s, and has "
-              f"measured the part after {measured:.3f} s", file=sys.stderr)
-        self.assertLess(drawn, 0.3)
-        self.assertLess(measured, 2)  # on busy machines
+        with mock.patch.object(shapes, "_curvatures", wraps=shapes._curvatures) as measure:
+            self.opened_at_once(part)
+            self.assertEqual(measure.call_count, 0)
+            label = find("QuadrilleEstimate")
+            wait_for(lambda: "about" in label.text(), what="the estimate")
+        self.assertEqual(measure.call_count, len(plate.Faces))
         close_panel(CANCEL)
 
 

@@ -88,7 +88,7 @@ class RoughTest(GuiCase):
         """The mesher goes on to its end, of which no box tells."""
         told = len(self.boxes.texts)
         self.gate.unlink()
-        wait_for(lambda: find("QuadrilleMesh").isEnabled(), 30, "meshing")
+        wait_for(lambda: find("QuadrilleMesh").isEnabled(), what="meshing")
         process(0.2)
         self.assertEqual(self.boxes.texts[told:], [])
 
@@ -334,7 +334,7 @@ class RoughTest(GuiCase):
         for _ in range(3):
             find("QuadrilleMesh").click()
             find("QuadrilleStop").click()
-        wait_for(lambda: find("QuadrilleMesh").isEnabled(), 30, "stopping")
+        wait_for(lambda: find("QuadrilleMesh").isEnabled(), what="stopping")
         self.begin()
         for workbench in ("PartWorkbench", "FemWorkbench"):
             FreeCADGui.activateWorkbench(workbench)

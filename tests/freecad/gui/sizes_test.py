@@ -49,7 +49,7 @@ class SizesTest(GuiCase):
     def wait():
         """Until the sizes are those of the settings."""
         preview = find("QuadrillePreview").parentWidget()
-        wait_for(lambda: not preview.busy, 60, "the sizes")
+        wait_for(lambda: not preview.busy, what="the sizes")
         process(0.1)
 
     @staticmethod

@@ -76,7 +76,7 @@ class TutorialTest(GuiCase):
         named = re.findall(r"\*([^*]+ > [^*]+)\*", STEPS[step])[number]
         action = entry(NAMES.get(named, named))
         self.assertIsNotNone(action, f"step {step}: there is no menu entry {NAMES.get(named, named)}")
-        wait_for(action.isEnabled, 5, named)
+        wait_for(action.isEnabled, what=named)
         action.trigger()
         process(0.5)
 
@@ -165,7 +165,7 @@ class TutorialTest(GuiCase):
 
         with Boxes(answer) as boxes:
             self.choose(1)
-            wait_for(lambda: FreeCAD.ActiveDocument is not None and FreeCAD.ActiveDocument.Objects, 30, "the part")
+            wait_for(lambda: FreeCAD.ActiveDocument is not None and FreeCAD.ActiveDocument.Objects, what="the part")
         self.assertEqual(boxes.texts, [])
         self.document = FreeCAD.ActiveDocument
         self.assertEqual(len(self.document.Objects), 1)
@@ -246,7 +246,7 @@ class TutorialTest(GuiCase):
         find("QuadrilleSurfaces").setChecked(True)
         self.assertIn(f"*{find('QuadrilleSurfaces').text()}*", STEPS[8])
         self.press(8, "Mesh")
-        wait_for(lambda: find("QuadrilleMesh").isEnabled(), 60, "meshing")
+        wait_for(lambda: find("QuadrilleMesh").isEnabled(), what="meshing")
         before = mesh.QuadCount
         self.assertIn(f"*{find('QuadrilleColor').text()}*", STEPS[8])
         find("QuadrilleColor").setChecked(True)
@@ -258,7 +258,7 @@ class TutorialTest(GuiCase):
         self.press(9, "Refine selection")
         type_into("QuadrilleRefinedSize0", self.values(9)[0])
         self.press(9, "Mesh")
-        wait_for(lambda: find("QuadrilleMesh").isEnabled(), 60, "meshing")
+        wait_for(lambda: find("QuadrilleMesh").isEnabled(), what="meshing")
         self.assertGreater(mesh.QuadCount, before)
         picture("tutorial_9")
         self.press(9, "OK")

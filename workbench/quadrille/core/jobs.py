@@ -12,7 +12,7 @@ import Fem
 from . import command as child
 from .command import MeshJob, Progress, check_version, find_command, scratch_folder
 from .errors import Error
-from .setting_table import MeshSettings, in_words_of_properties
+from .setting_table import MeshSettings, in_words_of_panel
 
 PREFERENCES = "User parameter:BaseApp/Preferences/Mod/Quadrille"
 
@@ -60,7 +60,7 @@ class FemJob:
     @property
     def messages(self) -> Sequence[str]:
         """What the mesher has written to stderr besides its progress."""
-        return self._job.messages
+        return [in_own_words(message) for message in self._job.messages]
 
     def poll(self) -> Sequence[Tuple[str, float]]:
         """The progress since the last call, as (stage, fraction) pairs; never waits."""
@@ -76,7 +76,7 @@ class FemJob:
             self._report = self._job.wait(progress)
         except Error as error:
             self._folder.cleanup()
-            raise _in_own_words(error) from error
+            raise error_in_own_words(error) from error
         except BaseException:
             self._folder.cleanup()
             raise
@@ -92,7 +92,7 @@ class FemJob:
             report = self._report if self._report is not None else self._job.result()
             fem_mesh = read_mesh(self._output)
         except Error as error:
-            raise _in_own_words(error) from error
+            raise error_in_own_words(error) from error
         finally:
             self._folder.cleanup()
         # FreeCAD's reader returns an empty mesh if it does not understand a file.
@@ -100,6 +100,8 @@ class FemJob:
         if fem_mesh.FaceCount != wanted or not wanted:
             raise Error(f"FreeCAD read {fem_mesh.FaceCount} of the {wanted} quads that {self._command} wrote",
                         "failure", self._command)
+        if "imprinted" in report:
+            _with_names_of_the_part(fem_mesh, report["imprinted"])
         return fem_mesh, report
 
     def wait_for_result(self, progress: Optional[Progress] = None) -> Tuple["Fem.FemMesh", Dict]:
@@ -148,6 +150,34 @@ def read_mesh(path: Union[str, Path]) -> "Fem.FemMesh":
     return fem_mesh
 
 
-def _in_own_words(error: Error) -> Error:
-    """The same error, with the command's options replaced by the names of FreeCAD's properties."""
-    return Error(in_words_of_properties(str(error)), error.kind, error.subject)
+def in_own_words(sentence: str) -> str:
+    """A sentence of the command with the panel's words, in the language of the panel, instead of options."""
+    if not FreeCAD.GuiUp:
+        return in_words_of_panel(sentence)
+    return in_words_of_panel(sentence, lambda label: FreeCAD.Qt.translate("QuadrilleSettings", label))
+
+
+def error_in_own_words(error: Error) -> Error:
+    """The same error, with its sentence in the panel's words."""
+    return Error(in_own_words(str(error)), error.kind, error.subject)
+
+
+def _with_names_of_the_part(fem_mesh: "Fem.FemMesh", pieces: Dict[str, List[str]]) -> None:
+    """Gives the groups of an imprinted part's faces, edges and vertices the names that these have in FreeCAD.
+
+    Args:
+        pieces: by the name in FreeCAD, the names of what it became. Where sewing has numbered edges anew, none are known: such
+            groups are left out, and FreeCAD finds the nodes by their places.
+    """
+    kinds = {"Face": "Face", "Edge": "Edge", "Vertex": "Node"}
+    members: Dict[str, Tuple[int, ...]] = {}
+    for number in fem_mesh.Groups:
+        name = fem_mesh.getGroupName(number)
+        kind = name.rstrip("0123456789")
+        if kind != name and kinds.get(kind) == fem_mesh.getGroupElementType(number):
+            members[name] = fem_mesh.getGroupElements(number)
+            fem_mesh.removeGroup(number)
+    for name, own in pieces.items():
+        ids = sorted({element for piece in own for element in members.get(piece, ())})
+        if ids:
+            fem_mesh.addGroupElements(fem_mesh.addGroup(name, kinds[name.rstrip("0123456789")]), ids)

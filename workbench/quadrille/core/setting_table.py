@@ -7,8 +7,9 @@ Independent of FreeCAD; needs only the standard library.
 
 import json
 import operator
+import re
 from pathlib import Path
-from typing import Any, Dict, List, Optional, SupportsIndex, Union
+from typing import Any, Callable, Dict, List, Optional, SupportsIndex, Union
 
 #: One dict per setting, with the keys name, option, property, label, kind, use, unit, default, low, high, above_low,
 #: choices, otherwise, help.
@@ -80,12 +81,33 @@ def _text(kind: str, value: Any) -> str:
     return repr(float(value)) if isinstance(value, float) else str(value)
 
 
-def in_words_of_properties(sentence: str) -> str:
-    """A sentence of the command with FreeCAD's names instead of options: "--size-min" becomes "SizeMin"."""
-    for setting in sorted(SETTINGS, key=lambda entry: -len(entry["option"])):
-        if setting["property"]:
-            sentence = sentence.replace(setting["option"], setting["property"])
-    return sentence
+#: What FreeCAD calls the command's options that are not in the table, or that the panel offers in another way.
+_WORDS_ELSEWHERE = {
+    "--size-on": '"Refinements"',
+    "--elements-per-diagonal": '"Size"',
+    "--feature-angle": "the property FeatureAngle",
+    "--merge": "the property MergeDistance",
+    "--join": "the property Join",
+}
+_OPTION = re.compile(r"(?<![\w-])--[a-z]+(?:-[a-z]+)*")
+
+
+def words_for(option: str, translate: Callable[[str], str] = str) -> Optional[str]:
+    """What FreeCAD calls an option: the panel's label in quotes, or the property that the panel does not show, or the argument
+    of mesh_object(). None if it is no option for meshing."""
+    if option in _WORDS_ELSEWHERE:
+        return _WORDS_ELSEWHERE[option]
+    for setting in SETTINGS:
+        if setting["option"] == option:
+            if setting["label"]:
+                return f'"{translate(setting["label"])}"'
+            return f"the property {setting['property']}" if setting["property"] else f"the argument {setting['name']}"
+    return None
+
+
+def in_words_of_panel(sentence: str, translate: Callable[[str], str] = str) -> str:
+    """A sentence of the command in FreeCAD's words: `--size-min` becomes "Minimum"."""
+    return _OPTION.sub(lambda found: words_for(found.group(), translate) or found.group(), sentence)
 
 
 # Properties of mesh objects

@@ -17,7 +17,7 @@ import numpy as np
 from ..core.arrays import nodes_of
 from ..core.command import CommandJob, Progress, scratch_folder
 from ..core.errors import Error
-from ..core.jobs import find_mesher
+from ..core.jobs import find_mesher, in_own_words
 from ..core.prepared import Prepared
 from ..document import groups, state
 from ..document.state import ADAPTED, FOLLOWS
@@ -134,7 +134,8 @@ def _estimate(mesh, result, aim: List[str], folder: str, progress: Optional[Prog
     try:
         told = job.start().wait(progress)
     except Error as error:
-        raise Error(str(error).replace(displaced, result.Label).replace(solved, mesh.Label), error.kind, result.Name) from error
+        sentence = in_own_words(str(error)).replace(displaced, result.Label).replace(solved, mesh.Label)
+        raise Error(sentence, error.kind, result.Name) from error
     return Estimate(told["error"], told["quads"], told["quads_wanted"], told["size_min"], told["size_max"])
 
 

@@ -18,7 +18,7 @@ import Part
 from ..core import observers
 from ..core.command import CommandJob, scratch_folder
 from ..core.errors import Error
-from ..core.jobs import find_mesher
+from ..core.jobs import find_mesher, in_own_words
 from ..core.prepared import Prepared
 from ..document import state
 from ..document.shapes import pairs
@@ -31,7 +31,7 @@ _MARK = "MiddleSurface"
 #: A part looks thin if its thickness is below this share of its width. The mesher's own limit is a fifth, for each wall.
 _THIN = 0.12
 #: How an error's sentence continues if a part is thin only in places.
-_PARTIAL = "Partial gives"
+_PARTIAL = "--partial gives"
 
 
 class _Result(NamedTuple):
@@ -84,7 +84,7 @@ def prepare(part, partial: bool = False, join: bool = False) -> None:
 
 def is_partly_thin(error: Error) -> bool:
     """Whether `partial` would give a result for the part that raised this error."""
-    return _PARTIAL in str(error)
+    return in_own_words(_PARTIAL) in str(error)
 
 
 def is_middle(obj) -> bool:
@@ -284,8 +284,8 @@ def _progress(part):
 
 
 def _of_part(sentence: str, model: str, label: str) -> str:
-    """A sentence of the command, with the part's label instead of the file name, and the property instead of the option."""
-    return sentence.replace(model, label).replace(os.path.basename(model), label).replace("--partial gives", _PARTIAL)
+    """A sentence of the command, with the part's label instead of the file name, and in FreeCAD's words."""
+    return in_own_words(sentence).replace(model, label).replace(os.path.basename(model), label)
 
 
 def _store(obj, result: _Result) -> None:

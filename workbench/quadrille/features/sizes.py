@@ -12,8 +12,8 @@ import numpy as np
 
 from ..core.command import CommandJob, scratch_folder
 from ..core.errors import Error
-from ..core.jobs import find_mesher
-from ..core.setting_table import BY_NAME, MeshSettings, in_words_of_properties
+from ..core.jobs import error_in_own_words, find_mesher
+from ..core.setting_table import BY_NAME, MeshSettings
 from ..document import links, state
 
 
@@ -91,7 +91,7 @@ class SizesJob:
             with open(self._output, encoding="utf-8") as file:
                 return _map_of(json.load(file))
         except Error as error:
-            raise Error(in_words_of_properties(str(error)), error.kind, error.subject) from error
+            raise error_in_own_words(error) from error
         finally:
             self._folder.cleanup()
 

@@ -13,7 +13,7 @@ import FreeCAD
 from ..core import observers
 from ..core.command import MeshJob, Progress, scratch_folder
 from ..core.errors import Error
-from ..core.jobs import FemJob, find_mesher
+from ..core.jobs import FemJob, find_mesher, in_own_words
 from ..core.prepared import Prepared
 from ..core.setting_table import ORDERS, MeshSettings, default_size
 from ..document import groups, state, undo
@@ -126,7 +126,7 @@ class SurfaceJob(FemJob):
         surface.Mesh.write(model)  # single precision, like FreeCAD's meshes
         self._told_as = ((model, surface.Label), ("triangles and points counted from 0, as they come in the file",
                                                   "triangles and points counted from 0"),
-                         ("Force meshes all the same", "take a larger Size"), ("--feature-angle", "FeatureAngle"), ("--merge", "MergeDistance"))
+                         ("the property Force meshes all the same", "take a larger Size"))
         work = ("remesh", "--feature-angle", repr(float(asked.feature_angle)), "--merge", repr(float(asked.merge)))
         settings = MeshSettings(size=float(asked.size), order=int(asked.order))
         super().__init__(command, folder, output, MeshJob(model, [output, *outputs], settings, command, None, work))
@@ -192,7 +192,7 @@ def _store(mesh, fem_mesh, report: Dict, job: SurfaceJob) -> None:
     fidelity = report.get("fidelity", {})
     mesh.OffSurface = fidelity.get("mesh_from_surface", {}).get("distance", 0.0)
     for note in report.get("warnings", ()):
-        FreeCAD.Console.PrintWarning(f"{mesh.Label}: {note}\n")
+        FreeCAD.Console.PrintWarning(f"{mesh.Label}: {in_own_words(note)}\n")
 
 
 class SurfaceMesh:
