@@ -177,12 +177,8 @@ json run_memory(const TriangleMesh& mesh) {
   coloring.method = Method::paper;
   const json entry = {{"coloring", bytes_per_triangle(mesh, coloring)},
                       {"default", bytes_per_triangle(mesh, {})}};
-  fmt::print(
-      "  peak memory, bytes a triangle: coloring {:.0f}, default {:.0f}
-      ",
-      entry["coloring"]
-          .get<double>(),
-      entry["default"].get<double>());
+  fmt::print("  peak memory, bytes a triangle: coloring {:.0f}, default {:.0f}\n",
+             entry["coloring"].get<double>(), entry["default"].get<double>());
   std::fflush(stdout);
   return entry;
 }
@@ -471,11 +467,9 @@ json run_domain(const Domain& domain, int blossom_limit, [[maybe_unused]] int be
   const double blossom = entry["blossom"]["seconds"];
   fmt::print(
       "  Blossom / coloring {:.0f} (paper's count; paper {:.1f}), / all of coloring {:.0f}, / default "
-      "{:.0f}
-      ",
-          blossom /
-          stages["coloring_seconds"].get<double>(),
-      domain.paper_blossom / domain.paper_coloring, blossom / entry["coloring"]["seconds"].get<double>(),
+      "{:.0f}\n",
+      blossom / stages["coloring_seconds"].get<double>(), domain.paper_blossom / domain.paper_coloring,
+      blossom / entry["coloring"]["seconds"].get<double>(),
       blossom / entry["default"]["seconds"].get<double>());
   std::fflush(stdout);
   return entry;
