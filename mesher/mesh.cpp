@@ -56,6 +56,7 @@ class Job {
         context_(context),
         edges_{SamplingPlan(shape_), EdgeFlags(shape_.edges.size())},
         used_(faces_used(model, options)),
+        to_tips_(shape_.faces.size()),
         meshes_(shape_.faces.size()),
         problems_(shape_.faces.size()),
         problems_before_(shape_.faces.size()),
@@ -248,6 +249,9 @@ class Job {
       used_[face] = asked_[face] && !tiny.merged_faces[face];
       if (!used_[face]) problems_[face].reset();
     }
+    FaceFlags may_end = used_;
+    for (const FaceId face : may_end.ids()) may_end[face] = used_[face] && !to_tips_[face];
+    edges_.plan.tips = find_tips(shape_, may_end, tiny, reach_of_let_go(limits_, options_));
   }
 
   static double reach_of_let_go(const SizeLimits& limits, const MeshOptions& options) {
@@ -435,6 +439,11 @@ class Job {
         problems_[face].emplace(Cause::unusable_boundary, face, problems_before_[face]->what());
       problems_before_[face] = problems_[face];
       const bool is_failure = problems_[face]->cause() != Cause::narrow_gaps;
+      if (is_failure && mesh_to_tips(face)) {
+        record.history.push_back("faces no longer end before their tips");
+        any = true;
+        continue;
+      }
       if (is_failure && let_go_.keep_around(face, problems_[face]->edges, edges_.plan.tiny)) {
         record.history.push_back("features kept that were let go");
         any = true;
@@ -444,6 +453,21 @@ class Job {
       any |= !record.given_up;
     }
     if (any) leave_out_tiny();
+    return any;
+  }
+
+  /// Meshes the tips of a face, and of those beside it, that ended early. \return whether there are any.
+  bool mesh_to_tips(FaceId face) {
+    const auto is_beside = [&](const Tip::Side& side) {
+      const auto& faces = shape_.edges[side.edge].faces;
+      return std::find(faces.begin(), faces.end(), face) != faces.end();
+    };
+    bool any = false;
+    for (const Tip& tip : edges_.plan.tips) {
+      if (!is_beside(tip.before) && !is_beside(tip.after)) continue;
+      to_tips_[tip.face] = 1;
+      any = true;
+    }
     return any;
   }
 
@@ -518,6 +542,10 @@ class Job {
                                         : FaceStatus::skipped;
       status.note = fmt::format("{}", fmt::join(record.history, "; "));
       if (meshes_[face] && meshes_[face]->grid) status.note += status.note.empty() ? "grid" : "; grid";
+      const auto end = nodes_.unused.lower_bound({face, EdgeId()});
+      if (end != nodes_.unused.end() && end->first.first == face)
+        status.note += fmt::format("{}ends before a tip that is narrower than half the least size",
+                                   status.note.empty() ? "" : "; ");
       if (edges_.plan.tiny.merged_faces[face]) {
         status.status = FaceStatus::merged;
         status.note = "tiny: its place is taken by an edge or a node of its neighbors";
@@ -538,6 +566,7 @@ class Job {
   ExecutionContext& context_;
   EdgeTreatment edges_;
   FaceFlags used_;
+  FaceFlags to_tips_;  ///< 1 = does not end before its tips
   GridRows rows_;
   int chart_rounds_ = 0;
   BoundaryNodes nodes_;

@@ -137,6 +137,7 @@ class EdgeSampler {
     }
     align_narrow_faces(shape_, used_, find_split_strips(shape_, used_, wishes_.wanted), result_);
     align_gaps(shape_, used_, plan_.unaligned, result_);
+    end_faces_at_tips(shape_, plan_.tips, plan_.tiny, result_);
     borrow_nodes();
     return std::move(result_);
   }
@@ -297,7 +298,7 @@ class EdgeSampler {
       if (counts_[i] == 0 || plan_.tiny.edges[i] == i) continue;
       auto& edge = result_.edges[i];
       edge.nodes = result_.edges[plan_.tiny.edges[i]].nodes;
-      edge.borrowed = true;
+      edge.borrowed = {edge.segments(), 0};
       if (plan_.tiny.reversed_edges[i]) std::reverse(edge.nodes.begin(), edge.nodes.end());
     }
   }

@@ -1,7 +1,10 @@
 #pragma once
 /// Nodes on CAD edges: each edge is sampled once, with counts that make every face even. Internal.
 
+#include <array>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
@@ -10,6 +13,7 @@
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/edges/face_sides.hpp"
 #include "mesher/edges/tiny_features.hpp"
+#include "mesher/edges/tips.hpp"
 
 namespace quadrille {
 
@@ -19,19 +23,30 @@ struct BoundaryNodes {
     std::vector<double> parameters;  ///< one per node, ascending, both ends included; empty = edge not used
     std::vector<int> nodes;          ///< indices into `points`; the ends are the vertices' nodes
     int stride = 1;                  ///< segments for each one of the mesh that is recombined
-    bool borrowed = false;           ///< the edge shares the nodes of another one (TinyFeatures)
-    bool divided = false;            ///< users prescribe the number of segments on its chord
-    bool kept = false;               ///< users prescribe the spacing of its chord: the nodes stay in place
+    /// Segments at the start and at the end whose nodes are those of other edges (TinyFeatures, Tip).
+    std::array<int, 2> borrowed{0, 0};
+    bool divided = false;  ///< users prescribe the number of segments on its chord
+    bool kept = false;     ///< users prescribe the spacing of its chord: the nodes stay in place
     int segments() const { return static_cast<int>(nodes.size()) - 1; }
+    bool borrows() const { return borrowed[0] + borrowed[1] > 0; }
+    bool borrows(int segment) const { return segment < borrowed[0] || segment >= segments() - borrowed[1]; }
   };
   std::vector<Vector3> points;
   IdVector<VertexId, int> vertex_nodes;  ///< indices into `points`; -1 = not used
   IdVector<EdgeId, Edge> edges;
+  /// Segments at the start and at the end of an edge that a face does not use, since it ends before its tip.
+  std::map<std::pair<FaceId, EdgeId>, std::array<int, 2>> unused;
   /// Segments of the final mesh for each segment of the mesh that is recombined: 2 with Strategy::subdivide,
   /// else 1. The faces in `subdivided` have 2 in any case.
   int stride = 1;
   FaceFlags subdivided;  ///< 1 = recombined at twice the size, whatever `stride` is
   FaceOutlines sides;    ///< with facing sides whose counts match
+
+  /// How many of an edge's segments at its start and at its end a face does not use.
+  std::array<int, 2> unused_by(FaceId face, EdgeId edge) const {
+    const auto found = unused.find({face, edge});
+    return found == unused.end() ? std::array<int, 2>{0, 0} : found->second;
+  }
 };
 
 /// A part of a CAD edge that needs a least number of segments in the mesh that is recombined.
@@ -51,6 +66,7 @@ struct SamplingPlan {
   FaceFlags unaligned;   ///< 1 = nodes need not face each other across the face's gaps
   FaceFlags subdivided;  ///< see BoundaryNodes::subdivided: the face's edges get even numbers
   TinyFeatures tiny;
+  std::vector<Tip> tips;       ///< at which faces end early
   PrescribedEdges prescribed;  ///< user divisions; may be empty
 };
 

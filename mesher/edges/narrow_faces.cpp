@@ -29,7 +29,7 @@ class NarrowFaces {
     const CadEdge &edge_a = shape_.edges[a], &edge_b = shape_.edges[b];
     const int n = nodes_.edges[a].segments();
     if (a == b || n < 2 || nodes_.edges[b].segments() != n || first.internal || second.internal) return;
-    if (edge_a.closed() != edge_b.closed() || nodes_.edges[a].borrowed || nodes_.edges[b].borrowed) return;
+    if (edge_a.closed() != edge_b.closed() || nodes_.edges[a].borrows() || nodes_.edges[b].borrows()) return;
     if (!(sides.width < narrow * edge_a.length / n) || (settled_[a] && settled_[b])) return;
     // Both coedges run around the face, so across it they run in opposite directions.
     const bool against = first.forward == second.forward;
@@ -43,7 +43,7 @@ class NarrowFaces {
   /// Nodes between the parts of a strip cannot move, so its whole side follows.
   void align(const SplitStrip& strip) {
     const EdgeId whole = strip.whole->edge;
-    if (nodes_.edges[whole].borrowed || settled_[whole]) return;
+    if (nodes_.edges[whole].borrows() || settled_[whole]) return;
     std::vector<int> targets;
     for (const Coedge* part : strip.parts) {
       std::vector<int> nodes = nodes_.edges[part->edge].nodes;

@@ -19,9 +19,9 @@ constexpr int pole_segments = 6;
 
 class BoundaryWalker {
  public:
-  BoundaryWalker(const CadShape& shape, const CadFace& face, const FaceSurface& surface,
+  BoundaryWalker(const CadShape& shape, FaceId id, const CadFace& face, const FaceSurface& surface,
                  const BoundaryNodes& nodes, int stride)
-      : shape_(shape), face_(face), surface_(surface), scale_(surface.mean_scale()), nodes_(nodes) {
+      : shape_(shape), id_(id), face_(face), surface_(surface), scale_(surface.mean_scale()), nodes_(nodes) {
     boundary_.stride = stride;
   }
 
@@ -115,7 +115,7 @@ class BoundaryWalker {
     const Vector2 uv = parametric_point(coedge, edge.parameters[i]);
     const CadEdge& cad = shape_.edges[coedge.edge];
     const VertexId end = i == 0 ? cad.first_vertex : i == edge.segments() ? cad.last_vertex : VertexId();
-    if (!edge.borrowed && !end.exists()) return uv;
+    if (!edge.borrows() && !end.exists()) return uv;
     // A node that stands for features which were let go is not where the edge's own curve is.
     constexpr double tolerances = 10, closer = 0.5;
     double tolerance = tolerances * std::max(face_.tolerance, cad.tolerance);
@@ -128,13 +128,15 @@ class BoundaryWalker {
 
   Run walk_edge(const Coedge& coedge) {
     const BoundaryNodes::Edge& edge = nodes_.edges[coedge.edge];
-    const int count = edge.segments() / boundary_.stride;
+    const auto [unused_first, unused_last] = nodes_.unused_by(id_, coedge.edge);
+    const int first = coedge.forward ? unused_first : edge.segments() - unused_last;
+    const int count = (edge.segments() - unused_first - unused_last) / boundary_.stride;
     if (count <= 0) return {};
     const EdgeCurve curve(shape_.edges[coedge.edge]);
     Run run;
     run.first_segment = static_cast<int>(boundary_.segments.size());
     for (int k = 0; k <= count; ++k) {
-      const int i = boundary_.stride * (coedge.forward ? k : count - k);
+      const int i = first + boundary_.stride * (coedge.forward ? k : -k);
       const int point = add_point(place_of(coedge, curve, edge, i), edge.nodes[i]);
       if (k == 0) {
         run.first = point;
@@ -158,13 +160,9 @@ class BoundaryWalker {
       run.last = point;
     }
     run.end_segment = static_cast<int>(boundary_.segments.size());
-    run.leaving = curve.derivative(edge.parameters.front());
-    run.arriving = curve.derivative(edge.parameters.back());
-    if (!coedge.forward) {
-      std::swap(run.leaving, run.arriving);
-      run.leaving *= -1;
-      run.arriving *= -1;
-    }
+    const double sense = coedge.forward ? 1 : -1;
+    run.leaving = sense * curve.derivative(edge.parameters[first]);
+    run.arriving = sense * curve.derivative(boundary_.segments.back().to);
     for (int point = run.first + 1; point < run.last; ++point) boundary_.angles[point] = M_PI;
     return run;
   }
@@ -172,12 +170,19 @@ class BoundaryWalker {
   Run walk_pole(const CadWire& wire, std::size_t at, const CadEdge& edge) {
     const Coedge& coedge = wire.coedges[at];
     const int node = edge.first_vertex.exists() ? nodes_.vertex_nodes[edge.first_vertex] : -1;
-    if (node < 0 || surface_.is_view()) return {};
+    if (node < 0 || surface_.is_view() || ends_before(wire, at)) return {};
     Vector2 from = parametric_point(coedge, edge.first), to = parametric_point(coedge, edge.last);
     // CAD translators also close wires with edges marked degenerate that are not poles.
     if (!is_one_point(from, to)) return {};
     if (!coedge.forward) std::swap(from, to);
     return add_pole(from, to, node, is_tip(wire, at) ? 1 : pole_segments);
+  }
+
+  /// Whether the face ends before the pole.
+  bool ends_before(const CadWire& wire, std::size_t at) const {
+    const std::size_t n = wire.coedges.size();
+    const Coedge& after = wire.coedges[(at + 1) % n];
+    return nodes_.unused_by(id_, after.edge)[after.forward ? 0 : 1] > 0;
   }
 
   /// Whether the face is so narrow between the coedges beside a pole that no elements fit side by side.
@@ -335,6 +340,7 @@ class BoundaryWalker {
   }
 
   const CadShape& shape_;
+  FaceId id_;
   const CadFace& face_;
   const FaceSurface& surface_;
   Vector2 scale_;
@@ -348,7 +354,7 @@ class BoundaryWalker {
 FaceBoundary face_boundary(const CadShape& shape, FaceId face, const CadFace& cad_face,
                            const FaceSurface& surface, const BoundaryNodes& nodes) {
   const int stride = nodes.subdivided[face] != 0 ? 2 : 1;
-  FaceBoundary boundary = BoundaryWalker(shape, cad_face, surface, nodes, stride).walk();
+  FaceBoundary boundary = BoundaryWalker(shape, face, cad_face, surface, nodes, stride).walk();
   if (boundary.segments.empty()) {
     const std::string name = fmt::format("Face{}", face.number());
     throw failure(name, fmt::format("{} has no usable boundary in its parameter plane", name));

@@ -34,7 +34,7 @@ bool is_valid(const FaceMesh& mesh, double reach) {
 class LoopMesher {
  public:
   LoopMesher(const CadShape& shape, FaceId face, const BoundaryNodes& nodes, const ExecutionContext& context)
-      : face_(shape.faces[face]), nodes_(nodes), surface_(face_), context_(context) {}
+      : id_(face), face_(shape.faces[face]), nodes_(nodes), surface_(face_), context_(context) {}
 
   /// Empty if the loops cannot be spanned. \param flips see fill_loops()
   std::optional<FaceMesh> run(bool flips) {
@@ -71,9 +71,10 @@ class LoopMesher {
     const std::size_t first = mesh_.nodes.size();
     for (const Coedge& coedge : wire.coedges) {
       const BoundaryNodes::Edge& edge = nodes_.edges[coedge.edge];
-      const int count = edge.segments();
-      for (int k = 0; k < count; ++k) {
-        const int i = coedge.forward ? k : count - k;
+      const auto [unused_first, unused_last] = nodes_.unused_by(id_, coedge.edge);
+      const int first_node = unused_first, last_node = edge.segments() - unused_last;
+      for (int k = 0; k < last_node - first_node; ++k) {
+        const int i = coedge.forward ? first_node + k : last_node - k;
         if (mesh_.nodes.size() > first && mesh_.nodes.back() == edge.nodes[i]) continue;
         mesh_.nodes.push_back(edge.nodes[i]);
         mesh_.points.push_back(nodes_.points[edge.nodes[i]]);
@@ -139,6 +140,7 @@ class LoopMesher {
       mesh_.off[i] = (surface_.project(mesh_.uv[i], mesh_.points[i]).point - mesh_.points[i]).norm();
   }
 
+  FaceId id_;
   const CadFace& face_;
   const BoundaryNodes& nodes_;
   const FaceSurface surface_;

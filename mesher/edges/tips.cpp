@@ -1,0 +1,259 @@
+#include "mesher/edges/tips.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "geometry/surfaces/edge_curve.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+#include "mesher/edges/edge_sampling.hpp"
+#include "mesher/edges/tiny_features.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// A tip is at least this many times as long as it is wide: an angle of 23 degrees between straight edges.
+constexpr double least_slenderness = 2.5;
+/// Directions at the tip farther apart than this are not looked at.
+constexpr double least_cosine = 0.85;
+/// Tips end on this share of their edges, so that those at the two ends of an edge do not meet.
+constexpr double most_of_edge = 0.4;
+
+/// The part of an edge near one of its ends, in samples that get sparser away from it.
+struct Arm {
+  std::vector<double> parameters;
+  std::vector<Vector3> points;
+};
+
+struct Place {
+  double distance = std::numeric_limits<double>::infinity();
+  double parameter = 0;
+  Vector3 point{0, 0, 0};
+};
+
+Place nearest_on(const Arm& arm, const Vector3& p) {
+  Place result;
+  for (std::size_t i = 0; i + 1 < arm.points.size(); ++i) {
+    const Vector3 side = arm.points[i + 1] - arm.points[i];
+    const double square = side.squaredNorm();
+    const double t = square > 0 ? std::clamp((p - arm.points[i]).dot(side) / square, 0.0, 1.0) : 0;
+    const Vector3 point = arm.points[i] + t * side;
+    const double distance = (p - point).norm();
+    if (distance < result.distance)
+      result = {distance, arm.parameters[i] + t * (arm.parameters[i + 1] - arm.parameters[i]), point};
+  }
+  return result;
+}
+
+class TipFinder {
+ public:
+  TipFinder(const CadShape& shape, const TinyFeatures& tiny, double width)
+      : shape_(shape), tiny_(tiny), width_(width) {}
+
+  void find(FaceId id) {
+    for (const CadWire& wire : shape_.faces[id].wires) {
+      std::vector<const Coedge*> left;
+      for (const Coedge& coedge : wire.coedges) {
+        if (!tiny_.collapsed_edges[coedge.edge] && !shape_.edges[coedge.edge].degenerate)
+          left.push_back(&coedge);
+      }
+      const std::size_t n = left.size();
+      if (!wire.ordered || n < 2) continue;
+      for (std::size_t k = 0; k < n; ++k) {
+        const Coedge &before = *left[k], &after = *left[(k + 1) % n];
+        if (before.edge == after.edge || !may_end(id, before) || !may_end(id, after)) continue;
+        if (taken_.contains({before.edge, before.forward}) || taken_.contains({after.edge, !after.forward}))
+          continue;
+        const auto tip = tip_between(id, before, after);
+        if (!tip) continue;
+        taken_.insert({before.edge, before.forward});
+        taken_.insert({after.edge, !after.forward});
+        found_.push_back(*tip);
+      }
+    }
+  }
+
+  std::vector<Tip> take() { return std::move(found_); }
+
+ private:
+  bool may_end(FaceId id, const Coedge& coedge) const {
+    const CadEdge& edge = shape_.edges[coedge.edge];
+    return !coedge.internal && !edge.degenerate && edge.first_vertex.exists() && edge.last_vertex.exists() &&
+           !tiny_.closed(edge) && tiny_.edges[coedge.edge] == coedge.edge &&
+           most_of_edge * edge.length > least_slenderness * width_ &&
+           std::count(edge.faces.begin(), edge.faces.end(), id) == 1;
+  }
+
+  std::optional<Tip> tip_between(FaceId id, const Coedge& before, const Coedge& after) const {
+    const CadEdge &a = shape_.edges[before.edge], &b = shape_.edges[after.edge];
+    if (tiny_.end(before.forward ? a.last_vertex : a.first_vertex) !=
+        tiny_.end(after.forward ? b.first_vertex : b.last_vertex))
+      return std::nullopt;
+    const EdgeCurve first(a), second(b);
+    const Vector3 to = (before.forward ? -1 : 1) * first.derivative(before.forward ? a.last : a.first),
+                  from = (after.forward ? 1 : -1) * second.derivative(after.forward ? b.first : b.last);
+    if (!(to.dot(from) > least_cosine * to.norm() * from.norm())) return std::nullopt;
+    const Arm one = arm_of(a, !before.forward, first), two = arm_of(b, after.forward, second);
+    const auto end = width_reached(one, two, first);
+    if (!end) return std::nullopt;
+    const Place facing = nearest_on(two, end->point);
+    const double least = least_slenderness * width_;
+    const Vector3& tip = one.points.front();
+    if (!((end->point - tip).norm() > least) || !((facing.point - tip).norm() > least)) return std::nullopt;
+    if (!lies_between(id, before, first, *end, facing)) return std::nullopt;
+    return Tip{
+        id, {before.edge, before.forward, end->parameter}, {after.edge, !after.forward, facing.parameter}};
+  }
+
+  Arm arm_of(const CadEdge& edge, bool from_start, const EdgeCurve& curve) const {
+    constexpr double finer = 0.1, growth = 1.15;
+    Arm arm;
+    const double range = (edge.last - edge.first) / edge.length;
+    double step = finer * width_;
+    for (double s = 0; s < most_of_edge * edge.length; s += step, step *= growth) {
+      arm.parameters.push_back(from_start ? edge.first + s * range : edge.last - s * range);
+      arm.points.push_back(curve.point(arm.parameters.back()));
+    }
+    return arm;
+  }
+
+  /// The place on an arm where the other one is first as far away as the width.
+  std::optional<Place> width_reached(const Arm& arm, const Arm& other, const EdgeCurve& curve) const {
+    std::size_t i = 1;
+    while (i < arm.points.size() && nearest_on(other, arm.points[i]).distance < width_) ++i;
+    if (i >= arm.points.size()) return std::nullopt;
+    double low = arm.parameters[i - 1], high = arm.parameters[i];
+    constexpr int halvings = 12;
+    for (int k = 0; k < halvings; ++k) {
+      const double middle = 0.5 * (low + high);
+      (nearest_on(other, curve.point(middle)).distance < width_ ? low : high) = middle;
+    }
+    return Place{width_, low, curve.point(low)};
+  }
+
+  /// Whether the face lies between the two places, to the left of its wire, rather than around them.
+  bool lies_between(FaceId id, const Coedge& before, const EdgeCurve& curve, const Place& end,
+                    const Place& facing) const {
+    const FaceSurface surface(shape_.faces[id]);
+    const Vector3 normal = surface.normal(parametric_point(before, end.parameter)),
+                  along = (before.forward ? 1 : -1) * curve.derivative(end.parameter);
+    return normal.cross(along).dot(facing.point - end.point) > 0;
+  }
+
+  const CadShape& shape_;
+  const TinyFeatures& tiny_;
+  double width_;
+  std::set<std::pair<EdgeId, bool>> taken_;  // edge and whether at its last vertex
+  std::vector<Tip> found_;
+};
+
+class TipEnder {
+ public:
+  TipEnder(const CadShape& shape, const TinyFeatures& tiny, BoundaryNodes& nodes)
+      : shape_(shape), tiny_(tiny), nodes_(nodes) {}
+
+  void end(const Tip& tip) {
+    if (tiny_.merged_faces[tip.face] || !is_whole(tip.before) || !is_whole(tip.after)) return;
+    const int count = std::min(nodes_before(tip.before), nodes_before(tip.after));
+    if (count == 0 || !follow(tip.before, tip.after, count)) return;
+    BoundaryNodes::Edge& follower = nodes_.edges[tip.after.edge];
+    follower.borrowed[tip.after.at_end ? 1 : 0] = count;
+    for (const Tip::Side* side : {&tip.before, &tip.after})
+      nodes_.unused[{tip.face, side->edge}][side->at_end ? 1 : 0] = count;
+    nodes_.sides[tip.face].outline = FaceSides::Outline::other;
+  }
+
+ private:
+  /// Whether the edge and the faces beside it are left as they are, and nobody prescribes its nodes.
+  bool is_whole(const Tip::Side& side) const {
+    const auto& faces = shape_.edges[side.edge].faces;
+    const BoundaryNodes::Edge& edge = nodes_.edges[side.edge];
+    return tiny_.edges[side.edge] == side.edge && !tiny_.collapsed_edges[side.edge] && !edge.divided &&
+           !edge.kept && std::none_of(faces.begin(), faces.end(), [&](FaceId face) {
+             return tiny_.merged_faces[face] != 0;
+           });
+  }
+
+  /// The index of the node that is k segments from the tip.
+  int at(const Tip::Side& side, int k) const {
+    return side.at_end ? nodes_.edges[side.edge].segments() - k : k;
+  }
+
+  /// The number of segments of an edge between its tip and the place where the face is wide enough: an even
+  /// one, that leaves some.
+  int nodes_before(const Tip::Side& side) const {
+    constexpr int left = 4;
+    const BoundaryNodes::Edge& edge = nodes_.edges[side.edge];
+    int count = 0;
+    while (count + 1 + left + edge.borrowed[side.at_end ? 0 : 1] <= edge.segments() &&
+           (edge.parameters[at(side, count + 1)] - side.parameter) * (side.at_end ? 1 : -1) > 0)
+      ++count;
+    return count - count % 2;
+  }
+
+  /// Gives the first `count` nodes of one edge to the other one, and spreads the rest of its nodes.
+  bool follow(const Tip::Side& leader, const Tip::Side& follower, int count) {
+    const BoundaryNodes::Edge& from = nodes_.edges[leader.edge];
+    BoundaryNodes::Edge& to = nodes_.edges[follower.edge];
+    const EdgeCurve curve(shape_.edges[follower.edge]);
+    const int last = to.segments() - to.borrowed[follower.at_end ? 0 : 1];
+    const double start = to.parameters[at(follower, 0)], end = to.parameters[at(follower, last)];
+    const double before = to.parameters[at(follower, count)];
+    Arm arm;
+    constexpr int samples = 8;
+    for (int k = 0; k < count + 2; ++k) {
+      const double a = to.parameters[at(follower, k)], b = to.parameters[at(follower, k + 1)];
+      for (int i = 0; i < samples; ++i) {
+        arm.parameters.push_back(a + (b - a) * i / samples);
+        arm.points.push_back(curve.point(arm.parameters.back()));
+      }
+    }
+    std::vector<double> parameters = to.parameters;
+    for (int k = 1; k <= count; ++k)
+      parameters[at(follower, k)] = nearest_on(arm, nodes_.points[from.nodes[at(leader, k)]]).parameter;
+    const double now = parameters[at(follower, count)];
+    // The nodes left are not to be squeezed or stretched much.
+    constexpr double most_stretch = 1.25;
+    const double scale = (end - now) / (end - before);
+    if (!(scale < most_stretch) || !(scale > 1 / most_stretch)) return false;
+    for (int k = count + 1; k < last; ++k)
+      parameters[at(follower, k)] = now + scale * (to.parameters[at(follower, k)] - before);
+    for (int k = 0; k < last; ++k) {
+      if (!((parameters[at(follower, k + 1)] - parameters[at(follower, k)]) * (end - start) > 0))
+        return false;
+    }
+    to.parameters = parameters;
+    for (int k = 1; k <= count; ++k) to.nodes[at(follower, k)] = from.nodes[at(leader, k)];
+    for (int k = count + 1; k < last; ++k)
+      nodes_.points[to.nodes[at(follower, k)]] = curve.point(parameters[at(follower, k)]);
+    return true;
+  }
+
+  const CadShape& shape_;
+  const TinyFeatures& tiny_;
+  BoundaryNodes& nodes_;
+};
+
+}  // namespace
+
+std::vector<Tip> find_tips(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny,
+                           double width) {
+  if (!(width > 0)) return {};
+  TipFinder finder(shape, tiny, width);
+  for (const FaceId face : used.ids()) {
+    if (used[face]) finder.find(face);
+  }
+  return finder.take();
+}
+
+void end_faces_at_tips(const CadShape& shape, const std::vector<Tip>& tips, const TinyFeatures& tiny,
+                       BoundaryNodes& nodes) {
+  TipEnder ender(shape, tiny, nodes);
+  for (const Tip& tip : tips) ender.end(tip);
+}
+
+}  // namespace quadrille
