@@ -460,7 +460,7 @@ TEST(Mesh, ChecksWhilePairing) {
   EXPECT_GE(many, 2.5 * few);
   EXPECT_LE(squares(2 * n), 95 * many);
   EXPECT_GE(many_more, 2.5 * few_more);
-  EXPECT_LE(squares(2 * n), 165 * many_more);
+  EXPECT_LE(squares(2 * n), 260 * many_more);
 }
 
 /// Sizes and samples do not depend on the number of quads, but on the edges and faces.

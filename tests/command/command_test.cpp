@@ -227,12 +227,12 @@ TEST(Command, RefusesAnEdgeFarOutOfItsModel) {
                               folder.path().string(), program, size));
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_PRED2(contains, result.out,
-                 "Edge2 runs 7.4e+06 mm away from the model's surfaces, which span 198 mm");
+                 "Edge2 runs 7.403e+06 mm away from the model's surfaces, which span 198.5 mm");
   }
   EXPECT_EQ(folder.file_count(), 1);
   const auto info = stdout_of(folder, "info wild.brep");
   EXPECT_EQ(info.exit_code, 0);
-  EXPECT_PRED2(contains, info.out, "problem      Edge2 runs 7.4e+06 mm away");
+  EXPECT_PRED2(contains, info.out, "problem      Edge2 runs 7.403e+06 mm away");
 }
 
 TEST(Command, RefusesAnEnormousEdge) {

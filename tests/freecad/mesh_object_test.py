@@ -184,7 +184,7 @@ class MeshObjectTest(unittest.TestCase):
         mesh.Strict = False
         self.document.recompute()
         self.assertEqual(mesh.Status, "the settings have changed: mesh again")
-        self.assertNotIn("strict", [name for name, value in quadrille.freecad.defaults().items() if value])
+        self.assertNotIn("strict", [name for name, value in quadrille.features.mesh_object.defaults().items() if value])
 
     def test_lengths_with_units(self):
         part = self.part(Part.makeBox(20, 20, 20))

@@ -152,10 +152,10 @@ class CommandTest(unittest.TestCase):
         self.assertEqual(str(caught.exception), "a remark")
 
     def test_cancel_ends_the_child(self):
-        command = self.script("trap '' TERM; sleep 60 & wait; wait\n")
+        command = self.script("trap '' TERM; echo 'progress: sample 1 %' >&2; sleep 60 & wait; wait\n")
         job = MeshJob("x.brep", ["x.msh"], command=command).start()
         with mock.patch("quadrille.core.command.KILL_AFTER_SECONDS", 0.2), self.assertRaises(Error) as caught:
-            job.wait(lambda stage, fraction: False)
+            job.wait(lambda stage, fraction: stage != "sample")
         self.assertEqual(caught.exception.kind, "cancelled")
         self.assertFalse(job.running)
         self.assertEqual(job._process.returncode, -9)  # it did not end by itself
