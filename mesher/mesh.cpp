@@ -54,7 +54,7 @@ class Job {
         options_(options),
         limits_(size_limits(model, options.sizing)),
         context_(context),
-        edges_{SamplingPlan(shape_), EdgeFlags(shape_.edges.size())},
+        plan_(shape_),
         used_(faces_used(model, options)),
         to_tips_(shape_.faces.size()),
         meshes_(shape_.faces.size()),
@@ -64,8 +64,8 @@ class Job {
         asked_(used_),
         let_go_(shape_, asked_, reach_of_let_go(limits_, options),
                 edges_below_size_min(model_, options.sizing, limits_)) {
-    if (options_.strategy == Strategy::subdivide) edges_.plan.subdivided.assign(shape_.faces.size(), 1);
-    edges_.plan.prescribed = prescribed_edges(shape_, options.sizing, limits_.largest);
+    if (options_.strategy == Strategy::subdivide) plan_.subdivided.assign(shape_.faces.size(), 1);
+    plan_.prescribed = prescribed_edges(shape_, options.sizing, limits_.largest);
     leave_out_tiny();
     find_rows();
   }
@@ -77,9 +77,8 @@ class Job {
     sizing.budget.bytes_an_element = Budget::bytes_an_element_of_order(options_.order);
     if (options_.force) sizing.budget = Budget::unlimited();
     const ElementBudget budget(model_, sizing, asked_, context_);
-    SizingField field =
-        SizingField::build(model_, sizing, context_,
-                           {let_go_.edges(), edges_.plan.tiny.merged_faces, rows_.divided, rows_.layered});
+    SizingField field = SizingField::build(
+        model_, sizing, context_, {let_go_.edges(), plan_.tiny.merged_faces, rows_.divided, rows_.layered});
     budget.check(field);
     return field;
   }
@@ -216,11 +215,10 @@ class Job {
         for (const Coedge& coedge : wire.coedges) of_failed[coedge.edge] = 1;
       }
     }
-    SamplingPlan& plan = edges_.plan;
     for (const EdgeId edge : of_failed.ids()) {
-      if (of_failed[edge]) plan.factor[edge] = 1;
+      if (of_failed[edge]) plan_.factor[edge] = 1;
     }
-    std::erase_if(plan.finer, [&](const EdgeStretch& part) { return of_failed[part.edge] != 0; });
+    std::erase_if(plan_.finer, [&](const EdgeStretch& part) { return of_failed[part.edge] != 0; });
     return any;
   }
 
@@ -237,21 +235,21 @@ class Job {
     IdVector<EdgeId, double> wanted;
     for (const CadEdge& edge : shape_.edges)
       wanted.push_back(edge.length / (limits_.largest * stride(options_.strategy)));
-    const auto sides = find_face_sides(shape_, used_, edges_.plan.tiny, wanted);
-    rows_ = find_grid_rows(shape_, sides, std::move(edges_.plan.prescribed), sizing, limits_.largest);
-    edges_.plan.prescribed = rows_.prescribed;
+    const auto sides = find_face_sides(shape_, used_, plan_.tiny, wanted);
+    rows_ = find_grid_rows(shape_, sides, std::move(plan_.prescribed), sizing, limits_.largest);
+    plan_.prescribed = rows_.prescribed;
   }
 
   void leave_out_tiny() {
-    TinyFeatures& tiny = edges_.plan.tiny;
-    tiny = let_go_.find(edges_.collapse, options_.merge_tiny);
+    TinyFeatures& tiny = plan_.tiny;
+    tiny = let_go_.find(options_.merge_tiny);
     for (const FaceId face : used_.ids()) {
       used_[face] = asked_[face] && !tiny.merged_faces[face];
       if (!used_[face]) problems_[face].reset();
     }
     FaceFlags may_end = used_;
     for (const FaceId face : may_end.ids()) may_end[face] = used_[face] && !to_tips_[face];
-    edges_.plan.tips = find_tips(shape_, may_end, tiny, reach_of_let_go(limits_, options_));
+    plan_.tips = find_tips(shape_, may_end, tiny, reach_of_let_go(limits_, options_));
   }
 
   static double reach_of_let_go(const SizeLimits& limits, const MeshOptions& options) {
@@ -261,8 +259,7 @@ class Job {
 
   void sample(const SizingField& field) {
     const StageTimer timer(context_, Stage::sample);
-    BoundaryNodes nodes =
-        sample_edges(shape_, field, stride(options_.strategy), used_, edges_.plan, context_);
+    BoundaryNodes nodes = sample_edges(shape_, field, stride(options_.strategy), used_, plan_, context_);
     keep_meshes(nodes);
     nodes_ = std::move(nodes);
   }
@@ -444,12 +441,12 @@ class Job {
         any = true;
         continue;
       }
-      if (is_failure && let_go_.keep_around(face, problems_[face]->edges, edges_.plan.tiny)) {
+      if (is_failure && let_go_.keep_around(face, problems_[face]->edges, plan_.tiny)) {
         record.history.push_back("features kept that were let go");
         any = true;
         continue;
       }
-      record.given_up = !apply_remedy(shape_, *problems_[face], limits_.largest, record, edges_);
+      record.given_up = !apply_remedy(shape_, *problems_[face], record, plan_);
       any |= !record.given_up;
     }
     if (any) leave_out_tiny();
@@ -463,7 +460,7 @@ class Job {
       return std::find(faces.begin(), faces.end(), face) != faces.end();
     };
     bool any = false;
-    for (const Tip& tip : edges_.plan.tips) {
+    for (const Tip& tip : plan_.tips) {
       if (!is_beside(tip.before) && !is_beside(tip.after)) continue;
       to_tips_[tip.face] = 1;
       any = true;
@@ -493,7 +490,7 @@ class Job {
 
   std::vector<ShellMesh::LetGo> list_let_go() const {
     using Kind = ShellMesh::LetGo::Kind;
-    const TinyFeatures& tiny = edges_.plan.tiny;
+    const TinyFeatures& tiny = plan_.tiny;
     std::vector<ShellMesh::LetGo> result;
     for (const EdgeId id : tiny.edges.ids()) {
       const CadEdge& edge = shape_.edges[id];
@@ -546,7 +543,7 @@ class Job {
       if (end != nodes_.unused.end() && end->first.first == face)
         status.note += fmt::format("{}ends before a tip that is narrower than half the least size",
                                    status.note.empty() ? "" : "; ");
-      if (edges_.plan.tiny.merged_faces[face]) {
+      if (plan_.tiny.merged_faces[face]) {
         status.status = FaceStatus::merged;
         status.note = "tiny: its place is taken by an edge or a node of its neighbors";
       }
@@ -564,7 +561,7 @@ class Job {
   const MeshOptions& options_;
   SizeLimits limits_;
   ExecutionContext& context_;
-  EdgeTreatment edges_;
+  SamplingPlan plan_;
   FaceFlags used_;
   FaceFlags to_tips_;  ///< 1 = does not end before its tips
   GridRows rows_;

@@ -329,13 +329,13 @@ TEST(Robustness, MeshesPolesAtManySizes) {
   EXPECT_EQ(joined(validate(mesh_of(model_of(trouble_named("lemon")), 77.33), false)), "");
 }
 
-TEST(Robustness, MakesAPointOfATinyFaceThatFails) {
+TEST(Robustness, DeliversATinyFaceThatFails) {
   const CadModel model(std::make_shared<CadShape>(tiny_cusp(), "tiny_cusp"));
   const ShellMesh mesh = mesh_of(model, 20);
   EXPECT_EQ(joined(validate(mesh, false)), "");
   EXPECT_EQ(mesh.faces[0].status, FaceStatus::meshed);
-  EXPECT_EQ(mesh.faces[1].status, FaceStatus::merged);
-  EXPECT_NEAR(mesh_area(mesh), 400, 1e-3);
+  EXPECT_EQ(mesh.faces[1].status, FaceStatus::meshed);
+  EXPECT_NEAR(mesh_area(mesh), 400, 1e-2);
 }
 
 TEST(Robustness, WritesNoMeshWithoutQuads) {

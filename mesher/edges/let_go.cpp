@@ -159,10 +159,8 @@ LetGo::LetGo(const CadShape& shape, const FaceFlags& used, double reach, const E
   }
 }
 
-TinyFeatures LetGo::find(const EdgeFlags& collapse, double length) const {
-  EdgeFlags both = collapse;
-  for (const EdgeId edge : both.ids()) both[edge] |= edges_[edge];
-  return find_tiny_features(shape_, used_, both, length, {&slivers_, &kept_faces_});
+TinyFeatures LetGo::find(double length) const {
+  return find_tiny_features(shape_, used_, edges_, length, {&slivers_, &kept_faces_});
 }
 
 /// Takes edges, the shortest first, if all vertices that then share a node lie within reach of each other.
@@ -203,7 +201,7 @@ void LetGo::choose(const EdgeFlags& fine) {
 
 /// Keeps the features that would harm a face if let go. \return whether there was something to keep.
 bool LetGo::keep_harmed() {
-  const TinyFeatures tiny = find(EdgeFlags(edges_.size()), 0);
+  const TinyFeatures tiny = find(0);
   const HarmFinder finder(shape_, used_, tiny, reach_);
   bool any = false;
   const auto keep_edge = [&](EdgeId edge, const std::string& why) {

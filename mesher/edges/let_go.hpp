@@ -19,9 +19,8 @@ class LetGo {
   /// \param fine 1 = must not become a point; nor does a face become an edge if all its edges are so.
   LetGo(const CadShape& shape, const FaceFlags& used, double reach, const EdgeFlags& fine);
 
-  /// What is left out of the mesh if edges() and the edges marked in `collapse` become points; see
-  /// find_tiny_features().
-  TinyFeatures find(const EdgeFlags& collapse, double length) const;
+  /// What is left out of the mesh if edges() become points; see find_tiny_features().
+  TinyFeatures find(double length) const;
 
   /// Keeps what was let go at these edges of the face, beside them and at their vertices or, if there is
   /// nothing, all around the face. \param edges none = all of the face \param tiny the result of find().

@@ -15,83 +15,65 @@ struct Case {
   const CadShape& shape;
   FaceId face;
   const FaceProblem& problem;
-  double size;
   FaceRecord& record;
-  EdgeTreatment& edges;
+  SamplingPlan& plan;
 };
 
 /// Changes the recipe or the plan. \return false if it would change nothing.
-using Remedy = bool (*)(Case& patient);
+using Remedy = bool (*)(Case& job);
 
-bool finer_there(Case& patient) {
-  const auto& parts = patient.problem.stretches;
-  auto& finer = patient.edges.plan.finer;
+bool finer_there(Case& job) {
+  const auto& parts = job.problem.stretches;
+  auto& finer = job.plan.finer;
   finer.insert(finer.end(), parts.begin(), parts.end());
-  patient.record.recipe = {patient.record.recipe.chart};
+  job.record.recipe = {job.record.recipe.chart};
   return !parts.empty();
 }
 
 /// Doubles the fineness of segments and points on the whole face: near poles and in narrow faces, more than
 /// one place may be too coarse.
-bool twice_as_fine(Case& patient) {
-  SamplingPlan& plan = patient.edges.plan;
+bool twice_as_fine(Case& job) {
+  SamplingPlan& plan = job.plan;
   std::set<EdgeId> edges;
-  for (const CadWire& wire : patient.shape.faces[patient.face].wires) {
+  for (const CadWire& wire : job.shape.faces[job.face].wires) {
     for (const Coedge& coedge : wire.coedges) edges.insert(coedge.edge);
   }
   std::erase_if(plan.finer, [&](const EdgeStretch& part) { return edges.contains(part.edge); });
-  patient.record.recipe = {.chart = patient.record.recipe.chart,
-                           .fineness = 2 * patient.record.recipe.fineness};
-  for (const EdgeId edge : edges)
-    plan.factor[edge] = std::max(plan.factor[edge], patient.record.recipe.fineness);
+  job.record.recipe = {.chart = job.record.recipe.chart, .fineness = 2 * job.record.recipe.fineness};
+  for (const EdgeId edge : edges) plan.factor[edge] = std::max(plan.factor[edge], job.record.recipe.fineness);
   return true;
 }
 
-bool along_chord(Case& patient) {
+bool along_chord(Case& job) {
   bool any = false;
-  for (const EdgeId edge : patient.problem.edges) {
-    char& bare = patient.edges.plan.bare[edge];
+  for (const EdgeId edge : job.problem.edges) {
+    char& bare = job.plan.bare[edge];
     any |= bare == 0;
     bare = 1;
   }
-  patient.record.recipe.chart = ChartKind::own;
+  job.record.recipe.chart = ChartKind::own;
   return any;
 }
 
-/// For faces so small compared with the elements that one node can stand for them.
-bool as_point(Case& patient) {
-  constexpr double share = 0.2;  // of the default least size, an eighth of the size
-  if (!(longest_edge(patient.shape, patient.face) < share * patient.size / 8)) return false;
-  bool any = false;
-  for (const CadWire& wire : patient.shape.faces[patient.face].wires) {
-    for (const Coedge& coedge : wire.coedges) {
-      char& collapse = patient.edges.collapse[coedge.edge];
-      any |= collapse == 0;
-      collapse = 1;
-    }
-  }
-  return any;
-}
-
-bool with_curves_made_anew(Case& patient) {
-  patient.record.recipe = {ChartKind::new_curves};
+bool with_curves_made_anew(Case& job) {
+  job.record.recipe = {ChartKind::new_curves};
   return true;
 }
 
-bool seen_from_above(Case& patient) {
-  patient.record.recipe = {ChartKind::view};
+bool seen_from_above(Case& job) {
+  job.record.recipe = {ChartKind::view};
   return true;
 }
 
-bool denser_points(Case& patient) {
-  patient.record.recipe = {
-      .chart = patient.record.recipe.chart, .refusal = 0.6, .fineness = patient.record.recipe.fineness};
+bool denser_points(Case& job) {
+  job.record.recipe = {
+      .chart = job.record.recipe.chart, .refusal = 0.6, .fineness = job.record.recipe.fineness};
   return true;
 }
 
-bool without_clean_up(Case& patient) {
-  if (!patient.record.recipe.clean_up) return false;
-  patient.record.recipe.mapped = patient.record.recipe.clean_up = false;
+bool without_clean_up(Case& job) {
+  if (!job.record.recipe.clean_up) return false;
+  job.record.recipe.mapped = job.record.recipe.clean_up = false;
   return true;
 }
 
@@ -102,12 +84,12 @@ constexpr unsigned any_of(std::initializer_list<Cause> causes) {
 }
 
 /// For faces where meshing with quads of the final size failed (Strategy::direct).
-bool by_subdivision(Case& patient) {
-  char& subdivided = patient.edges.plan.subdivided[patient.face];
+bool by_subdivision(Case& job) {
+  char& subdivided = job.plan.subdivided[job.face];
   if (subdivided != 0) return false;
   subdivided = 1;
-  patient.record.looks_at_gaps = 0;
-  patient.record.first_work = 0;
+  job.record.looks_at_gaps = 0;
+  job.record.first_work = 0;
   return true;
 }
 
@@ -118,8 +100,8 @@ struct Row {
   Remedy apply;
 };
 
-bool nodes_where_they_were(Case& patient) {
-  char& unaligned = patient.edges.plan.unaligned[patient.face];
+bool nodes_where_they_were(Case& job) {
+  char& unaligned = job.plan.unaligned[job.face];
   if (unaligned != 0) return false;
   unaligned = 1;
   return true;
@@ -146,10 +128,6 @@ constexpr std::array table{
     Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::looped_edge, Cause::unusable_boundary,
                 Cause::no_mesh, Cause::inverted_inside, Cause::inverted_at_boundary}),
         "seen from above", 1, seen_from_above},
-    Row{any_of({Cause::coarse_segments, Cause::stray_curves, Cause::crossing_curves, Cause::looped_edge,
-                Cause::unusable_boundary, Cause::no_mesh, Cause::inverted_inside,
-                Cause::inverted_at_boundary}),
-        "taken as a point", 1, as_point},
 };
 
 }  // namespace
@@ -162,14 +140,13 @@ double longest_edge(const CadShape& shape, FaceId face) {
   return longest;
 }
 
-bool apply_remedy(const CadShape& shape, const FaceProblem& problem, double size, FaceRecord& record,
-                  EdgeTreatment& edges) {
+bool apply_remedy(const CadShape& shape, const FaceProblem& problem, FaceRecord& record, SamplingPlan& plan) {
   if (record.attempts >= FaceRecord::most_attempts) return false;
   record.tried.resize(table.size(), 0);
-  Case patient{shape, problem.face(), problem, size, record, edges};
+  Case job{shape, problem.face(), problem, record, plan};
   for (std::size_t row = 0; row < table.size(); ++row) {
     const bool fits = (table[row].causes >> static_cast<unsigned>(problem.cause()) & 1U) != 0;
-    if (!fits || record.tried[row] == table[row].times || !table[row].apply(patient)) continue;
+    if (!fits || record.tried[row] == table[row].times || !table[row].apply(job)) continue;
     ++record.tried[row];
     record.history.push_back(fmt::format("{}: {}", problem.what(), table[row].name));
     return true;

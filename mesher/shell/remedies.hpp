@@ -8,7 +8,6 @@
 
 #include "geometry/cad/cad_shape.hpp"
 #include "mesher/edges/edge_sampling.hpp"
-#include "mesher/edges/tiny_features.hpp"
 #include "mesher/faces/face_problem.hpp"
 #include "mesher/shell/face_mesher.hpp"
 
@@ -35,18 +34,11 @@ struct FaceRecord {
   std::vector<std::string> history;       ///< "cause: remedy" for each remedy applied, in order
 };
 
-/// What remedies may change besides the record of the face.
-struct EdgeTreatment {
-  SamplingPlan plan;   ///< how edges are sampled
-  EdgeFlags collapse;  ///< 1 = the edge becomes a point
-};
-
 /// The length of a face's longest edge.
 double longest_edge(const CadShape& shape, FaceId face);
 
 /// Applies the next remedy in the table that fits the problem of a face and changes something.
-/// \param size the global target size. \return false if no remedy is left.
-bool apply_remedy(const CadShape& shape, const FaceProblem& problem, double size, FaceRecord& record,
-                  EdgeTreatment& edges);
+/// \param plan how edges are sampled. \return false if no remedy is left.
+bool apply_remedy(const CadShape& shape, const FaceProblem& problem, FaceRecord& record, SamplingPlan& plan);
 
 }  // namespace quadrille

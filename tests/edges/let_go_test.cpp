@@ -217,13 +217,13 @@ TEST(LetGo, KeepsAroundAFaceOnRequest) {
   const FaceFlags used(block.face_count(), 1);
   const EdgeFlags none(shape.edges.size());
   LetGo let_go(shape, used, 0.5, none);
-  const TinyFeatures tiny = let_go.find(none, 0);
+  const TinyFeatures tiny = let_go.find(0);
   const auto faces = tiny.merged_faces.ids();
   const auto bevel =
       std::find_if(faces.begin(), faces.end(), [&](FaceId face) { return tiny.merged_faces[face] != 0; });
   ASSERT_NE(bevel, faces.end());
   EXPECT_TRUE(let_go.keep_around(*bevel, {}, tiny));
-  const TinyFeatures after = let_go.find(none, 0);
+  const TinyFeatures after = let_go.find(0);
   EXPECT_EQ(std::count(after.merged_faces.begin(), after.merged_faces.end(), 1), 0);
   EXPECT_EQ(std::count(after.collapsed_edges.begin(), after.collapsed_edges.end(), 1), 0);
   EXPECT_FALSE(let_go.keep_around(face_id(1), {}, after));
