@@ -1,12 +1,15 @@
 #include "geometry/surfaces/contacts.hpp"
 
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <Bnd_Box.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
@@ -178,11 +181,37 @@ class Search {
     }
   }
 
+  /// Whether a face is plane and an edge stays off it: on one side of the plane or, if it is straight,
+  /// through a place of the plane away from the face.
+  bool misses_plane(EdgeId id, FaceId face, double near) const {
+    const BRepAdaptor_Surface surface(TopoDS::Face(shape_.faces[face].face), Standard_False);
+    if (surface.GetType() != GeomAbs_Plane) return false;
+    const Vector3 origin = to_vector(surface.Plane().Location()),
+                  normal = to_vector(surface.Plane().Axis().Direction().XYZ());
+    const Bnd_Box& box = edge_boxes_[id];
+    const Vector3 low = to_vector(box.CornerMin()), high = to_vector(box.CornerMax());
+    const Vector3 middle = 0.5 * (low + high), half = 0.5 * (high - low);
+    if (std::abs((middle - origin).dot(normal)) - half.dot(normal.cwiseAbs()) > near) return true;
+    const CadEdge& edge = shape_.edges[id];
+    const EdgeCurve curve(edge);
+    if (!curve.straight()) return false;
+    const Vector3 a = curve.point(edge.first), b = curve.point(edge.last);
+    const double from = (a - origin).dot(normal), to = (b - origin).dot(normal);
+    if (std::min(std::abs(from), std::abs(to)) > near && from * to > 0) return true;
+    constexpr double steep = 0.1;  // sine of the angle to the plane
+    if (std::abs(to - from) < steep * (b - a).norm()) return false;
+    const Vector3 place = a + from / (from - to) * (b - a);
+    Bnd_Box around = boxes_[face];
+    around.Enlarge(near / steep);
+    return around.IsOut(gp_Pnt(place.x(), place.y(), place.z()));
+  }
+
   /// Whether an edge of one face touches the other.
   bool touch(FaceId edges_of, FaceId face) {
     const CadFace& other = shape_.faces[face];
     for (const EdgeId id : edges_of_[edges_of]) {
-      if (edge_boxes_[id].IsOut(boxes_[face])) continue;
+      const double near = reach(shape_.edges[id].tolerance, other.tolerance);
+      if (edge_boxes_[id].IsOut(boxes_[face]) || misses_plane(id, face, near)) continue;
       if (++tests_ > most_tests) {
         result_.all_tested = false;
         return false;
@@ -190,8 +219,7 @@ class Search {
       context_.check();
       try {
         const BRepExtrema_DistShapeShape distance(shape_.edges[id].edge, other.face);
-        if (distance.IsDone() && distance.Value() <= reach(shape_.edges[id].tolerance, other.tolerance))
-          return true;
+        if (distance.IsDone() && distance.Value() <= near) return true;
       } catch (const Standard_Failure&) {
         // Its distance is unknown. Other edges tell.
       }
