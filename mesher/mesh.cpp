@@ -259,7 +259,8 @@ class Job {
 
   void sample(const SizingField& field) {
     const StageTimer timer(context_, Stage::sample);
-    BoundaryNodes nodes = sample_edges(shape_, field, stride(options_.strategy), used_, plan_, context_);
+    BoundaryNodes nodes =
+        sample_edges(shape_, field, stride(options_.strategy), used_, plan_, context_, &tables_);
     keep_meshes(nodes);
     nodes_ = std::move(nodes);
   }
@@ -562,6 +563,7 @@ class Job {
   SizeLimits limits_;
   ExecutionContext& context_;
   SamplingPlan plan_;
+  EdgeTables tables_;
   FaceFlags used_;
   FaceFlags to_tips_;  ///< 1 = does not end before its tips
   GridRows rows_;

@@ -380,6 +380,10 @@ double size_of_curvature(const SizingOptions& options, const SizeLimits& limits,
   return std::max(limits.size_min, size);
 }
 
+const Budget& SizingField::budget() const {
+  return impl_->budget;
+}
+
 const Budget& SizingField::Sampler::budget() const {
   return impl_.budget;
 }

@@ -117,6 +117,8 @@ class SizingField {
     const Impl& impl_;
   };
 
+  const Budget& budget() const;  ///< what the field was built with
+
  private:
   explicit SizingField(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
   std::shared_ptr<const Impl> impl_;

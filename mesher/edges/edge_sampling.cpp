@@ -101,12 +101,13 @@ double parameter_near_chord(const CadEdge& edge, const EdgeCurve& curve, int k, 
 class EdgeSampler {
  public:
   EdgeSampler(const CadShape& shape, const SizingField& field, int stride, const FaceFlags& used,
-              const SamplingPlan& plan, ExecutionContext& context)
+              const SamplingPlan& plan, ExecutionContext& context, EdgeTables* known)
       : shape_(shape),
         field_(field),
         used_(used),
         plan_(plan),
         context_(context),
+        known_(known),
         n_(shape.edges.size()),
         used_edges_(find_used_edges(shape, used, plan.tiny)) {
     result_.stride = stride;
@@ -159,8 +160,7 @@ class EdgeSampler {
       context_.check();
       const CadEdge& edge = shape_.edges[i];
       if (edge.degenerate || edge.length <= 0 || !used_edges_[i] || plan_.tiny.collapsed_edges[i]) continue;
-      SizingField::Sampler sampler(field_, edge);
-      tables_[i] = tabulate(edge, sampler);
+      tables_[i] = table_of(i);
       const bool even = result_.stride == 1 && edge.is_used(plan_.subdivided);
       const int stride = result_.edges[i].stride = even ? 2 : result_.stride;
       bool is_finer = false;
@@ -175,7 +175,7 @@ class EdgeSampler {
       if (plan_.factor[i] > 1) wanted = std::max(wanted, 1.0) * plan_.factor[i];
       if (along_chord(i)) wanted *= chord_of(edge) / edge.length;
       segments += result_.stride * wanted;
-      hold_segments(segments, sampler.budget(), edge);
+      hold_segments(segments, field_.budget(), edge);
       const double turning = plan_.bare[i] ? 0 : tables_[i].turning;
       wishes_.least[i] =
           least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], result_.stride);
@@ -192,6 +192,17 @@ class EdgeSampler {
             stride * least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride));
       }
     }
+  }
+
+  CountTable table_of(EdgeId id) {
+    const auto make = [&] {
+      SizingField::Sampler sampler(field_, shape_.edges[id]);
+      return tabulate(shape_.edges[id], sampler);
+    };
+    if (known_ == nullptr) return make();
+    known_->resize(n_);
+    if ((*known_)[id].counts.empty()) (*known_)[id] = make();
+    return (*known_)[id];
   }
 
   bool is_prescribed(EdgeId edge) const {
@@ -308,7 +319,8 @@ class EdgeSampler {
   const FaceFlags& used_;
   const SamplingPlan& plan_;
   ExecutionContext& context_;
-  std::size_t n_;  // edges
+  EdgeTables* known_;  // may be null
+  std::size_t n_;      // edges
   EdgeFlags used_edges_;
   IdVector<EdgeId, CountTable> tables_;
   CountWishes wishes_;
@@ -327,8 +339,8 @@ SamplingPlan::SamplingPlan(const CadShape& shape)
       tiny(find_tiny_features(shape, FaceFlags(shape.faces.size(), 1), EdgeFlags(shape.edges.size()), 0)) {}
 
 BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int stride, const FaceFlags& used,
-                           const SamplingPlan& plan, ExecutionContext& context) {
-  return EdgeSampler(shape, field, stride, used, plan, context).run();
+                           const SamplingPlan& plan, ExecutionContext& context, EdgeTables* known) {
+  return EdgeSampler(shape, field, stride, used, plan, context, known).run();
 }
 
 }  // namespace quadrille

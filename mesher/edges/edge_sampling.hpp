@@ -11,6 +11,7 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/edge_spacing.hpp"
 #include "geometry/sizing/sizing_field.hpp"
+#include "mesher/edges/count_table.hpp"
 #include "mesher/edges/face_sides.hpp"
 #include "mesher/edges/tiny_features.hpp"
 #include "mesher/edges/tips.hpp"
@@ -70,10 +71,14 @@ struct SamplingPlan {
   PrescribedEdges prescribed;  ///< user divisions; may be empty
 };
 
+/// The tables of edges by the sizing field alone, as far as they are known.
+using EdgeTables = IdVector<EdgeId, CountTable>;
+
 /// Samples the edges of the used faces, by true arc length and the sizing field.
 /// \param stride see BoundaryNodes::stride
 /// \param used 1 = the face is meshed; 0 for all faces that plan.tiny merges.
+/// \param known of the same shape and field; filled in, so that sampling again takes less
 BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int stride, const FaceFlags& used,
-                           const SamplingPlan& plan, ExecutionContext& context);
+                           const SamplingPlan& plan, ExecutionContext& context, EdgeTables* known = nullptr);
 
 }  // namespace quadrille
