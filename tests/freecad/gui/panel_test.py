@@ -18,11 +18,12 @@ from PySide import QtCore, QtGui
 
 import quadrille.freecad
 from case import GuiCase, picture, run, type_into
-from driver import Boxes, close_panel, find, process, trigger, wait_for
+from driver import Boxes, close_panel, find, process, trigger, turn_wheel, wait_for, window
 from quadrille.core import command, quality
 from quadrille.core.setting_table import SETTINGS
 from quadrille.document import links, shapes, state
 from quadrille.document.state import is_quad_mesh
+from quadrille.features import mesh_object as core
 from quadrille.gui import commands, overlays, preferences
 from quadrille.gui.task_panel import MeshPanel
 
@@ -107,6 +108,26 @@ class PanelTest(GuiCase):
         type_into("QuadrilleSize", "0.25")  # inches now
         close_panel()
         self.assertAlmostEqual(mesh.Size.Value, 6.35, 9)
+
+    def test_the_wheel_changes_nothing(self):
+        self.open_panel(self.box())
+        for name in ("QuadrilleRefinements", "QuadrilleMore"):
+            find(name).setChecked(True)
+        process(0.3)
+        find("QuadrilleLog").setFocus()
+        fields = [field for kind in (QtGui.QAbstractSpinBox, QtGui.QComboBox) for name in core.defaults()
+                  for field in window().findChildren(kind, f"Quadrille{name}")]
+        self.assertGreater(len(fields), 5)
+        for field in fields:
+            shown = field.currentIndex() if isinstance(field, QtGui.QComboBox) else field.value()
+            for clicks in (-1, 1):
+                self.assertFalse(turn_wheel(field, clicks), field.objectName())
+                self.assertEqual(field.currentIndex() if isinstance(field, QtGui.QComboBox) else field.value(), shown)
+        field = find("QuadrilleElementsPerCircle")
+        field.setFocus()
+        before = field.value()
+        turn_wheel(field, 1)
+        self.assertNotEqual(field.value(), before)  # a field with the focus follows the wheel
 
     def test_nonsense_for_a_size(self):
         self.open_panel(self.box())

@@ -9,6 +9,7 @@ from PySide import QtCore, QtGui
 
 from ..core import quality
 from . import QT_TRANSLATE_NOOP, drawn_icon, overlays, standard_buttons, translate
+from .wheel import calm
 
 WORST = 20
 BINS = 20
@@ -266,6 +267,7 @@ class QualityPanel:
     def __init__(self, mesh) -> None:
         self.quality = QualityWidget(mesh)
         self.form = self.quality
+        calm(self.form)
         self.form.setWindowTitle(translate("Quadrille", "Quality of {}").format(mesh.Label))
         self.form.setWindowIcon(drawn_icon("quadrille_quality"))
         self.quality.color.setChecked(True)

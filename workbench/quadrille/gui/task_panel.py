@@ -30,6 +30,7 @@ from .session import Session
 from .setting_widgets import setting_widgets
 from .size_preview import SizePreview
 from .thin_hint import thin_hint
+from .wheel import calm
 
 _POLL_MILLISECONDS = 10
 #: Delay before a mesher is started to stand by, after opening and after meshing, which it would slow down.
@@ -151,6 +152,7 @@ class MeshPanel:
         layout.addWidget(_section("QuadrilleMore", translate("Quadrille", "More settings"), holder, changed))
         layout.addWidget(self.quality)
         layout.addStretch()
+        calm(self.form)
 
     def _load(self) -> None:
         wanted = state.wanted_of(self.mesh)
