@@ -4,6 +4,14 @@
 <context>
     <name>Quadrille</name>
     <message>
+        <source>Show part / mesh</source>
+        <translation>Teil / Netz zeigen</translation>
+    </message>
+    <message>
+        <source>Shows the mesh in place of the part, or the part in place of the mesh</source>
+        <translation>Zeigt das Netz anstelle des Teils oder das Teil anstelle des Netzes</translation>
+    </message>
+    <message>
         <source>open a document first</source>
         <translation>zuerst ein Dokument öffnen</translation>
     </message>

@@ -4,6 +4,14 @@
 <context>
     <name>Quadrille</name>
     <message>
+        <source>Show part / mesh</source>
+        <translation>Afficher pièce / maillage</translation>
+    </message>
+    <message>
+        <source>Shows the mesh in place of the part, or the part in place of the mesh</source>
+        <translation>Affiche le maillage à la place de la pièce, ou la pièce à la place du maillage</translation>
+    </message>
+    <message>
         <source>open a document first</source>
         <translation>ouvrez d'abord un document</translation>
     </message>

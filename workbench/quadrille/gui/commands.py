@@ -18,9 +18,10 @@ from ..document.state import is_quad_mesh, is_surface_mesh, part_of, source_of
 from ..features import adaption, middle, surfaces
 from ..features import mesh_object as core
 from ..features import views as features_views
-from . import (QT_TRANSLATE_NOOP, do, icon, links_text, overlays, path_of, preferences, progress_bar, tell, transaction,
+from . import (QT_TRANSLATE_NOOP, do, icon, links_text, mesh_clicks, overlays, path_of, preferences, progress_bar, tell, transaction,
                translate, views)
 from .length_field import LengthField
+from .mesh_clicks import picked
 
 TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Surface", "Quadrille_Refine", "Quadrille_Quality",
            "Quadrille_Normals", "Quadrille_Flip", "Quadrille_Adapt", "Quadrille_Export"]
@@ -29,11 +30,6 @@ FORMATS = {
     "CalculiX, Abaqus": "inp", "Gmsh": "msh", "I-DEAS universal": "unv", "MED (Salome, Code_Aster)": "med",
     "VTK XML (ParaView)": "vtu", "VTK legacy": "vtk", "Nastran": "bdf",
 }
-
-
-def picked(document) -> list:
-    """The selection in a document as picks, see picks.py."""
-    return picks.picks_of(FreeCADGui.Selection.getSelectionEx(document.Name, 0))
 
 
 def mesh_in_question(with_surfaces: bool = False):
@@ -439,6 +435,7 @@ COMMANDS = {command.name: command for command in (MiddleCommand, MeshCommand, Su
 def register() -> None:
     """Registers the commands with FreeCAD, unless it knows them already, and the views of the objects that they make."""
     features_views.use(lambda: views)
+    mesh_clicks.watch()
     known = FreeCADGui.listCommands()
     for name, command in COMMANDS.items():
         if name not in known:

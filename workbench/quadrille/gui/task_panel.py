@@ -18,7 +18,7 @@ from ..core.setting_table import default_size
 from ..document import groups, links, old_documents, picks, shapes, state
 from ..features import mesh_object as core
 from ..solvers import results
-from . import do, drawn_icon, links_text, path_of, preferences, standard_buttons, tell, translate
+from . import do, drawn_icon, links_text, mesh_clicks, path_of, preferences, standard_buttons, tell, translate
 from .entry_rows import EntryRows
 from .entry_rows import PROPERTIES as ENTRIES
 from .face_counts import FaceCounts
@@ -95,6 +95,9 @@ class MeshPanel:
         self.mesh_button.setIcon(drawn_icon("quadrille_mesh"))
         self.stop_button = _button("QuadrilleStop", translate("Quadrille", "Stop"), translate("Quadrille", "Ends the mesher"))
         self.stop_button.setEnabled(False)
+        self.show_other = _button("QuadrilleShowOther", translate("Quadrille", "Show part / mesh"),
+                                  translate("Quadrille", "Shows the mesh in place of the part, or the part in place of the mesh"))
+        self.show_other.clicked.connect(lambda *_: mesh_clicks.toggle(self.mesh))
         self.bar = QtGui.QProgressBar()
         self.bar.setObjectName("QuadrilleProgress")
         self.log = QtGui.QPlainTextEdit()
@@ -134,6 +137,7 @@ class MeshPanel:
         layout.addWidget(_section("QuadrilleByFace", translate("Quadrille", "Expected by face"), self.by_face, False))
         layout.addWidget(self.preview)
         layout.addWidget(_beside(self.mesh_button, self.stop_button))
+        layout.addWidget(self.show_other)
         layout.addWidget(self.bar)
         layout.addWidget(self.log)
         listed = QtGui.QWidget()
@@ -270,10 +274,9 @@ class MeshPanel:
 
     def _picked(self, *kinds: str) -> list:
         """The names of the selected elements of these kinds on the part. Tells the user if there are none."""
-        selection = FreeCADGui.Selection.getSelectionEx(self._document_name, 0)
         try:
             part = state.part_of(self.mesh)
-            names = picks.elements_of(part, picks.picks_of(selection))
+            names = picks.elements_of(part, mesh_clicks.picked(self.mesh.Document))
         except Error as error:
             tell(str(error))
             return []
