@@ -2,7 +2,7 @@
 """The commands of the workbench. What a click does runs through FreeCADGui.doCommand, so that macros record it."""
 
 from pathlib import Path
-from typing import Optional
+from typing import Dict, Optional
 
 import FreeCAD
 import FreeCADGui
@@ -14,6 +14,7 @@ from ..core.errors import Error
 from ..core.jobs import find_mesher
 from ..core.setting_table import ORDERS, default_size
 from ..document import picks, regions
+from ..document.groups import analysis_of
 from ..document.state import is_quad_mesh, is_surface_mesh, part_of, source_of
 from ..features import adaption, middle, surfaces
 from ..features import mesh_object as core
@@ -143,6 +144,11 @@ class MeshCommand(_Command):
             self._edit = selected[0]
             return
         analysis = active_analysis(document)
+        there = [obj for obj in document.Objects if len(selected) == 1 and is_quad_mesh(obj) and obj.Shape == selected[0]
+                 and (analysis is None or analysis_of(obj) in (None, analysis))]
+        if there:
+            self._edit = there[-1]
+            return
         for part in selected:
             core.check_part(part, analysis)
         find_mesher()
@@ -180,14 +186,7 @@ class MiddleCommand(_Command):
         analysis = active_analysis(document)
         options = {"join": True} if len(selected) > 1 else {}
         part = _one_part(selected)
-        try:
-            middle.prepare(part, **options)
-        except Error as error:
-            if not middle.is_partly_thin(error) or not self.ask(
-                    translate("Quadrille", "{}. Take what could be paired?").format(error)):
-                raise
-            options["partial"] = True
-            middle.prepare(part, **options)
+        self.find_middle(part, options)
         if analysis is not None:
             loads = middle.referring_to(part, analysis)
             if loads and self.ask(translate("Quadrille", "{} are on {}. Put them on its middle surface?").format(
@@ -198,6 +197,24 @@ class MiddleCommand(_Command):
         made = [obj for obj in document.Objects if middle.is_middle(obj)][-1]
         FreeCADGui.Selection.clearSelection()
         FreeCADGui.Selection.addSelection(made)
+
+    @classmethod
+    def find_middle(cls, part, options: Optional[Dict[str, bool]] = None) -> None:
+        """Does the long work, before anything is changed. Sets options["partial"] if the user agrees to that. What has been found
+        already is not searched again."""
+        options = {} if options is None else options
+        if not options and middle.is_prepared(part, partial=True):
+            options["partial"] = True
+        if middle.is_prepared(part, **options):
+            return
+        try:
+            middle.prepare(part, **options)
+        except Error as error:
+            if not middle.is_partly_thin(error) or not cls.ask(
+                    translate("Quadrille", "{}. Take what could be paired?").format(error)):
+                raise
+            options["partial"] = True
+            middle.prepare(part, **options)
 
     @staticmethod
     def ask(question: str) -> bool:
@@ -378,6 +395,7 @@ class AdaptCommand(_Command):
     accelerator = "Q, A"
     pixmap = "quadrille_adapt"
     step = "Adapt mesh to results"
+    _word = ""  #: what has been done, for a box
 
     def run(self) -> None:
         mesh = _meshed_in_question()
@@ -385,9 +403,25 @@ class AdaptCommand(_Command):
         if percent is None:
             return
         with progress_bar(translate("Quadrille", "Adapting {}").format(mesh.Label)) as progress:
-            adaption.prepare(mesh, error=percent / 100, progress=progress)
+            estimate = adaption.prepare(mesh, error=percent / 100, progress=progress)
+        token = mesh.MeshToken
         do("import quadrille.adaption")
         do(f"quadrille.adaption.adapt({path_of(mesh)}, error={percent / 100!r})")
+        error = f"{100 * estimate.error:.3g}"
+        if mesh.MeshToken == token:
+            self._word = translate("Quadrille", "{}: the estimated error is {} %, below the one wanted: the mesh stays.").format(
+                mesh.Label, error)
+        else:
+            self._word = translate("Quadrille", "{}: the estimated error was {} %; now there are {} quads: solve again.").format(
+                mesh.Label, error, mesh.QuadCount)
+        mesh.ViewObject.show()
+        if mesh.Shape is not None:
+            mesh.Shape.ViewObject.hide()
+
+    def afterwards(self) -> None:
+        word, self._word = self._word, ""
+        if word:
+            QtGui.QMessageBox.information(FreeCADGui.getMainWindow(), "Quadrille", word)
 
     @staticmethod
     def ask(mesh) -> Optional[float]:

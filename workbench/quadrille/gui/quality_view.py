@@ -122,7 +122,11 @@ class QualityWidget(QtGui.QWidget):
             (translate("Quadrille", "Outside limits"), f"{mesh.OutsidePercent:.2f} %"),
             (translate("Quadrille", "Mesher's time"), f"{mesh.Seconds:.2f} s"),
         ))
-        self.status.setText(translate("QuadrilleStatus", mesh.Status))
+        self.show_status(mesh.Status)
+
+    def show_status(self, status: str) -> None:
+        """Shows a status, one of those that the property Status has."""
+        self.status.setText(translate("QuadrilleStatus", status))
 
     def fill_elements(self) -> None:
         """Measures each element, for the histogram, the criteria and the worst ones."""

@@ -256,8 +256,16 @@ class MeshPanel:
             self.estimate.setText(str(error))
             self.by_face.show_counts({})
             return
+        self._show_status(wanted, found)
         self.by_face.show_counts(counts)
         self._show_count(sum(counts.values()))
+
+    def _show_status(self, wanted: state.Wanted, found) -> None:
+        """Says whether the mesh is that of the settings in the panel, which the document may not have yet."""
+        status = self.mesh.Status
+        if status in (state.UP_TO_DATE, state.SETTINGS_CHANGED) and self.mesh.MeshedSettings:
+            same = state.same_settings(state.settings_key(self.mesh, wanted, found), self.mesh.MeshedSettings)
+            self.quality.show_status(state.UP_TO_DATE if same else state.SETTINGS_CHANGED)
 
     def _show_count(self, count: float) -> None:
         self.estimate.setText(translate("Quadrille", "about {} quads").format(_rounded(round(count))))
