@@ -549,8 +549,10 @@ class GuiTest(GuiCase):
         FemGui.setActiveAnalysis(analysis)
         mesh = self.meshed(box)
         self.assertIn(mesh, analysis.Group)
+        other = self.document.addObject("Part::Box", "Other")
+        self.document.recompute()
         FreeCADGui.Selection.clearSelection()
-        FreeCADGui.Selection.addSelection(box)
+        FreeCADGui.Selection.addSelection(other)
         self.assertIn("one mesh only", self.message("Quadrille_Mesh"))
 
     def test_the_part_is_deleted(self):

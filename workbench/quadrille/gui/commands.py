@@ -2,7 +2,7 @@
 """The commands of the workbench. What a click does runs through FreeCADGui.doCommand, so that macros record it."""
 
 from pathlib import Path
-from typing import Dict, Optional
+from typing import Optional
 
 import FreeCAD
 import FreeCADGui
@@ -19,8 +19,8 @@ from ..document.state import is_quad_mesh, is_surface_mesh, part_of, source_of
 from ..features import adaption, middle, surfaces
 from ..features import mesh_object as core
 from ..features import views as features_views
-from . import (QT_TRANSLATE_NOOP, do, icon, links_text, mesh_clicks, overlays, path_of, preferences, progress_bar, tell, transaction,
-               translate, views)
+from . import (QT_TRANSLATE_NOOP, do, icon, links_text, mesh_clicks, middle_search, overlays, path_of, preferences,
+               progress_bar, tell, transaction, translate, views)
 from .length_field import LengthField
 from .mesh_clicks import picked
 
@@ -186,7 +186,7 @@ class MiddleCommand(_Command):
         analysis = active_analysis(document)
         options = {"join": True} if len(selected) > 1 else {}
         part = _one_part(selected)
-        self.find_middle(part, options)
+        middle_search.find(part, options, self.ask)
         if analysis is not None:
             loads = middle.referring_to(part, analysis)
             if loads and self.ask(translate("Quadrille", "{} are on {}. Put them on its middle surface?").format(
@@ -198,29 +198,8 @@ class MiddleCommand(_Command):
         FreeCADGui.Selection.clearSelection()
         FreeCADGui.Selection.addSelection(made)
 
-    @classmethod
-    def find_middle(cls, part, options: Optional[Dict[str, bool]] = None) -> None:
-        """Does the long work, before anything is changed. Sets options["partial"] if the user agrees to that. What has been found
-        already is not searched again."""
-        options = {} if options is None else options
-        if not options and middle.is_prepared(part, partial=True):
-            options["partial"] = True
-        if middle.is_prepared(part, **options):
-            return
-        try:
-            middle.prepare(part, **options)
-        except Error as error:
-            if not middle.is_partly_thin(error) or not cls.ask(
-                    translate("Quadrille", "{}. Take what could be paired?").format(error)):
-                raise
-            options["partial"] = True
-            middle.prepare(part, **options)
-
-    @staticmethod
-    def ask(question: str) -> bool:
-        """Asks a yes-or-no question in a message box."""
-        buttons = QtGui.QMessageBox.Yes | QtGui.QMessageBox.No
-        return QtGui.QMessageBox.question(FreeCADGui.getMainWindow(), "Quadrille", question, buttons) == QtGui.QMessageBox.Yes
+    #: Asks a yes-or-no question in a message box.
+    ask = staticmethod(middle_search.ask)
 
 
 class SurfaceCommand(_Command):

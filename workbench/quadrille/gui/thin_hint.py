@@ -9,7 +9,7 @@ from PySide import QtCore, QtGui
 from ..core.errors import Error
 from ..document.shapes import estimate_of
 from ..features.middle import looks_thin
-from . import tell, translate
+from . import middle_search, tell, translate
 
 
 def thin_hint(part, close: Callable[[], object]) -> Optional[QtGui.QLabel]:
@@ -28,10 +28,8 @@ def thin_hint(part, close: Callable[[], object]) -> Optional[QtGui.QLabel]:
     label.setWordWrap(True)
 
     def make(_link: str) -> None:
-        from .commands import MiddleCommand
-
         try:
-            MiddleCommand.find_middle(part)
+            middle_search.find(part, {})
         except Error as error:
             if error.kind != "cancelled":
                 tell(str(error))
