@@ -4,6 +4,30 @@
 <context>
     <name>Quadrille</name>
     <message>
+        <source>Mesh again</source>
+        <translation>Erneut vernetzen</translation>
+    </message>
+    <message>
+        <source>Mesh all stale meshes again</source>
+        <translation>Alle veralteten Netze erneut vernetzen</translation>
+    </message>
+    <message>
+        <source>{}: the estimated error is {} %, below the one wanted: the mesh stays.</source>
+        <translation>{}: Der geschätzte Fehler ist {} %, unter dem gewünschten: Das Netz bleibt.</translation>
+    </message>
+    <message>
+        <source>{}: the estimated error was {} %; now there are {} quads: solve again.</source>
+        <translation>{}: Der geschätzte Fehler war {} %; jetzt sind es {} Vierecke: neu rechnen.</translation>
+    </message>
+    <message>
+        <source>Show part / mesh</source>
+        <translation>Teil / Netz zeigen</translation>
+    </message>
+    <message>
+        <source>Shows the mesh in place of the part, or the part in place of the mesh</source>
+        <translation>Zeigt das Netz anstelle des Teils oder das Teil anstelle des Netzes</translation>
+    </message>
+    <message>
         <source>open a document first</source>
         <translation>zuerst ein Dokument öffnen</translation>
     </message>
@@ -356,8 +380,8 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>{} liegen auf {}. Auf dessen Mittelfläche übertragen?</translation>
     </message>
     <message>
-        <source>{} looks like a thin solid, of about {} mm: its skin is a hollow box, and shell stresses on it mean nothing.</source>
-        <translation>{} sieht aus wie ein dünner Körper von etwa {} mm: Seine Haut ist ein hohler Kasten, und Schalenspannungen darauf besagen nichts.</translation>
+        <source>{} may be a thin solid, of about {} mm: its skin is then a hollow box, and shell stresses on it mean nothing.</source>
+        <translation>{} ist vielleicht ein dünner Körper von etwa {} mm: Seine Haut ist dann ein hohler Kasten, und Schalenspannungen darauf besagen nichts.</translation>
     </message>
     <message>
         <source>Make its middle surface</source>

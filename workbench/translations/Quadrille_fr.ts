@@ -4,6 +4,30 @@
 <context>
     <name>Quadrille</name>
     <message>
+        <source>Mesh again</source>
+        <translation>Mailler à nouveau</translation>
+    </message>
+    <message>
+        <source>Mesh all stale meshes again</source>
+        <translation>Mailler à nouveau tous les maillages périmés</translation>
+    </message>
+    <message>
+        <source>{}: the estimated error is {} %, below the one wanted: the mesh stays.</source>
+        <translation>{} : l’erreur estimée est de {} %, sous celle voulue : le maillage reste.</translation>
+    </message>
+    <message>
+        <source>{}: the estimated error was {} %; now there are {} quads: solve again.</source>
+        <translation>{} : l’erreur estimée était de {} % ; il y a maintenant {} quadrangles : recalculer.</translation>
+    </message>
+    <message>
+        <source>Show part / mesh</source>
+        <translation>Afficher pièce / maillage</translation>
+    </message>
+    <message>
+        <source>Shows the mesh in place of the part, or the part in place of the mesh</source>
+        <translation>Affiche le maillage à la place de la pièce, ou la pièce à la place du maillage</translation>
+    </message>
+    <message>
         <source>open a document first</source>
         <translation>ouvrez d'abord un document</translation>
     </message>
@@ -356,8 +380,8 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>{} portent sur {}. Les reporter sur sa surface moyenne ?</translation>
     </message>
     <message>
-        <source>{} looks like a thin solid, of about {} mm: its skin is a hollow box, and shell stresses on it mean nothing.</source>
-        <translation>{} ressemble à un solide mince d’environ {} mm : sa peau est une boîte creuse, et des contraintes de coque y sont dépourvues de sens.</translation>
+        <source>{} may be a thin solid, of about {} mm: its skin is then a hollow box, and shell stresses on it mean nothing.</source>
+        <translation>{} est peut-être un solide mince d’environ {} mm : sa peau est alors une boîte creuse, et des contraintes de coque y sont dépourvues de sens.</translation>
     </message>
     <message>
         <source>Make its middle surface</source>

@@ -65,6 +65,32 @@ def find(name):
     return found[0]
 
 
+def turn_wheel(widget, clicks=-1):
+    """Turns the mouse wheel above a widget. Returns whether it took the event; else Qt passes it on to what scrolls."""
+    at = QtCore.QPointF(widget.rect().center())
+    event = QtGui.QWheelEvent(at, QtCore.QPointF(widget.mapToGlobal(at.toPoint())), QtCore.QPoint(), QtCore.QPoint(0, 120 * clicks),
+                              QtCore.Qt.NoButton, QtCore.Qt.NoModifier, QtCore.Qt.NoScrollPhase, False)
+    QtCore.QCoreApplication.sendEvent(widget, event)
+    process()
+    return event.isAccepted()
+
+
+def click_at(point):
+    """Clicks with the mouse on a point of the model in the 3-D view."""
+    view = FreeCADGui.activeDocument().activeView()
+    canvas = view.graphicsView().viewport()
+    across, up = view.getPointOnScreen(point)
+    ratio = canvas.devicePixelRatioF()
+    at = QtCore.QPointF(across / ratio, canvas.height() - 1 - up / ratio)
+    for kind, button, buttons in ((QtCore.QEvent.MouseMove, QtCore.Qt.NoButton, QtCore.Qt.NoButton),
+                                  (QtCore.QEvent.MouseButtonPress, QtCore.Qt.LeftButton, QtCore.Qt.LeftButton),
+                                  (QtCore.QEvent.MouseButtonRelease, QtCore.Qt.LeftButton, QtCore.Qt.NoButton)):
+        place = QtCore.QPointF(canvas.mapToGlobal(at.toPoint()))
+        event = QtGui.QMouseEvent(kind, at, place, button, buttons, QtCore.Qt.NoModifier)
+        QtCore.QCoreApplication.sendEvent(canvas, event)
+        process(0.1)
+
+
 def close_panel(button=None):
     """Presses OK in the task panel (Close where there is no OK), or another button; FreeCAD 1.1 slides the panel in."""
     wanted = [button] if button is not None else [QtGui.QDialogButtonBox.Ok, QtGui.QDialogButtonBox.Close]

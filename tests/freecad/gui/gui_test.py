@@ -17,12 +17,12 @@ import FreeCADGui
 import Fem
 import ObjectsFem
 import Part
-from PySide import QtGui
+from PySide import QtCore, QtGui
 
 import quadrille.core.quality
 import quadrille.freecad
 from case import MODELS, GuiCase, picture, run, type_size
-from driver import Boxes, close_panel, find, process, trigger, wait_for, window
+from driver import Boxes, click_at, close_panel, find, process, trigger, wait_for, window
 from quadrille.core.setting_table import SETTINGS
 from quadrille.document.state import is_quad_mesh
 from quadrille.gui import commands, overlays
@@ -322,6 +322,46 @@ class GuiTest(GuiCase):
         self.document.recompute()
         self.assertIn("changed", mesh.Status)
 
+    def test_a_body_in_a_container_is_meshed_alone(self):
+        container = self.document.addObject("App::Part", "Container")
+        body = self.document.addObject("PartDesign::Body", "Body")
+        container.addObject(body)
+        other = self.document.addObject("Part::Box", "Other")
+        other.Placement.Base.x = 30
+        container.addObject(other)
+        block = body.newObject("PartDesign::AdditiveBox", "Block")
+        block.Length = block.Width = block.Height = 10
+        self.document.recompute()
+        self.show()
+        click_at(FreeCAD.Vector(5, 5, 10))
+        with Boxes() as boxes:
+            trigger("Quadrille_Mesh")
+        self.assertEqual(boxes.texts, [])
+        mesh = next(obj for obj in self.document.Objects if is_quad_mesh(obj))
+        self.assertEqual(mesh.Shape, body)
+        close_panel()
+
+    def test_a_click_on_the_mesh_means_the_part(self):
+        box = self.box()
+        mesh = self.open_panel(box)
+        find("QuadrilleSize").setText("2 mm")
+        self.press_mesh()
+        self.assertFalse(box.ViewObject.Visibility)
+        self.show()
+        find("QuadrilleRefinements").setChecked(True)
+        # The second click on a face selects the whole mesh in FreeCAD.
+        for point, name in (((5.3, 5.4, 10), "Face6"), ((3.2, 3.1, 10), "Face6"), ((10, 5, 5), "Face2"), ((10, 5, 10), "Edge6"),
+                            ((10, 0, 10), "Vertex5")):
+            click_at(FreeCAD.Vector(*point))
+            find("QuadrilleAddRefinement").click()
+            row = len(window().findChildren(QtGui.QLineEdit, QtCore.QRegularExpression("^QuadrilleRefinedName")))
+            self.assertEqual(find(f"QuadrilleRefinedName{row - 1}").text(), name)
+        find("QuadrilleShowOther").click()
+        self.assertEqual((box.ViewObject.Visibility, mesh.ViewObject.Visibility), (True, False))
+        find("QuadrilleShowOther").click()
+        self.assertEqual((box.ViewObject.Visibility, mesh.ViewObject.Visibility), (False, True))
+        close_panel()
+
     def test_every_face_of_a_body_is_known(self):
         body, _ = self.body()
         mesh = quadrille.freecad.mesh_object(body, size=2)
@@ -509,8 +549,10 @@ class GuiTest(GuiCase):
         FemGui.setActiveAnalysis(analysis)
         mesh = self.meshed(box)
         self.assertIn(mesh, analysis.Group)
+        other = self.document.addObject("Part::Box", "Other")
+        self.document.recompute()
         FreeCADGui.Selection.clearSelection()
-        FreeCADGui.Selection.addSelection(box)
+        FreeCADGui.Selection.addSelection(other)
         self.assertIn("one mesh only", self.message("Quadrille_Mesh"))
 
     def test_the_part_is_deleted(self):

@@ -20,6 +20,7 @@ from PySide import QtCore
 from case import GuiCase, picture, run
 from driver import Boxes, cancel_bars, close_panel, find, process, trigger, wait_for, window
 from quadrille.core.command import VERSION
+from quadrille.core.errors import Error
 from quadrille.features import middle
 from quadrille.gui.commands import MiddleCommand
 
@@ -91,7 +92,7 @@ class MiddleTest(GuiCase):
         part = self.sheet()
         self.open_panel(part)
         hint = find("QuadrilleThinHint")
-        self.assertIn("looks like a thin solid", hint.text())
+        self.assertIn("may be a thin solid", hint.text())
         picture("thin_hint")
         hint.linkActivated.emit("middle")
         wait_for(self.surfaces, what="the middle surface")
@@ -103,6 +104,19 @@ class MiddleTest(GuiCase):
         close_panel()
         self.open_panel(self.part(Part.makeBox(10, 10, 10), "Block"))
         self.assertEqual(window().findChildren(type(hint), "QuadrilleThinHint"), [])
+
+    def test_nothing_is_lost_where_there_is_no_middle(self):
+        mesh = self.open_panel(self.sheet())
+        self.press_mesh()
+        quads = mesh.FemMesh.FaceCount
+        refused = Error("Sheet: is not a thin solid", "failure")
+        with mock.patch.object(middle, "prepare", side_effect=refused), Boxes() as boxes:
+            find("QuadrilleThinHint").linkActivated.emit("middle")
+            process(0.3)
+        self.assertEqual(boxes.texts, [str(refused)])
+        self.assertTrue(FreeCADGui.Control.activeDialog())
+        self.assertEqual((self.surfaces(), mesh.FemMesh.FaceCount), ([], quads))
+        close_panel()
 
     def test_what_is_wrong_is_told(self):
         self.assertIn("select one thin part", self.message("Quadrille_Middle"))

@@ -18,11 +18,12 @@ from PySide import QtCore, QtGui
 
 import quadrille.freecad
 from case import GuiCase, picture, run, type_into
-from driver import Boxes, close_panel, find, process, trigger, wait_for
+from driver import Boxes, close_panel, find, process, trigger, turn_wheel, wait_for, window
 from quadrille.core import command, quality
 from quadrille.core.setting_table import SETTINGS
 from quadrille.document import links, shapes, state
 from quadrille.document.state import is_quad_mesh
+from quadrille.features import mesh_object as core
 from quadrille.gui import commands, overlays, preferences
 from quadrille.gui.task_panel import MeshPanel
 
@@ -107,6 +108,60 @@ class PanelTest(GuiCase):
         type_into("QuadrilleSize", "0.25")  # inches now
         close_panel()
         self.assertAlmostEqual(mesh.Size.Value, 6.35, 9)
+
+    def test_the_wheel_changes_nothing(self):
+        self.open_panel(self.box())
+        for name in ("QuadrilleRefinements", "QuadrilleMore"):
+            find(name).setChecked(True)
+        process(0.3)
+        find("QuadrilleLog").setFocus()
+        fields = [field for kind in (QtGui.QAbstractSpinBox, QtGui.QComboBox) for name in core.defaults()
+                  for field in window().findChildren(kind, f"Quadrille{name}")]
+        self.assertGreater(len(fields), 5)
+        for field in fields:
+            shown = field.currentIndex() if isinstance(field, QtGui.QComboBox) else field.value()
+            for clicks in (-1, 1):
+                self.assertFalse(turn_wheel(field, clicks), field.objectName())
+                self.assertEqual(field.currentIndex() if isinstance(field, QtGui.QComboBox) else field.value(), shown)
+        field = find("QuadrilleElementsPerCircle")
+        field.setFocus()
+        before = field.value()
+        turn_wheel(field, 1)
+        self.assertNotEqual(field.value(), before)  # a field with the focus follows the wheel
+
+    def test_status_follows_the_fields(self):
+        mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "2 mm")
+        self.press_mesh()
+        self.assertEqual(find("QuadrilleStatus").text(), state.UP_TO_DATE)
+        type_into("QuadrilleSize", "3 mm")
+        self.assertEqual(find("QuadrilleStatus").text(), state.SETTINGS_CHANGED)
+        type_into("QuadrilleSize", "2 mm")
+        self.assertEqual(find("QuadrilleStatus").text(), state.UP_TO_DATE)
+        close_panel()
+        self.assertEqual(mesh.Status, state.UP_TO_DATE)
+
+    def test_stale_meshes_are_meshed_again_from_the_menu(self):
+        box = self.box()
+        other = self.document.addObject("Part::Box", "Other")
+        self.document.recompute()
+        meshes = [quadrille.freecad.mesh_object(part, size=2) for part in (box, other)]
+        box.Length = other.Length = 12
+        self.document.recompute()
+        for name, count in (("QuadrilleAgain", 1), ("QuadrilleAllAgain", 2)):
+            menu = QtGui.QMenu()
+            meshes[0].ViewObject.Proxy.setupContextMenu(meshes[0].ViewObject, menu)
+            next(action for action in menu.actions() if action.objectName() == name).trigger()
+            process(0.2)
+            self.assertEqual([mesh.Status for mesh in meshes].count(state.UP_TO_DATE), count)
+
+    def test_a_second_mesh_of_a_part_opens_the_first(self):
+        box = self.box()
+        mesh = self.meshed(box)
+        box.ViewObject.show()
+        self.assertEqual(self.open_panel(box), mesh)
+        close_panel()
+        self.assertEqual([obj for obj in self.document.Objects if is_quad_mesh(obj)], [mesh])
 
     def test_nonsense_for_a_size(self):
         self.open_panel(self.box())

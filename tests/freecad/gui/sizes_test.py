@@ -212,7 +212,10 @@ class SizesTest(GuiCase):
         with mock.patch.object(QtGui.QInputDialog, "getDouble", return_value=(2.0, True)):
             with Boxes() as boxes:
                 trigger("Quadrille_Adapt")
-        self.assertEqual(boxes.texts, [])
+        self.assertEqual(len(boxes.texts), 1, boxes.texts)
+        self.assertIn(f"now there are {mesh.QuadCount} quads: solve again", boxes.texts[0])
+        self.assertTrue(mesh.ViewObject.Visibility)
+        self.assertFalse(mesh.Shape.ViewObject.Visibility)
         self.assertGreater(mesh.QuadCount, 2 * quads)
         self.assertEqual(mesh.Status, state.UP_TO_DATE)
         self.assertEqual(self.document.UndoCount, steps + 1)

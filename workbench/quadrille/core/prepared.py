@@ -17,11 +17,17 @@ class Prepared(Generic[Result]):
         """Keeps a result in place of the one before."""
         self._kept = {key: result}
 
-    def make(self, key: Hashable, work: Callable[[], Result]) -> None:
-        """Does the work and keeps its result. What was kept before is gone even if the work fails."""
+    def make(self, key: Hashable, work: Callable[[], Result]) -> Result:
+        """Does the work, keeps its result and returns it. What was kept before is gone even if the work fails."""
         self._kept = {}
-        self.put(key, work())
+        result = work()
+        self.put(key, result)
+        return result
 
     def take(self, key: Hashable) -> Optional[Result]:
         """The result made of this, which is then kept no longer; None if there is none."""
         return self._kept.pop(key, None)
+
+    def has(self, key: Hashable) -> bool:
+        """Whether a result made of this is kept."""
+        return key in self._kept

@@ -60,7 +60,7 @@ def wanted_groups(mesh, fem_mesh) -> Groups:
         sources.append((group.Label if group.UseLabel else group.Name, group))
     if not sources:
         return {}
-    part_groups = _PartGroups(fem_mesh)
+    part_groups = PartGroups(fem_mesh)
     wanted: Groups = {}
     for name, source in sources:
         try:
@@ -86,7 +86,7 @@ def wanted_groups(mesh, fem_mesh) -> Groups:
 def left_out(mesh) -> List[str]:
     """One sentence for each member of the analysis that refers to something that is not in the mesh, since only some faces are
     meshed. FreeCAD's writers would silently omit such loads and supports."""
-    part_groups = _PartGroups(mesh.FemMesh)
+    part_groups = PartGroups(mesh.FemMesh)
     sentences = []
     for member in _members(mesh):
         try:
@@ -109,7 +109,7 @@ def elements_in(fem_mesh, name: str) -> Iterable[int]:
     return ()
 
 
-class _PartGroups:
+class PartGroups:
     """The groups Face1..., Edge1..., Vertex1... of a mesh."""
 
     def __init__(self, fem_mesh) -> None:
@@ -118,10 +118,12 @@ class _PartGroups:
         self._nodes: Dict[str, Set[int]] = {}
 
     def elements(self, name: str) -> Iterable[int]:
+        """The ids in the group of a face, edge or vertex; empty if there is no such group."""
         number = self._numbers.get((name, _KINDS[name.rstrip("0123456789")]))
         return () if number is None else self._mesh.getGroupElements(number)
 
     def nodes(self, name: str) -> Set[int]:
+        """The nodes of a face, edge or vertex."""
         if name not in self._nodes:
             found: Set[int] = set()
             if name.startswith("Vertex"):
@@ -131,6 +133,22 @@ class _PartGroups:
                     found.update(self._mesh.getElementNodes(element))
             self._nodes[name] = found
         return self._nodes[name]
+
+    def vertex_at(self, node: int) -> str:
+        """The vertex that a node stands on; empty if there is none."""
+        return next((name for name in self._of("Vertex") if node in self.elements(name)), "")
+
+    def edge_along(self, start: int, end: int) -> str:
+        """The edge that runs from node to node along the side of an element; empty if there is none."""
+        return next((name for name in self._of("Edge") for element in self.elements(name)
+                     if {start, end} == set(self._mesh.getElementNodes(element)[:2])), "")
+
+    def face_of(self, element: int) -> str:
+        """The face that an element lies on; empty if there is none."""
+        return next((name for name in self._of("Face") if element in self.elements(name)), "")
+
+    def _of(self, kind: str) -> List[str]:
+        return [name for name, _ in self._numbers if name.startswith(kind) and _is_part_group(name)]
 
 
 def _is_part_group(name: str) -> bool:

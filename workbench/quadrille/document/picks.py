@@ -4,13 +4,18 @@ window.
 
 A click on a PartDesign Body picks its topmost feature, and faces are named by feature (`Pocket.Face9`). A click inside a Part
 container names the container first. A pick is followed from the outermost object inward: the first object with its own shape
-is the part. So a Body stays the part when features are added to it."""
+is the part. So a Body stays the part when features are added to it. A container's shape, which holds all that is in it, counts only
+if nothing inside was picked. A pick on a mesh stands for what the mesh has there, see on_mesh()."""
 
 import re
 from typing import Iterable, List, Sequence, Tuple
 
+import FreeCAD
+import numpy as np
+
+from ..core.arrays import faces_of, nodes_of
 from ..core.errors import Error
-from . import shapes
+from . import groups, shapes, state
 
 #: The outermost object, and the path inside it of what is picked: (Body, "Pocket.Face9"), or (Box, "") for the whole object.
 Pick = Tuple[object, str]
@@ -28,10 +33,12 @@ def _plain(name: str) -> str:
 
 def part_of(pick: Pick):
     """The part that a pick lies in."""
-    for obj in along(pick):
-        if hasattr(getattr(obj, "Shape", None), "Faces"):
+    path = along(pick)
+    for obj in path:
+        inside = obj is not path[-1] and obj.isDerivedFrom("App::Part")
+        if state.is_quad_mesh(obj) or not inside and hasattr(getattr(obj, "Shape", None), "Faces"):
             return obj
-    return pick[0]
+    return path[-1]
 
 
 def parts_of(picks: Iterable[Pick]) -> List:
@@ -51,10 +58,10 @@ def elements_of(part, picks: Iterable[Pick]) -> List[str]:
     for pick in picks:
         path = along(pick)
         element = pick[1].split(".")[-1]
-        if part not in path or not element:
+        if not element or part not in path and not _is_mesh_of(part, path[-1]):
             continue
         name = element
-        if path[-1] != part:
+        if path[-1] != part and part in path:
             inner = ".".join(pick[1].split(".")[path.index(part) - len(path):])
             name = shapes.find_element(part.Shape, part.getSubObject(inner))
             if name is None:
@@ -73,7 +80,7 @@ def references_on(part, picks: Sequence[Pick]) -> List[Tuple]:
     for pick in picks:
         path = along(pick)
         element = pick[1].split(".")[-1]
-        if element and part not in path:
+        if element and part not in path and not _is_mesh_of(part, path[-1]):
             references.append((path[-1], (element,)))
     return references
 
@@ -82,3 +89,68 @@ def along(pick: Pick) -> List:
     """The objects along a pick, from the outermost inward."""
     obj, path = pick
     return list(obj.getSubObjectList(path)) if path else [obj]
+
+
+def _is_mesh_of(part, obj) -> bool:
+    return state.is_quad_mesh(obj) and obj.Shape == part
+
+
+# Picks on meshes
+
+#: How near a pick must be to a side or a corner of an element to mean the edge or the vertex there, in mean sides of the element.
+_NEAR_EDGE, _NEAR_VERTEX = 0.2, 0.25
+#: Elements whose distance to a pick is measured: those with the nearest circumscribed spheres.
+_CANDIDATES = 60
+
+
+def on_mesh(mesh, point: Sequence[float]) -> str:
+    """The name of the part's face, edge or vertex that a mesh has at a point, in global coordinates. Empty if it has none there.
+    FreeCAD 0.20 names elements other than those that were clicked, so it is found by the point. Raises Error if the part has
+    changed since it was meshed."""
+    if mesh.Status in (state.PART_CHANGED, state.PART_GONE, state.LOST, state.OTHER_MEANS):
+        raise Error(f"{mesh.Label}: {mesh.Status}; its faces, edges and vertices can be picked on the part alone until then", "usage",
+                    mesh.Name)
+    fem_mesh = mesh.FemMesh
+    ids, sizes, flat = faces_of(fem_mesh)
+    if not ids.size:
+        return ""
+    container = mesh.getParentGeoFeatureGroup()
+    placed = container.getGlobalPlacement() if container is not None else FreeCAD.Placement()
+    at = np.array(tuple(placed.inverse().multVec(FreeCAD.Vector(*point))))
+    numbers, places = nodes_of(fem_mesh)
+    points = np.zeros((numbers.max() + 1, 3))
+    points[numbers] = places
+    nodes = flat[(np.cumsum(sizes) - sizes)[:, None] + np.arange(4)]  # the corners of the quads
+    corners = points[nodes]
+    centers = corners.mean(axis=1)
+    reach = np.linalg.norm(centers - at, axis=1) - np.linalg.norm(corners - centers[:, None], axis=2).max(axis=1)
+    near = np.argsort(reach, kind="stable")[:_CANDIDATES]
+    element = near[np.argmin([_distance_to_quad(corners[index], at) for index in near])]
+    quad, ends = corners[element], nodes[element]
+    unit = float(np.linalg.norm(np.roll(quad, -1, axis=0) - quad, axis=1).mean())
+    part_groups = groups.PartGroups(fem_mesh)
+    to_corners = np.linalg.norm(quad - at, axis=1)
+    if to_corners.min() < _NEAR_VERTEX * unit:
+        name = part_groups.vertex_at(int(ends[to_corners.argmin()]))
+        if name:
+            return name
+    for first, last in ((0, 1), (1, 2), (2, 3), (3, 0)):
+        if _distance_to_side(quad[first], quad[last], at) < _NEAR_EDGE * unit:
+            name = part_groups.edge_along(int(ends[first]), int(ends[last]))
+            if name:
+                return name
+    return part_groups.face_of(int(ids[element]))
+
+
+def _distance_to_quad(quad: np.ndarray, at: np.ndarray) -> float:
+    """The distance from a point to a quad, roughly: to the nearest of many points on it."""
+    share = np.linspace(0, 1, 9)
+    u, v = (grid.reshape(-1, 1) for grid in np.meshgrid(share, share))
+    on = (1 - u) * (1 - v) * quad[0] + u * (1 - v) * quad[1] + u * v * quad[2] + (1 - u) * v * quad[3]
+    return float(np.linalg.norm(on - at, axis=1).min())
+
+
+def _distance_to_side(start: np.ndarray, end: np.ndarray, at: np.ndarray) -> float:
+    along_side = end - start
+    share = np.clip((at - start) @ along_side / max(along_side @ along_side, 1e-300), 0, 1)
+    return float(np.linalg.norm(start + share * along_side - at))

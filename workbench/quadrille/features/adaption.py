@@ -83,10 +83,10 @@ def adapt(mesh, error: float = 0.05, count: Optional[float] = None, result=None,
     return done.estimate
 
 
-def prepare(mesh, error: float = 0.05, count: Optional[float] = None, progress: Optional[Progress] = None) -> None:
+def prepare(mesh, error: float = 0.05, count: Optional[float] = None, progress: Optional[Progress] = None) -> Estimate:
     """Does the work of the adapt() call that follows immediately, while a window shows the progress. The adapt() call itself is
-    then quick, and macros can record it."""
-    _ready.make(_key(mesh), lambda: _prepare(mesh, error, count, None, progress, None))
+    then quick, and macros can record it. Returns what adapt() will."""
+    return _ready.make(_key(mesh), lambda: _prepare(mesh, error, count, None, progress, None)).estimate
 
 
 _ready: Prepared[_Round] = Prepared()

@@ -82,6 +82,11 @@ def prepare(part, partial: bool = False, join: bool = False) -> None:
     _prepared.make(_key(part, partial, join), lambda: _compute(part, partial, join))
 
 
+def is_prepared(part, partial: bool = False, join: bool = False) -> bool:
+    """Whether prepare() has computed the result for a part as it is."""
+    return _prepared.has(_key(part, partial, join))
+
+
 def is_partly_thin(error: Error) -> bool:
     """Whether `partial` would give a result for the part that raised this error."""
     return in_own_words(_PARTIAL) in str(error)
@@ -245,8 +250,10 @@ def _inside(face) -> Tuple[float, float]:
 _prepared: Prepared[_Result] = Prepared()
 
 
-def _key(part, partial: bool, join: bool) -> Tuple[str, str, bool, bool]:
-    return (part.Document.Name, part.Name, partial, join)
+def _key(part, partial: bool, join: bool) -> Tuple[str, str, int, bool, bool]:
+    shape = getattr(part, "Shape", None)
+    number = shape.hashCode() if hasattr(shape, "hashCode") else 0  # another one after the part was recomputed
+    return (part.Document.Name, part.Name, number, partial, join)
 
 
 def _compute(part, partial: bool, join: bool) -> _Result:

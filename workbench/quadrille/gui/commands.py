@@ -14,13 +14,15 @@ from ..core.errors import Error
 from ..core.jobs import find_mesher
 from ..core.setting_table import ORDERS, default_size
 from ..document import picks, regions
+from ..document.groups import analysis_of
 from ..document.state import is_quad_mesh, is_surface_mesh, part_of, source_of
 from ..features import adaption, middle, surfaces
 from ..features import mesh_object as core
 from ..features import views as features_views
-from . import (QT_TRANSLATE_NOOP, do, icon, links_text, overlays, path_of, preferences, progress_bar, tell, transaction,
-               translate, views)
+from . import (QT_TRANSLATE_NOOP, do, icon, links_text, mesh_clicks, middle_search, overlays, path_of, preferences,
+               progress_bar, tell, transaction, translate, views)
 from .length_field import LengthField
+from .mesh_clicks import picked
 
 TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Surface", "Quadrille_Refine", "Quadrille_Quality",
            "Quadrille_Normals", "Quadrille_Flip", "Quadrille_Adapt", "Quadrille_Export"]
@@ -29,11 +31,6 @@ FORMATS = {
     "CalculiX, Abaqus": "inp", "Gmsh": "msh", "I-DEAS universal": "unv", "MED (Salome, Code_Aster)": "med",
     "VTK XML (ParaView)": "vtu", "VTK legacy": "vtk", "Nastran": "bdf",
 }
-
-
-def picked(document) -> list:
-    """The selection in a document as picks, see picks.py."""
-    return picks.picks_of(FreeCADGui.Selection.getSelectionEx(document.Name, 0))
 
 
 def mesh_in_question(with_surfaces: bool = False):
@@ -147,6 +144,11 @@ class MeshCommand(_Command):
             self._edit = selected[0]
             return
         analysis = active_analysis(document)
+        there = [obj for obj in document.Objects if len(selected) == 1 and is_quad_mesh(obj) and obj.Shape == selected[0]
+                 and (analysis is None or analysis_of(obj) in (None, analysis))]
+        if there:
+            self._edit = there[-1]
+            return
         for part in selected:
             core.check_part(part, analysis)
         find_mesher()
@@ -184,14 +186,7 @@ class MiddleCommand(_Command):
         analysis = active_analysis(document)
         options = {"join": True} if len(selected) > 1 else {}
         part = _one_part(selected)
-        try:
-            middle.prepare(part, **options)
-        except Error as error:
-            if not middle.is_partly_thin(error) or not self.ask(
-                    translate("Quadrille", "{}. Take what could be paired?").format(error)):
-                raise
-            options["partial"] = True
-            middle.prepare(part, **options)
+        middle_search.find(part, options, self.ask)
         if analysis is not None:
             loads = middle.referring_to(part, analysis)
             if loads and self.ask(translate("Quadrille", "{} are on {}. Put them on its middle surface?").format(
@@ -203,11 +198,8 @@ class MiddleCommand(_Command):
         FreeCADGui.Selection.clearSelection()
         FreeCADGui.Selection.addSelection(made)
 
-    @staticmethod
-    def ask(question: str) -> bool:
-        """Asks a yes-or-no question in a message box."""
-        buttons = QtGui.QMessageBox.Yes | QtGui.QMessageBox.No
-        return QtGui.QMessageBox.question(FreeCADGui.getMainWindow(), "Quadrille", question, buttons) == QtGui.QMessageBox.Yes
+    #: Asks a yes-or-no question in a message box.
+    ask = staticmethod(middle_search.ask)
 
 
 class SurfaceCommand(_Command):
@@ -382,6 +374,7 @@ class AdaptCommand(_Command):
     accelerator = "Q, A"
     pixmap = "quadrille_adapt"
     step = "Adapt mesh to results"
+    _word = ""  #: what has been done, for a box
 
     def run(self) -> None:
         mesh = _meshed_in_question()
@@ -389,9 +382,25 @@ class AdaptCommand(_Command):
         if percent is None:
             return
         with progress_bar(translate("Quadrille", "Adapting {}").format(mesh.Label)) as progress:
-            adaption.prepare(mesh, error=percent / 100, progress=progress)
+            estimate = adaption.prepare(mesh, error=percent / 100, progress=progress)
+        token = mesh.MeshToken
         do("import quadrille.adaption")
         do(f"quadrille.adaption.adapt({path_of(mesh)}, error={percent / 100!r})")
+        error = f"{100 * estimate.error:.3g}"
+        if mesh.MeshToken == token:
+            self._word = translate("Quadrille", "{}: the estimated error is {} %, below the one wanted: the mesh stays.").format(
+                mesh.Label, error)
+        else:
+            self._word = translate("Quadrille", "{}: the estimated error was {} %; now there are {} quads: solve again.").format(
+                mesh.Label, error, mesh.QuadCount)
+        mesh.ViewObject.show()
+        if mesh.Shape is not None:
+            mesh.Shape.ViewObject.hide()
+
+    def afterwards(self) -> None:
+        word, self._word = self._word, ""
+        if word:
+            QtGui.QMessageBox.information(FreeCADGui.getMainWindow(), "Quadrille", word)
 
     @staticmethod
     def ask(mesh) -> Optional[float]:
@@ -439,6 +448,7 @@ COMMANDS = {command.name: command for command in (MiddleCommand, MeshCommand, Su
 def register() -> None:
     """Registers the commands with FreeCAD, unless it knows them already, and the views of the objects that they make."""
     features_views.use(lambda: views)
+    mesh_clicks.watch()
     known = FreeCADGui.listCommands()
     for name, command in COMMANDS.items():
         if name not in known:

@@ -9,7 +9,10 @@ from typing import Any, Dict, Mapping, Optional, Sequence
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from . import drawn_icon, translate
+from ..core.errors import Error
+from ..document.state import UP_TO_DATE, is_quad_mesh
+from ..features import mesh_object
+from . import do, drawn_icon, path_of, progress_bar, tell, transaction, translate
 
 _FEM = "FemWorkbench"
 #: Milliseconds between two checks of which commands are active, the same as FreeCAD's.
@@ -108,6 +111,48 @@ def fill_context_menu(mesh, menu, names: Sequence[str] = _CONTEXT) -> None:
         action.triggered.disconnect()
         action.triggered.connect(lambda *_, name=name: run(name))
         menu.addAction(action)
+    if is_quad_mesh(mesh):
+        _offer_meshing_again(mesh, menu)
+
+
+def _offer_meshing_again(mesh, menu) -> None:
+    """Adds what meshes this mesh again with its settings, and what does so with all stale meshes of the document."""
+
+    def entry(name: str, text: str, meshes: list) -> None:
+        action = QtGui.QAction(drawn_icon("quadrille_mesh"), text, menu)
+        action.setObjectName(name)
+        action.setEnabled(bool(meshes))
+        action.triggered.connect(lambda *_: mesh_again(meshes))
+        menu.addAction(action)
+
+    stale = [obj for obj in mesh.Document.Objects if is_quad_mesh(obj) and obj.Shape is not None and obj.FemMesh.FaceCount
+             and obj.Status != UP_TO_DATE]
+    entry("QuadrilleAgain", translate("Quadrille", "Mesh again"), [mesh] if mesh.Shape is not None else [])
+    entry("QuadrilleAllAgain", translate("Quadrille", "Mesh all stale meshes again"), stale)
+
+
+def mesh_again(meshes: Sequence[Any]) -> None:
+    """Meshes again with the settings that the meshes have, each as one step of undo. What fails is told, and keeps its mesh."""
+    if FreeCADGui.Control.activeDialog():
+        tell(translate("Quadrille", "Another task panel is open: close it first."))
+        return
+    for mesh in meshes:
+        try:
+            with progress_bar(translate("Quadrille", "Meshing {}...").format(mesh.Label)) as progress:
+                job = mesh_object.start(mesh)
+                try:
+                    job.wait(progress)
+                except Error:
+                    mesh_object.forget(mesh.Document.Name, mesh.Name)
+                    raise
+            with transaction(mesh.Document, "Quad mesh"):
+                do("import quadrille.freecad")
+                mesh_object.hand_over(mesh, job)
+                do(f"quadrille.freecad.remesh({path_of(mesh)})")
+        except Error as error:
+            if error.kind == "cancelled":
+                return
+            tell(str(error))
 
 
 _entries: Optional[_FemEntries] = None

@@ -9,6 +9,7 @@ from PySide import QtCore, QtGui
 
 from ..core import quality
 from . import QT_TRANSLATE_NOOP, drawn_icon, overlays, standard_buttons, translate
+from .wheel import calm
 
 WORST = 20
 BINS = 20
@@ -121,7 +122,11 @@ class QualityWidget(QtGui.QWidget):
             (translate("Quadrille", "Outside limits"), f"{mesh.OutsidePercent:.2f} %"),
             (translate("Quadrille", "Mesher's time"), f"{mesh.Seconds:.2f} s"),
         ))
-        self.status.setText(translate("QuadrilleStatus", mesh.Status))
+        self.show_status(mesh.Status)
+
+    def show_status(self, status: str) -> None:
+        """Shows a status, one of those that the property Status has."""
+        self.status.setText(translate("QuadrilleStatus", status))
 
     def fill_elements(self) -> None:
         """Measures each element, for the histogram, the criteria and the worst ones."""
@@ -266,6 +271,7 @@ class QualityPanel:
     def __init__(self, mesh) -> None:
         self.quality = QualityWidget(mesh)
         self.form = self.quality
+        calm(self.form)
         self.form.setWindowTitle(translate("Quadrille", "Quality of {}").format(mesh.Label))
         self.form.setWindowIcon(drawn_icon("quadrille_quality"))
         self.quality.color.setChecked(True)

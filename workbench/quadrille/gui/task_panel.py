@@ -18,7 +18,7 @@ from ..core.setting_table import default_size
 from ..document import groups, links, old_documents, picks, shapes, state
 from ..features import mesh_object as core
 from ..solvers import results
-from . import do, drawn_icon, links_text, path_of, preferences, standard_buttons, tell, translate
+from . import do, drawn_icon, links_text, mesh_clicks, path_of, preferences, standard_buttons, tell, translate
 from .entry_rows import EntryRows
 from .entry_rows import PROPERTIES as ENTRIES
 from .face_counts import FaceCounts
@@ -30,6 +30,7 @@ from .session import Session
 from .setting_widgets import setting_widgets
 from .size_preview import SizePreview
 from .thin_hint import thin_hint
+from .wheel import calm
 
 _POLL_MILLISECONDS = 10
 #: Delay before a mesher is started to stand by, after opening and after meshing, which it would slow down.
@@ -94,6 +95,9 @@ class MeshPanel:
         self.mesh_button.setIcon(drawn_icon("quadrille_mesh"))
         self.stop_button = _button("QuadrilleStop", translate("Quadrille", "Stop"), translate("Quadrille", "Ends the mesher"))
         self.stop_button.setEnabled(False)
+        self.show_other = _button("QuadrilleShowOther", translate("Quadrille", "Show part / mesh"),
+                                  translate("Quadrille", "Shows the mesh in place of the part, or the part in place of the mesh"))
+        self.show_other.clicked.connect(lambda *_: mesh_clicks.toggle(self.mesh))
         self.bar = QtGui.QProgressBar()
         self.bar.setObjectName("QuadrilleProgress")
         self.log = QtGui.QPlainTextEdit()
@@ -133,6 +137,7 @@ class MeshPanel:
         layout.addWidget(_section("QuadrilleByFace", translate("Quadrille", "Expected by face"), self.by_face, False))
         layout.addWidget(self.preview)
         layout.addWidget(_beside(self.mesh_button, self.stop_button))
+        layout.addWidget(self.show_other)
         layout.addWidget(self.bar)
         layout.addWidget(self.log)
         listed = QtGui.QWidget()
@@ -151,6 +156,7 @@ class MeshPanel:
         layout.addWidget(_section("QuadrilleMore", translate("Quadrille", "More settings"), holder, changed))
         layout.addWidget(self.quality)
         layout.addStretch()
+        calm(self.form)
 
     def _load(self) -> None:
         wanted = state.wanted_of(self.mesh)
@@ -250,8 +256,16 @@ class MeshPanel:
             self.estimate.setText(str(error))
             self.by_face.show_counts({})
             return
+        self._show_status(wanted, found)
         self.by_face.show_counts(counts)
         self._show_count(sum(counts.values()))
+
+    def _show_status(self, wanted: state.Wanted, found) -> None:
+        """Says whether the mesh is that of the settings in the panel, which the document may not have yet."""
+        status = self.mesh.Status
+        if status in (state.UP_TO_DATE, state.SETTINGS_CHANGED) and self.mesh.MeshedSettings:
+            same = state.same_settings(state.settings_key(self.mesh, wanted, found), self.mesh.MeshedSettings)
+            self.quality.show_status(state.UP_TO_DATE if same else state.SETTINGS_CHANGED)
 
     def _show_count(self, count: float) -> None:
         self.estimate.setText(translate("Quadrille", "about {} quads").format(_rounded(round(count))))
@@ -268,10 +282,9 @@ class MeshPanel:
 
     def _picked(self, *kinds: str) -> list:
         """The names of the selected elements of these kinds on the part. Tells the user if there are none."""
-        selection = FreeCADGui.Selection.getSelectionEx(self._document_name, 0)
         try:
             part = state.part_of(self.mesh)
-            names = picks.elements_of(part, picks.picks_of(selection))
+            names = picks.elements_of(part, mesh_clicks.picked(self.mesh.Document))
         except Error as error:
             tell(str(error))
             return []

@@ -6,19 +6,21 @@ from typing import Callable, Optional
 import FreeCADGui
 from PySide import QtCore, QtGui
 
+from ..core.errors import Error
 from ..document.shapes import estimate_of
 from ..features.middle import looks_thin
-from . import translate
+from . import middle_search, tell, translate
 
 
 def thin_hint(part, close: Callable[[], object]) -> Optional[QtGui.QLabel]:
-    """A label with a link that closes the panel and runs the command Middle surface; None if the part does not look thin."""
+    """A label with a link that finds the middle surface, closes the panel and runs the command Middle surface; None if the part does
+    not look thin. If there is no middle surface, or the search is cancelled, the panel stays as it is."""
     shape = part.Shape
     thickness = looks_thin(shape, estimate_of(shape).area)
     if thickness is None:
         return None
     text = translate(
-        "Quadrille", "{} looks like a thin solid, of about {} mm: its skin is a hollow box, and shell stresses on it mean nothing."
+        "Quadrille", "{} may be a thin solid, of about {} mm: its skin is then a hollow box, and shell stresses on it mean nothing."
     ).format(part.Label, f"{thickness:.2g}")
     offer = translate("Quadrille", "Make its middle surface")
     label = QtGui.QLabel(f'{text} <a href="middle">{offer}</a>')
@@ -26,6 +28,12 @@ def thin_hint(part, close: Callable[[], object]) -> Optional[QtGui.QLabel]:
     label.setWordWrap(True)
 
     def make(_link: str) -> None:
+        try:
+            middle_search.find(part, {})
+        except Error as error:
+            if error.kind != "cancelled":
+                tell(str(error))
+            return
         close()
         FreeCADGui.Selection.clearSelection()
         FreeCADGui.Selection.addSelection(part)

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is selected, for commands and panels: a click on a quad mesh stands for the face, edge or vertex of its part there.
+
+FreeCAD tells observers where a click was even if it selects the whole mesh, as at the second click on it; the selection itself
+does not."""
+
+from typing import Dict, List, Optional, Sequence, Tuple
+
+import FreeCADGui
+
+from ..document import picks
+from ..document.state import is_quad_mesh
+
+#: Where selected objects were clicked, by the names of document and object as FreeCAD tells them.
+_clicks: Dict[Tuple[str, str], List[Sequence[float]]] = {}
+
+
+class _Observer:
+    """Notes the clicks on what is selected."""
+
+    def addSelection(self, document: str, obj: str, _path: str, point) -> None:
+        """FreeCAD calls this when something is selected; scripts and the tree give no point."""
+        if any(point):
+            _clicks.setdefault((document, obj), []).append(tuple(point))
+
+    def removeSelection(self, document: str, obj: str, _path: str) -> None:
+        """FreeCAD calls this when something is no longer selected."""
+        _clicks.pop((document, obj), None)
+
+    def clearSelection(self, _document: str) -> None:
+        """FreeCAD calls this when nothing is selected any more."""
+        _clicks.clear()
+
+    def setSelection(self, _document: str) -> None:
+        """FreeCAD calls this when another selection replaces all."""
+        _clicks.clear()
+
+
+_observer: Optional[_Observer] = None
+
+
+def watch() -> None:
+    """Starts to note clicks. Further calls do nothing."""
+    global _observer
+    if _observer is None:
+        _observer = _Observer()
+        FreeCADGui.Selection.addObserver(_observer)
+
+
+def picked(document) -> List[picks.Pick]:
+    """The selection in a document as picks, see picks.py."""
+    found: List[picks.Pick] = []
+    for pick in picks.picks_of(FreeCADGui.Selection.getSelectionEx(document.Name, 0)):
+        mesh = picks.along(pick)[-1]
+        if not is_quad_mesh(mesh):
+            found.append(pick)
+            continue
+        inner = pick[1][:pick[1].rfind(".") + 1]
+        points = _clicks.get((document.Name, pick[0].Name)) or _clicks.get((document.Name, mesh.Name), [])
+        names = [name for name in (picks.on_mesh(mesh, point) for point in points) if name]
+        found += [(pick[0], inner + name) for name in dict.fromkeys(names)] or [(pick[0], inner)]
+    return list(dict.fromkeys(found))
+
+
+def toggle(mesh) -> None:
+    """Shows a mesh in place of its part, or the part in place of the mesh."""
+    part = mesh.Shape
+    to_part = mesh.ViewObject.Visibility
+    mesh.ViewObject.Visibility = not to_part
+    if part is not None:
+        part.ViewObject.Visibility = to_part
