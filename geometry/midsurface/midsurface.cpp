@@ -242,8 +242,15 @@ SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const Mid
   std::vector<std::vector<TopoDS_Face>> pieces(result.walls.size());
   for (std::size_t wall = 0; wall < pieces.size(); ++wall) {
     told(0.5 + 0.4 * static_cast<double>(wall) / static_cast<double>(pieces.size()));
-    if (blended.count(static_cast<int>(wall)) == 0)
+    if (blended.count(static_cast<int>(wall)) != 0) continue;
+    try {
       pieces[wall] = wall_pieces(skin, result.walls, static_cast<int>(wall), fences);
+    } catch (const Standard_Failure&) {  // its text names no place, and tells users nothing
+      tell(fmt::format("{}: the wall between {} cannot be cut out of its middle surface; heal or simplify "
+                       "these faces",
+                       name, face_names(side_numbers(skin, result.walls[wall]))),
+           name, options, result.problems);
+    }
   }
   told(0.9);
   result.faces = join_walls(skin, result.walls, ends, pieces, options.tolerance);
@@ -469,9 +476,11 @@ MidSurface midsurface(const CadModel& model, const MidSurfaceOptions& options, E
   const StageTimer timer(context, Stage::midsurface);
   try {
     return make(model, options, context);
-  } catch (const Standard_Failure& problem) {
-    throw failure(model.shape().name, fmt::format("{}: its middle surface cannot be made ({})",
-                                                  model.shape().name, problem.GetMessageString()));
+  } catch (const Standard_Failure&) {  // its text tells users nothing
+    throw failure(model.shape().name,
+                  fmt::format("{}: its middle surface cannot be made, as OpenCASCADE fails at its geometry; "
+                              "check and heal its faces, or take its solids one by one",
+                              model.shape().name));
   }
 }
 

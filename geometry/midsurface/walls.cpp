@@ -1,5 +1,6 @@
 #include "geometry/midsurface/walls.hpp"
 
+#include <GeomLProp_SLProps.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
@@ -173,19 +174,50 @@ double bulge(const SkinFace& face) {
   return from_axis.Dot(gp_Vec(*face.outward(sample.uv))) > 0 ? cylinder.Radius() : -cylinder.Radius();
 }
 
+/// Whether the wall has two flat faces, as the corners of flat walls do.
+bool has_two_flats(const Skin& skin, const Wall& wall) {
+  const std::vector<int> faces = both_sides(wall);
+  return std::count_if(faces.begin(), faces.end(), [&](int index) {
+           return skin.faces()[index].surface().GetType() == GeomAbs_Plane;
+         }) > 1;
+}
+
 /// Whether an apparent bend is a corner of two flat walls with a fillet inside it: the outside is not
 /// rounded, or has a smaller radius. The middle of such a bend would have a kink.
 bool is_filleted_corner(const Skin& skin, const Wall& wall) {
   double outer = 0, inner = 0;
-  int flat = 0;
   for (const int index : both_sides(wall)) {
     const SkinFace& face = skin.faces()[index];
-    flat += face.surface().GetType() == GeomAbs_Plane ? 1 : 0;
     const double radius = bulge(face);
     if (radius > 0) outer = std::max(outer, radius);
     if (radius < 0) inner = std::max(inner, -radius);
   }
-  return flat > 1 && outer < 0.999 * inner;
+  return has_two_flats(skin, wall) && outer < 0.999 * inner;
+}
+
+/// Whether a fitted middle is bent more tightly than half its thickness. No shell can be bent like that: its
+/// skin inside the bend would turn over. Where both radii of a bend are equal, its middle is nearly a corner.
+bool is_bent_too_tightly(const Skin& skin, const Wall& wall, const Handle(Geom_BSplineSurface) & middle) {
+  constexpr double most = 0.9;  // half the thickness over the radius
+  std::array<double, 4> range{};
+  middle->Bounds(range[0], range[1], range[2], range[3]);
+  GeomLProp_SLProps at(middle, 2, 1e-9);
+  const auto is_tight = [&](double u, double v) {
+    at.SetParameters(u, v);
+    if (!at.IsCurvatureDefined()) return false;
+    const double curvature = std::max(std::abs(at.MaxCurvature()), std::abs(at.MinCurvature()));
+    if (curvature * wall.thickness < most) return false;  // spares the search where it is nearly flat
+    return 0.5 * curvature * thickness_round(wall, skin, at.Value()) > most;
+  };
+  for (const double share : {0.25, 0.5, 0.75}) {
+    const double u = (1 - share) * range[0] + share * range[1];
+    const double v = (1 - share) * range[2] + share * range[3];
+    for (int i = 1; i < middle->NbUKnots(); ++i)
+      if (is_tight(0.5 * (middle->UKnot(i) + middle->UKnot(i + 1)), v)) return true;
+    for (int i = 1; i < middle->NbVKnots(); ++i)
+      if (is_tight(u, 0.5 * (middle->VKnot(i) + middle->VKnot(i + 1)))) return true;
+  }
+  return false;
 }
 
 /// Makes walls of groups of pairs that share one surface, the largest first. That surface is the first side.
@@ -251,6 +283,7 @@ std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
     if (is_filleted_corner(skin, wall)) continue;
     const auto middle = fit_middle(skin, wall.sides, tolerance * wall.thickness, 3 * thickest);
     if (!middle) continue;
+    if (has_two_flats(skin, wall) && is_bent_too_tightly(skin, wall, middle->surface)) continue;
     wall.middle = middle->surface;
     wall.fitted = wall.ends = true;
     wall.off = middle->off;

@@ -19,6 +19,7 @@
 #include "mesher/io/midsurface_writer.hpp"
 #include "mesher/io/report.hpp"
 #include "mesher/mesh/coincidences.hpp"
+#include "mesher/mesh/skins.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/area_check.hpp"
 #include "mesher/shell/size_fidelity.hpp"
@@ -81,6 +82,7 @@ struct Measured {
   std::vector<std::string> area_differences;
   Coincidences coincidences;
   Contacts contacts;
+  std::vector<int> bad_skins;  ///< faces, see faces_with_bad_skins()
 };
 
 /// Measures in a thread of its own while the files are written, if more than one thread may be used.
@@ -89,7 +91,8 @@ std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& mo
       std::launch::deferred | (usable_threads(threads) > 1 ? std::launch::async : std::launch::deferred);
   return std::async(policy, [&mesh, &model, threads] {
     return on_threads(threads, [&] {
-      Measured measured{measure(mesh), area_differences(model, mesh), coincidences(mesh), {}};
+      Measured measured{
+          measure(mesh), area_differences(model, mesh), coincidences(mesh), {}, faces_with_bad_skins(mesh)};
       // Parts that touch may have no node in common.
       if (measured.coincidences.nodes == 0) measured.contacts = contacts(model.shape());
       return measured;
@@ -150,10 +153,12 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
   warnings.insert(warnings.end(), measured.area_differences.begin(), measured.area_differences.end());
   for (const std::string& sentence : {measured.coincidences.sentence(), measured.contacts.sentence()})
     if (!sentence.empty()) warnings.push_back(with_options(sentence));
+  if (!measured.bad_skins.empty()) warnings.push_back(bad_skins_sentence(measured.bad_skins));
   if (!arguments.report.empty()) {
     nlohmann::json report = make_report(result, measured.elements, context, arguments.input, warnings);
     if (meshed.sizes) report["sizes"] = meshed.sizes->json();
     if (meshed.middle) report["middle_surface"] = midsurface_json(*meshed.middle);
+    if (meshed.middle) report["skins"] = {{"turned_over", names("Face", measured.bad_skins)}};
     report["coincident"] = coincident_to_json(measured);
     if (!meshed.model.pieces().empty()) report["imprinted"] = imprinted_to_json(meshed.model);
     write_report(report, arguments.report);

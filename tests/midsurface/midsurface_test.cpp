@@ -42,6 +42,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "mesher/mesh/skins.hpp"
 #include "mesher/quadrille.hpp"
 #include "tests/models/thin_models.hpp"
 
@@ -707,6 +708,41 @@ TEST(MidSurface, AddsFilletsToTheThicknessWhereTheyAre) {
   double thickest = 0;
   for (const MiddleFace& face : middle.faces) thickest = std::max(thickest, face.thickness);
   EXPECT_NEAR(thickest, 14.6, 0.5);
+}
+
+/// The middle of a bend whose radii are equal and no larger than the sheet is thick is nearly a corner.
+TEST(MidSurface, MakesACornerOfATightBendWithEqualRadii) {
+  for (const double radius : {1.0, 3.0}) {
+    const std::vector<Corner2d> outline = {{0, 0, radius}, {40, 0}, {40, 4},
+                                           {4, 4, radius}, {4, 40}, {0, 40}};
+    const MidSurface middle = middle_of(profile({outline}, 60));
+    EXPECT_EQ(middle.faces.size(), 2U);
+    EXPECT_NEAR(middle.shell_volume / middle.volume, 1, 0.01);
+    MeshOptions options;
+    options.sizing.size = 4;
+    options.order = 2;
+    ExecutionContext context;
+    EXPECT_TRUE(faces_with_bad_skins(mesh(middle, options, context)).empty());
+  }
+}
+
+/// A quarter of a tube of radius 2, in a mesh of eight quads.
+TEST(MidSurface, TellsShellsThatAreThickerThanBent) {
+  ShellMesh tube;
+  constexpr int count = 8;
+  for (int i = 0; i <= count; ++i) {
+    const double angle = 0.5 * M_PI * i / count;
+    for (const double z : {0.0, 1.0}) tube.points.push_back({2 * std::cos(angle), 2 * std::sin(angle), z});
+    if (i == count) break;
+    tube.quads.push_back({2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1});
+    tube.quad_faces.push_back(i < 4 ? 1 : 2);
+  }
+  EXPECT_TRUE(faces_with_bad_skins(tube).empty()) << "nothing is known of its thickness";
+  tube.thicknesses = {3, 3};
+  EXPECT_TRUE(faces_with_bad_skins(tube).empty());
+  tube.thicknesses = {3, 6};
+  EXPECT_EQ(faces_with_bad_skins(tube), std::vector<int>{2});
+  EXPECT_NE(bad_skins_sentence({2}).find("Face2"), std::string::npos);
 }
 
 TEST(MidSurface, NeedsASolid) {

@@ -1,0 +1,151 @@
+/// Offsets the elements of a shell by half its thickness, as solvers do that expand it into solid elements.
+
+#include "mesher/mesh/skins.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace quadrille {
+
+namespace {
+
+/// Where the nodes of an element are in its plane: four corners, then the middles of the sides.
+constexpr std::array<std::array<double, 2>, 8> places{
+    {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
+
+/// The derivatives of the shape functions by both coordinates, for four or eight nodes.
+std::array<std::array<double, 2>, 8> derivatives(int nodes, double x, double y) {
+  std::array<std::array<double, 2>, 8> result{};
+  for (int i = 0; i < nodes; ++i) {
+    const auto [a, b] = places[i];
+    if (nodes == 4)
+      result[i] = {0.25 * a * (1 + b * y), 0.25 * b * (1 + a * x)};
+    else if (i < 4)
+      result[i] = {0.25 * a * (1 + b * y) * (2 * a * x + b * y),
+                   0.25 * b * (1 + a * x) * (2 * b * y + a * x)};
+    else if (a == 0)
+      result[i] = {-x * (1 + b * y), 0.5 * b * (1 - x * x)};
+    else
+      result[i] = {0.5 * a * (1 - y * y), -y * (1 + a * x)};
+  }
+  return result;
+}
+
+using Places = std::array<Vector3, 8>;
+
+/// The normal at a place of an element, as long as its area is stretched there.
+Vector3 normal_at(int nodes, const Places& points, double x, double y) {
+  Vector3 u = Vector3::Zero(), v = Vector3::Zero();
+  const auto slopes = derivatives(nodes, x, y);
+  for (int i = 0; i < nodes; ++i) {
+    u += slopes[i][0] * points[i];
+    v += slopes[i][1] * points[i];
+  }
+  return u.cross(v);
+}
+
+class Skins {
+ public:
+  explicit Skins(const ShellMesh& mesh) : mesh_(mesh), nodes_(mesh.midsides.empty() ? 4 : 8) {
+    around_.resize(mesh.points.size());
+    for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
+      const Places points = points_of(quad);
+      for (int i = 0; i < nodes_; ++i) {
+        around_[node(quad, i)].push_back(
+            normal_at(nodes_, points, places[i][0], places[i][1]).stableNormalized());
+      }
+    }
+    for (const ShellMesh::VaryingThickness& varying : mesh.varying_thicknesses)
+      varying_[varying.face] = &varying;
+  }
+
+  bool is_good(std::size_t quad) const {
+    const Places points = points_of(quad);
+    Places offsets;
+    for (int i = 0; i < nodes_; ++i) {
+      const Vector3 own = normal_at(nodes_, points, places[i][0], places[i][1]).stableNormalized();
+      const int at = node(quad, i);
+      offsets[i] = 0.5 * thickness(mesh_.quad_faces[quad], at) * nodal_normal(at, own);
+    }
+    for (const double side : {-1.0, 1.0}) {
+      Places skin;
+      for (int i = 0; i < nodes_; ++i) skin[i] = points[i] + side * offsets[i];
+      const double gauss = std::sqrt(1.0 / 3);
+      for (int i = 0; i < 4; ++i) {
+        const double x = gauss * places[i][0], y = gauss * places[i][1];
+        if (normal_at(nodes_, skin, x, y).dot(normal_at(nodes_, points, x, y)) <= 0) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  int node(std::size_t quad, int i) const {
+    return i < 4 ? mesh_.quads[quad][i] : mesh_.midsides[quad][i - 4];
+  }
+
+  Places points_of(std::size_t quad) const {
+    Places result;
+    for (int i = 0; i < nodes_; ++i) result[i] = mesh_.points[node(quad, i)];
+    return result;
+  }
+
+  Vector3 nodal_normal(int node, const Vector3& own) const {
+    constexpr double least = 0.9397;  // the cosine of 20 degrees: across sharper corners nodes are doubled
+    Vector3 sum = Vector3::Zero();
+    for (const Vector3& other : around_[node]) {
+      if (std::abs(other.dot(own)) > least) sum += other.dot(own) > 0 ? other : Vector3(-other);
+    }
+    return sum.norm() > 0 ? Vector3(sum.normalized()) : own;
+  }
+
+  double thickness(int face, int node) const {
+    const auto varying = varying_.find(face);
+    if (varying == varying_.end()) return mesh_.thicknesses[face - 1];
+    const auto& nodes = varying->second->nodes;
+    const auto found = std::lower_bound(nodes.begin(), nodes.end(), node);
+    if (found == nodes.end() || *found != node) return mesh_.thicknesses[face - 1];
+    return varying->second->thicknesses[found - nodes.begin()];
+  }
+
+  const ShellMesh& mesh_;
+  int nodes_;                                 // of an element
+  std::vector<std::vector<Vector3>> around_;  // normals of the elements at each node
+  std::map<int, const ShellMesh::VaryingThickness*> varying_;
+};
+
+}  // namespace
+
+std::vector<int> faces_with_bad_skins(const ShellMesh& mesh) {
+  if (mesh.thicknesses.empty()) return {};
+  const Skins skins(mesh);
+  std::set<int> result;
+  for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
+    const int face = mesh.quad_faces[quad];
+    if (face < 1 || face > static_cast<int>(mesh.thicknesses.size()) || result.count(face) != 0) continue;
+    if (!skins.is_good(quad)) result.insert(face);
+  }
+  return {result.begin(), result.end()};
+}
+
+std::string bad_skins_sentence(const std::vector<int>& faces) {
+  if (faces.empty()) return {};
+  constexpr std::size_t most = 12;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(most, faces.size()); ++i)
+    names.push_back(fmt::format("Face{}", faces[i]));
+  if (faces.size() > most) names.push_back(fmt::format("{} more", faces.size() - most));
+  return fmt::format(
+      "elements of {} turn over on a skin of the shell, since it is thicker than it is bent there: solvers "
+      "that expand shells refuse them; make the bend a sharp corner, or mesh it as a solid",
+      fmt::join(names, ", "));
+}
+
+}  // namespace quadrille
