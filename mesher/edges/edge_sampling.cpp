@@ -23,6 +23,9 @@ namespace quadrille {
 
 namespace {
 
+/// Curves that turn by more than this, in radians, are arcs.
+constexpr double least_arc = 0.52;
+
 /// Least number of segments (of the mesh that is recombined) for the edge's shape and an open face loop.
 int least_segments(bool closed, double turning, bool shares_both_ends, bool inner, int stride) {
   // Holes and pins need more segments than fillets to keep their area.
@@ -183,6 +186,13 @@ class EdgeSampler {
       if (is_finer) wishes_.least[i] = std::max(wishes_.least[i], static_cast<int>(wanted));
       // Between grids, one segment may do for a straight edge. Curves keep their shape there as elsewhere.
       wishes_.least_of_grids[i] = turning > 1e-3 || is_finer ? result_.stride * wishes_.least[i] : 1;
+      if (turning > least_arc) {
+        // The number that the sizes ask for on an arc is a least one: the stresses there depend on it.
+        constexpr double nearly = 0.25;
+        wishes_.least[i] = std::max(wishes_.least[i], to_int(std::ceil(wanted - nearly)));
+        wishes_.least_of_grids[i] =
+            std::max(wishes_.least_of_grids[i], to_int(std::ceil(result_.stride * wanted - nearly)));
+      }
       if (is_prescribed(i)) {
         fix_count(i, shared_ends[i], inner[i]);
       } else if (even) {
