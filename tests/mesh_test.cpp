@@ -401,7 +401,9 @@ TEST(Mesh, ChecksAllTheWhile) {
           steps.insert(steps.end(), {{"mesh", 135}});
         } else {
           const double clean_up = strategy == Strategy::direct ? 2.6 : 13;
-          steps.insert(steps.end(), {{"mesh", 13}, {"smooth", 30}, {"clean up", clean_up}});
+          steps.insert(steps.end(), {{"mesh", 13}, {"clean up", clean_up}});
+          // Without sweeps, subdivided faces may be meshed another way: their smoothing cannot be told apart.
+          if (strategy == Strategy::direct) steps.push_back({"smooth", 30});
         }
         MeshOptions options;
         options.strategy = strategy;
