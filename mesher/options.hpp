@@ -56,13 +56,14 @@ struct MeshOptions {
   double merge_tiny = 0;
   /// Mesh edges and slivers below half the least size too, instead of letting them go (ShellMesh::let_go).
   bool keep_features = false;
-  int rings = 1;          ///< most rings of quads around each hole without corners
-  bool partial = false;   ///< deliver what could be meshed when a face fails, instead of throwing
+  int rings = 1;         ///< most rings of quads around each hole without corners
+  bool partial = false;  ///< deliver what could be meshed when a face fails, instead of throwing
   /// Refuse a face that has no valid mesh on its surface, instead of delivering it with nodes up to the least
   /// size off it (ShellMesh::off_geometry).
   bool strict = false;
   std::filesystem::path write_size_field;  ///< .vdb file for the sizing field; empty = not written
-  /// Called once with the mesh and its sizing field, which are valid only during the call. Empty = not called.
+  /// Called once with the mesh and its sizing field, which are valid only during the call. Empty = not
+  /// called.
   std::function<void(const ShellMesh&, const SizingField&)> inspect;
   bool force = false;          ///< mesh even if there would be more than 50 million elements
   RecombineOptions recombine;  ///< how triangles are paired

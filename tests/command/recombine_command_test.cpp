@@ -179,8 +179,8 @@ TEST(RecombineCommand, TheSeedDecidesThePapersMode) {
 TEST(RecombineCommand, DropsNodesThatNoElementUses) {
   const TemporaryFolder folder;
   test::write_text(folder / "in.msh", square("7 5 5 5\n", 5, two, 2));
-  const auto result = test::run(fmt::format("cd {} && timeout 300 {} recombine in.msh -o out.msh --quiet 2>&1",
-                                            folder.path().string(), program));
+  const auto result = test::run(fmt::format(
+      "cd {} && timeout 300 {} recombine in.msh -o out.msh --quiet 2>&1", folder.path().string(), program));
   EXPECT_EQ(result.exit_code, 0) << result.out;
   const ShellMesh mesh = read_mesh(folder / "out.msh");
   EXPECT_EQ(mesh.points.size(), 4U);
@@ -220,8 +220,8 @@ TEST(RecombineCommand, TakesTrianglesAndQuadsAndTurnsWhatDisagrees) {
   const TemporaryFolder folder;
   test::write_text(folder / "in.msh", square("5 2 0 0\n6 2 1 0\n", 6,
                                              "1 2 2 0 1 1 2 3\n2 2 2 0 1 1 4 3\n3 3 2 0 1 2 5 6 3\n", 3));
-  const auto result = test::run(fmt::format("cd {} && timeout 300 {} recombine in.msh -o out.msh --quiet 2>&1",
-                                            folder.path().string(), program));
+  const auto result = test::run(fmt::format(
+      "cd {} && timeout 300 {} recombine in.msh -o out.msh --quiet 2>&1", folder.path().string(), program));
   EXPECT_EQ(result.exit_code, 0) << result.out;
   EXPECT_EQ(result.out, "in.msh: 1 triangles were turned to agree with their neighbors\n");
   EXPECT_EQ(read_mesh(folder / "out.msh").quads.size(), 2U);
