@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "geometry/base/nearest_on_segment.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 
@@ -16,12 +17,6 @@ const double facing = std::cos(40 * M_PI / 180);
 /// Largest turning of the curve within a piece, radians.
 constexpr double turn_of_piece = 0.26;
 constexpr int most_pieces = 20000;
-
-Vector3 nearest_on(const Vector3& a, const Vector3& b, const Vector3& p) {
-  const Vector3 way = b - a;
-  const double length2 = way.squaredNorm();
-  return length2 > 0 ? Vector3(a + std::clamp((p - a).dot(way) / length2, 0.0, 1.0) * way) : a;
-}
 
 double turning(const EdgeCurve& curve, const CadEdge& edge) {
   if (curve.straight()) return 0;
@@ -90,7 +85,8 @@ std::optional<FaceGap> FaceGaps::gap_at(const Vector3& point, const Vector3& inw
     for (const int i : cell->second) {
       const Piece& piece = pieces_[i];
       if (piece.inward.dot(inward) > -facing) continue;
-      const Vector3 to = nearest_on(piece.a, piece.b, point), way = to - point;
+      const Vector3 to = piece.a + nearest_share(piece.a, piece.b, point) * (piece.b - piece.a),
+                    way = to - point;
       const double length = way.norm();
       if (!(length > 0) || length >= width) continue;
       if (way.dot(inward) < facing * length || -way.dot(piece.inward) < facing * length) continue;

@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 
+#include "geometry/base/nearest_on_segment.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/tiny_features.hpp"
@@ -225,10 +226,8 @@ class SliverFinder {
     for (std::size_t at = 0; at < chain.size(); ++at) {
       const LongEdge& edge = edges_[chain[at]];
       for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
-        const Vector3 side = edge.points[i + 1] - edge.points[i];
-        const double square = side.squaredNorm();
-        const double t = square > 0 ? std::clamp((p - edge.points[i]).dot(side) / square, 0.0, 1.0) : 0;
-        const Vector3 point = edge.points[i] + t * side;
+        const double t = nearest_share(edge.points[i], edge.points[i + 1], p);
+        const Vector3 point = edge.points[i] + t * (edge.points[i + 1] - edge.points[i]);
         const double distance = (p - point).norm();
         if (distance >= result.distance) continue;
         result = {distance, at, edge.parameters[i] + t * (edge.parameters[i + 1] - edge.parameters[i]),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/base/nearest_on_segment.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 
 namespace quadrille {
@@ -226,10 +227,8 @@ bool lies_along(const CadEdge& edge, const CadEdge& other, double reach) {
     const Vector3 p = place(edge, curve, i, samples);
     double nearest = (p - points[0]).norm();
     for (int k = 0; k < dense; ++k) {
-      const Vector3 side = points[k + 1] - points[k];
-      const double square = side.squaredNorm();
-      const double t = square > 0 ? std::clamp((p - points[k]).dot(side) / square, 0.0, 1.0) : 0;
-      nearest = std::min(nearest, (p - points[k] - t * side).norm());
+      const double t = nearest_share(points[k], points[k + 1], p);
+      nearest = std::min(nearest, (p - points[k] - t * (points[k + 1] - points[k])).norm());
     }
     if (!(nearest < reach)) return false;
   }

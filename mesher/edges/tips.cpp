@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "geometry/base/nearest_on_segment.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/edge_sampling.hpp"
@@ -38,10 +39,8 @@ struct Place {
 Place nearest_on(const Arm& arm, const Vector3& p) {
   Place result;
   for (std::size_t i = 0; i + 1 < arm.points.size(); ++i) {
-    const Vector3 side = arm.points[i + 1] - arm.points[i];
-    const double square = side.squaredNorm();
-    const double t = square > 0 ? std::clamp((p - arm.points[i]).dot(side) / square, 0.0, 1.0) : 0;
-    const Vector3 point = arm.points[i] + t * side;
+    const double t = nearest_share(arm.points[i], arm.points[i + 1], p);
+    const Vector3 point = arm.points[i] + t * (arm.points[i + 1] - arm.points[i]);
     const double distance = (p - point).norm();
     if (distance < result.distance)
       result = {distance, arm.parameters[i] + t * (arm.parameters[i + 1] - arm.parameters[i]), point};
@@ -158,7 +157,7 @@ class TipEnder {
 
   void end(const Tip& tip) {
     if (tiny_.merged_faces[tip.face] || !is_whole(tip.before) || !is_whole(tip.after)) return;
-    const int count = std::min(nodes_before(tip.before), nodes_before(tip.after));
+    const int count = std::min(segments_before(tip.before), segments_before(tip.after));
     if (count == 0 || !follow(tip.before, tip.after, count)) return;
     BoundaryNodes::Edge& follower = nodes_.edges[tip.after.edge];
     follower.borrowed[tip.after.at_end ? 1 : 0] = count;
@@ -185,7 +184,7 @@ class TipEnder {
 
   /// The number of segments of an edge between its tip and the place where the face is wide enough: an even
   /// one, that leaves some.
-  int nodes_before(const Tip::Side& side) const {
+  int segments_before(const Tip::Side& side) const {
     constexpr int left = 4;
     const BoundaryNodes::Edge& edge = nodes_.edges[side.edge];
     int count = 0;

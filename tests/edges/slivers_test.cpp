@@ -4,35 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
-#include <BRepBuilderAPI_Sewing.hxx>
-
 #include <algorithm>
-#include <array>
-#include <memory>
 #include <vector>
 
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/validate.hpp"
+#include "tests/support/sheet.hpp"
 
 namespace quadrille {
 namespace {
 
-using Polygon = std::vector<std::array<double, 2>>;
-
-/// A shell of polygons in the plane z = 0 that share their edges.
-CadModel sheet(const std::vector<Polygon>& polygons) {
-  BRepBuilderAPI_Sewing sewing(1e-5);
-  for (const Polygon& polygon : polygons) {
-    BRepBuilderAPI_MakePolygon wire;
-    for (const auto& [x, y] : polygon) wire.Add(gp_Pnt(x, y, 0));
-    wire.Close();
-    sewing.Add(BRepBuilderAPI_MakeFace(wire.Wire()).Face());
-  }
-  sewing.Perform();
-  return CadModel(std::make_shared<CadShape>(sewing.SewedShape(), "sheet"));
-}
+using namespace testing;
 
 /// Two faces below and two above a strip of the given width, which end at 40 below and at 70 above.
 CadModel strip_between_faces(double width) {

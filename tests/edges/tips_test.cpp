@@ -4,41 +4,27 @@
 
 #include <gtest/gtest.h>
 
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
-#include <BRepBuilderAPI_Sewing.hxx>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "mesher/edges/tiny_features.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/validate.hpp"
+#include "tests/support/sheet.hpp"
 
 namespace quadrille {
 namespace {
 
-using Polygon = std::vector<std::array<double, 2>>;
+using namespace testing;
 
 /// A plate of 100 by 100, with a wedge between two faces: its tip lies at (10, 50), its base at x = 100.
 CadModel plate_with_wedge(double base) {
   const double low = 50 - 0.5 * base, high = 50 + 0.5 * base;
-  BRepBuilderAPI_Sewing sewing(1e-5);
-  const std::vector<Polygon> polygons{{{10, 50}, {100, low}, {100, high}},
-                                      {{0, 0}, {100, 0}, {100, low}, {10, 50}, {0, 50}},
-                                      {{0, 50}, {10, 50}, {100, high}, {100, 100}, {0, 100}}};
-  for (const Polygon& polygon : polygons) {
-    BRepBuilderAPI_MakePolygon wire;
-    for (const auto& [x, y] : polygon) wire.Add(gp_Pnt(x, y, 0));
-    wire.Close();
-    sewing.Add(BRepBuilderAPI_MakeFace(wire.Wire()).Face());
-  }
-  sewing.Perform();
-  return CadModel(std::make_shared<CadShape>(sewing.SewedShape(), "plate"));
+  return sheet({{{10, 50}, {100, low}, {100, high}},
+                {{0, 0}, {100, 0}, {100, low}, {10, 50}, {0, 50}},
+                {{0, 50}, {10, 50}, {100, high}, {100, 100}, {0, 100}}});
 }
 
 std::vector<Tip> tips_of(const CadModel& model, double width) {
