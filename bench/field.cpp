@@ -1,3 +1,5 @@
+/// Builds the field of each model several times and prints blocks, memory and time by level.
+
 #include "field.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Runs the mesher's own steps up to the triangles on a plane face made of the domain's polygons.
+
 #include "bench/field_aligned.hpp"
 
 #include <BRepBuilderAPI_MakeFace.hxx>

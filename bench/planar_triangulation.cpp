@@ -1,3 +1,5 @@
+/// Poisson disk sampling over a hash grid, CGAL's constrained Delaunay triangulation, and a few relaxations.
+
 #include "bench/planar_triangulation.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>

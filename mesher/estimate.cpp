@@ -1,3 +1,5 @@
+/// Counts grids by their rows, and other faces by the integral of 1 / size^2 with a rim of smaller quads.
+
 #include "mesher/estimate.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Each row of the table holds two functions, which read a setting from the options and write it there.
+
 #include "mesher/settings.hpp"
 
 #include <algorithm>

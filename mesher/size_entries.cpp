@@ -1,3 +1,5 @@
+/// Splits entries at commas and signs with std::string_view, and writes options back as the same text.
+
 #include "mesher/size_entries.hpp"
 
 #include <array>

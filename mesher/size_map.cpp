@@ -1,3 +1,5 @@
+/// Triangulates the surface and looks sizes up at its points, once for all sources and once for each alone.
+
 #include "mesher/size_map.hpp"
 
 #include <algorithm>

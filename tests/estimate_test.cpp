@@ -1,3 +1,5 @@
+/// Estimated counts against those of real meshes, and sizes for a wanted count.
+
 #include "mesher/estimate.hpp"
 
 #include <gtest/gtest.h>

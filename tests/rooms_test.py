@@ -5,6 +5,7 @@ that docs/porting.md names."""
 import ast
 import pathlib
 import re
+import subprocess
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -87,6 +88,33 @@ class Rooms(unittest.TestCase):
                  if re.search(r"/usr/(?:lib|bin|include)|X11::|package\(X11|/etc/", p.read_text())
                  and p.name not in ("system.cmake", "packages.cmake")]
         self.assertEqual(wrong, [])
+
+
+# What a file in C++ begins with: its comment, in headers after the guard.
+PURPOSE = re.compile(r"(?:#pragma once\n)?/// ?\S.{10}")
+
+
+def sources(*patterns):
+    """The files in the repository of such names; in a tree without .git, all files of such names outside the builds."""
+    listed = subprocess.run(["git", "-C", ROOT, "ls-files", *patterns], capture_output=True, text=True)
+    if listed.returncode == 0:
+        return [ROOT / name for name in listed.stdout.splitlines() if (ROOT / name).exists()]
+    found = [p for pattern in patterns for p in sorted(ROOT.rglob(pattern))]
+    return [p for p in found if not p.relative_to(ROOT).parts[0].startswith("build")]
+
+
+class Purposes(unittest.TestCase):
+    """Each source begins with a comment on what it is for."""
+
+    def test_sources_begin_with_a_comment(self):
+        files = sources("*.cpp", "*.hpp")
+        self.assertGreater(len(files), 400)
+        self.assertEqual([str(p.relative_to(ROOT)) for p in files if not PURPOSE.match(p.read_text())], [])
+
+    def test_python_files_have_docstrings(self):
+        files = sources("*.py")
+        self.assertGreater(len(files), 100)
+        self.assertEqual([str(p.relative_to(ROOT)) for p in files if not ast.get_docstring(ast.parse(p.read_text()))], [])
 
 
 PACKAGE = ROOT / "workbench" / "quadrille"

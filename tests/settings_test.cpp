@@ -1,4 +1,4 @@
-// The table of settings: each has a place of its own, takes what it says and refuses what lies outside.
+/// The table of settings: each has a place of its own, takes what it says and refuses what lies outside.
 
 #include <gtest/gtest.h>
 #include <cmath>

@@ -1,3 +1,5 @@
+/// Writes to an unnamed file (O_TMPFILE), or one under a random name, that gets its name by linkat or rename.
+
 #include "geometry/base/atomic_file.hpp"
 
 #include <fcntl.h>

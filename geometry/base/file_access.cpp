@@ -1,3 +1,5 @@
+/// Asks access(2) about a file, or about the folder that a file is to be written to.
+
 #include "geometry/base/file_access.hpp"
 
 #include <unistd.h>

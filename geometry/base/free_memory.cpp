@@ -1,3 +1,5 @@
+/// The least of /proc/meminfo's available memory, what cgroup limits leave, and what RLIMIT_AS leaves.
+
 #include "geometry/base/free_memory.hpp"
 
 #include <sys/resource.h>

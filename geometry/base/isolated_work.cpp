@@ -1,3 +1,5 @@
+/// Forks a child that writes its answer to a pipe, with an end mark that a crashed child does not get to.
+
 #include "geometry/base/isolated_work.hpp"
 
 #include <fcntl.h>

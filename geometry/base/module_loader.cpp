@@ -1,3 +1,5 @@
+/// Finds modules beside this code, by /proc/self/maps, and opens them after a check of their version.
+
 #include "geometry/base/module_loader.hpp"
 
 #include <dlfcn.h>

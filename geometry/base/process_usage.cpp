@@ -1,3 +1,5 @@
+/// What getrusage(2) counts for this process.
+
 #include "geometry/base/process_usage.hpp"
 
 #include <sys/resource.h>

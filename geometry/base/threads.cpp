@@ -1,3 +1,5 @@
+/// Creates as many threads as may be wanted, once, to see how many the system allows.
+
 #include "geometry/base/threads.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Replaces the parametric curve of each edge by sixteen straight segments.
+
 #include "geometry/cad/coarse_domain.hpp"
 
 #include <utility>

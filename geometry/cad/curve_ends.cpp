@@ -1,3 +1,5 @@
+/// Splits such vertices into one for each place where curves end, and closes the gaps that this leaves.
+
 #include "geometry/cad/curve_ends.hpp"
 
 #include <BRepAdaptor_Curve.hxx>

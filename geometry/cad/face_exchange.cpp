@@ -1,3 +1,5 @@
+/// Rebuilds a shape from the top down, with locations and orientations passed on to its faces.
+
 #include "geometry/cad/face_exchange.hpp"
 
 #include <BRep_Builder.hxx>

@@ -1,3 +1,5 @@
+/// Runs OpenCASCADE's general fuse on a model's parts, then numbers the pieces so that faces keep theirs.
+
 #include "geometry/cad/imprinting.hpp"
 
 #include <BOPAlgo_Builder.hxx>

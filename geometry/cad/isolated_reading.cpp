@@ -1,3 +1,5 @@
+/// The child sends the shape that it read in OpenCASCADE's binary format; crashes and delays become errors.
+
 #include "geometry/cad/isolated_reading.hpp"
 
 #include <BinTools.hxx>

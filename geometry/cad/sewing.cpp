@@ -1,3 +1,5 @@
+/// Joins edges by BRepBuilderAPI_Sewing, turns faces piece by piece, finds faces on others by inner points.
+
 #include "geometry/cad/sewing.hpp"
 
 #include <BRepBuilderAPI_Sewing.hxx>

@@ -1,3 +1,5 @@
+/// Projects edges that lack parametric curves, drops wires that bound nothing, and bounds closed surfaces.
+
 #include "geometry/cad/shape_completion.hpp"
 
 #include <BRepBuilderAPI_Copy.hxx>

@@ -1,3 +1,5 @@
+/// Interpolates points equally far from both sides on a grid that is refined until it meets the tolerance.
+
 #include "geometry/midsurface/fitted_middle.hpp"
 
 #include <BRepTools.hxx>

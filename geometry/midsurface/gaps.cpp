@@ -1,3 +1,5 @@
+/// Looks from each solid's faces for others near by, and sweeps or offsets faces into solids between them.
+
 #include "geometry/midsurface/gaps.hpp"
 
 #include <BRepAdaptor_Curve.hxx>

@@ -1,3 +1,5 @@
+/// Cuts the pieces of all walls at each other, keeps what bounds material, and merges faces of one wall.
+
 #include "geometry/midsurface/joining.hpp"
 
 #include <BOPAlgo_Builder.hxx>

@@ -1,3 +1,5 @@
+/// Closed forms: middle planes, coaxial cones and cylinders, spheres, and tori, within a tolerance.
+
 #include "geometry/midsurface/middle_geometry.hpp"
 
 #include <Adaptor3d_Curve.hxx>

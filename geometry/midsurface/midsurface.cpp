@@ -1,3 +1,5 @@
+/// Runs the steps for each solid: skin, walls, ends, pieces, joints, and checks of thickness and volume.
+
 #include "geometry/midsurface/midsurface.hpp"
 
 #include <BRepAdaptor_Curve.hxx>

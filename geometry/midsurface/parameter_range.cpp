@@ -1,3 +1,5 @@
+/// Sorts the parameters of points; on periodic surfaces the range leaves out the widest gap.
+
 #include "geometry/midsurface/parameter_range.hpp"
 
 #include <BRepAdaptor_Curve.hxx>

@@ -1,3 +1,5 @@
+/// Tests surfaces with GeomLib_IsPlanarSurface and puts the faces on the plane that is found.
+
 #include "geometry/midsurface/plain_faces.hpp"
 
 #include <BRepAdaptor_Surface.hxx>

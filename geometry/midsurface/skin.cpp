@@ -1,3 +1,5 @@
+/// Samples the triangles of faces; rays meet triangles first and are then polished on the surface by Newton.
+
 #include "geometry/midsurface/skin.hpp"
 #include "geometry/base/whole_number.hpp"
 

@@ -1,3 +1,5 @@
+/// Turns solids the right way out, fuses them, and checks by points inside that the fusion has lost none.
+
 #include "geometry/midsurface/solids.hpp"
 
 #include <BRepAlgoAPI_Fuse.hxx>

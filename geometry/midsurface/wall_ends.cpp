@@ -1,3 +1,5 @@
+/// Finds which wall begins where another ends, and draws the fences that cut middle surfaces there.
+
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>

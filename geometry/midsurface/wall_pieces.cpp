@@ -1,3 +1,5 @@
+/// Extends the middle past all that it may meet, cuts it by fences and skin, and keeps what lies in the wall.
+
 #include "geometry/midsurface/wall_pieces.hpp"
 
 #include <BOPAlgo_Builder.hxx>

@@ -1,3 +1,5 @@
+/// Sends rays from samples through the material, pairs faces that see each other, and groups pairs to walls.
+
 #include "geometry/midsurface/walls.hpp"
 
 #include <GeomLProp_SLProps.hxx>

@@ -1,3 +1,5 @@
+/// Integrates with BRepGProp; a face's width is that of the rectangle with its area and perimeter.
+
 #include "geometry/midsurface/widths.hpp"
 
 #include <BRepAdaptor_Surface.hxx>

@@ -1,3 +1,5 @@
+/// Turns numbers of segments and their ratios into shares of the length, split over the pieces of an edge.
+
 #include "geometry/sizing/edge_spacing.hpp"
 
 #include <algorithm>

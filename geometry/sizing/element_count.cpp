@@ -1,3 +1,5 @@
+/// Sums area over squared size at samples of the faces; cells at borders of regions are halved.
+
 #include "geometry/sizing/element_count.hpp"
 
 #include <BRepBndLib.hxx>

@@ -1,3 +1,5 @@
+/// Sorts pieces of the boundary into cells of a hash grid and looks for pieces that face each other.
+
 #include "geometry/sizing/face_gaps.hpp"
 
 #include <algorithm>

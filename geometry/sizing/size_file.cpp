@@ -1,3 +1,5 @@
+/// Reads and writes sizes through the module that alone is linked with OpenVDB.
+
 #include "geometry/sizing/size_file.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Gathers the sizes of all sources in OpenVDB grids of several levels, which then grow from the smallest.
+
 #include "geometry/sizing/sizing_field.hpp"
 
 #include <BRepBndLib.hxx>

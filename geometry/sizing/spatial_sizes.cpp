@@ -1,3 +1,5 @@
+/// Distances to regions, the text of point files, and what points ask for at a place.
+
 #include "geometry/sizing/spatial_sizes.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Grades each face in its own band of voxels and passes sizes over shared edges until nothing changes.
+
 #include "geometry/sizing/surface_gradation.hpp"
 
 #include <BRepBndLib.hxx>

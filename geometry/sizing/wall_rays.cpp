@@ -1,3 +1,5 @@
+/// Searches a tree of boxes over the surface triangles for the first one that a ray meets on its way out.
+
 #include "geometry/sizing/wall_rays.hpp"
 
 #include <Eigen/Geometry>

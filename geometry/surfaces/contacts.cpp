@@ -1,3 +1,5 @@
+/// Joins faces with shared edges to parts, then measures edges against faces whose bounding boxes meet.
+
 #include "geometry/surfaces/contacts.hpp"
 
 #include <BRepAdaptor_Surface.hxx>

@@ -1,3 +1,5 @@
+/// Measures how far samples of each edge lie outside the bounding box of all surfaces.
+
 #include "geometry/surfaces/stray_edges.hpp"
 
 #include <BRepBndLib.hxx>

@@ -1,3 +1,5 @@
+/// Searches for sizes that spread the error evenly, judging each draft by the sizing field made from it.
+
 #include "mesher/adapt/adapt.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Fits polynomials to the stresses around each corner node, apart on each side of a fold, and compares.
+
 #include "mesher/adapt/error_estimate.hpp"
 
 #include <Eigen/QR>

@@ -1,3 +1,5 @@
+/// Takes strains from the solver's 8- or 20-node bricks and splits stresses into membrane and bending parts.
+
 #include "mesher/adapt/shell_stress.hpp"
 
 #include <Eigen/LU>

@@ -1,3 +1,5 @@
+/// Checks of the files that commands are given, and the progress line that is drawn on a terminal.
+
 #include "mesher/command/command.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Reads the limits that were named, and fails where a mesh does not keep them.
+
 #include "mesher/command/limits_option.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Formats a line for each face, and the sum of area times thickness beside the volume.
+
 #include "mesher/command/middle_table.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Formats measures, histogram, criteria and valences of a mesh with fmt.
+
 #include "mesher/command/print_quality.hpp"
 
 #include <fmt/format.h>

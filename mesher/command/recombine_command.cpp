@@ -1,3 +1,5 @@
+/// Checks the options, reads the triangles, pairs them and writes quads and report.
+
 #include "mesher/command/recombine_command.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Parses arguments, runs the subcommand, and turns what is thrown into a line on stderr and an exit code.
+
 #include <fmt/format.h>
 
 #include <algorithm>

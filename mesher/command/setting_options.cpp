@@ -1,3 +1,5 @@
+/// Makes one CLI11 option of each row of the settings, with lists that may be given in several arguments.
+
 #include "mesher/command/setting_options.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// The options for folds and merging, and errors that name the file and how it counts.
+
 #include "mesher/command/surface_input.hpp"
 
 #include <fmt/format.h>

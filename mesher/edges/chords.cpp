@@ -1,3 +1,5 @@
+/// Unites edges that face each other (union-find with direction), spaced by the densest member.
+
 #include "mesher/edges/chords.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Mends one wrong sum after another by cheapest paths of changes by one (Dijkstra).
+
 #include "mesher/edges/count_balance.hpp"
 
 #include <algorithm>

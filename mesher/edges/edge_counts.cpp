@@ -1,3 +1,5 @@
+/// Gives chords counts near the wanted ones and balances faces, with fewer and fewer rules until all hold.
+
 #include "mesher/edges/edge_counts.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Finds the least and wanted counts of all edges, has them chosen, and places nodes along the curves.
+
 #include "mesher/edges/edge_sampling.hpp"
 
 #include <algorithm>

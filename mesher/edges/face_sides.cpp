@@ -1,3 +1,5 @@
+/// Sorts outlines by their corners: four, three or five, steps, two loops, or wedges and crescents.
+
 #include "mesher/edges/face_sides.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Pairs edges of faces with two to four of them; strips are told by short ends and runs of long edges.
+
 #include "mesher/edges/facing_sides.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Finds segments face to face by box intersection and moves their nodes along the edges towards a match.
+
 // CGAL first: OpenCASCADE defines a macro named Handle.
 #include <CGAL/box_intersection_d.h>
 

@@ -1,3 +1,5 @@
+/// Follows prescribed divisions from edge to opposite edge, and stacks layers at the ends of edges.
+
 #include "mesher/edges/grid_rows.hpp"
 #include "geometry/base/whole_number.hpp"
 

@@ -1,3 +1,5 @@
+/// Chooses the counts that fit a hole's cells to its place among the rows, by cost.
+
 #include "mesher/edges/hole_blocks.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Based on: Sheffer, Bercovier, Blacker & Clements, Virtual topology operators for meshing (2000), for
-// merging faces and edges where the model divides them into parts smaller than the elements.
+/// Based on: Sheffer, Bercovier, Blacker & Clements, Virtual topology operators for meshing (2000), for
+/// merging faces and edges where the model divides them into parts smaller than the elements.
 
 #include "mesher/edges/let_go.hpp"
 

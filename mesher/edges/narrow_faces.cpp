@@ -1,3 +1,5 @@
+/// Moves nodes along their curves to the places nearest to those opposite, by golden section search.
+
 #include "mesher/edges/narrow_faces.hpp"
 
 #include <algorithm>

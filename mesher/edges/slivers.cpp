@@ -1,5 +1,5 @@
-// Based on: Sheffer, Bercovier, Blacker & Clements, Virtual topology operators for meshing (2000): a narrow
-// face is given to its neighbors.
+/// Based on: Sheffer, Bercovier, Blacker & Clements, Virtual topology operators for meshing (2000): a narrow
+/// face is given to its neighbors.
 
 #include "mesher/edges/slivers.hpp"
 

@@ -1,3 +1,5 @@
+/// Raises the counts along four-sided faces whose cells would be more than four times as long as wide.
+
 #include "mesher/edges/strip_counts.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Makes points of edges below the reach, merges edges side by side, and drops faces that this empties.
+
 #include "mesher/edges/tiny_features.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Walks both edges out of a narrow corner to where they are one width apart, and merges their nodes there.
+
 #include "mesher/edges/tips.hpp"
 
 #include <algorithm>

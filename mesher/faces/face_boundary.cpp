@@ -1,3 +1,5 @@
+/// Joins the wires' coedges, moved by periods where needed; adds points along poles and unites equal ones.
+
 #include "mesher/faces/face_boundary.hpp"
 
 #include <algorithm>

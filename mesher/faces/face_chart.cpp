@@ -1,3 +1,5 @@
+/// Takes the face's own parameter plane, new curves in it, or a view from above its widest loop.
+
 #include "mesher/faces/face_chart.hpp"
 
 #include <Standard_Failure.hxx>

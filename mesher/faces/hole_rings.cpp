@@ -1,3 +1,5 @@
+/// Offsets the hole's loop on the surface line by line, while there is room and segments keep their length.
+
 #include "mesher/faces/hole_rings.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Bridges the holes to the outline and fills it by CGAL's triangulate_hole_polyline.
+
 // CGAL first: OpenCASCADE defines a macro named Handle.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>

@@ -1,3 +1,5 @@
+/// Walks the outline in whole cells, fills the cells inside row by row, and solves for their points.
+
 #include "mesher/faces/step_layout.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Flips in space until triangles face along the surface normals and are Delaunay, by cotangents.
+
 #include "mesher/faces/triangle_flips.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Maps endings to the reader or writer of a format; modules are opened only for formats that need them.
+
 #include "mesher/io/io.hpp"
 
 #include <fmt/format.h>

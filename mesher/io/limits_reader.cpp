@@ -1,3 +1,5 @@
+/// Reads JSON, or HyperMesh's criteria line by line: a number, the name in words, then columns.
+
 #include "mesher/io/limits_reader.hpp"
 
 #include <fmt/format.h>

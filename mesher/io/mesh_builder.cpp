@@ -1,3 +1,5 @@
+/// Maps file numbers to indices, finds the order, and numbers each combination of entity and groups.
+
 #include "mesher/io/mesh_builder.hpp"
 
 #include <fmt/format.h>

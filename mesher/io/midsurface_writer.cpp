@@ -1,3 +1,5 @@
+/// Writes .brep and .step with OpenCASCADE, and what is known of each face as .json.
+
 #include "mesher/io/midsurface_writer.hpp"
 
 #include <unistd.h>

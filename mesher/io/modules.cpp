@@ -1,3 +1,5 @@
+/// Calls the functions of each module by their symbols and turns the problems that they return into errors.
+
 #include "mesher/io/modules.hpp"
 
 #include <exception>

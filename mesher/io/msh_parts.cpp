@@ -1,3 +1,5 @@
+/// Element types, node order, physical groups and points, formatted alike for versions 2.2 and 4.1.
+
 #include "mesher/io/msh_parts.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Sorts elements into groups by CAD number and numbers only the nodes in use.
+
 #include "mesher/io/output_mesh.hpp"
 
 #include <fmt/format.h>

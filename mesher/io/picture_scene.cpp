@@ -1,3 +1,5 @@
+/// Renders at twice the size with VTK and takes the mean of four pixels, so that lines are smooth.
+
 #include "mesher/io/picture_scene.hpp"
 
 #include <vtkCamera.h>

@@ -1,3 +1,5 @@
+/// Builds the report with nlohmann::json from the quality, criteria, notes and times of the run.
+
 #include "mesher/io/report.hpp"
 
 #include <CGAL/version.h>

@@ -1,3 +1,5 @@
+/// The ending tells the reader: .vtu goes to VTK's module, everything else is read as .frd.
+
 #include "mesher/io/result_reader.hpp"
 
 #include <fmt/format.h>

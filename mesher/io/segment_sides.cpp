@@ -1,3 +1,5 @@
+/// Looks each side of a shell up among the segments, which are sorted by the nodes of their ends.
+
 #include "mesher/io/segment_sides.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Draws two views with VTK: sizes, colored by their logarithm, and the source that rules at each place.
+
 #include "mesher/io/size_picture.hpp"
 
 #include <vtkCellArray.h>

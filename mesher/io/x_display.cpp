@@ -1,3 +1,5 @@
+/// Uses the display that there is, or starts an Xvfb of its own that ends with this process.
+
 #include "mesher/io/x_display.hpp"
 
 #include <X11/Xlib.h>

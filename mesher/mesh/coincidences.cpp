@@ -1,3 +1,5 @@
+/// Finds the nodes at one place by a tolerance, then sorts segments and quads by those places.
+
 #include "mesher/mesh/coincidences.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Criteria of shell quads. Based on: the element checks of HyperMesh as Altair documents them (warpage, skew,
-// Jacobian at Gauss points, taper, angles, aspect by sides).
+/// Criteria of shell quads. Based on: the element checks of HyperMesh as Altair documents them (warpage,
+/// skew, Jacobian at Gauss points, taper, angles, aspect by sides).
 
 #include "mesher/mesh/criteria.hpp"
 

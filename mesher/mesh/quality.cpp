@@ -1,6 +1,6 @@
-// Measures of quads.
-// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018), eq. 1 (q);
-// Knupp, Achieving finite element mesh quality via optimization of the Jacobian matrix norm, part I (2000).
+/// Measures of quads.
+/// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018), eq. 1 (q);
+/// Knupp, Achieving finite element mesh quality via optimization of the Jacobian matrix norm, part I (2000).
 
 #include "mesher/mesh/quality.hpp"
 

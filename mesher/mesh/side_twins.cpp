@@ -1,3 +1,5 @@
+/// Sorts all sides into rows by their lower point (counting sort), where the two uses of a side meet.
+
 #include "mesher/mesh/side_twins.hpp"
 
 #include <fmt/format.h>

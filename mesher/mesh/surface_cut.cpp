@@ -1,3 +1,5 @@
+/// Spreads orientations over pieces, cuts sides by angle and tag, and copies points for each fan around them.
+
 #include "mesher/mesh/surface_cut.hpp"
 
 #include <fmt/format.h>

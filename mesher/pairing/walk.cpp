@@ -1,3 +1,5 @@
+/// Moves free triangles over pairs to each other by the cheapest way (Dijkstra), in each connected piece.
+
 #include "mesher/pairing/walk.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Grows a patch to the nearest irregular nodes, fills its outline anew, and keeps what is no worse.
+
 #include "mesher/quads/cavities.hpp"
 
 #include <algorithm>

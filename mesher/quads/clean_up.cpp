@@ -1,8 +1,8 @@
-// Topological clean-up of quad meshes.
-// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018), section 5
-// (quad-vertex merge, doublet collapse); Kinney, CleanUp: improving quadrilateral finite element meshes
-// (1997); Bunin, Non-local topological clean-up (2006), for the idea of remeshing small patches inside their
-// boundary.
+/// Topological clean-up of quad meshes.
+/// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018), section 5
+/// (quad-vertex merge, doublet collapse); Kinney, CleanUp: improving quadrilateral finite element meshes
+/// (1997); Bunin, Non-local topological clean-up (2006), for the idea of remeshing small patches inside their
+/// boundary.
 
 #include <algorithm>
 #include <array>

@@ -1,3 +1,5 @@
+/// Measures the quads around a node without branches, four places at a time, and steps by Newton's method.
+
 #include "mesher/quads/criteria_patch.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Traces outlines of patches, prices the valences of fillings, and writes accepted quads back.
+
 #include "mesher/quads/edited_mesh.hpp"
 
 #include <algorithm>

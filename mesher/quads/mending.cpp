@@ -1,3 +1,5 @@
+/// Tries every filling of the small patches around a poor quad, with nodes relaxed, and takes the best.
+
 #include "mesher/quads/mending.hpp"
 
 #include <boost/container/static_vector.hpp>

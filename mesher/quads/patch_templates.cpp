@@ -1,5 +1,5 @@
-// Finds every way to fill a small polygon with quads, by recursion on its first side. The quad there has its
-// two other corners on the polygon or inside, and splits the rest into up to three smaller polygons.
+/// Finds every way to fill a small polygon with quads, by recursion on its first side. The quad there has its
+/// two other corners on the polygon or inside, and splits the rest into up to three smaller polygons.
 
 #include "mesher/quads/patch_templates.hpp"
 

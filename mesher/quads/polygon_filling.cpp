@@ -1,3 +1,5 @@
+/// Fills around one irregular node, or cuts by a row of nodes into two such parts, the cheapest first.
+
 #include "mesher/quads/polygon_filling.hpp"
 
 #include <algorithm>

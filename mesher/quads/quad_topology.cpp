@@ -1,4 +1,4 @@
-// Quads with their neighbors: implicit half-edges, four per quad.
+/// Quads with their neighbors: implicit half-edges, four per quad.
 
 #include "mesher/quads/quad_topology.hpp"
 

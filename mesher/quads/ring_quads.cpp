@@ -1,3 +1,5 @@
+/// Numbers the ring lines' nodes after those of the rest, and adds a row of quads between neighboring lines.
+
 #include "mesher/quads/ring_quads.hpp"
 
 #include <utility>

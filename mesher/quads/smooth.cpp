@@ -1,9 +1,9 @@
-// Smoothing of quad meshes on a surface.
-// Based on: Field, Laplacian smoothing and Delaunay triangulations (1988), made "smart" by the acceptance
-// test of Freitag, On combining Laplacian and optimization-based mesh smoothing techniques (1997): sweeps of
-// averages first, then the worst elements node by node, by a compass search on the least scaled Jacobian
-// around the node. Untangling maximizes the negative part of the corner areas, as in Freitag & Plassmann
-// (2000).
+/// Smoothing of quad meshes on a surface.
+/// Based on: Field, Laplacian smoothing and Delaunay triangulations (1988), made "smart" by the acceptance
+/// test of Freitag, On combining Laplacian and optimization-based mesh smoothing techniques (1997): sweeps of
+/// averages first, then the worst elements node by node, by a compass search on the least scaled Jacobian
+/// around the node. Untangling maximizes the negative part of the corner areas, as in Freitag & Plassmann
+/// (2000).
 
 #include <algorithm>
 #include <array>

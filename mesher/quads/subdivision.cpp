@@ -1,3 +1,5 @@
+/// Splits each quad and triangle at its center and the middles of its sides, on the surface.
+
 #include "mesher/quads/subdivision.hpp"
 
 #include <algorithm>

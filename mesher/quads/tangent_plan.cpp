@@ -1,3 +1,5 @@
+/// Projects the quads around a node and judges places for it by squared corner sines, without roots.
+
 #include "mesher/quads/tangent_plan.hpp"
 
 #include <algorithm>

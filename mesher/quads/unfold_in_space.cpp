@@ -1,3 +1,5 @@
+/// Tries places that complete parallelograms, then shorter and shorter steps along the axes.
+
 #include "mesher/quads/unfold_in_space.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Collects folds and borders of faces into chains, drops weak ones, and splits the rest at corners.
+
 #include "mesher/remesh/feature_network.hpp"
 
 #include <algorithm>

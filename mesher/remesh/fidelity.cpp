@@ -1,3 +1,5 @@
+/// Measures nearest distances both ways between the surface and fans of triangles over the quads.
+
 #include "mesher/remesh/fidelity.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Pairs the patch's triangles, improves the quads, splits each into four and smooths again on the surface.
+
 #include "mesher/remesh/patch_quads.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Runs the steps: orientation, features, remeshed triangles, quads on each patch, numbers of nodes.
+
 #include "mesher/remesh/remesh.hpp"
 
 #include <fmt/format.h>

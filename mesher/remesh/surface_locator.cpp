@@ -1,3 +1,5 @@
+/// One CGAL AABB tree for the triangles of each patch.
+
 #include "mesher/remesh/surface_locator.hpp"
 
 #include <CGAL/AABB_tree.h>

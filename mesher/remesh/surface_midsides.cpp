@@ -1,3 +1,5 @@
+/// Projects the middles of sides to their patch, and straightens sides where elements would fold.
+
 #include "mesher/remesh/surface_midsides.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Rounds of splits, collapses, flips and moves, each of them refused where triangles would fold.
+
 #include "mesher/remesh/triangle_remesher.hpp"
 
 #include <CGAL/Simple_cartesian.h>

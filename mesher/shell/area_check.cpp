@@ -1,3 +1,5 @@
+/// Compares areas face by face, less what flat elements lose by the angles at which they and the curves turn.
+
 #include "mesher/shell/area_check.hpp"
 
 #include <BRepGProp.hxx>

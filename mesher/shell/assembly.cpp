@@ -1,3 +1,5 @@
+/// Meshes the faces on all threads, then numbers their nodes and elements face by face.
+
 #include "mesher/shell/assembly.hpp"
 
 #include <algorithm>

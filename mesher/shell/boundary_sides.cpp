@@ -1,3 +1,5 @@
+/// Counts the uses of each side, by sorted keys, in quads and in the boundary, and compares the two.
+
 #include "mesher/shell/boundary_sides.hpp"
 
 #include <algorithm>

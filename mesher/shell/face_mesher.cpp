@@ -1,3 +1,5 @@
+/// Makes a grid where the outline suits one; otherwise triangulates, pairs, cleans up, splits and smooths.
+
 #include "mesher/shell/face_mesher.hpp"
 
 #include <algorithm>

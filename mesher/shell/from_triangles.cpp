@@ -1,3 +1,5 @@
+/// Cuts the surface at folds, pairs its triangles, subdivides, and carries groups, segments and corners over.
+
 #include "mesher/shell/from_triangles.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+/// Fills the face's loops with triangles in space, makes three quads of each, and moves nodes to the surface.
+
 #include "mesher/shell/last_resort.hpp"
 
 #include <Standard_Failure.hxx>

@@ -1,3 +1,5 @@
+/// Halves curves by chord and projects the middles of other sides to their surface, each side once.
+
 #include "mesher/shell/midsides.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Based on: Freitag, On combining Laplacian and optimization-based mesh smoothing techniques (1997), for
-// accepting moves one node at a time. The objective is that of CriteriaPatch.
+/// Based on: Freitag, On combining Laplacian and optimization-based mesh smoothing techniques (1997), for
+/// accepting moves one node at a time. The objective is that of CriteriaPatch.
 
 #include "mesher/shell/node_sliding.hpp"
 

@@ -1,3 +1,5 @@
+/// Rows of causes and remedies, in the order in which they are tried.
+
 #include "mesher/shell/remedies.hpp"
 
 #include <algorithm>

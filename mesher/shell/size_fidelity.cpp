@@ -1,3 +1,5 @@
+/// Divides each side's length by the size at its middle, and counts the ratios on a logarithmic scale.
+
 #include "mesher/shell/size_fidelity.hpp"
 
 #include <oneapi/tbb/blocked_range.h>

@@ -1,3 +1,5 @@
+/// Halves quads along their better diagonal, merges points, refuses triangles without area, sorts by place.
+
 #include "mesher/shell/triangle_input.hpp"
 
 #include <fmt/format.h>

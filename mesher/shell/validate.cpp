@@ -1,4 +1,4 @@
-// Checks of every invariant of a mesh.
+/// Checks of every invariant of a mesh.
 
 #include "mesher/shell/validate.hpp"
 

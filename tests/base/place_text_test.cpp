@@ -1,3 +1,5 @@
+/// Numbers and places in messages: few digits, and no traces of rounding.
+
 #include "geometry/base/place_text.hpp"
 
 #include <gtest/gtest.h>

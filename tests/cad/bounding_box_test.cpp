@@ -1,3 +1,5 @@
+/// Bounding boxes end where bulged, turned and trimmed faces do, and hold loose edges.
+
 #include "geometry/cad/bounding_box.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+/// Units of files, and wires that touch themselves, made as STEP files in the tests.
+
 #include "geometry/cad/cad_model.hpp"
 
 #include <gtest/gtest.h>

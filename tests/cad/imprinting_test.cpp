@@ -1,3 +1,5 @@
+/// Parts that touch or cross share faces and lines afterwards, and numbers and names follow.
+
 #include "geometry/cad/imprinting.hpp"
 
 #include <gtest/gtest.h>

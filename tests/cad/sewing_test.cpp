@@ -1,3 +1,5 @@
+/// Sewing turns as few faces as it can, leaves solids alone, and finds faces on faces.
+
 #include "geometry/cad/sewing.hpp"
 
 #include <gtest/gtest.h>

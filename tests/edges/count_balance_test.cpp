@@ -1,3 +1,5 @@
+/// Random sheets of four-sided faces: all sums hold afterwards, and little has changed.
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Limits from JSON and from HyperMesh's criteria, and the reasons of refusals.
+
 #include "mesher/io/limits_reader.hpp"
 
 #include <gtest/gtest.h>

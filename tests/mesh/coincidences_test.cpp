@@ -1,3 +1,5 @@
+/// Meshes with separate, joined, doubled and collapsed elements, and what is said of them.
+
 #include "mesher/mesh/coincidences.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+/// Every criterion on quads whose values are known, in any orientation.
+
 #include "mesher/mesh/criteria.hpp"
 
 #include <gtest/gtest.h>

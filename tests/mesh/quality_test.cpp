@@ -1,3 +1,5 @@
+/// Measures of quads with known values, and counts over meshes made by hand.
+
 #include "mesher/mesh/quality.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+/// Jacobians of eight-node elements: known values, folds, and a bound that holds at samples.
+
 #include "mesher/mesh/second_order.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+/// Middle surfaces of the thin models, measured against the solids, and refusals of what is not thin.
+
 #include "geometry/midsurface/midsurface.hpp"
 
 #include <gtest/gtest.h>

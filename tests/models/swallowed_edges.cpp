@@ -1,3 +1,5 @@
+/// Builds shapes vertex by vertex, with places that their curves contradict.
+
 #include "tests/models/swallowed_edges.hpp"
 
 #include <BRep_Builder.hxx>

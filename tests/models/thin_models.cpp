@@ -1,3 +1,5 @@
+/// Builds thin parts as OpenCASCADE solids: sheets, tubes, ribs, pockets, housings.
+
 #include "tests/models/thin_models.hpp"
 
 #include <BRepAdaptor_Curve.hxx>

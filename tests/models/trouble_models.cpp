@@ -1,3 +1,5 @@
+/// Builds shapes with the flaws of real files: short edges, gaps, slivers, odd parametric curves.
+
 #include "tests/models/trouble_models.hpp"
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>

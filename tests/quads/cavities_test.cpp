@@ -1,3 +1,5 @@
+/// Every small polygon is filled as told, and dislocations that cancel out go away.
+
 #include "mesher/quads/cavities.hpp"
 
 #include <gtest/gtest.h>

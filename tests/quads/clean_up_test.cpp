@@ -1,3 +1,5 @@
+/// Templates against all fillings, topology after edits, and meshes that stay valid with their boundary.
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

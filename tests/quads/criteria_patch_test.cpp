@@ -1,3 +1,5 @@
+/// The smooth objective at the square and at each limit, and its lanes against the exact measure.
+
 #include "mesher/quads/criteria_patch.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+/// Grids with sides turned and nodes moved get better, never worse, and keep their boundary and area.
+
 #include "mesher/quads/mending.hpp"
 
 #include <gtest/gtest.h>

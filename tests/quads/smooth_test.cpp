@@ -1,3 +1,5 @@
+/// Shaken and folded grids: what moves, what stays, what is reported, and how often the surface is asked.
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

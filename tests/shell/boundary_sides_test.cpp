@@ -1,3 +1,5 @@
+/// Two quads with right and wrong boundaries: missing and doubled sides, seams, cracks, spurs.
+
 #include "mesher/shell/boundary_sides.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+/// Good meshes pass; one fault put in at a time is named.
+
 #include "mesher/shell/validate.hpp"
 
 #include <gtest/gtest.h>

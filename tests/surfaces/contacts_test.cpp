@@ -1,3 +1,5 @@
+/// Boxes and plates that touch, cross, or do neither.
+
 #include "geometry/surfaces/contacts.hpp"
 
 #include <gtest/gtest.h>
