@@ -15,7 +15,6 @@
 #include <TopoDS_Iterator.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
-#include <ranges>
 
 #include <fmt/format.h>
 
@@ -97,8 +96,9 @@ IdVector<VertexId, VertexId> CadShape::vertex_ids(const TopTools_IndexedMapOfSha
   if (own_vertices == vertex_map.Extent()) return ids;
   TopTools_IndexedMapOfShape used;
   for (const TopoDS_Face& face : sources) TopExp::MapShapes(face, TopAbs_VERTEX, used);
-  for (VertexId& added : ids | std::views::drop(own_vertices)) {
-    for (const VertexId own : vertices.ids() | std::views::take(own_vertices)) {
+  for (auto place = ids.begin() + own_vertices; place != ids.end(); ++place) {
+    VertexId& added = *place;
+    for (const VertexId own : IdRange<VertexId>(own_vertices)) {
       if (used.Contains(vertex_map(own.number()))) continue;
       const double reach = std::max(vertex_tolerances[own], vertex_tolerances[added]);
       if ((vertices[own] - vertices[added]).norm() > reach) continue;

@@ -4,7 +4,7 @@
 
 #include <compare>
 #include <cstddef>
-#include <ranges>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -29,7 +29,7 @@ class Id {
   constexpr bool exists() const { return index_ >= 0; }  ///< whether it identifies anything
 
   /// By index; none comes first.
-  friend constexpr auto operator<=>(const Id&, const Id&) = default;
+  friend constexpr auto operator<=>(const Id&, const Id&) = default;  // NOLINT(modernize-use-nullptr)
 
  private:
   explicit constexpr Id(int index) : index_(index) {}
@@ -40,6 +40,46 @@ class Id {
 using FaceId = Id<struct FaceKind>;      ///< a face
 using EdgeId = Id<struct EdgeKind>;      ///< an edge
 using VertexId = Id<struct VertexKind>;  ///< a vertex
+
+/// The first so many ids, ascending. A class of our own in place of std::views, which clang-tidy 14 cannot
+/// read.
+template <class Id>
+class IdRange {
+ public:
+  /// Ids come by value, so by the rules of C++17 these are input iterators, though they can be copied and
+  /// reread.
+  class Iterator {
+   public:
+    using iterator_concept = std::forward_iterator_tag;  ///< as in C++20
+    using iterator_category = std::input_iterator_tag;   ///< as in C++17
+    using value_type = Id;                               ///< as standard iterators
+    using difference_type = std::ptrdiff_t;              ///< as standard iterators
+    using pointer = void;                                ///< as standard iterators
+    using reference = Id;                                ///< as standard iterators
+
+    constexpr Iterator() = default;                                    ///< of no range
+    explicit constexpr Iterator(int index) : index_(index) {}          ///< at the id of this index
+    constexpr Id operator*() const { return Id::from_index(index_); }  ///< the id here
+    /// The next id.
+    constexpr Iterator& operator++() {
+      ++index_;
+      return *this;
+    }
+    constexpr Iterator operator++(int) { return Iterator(index_++); }  ///< the next id; returns the old place
+    friend constexpr bool operator==(const Iterator&, const Iterator&) = default;  ///< by place
+
+   private:
+    int index_ = 0;
+  };
+
+  explicit constexpr IdRange(std::size_t size) : size_(static_cast<int>(size)) {}  ///< the first `size` ids
+
+  constexpr Iterator begin() const { return Iterator(0); }    ///< at the first id
+  constexpr Iterator end() const { return Iterator(size_); }  ///< behind the last id
+
+ private:
+  int size_;
+};
 
 /// A value for each face, edge or vertex, found by its id.
 template <class Id, class Value>
@@ -53,10 +93,7 @@ class IdVector {
   decltype(auto) operator[](Id id) const { return values_[id.index()]; }  ///< the id must exist
 
   /// The ids of all values, ascending.
-  auto ids() const {
-    return std::views::iota(0, static_cast<int>(values_.size())) |
-           std::views::transform([](int index) { return Id::from_index(index); });
-  }
+  IdRange<Id> ids() const { return IdRange<Id>(values_.size()); }
 
   std::size_t size() const { return values_.size(); }      ///< number of values
   bool empty() const { return values_.empty(); }           ///< whether there are none
