@@ -14,9 +14,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <random>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "geometry/cad/cad_shape.hpp"
 #include "mesher/quadrille.hpp"
@@ -486,11 +490,38 @@ TEST(CadModel, CountsWhatFreeCadCounts) {
   }
 }
 
+/// The sentence and the subject of the error that reading gives.
+template <class Read>
+std::pair<std::string, std::string> refusal_of(Read&& read) {
+  try {
+    read();
+  } catch (const Error& error) {
+    return {error.what(), error.subject()};
+  }
+  return {"no error", ""};
+}
+
 TEST(CadModel, SaysWhatIsWrongWithAFile) {
-  EXPECT_THROW(CadModel::read("/nowhere/part.step"), Error);
-  EXPECT_THROW(CadModel::read(std::string(QUADRILLE_SOURCE_DIR) + "/README.md"), Error);
-  EXPECT_THROW(CadModel::from_brep("not a shape"), Error);
-  EXPECT_THROW(CadModel::from_brep(""), Error);
+  using Refusal = std::pair<std::string, std::string>;
+  const std::string readme = std::string(QUADRILLE_SOURCE_DIR) + "/README.md";
+  EXPECT_EQ(refusal_of([] { CadModel::read("/nowhere/part.step"); }),
+            Refusal("/nowhere/part.step does not exist", "/nowhere/part.step"));
+  EXPECT_EQ(refusal_of([] { CadModel::read(QUADRILLE_SOURCE_DIR); }),
+            Refusal(std::string(QUADRILLE_SOURCE_DIR) + " is a folder", QUADRILLE_SOURCE_DIR));
+  EXPECT_EQ(
+      refusal_of([&] { CadModel::read(readme); }),
+      Refusal(readme + " has an unknown ending: STEP (.step, .stp), IGES (.iges, .igs) and BREP (.brep, "
+                       ".brp) can be read",
+              readme));
+  for (const char* text : {"not a shape", ""})
+    EXPECT_EQ(refusal_of([&] { CadModel::from_brep(text, "part"); }),
+              Refusal("part is not a readable BREP file", "part"));
+  std::ifstream file(sample_model("box").path());
+  const std::string whole((std::istreambuf_iterator<char>(file)), {});
+  ASSERT_GT(whole.size(), 1000U);
+  EXPECT_EQ(refusal_of([&] { CadModel::from_brep(whole.substr(0, whole.size() / 2), "half"); }),
+            Refusal("half is not a readable BREP file: it is cut off or damaged", "half"));
+  EXPECT_EQ(refusal_of([&] { CadModel::from_brep(whole, "whole"); }).first, "no error");
 }
 
 }  // namespace

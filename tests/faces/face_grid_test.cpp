@@ -69,11 +69,21 @@ TEST(FaceGrid, TakesFourSidedFacesAndWalls) {
   }
 }
 
+bool is_told_as_grid(const ShellMesh::Face& face) {
+  return face.note.find("grid") != std::string::npos;
+}
+
 TEST(FaceGrid, LeavesOtherFacesAlone) {
   for (const char* name : {"disc", "plate_with_holes", "sphere"}) {
     const ShellMesh shell = mesh_sample(name, 3);
-    for (const auto& face : shell.faces) EXPECT_NE(face.note, "grid") << name;
+    ASSERT_EQ(static_cast<int>(shell.faces.size()), sample_model(name).faces) << name;
+    for (const auto& face : shell.faces) {
+      EXPECT_FALSE(is_told_as_grid(face)) << name << ": " << face.note;
+      EXPECT_GT(irregular_inside(shell, face.face), 0) << name;
+    }
   }
+  const ShellMesh box = mesh_sample("box", 3);  // where there are grids, they are told
+  EXPECT_TRUE(std::all_of(box.faces.begin(), box.faces.end(), is_told_as_grid));
 }
 
 /// A plate of the outline, 4 thick.
