@@ -1,15 +1,18 @@
 #!/usr/bin/env bash
-# Checks the formatting (clang-format) and common mistakes (clang-tidy) of the C++ sources, each by itself
-# (configured in build-plain/), and both in the Python sources (flake8, configured in .flake8).
-#   scripts/check_style.sh [--fix-format]
+# Checks the formatting of the C++ sources (clang-format), common mistakes in those that have changed (clang-tidy, see
+# scripts/clang_tidy.sh), and both in the Python sources (flake8, configured in .flake8).
+#   scripts/check_style.sh [--fix-format] [--all]     --all: clang-tidy on all sources
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 git ls-files '*.py' | xargs flake8
 mapfile -t sources < <(git ls-files '*.cpp' '*.hpp')
-if [[ "${1:-}" == --fix-format ]]; then
-  clang-format -i "${sources[@]}"
-fi
+tidy=()
+for argument in "$@"; do
+  case "$argument" in
+    --fix-format) clang-format -i "${sources[@]}" ;;
+    --all) tidy=(--all) ;;
+    *) sed -n '2,/^set/{/^#/s/^# \?//p}' "$0" >&2; exit 2 ;;
+  esac
+done
 clang-format --dry-run --Werror "${sources[@]}"
-cmake --preset plain >/dev/null
-git ls-files 'geometry/*.cpp' 'mesher/*.cpp' 'bench/*.cpp' |
-  grep -v '_plugin.cpp$' | xargs -P "$(nproc)" -n 1 clang-tidy -p build-plain --quiet
+scripts/clang_tidy.sh "${tidy[@]}"

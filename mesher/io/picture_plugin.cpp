@@ -109,6 +109,7 @@ std::vector<std::array<int, 2>> unique_sides(const ShellMesh& mesh) {
 
 double median_length(const ShellMesh& mesh, const std::vector<std::array<int, 2>>& sides) {
   std::vector<double> lengths;
+  lengths.reserve(sides.size());
   for (const auto& side : sides) lengths.push_back((mesh.points[side[0]] - mesh.points[side[1]]).norm());
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
