@@ -26,10 +26,11 @@ using Remedy = bool (*)(Case& job);
 
 bool finer_there(Case& job) {
   const auto& parts = job.problem.stretches;
+  if (parts.empty()) return false;
   auto& finer = job.plan.finer;
   finer.insert(finer.end(), parts.begin(), parts.end());
   job.record.recipe = {job.record.recipe.chart};
-  return !parts.empty();
+  return true;
 }
 
 /// Doubles the fineness of segments and points on the whole face: near poles and in narrow faces, more than
@@ -53,7 +54,7 @@ bool along_chord(Case& job) {
     any |= bare == 0;
     bare = 1;
   }
-  job.record.recipe.chart = ChartKind::own;
+  if (any) job.record.recipe.chart = ChartKind::own;
   return any;
 }
 
