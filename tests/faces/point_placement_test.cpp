@@ -103,7 +103,8 @@ TEST(PointPlacement, LeavesNoGaps) {
     constexpr int steps = 60;
     int inside = 0;
     for (int i = 0; i < steps * steps; ++i) {
-      const Vector2 share((i % steps + 0.5) / steps, (i / steps + 0.5) / steps);
+      const int column = i % steps, row = i / steps;
+      const Vector2 share((column + 0.5) / steps, (row + 0.5) / steps);
       const Vector2 uv = on.domain.low() + share.cwiseProduct(on.domain.high() - on.domain.low());
       if (!on.domain.inside(uv)) continue;
       ++inside;
