@@ -63,6 +63,12 @@ class Docs(unittest.TestCase):
             self.assertIn("\n**Decision.** ", text, page.name)
             self.assertIn(f"]({page.name})", index)
 
+    def test_the_picture_of_the_rooms_shows_the_sources(self):
+        sys.path.insert(0, str(ROOT / "scripts"))
+        import rooms_picture
+        drawn = rooms_picture.PLACE.read_text(encoding="utf-8")
+        self.assertEqual(drawn, rooms_picture.picture(), "draw it again: scripts/rooms_picture.py")
+
     def test_what_run_sh_builds_can_be_installed(self):
         """README: after ./run.sh, `cmake --install build` installs. The modules come with the targets that open them."""
         run = (ROOT / "run.sh").read_text(encoding="utf-8")
