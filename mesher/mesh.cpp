@@ -109,7 +109,8 @@ class Job {
     slide();
     // The faces meshed so far are delivered, even past the time limit.
     if (options_.partial) context_.lift_time_limit();
-    ShellMesh result = assemble(shape_, nodes_, meshes_, statuses(), options_, context_);
+    ShellMesh result = assemble(CadGeometry(shape_), nodes_, meshes_, options_.order, context_);
+    result.faces = statuses();
     result.let_go = list_let_go();
     result.kept = list_kept();
     std::erase_if(result.corners, [&](const auto& corner) { return corner.vertex > vertices_; });

@@ -36,7 +36,7 @@ TIME_LIMIT = 20
 GIGABYTE = 1 << 30
 #: Users that nobody is. Each run under a limit on processes has one of its own, since the limit counts a user's.
 NOBODIES = itertools.cycle(range(20000 + os.getpid() % 20000, 60000))
-COLUMNS = ["meshes", "told errors", "crashes told", "UNTOLD", "late", "invalid", "left over"]
+COLUMNS = ["meshes", "reported errors", "reported crashes", "UNREPORTED", "late", "invalid", "left over"]
 
 
 @dataclass
@@ -112,21 +112,21 @@ class Run:
         if self.hangs:
             return "late", f"has not ended after {PATIENCE} s"
         if self.killed_by_us():
-            return self._with_files("told errors")
+            return self._with_files("reported errors")
         lines = self.message.splitlines()
         if self.code == 0:
             return self._mesh_end()
         if self.code not in (1, 2, 130):
             by_loader = self.code == 127 and "error while loading shared libraries" in self.message
             if not by_loader:
-                return "UNTOLD", f"exit code {self.code}: {self.message[:200]}"
+                return "UNREPORTED", f"exit code {self.code}: {self.message[:200]}"
         elif 2 not in self.closed and (len(lines) != 1 or not lines[0].startswith("quadrille: ")):
-            return "UNTOLD", f"exit code {self.code}, not one sentence: {self.message[:200]!r}"
+            return "UNREPORTED", f"exit code {self.code}, not one sentence: {self.message[:200]!r}"
         elif self.cpu > LATE_SECONDS and "time limit" not in self.message and not self.limits and self.kill_after is None:
             return "late", f"{self.cpu:.1f} s of CPU until: {self.message[:200]}"
         elif self.peak > LATE_BYTES and not self.limits:  # with limits, --force may take what they leave
             return "late", f"{self.peak / GIGABYTE:.1f} GB until: {self.message[:200]}"
-        return self._with_files("crashes told" if "crashed" in self.message else "told errors")
+        return self._with_files("reported crashes" if "crashed" in self.message else "reported errors")
 
     def _with_files(self, column):
         # Whole files stay where what comes after them fails.
@@ -380,7 +380,7 @@ class Attack:
         os.symlink("/dev/full", folder / name)
         more = {"r.json": ["--report", name], "s.vdb": ["--write-size-field", name], "p.png": ["--picture", name]}
         run = self.mesh(folder, model, *more.get(name, []), "--elements-per-diagonal", 12)
-        return run.end() if run.code else ("UNTOLD", f"{name} on a full device ends with 0")
+        return run.end() if run.code else ("UNREPORTED", f"{name} on a full device ends with 0")
 
     def _link_to_input(self, rng, folder, model):
         own = folder / ("in" + model.suffix)
@@ -388,14 +388,14 @@ class Attack:
         rng.choice([os.symlink, os.link])(own, folder / "a.msh")
         run = self.mesh(folder, own, "--elements-per-diagonal", 10)
         if run.code != 2 or own.read_bytes() != model.read_bytes():
-            return "UNTOLD", f"an output that is the input ends with {run.code}"
+            return "UNREPORTED", f"an output that is the input ends with {run.code}"
         return run.end()
 
     def _circle(self, rng, folder, model):
         os.symlink("b.msh", folder / "a.msh")
         os.symlink("a.msh", folder / "b.msh")
         run = self.mesh(folder, model, "--elements-per-diagonal", 10)
-        return run.end() if run.code else ("UNTOLD", "a circle of links ends with 0")
+        return run.end() if run.code else ("UNREPORTED", "a circle of links ends with 0")
 
     def _dangling(self, rng, folder, model):
         os.symlink("b.msh", folder / "a.msh")
@@ -421,7 +421,7 @@ class Attack:
         closed = rng.choice([(0,), (1,), (2,), (0, 1, 2), (1, 2)])
         run = Run(["mesh", model, "-o", "a.msh", "--elements-per-diagonal", "60"], folder, closed=closed, expected=("a.msh",))
         run.start(self.quadrille)
-        return ("told errors", "") if run.code == 1 and 1 in closed and run.left == ["a.msh"] else run.end()
+        return ("reported errors", "") if run.code == 1 and 1 in closed and run.left == ["a.msh"] else run.end()
 
     def _kill(self, rng, folder, model):
         """Nothing left over but whole files; what was there before stays whole."""
@@ -453,7 +453,7 @@ class Attack:
         run = Run(arguments, folder, prefix=(*unshare, "sh", "-c", script, "sh")).start(self.quadrille)
         first, _, rest = run.message.partition("\n")
         run.message, run.left = first, [name for name in rest.splitlines() if name != "filling"]
-        return run.end() if run.code else ("UNTOLD", "ends with 0")
+        return run.end() if run.code else ("UNREPORTED", "ends with 0")
 
     def _full_disk(self, rng, folder, model):
         options = rng.choice([[], ["--write-size-field", "s.vdb"], ["-o", "b.med"], ["-o", "b.vtu"]])

@@ -52,6 +52,23 @@ class Docs(unittest.TestCase):
         for page in (ROOT / "docs").rglob("*.md"):
             self.assertIn(f": {page.relative_to(ROOT / 'docs')}\n", nav)
 
+    def test_each_decision_has_a_status_and_is_in_the_index(self):
+        folder = ROOT / "docs" / "decisions"
+        index = (folder / "README.md").read_text(encoding="utf-8")
+        found = sorted(folder.glob("[0-9]*.md"))
+        self.assertEqual([int(page.name.split("-")[0]) for page in found], list(range(1, len(found) + 1)))
+        for page in found:
+            text = page.read_text(encoding="utf-8")
+            self.assertRegex(text, r"\n\*\*Status:\*\* (stands|superseded by \[\d+\]|tried and left out)", page.name)
+            self.assertIn("\n**Decision.** ", text, page.name)
+            self.assertIn(f"]({page.name})", index)
+
+    def test_the_picture_of_the_rooms_shows_the_sources(self):
+        sys.path.insert(0, str(ROOT / "scripts"))
+        import rooms_picture
+        drawn = rooms_picture.PLACE.read_text(encoding="utf-8")
+        self.assertEqual(drawn, rooms_picture.picture(), "draw it again: scripts/rooms_picture.py")
+
     def test_what_run_sh_builds_can_be_installed(self):
         """README: after ./run.sh, `cmake --install build` installs. The modules come with the targets that open them."""
         run = (ROOT / "run.sh").read_text(encoding="utf-8")
@@ -64,7 +81,7 @@ class Docs(unittest.TestCase):
     def test_the_manual_has_its_parts(self):
         nav = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
         for part in ("tutorial", "install", "sizes", "command", "python", "api", "formats", "method", "verification", "quality",
-                     "robustness", "troubleshooting", "glossary", "contributing", "changelog", "notes/decisions"):
+                     "robustness", "troubleshooting", "glossary", "contributing", "changelog", "decisions/README"):
             self.assertIn(f": {part}.md\n", nav)
         self.assertGreater((ROOT / "docs" / "formats.md").read_text(encoding="utf-8").count("\n| Gmsh "), 4)  # the table that was run
         self.assertRegex((ROOT / "README.md").read_text(encoding="utf-8"), r"!\[[^]]*\]\([^)]*\.(png|svg)\)")

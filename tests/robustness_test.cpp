@@ -145,12 +145,8 @@ TEST(Robustness, NamesTheCauseAndItsRemedy) {
   EXPECT_PRED2(has, note, "parametric curves made anew");
   EXPECT_FALSE(has(note, "seen from above")) << note;
   const ShellMesh ribs = mesh_of(CadModel(std::make_shared<CadShape>(ribbed_plate(3), "ribbed_plate")), 40);
-  int without = 0;
-  for (const auto& face : ribs.faces) {
-    EXPECT_LE(face.attempts, 2) << face.face << ": " << face.note;
-    without += has(face.note, "without clean-up");
-  }
-  EXPECT_GT(without, 0);
+  // Where one way to mesh a face fails, the next is tried at once.
+  for (const auto& face : ribs.faces) EXPECT_EQ(face.attempts, 1) << face.face << ": " << face.note;
   // What the boundary alone tells costs no meshing.
   for (const char* name : {"disc", "looped_edge", "wrong_curves", "other_parameters"})
     EXPECT_EQ(meshed(name).faces[0].attempts, 1) << name;

@@ -6,6 +6,7 @@
 
 #include "geometry/base/vector.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/surfaces/mesh_surface.hpp"
 
 class BRepAdaptor_Surface;
 
@@ -21,7 +22,7 @@ Vector3 vector_area(const std::vector<Vector3>& loop);
 
 /// Evaluates a face's surface: planes, cylinders, cones, spheres and tori by their formulas, others through
 /// OpenCASCADE. Evaluation uses internal caches, so use one object per thread.
-class FaceSurface {
+class FaceSurface : public MeshSurface {
  public:
   explicit FaceSurface(const CadFace& face);
 
@@ -36,7 +37,7 @@ class FaceSurface {
   bool is_view() const { return view_ != nullptr; }
   /// The coordinates of a point in that plane.
   Vector2 seen_at(const Vector3& point) const;
-  ~FaceSurface();
+  ~FaceSurface() override;
   FaceSurface(FaceSurface&&) noexcept;
   FaceSurface& operator=(FaceSurface&&) = delete;
 
@@ -58,8 +59,14 @@ class FaceSurface {
   /// surfaces, one Newton step for others. The result always lies on the surface.
   SurfacePoint move(Vector2& uv, const Vector3& target) const;
 
+  Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal_there) const override {
+    const SurfacePoint at = move(uv, target);
+    normal_there = normal(at, uv);
+    return at.point;
+  }
   /// The point of the surface closest to `target` near `uv`, which is updated (bounded Newton iterations).
   SurfacePoint project(Vector2& uv, const Vector3& target) const;
+  Vector3 nearest(Vector2& uv, const Vector3& target) const override { return project(uv, target).point; }
 
   /// A lower bound of the distance from a point to the surface, trimmed or not. It is the exact distance to
   /// untrimmed elementary surfaces, and 0 for others.

@@ -36,7 +36,7 @@ constexpr double rise_per_cost = 0.3;
 
 class Cavities : private EditedMesh {
  public:
-  Cavities(SurfaceMesh& mesh, const SmoothingSurface& surface, const ExecutionContext& context)
+  Cavities(SurfaceMesh& mesh, const MeshSurface& surface, const ExecutionContext& context)
       : EditedMesh(mesh, context),
         surface_(surface),
         uses_(mesh.mesh.points.size(), 0),
@@ -333,7 +333,7 @@ class Cavities : private EditedMesh {
     return node;
   }
 
-  const SmoothingSurface& surface_;
+  const MeshSurface& surface_;
   const int first_count_ = topology_.size();
   int drift_ = 0;  ///< quads gained since the start
   std::vector<int> patch_;
@@ -353,7 +353,7 @@ class Cavities : private EditedMesh {
 
 }  // namespace
 
-int remesh_cavities(SurfaceMesh& mesh, const SmoothingSurface& surface, const ExecutionContext& context) {
+int remesh_cavities(SurfaceMesh& mesh, const MeshSurface& surface, const ExecutionContext& context) {
   return Cavities(mesh, surface, context).run();
 }
 

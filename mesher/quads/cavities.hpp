@@ -18,6 +18,6 @@ namespace quadrille {
 /// nodes.
 ///
 /// \return the number of refilled patches.
-int remesh_cavities(SurfaceMesh& mesh, const SmoothingSurface& surface, const ExecutionContext& context);
+int remesh_cavities(SurfaceMesh& mesh, const MeshSurface& surface, const ExecutionContext& context);
 
 }  // namespace quadrille

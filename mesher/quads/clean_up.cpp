@@ -53,7 +53,7 @@ struct Change {
 class CleanUp : private EditedMesh {
  public:
   /// \param doubtful (nodes) in: 1 = start here, empty = all; out, by write_back(): the same for next time.
-  CleanUp(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, ImproveReport& report,
+  CleanUp(SurfaceMesh& surface_mesh, const MeshSurface& surface, ImproveReport& report,
           std::vector<char>& doubtful, const ExecutionContext& context)
       : EditedMesh(surface_mesh, context), doubtful_(doubtful), surface_(surface), report_(report) {
     if (doubtful_.empty()) doubtful_.assign(mesh_.mesh.points.size(), 1);
@@ -119,7 +119,7 @@ class CleanUp : private EditedMesh {
   std::vector<QuadState> states_;     ///< by quad; each is valid in the round that it names
   std::vector<std::uint64_t> tried_;  ///< fingerprints of patches without gain, indexed by their low bits
 
-  const SmoothingSurface& surface_;
+  const MeshSurface& surface_;
   ImproveReport& report_;
   std::vector<int> queue_;  ///< nodes whose surroundings will be tried
   std::vector<char> queued_;
@@ -462,7 +462,7 @@ void CleanUp::write_back() {
 
 }  // namespace
 
-void clean_up(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const ImproveOptions& options,
+void clean_up(SurfaceMesh& surface_mesh, const MeshSurface& surface, const ImproveOptions& options,
               ImproveReport& report, ExecutionContext& context) {
   if (!options.clean_up) return;
   ImproveOptions relaxing = options;

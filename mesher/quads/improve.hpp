@@ -5,24 +5,14 @@
 
 #include "geometry/base/execution_context.hpp"
 #include "geometry/base/vector.hpp"
+#include "geometry/surfaces/mesh_surface.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 #include "mesher/quads/improve_options.hpp"
 
 namespace quadrille {
 
-/// The surface that nodes are kept on while they move.
-class SmoothingSurface {
- public:
-  virtual ~SmoothingSurface() = default;
-  /// Moves a point of the surface towards a target in space, and keeps it on the surface.
-  /// \param uv in: parameters of the point; out: those of the new point. Each surface defines what they mean.
-  /// \return the point of the surface near `target`; its unit normal (the side that quads are
-  /// counter-clockwise seen from) goes to `normal`.
-  virtual Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const = 0;
-};
-
 /// The plane z = 0, or any set of points in it.
-class PlanarSurface : public SmoothingSurface {
+class PlanarSurface : public MeshSurface {
  public:
   Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const override {
     uv = {target.x(), target.y()};
@@ -56,13 +46,13 @@ struct ImproveReport {
 /// nodes and sides stay. Unused points are removed and the arrays renumbered, with the fixed points first in
 /// their old order. The desired valence is 4 for an interior node, and one quad per 90 degrees of the
 /// boundary angle for a boundary node.
-void clean_up(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const ImproveOptions& options,
+void clean_up(SurfaceMesh& surface_mesh, const MeshSurface& surface, const ImproveOptions& options,
               ImproveReport& report, ExecutionContext& context);
 
 /// Moves the free nodes on the surface. First come elements with a non-positive Jacobian, which are
 /// untangled. Then Laplacian sweeps accept a move only if the worst element around the node does not get
 /// worse (or stays above a floor). Last come the worst elements, node by node.
-void smooth(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const ImproveOptions& options,
+void smooth(SurfaceMesh& surface_mesh, const MeshSurface& surface, const ImproveOptions& options,
             ImproveReport& report, ExecutionContext& context);
 
 }  // namespace quadrille

@@ -155,7 +155,7 @@ class Trial {
 
 class Mending : private EditedMesh {
  public:
-  Mending(SurfaceMesh& mesh, const SmoothingSurface& surface, double poor, const ExecutionContext& context)
+  Mending(SurfaceMesh& mesh, const MeshSurface& surface, double poor, const ExecutionContext& context)
       : EditedMesh(mesh, context), surface_(surface), poor_(poor), changed_(mesh.mesh.points.size(), 0) {}
 
   int run() {
@@ -442,7 +442,7 @@ class Mending : private EditedMesh {
     }
   }
 
-  const SmoothingSurface& surface_;
+  const MeshSurface& surface_;
   double poor_;
   std::vector<char> changed_;  ///< (nodes) 1 = of a trial that was carried out
   mutable std::vector<std::optional<QuadObjective>> measured_;  ///< (quads) filled on demand
@@ -450,7 +450,7 @@ class Mending : private EditedMesh {
 
 }  // namespace
 
-int mend_quads(SurfaceMesh& mesh, const SmoothingSurface& surface, double poor, std::vector<char>& changed,
+int mend_quads(SurfaceMesh& mesh, const MeshSurface& surface, double poor, std::vector<char>& changed,
                const ExecutionContext& context) {
   Mending work(mesh, surface, poor, context);
   const int count = work.run();

@@ -18,7 +18,7 @@ constexpr double outside_objective = 1, folded_objective = 999;
 /// \param poor quads with a larger objective are mended
 /// \param changed out: (points) 1 = the point belongs to a new quad or to one next to a refilled patch
 /// \return the number of refilled patches. Time: about 120 us for each poor quad.
-int mend_quads(SurfaceMesh& mesh, const SmoothingSurface& surface, double poor, std::vector<char>& changed,
+int mend_quads(SurfaceMesh& mesh, const MeshSurface& surface, double poor, std::vector<char>& changed,
                const ExecutionContext& context);
 
 }  // namespace quadrille

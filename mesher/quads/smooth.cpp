@@ -40,7 +40,7 @@ constexpr double bad_jacobian = 0.5;
 /// them.
 class Smoother {
  public:
-  Smoother(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const ExecutionContext& context)
+  Smoother(SurfaceMesh& surface_mesh, const MeshSurface& surface, const ExecutionContext& context)
       : points_(surface_mesh.mesh.points),
         quads_(surface_mesh.mesh.quads),
         parameters_(surface_mesh.parameters),
@@ -522,7 +522,7 @@ class Smoother {
   const std::vector<std::array<int, 4>>& quads_;
   std::vector<Vector2>& parameters_;
   std::vector<Vector3>& normals_;
-  const SmoothingSurface& surface_;
+  const MeshSurface& surface_;
   const ExecutionContext& context_;
   std::vector<char> free_, active_, next_active_, turns_sharply_;
   std::vector<int> first_, corners_;
@@ -531,7 +531,7 @@ class Smoother {
 
 }  // namespace
 
-void smooth(SurfaceMesh& surface_mesh, const SmoothingSurface& surface, const ImproveOptions& options,
+void smooth(SurfaceMesh& surface_mesh, const MeshSurface& surface, const ImproveOptions& options,
             ImproveReport& report, ExecutionContext& context) {
   Smoother smoother(surface_mesh, surface, context);
   for (int i = 0; i < 10 && smoother.optimize_below(1e-3); ++i) continue;

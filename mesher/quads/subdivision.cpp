@@ -3,6 +3,7 @@
 #include "mesher/quads/subdivision.hpp"
 
 #include <algorithm>
+#include <span>
 #include <unordered_map>
 
 #include "geometry/base/side_key.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 class Subdivider {
  public:
-  Subdivider(const FaceQuads& coarse, const FaceSurface& surface, const ExecutionContext& context)
+  Subdivider(const FaceQuads& coarse, const MeshSurface& surface, const ExecutionContext& context)
       : coarse_(coarse), surface_(surface), check_(context, 256) {}
 
   FaceQuads run(const std::vector<FaceBoundary::Segment>& segments) {
@@ -41,28 +42,28 @@ class Subdivider {
   }
 
   void add_boundary_middle(const FaceBoundary::Segment& segment) {
-    const int point =
-        fine_.add(segment.middle_point, segment.middle_uv, surface_.normal(segment.middle_uv), true, false);
+    Vector2 uv = segment.middle_uv;
+    Vector3 normal;
+    surface_.move(uv, segment.middle_point, normal);
+    const int point = fine_.add(segment.middle_point, segment.middle_uv, normal, true, false);
     fine_.nodes.push_back(segment.middle_node);
     middles_.emplace(side_key(segment.a, segment.b), point);
   }
 
-  /// The surface point near the mean of some coarse points.
-  template <std::size_t n>
-  int add_mean(const std::array<int, n>& corners) {
+  /// Adds the surface point near a target, searched from between some parameters.
+  int add_near(const Vector3& target, std::span<const Vector2> from) {
+    Vector2 uv = surface_.between(from);
+    Vector3 normal;
+    const Vector3 point = surface_.move(uv, target, normal);
+    return fine_.add(point, uv, normal, false, false);
+  }
+
+  int add_middle(int a, int b) {
     const auto& old = coarse_.surface_mesh;
-    Vector3 target = Vector3::Zero();
-    Vector2 uv(0, 0);
-    int regular = 0;
-    for (const int i : corners) {
-      target += old.mesh.points[i] / static_cast<double>(n);
-      if (coarse_.pole[i]) continue;
-      uv += old.parameters[i];
-      ++regular;
-    }
-    uv = regular > 0 ? Vector2(uv / regular) : old.parameters[corners[0]];
-    const SurfacePoint at = surface_.move(uv, target);
-    return fine_.add(at.point, uv, surface_.normal(at, uv), false, false);
+    const Vector2 &of_a = old.parameters[a], &of_b = old.parameters[b];
+    const std::array from{coarse_.pole[a] && !coarse_.pole[b] ? of_b : of_a,
+                          coarse_.pole[b] && !coarse_.pole[a] ? of_a : of_b};
+    return add_near(0.5 * (old.mesh.points[a] + old.mesh.points[b]), from);
   }
 
   /// The surface point near the mean of the middles of an element's sides. At curved boundaries that lies
@@ -71,13 +72,12 @@ class Subdivider {
   int add_center(const std::array<int, n>& middles) {
     const auto& fine = fine_.surface_mesh;
     Vector3 target = Vector3::Zero();
-    Vector2 uv(0, 0);
-    for (const int i : middles) {
-      target += fine.mesh.points[i] / static_cast<double>(n);
-      uv += fine.parameters[i] / static_cast<double>(n);
+    std::array<Vector2, n> from;
+    for (std::size_t k = 0; k < n; ++k) {
+      target += fine.mesh.points[middles[k]] / static_cast<double>(n);
+      from[k] = fine.parameters[middles[k]];
     }
-    const SurfacePoint at = surface_.move(uv, target);
-    return fine_.add(at.point, uv, surface_.normal(at, uv), false, false);
+    return add_near(target, from);
   }
 
   /// Between two boundaries that bend alike (a narrow ring, the tip of a wedge), the center belongs where a
@@ -106,16 +106,17 @@ class Subdivider {
     for (std::size_t k = 0; k < n; ++k)
       target += of_middle * points[middles[k]] + of_corner * points[renumbered_[element[k]]];
     Vector2 uv = fine.parameters[center];
-    const SurfacePoint at = surface_.move(uv, target);
-    if (!(worst(at.point) > before)) return;
-    points[center] = at.point;
+    Vector3 normal;
+    const Vector3 at = surface_.move(uv, target, normal);
+    if (!(worst(at) > before)) return;
+    points[center] = at;
     fine.parameters[center] = uv;
-    fine.normals[center] = surface_.normal(at, uv);
+    fine.normals[center] = normal;
   }
 
   int middle(int a, int b) {
     const auto [it, is_new] = middles_.emplace(side_key(a, b), -1);
-    if (is_new) it->second = add_mean(std::array<int, 2>{a, b});
+    if (is_new) it->second = add_middle(a, b);
     return it->second;
   }
 
@@ -133,7 +134,7 @@ class Subdivider {
   }
 
   const FaceQuads& coarse_;
-  const FaceSurface& surface_;
+  const MeshSurface& surface_;
   SparseCheck check_;
   FaceQuads fine_;
   std::vector<int> renumbered_;
@@ -284,7 +285,7 @@ void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
 }
 
 FaceQuads subdivide(const FaceQuads& coarse, const std::vector<FaceBoundary::Segment>& segments,
-                    const FaceSurface& surface, const ExecutionContext& context) {
+                    const MeshSurface& surface, const ExecutionContext& context) {
   return Subdivider(coarse, surface, context).run(segments);
 }
 

@@ -2,7 +2,7 @@
 /// Midpoint subdivision of a face's quads. Internal.
 
 #include "geometry/base/execution_context.hpp"
-#include "geometry/surfaces/face_surface.hpp"
+#include "geometry/surfaces/mesh_surface.hpp"
 #include "mesher/faces/face_triangulation.hpp"
 #include "mesher/quads/improve.hpp"
 
@@ -35,6 +35,6 @@ void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
 /// Splits each quad into four and each triangle into three quads. New points on boundary sides are the edges'
 /// own nodes; the others are put on the surface. \param segments the boundary sides and their middle nodes.
 FaceQuads subdivide(const FaceQuads& coarse, const std::vector<FaceBoundary::Segment>& segments,
-                    const FaceSurface& surface, const ExecutionContext& context = {});
+                    const MeshSurface& surface, const ExecutionContext& context = {});
 
 }  // namespace quadrille

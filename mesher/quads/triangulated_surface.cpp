@@ -111,7 +111,7 @@ Vector3 TriangulatedSurface::move(Vector2& uv, const Vector3& target, Vector3& n
 namespace {
 
 /// A plane z = constant, seen from above.
-class LevelPlane : public SmoothingSurface {
+class LevelPlane : public MeshSurface {
  public:
   explicit LevelPlane(double z) : z_(z) {}
   Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const override {
@@ -198,10 +198,10 @@ bool is_level(const TriangleMesh& patch) {
 SurfaceMesh improve_patch(Patch& patch, const std::vector<char>& shared, const ImproveOptions& options,
                           ImproveReport& report, std::vector<int>& fixed, ExecutionContext& context) {
   const TriangulatedSurface triangulated(patch.triangulation);
-  std::unique_ptr<SmoothingSurface> level;
+  std::unique_ptr<MeshSurface> level;
   if (is_level(patch.triangulation))
     level = std::make_unique<LevelPlane>(patch.triangulation.points.front().z());
-  const SmoothingSurface& surface = level ? *level : static_cast<const SmoothingSurface&>(triangulated);
+  const MeshSurface& surface = level ? *level : static_cast<const MeshSurface&>(triangulated);
   SurfaceMesh mesh;
   mesh.mesh = std::move(patch.quads);
   mesh.mesh.points = patch.triangulation.points;

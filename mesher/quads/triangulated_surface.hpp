@@ -13,12 +13,13 @@ namespace quadrille {
 
 /// The first parameter of a point is the number of its triangle. move() walks from triangle to triangle and
 /// ends at the nearest point found. Normals vary linearly between those of the points.
-class TriangulatedSurface : public SmoothingSurface {
+class TriangulatedSurface : public MeshSurface {
  public:
   /// One patch: all triangles are neighbors across the sides they share, whatever their tags.
   explicit TriangulatedSurface(TriangleMesh patch);
 
   Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const override;
+  Vector2 between(std::span<const Vector2> uvs) const override { return uvs.front(); }
 
   /// Parameters of a point of the patch; the point must belong to a triangle.
   Vector2 parameters_of(int point) const { return {triangle_at_[point], 0}; }

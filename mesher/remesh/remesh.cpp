@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -21,17 +20,20 @@
 #include "geometry/base/place_text.hpp"
 #include "geometry/base/side_key.hpp"
 #include "geometry/base/threads.hpp"
+#include "geometry/cad/parallel_ids.hpp"
 #include "geometry/sizing/element_count.hpp"
 #include "geometry/sizing/sizing_options.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/side_twins.hpp"
 #include "mesher/mesh/surface_cut.hpp"
+#include "mesher/quads/face_quads.hpp"
 #include "mesher/quads/triangulated_surface.hpp"
+#include "mesher/quads/unfold_in_space.hpp"
 #include "mesher/remesh/feature_network.hpp"
 #include "mesher/remesh/fidelity.hpp"
-#include "mesher/remesh/patch_quads.hpp"
-#include "mesher/remesh/surface_midsides.hpp"
+#include "mesher/remesh/patch_surface.hpp"
 #include "mesher/remesh/triangle_remesher.hpp"
+#include "mesher/shell/assembly.hpp"
 #include "mesher/shell/triangle_input.hpp"
 
 namespace quadrille {
@@ -150,7 +152,7 @@ std::vector<int> doubled_sides(const std::vector<std::array<int, 4>>& quads) {
   return nodes;
 }
 
-class Remesher {
+class Remesher : public ShellGeometry {
  public:
   Remesher(const ShellMesh& input, const RemeshOptions& options, std::vector<std::string>& notes,
            ExecutionContext& context)
@@ -170,9 +172,11 @@ class Remesher {
       refine_near(inverted);
     }
     tell_off_surface();
-    ShellMesh mesh = assemble();
+    check_doubled();
+    ShellMesh mesh = assemble(*this, nodes_, quads_, options_.order, context_);
     const StageTimer timer(context_, Stage::assemble);
-    if (options_.order == 2) place_midsides(mesh);
+    check_inverted(mesh);
+    tell_straight_sides(mesh);
     if (fidelity != nullptr) {
       *fidelity = measure_fidelity(surface_.mesh, network_.patches, *locator_, mesh, patch_of_face_);
       fidelity->surface_area = area_of(surface_.mesh);
@@ -300,10 +304,10 @@ class Remesher {
   /// A node of each quad that is spoiled or lies on another quad.
   std::vector<Vector3> inverted_places() const {
     std::vector<Vector3> places;
-    for (const PatchQuads& patch : quads_) {
-      for (const auto& quad : patch.quads)
-        if (is_spoiled(patch.points, quad)) places.push_back(patch.points[quad[0]]);
-      for (const int node : doubled_sides(patch.quads)) places.push_back(patch.points[node]);
+    for (const auto& piece : quads_) {
+      for (const auto& quad : piece->quads)
+        if (is_spoiled(piece->points, quad)) places.push_back(piece->points[quad[0]]);
+      for (const int node : doubled_sides(piece->quads)) places.push_back(piece->points[node]);
     }
     return places;
   }
@@ -331,8 +335,9 @@ class Remesher {
   }
 
   void tell_off_surface() {
-    int off = 0;
-    for (const PatchQuads& patch : quads_) off += patch.off_surface;
+    std::ptrdiff_t off = 0;
+    for (const auto& piece : quads_)
+      off += std::count_if(piece->off.begin(), piece->off.end(), [](double d) { return d > 0; });
     if (off == 0) return;
     notes_.push_back(fmt::format(
         "{} nodes lie off the surface, where it bends too tightly for the size and quads would be inverted",
@@ -354,23 +359,55 @@ class Remesher {
     const StageTimer timer(context_, Stage::mesh);
     if (!reference_) reference_.emplace(cut_reference());
     middle_places_.clear();
-    quads_.clear();
     std::vector<std::array<int, 2>> sides;
     for (const auto& side : triangles_.sides) sides.push_back(side.points);
     const CutSurface cut = cut_surface(triangles_.mesh, 0, std::move(sides));
-    std::vector<PatchTriangles> pieces = split_by_piece(cut);
-    quads_.resize(pieces.size());
+    std::vector<FaceTriangulation> pieces = split_by_piece(cut);
+    number_boundary(pieces);
+    quads_.assign(pieces.size(), std::nullopt);
     std::atomic<int> done{0};
-    const PatchSurface on{*reference_, *locator_};
-    oneapi::tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t piece) {
-      quads_[piece] =
-          quads_on_patch(std::move(pieces[piece]), on, options_.recombine, options_.improve, context_);
+    for_each_id(quads_, [&](FaceId piece) {
+      quads_[piece] = quads_of(std::move(pieces[piece.index()]),
+                               PatchSurface(*reference_, *locator_, patch_of_piece_[piece]));
       context_.report(Stage::mesh, static_cast<double>(++done) / static_cast<double>(pieces.size()));
     });
   }
 
+  FaceMesh quads_of(FaceTriangulation triangulation, const PatchSurface& surface) const {
+    std::vector<Vector3>& points = triangulation.mesh.points;
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      const Vector3 there =
+          surface.find(points[v], triangulation.uv.emplace_back(), triangulation.normals.emplace_back());
+      if (static_cast<int>(v) >= triangulation.boundary_count) points[v] = there;
+    }
+    for (FaceBoundary::Segment& segment : triangulation.segments) {
+      Vector3 normal;
+      surface.find(segment.middle_point, segment.middle_uv, normal);
+    }
+    triangulation.pole.assign(points.size(), 0);
+    FaceQuadsOptions options;
+    options.recombine = options_.recombine;
+    options.improve = options_.improve;
+    FaceQuads quads = quadrille::make_quads(std::move(triangulation), surface, options, context_);
+    const std::vector<char> moved =
+        unfold_in_space(quads.surface_mesh.mesh, quads.surface_mesh.fixed, context_);
+    FaceMesh result;
+    result.points = std::move(quads.surface_mesh.mesh.points);
+    result.uv = std::move(quads.surface_mesh.parameters);
+    result.quads = std::move(quads.surface_mesh.mesh.quads);
+    result.pole = std::move(quads.pole);
+    result.nodes = std::move(quads.nodes);
+    if (std::count(moved.begin(), moved.end(), 1) == 0) return result;
+    result.off.assign(moved.size(), 0);
+    for (std::size_t v = 0; v < moved.size(); ++v)
+      if (moved[v])
+        result.off[v] = (surface.nearest(result.uv[v], result.points[v]) - result.points[v]).norm();
+    return result;
+  }
+
   /// The triangles and the boundary of each piece. Its points are renumbered, those on the boundary first.
-  std::vector<PatchTriangles> split_by_piece(const CutSurface& cut) {
+  /// `nodes` and `middle_node` are points of the triangles and middle_node() of sides.
+  std::vector<FaceTriangulation> split_by_piece(const CutSurface& cut) {
     std::unordered_map<std::uint64_t, int> side_of;
     for (std::size_t s = 0; s < triangles_.sides.size(); ++s)
       side_of[side_key(triangles_.sides[s].points[0], triangles_.sides[s].points[1])] = static_cast<int>(s);
@@ -382,17 +419,19 @@ class Remesher {
     for (std::size_t t = 0; t < inner.size(); ++t) members[cut.mesh.tags[t]].push_back(static_cast<int>(t));
     const AngleSums angles = sum_angles();
     std::vector<int> local(cut.mesh.points.size(), -1);
-    std::vector<PatchTriangles> pieces(cut.pieces);
-    for (int p = 0; p < cut.pieces; ++p) {
-      PatchTriangles& piece = pieces[p];
-      piece.patch = triangles_.mesh.tags[members[p].front()];
+    std::vector<FaceTriangulation> pieces(cut.pieces);
+    patch_of_piece_.assign(cut.pieces, 0);
+    for (const FaceId p : patch_of_piece_.ids()) {
+      FaceTriangulation& piece = pieces[p.index()];
+      const std::vector<int>& triangles = members[p.index()];
+      const int patch = patch_of_piece_[p] = triangles_.mesh.tags[triangles.front()];
       const auto number = [&](int v) {
         if (local[v] >= 0) return;
         local[v] = static_cast<int>(piece.mesh.points.size());
         piece.mesh.points.push_back(cut.mesh.points[v]);
       };
       std::vector<int> boundary;
-      for (const int t : members[p]) {
+      for (const int t : triangles) {
         for (int i = 0; i < 3; ++i) {
           if (inner[t][i]) continue;
           const int a = cut.mesh.triangles[t][i], b = cut.mesh.triangles[t][next_index(i)];
@@ -401,20 +440,24 @@ class Remesher {
             number(v);
             boundary.push_back(v);
           }
-          const int s = side_index(side_of, cut.original[a], cut.original[b], piece.patch);
-          piece.sides.push_back({local[a], local[b], middle_node(s), middle_places_[s]});
+          const int side = side_index(side_of, cut.original[a], cut.original[b], patch);
+          FaceBoundary::Segment& segment = piece.segments.emplace_back();
+          segment.a = local[a];
+          segment.b = local[b];
+          segment.middle_node = middle_node(side);
+          segment.middle_point = middle_places_[side];
         }
       }
+      piece.boundary_count = static_cast<int>(boundary.size());
       std::map<int, int> copies;
       for (const int v : boundary) ++copies[cut.original[v]];
       for (const int v : boundary) {
         piece.nodes.push_back(cut.original[v]);
-        const int corner = triangles_.surface_corner[cut.original[v]];
-        const auto sum = angles.find({piece.patch, corner});
+        const auto sum = angles.find({patch, triangles_.surface_corner[cut.original[v]]});
         piece.angles.push_back(sum == angles.end() ? std::numbers::pi
                                                    : sum->second / copies[cut.original[v]]);
       }
-      for (const int t : members[p]) {
+      for (const int t : triangles) {
         auto triangle = cut.mesh.triangles[t];
         for (int& v : triangle) {
           number(v);
@@ -422,7 +465,7 @@ class Remesher {
         }
         piece.mesh.triangles.push_back(triangle);
       }
-      for (const int t : members[p])
+      for (const int t : triangles)
         for (const int v : cut.mesh.triangles[t]) local[v] = -1;
     }
     return pieces;
@@ -464,29 +507,27 @@ class Remesher {
 
   int middle_node(int side) const { return static_cast<int>(triangles_.mesh.points.size()) + side; }
 
-  /// Numbers the nodes (corners, then along the curves, then face by face) and assembles the mesh.
-  ShellMesh assemble() {
-    const StageTimer timer(context_, Stage::assemble);
-    context_.report(Stage::assemble, 0);
-    ShellMesh mesh;
-    node_.assign(triangles_.mesh.points.size() + triangles_.sides.size(), -1);
+  /// Numbers the nodes on the boundaries: corners, then along the curves.
+  void number_boundary(std::vector<FaceTriangulation>& pieces) {
+    nodes_ = {};
+    std::vector<int> node(triangles_.mesh.points.size() + triangles_.sides.size(), -1);
     std::vector<int> joined(surface_.original.size(), -1);  // corners where the surface touches itself
-    const auto add = [&](int node, const Vector3& place, int corner) {
-      if (node_[node] >= 0) return;
-      int& same = corner >= 0 ? joined[surface_.original[corner]] : node_[node];
+    const auto add = [&](int point, const Vector3& place, int corner) {
+      if (node[point] >= 0) return;
+      int& same = corner >= 0 ? joined[surface_.original[corner]] : node[point];
       if (same < 0) {
-        same = static_cast<int>(mesh.points.size());
-        mesh.points.push_back(place);
+        same = static_cast<int>(nodes_.points.size());
+        nodes_.points.push_back(place);
         // The start of a closed curve without corners is no corner.
-        if (corner >= 0 && network_.corner[corner])
-          mesh.corners.push_back({same, static_cast<int>(mesh.corners.size()) + 1});
+        if (corner >= 0 && network_.corner[corner]) nodes_.vertex_nodes.push_back(same);
       }
-      node_[node] = same;
+      node[point] = same;
     };
     const auto& points = triangles_.mesh.points;
     for (std::size_t v = 0; v < points.size(); ++v)
       if (const int corner = triangles_.surface_corner[v]; corner >= 0)
         add(static_cast<int>(v), points[v], corner);
+    nodes_.edges.resize(network_.curves.size());
     for (std::size_t s = 0; s < triangles_.sides.size(); ++s) {
       const auto& side = triangles_.sides[s];
       const int middle = middle_node(static_cast<int>(s));
@@ -494,34 +535,38 @@ class Remesher {
       add(middle, middle_places_[s], -1);
       add(side.points[1], points[side.points[1]], -1);
       if (side.curve < 0) continue;
-      const int edge = edge_numbers_[side.curve];
-      mesh.segments.push_back({{node_[side.points[0]], node_[middle]}, -1, edge});
-      mesh.segments.push_back({{node_[middle], node_[side.points[1]]}, -1, edge});
+      BoundaryNodes::Edge& edge = nodes_.edges[EdgeId::from_index(side.curve)];
+      if (edge.nodes.empty()) {
+        edge.nodes.push_back(node[side.points[0]]);
+        edge.parameters.push_back(side.from);
+      }
+      edge.nodes.insert(edge.nodes.end(), {node[middle], node[side.points[1]]});
+      edge.parameters.insert(edge.parameters.end(), {0.5 * (side.from + side.to), side.to});
     }
-    for (PatchQuads& patch : quads_) {
-      for (std::size_t v = 0; v < patch.points.size(); ++v) {
-        int& node = patch.nodes[v];
-        if (node >= 0) {
-          node = node_[node];
-        } else {
-          node = static_cast<int>(mesh.points.size());
-          mesh.points.push_back(patch.points[v]);
-        }
-      }
-      for (const auto& [a, b, c, d] : patch.quads) {
-        mesh.quads.push_back({patch.nodes[a], patch.nodes[b], patch.nodes[c], patch.nodes[d]});
-        mesh.quad_faces.push_back(face_numbers_[patch.patch]);
-      }
-      if (const std::vector<int> doubled = doubled_sides(patch.quads); !doubled.empty()) {
-        const int face = face_numbers_[patch.patch];
-        throw failure(fmt::format("Face{}", face),
-                      fmt::format("quads of Face{} lie on one another at this size, the first at {}: try a "
-                                  "smaller `size`, or another feature angle",
-                                  face, place_text(patch.points[doubled.front()])));
-      }
+    for (FaceTriangulation& piece : pieces) {
+      for (int& point : piece.nodes) point = node[point];
+      for (FaceBoundary::Segment& segment : piece.segments) segment.middle_node = node[segment.middle_node];
     }
-    check_inverted(mesh);
-    return mesh;
+  }
+
+  std::shared_ptr<const MeshSurface> surface(FaceId piece, const FaceMesh&) const override {
+    return std::make_shared<const PatchSurface>(*reference_, *locator_, patch_of_piece_[piece]);
+  }
+  Vector3 middle(EdgeId curve, double from, double to) const override {
+    return network_.curves[curve.index()].at(0.5 * (from + to));
+  }
+  int number(FaceId piece) const override { return face_numbers_[patch_of_piece_[piece]]; }
+  int number(EdgeId curve) const override { return edge_numbers_[curve.index()]; }
+
+  void check_doubled() const {
+    for (const FaceId piece : quads_.ids()) {
+      const std::vector<int> doubled = doubled_sides(quads_[piece]->quads);
+      if (doubled.empty()) continue;
+      throw failure(fmt::format("Face{}", number(piece)),
+                    fmt::format("quads of Face{} lie on one another at this size, the first at {}: try a "
+                                "smaller `size`, or another feature angle",
+                                number(piece), place_text(quads_[piece]->points[doubled.front()])));
+    }
   }
 
   void check_inverted(const ShellMesh& mesh) const {
@@ -539,17 +584,19 @@ class Remesher {
                               count, face, place_text(mesh.points[mesh.quads[first][0]])));
   }
 
-  void place_midsides(ShellMesh& mesh) {
-    std::vector<CurveStretch> stretches;
-    for (std::size_t s = 0; s < triangles_.sides.size(); ++s) {
-      const auto& side = triangles_.sides[s];
-      if (side.curve < 0) continue;
-      const double middle = 0.5 * (side.from + side.to);
-      const FeatureCurve& curve = network_.curves[side.curve];
-      stretches.push_back({curve.at(0.5 * (side.from + middle))});
-      stretches.push_back({curve.at(0.5 * (middle + side.to))});
+  void tell_straight_sides(const ShellMesh& mesh) const {
+    int first = static_cast<int>(mesh.points.size()), count = 0;
+    for (const auto& midsides : mesh.midsides)
+      first = std::min(first, *std::min_element(midsides.begin(), midsides.end()));
+    double largest = 0;
+    for (const ShellMesh::OffGeometry& off : mesh.off_geometry) {
+      if (off.node < first) continue;
+      ++count;
+      largest = std::max(largest, off.distance);
     }
-    add_surface_midsides(mesh, quads_, stretches, {*reference_, *locator_}, notes_);
+    if (count > 0)
+      notes_.push_back(fmt::format("{} midside nodes lie up to {} off the surface, so that no element folds",
+                                   count, number_text(largest)));
   }
 
   void tell_faces(ShellMesh& mesh) const {
@@ -617,8 +664,9 @@ class Remesher {
   double least_side_ = 0;        // shortest side that a quad may have
   RemeshedTriangles triangles_;
   std::vector<Vector3> middle_places_;  // by side
-  std::vector<PatchQuads> quads_;
-  std::vector<int> node_;  // nodes of the result, by point of the triangles, then by side
+  IdVector<FaceId, int> patch_of_piece_;
+  FaceMeshes quads_;  // by piece
+  BoundaryNodes nodes_;
 };
 
 }  // namespace

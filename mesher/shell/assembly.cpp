@@ -20,7 +20,7 @@ namespace {
 class Assembler {
  public:
   Assembler(const MeshedFaces& meshed, const ExecutionContext& context)
-      : shape_(meshed.shape), nodes_(meshed.nodes), faces_(meshed.faces), context_(context) {
+      : geometry_(meshed.geometry), nodes_(meshed.nodes), faces_(meshed.faces), context_(context) {
     numbering_.nodes.assign(nodes_.points.size(), -1);
   }
 
@@ -110,10 +110,11 @@ class Assembler {
       mesh_.points[node] = face.points[i];
     }
     std::size_t at = numbering_.first_quad[id.index()];
+    const int number = geometry_.number(id);
     for (const auto& quad : face.quads) {
       check();
       mesh_.quads[at] = {global[quad[0]], global[quad[1]], global[quad[2]], global[quad[3]]};
-      mesh_.quad_faces[at++] = id.number();
+      mesh_.quad_faces[at++] = number;
     }
   }
 
@@ -124,7 +125,7 @@ class Assembler {
         if (edge.borrows(k)) continue;
         const int a = numbering_.nodes[edge.nodes[k]], b = numbering_.nodes[edge.nodes[k + 1]];
         if (a < 0 || b < 0) continue;
-        mesh_.segments.push_back({{a, b}, -1, shape_.edges[id].number});
+        mesh_.segments.push_back({{a, b}, -1, geometry_.number(id)});
         numbering_.segments.push_back({id, k});
       }
     }
@@ -145,7 +146,7 @@ class Assembler {
     }
   }
 
-  const CadShape& shape_;
+  const ShellGeometry& geometry_;
   const BoundaryNodes& nodes_;
   const FaceMeshes& faces_;
   const ExecutionContext& context_;
@@ -201,16 +202,14 @@ void note_off_geometry(ShellMesh& mesh) {
   }
 }
 
-ShellMesh assemble(const CadShape& shape, const BoundaryNodes& nodes, const FaceMeshes& faces,
-                   std::vector<ShellMesh::Face> statuses, const MeshOptions& options,
-                   ExecutionContext& context) {
+ShellMesh assemble(const ShellGeometry& geometry, const BoundaryNodes& nodes, const FaceMeshes& faces,
+                   int order, ExecutionContext& context) {
   const StageTimer timer(context, Stage::assemble);
   context.report(Stage::assemble, 0);
-  const MeshedFaces meshed{shape, nodes, faces};
+  const MeshedFaces meshed{geometry, nodes, faces};
   Assembler assembler(meshed, context);
   ShellMesh mesh = assembler.run();
-  if (options.order == 2) make_second_order(meshed, assembler.numbering(), mesh, context);
-  mesh.faces = std::move(statuses);
+  if (order == 2) make_second_order(meshed, assembler.numbering(), mesh, context);
   return mesh;
 }
 

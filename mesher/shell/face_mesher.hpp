@@ -1,39 +1,16 @@
 #pragma once
 /// Meshes one face, from its boundary nodes to improved quads. Internal.
 
-#include <array>
-#include <memory>
-#include <optional>
-#include <vector>
-
 #include "geometry/base/execution_context.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/sizing_field.hpp"
-#include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/edge_sampling.hpp"
 #include "mesher/faces/face_chart.hpp"
 #include "mesher/faces/point_placement.hpp"
 #include "mesher/options.hpp"
+#include "mesher/shell/face_mesh.hpp"
 
 namespace quadrille {
-
-/// The quads of one face, ready for assembly. The first `nodes.size()` points lie on the boundary.
-struct FaceMesh {
-  std::vector<Vector3> points;
-  std::vector<Vector2> uv;
-  std::vector<char> pole;                      ///< (n) 1 = the point is a pole: its uv is one of many
-  std::vector<std::array<int, 4>> quads;       ///< counter-clockwise about the face's normal in the model
-  std::vector<int> nodes;                      ///< indices into BoundaryNodes::points
-  double q_min = 0;                            ///< lowest q of the quads
-  bool grid = false;                           ///< the face was meshed as a grid, see face_grid.hpp
-  std::shared_ptr<const FaceSurface> surface;  ///< surface that uv refer to; null = the face's own
-  /// (n) distance of each point from the surface, where quads on it would be inverted; empty = all lie on it.
-  /// Otherwise no point inside the face moves any more.
-  std::vector<double> off;
-};
-
-/// The meshes of the faces; empty = not meshed.
-using FaceMeshes = IdVector<FaceId, std::optional<FaceMesh>>;
 
 /// How a face is meshed.
 struct FaceRecipe {
@@ -51,7 +28,9 @@ struct FaceRecipe {
   Off off = Off::none;                          ///< which nodes may leave the surface
 };
 
-/// Triangulates, recombines and improves a face in one attempt. Throws FaceProblem.
+/// Meshes a face in one attempt: tries candidates (a grid, rings round its holes, neither; quads cut in four,
+/// quads of the final size) as far as FaceJudge has doubts, and returns the best. Throws FaceProblem if none
+/// of them is valid.
 FaceMesh mesh_face(const CadShape& shape, FaceId face, const FaceChart& chart, const BoundaryNodes& nodes,
                    const SizingField& field, const MeshOptions& options, const FaceRecipe& recipe,
                    ExecutionContext& context);

@@ -163,7 +163,7 @@ ShellMesh quads_from_triangles(const ShellMesh& input, const FromTrianglesOption
                                std::vector<std::string>& notes, ExecutionContext& context) {
   TriangleInput work = triangle_input(input, options.merge, notes, context);
   if (input.order == 2)
-    notes.push_back("the mesh was of second order: the quads are of first order, on the corner nodes");
+    notes.emplace_back("the mesh was of second order: the quads are of first order, on the corner nodes");
   const NodeGroups node_groups(input, work);
   work.mesh.fixed = node_groups.kept_points(input);
   context.check();

@@ -15,44 +15,19 @@ namespace quadrille {
 
 namespace {
 
-/// The parameter at which a piece of a curve is equally far from both ends. For the short pieces here that is
-/// half the arc length.
-template <class Point>
-double middle_parameter(double low, double high, const Point& point) {
-  const Vector3 from = point(low), to = point(high);
-  constexpr int bisections = 30;
-  for (int i = 0; i < bisections; ++i) {
-    const double t = 0.5 * (low + high);
-    const Vector3 p = point(t);
-    const double difference = (p - from).norm() - (p - to).norm();
-    if (std::abs(difference) < 1e-9 * (to - from).norm()) return t;
-    (difference < 0 ? low : high) = t;
-  }
-  return 0.5 * (low + high);
-}
-
-Vector3 curve_middle(const EdgeCurve& curve, double a, double b) {
-  const auto point = [&](double t) { return curve.point(t); };
-  return point(middle_parameter(a, b, point));
-}
-
-Vector3 surface_middle(const FaceSurface& surface, const FaceMesh& face, int a, int b, Vector2& uv) {
+Vector3 surface_middle(const MeshSurface& surface, const FaceMesh& face, int a, int b, Vector2& uv) {
   const Vector3 target = 0.5 * (face.points[a] + face.points[b]);
-  const Vector2 from = face.pole[a] ? face.uv[b] : face.uv[a], to = face.pole[b] ? face.uv[a] : face.uv[b];
-  uv = 0.5 * (from + to);
-  Vector3 middle = surface.project(uv, target).point;
-  // If the parametrization is uneven, the middle parameter is far from the middle of the side, and the
-  // projection may not get there.
+  const std::array ends{face.pole[a] ? face.uv[b] : face.uv[a], face.pole[b] ? face.uv[a] : face.uv[b]};
+  uv = surface.between(ends);
+  Vector3 middle = surface.nearest(uv, target);
+  // If the parametrization is uneven, the search may not get there from the middle parameter.
   constexpr double far = 0.25;
-  const double length = (face.points[b] - face.points[a]).norm();
-  if ((middle - target).norm() > far * length) {
-    const auto at = [&](double t) -> Vector2 { return from + t * (to - from); };
-    Vector2 other = at(middle_parameter(0, 1, [&](double t) { return surface.point(at(t)); }));
-    const Vector3 nearer = surface.project(other, target).point;
-    if ((nearer - target).norm() < (middle - target).norm()) {
-      middle = nearer;
-      uv = other;
-    }
+  if ((middle - target).norm() <= far * (face.points[b] - face.points[a]).norm()) return middle;
+  for (Vector2 other : ends) {
+    const Vector3 nearer = surface.nearest(other, target);
+    if ((nearer - target).norm() >= (middle - target).norm()) continue;
+    middle = nearer;
+    uv = other;
   }
   return middle;
 }
@@ -96,10 +71,9 @@ class MidsidePlacement {
       check_();
       auto& segment = mesh_.segments[s];
       const auto [edge, k] = numbering_.segments[s];
-      const EdgeCurve curve(meshed_.shape.edges[edge]);
       const auto& t = meshed_.nodes.edges[edge].parameters;
       segment.middle = static_cast<int>(mesh_.points.size());
-      mesh_.points.push_back(curve_middle(curve, t[k], t[k + 1]));
+      mesh_.points.push_back(meshed_.geometry.middle(edge, t[k], t[k + 1]));
       middles_.emplace(side_key(segment.nodes[0], segment.nodes[1]), segment.middle);
     }
   }
@@ -187,6 +161,20 @@ class MidsidePlacement {
 };
 
 }  // namespace
+
+Vector3 CadGeometry::middle(EdgeId edge, double from, double to) const {
+  const EdgeCurve curve(shape_.edges[edge]);
+  const Vector3 first = curve.point(from), last = curve.point(to);
+  constexpr int bisections = 30;
+  for (int i = 0; i < bisections; ++i) {
+    const double t = 0.5 * (from + to);
+    const Vector3 p = curve.point(t);
+    const double difference = (p - first).norm() - (p - last).norm();
+    if (std::abs(difference) < 1e-9 * (last - first).norm()) return p;
+    (difference < 0 ? from : to) = t;
+  }
+  return curve.point(0.5 * (from + to));
+}
 
 Midsides add_midsides(const MeshedFaces& meshed, const ShellNumbering& numbering, ShellMesh& mesh,
                       const ExecutionContext& context) {

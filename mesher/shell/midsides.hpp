@@ -1,30 +1,27 @@
 #pragma once
 /// Places the midside nodes of second-order meshes on the geometry. Internal.
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
-#include "geometry/cad/cad_shape.hpp"
-#include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/edge_sampling.hpp"
 #include "mesher/mesh/mesh_types.hpp"
-#include "mesher/shell/face_mesher.hpp"
+#include "mesher/shell/shell_geometry.hpp"
 
 namespace quadrille {
 
 /// The parts from which a shell is assembled.
 struct MeshedFaces {
-  const CadShape& shape;
+  const ShellGeometry& geometry;
   const BoundaryNodes& nodes;
   const FaceMeshes& faces;
 
   /// The surface that the uv of the face's nodes refer to.
-  std::shared_ptr<const FaceSurface> surface(FaceId face) const {
-    return faces[face]->surface ? faces[face]->surface
-                                : std::make_shared<const FaceSurface>(shape.faces[face]);
+  std::shared_ptr<const MeshSurface> surface(FaceId face) const {
+    return geometry.surface(face, *faces[face]);
   }
 };
 
@@ -34,6 +31,11 @@ struct ShellNumbering {
   std::vector<std::size_t> first_quad;           ///< (faces + 1) first quad of each face in the shell
   std::vector<std::pair<EdgeId, int>> segments;  ///< (segments) CAD edge, and index of the segment on it
 
+  /// The face of a quad of the shell.
+  FaceId face_of(std::size_t quad) const {
+    const auto next = std::upper_bound(first_quad.begin(), first_quad.end(), quad);
+    return FaceId::from_index(next - first_quad.begin() - 1);
+  }
   /// The first quad of a face in the shell, and the one after its last.
   std::pair<std::size_t, std::size_t> quads_of(FaceId face) const {
     return {first_quad[face.index()], first_quad[face.index() + 1]};

@@ -87,7 +87,7 @@ struct FaceState {
 };
 
 /// The surface on which nodes of a face move while it is mended.
-class MovedOnFace : public SmoothingSurface {
+class MovedOnFace : public MeshSurface {
  public:
   explicit MovedOnFace(FaceState& face) : surface_(face.get_surface()) {}
   Vector3 move(Vector2& uv, const Vector3& target, Vector3&) const override {

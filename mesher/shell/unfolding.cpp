@@ -28,7 +28,7 @@ bool folds_in(const ShellMesh& mesh, std::size_t quad) {
 class Sliding {
  public:
   /// \param first_quad,end_quad the face's elements
-  Sliding(ShellMesh& mesh, const FaceSurface& surface, std::size_t first_quad, std::size_t end_quad,
+  Sliding(ShellMesh& mesh, const MeshSurface& surface, std::size_t first_quad, std::size_t end_quad,
           Midsides& midsides, const ExecutionContext& context)
       : mesh_(mesh), surface_(surface), midsides_(midsides), check_(context, 256) {
     for (std::size_t quad = first_quad; quad < end_quad; ++quad) {
@@ -68,7 +68,7 @@ class Sliding {
       Vector2& uv = midsides_.parameters[node - midsides_.first_inner];
       const Vector3 old = mesh_.points[node];
       Vector2 moved = uv;
-      mesh_.points[node] = surface_.project(moved, target).point;
+      mesh_.points[node] = surface_.nearest(moved, target);
       const double now = worst(node);
       if (now > best) {
         best = now;
@@ -79,7 +79,10 @@ class Sliding {
     };
     for (const std::size_t user : users_.at(node)) attempt(0.5 * (a + b) + opposite_bulge(user, node));
     const Vector3 along = b - a;
-    const Vector3 across = surface_.normal(midsides_.parameters[node - midsides_.first_inner]).cross(along);
+    Vector2 uv = midsides_.parameters[node - midsides_.first_inner];
+    Vector3 normal;
+    surface_.move(uv, mesh_.points[node], normal);
+    const Vector3 across = normal.cross(along);
     constexpr int halvings = 5;
     double step = 0.25;
     for (int i = 0; i < halvings; ++i, step *= 0.5) {
@@ -102,7 +105,7 @@ class Sliding {
   }
 
   ShellMesh& mesh_;
-  const FaceSurface& surface_;
+  const MeshSurface& surface_;
   Midsides& midsides_;
   SparseCheck check_;
   std::unordered_map<int, std::vector<std::size_t>> users_;
@@ -281,18 +284,18 @@ class Unfolding {
 
   void list(const Straightening& straightening) {
     constexpr double on_geometry = 1e-7;  // share of a side; on a planar face nodes stay on the geometry
-    std::shared_ptr<const FaceSurface> surface;
-    int face = 0;  // face of `surface`
+    std::shared_ptr<const MeshSurface> surface;
+    FaceId face;  // face of `surface`
     for (const auto& [node, side] : straightening.sides()) {
       if (side.share == 0) continue;
       Vector3 nearest = side.place;
       if (node >= static_cast<int>(midsides_.first_inner)) {
-        if (face != mesh_.quad_faces[side.quad]) {
-          face = mesh_.quad_faces[side.quad];
-          surface = meshed_.surface(FaceId::from_number(face));
+        if (const FaceId of_side = numbering_.face_of(side.quad); of_side != face) {
+          face = of_side;
+          surface = meshed_.surface(face);
         }
         Vector2 uv = midsides_.parameters[node - midsides_.first_inner];
-        nearest = surface->project(uv, mesh_.points[node]).point;
+        nearest = surface->nearest(uv, mesh_.points[node]);
       }
       const double distance = (mesh_.points[node] - nearest).norm();
       if (distance > on_geometry * side.length) mesh_.off_geometry.push_back({node, distance});

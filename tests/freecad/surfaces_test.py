@@ -173,7 +173,7 @@ class SurfacesTest(unittest.TestCase):
                               [(0, 1, 2), (0, 1, 3), (0, 1, 4)]))
         before = [obj.Name for obj in self.document.Objects]
         for surface, options, sentence in (
-                (part, {}, "^Part: is no mesh object"), (empty, {}, "^Empty: has no triangles to mesh"),
+                (part, {}, "^Part: is not a mesh object"), (empty, {}, "^Empty: has no triangles to mesh"),
                 (box, {"size": -1}, "larger than 0"), (box, {"size": 1e-4}, "million elements.*take a larger Size"),
                 (box, {"order": 3}, "[Oo]rder"), (box, {"feature_angle": 400}, "FeatureAngle"),
                 (box, {"merge": -2}, "MergeDistance"), (fan, {"size": 2}, "^Fan: ")):

@@ -80,7 +80,7 @@ SurfaceMesh grid(int columns, int rows) {
   return mesh;
 }
 
-ImproveReport clean(SurfaceMesh& mesh, const SmoothingSurface& surface = PlanarSurface()) {
+ImproveReport clean(SurfaceMesh& mesh, const MeshSurface& surface = PlanarSurface()) {
   ImproveReport report;
   ExecutionContext context(1);
   clean_up(mesh, surface, {}, report, context);

@@ -42,7 +42,7 @@ SurfaceMesh grid(int n) {
   return mesh;
 }
 
-ImproveReport relax(SurfaceMesh& mesh, const SmoothingSurface& surface, int sweeps = 8) {
+ImproveReport relax(SurfaceMesh& mesh, const MeshSurface& surface, int sweeps = 8) {
   ImproveOptions options;
   options.smoothing_sweeps = sweeps;
   ImproveReport report;

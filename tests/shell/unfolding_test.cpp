@@ -12,8 +12,10 @@
 #include <memory>
 #include <set>
 
+#include "mesher/faces/face_chart.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/assembly.hpp"
+#include "mesher/shell/face_mesher.hpp"
 #include "tests/models/trouble_models.hpp"
 #include "tests/support/ids.hpp"
 #include "tests/support/process.hpp"
@@ -205,12 +207,12 @@ TEST(Unfolding, NamesTheFaceThatNoStraightSideMends) {
   const FaceId face = face_id(3);
   faces[face] = mesh_face(model.shape(), face, make_chart(model.shape(), face, nodes, ChartKind::own), nodes,
                           field, options, {}, context);
-  std::vector<ShellMesh::Face> statuses(faces.size());
-  EXPECT_NO_THROW(assemble(model.shape(), nodes, faces, statuses, options, context));
+  const CadGeometry geometry(model.shape());
+  EXPECT_NO_THROW(assemble(geometry, nodes, faces, 2, context));
   // The last node, far across its neighbors.
   faces[face]->points.back() += 3 * (faces[face]->points.front() - faces[face]->points.back());
   try {
-    assemble(model.shape(), nodes, faces, statuses, options, context);
+    assemble(geometry, nodes, faces, 2, context);
     ADD_FAILURE() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), Error::Kind::failure);

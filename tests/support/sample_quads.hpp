@@ -158,7 +158,7 @@ inline SurfaceMesh ring(int columns, std::uint32_t seed) {
 }
 
 /// A sphere round the origin; parameters are not used.
-class SphereSurface : public SmoothingSurface {
+class SphereSurface : public MeshSurface {
  public:
   explicit SphereSurface(double radius) : radius_(radius) {}
   Vector3 move(Vector2&, const Vector3& target, Vector3& normal) const override {
@@ -171,7 +171,7 @@ class SphereSurface : public SmoothingSurface {
 };
 
 /// A cylinder round the z axis; parameters are not used.
-class CylinderSurface : public SmoothingSurface {
+class CylinderSurface : public MeshSurface {
  public:
   explicit CylinderSurface(double radius) : radius_(radius) {}
   Vector3 move(Vector2&, const Vector3& target, Vector3& normal) const override {
@@ -215,7 +215,7 @@ inline SurfaceMesh tube(int columns, std::uint32_t seed) {
 struct Sample {
   std::string name;
   SurfaceMesh mesh;
-  std::shared_ptr<const SmoothingSurface> surface;
+  std::shared_ptr<const MeshSurface> surface;
 };
 
 /// Samples of every kind: plane with and without a hole, sizes that grow, sphere, closed cylinder.
@@ -232,7 +232,7 @@ inline std::vector<Sample> samples(int columns) {
 }
 
 /// Each quad split in four, the new nodes put on the surface.
-inline SurfaceMesh subdivide(const SurfaceMesh& coarse, const SmoothingSurface& surface) {
+inline SurfaceMesh subdivide(const SurfaceMesh& coarse, const MeshSurface& surface) {
   SurfaceMesh fine = coarse;
   fine.mesh.quads.clear();
   fine.mesh.quad_tags.clear();

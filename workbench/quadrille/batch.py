@@ -95,7 +95,7 @@ def write_record(path: str, record: Dict[str, Any]) -> None:
 def parts_of(folder: Path) -> List[Path]:
     """The CAD files in a folder and its subfolders, sorted by path."""
     if not folder.is_dir():
-        raise Error(f"{folder}: is no folder", "usage", str(folder))
+        raise Error(f"{folder}: is not a folder", "usage", str(folder))
     found = sorted(path for path in folder.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file())
     if not found:
         raise Error(f"{folder}: holds no CAD files ({', '.join(ENDINGS)})", "usage", str(folder))
@@ -297,16 +297,16 @@ def parser() -> argparse.ArgumentParser:
     """The parser for this module's options, and for those of `quadrille mesh` from the table of settings."""
     result = argparse.ArgumentParser(prog="python3 -m quadrille.batch", description=__doc__.split("\n", 1)[0],
                                      allow_abbrev=False)
-    result.add_argument("folder", metavar="FOLDER", help="CAD files, in folders below it too")
+    result.add_argument("folder", metavar="FOLDER", help="folder of CAD files; its subfolders are searched too")
     result.add_argument("-o", "--output", metavar="OUT", required=True, help="folder for meshes, pictures and the report")
-    result.add_argument("--format", choices=FORMATS, default="msh", help="of the meshes (default msh)")
-    result.add_argument("--workers", type=_positive, default=os.cpu_count(), help="parts at a time (default: one a core)")
+    result.add_argument("--format", choices=FORMATS, default="msh", help="file format of the meshes (default msh)")
+    result.add_argument("--workers", type=_positive, default=os.cpu_count(), help="parts at a time (default: one per core)")
     result.add_argument("--scheduler", metavar="ADDRESS", help="Dask scheduler to use, such as tcp://host:8786; its workers "
                         "must see the same folders, and import quadrille")
     result.add_argument("--scheduler-timeout", type=float, default=10, help="seconds to wait for it (default 10)")
-    result.add_argument("--no-pictures", action="store_true", help="draw none")
+    result.add_argument("--no-pictures", action="store_true", help="draw no pictures")
     result.add_argument("--command", metavar="PATH", help="the quadrille command")
-    result.add_argument("--quiet", action="store_true", help="no progress")
+    result.add_argument("--quiet", action="store_true", help="print no progress")
     group = result.add_argument_group("options of quadrille mesh")
     for setting in SETTINGS:
         kind = {"action": "store_true"} if setting["kind"] == "flag" else {}

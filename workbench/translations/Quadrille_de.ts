@@ -12,7 +12,7 @@
         <translation>Alle veralteten Netze erneut vernetzen</translation>
     </message>
     <message>
-        <source>{}: the estimated error is {} %, below the one wanted: the mesh stays.</source>
+        <source>{}: the estimated error is {} %, below the target: the mesh stays.</source>
         <translation>{}: Der geschätzte Fehler ist {} %, unter dem gewünschten: Das Netz bleibt.</translation>
     </message>
     <message>
@@ -80,7 +80,7 @@
         <translation>Vernetzer</translation>
     </message>
     <message>
-        <source>found by itself</source>
+        <source>found automatically</source>
         <translation>wird von selbst gefunden</translation>
     </message>
     <message>
@@ -92,7 +92,7 @@
         <translation>Befehl</translation>
     </message>
     <message>
-        <source>New meshes start with</source>
+        <source>Settings of new meshes</source>
         <translation>Neue Netze beginnen mit</translation>
     </message>
     <message>
@@ -140,7 +140,7 @@
         <translation>Schiefe</translation>
     </message>
     <message>
-        <source>Least angle</source>
+        <source>Smallest angle</source>
         <translation>Kleinster Winkel</translation>
     </message>
     <message>
@@ -184,7 +184,7 @@
         <translation>Freie Seiten zeigen</translation>
     </message>
     <message>
-        <source>Sides that one element alone has, and nodes on one place</source>
+        <source>Sides of one element only, and nodes at the same place</source>
         <translation>Seiten, die nur ein Element hat, und Knoten am selben Ort</translation>
     </message>
     <message>
@@ -200,7 +200,7 @@
         <translation>Knoten</translation>
     </message>
     <message>
-        <source>q: least, mean</source>
+        <source>q: smallest, mean</source>
         <translation>q: kleinstes, Mittel</translation>
     </message>
     <message>
@@ -228,7 +228,7 @@
         <translation>Auswahl verfeinern</translation>
     </message>
     <message>
-        <source>Give the selected faces, edges or vertices a size of their own</source>
+        <source>Set the element size on the selected faces, edges or vertices</source>
         <translation>Den gewählten Flächen, Kanten oder Ecken eine eigene Größe geben</translation>
     </message>
     <message>
@@ -332,7 +332,7 @@
         <translation>In PATH gibt es keinen Befehl quadrille</translation>
     </message>
     <message>
-        <source>Take a bundle&apos;s file ...</source>
+        <source>Use a bundle file ...</source>
         <translation>Datei eines Pakets nehmen …</translation>
     </message>
     <message>
@@ -340,7 +340,7 @@
         <translation>Herunterladen</translation>
     </message>
     <message>
-        <source>A bundle is unpacked into {}, tried, and named in the preferences. Nothing else is changed.</source>
+        <source>A bundle is unpacked into {}, tested, and entered in the preferences. Nothing else is changed.</source>
         <translation>Ein Paket wird nach {} entpackt, ausprobiert und in den Einstellungen eingetragen. Sonst wird nichts geändert.</translation>
     </message>
     <message>
@@ -372,7 +372,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>ein dünnes Teil wählen, oder mehrere, die sich berühren</translation>
     </message>
     <message>
-        <source>{}. Take what could be paired?</source>
+        <source>{}. Use the walls that could be paired?</source>
         <translation>{}. Nehmen, was gepaart werden konnte?</translation>
     </message>
     <message>
@@ -444,7 +444,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>{} an Ergebnisse anpassen</translation>
     </message>
     <message>
-        <source>Error of the stresses that is wanted, percent</source>
+        <source>Target error of the stresses, percent</source>
         <translation>Gewünschter Fehler der Spannungen, Prozent</translation>
     </message>
     <message>
@@ -456,7 +456,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Größen vorab zeigen</translation>
     </message>
     <message>
-        <source>Show in colors how large elements would be, and what asks for that, before meshing</source>
+        <source>Show the element sizes in colors, and what requests them, before meshing</source>
         <translation>Vor dem Vernetzen in Farben zeigen, wie groß die Elemente würden und was das verlangt</translation>
     </message>
     <message>
@@ -484,7 +484,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Gewählte Kanten teilen</translation>
     </message>
     <message>
-        <source>Say how many elements the selected edges get</source>
+        <source>Set the number of elements on the selected edges</source>
         <translation>Wie viele Elemente die gewählten Kanten bekommen</translation>
     </message>
     <message>
@@ -889,7 +889,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Vierecknetz aus Netz</translation>
     </message>
     <message>
-        <source>Mesh the selected mesh object, such as a scan or an STL file, anew with quads</source>
+        <source>Remesh the selected mesh object, such as a scan or an STL file, with quads</source>
         <translation>Das gewählte Netzobjekt, etwa einen Scan oder eine STL-Datei, neu mit Vierecken vernetzen</translation>
     </message>
 </context>

@@ -12,7 +12,7 @@
         <translation>Mailler à nouveau tous les maillages périmés</translation>
     </message>
     <message>
-        <source>{}: the estimated error is {} %, below the one wanted: the mesh stays.</source>
+        <source>{}: the estimated error is {} %, below the target: the mesh stays.</source>
         <translation>{} : l’erreur estimée est de {} %, sous celle voulue : le maillage reste.</translation>
     </message>
     <message>
@@ -80,7 +80,7 @@
         <translation>Mailleur</translation>
     </message>
     <message>
-        <source>found by itself</source>
+        <source>found automatically</source>
         <translation>trouvée d'elle-même</translation>
     </message>
     <message>
@@ -92,7 +92,7 @@
         <translation>Commande</translation>
     </message>
     <message>
-        <source>New meshes start with</source>
+        <source>Settings of new meshes</source>
         <translation>Les nouveaux maillages débutent avec</translation>
     </message>
     <message>
@@ -140,7 +140,7 @@
         <translation>Biais</translation>
     </message>
     <message>
-        <source>Least angle</source>
+        <source>Smallest angle</source>
         <translation>Angle minimal</translation>
     </message>
     <message>
@@ -184,7 +184,7 @@
         <translation>Montrer les côtés libres</translation>
     </message>
     <message>
-        <source>Sides that one element alone has, and nodes on one place</source>
+        <source>Sides of one element only, and nodes at the same place</source>
         <translation>Côtés d'un seul élément, et nœuds au même endroit</translation>
     </message>
     <message>
@@ -200,7 +200,7 @@
         <translation>Nœuds</translation>
     </message>
     <message>
-        <source>q: least, mean</source>
+        <source>q: smallest, mean</source>
         <translation>q : min., moyen</translation>
     </message>
     <message>
@@ -228,7 +228,7 @@
         <translation>Raffiner la sélection</translation>
     </message>
     <message>
-        <source>Give the selected faces, edges or vertices a size of their own</source>
+        <source>Set the element size on the selected faces, edges or vertices</source>
         <translation>Donner une taille propre aux faces, arêtes ou sommets sélectionnés</translation>
     </message>
     <message>
@@ -332,7 +332,7 @@
         <translation>Il n’y a pas de commande quadrille dans le PATH</translation>
     </message>
     <message>
-        <source>Take a bundle&apos;s file ...</source>
+        <source>Use a bundle file ...</source>
         <translation>Prendre le fichier d’une archive…</translation>
     </message>
     <message>
@@ -340,7 +340,7 @@
         <translation>Télécharger</translation>
     </message>
     <message>
-        <source>A bundle is unpacked into {}, tried, and named in the preferences. Nothing else is changed.</source>
+        <source>A bundle is unpacked into {}, tested, and entered in the preferences. Nothing else is changed.</source>
         <translation>Une archive est extraite dans {}, essayée, puis indiquée dans les préférences. Rien d’autre n’est modifié.</translation>
     </message>
     <message>
@@ -372,7 +372,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>sélectionnez une pièce mince, ou plusieurs qui se touchent</translation>
     </message>
     <message>
-        <source>{}. Take what could be paired?</source>
+        <source>{}. Use the walls that could be paired?</source>
         <translation>{}. Prendre ce qui a pu être apparié ?</translation>
     </message>
     <message>
@@ -444,7 +444,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Adapter {} aux résultats</translation>
     </message>
     <message>
-        <source>Error of the stresses that is wanted, percent</source>
+        <source>Target error of the stresses, percent</source>
         <translation>Erreur voulue sur les contraintes, pour cent</translation>
     </message>
     <message>
@@ -456,7 +456,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Aperçu des tailles</translation>
     </message>
     <message>
-        <source>Show in colors how large elements would be, and what asks for that, before meshing</source>
+        <source>Show the element sizes in colors, and what requests them, before meshing</source>
         <translation>Montrer en couleurs, avant de mailler, la taille qu'auraient les éléments et ce qui la demande</translation>
     </message>
     <message>
@@ -484,7 +484,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Diviser les arêtes choisies</translation>
     </message>
     <message>
-        <source>Say how many elements the selected edges get</source>
+        <source>Set the number of elements on the selected edges</source>
         <translation>Dire combien d’éléments les arêtes choisies reçoivent</translation>
     </message>
     <message>
@@ -889,7 +889,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Quadrangles à partir d’un maillage</translation>
     </message>
     <message>
-        <source>Mesh the selected mesh object, such as a scan or an STL file, anew with quads</source>
+        <source>Remesh the selected mesh object, such as a scan or an STL file, with quads</source>
         <translation>Remailler en quadrangles l’objet maillage sélectionné, par exemple un scan ou un fichier STL</translation>
     </message>
 </context>

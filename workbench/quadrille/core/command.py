@@ -156,7 +156,7 @@ def check_version(path: str) -> None:
         answer = subprocess.run(on_host([path, "--version"]), stdin=subprocess.DEVNULL, capture_output=True,
                                 text=True, errors="replace", timeout=30, env=child_environment(), check=False)
     except (OSError, subprocess.TimeoutExpired) as error:
-        raise Error(f"{path}: does not tell its version ({error}); install Quadrille {VERSION}", "failure",
+        raise Error(f"{path}: does not print its version ({error}); install Quadrille {VERSION}", "failure",
                     path) from error
     match = re.search(r"(\d+)\.(\d+)\.(\d+)", answer.stdout)
     if answer.returncode != 0 or not match:

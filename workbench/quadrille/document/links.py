@@ -140,8 +140,8 @@ def _now(mesh, entry: Chosen, elements: shapes.Elements, record: Tuple[str, List
 
 def _lost(mesh, entry: Chosen) -> Error:
     name = entry.name.lstrip(_MISSING)
-    return Error(f"{mesh.Label}: which face, edge or vertex of {entry.target.Label} {name} was ({entry.label}) cannot be told "
-                 "since the part was changed: choose it again", "usage", name)
+    return Error(f"{mesh.Label}: which face, edge or vertex of {entry.target.Label} {name} was ({entry.label}) cannot be "
+                 "identified since the part was changed: choose it again", "usage", name)
 
 
 def _has_shape(target) -> bool:

@@ -71,7 +71,7 @@ def adapt(mesh, error: float = 0.05, count: Optional[float] = None, result=None,
     try:
         if done.job is None:
             FreeCAD.Console.PrintMessage(f"{mesh.Label}: the estimated error is {100 * done.estimate.error:.3g} %, below the "
-                                         "one wanted: the mesh stays\n")
+                                         "target: the mesh stays\n")
             return done.estimate
         for name, value in done.properties.items():
             setattr(mesh, name, value)
@@ -99,7 +99,7 @@ def _key(mesh) -> Tuple[str, str]:
 def _prepare(mesh, error, count, result, progress, command) -> _Round:
     """Does everything that can fail, before the document is changed."""
     if mesh.SizeField:
-        raise Error(f"{mesh.Label}: its SizeField is in the place of the sizes that follow results: clear it first", "usage",
+        raise Error(f"{mesh.Label}: its SizeField is set, where the sizes from results belong: clear it first", "usage",
                     "SizeField")
     folder = scratch_folder()
     try:
@@ -200,7 +200,7 @@ def _bricks_of(result, analysis) -> _Bricks:
     bricks = _bricks_of_pipeline(result) if _is_pipeline(result) else _bricks_of_object(result)
     if not bricks.kinds.size or not np.isin(bricks.kinds, [kind for kind, _ in _BRICKS.values()]).all():
         solver = next((solver.Label for solver in results.solvers_of(analysis)), "the solver")
-        raise Error(f"{result.Label}: tells of the middle of the shell alone: set {results.SURFACE_RESULTS} of {solver} to true, "
+        raise Error(f"{result.Label}: has results at the middle of the shell only: set {results.SURFACE_RESULTS} of {solver} to true, "
                     "and solve again", "usage", result.Name)
     return bricks
 
@@ -216,7 +216,7 @@ def _bricks_of_object(result) -> _Bricks:
     for volume in sorted(bricks.Volumes):
         nodes = bricks.getElementNodes(volume)
         if len(nodes) not in _BRICKS:
-            raise Error(f"{result.Label}: does not tell of shells: an element has {len(nodes)} nodes", "usage", result.Name)
+            raise Error(f"{result.Label}: has no shell elements: an element has {len(nodes)} nodes", "usage", result.Name)
         kind, places = _BRICKS[len(nodes)]
         kinds.append(kind)
         cells.append(index[[nodes[place] for place in places]])

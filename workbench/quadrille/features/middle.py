@@ -260,7 +260,7 @@ def _compute(part, partial: bool, join: bool) -> _Result:
     """Runs the command. Raises Error with the command's sentence if it fails."""
     shape, label = state.shape_of(part), part.Label
     if not shape.Solids:
-        raise Error(f"{label}: has no solid, which a middle surface needs", "usage", part.Name)
+        raise Error(f"{label}: has no solid; a middle surface is made of solids", "usage", part.Name)
     with scratch_folder() as folder:
         model, surface = (os.path.join(folder, file) for file in ("part.brep", "middle.brep"))
         shape.exportBrep(model)
@@ -329,15 +329,15 @@ class MiddleSurface:
         """Adds missing properties, so that documents of older versions gain new ones."""
         for kind, name, group, text in (
             ("App::PropertyLink", "Source", "Middle surface", "The thin part"),
-            ("App::PropertyBool", "Partial", "Middle surface", "Take what could be paired where the part is thin in places only"),
-            ("App::PropertyBool", "Join", "Middle surface", "Take solids that touch for one, as if welded"),
+            ("App::PropertyBool", "Partial", "Middle surface", "Use the walls that could be paired if the part is thin in places only"),
+            ("App::PropertyBool", "Join", "Middle surface", "Treat solids that touch as one part, as if welded"),
             ("App::PropertyFloatList", "Thicknesses", "Result", "Mean thickness of each face, mm"),
-            ("App::PropertyFloatList", "Thinnest", "Result", "Least thickness of each face, mm"),
+            ("App::PropertyFloatList", "Thinnest", "Result", "Smallest thickness of each face, mm"),
             ("App::PropertyFloatList", "Thickest", "Result", "Largest thickness of each face, mm"),
             ("App::PropertyStringList", "Between", "Result", "The faces of the part that each face lies between"),
             ("App::PropertyStringList", "Rims", "Result", "The faces of the part that free edges lie on"),
             ("App::PropertyFloat", "VolumeShare", "Result", "Sum of area times thickness over the volume of the part"),
-            ("App::PropertyStringList", "Problems", "Result", "What of the part has no middle surface"),
+            ("App::PropertyStringList", "Problems", "Result", "The parts of the solid that have no middle surface"),
         ):
             if name not in obj.PropertiesList:
                 obj.addProperty(kind, name, group, text)

@@ -40,7 +40,7 @@ def check_surface(surface, analysis=None) -> None:
     """Raises Error if `surface` is no mesh object that can be meshed, or if the analysis cannot take its mesh."""
     label, name = getattr(surface, "Label", surface), getattr(surface, "Name", "")
     if not is_mesh_object(surface):
-        raise Error(f"{label}: is no mesh object; select one, such as an STL file that was imported", "usage", name)
+        raise Error(f"{label}: is not a mesh object; select one, such as an STL file that was imported", "usage", name)
     if not surface.Mesh.CountFacets:
         raise Error(f"{label}: has no triangles to mesh", "usage", name)
     core.check_analysis(analysis)
@@ -220,10 +220,10 @@ class SurfaceMesh:
     def add_properties(obj) -> None:
         """Adds missing properties, so that documents of older versions gain new ones."""
         for kind, name, group, text in (
-            ("App::PropertyLink", "Surface", "Mesh", "The mesh object that is meshed anew"),
+            ("App::PropertyLink", "Surface", "Mesh", "The mesh object that is remeshed"),
             ("App::PropertyLength", "Size", "Mesh", "Length of elements"),
             ("App::PropertyEnumeration", "ElementOrder", "Mesh", "2nd: eight-node quads, 1st: four-node quads"),
-            ("App::PropertyAngle", "FeatureAngle", "Mesh", "Angle between neighboring triangles from which on they are of two "
+            ("App::PropertyAngle", "FeatureAngle", "Mesh", "Smallest angle between neighboring triangles of two different "
              "faces; 0 = the whole surface is one face"),
             ("App::PropertyLength", "MergeDistance", "Mesh", "Nodes at most this far apart become one; 0 = those on one place"),
             ("App::PropertyFloat", "OffSurface", "Result", "The farthest that the mesh is from the surface, mm"),

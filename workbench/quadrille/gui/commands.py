@@ -207,7 +207,7 @@ class SurfaceCommand(_Command):
 
     name = "Quadrille_Surface"
     text = QT_TRANSLATE_NOOP("Quadrille_Surface", "Quad mesh from mesh")
-    tip = QT_TRANSLATE_NOOP("Quadrille_Surface", "Mesh the selected mesh object, such as a scan or an STL file, anew with quads")
+    tip = QT_TRANSLATE_NOOP("Quadrille_Surface", "Remesh the selected mesh object, such as a scan or an STL file, with quads")
     pixmap = "quadrille_surface"
     accelerator = "Q, S"
     step = "Create quad mesh from mesh"
@@ -388,7 +388,7 @@ class AdaptCommand(_Command):
         do(f"quadrille.adaption.adapt({path_of(mesh)}, error={percent / 100!r})")
         error = f"{100 * estimate.error:.3g}"
         if mesh.MeshToken == token:
-            self._word = translate("Quadrille", "{}: the estimated error is {} %, below the one wanted: the mesh stays.").format(
+            self._word = translate("Quadrille", "{}: the estimated error is {} %, below the target: the mesh stays.").format(
                 mesh.Label, error)
         else:
             self._word = translate("Quadrille", "{}: the estimated error was {} %; now there are {} quads: solve again.").format(
@@ -407,7 +407,7 @@ class AdaptCommand(_Command):
         """Asks for the wanted error, in percent, in a dialog; None if it is cancelled."""
         percent, agreed = QtGui.QInputDialog.getDouble(
             FreeCADGui.getMainWindow(), translate("Quadrille", "Adapt {} to results").format(mesh.Label),
-            translate("Quadrille", "Error of the stresses that is wanted, percent"), 5.0, 0.01, 99.0, 2)
+            translate("Quadrille", "Target error of the stresses, percent"), 5.0, 0.01, 99.0, 2)
         return percent if agreed else None
 
 

@@ -30,7 +30,7 @@ class EntryRows(RowList):
     def __init__(self, divide: Callable[[], None], changed: Callable[[], None]) -> None:
         """divide: called to add numbers for the selected edges, with add()."""
         super().__init__(translate("Quadrille", "Divide selected edges"),
-                         translate("Quadrille", "Say how many elements the selected edges get"), "QuadrilleDivide", divide, changed)
+                         translate("Quadrille", "Set the number of elements on the selected edges"), "QuadrilleDivide", divide, changed)
 
     def values(self) -> Dict[str, List[str]]:
         """The entries shown, by property. Raises Error if one has no number."""

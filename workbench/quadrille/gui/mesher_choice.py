@@ -59,7 +59,7 @@ class MesherChoice(QtGui.QGroupBox):
         self.on_path.setEnabled(self._found is not None)
         self.on_path.setToolTip(self._found or why)
         self.on_path.clicked.connect(self._take_path)
-        self.file = QtGui.QPushButton(translate("Quadrille", "Take a bundle's file ..."))
+        self.file = QtGui.QPushButton(translate("Quadrille", "Use a bundle file ..."))
         self.file.setObjectName("QuadrilleMesherFile")
         self.file.clicked.connect(self._browse)
         self.address = QtGui.QLineEdit()
@@ -69,7 +69,7 @@ class MesherChoice(QtGui.QGroupBox):
         self.fetch.setObjectName("QuadrilleMesherDownload")
         self.fetch.clicked.connect(self._download)
         self.text = QtGui.QLabel(translate(
-            "Quadrille", "A bundle is unpacked into {}, tried, and named in the preferences. Nothing else is changed.").format(
+            "Quadrille", "A bundle is unpacked into {}, tested, and entered in the preferences. Nothing else is changed.").format(
                 data_folder() / "mesher"))
         self.text.setObjectName("QuadrilleMesherText")
         self.text.setWordWrap(True)

@@ -28,7 +28,7 @@ def find(part, options: Dict[str, bool], agreed: Callable[[str], bool] = ask) ->
         middle.prepare(part, **options)
     except Error as error:
         if not middle.is_partly_thin(error) or not agreed(
-                translate("Quadrille", "{}. Take what could be paired?").format(error)):
+                translate("Quadrille", "{}. Use the walls that could be paired?").format(error)):
             raise
         options["partial"] = True
         middle.prepare(part, **options)

@@ -78,7 +78,7 @@ class PreferencesPage:
         box = QtGui.QGroupBox(translate("Quadrille", "Mesher"))
         self.command = QtGui.QLineEdit()
         self.command.setObjectName("QuadrillePrefCommand")
-        self.command.setPlaceholderText(translate("Quadrille", "found by itself"))
+        self.command.setPlaceholderText(translate("Quadrille", "found automatically"))
         self.command.setToolTip(translate("Quadrille", "Path of the quadrille command, where it is not on PATH"))
         browse = QtGui.QPushButton("...")
         browse.clicked.connect(self._browse)
@@ -97,7 +97,7 @@ class PreferencesPage:
         return box
 
     def _new_meshes(self):
-        box = QtGui.QGroupBox(translate("Quadrille", "New meshes start with"))
+        box = QtGui.QGroupBox(translate("Quadrille", "Settings of new meshes"))
         form = QtGui.QFormLayout(box)
         self.suggested = QtGui.QSpinBox()
         self.suggested.setObjectName("QuadrillePrefElements")

@@ -23,7 +23,7 @@ MEASURES = {
     "aspect": QT_TRANSLATE_NOOP("Quadrille", "Aspect"),
     "warp": QT_TRANSLATE_NOOP("Quadrille", "Warp"),
     "skew": QT_TRANSLATE_NOOP("Quadrille", "Skew"),
-    "angle_min": QT_TRANSLATE_NOOP("Quadrille", "Least angle"),
+    "angle_min": QT_TRANSLATE_NOOP("Quadrille", "Smallest angle"),
     "angle_max": QT_TRANSLATE_NOOP("Quadrille", "Largest angle"),
     "jacobian_ratio": QT_TRANSLATE_NOOP("Quadrille", "Jacobian ratio"),
     "taper": QT_TRANSLATE_NOOP("Quadrille", "Taper"),
@@ -67,7 +67,7 @@ class QualityWidget(QtGui.QWidget):
         self.color.toggled.connect(self._color)
         self.free = QtGui.QCheckBox(translate("Quadrille", "Show free sides"))
         self.free.setObjectName("QuadrilleFree")
-        self.free.setToolTip(translate("Quadrille", "Sides that one element alone has, and nodes on one place"))
+        self.free.setToolTip(translate("Quadrille", "Sides of one element only, and nodes at the same place"))
         self.free.toggled.connect(self._show_free)
         self.worst = QtGui.QListWidget()
         self.worst.setObjectName("QuadrilleWorst")
@@ -116,7 +116,7 @@ class QualityWidget(QtGui.QWidget):
         _fill(self.table, (
             (translate("Quadrille", "Quads"), f"{mesh.QuadCount}"),
             (translate("Quadrille", "Nodes"), f"{mesh.NodeCount}"),
-            (translate("Quadrille", "q: least, mean"), f"{mesh.WorstQuality:.3f}, {mesh.MeanQuality:.3f}"),
+            (translate("Quadrille", "q: smallest, mean"), f"{mesh.WorstQuality:.3f}, {mesh.MeanQuality:.3f}"),
             (translate("Quadrille", "Jacobian"), f"{mesh.WorstJacobian:.3f}, {mesh.MeanJacobian:.3f}"),
             (translate("Quadrille", "Irregular nodes"), f"{mesh.IrregularPercent:.2f} %"),
             (translate("Quadrille", "Outside limits"), f"{mesh.OutsidePercent:.2f} %"),

@@ -25,7 +25,7 @@ class RefinementList(RowList):
 
     def __init__(self, add: Callable[[], None], changed: Callable[[], None]) -> None:
         super().__init__(translate("Quadrille", "Refine selection"),
-                         translate("Quadrille", "Give the selected faces, edges or vertices a size of their own"),
+                         translate("Quadrille", "Set the element size on the selected faces, edges or vertices"),
                          "QuadrilleAddRefinement", add, changed)
 
     def refinements(self) -> Tuple[Refinement, ...]:

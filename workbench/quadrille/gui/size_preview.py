@@ -34,7 +34,7 @@ class SizePreview(QtGui.QWidget):
         self.button = QtGui.QPushButton(translate("Quadrille", "Preview sizes"))
         self.button.setObjectName("QuadrillePreview")
         self.button.setToolTip(translate(
-            "Quadrille", "Show in colors how large elements would be, and what asks for that, before meshing"))
+            "Quadrille", "Show the element sizes in colors, and what requests them, before meshing"))
         self.button.setCheckable(True)
         self.text = QtGui.QLabel()
         self.text.setObjectName("QuadrillePreviewText")

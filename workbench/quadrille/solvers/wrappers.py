@@ -61,7 +61,7 @@ _LOST = {
     "_checked_in_framework": "solvers of the framework do not refuse a mesh that is out of date",
     "_checked_by_ccxtools": "CalculiX does not refuse a mesh that is out of date",
     "_prepared": "CalculiX does not refuse a mesh that is out of date",
-    "_announced": "scripts are not told that a mesh is out of date",
+    "_announced": "scripts get no error message when a mesh is out of date",
     "_of_shells": "large meshes take long to write for solvers",
     "_noting_objects": "several materials or thicknesses take long to write for solvers",
     "_from_groups": "several materials or thicknesses take long to write for solvers",

@@ -1,0 +1,91 @@
+/// Measures the share of quads outside the usual limits, the number of quads beside what the sizes ask for,
+/// and the shapes of few quads.
+
+#include "mesher/shell/face_judge.hpp"
+
+#include <algorithm>
+
+#include "mesher/mesh/criteria.hpp"
+#include "mesher/quads/criteria_patch.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// The share of quads outside the usual limits for criteria other than warp. In large meshes a sample of
+/// about a thousand quads is measured.
+double share_outside(const FaceMesh& mesh) {
+  constexpr std::size_t enough = 1000;
+  const std::size_t step = 1 + mesh.quads.size() / enough;
+  const CriteriaLimits limits;
+  const auto& p = mesh.points;
+  int outside = 0, measured = 0;
+  for (std::size_t at = 0; at < mesh.quads.size(); at += step, ++measured) {
+    const auto [a, b, c, d] = mesh.quads[at];
+    const CriteriaValues values = measure_criteria(p[a], p[b], p[c], p[d]);
+    for (std::size_t i = 0; i < criterion_count; ++i) {
+      const auto criterion = static_cast<Criterion>(i);
+      if (criterion == Criterion::warp || !limits.fails(criterion, values[i])) continue;
+      ++outside;
+      break;
+    }
+  }
+  return static_cast<double>(outside) / std::max(1, measured);
+}
+
+/// Whether a grid has more than 1.5 quads per boundary node: over three rows if long, over six if square.
+bool has_rows(const FaceMesh& grid) {
+  return 2 * static_cast<double>(grid.quads.size()) > 3 * static_cast<double>(grid.nodes.size());
+}
+
+/// The sum over the quads of how far their objective exceeds `fine`. Each quad counts up to `most`.
+double badness(const FaceMesh& mesh) {
+  constexpr double fine = 0.5, most = 10;
+  double sum = 0;
+  const auto& p = mesh.points;
+  for (const auto& [a, b, c, d] : mesh.quads)
+    sum += std::clamp(measure_objective(p[a], p[b], p[c], p[d]).value - fine, 0.0, most);
+  return sum;
+}
+
+}  // namespace
+
+bool FaceJudge::is_doubtful(const FaceMesh& grid, bool stepped, bool divided) {
+  stepped_ = stepped;
+  outside_ = stepped || has_rows(grid) ? share_outside(grid) : 0;
+  wasteful_ = !divided && wastes_quads(grid, limits_.wasteful);
+  return wasteful_ || outside_ > (stepped ? limits_.outside_of_steps : limits_.outside_of_grid);
+}
+
+bool FaceJudge::replaces_grid(const FaceMesh& other, const FaceMesh& grid) const {
+  const double left = share_outside(other);
+  const double share = static_cast<double>(other.quads.size()) / static_cast<double>(grid.quads.size());
+  if ((stepped_ ? limits_.gain_of_steps : limits_.gain) * left < outside_) return true;
+  return wasteful_ && share < limits_.fewer && left <= std::max(outside_, limits_.most_outside / share);
+}
+
+bool FaceJudge::is_doubtful(const FaceMesh& cut) {
+  if (cut.quads.size() > limits_.few) return wastes_quads(cut, limits_.too_many);
+  return badness(cut) >= limits_.poor * static_cast<double>(cut.quads.size());
+}
+
+bool FaceJudge::replaces_cut(const FaceMesh& direct, const FaceMesh& cut) const {
+  return cut.quads.size() > limits_.few || badness(direct) < limits_.better * badness(cut);
+}
+
+/// Whether there are more than `most` times the quads that the sizes ask for, plus half of the boundary
+/// segments. Rows that are fine for one edge also run through areas that want larger quads.
+bool FaceJudge::wastes_quads(const FaceMesh& mesh, double most) {
+  double wanted = 0;
+  SparseCheck check(context_);
+  const auto& p = mesh.points;
+  for (const auto& [a, b, c, d] : mesh.quads) {
+    check();
+    const double size = size_at_(0.25 * (p[a] + p[b] + p[c] + p[d]));
+    wanted += 0.5 * (p[c] - p[a]).cross(p[d] - p[b]).norm() / (size * size);
+  }
+  return static_cast<double>(mesh.quads.size()) >
+         most * wanted + 0.5 * static_cast<double>(mesh.nodes.size());
+}
+
+}  // namespace quadrille

@@ -1,0 +1,58 @@
+#pragma once
+/// Compares meshes of one face: which of the candidates is delivered, and which need not be tried. Internal.
+
+#include <array>
+#include <vector>
+
+#include "geometry/base/execution_context.hpp"
+#include "geometry/sizing/sizing_field.hpp"
+#include "mesher/shell/face_mesher.hpp"
+
+namespace quadrille {
+
+/// The thresholds of all comparisons. Tuned on 57 parts as users have them, at sizes of a 20th, a 60th and a
+/// 150th of their diagonals.
+struct FaceThresholds {
+  /// A grid is kept without a look at other meshes up to this share of quads outside the limits; one with
+  /// steps has corners of its own, which other meshes do without.
+  double outside_of_grid = 0.05, outside_of_steps = 0.01;
+  /// The share outside the limits in a grid must fall by this factor with another mesh.
+  double gain = 2, gain_of_steps = 1;
+  /// A grid with this many times the quads that the sizes ask for is wasteful. Another mesh needs fewer than
+  /// `fewer` of its quads, of which at most `most_outside` lie outside the limits.
+  double wasteful = 1.5, fewer = 0.8, most_outside = 0.05;
+  /// Up to this number of quads a mesh is judged by their shapes, above by their number.
+  std::size_t few = 200;
+  /// Quads cut in four are replaced by quads of the final size if there are this many times those that the
+  /// sizes ask for; of few quads, if their mean badness exceeds `poor` and falls by the factor `better`.
+  double too_many = 1.1, poor = 0.1, better = 0.6;
+};
+
+/// Judges meshes of one face.
+class FaceJudge {
+ public:
+  FaceJudge(const SizingField& field, FaceId face, const ExecutionContext& context)
+      : size_at_(field, face), context_(context) {}
+
+  /// Whether other meshes than this grid are worth trying. \param stepped its outline has steps
+  /// \param divided users prescribe the number of its rows
+  bool is_doubtful(const FaceMesh& grid, bool stepped, bool divided);
+  /// Whether another mesh is to replace the grid that is_doubtful() saw last.
+  bool replaces_grid(const FaceMesh& other, const FaceMesh& grid) const;
+
+  /// Whether a mesh of quads cut in four is to be compared with one of quads of the final size.
+  bool is_doubtful(const FaceMesh& cut);
+  /// Whether quads of the final size are better than quads cut in four.
+  bool replaces_cut(const FaceMesh& direct, const FaceMesh& cut) const;
+
+ private:
+  bool wastes_quads(const FaceMesh& mesh, double most);
+
+  static constexpr FaceThresholds limits_{};
+  SizingField::Sampler size_at_;
+  const ExecutionContext& context_;
+  double outside_ = 0;  // of the grid, as far as it counts
+  bool wasteful_ = false, stepped_ = false;
+};
+
+}  // namespace quadrille
