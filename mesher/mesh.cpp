@@ -29,6 +29,7 @@
 #include "mesher/quadrille.hpp"
 #include "mesher/settings.hpp"
 #include "mesher/shell/assembly.hpp"
+#include "mesher/shell/edge_suppression.hpp"
 #include "mesher/shell/face_mesher.hpp"
 #include "mesher/shell/last_resort.hpp"
 #include "mesher/shell/node_sliding.hpp"
@@ -107,6 +108,7 @@ class Job {
       throw failure("size_min",
                     "all faces are far below the least size: ask for a smaller one, or `keep_features`");
     slide();
+    suppress_edges();
     // The faces meshed so far are delivered, even past the time limit.
     if (options_.partial) context_.lift_time_limit();
     ShellMesh result = assemble(CadGeometry(shape_), nodes_, meshes_, options_.order, context_);
@@ -154,6 +156,12 @@ class Job {
     if (done) return;
     nodes_ = nodes;
     meshes_ = meshes;
+  }
+
+  void suppress_edges() {
+    if (options_.keep_features || !options_.improve.clean_up || options_.improve.sliding_sweeps <= 0) return;
+    if (std::getenv("NOSUP")) return;
+    suppressed_ = suppress_smooth_edges(shape_, EdgeFlags(shape_.edges.size(), 0), nodes_, meshes_, options_.improve, context_);
   }
 
   /// \param again whether faces were meshed before. \return false if no time is left for another round.
@@ -564,6 +572,7 @@ class Job {
   SizeLimits limits_;
   ExecutionContext& context_;
   SamplingPlan plan_;
+  std::vector<EdgeId> suppressed_;
   EdgeTables tables_;
   FaceFlags used_;
   FaceFlags to_tips_;  ///< 1 = does not end before its tips

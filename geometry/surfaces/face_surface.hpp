@@ -66,6 +66,7 @@ class FaceSurface : public MeshSurface {
   }
   /// The point of the surface closest to `target` near `uv`, which is updated (bounded Newton iterations).
   SurfacePoint project(Vector2& uv, const Vector3& target) const;
+  Vector3 approach(Vector2& uv, const Vector3& target) const override { return move(uv, target).point; }
   Vector3 nearest(Vector2& uv, const Vector3& target) const override { return project(uv, target).point; }
 
   /// A lower bound of the distance from a point to the surface, trimmed or not. It is the exact distance to

@@ -19,12 +19,15 @@ class MeshSurface {
   /// counter-clockwise seen from) goes to `normal`.
   virtual Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const = 0;
 
-  /// The point of the surface closest to `target` near `uv`, which is updated. As exact as the surface
-  /// allows.
-  virtual Vector3 nearest(Vector2& uv, const Vector3& target) const {
+  /// move() without the normal.
+  virtual Vector3 approach(Vector2& uv, const Vector3& target) const {
     Vector3 normal;
     return move(uv, target, normal);
   }
+
+  /// The point of the surface closest to `target` near `uv`, which is updated. As exact as the surface
+  /// allows.
+  virtual Vector3 nearest(Vector2& uv, const Vector3& target) const { return approach(uv, target); }
 
   /// Parameters from which a search between points finds the surface. \param uvs of at least one point.
   virtual Vector2 between(std::span<const Vector2> uvs) const {

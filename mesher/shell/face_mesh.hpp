@@ -8,7 +8,7 @@
 
 #include "geometry/base/vector.hpp"
 #include "geometry/cad/ids.hpp"
-#include "geometry/surfaces/face_surface.hpp"
+#include "geometry/surfaces/mesh_surface.hpp"
 
 namespace quadrille {
 
@@ -21,7 +21,7 @@ struct FaceMesh {
   std::vector<int> nodes;                      ///< indices into BoundaryNodes::points
   double q_min = 0;                            ///< lowest q of the quads
   bool grid = false;                           ///< the face was meshed as a grid, see face_grid.hpp
-  std::shared_ptr<const FaceSurface> surface;  ///< surface that uv refer to; null = the face's own
+  std::shared_ptr<const MeshSurface> surface;  ///< surface that uv refer to; null = the face's own
   /// (n) distance of each point from the surface, where quads on it would be inverted; empty = all lie on it.
   /// Otherwise no point inside the face moves any more.
   std::vector<double> off;

@@ -56,7 +56,7 @@ struct QuadUse {
 struct FaceState {
   FaceMesh* mesh = nullptr;
   const CadFace* cad_face = nullptr;
-  std::shared_ptr<const FaceSurface> surface;  // made on first use
+  std::shared_ptr<const MeshSurface> surface;  // made on first use
   std::vector<int> first, corners;             // 4 * quad + corner around each point, in compressed rows
   std::vector<double> objective, least_sine;   // (quads) the objective is weighted
   std::vector<double> weight;                  // (quads) of the objective
@@ -66,7 +66,7 @@ struct FaceState {
   bool mended = false;                         // quads were replaced
   int moves = 0;                               // nodes moved in the last sweep
 
-  const FaceSurface& get_surface() {
+  const MeshSurface& get_surface() {
     if (!surface) surface = mesh->surface ? mesh->surface : std::make_shared<const FaceSurface>(*cad_face);
     return *surface;
   }
@@ -91,11 +91,11 @@ class MovedOnFace : public MeshSurface {
  public:
   explicit MovedOnFace(FaceState& face) : surface_(face.get_surface()) {}
   Vector3 move(Vector2& uv, const Vector3& target, Vector3&) const override {
-    return surface_.move(uv, target).point;
+    return surface_.approach(uv, target);
   }
 
  private:
-  const FaceSurface& surface_;
+  const MeshSurface& surface_;
 };
 
 class NodeSliding {
@@ -112,6 +112,17 @@ class NodeSliding {
     for (const auto& edge : nodes.edges) sampled_.push_back(edge.parameters);
     link_boundary();
     find_slidable();
+  }
+
+  /// Leaves the nodes on CAD edges where they are.
+  void hold_edges() { std::fill(slidable_.begin(), slidable_.end(), 0); }
+
+  /// Moves nodes of quads outside the limits.
+  void mend_only(int sweeps) {
+    slide(sweeps, toward_limits);
+    if (!mend()) return;
+    for (FaceState& face : states_) std::fill(face.active.begin(), face.active.end(), 1);
+    slide(sweeps, toward_limits);
   }
 
   /// Moves active nodes toward right angles, then those of quads outside the limits.
@@ -483,7 +494,7 @@ class NodeSliding {
     const auto [x, y] = patch.lowest(round.shortest, 0.5 * round.mean);
     for (const double share : {1.0, 0.5}) {
       Vector2 uv = face.mesh->uv[node];
-      trial.point = face.get_surface().move(uv, here + share * (x * u + y * v)).point;
+      trial.point = face.get_surface().approach(uv, here + share * (x * u + y * v));
       if (!is_better(round, trial)) continue;
       const double moved = (trial.point - here).norm();
       face.mesh->points[node] = trial.point;
@@ -551,7 +562,7 @@ class NodeSliding {
     if (!face.touched) return;
     FaceMesh& mesh = *face.mesh;
     for (std::size_t i = 0; i < face.slid.size(); ++i)
-      if (face.slid[i]) face.get_surface().project(mesh.uv[i], mesh.points[i]);
+      if (face.slid[i]) face.get_surface().nearest(mesh.uv[i], mesh.points[i]);
     mesh.q_min = 1;
     SparseCheck check(context_);
     for (const auto& [a, b, c, d] : mesh.quads) {
@@ -582,6 +593,14 @@ void slide_nodes(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces,
   NodeSliding sliding(shape, nodes, faces, context);
   sliding.run(options.sliding_sweeps);
   if (options.clean_up && sliding.mend()) sliding.run(options.sliding_sweeps);
+  sliding.finish();
+}
+
+void mend_inside(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces, const ImproveOptions& options,
+                 ExecutionContext& context) {
+  NodeSliding sliding(shape, nodes, faces, context);
+  sliding.hold_edges();
+  sliding.mend_only(options.sliding_sweeps);
   sliding.finish();
 }
 

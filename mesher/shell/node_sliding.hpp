@@ -8,7 +8,7 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "mesher/edges/edge_sampling.hpp"
 #include "mesher/quads/improve_options.hpp"
-#include "mesher/shell/face_mesher.hpp"
+#include "mesher/shell/face_mesh.hpp"
 
 namespace quadrille {
 
@@ -25,5 +25,9 @@ namespace quadrille {
 /// threads. Complexity: linear in the quads, plus about 2 us per sweep for each node of a poor quad.
 void slide_nodes(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces,
                  const ImproveOptions& options, ExecutionContext& context);
+
+/// Does the same for nodes inside faces only, and only where quads are outside the criteria.
+void mend_inside(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces, const ImproveOptions& options,
+                 ExecutionContext& context);
 
 }  // namespace quadrille

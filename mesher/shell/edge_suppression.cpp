@@ -1,0 +1,472 @@
+/// Joins the meshes of faces along smooth edges, mends the quads beside these, and gives each quad back to the
+/// face that its center lies on.
+
+#include "mesher/shell/edge_suppression.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include "geometry/surfaces/face_surface.hpp"
+#include "mesher/mesh/quality.hpp"
+#include "mesher/quads/criteria_patch.hpp"
+#include "mesher/quads/mending.hpp"
+#include "mesher/shell/composite_surface.hpp"
+#include "mesher/shell/node_sliding.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// Normals beside a smooth edge differ by at most 10 degrees.
+constexpr double smooth_cosine = 0.985;
+
+bool is_poor(const FaceMesh& mesh, const std::array<int, 4>& quad) {
+  const auto& p = mesh.points;
+  return measure_objective(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]).value > outside_objective;
+}
+
+/// A side of a quad, from corner to corner.
+struct FaceSideUse {
+  FaceId face;
+  int from = -1, to = -1;  ///< points of the face's mesh
+};
+
+/// Sides by the boundary nodes at their ends, in the direction of the quad.
+class DirectedSides {
+ public:
+  static std::uint64_t key(int from, int to) {
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32 | static_cast<std::uint32_t>(to);
+  }
+  void add(int from, int to, const FaceSideUse& use) { uses_[key(from, to)].push_back(use); }
+  /// The only side between two nodes in that direction; null if there is none, or more than one.
+  const FaceSideUse* find(int from, int to) const {
+    const auto found = uses_.find(key(from, to));
+    return found != uses_.end() && found->second.size() == 1 ? &found->second.front() : nullptr;
+  }
+
+ private:
+  std::unordered_map<std::uint64_t, std::vector<FaceSideUse>> uses_;
+};
+
+/// Sets of integers that are joined.
+class JoinedSets {
+ public:
+  explicit JoinedSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int find(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(int a, int b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// Faces that are meshed as one.
+struct Composite {
+  std::vector<FaceId> members;  ///< ascending
+  std::vector<EdgeId> edges;    ///< between them, or seams
+  std::shared_ptr<const CompositeSurface> surface;
+  std::vector<std::shared_ptr<const MeshSurface>> surfaces;  ///< of the members
+};
+
+class Suppression {
+ public:
+  Suppression(const CadShape& shape, const EdgeFlags& kept, BoundaryNodes& nodes, FaceMeshes& faces,
+              const ImproveOptions& options, ExecutionContext& context)
+      : shape_(shape),
+        kept_(kept),
+        nodes_(nodes),
+        faces_(faces),
+        options_(options),
+        context_(context),
+        surfaces_(faces.size()) {}
+
+  std::vector<EdgeId> run() {
+    std::vector<Composite> composites = find_composites();
+    FaceMeshes meshes(faces_.size());
+    for (Composite& composite : composites) meshes[composite.members.front()] = join(composite);
+    std::vector<int> poor;
+    for (const Composite& composite : composites) poor.push_back(count_poor(meshes[composite.members.front()]));
+    mend_inside(shape_, nodes_, meshes, options_, context_);
+    std::vector<EdgeId> suppressed;
+    for (std::size_t i = 0; i < composites.size(); ++i) {
+      context_.check();
+      const auto& mesh = meshes[composites[i].members.front()];
+      if (mesh && count_poor(mesh) < poor[i]) split(composites[i], *mesh, suppressed);
+    }
+    std::sort(suppressed.begin(), suppressed.end());
+    return suppressed;
+  }
+
+ private:
+  int count_poor(const std::optional<FaceMesh>& mesh) const {
+    if (!mesh) return 0;
+    return static_cast<int>(std::count_if(mesh->quads.begin(), mesh->quads.end(),
+                                          [&](const auto& quad) { return is_poor(*mesh, quad); }));
+  }
+
+  // ---- which edges ----
+
+  std::vector<Composite> find_composites() {
+    const std::vector<char> touched = nodes_of_poor_quads();
+    find_shared_nodes();
+    std::vector<EdgeId> candidates;
+    for (const EdgeId id : nodes_.edges.ids())
+      if (is_eligible(id) && is_touched(id, touched) && is_smooth(id)) candidates.push_back(id);
+    find_sides(candidates);
+    std::erase_if(candidates, [&](EdgeId id) { return !has_sides(id); });
+    JoinedSets sets(faces_.size());
+    for (const EdgeId id : candidates)
+      sets.join(shape_.edges[id].faces.front().index(), shape_.edges[id].faces.back().index());
+    std::map<int, Composite> by_root;
+    for (const EdgeId id : candidates)
+      by_root[sets.find(shape_.edges[id].faces.front().index())].edges.push_back(id);
+    for (const FaceId face : faces_.ids()) {
+      const auto found = by_root.find(sets.find(face.index()));
+      if (found != by_root.end()) found->second.members.push_back(face);
+    }
+    std::vector<Composite> result;
+    for (auto& [root, composite] : by_root) result.push_back(std::move(composite));
+    return result;
+  }
+
+  std::vector<char> nodes_of_poor_quads() const {
+    std::vector<char> touched(nodes_.points.size(), 0);
+    SparseCheck check(context_, 256);
+    for (const auto& mesh : faces_) {
+      if (!mesh) continue;
+      for (const auto& quad : mesh->quads) {
+        check();
+        const bool is_at_boundary = std::any_of(
+            quad.begin(), quad.end(), [&](int p) { return p < static_cast<int>(mesh->nodes.size()); });
+        if (!is_at_boundary || !is_poor(*mesh, quad)) continue;
+        for (const int p : quad)
+          if (p < static_cast<int>(mesh->nodes.size())) touched[mesh->nodes[p]] = 1;
+      }
+    }
+    return touched;
+  }
+
+  void find_shared_nodes() {
+    edges_at_.assign(nodes_.points.size(), 0);
+    for (const auto& edge : nodes_.edges)
+      for (std::size_t k = 1; k + 1 < edge.nodes.size(); ++k) edges_at_[edge.nodes[k]] += edges_at_[edge.nodes[k]] < 2;
+    for (const int node : nodes_.vertex_nodes)
+      if (node >= 0) edges_at_[node] = 2;
+  }
+
+  bool is_eligible(EdgeId id) const {
+    const CadEdge& cad = shape_.edges[id];
+    const BoundaryNodes::Edge& edge = nodes_.edges[id];
+    if (kept_[id] || edge.kept || edge.divided || edge.borrows() || edge.segments() < 1) return false;
+    if (cad.faces.size() != 2 || cad.degenerate) return false;
+    for (const FaceId face : cad.faces)
+      if (!faces_[face] || !faces_[face]->off.empty() || nodes_.unused.contains({face, id})) return false;
+    for (std::size_t k = 1; k + 1 < edge.nodes.size(); ++k)
+      if (edges_at_[edge.nodes[k]] != 1) return false;
+    return edge.nodes.front() != edge.nodes.back() || edge.segments() > 2;
+  }
+
+  bool is_touched(EdgeId id, const std::vector<char>& touched) const {
+    const auto& nodes = nodes_.edges[id].nodes;
+    if (nodes.size() == 2) return touched[nodes[0]] && touched[nodes[1]];
+    return std::any_of(nodes.begin() + 1, nodes.end() - 1, [&](int node) { return touched[node] != 0; });
+  }
+
+  const std::shared_ptr<const FaceSurface>& surface_of(FaceId face) {
+    if (!surfaces_[face]) surfaces_[face] = std::make_shared<const FaceSurface>(shape_.faces[face]);
+    return surfaces_[face];
+  }
+
+  bool is_smooth(EdgeId id) {
+    const CadEdge& cad = shape_.edges[id];
+    const FaceId a = cad.faces.front(), b = cad.faces.back();
+    if (a == b) return true;  // a seam
+    constexpr int samples = 5;
+    for (int i = 0; i < samples; ++i) {
+      const double t = cad.first + (cad.last - cad.first) * (i + 0.5) / samples;
+      const Vector3 first = normal_at(a, id, t), second = normal_at(b, id, t);
+      if (!(first.dot(second) > smooth_cosine)) return false;
+    }
+    return true;
+  }
+
+  /// The normal of a face at a place of one of its edges, as the model turns the face.
+  Vector3 normal_at(FaceId face, EdgeId edge, double t) {
+    for (const CadWire& wire : shape_.faces[face].wires)
+      for (const Coedge& coedge : wire.coedges)
+        if (coedge.edge == edge && !coedge.parametric_curve.IsNull())
+          return (shape_.faces[face].reversed ? -1 : 1) * surface_of(face)->normal(parametric_point(coedge, t));
+    return Vector3::Zero();
+  }
+
+  void find_sides(const std::vector<EdgeId>& edges) {
+    std::vector<char> is_on(nodes_.points.size(), 0);
+    FaceFlags is_member(faces_.size(), 0);
+    for (const EdgeId id : edges) {
+      for (const int node : nodes_.edges[id].nodes) is_on[node] = 1;
+      for (const FaceId face : shape_.edges[id].faces) is_member[face] = 1;
+    }
+    for (const FaceId face : faces_.ids()) {
+      if (!is_member[face]) continue;
+      const FaceMesh& mesh = *faces_[face];
+      const int fixed = static_cast<int>(mesh.nodes.size());
+      for (const auto& quad : mesh.quads) {
+        for (int k = 0; k < 4; ++k) {
+          const int from = quad[k], to = quad[(k + 1) & 3];
+          if (from < fixed && to < fixed && is_on[mesh.nodes[from]] && is_on[mesh.nodes[to]])
+            sides_.add(mesh.nodes[from], mesh.nodes[to], {face, from, to});
+        }
+      }
+    }
+  }
+
+  /// Whether each segment of an edge is a side of one quad of each of its faces, in opposite directions.
+  bool has_sides(EdgeId id) const {
+    const auto& nodes = nodes_.edges[id].nodes;
+    for (std::size_t k = 0; k + 1 < nodes.size(); ++k)
+      if (sides_.find(nodes[k], nodes[k + 1]) == nullptr || sides_.find(nodes[k + 1], nodes[k]) == nullptr)
+        return false;
+    return true;
+  }
+
+  // ---- several faces as one ----
+
+  /// Empty if the faces do not make a surface that is a manifold.
+  std::optional<FaceMesh> join(Composite& composite) {
+    IdVector<FaceId, int> offset(faces_.size(), -1);
+    int count = 0;
+    for (const FaceId face : composite.members) {
+      offset[face] = count;
+      count += static_cast<int>(faces_[face]->points.size());
+      const auto& own = faces_[face]->surface;
+      composite.surfaces.push_back(own ? own : surface_of(face));
+    }
+    JoinedSets sets(count);
+    for (const EdgeId id : composite.edges) {
+      const auto& nodes = nodes_.edges[id].nodes;
+      for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+        const FaceSideUse &one = *sides_.find(nodes[k], nodes[k + 1]), &other = *sides_.find(nodes[k + 1], nodes[k]);
+        sets.join(offset[one.face] + one.from, offset[other.face] + other.to);
+        sets.join(offset[one.face] + one.to, offset[other.face] + other.from);
+      }
+    }
+    std::vector<std::array<int, 4>> quads;
+    for (const FaceId face : composite.members)
+      for (auto quad : faces_[face]->quads) {
+        for (int& p : quad) p = sets.find(offset[face] + p);
+        quads.push_back(quad);
+      }
+    const std::optional<std::vector<char>> fixed = boundary_points(quads, count);
+    if (!fixed) return std::nullopt;
+    FaceMesh mesh;
+    std::vector<int> index(count, -1);
+    for (const bool boundary : {true, false}) {
+      for (std::size_t m = 0; m < composite.members.size(); ++m) {
+        const FaceMesh& part = *faces_[composite.members[m]];
+        for (int p = 0; p < static_cast<int>(part.points.size()); ++p) {
+          const int at = sets.find(offset[composite.members[m]] + p);
+          if ((*fixed)[at] != boundary || index[at] >= 0) continue;
+          if (boundary && p >= static_cast<int>(part.nodes.size())) return std::nullopt;
+          index[at] = static_cast<int>(mesh.points.size());
+          mesh.points.push_back(part.points[p]);
+          mesh.pole.push_back(boundary ? part.pole[p] : 0);
+          if (boundary) mesh.nodes.push_back(part.nodes[p]);
+        }
+      }
+    }
+    for (auto& quad : quads)
+      for (int& p : quad) p = index[p];
+    mesh.quads = std::move(quads);
+    mesh.uv.assign(mesh.points.size(), Vector2(-1, 0));
+    add_surface(composite, mesh);
+    return mesh;
+  }
+
+  /// (points) 1 = on a side that only one quad has. Empty if a side or a point is used more often than on a
+  /// manifold.
+  static std::optional<std::vector<char>> boundary_points(const std::vector<std::array<int, 4>>& quads,
+                                                          int count) {
+    std::vector<std::uint64_t> keys;
+    keys.reserve(4 * quads.size());
+    for (const auto& quad : quads)
+      for (int k = 0; k < 4; ++k) keys.push_back(DirectedSides::key(quad[k], quad[(k + 1) & 3]));
+    std::sort(keys.begin(), keys.end());
+    if (std::adjacent_find(keys.begin(), keys.end()) != keys.end()) return std::nullopt;
+    std::vector<char> starts(count, 0), fixed(count, 0);
+    for (const auto& quad : quads) {
+      for (int k = 0; k < 4; ++k) {
+        const int from = quad[k], to = quad[(k + 1) & 3];
+        if (std::binary_search(keys.begin(), keys.end(), DirectedSides::key(to, from))) continue;
+        if (starts[from]++ > 0) return std::nullopt;
+        fixed[from] = fixed[to] = 1;
+      }
+    }
+    return fixed;
+  }
+
+  void add_surface(Composite& composite, FaceMesh& mesh) const {
+    TriangleMesh triangles;
+    triangles.points = mesh.points;
+    std::vector<int> members;
+    std::vector<std::array<Vector2, 3>> uvs;
+    std::size_t at = 0;
+    for (std::size_t m = 0; m < composite.members.size(); ++m) {
+      const FaceMesh& part = *faces_[composite.members[m]];
+      for (const auto& quad : part.quads) {
+        const auto& joined = mesh.quads[at++];
+        for (const auto& corners : {std::array{0, 1, 2}, std::array{0, 2, 3}}) {
+          const auto triangle = static_cast<double>(triangles.triangles.size());
+          auto& uv = uvs.emplace_back();
+          std::array<int, 3> places{};
+          for (int k = 0; k < 3; ++k) {
+            const int p = quad[corners[k]], next = quad[corners[(k + 1) % 3]];
+            places[k] = joined[corners[k]];
+            uv[k] = part.uv[part.pole[p] ? next : p];
+            if (mesh.uv[places[k]].x() < 0) mesh.uv[places[k]] = {triangle, 0};
+          }
+          triangles.triangles.push_back(places);
+          members.push_back(static_cast<int>(m));
+        }
+      }
+    }
+    composite.surface = std::make_shared<const CompositeSurface>(std::move(triangles), std::move(members),
+                                                                 std::move(uvs), composite.surfaces);
+    mesh.surface = composite.surface;
+  }
+
+  // ---- one mesh for each face again ----
+
+  using Place = std::array<double, 3>;
+  static Place place_of(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
+
+  void split(const Composite& composite, const FaceMesh& mesh, std::vector<EdgeId>& suppressed) {
+    const int fixed = static_cast<int>(mesh.nodes.size()), count = static_cast<int>(mesh.points.size());
+    std::vector<Vector2> centers;  // of the quads
+    std::vector<int> member(count, -1);
+    std::vector<char> is_shared(count, 0);
+    for (const auto& quad : mesh.quads) {
+      Vector3 center = Vector3::Zero();
+      for (const int p : quad) center += 0.25 * mesh.points[p];
+      Vector2& uv = centers.emplace_back(mesh.uv[quad[0]]);
+      composite.surface->approach(uv, center);
+      const int m = composite.surface->member(uv);
+      for (const int p : quad) {
+        is_shared[p] |= member[p] >= 0 && member[p] != m;
+        member[p] = m;
+      }
+    }
+    const std::vector<int> node = number_nodes(composite, mesh, is_shared);
+    find_suppressed(composite, mesh, node, suppressed);
+    for (std::size_t m = 0; m < composite.members.size(); ++m) {
+      FaceMesh part;
+      part.surface = faces_[composite.members[m]]->surface;
+      part.q_min = 1;
+      std::vector<int> index(count, -1);
+      const auto add = [&](int p, const Vector2& near) {
+        index[p] = static_cast<int>(part.points.size());
+        part.points.push_back(mesh.points[p]);
+        part.pole.push_back(p < fixed ? mesh.pole[p] : 0);
+        if (node[p] >= 0) part.nodes.push_back(node[p]);
+        const bool is_own = composite.surface->member(mesh.uv[p]) == static_cast<int>(m);
+        Vector2& uv = part.uv.emplace_back(composite.surface->member_uv(is_own ? mesh.uv[p] : near, mesh.points[p]));
+        composite.surfaces[m]->nearest(uv, mesh.points[p]);
+      };
+      for (const bool boundary : {true, false}) {
+        for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+          if (composite.surface->member(centers[q]) != static_cast<int>(m)) continue;
+          for (const int p : mesh.quads[q])
+            if (index[p] < 0 && (node[p] >= 0) == boundary) add(p, centers[q]);
+        }
+      }
+      for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+        if (composite.surface->member(centers[q]) != static_cast<int>(m)) continue;
+        auto& [a, b, c, d] = part.quads.emplace_back(mesh.quads[q]);
+        for (int* p : {&a, &b, &c, &d}) *p = index[*p];
+        part.q_min = std::min(part.q_min, quad_q(part.points[a], part.points[b], part.points[c], part.points[d]));
+      }
+      faces_[composite.members[m]] = std::move(part);
+    }
+  }
+
+  /// (points) the boundary node of each point that is on the boundary, that several faces use, or that lies
+  /// where a node of an edge was; -1 for the others.
+  std::vector<int> number_nodes(const Composite& composite, const FaceMesh& mesh,
+                                const std::vector<char>& is_shared) {
+    std::map<Place, int> known;
+    for (const EdgeId id : composite.edges)
+      for (const int node : nodes_.edges[id].nodes) known.emplace(place_of(nodes_.points[node]), node);
+    std::vector<int> result = mesh.nodes;
+    for (int p = static_cast<int>(mesh.nodes.size()); p < static_cast<int>(mesh.points.size()); ++p) {
+      const auto found = known.find(place_of(mesh.points[p]));
+      result.push_back(found != known.end() ? found->second : -1);
+      if (result.back() >= 0 || !is_shared[p]) continue;
+      result.back() = static_cast<int>(nodes_.points.size());
+      nodes_.points.push_back(mesh.points[p]);
+    }
+    return result;
+  }
+
+  /// Takes their nodes from the edges that are no longer chains of sides.
+  void find_suppressed(const Composite& composite, const FaceMesh& mesh, const std::vector<int>& node,
+                       std::vector<EdgeId>& suppressed) {
+    std::vector<std::uint64_t> sides;
+    std::vector<char> is_used(nodes_.points.size(), 0);
+    for (const auto& quad : mesh.quads) {
+      for (int k = 0; k < 4; ++k) {
+        const int from = node[quad[k]], to = node[quad[(k + 1) & 3]];
+        if (from >= 0) is_used[from] = 1;
+        if (from >= 0 && to >= 0) sides.push_back(DirectedSides::key(std::min(from, to), std::max(from, to)));
+      }
+    }
+    std::sort(sides.begin(), sides.end());
+    for (const EdgeId id : composite.edges) {
+      BoundaryNodes::Edge& edge = nodes_.edges[id];
+      const auto is_side = [&](int a, int b) {
+        return std::binary_search(sides.begin(), sides.end(), DirectedSides::key(std::min(a, b), std::max(a, b)));
+      };
+      bool is_whole = true;
+      for (std::size_t k = 0; is_whole && k + 1 < edge.nodes.size(); ++k)
+        is_whole = is_side(edge.nodes[k], edge.nodes[k + 1]);
+      for (const VertexId vertex : {shape_.edges[id].first_vertex, shape_.edges[id].last_vertex})
+        if (vertex.exists() && nodes_.vertex_nodes[vertex] >= 0 && !is_used[nodes_.vertex_nodes[vertex]])
+          nodes_.vertex_nodes[vertex] = -1;
+      if (is_whole) continue;
+      edge.nodes.clear();
+      edge.parameters.clear();
+      suppressed.push_back(id);
+    }
+  }
+
+  const CadShape& shape_;
+  const EdgeFlags& kept_;
+  BoundaryNodes& nodes_;
+  FaceMeshes& faces_;
+  const ImproveOptions& options_;
+  ExecutionContext& context_;
+  IdVector<FaceId, std::shared_ptr<const FaceSurface>> surfaces_;
+  std::vector<char> edges_at_;  // (nodes) number of edges that a node lies inside; 2 = more, or a vertex
+  DirectedSides sides_;
+};
+
+}  // namespace
+
+std::vector<EdgeId> suppress_smooth_edges(const CadShape& shape, const EdgeFlags& kept, BoundaryNodes& nodes,
+                                          FaceMeshes& faces, const ImproveOptions& options,
+                                          ExecutionContext& context) {
+  const StageTimer timer(context, Stage::slide);
+  return Suppression(shape, kept, nodes, faces, options, context).run();
+}
+
+}  // namespace quadrille
