@@ -29,7 +29,6 @@
 #include "mesher/quadrille.hpp"
 #include "mesher/settings.hpp"
 #include "mesher/shell/assembly.hpp"
-#include "mesher/shell/edge_suppression.hpp"
 #include "mesher/shell/face_mesher.hpp"
 #include "mesher/shell/last_resort.hpp"
 #include "mesher/shell/node_sliding.hpp"
@@ -108,7 +107,6 @@ class Job {
       throw failure("size_min",
                     "all faces are far below the least size: ask for a smaller one, or `keep_features`");
     slide();
-    suppress_edges();
     // The faces meshed so far are delivered, even past the time limit.
     if (options_.partial) context_.lift_time_limit();
     ShellMesh result = assemble(CadGeometry(shape_), nodes_, meshes_, options_.order, context_);
@@ -146,22 +144,20 @@ class Job {
 
   /// With options.partial and a time limit, undoes the sliding if there is no time for all of it.
   void slide() {
-    if (!is_limited()) return slide_nodes(shape_, nodes_, meshes_, options_.improve, context_);
+    const EdgeFlags kept(shape_.edges.size(), std::getenv("NOSUP") ? 1 : 0);
+    const auto move = [&] {
+      suppressed_ = slide_nodes(shape_, nodes_, meshes_, kept, options_.improve, context_);
+    };
+    if (!is_limited()) return move();
     const BoundaryNodes nodes = nodes_;
     const FaceMeshes meshes = meshes_;
     const bool done = in_time([&] {
       context_.check();
-      slide_nodes(shape_, nodes_, meshes_, options_.improve, context_);
+      move();
     });
     if (done) return;
     nodes_ = nodes;
     meshes_ = meshes;
-  }
-
-  void suppress_edges() {
-    if (options_.keep_features || !options_.improve.clean_up || options_.improve.sliding_sweeps <= 0) return;
-    if (std::getenv("NOSUP")) return;
-    suppressed_ = suppress_smooth_edges(shape_, EdgeFlags(shape_.edges.size(), 0), nodes_, meshes_, options_.improve, context_);
   }
 
   /// \param again whether faces were meshed before. \return false if no time is left for another round.

@@ -1,5 +1,5 @@
-/// Joins the meshes of faces along smooth edges, mends the quads beside these, and gives each quad back to the
-/// face that its center lies on.
+/// Joins the meshes of faces along smooth edges, mends the quads beside these, and gives each quad back to
+/// the face that its center lies on.
 
 #include "mesher/shell/edge_suppression.hpp"
 
@@ -17,7 +17,6 @@
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/mending.hpp"
 #include "mesher/shell/composite_surface.hpp"
-#include "mesher/shell/node_sliding.hpp"
 
 namespace quadrille {
 
@@ -41,7 +40,8 @@ struct FaceSideUse {
 class DirectedSides {
  public:
   static std::uint64_t key(int from, int to) {
-    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32 | static_cast<std::uint32_t>(to);
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32 |
+           static_cast<std::uint32_t>(to);
   }
   void add(int from, int to, const FaceSideUse& use) { uses_[key(from, to)].push_back(use); }
   /// The only side between two nodes in that direction; null if there is none, or more than one.
@@ -72,53 +72,34 @@ class JoinedSets {
   std::vector<int> parent_;
 };
 
-/// Faces that are meshed as one.
-struct Composite {
-  std::vector<FaceId> members;  ///< ascending
-  std::vector<EdgeId> edges;    ///< between them, or seams
-  std::shared_ptr<const CompositeSurface> surface;
-  std::vector<std::shared_ptr<const MeshSurface>> surfaces;  ///< of the members
-};
-
-class Suppression {
+class Joining {
  public:
-  Suppression(const CadShape& shape, const EdgeFlags& kept, BoundaryNodes& nodes, FaceMeshes& faces,
-              const ImproveOptions& options, ExecutionContext& context)
+  Joining(const CadShape& shape, const EdgeFlags& kept, const BoundaryNodes& nodes, FaceMeshes& faces,
+          const ExecutionContext& context)
       : shape_(shape),
         kept_(kept),
         nodes_(nodes),
         faces_(faces),
-        options_(options),
         context_(context),
         surfaces_(faces.size()) {}
 
-  std::vector<EdgeId> run() {
-    std::vector<Composite> composites = find_composites();
-    FaceMeshes meshes(faces_.size());
-    for (Composite& composite : composites) meshes[composite.members.front()] = join(composite);
-    std::vector<int> poor;
-    for (const Composite& composite : composites) poor.push_back(count_poor(meshes[composite.members.front()]));
-    mend_inside(shape_, nodes_, meshes, options_, context_);
-    std::vector<EdgeId> suppressed;
-    for (std::size_t i = 0; i < composites.size(); ++i) {
+  std::vector<CompositeFace> run() {
+    std::vector<CompositeFace> result;
+    for (CompositeFace& composite : find_composites()) {
+      std::optional<FaceMesh> mesh = join(composite);
       context_.check();
-      const auto& mesh = meshes[composites[i].members.front()];
-      if (mesh && count_poor(mesh) < poor[i]) split(composites[i], *mesh, suppressed);
+      if (!mesh) continue;
+      for (const FaceId face : composite.members) faces_[face].reset();
+      faces_[composite.members.front()] = std::move(mesh);
+      result.push_back(std::move(composite));
     }
-    std::sort(suppressed.begin(), suppressed.end());
-    return suppressed;
+    return result;
   }
 
  private:
-  int count_poor(const std::optional<FaceMesh>& mesh) const {
-    if (!mesh) return 0;
-    return static_cast<int>(std::count_if(mesh->quads.begin(), mesh->quads.end(),
-                                          [&](const auto& quad) { return is_poor(*mesh, quad); }));
-  }
-
   // ---- which edges ----
 
-  std::vector<Composite> find_composites() {
+  std::vector<CompositeFace> find_composites() {
     const std::vector<char> touched = nodes_of_poor_quads();
     find_shared_nodes();
     std::vector<EdgeId> candidates;
@@ -129,14 +110,14 @@ class Suppression {
     JoinedSets sets(faces_.size());
     for (const EdgeId id : candidates)
       sets.join(shape_.edges[id].faces.front().index(), shape_.edges[id].faces.back().index());
-    std::map<int, Composite> by_root;
+    std::map<int, CompositeFace> by_root;
     for (const EdgeId id : candidates)
       by_root[sets.find(shape_.edges[id].faces.front().index())].edges.push_back(id);
     for (const FaceId face : faces_.ids()) {
       const auto found = by_root.find(sets.find(face.index()));
       if (found != by_root.end()) found->second.members.push_back(face);
     }
-    std::vector<Composite> result;
+    std::vector<CompositeFace> result;
     for (auto& [root, composite] : by_root) result.push_back(std::move(composite));
     return result;
   }
@@ -161,7 +142,8 @@ class Suppression {
   void find_shared_nodes() {
     edges_at_.assign(nodes_.points.size(), 0);
     for (const auto& edge : nodes_.edges)
-      for (std::size_t k = 1; k + 1 < edge.nodes.size(); ++k) edges_at_[edge.nodes[k]] += edges_at_[edge.nodes[k]] < 2;
+      for (std::size_t k = 1; k + 1 < edge.nodes.size(); ++k)
+        edges_at_[edge.nodes[k]] += edges_at_[edge.nodes[k]] < 2;
     for (const int node : nodes_.vertex_nodes)
       if (node >= 0) edges_at_[node] = 2;
   }
@@ -180,8 +162,7 @@ class Suppression {
 
   bool is_touched(EdgeId id, const std::vector<char>& touched) const {
     const auto& nodes = nodes_.edges[id].nodes;
-    if (nodes.size() == 2) return touched[nodes[0]] && touched[nodes[1]];
-    return std::any_of(nodes.begin() + 1, nodes.end() - 1, [&](int node) { return touched[node] != 0; });
+    return std::any_of(nodes.begin(), nodes.end(), [&](int node) { return touched[node] != 0; });
   }
 
   const std::shared_ptr<const FaceSurface>& surface_of(FaceId face) {
@@ -207,7 +188,8 @@ class Suppression {
     for (const CadWire& wire : shape_.faces[face].wires)
       for (const Coedge& coedge : wire.coedges)
         if (coedge.edge == edge && !coedge.parametric_curve.IsNull())
-          return (shape_.faces[face].reversed ? -1 : 1) * surface_of(face)->normal(parametric_point(coedge, t));
+          return (shape_.faces[face].reversed ? -1 : 1) *
+                 surface_of(face)->normal(parametric_point(coedge, t));
     return Vector3::Zero();
   }
 
@@ -244,20 +226,22 @@ class Suppression {
   // ---- several faces as one ----
 
   /// Empty if the faces do not make a surface that is a manifold.
-  std::optional<FaceMesh> join(Composite& composite) {
+  std::optional<FaceMesh> join(CompositeFace& composite) {
     IdVector<FaceId, int> offset(faces_.size(), -1);
     int count = 0;
     for (const FaceId face : composite.members) {
       offset[face] = count;
       count += static_cast<int>(faces_[face]->points.size());
       const auto& own = faces_[face]->surface;
+      composite.own_surfaces.push_back(own);
       composite.surfaces.push_back(own ? own : surface_of(face));
     }
     JoinedSets sets(count);
     for (const EdgeId id : composite.edges) {
       const auto& nodes = nodes_.edges[id].nodes;
       for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-        const FaceSideUse &one = *sides_.find(nodes[k], nodes[k + 1]), &other = *sides_.find(nodes[k + 1], nodes[k]);
+        const FaceSideUse &one = *sides_.find(nodes[k], nodes[k + 1]),
+                          &other = *sides_.find(nodes[k + 1], nodes[k]);
         sets.join(offset[one.face] + one.from, offset[other.face] + other.to);
         sets.join(offset[one.face] + one.to, offset[other.face] + other.from);
       }
@@ -316,7 +300,7 @@ class Suppression {
     return fixed;
   }
 
-  void add_surface(Composite& composite, FaceMesh& mesh) const {
+  void add_surface(CompositeFace& composite, FaceMesh& mesh) const {
     TriangleMesh triangles;
     triangles.points = mesh.points;
     std::vector<int> members;
@@ -346,12 +330,22 @@ class Suppression {
     mesh.surface = composite.surface;
   }
 
-  // ---- one mesh for each face again ----
+  const CadShape& shape_;
+  const EdgeFlags& kept_;
+  const BoundaryNodes& nodes_;
+  FaceMeshes& faces_;
+  const ExecutionContext& context_;
+  IdVector<FaceId, std::shared_ptr<const FaceSurface>> surfaces_;
+  std::vector<char> edges_at_;  // (nodes) number of edges that a node lies inside; 2 = more, or a vertex
+  DirectedSides sides_;
+};
 
-  using Place = std::array<double, 3>;
-  static Place place_of(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
+class Splitting {
+ public:
+  Splitting(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces)
+      : shape_(shape), nodes_(nodes), faces_(faces) {}
 
-  void split(const Composite& composite, const FaceMesh& mesh, std::vector<EdgeId>& suppressed) {
+  void split(const CompositeFace& composite, const FaceMesh& mesh) {
     const int fixed = static_cast<int>(mesh.nodes.size()), count = static_cast<int>(mesh.points.size());
     std::vector<Vector2> centers;  // of the quads
     std::vector<int> member(count, -1);
@@ -368,10 +362,10 @@ class Suppression {
       }
     }
     const std::vector<int> node = number_nodes(composite, mesh, is_shared);
-    find_suppressed(composite, mesh, node, suppressed);
+    find_suppressed(composite, mesh, node);
     for (std::size_t m = 0; m < composite.members.size(); ++m) {
       FaceMesh part;
-      part.surface = faces_[composite.members[m]]->surface;
+      part.surface = composite.own_surfaces[m];
       part.q_min = 1;
       std::vector<int> index(count, -1);
       const auto add = [&](int p, const Vector2& near) {
@@ -380,7 +374,8 @@ class Suppression {
         part.pole.push_back(p < fixed ? mesh.pole[p] : 0);
         if (node[p] >= 0) part.nodes.push_back(node[p]);
         const bool is_own = composite.surface->member(mesh.uv[p]) == static_cast<int>(m);
-        Vector2& uv = part.uv.emplace_back(composite.surface->member_uv(is_own ? mesh.uv[p] : near, mesh.points[p]));
+        Vector2& uv =
+            part.uv.emplace_back(composite.surface->member_uv(is_own ? mesh.uv[p] : near, mesh.points[p]));
         composite.surfaces[m]->nearest(uv, mesh.points[p]);
       };
       for (const bool boundary : {true, false}) {
@@ -394,15 +389,22 @@ class Suppression {
         if (composite.surface->member(centers[q]) != static_cast<int>(m)) continue;
         auto& [a, b, c, d] = part.quads.emplace_back(mesh.quads[q]);
         for (int* p : {&a, &b, &c, &d}) *p = index[*p];
-        part.q_min = std::min(part.q_min, quad_q(part.points[a], part.points[b], part.points[c], part.points[d]));
+        part.q_min =
+            std::min(part.q_min, quad_q(part.points[a], part.points[b], part.points[c], part.points[d]));
       }
       faces_[composite.members[m]] = std::move(part);
     }
   }
 
+  std::vector<EdgeId> suppressed;
+
+ private:
+  using Place = std::array<double, 3>;
+  static Place place_of(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
+
   /// (points) the boundary node of each point that is on the boundary, that several faces use, or that lies
   /// where a node of an edge was; -1 for the others.
-  std::vector<int> number_nodes(const Composite& composite, const FaceMesh& mesh,
+  std::vector<int> number_nodes(const CompositeFace& composite, const FaceMesh& mesh,
                                 const std::vector<char>& is_shared) {
     std::map<Place, int> known;
     for (const EdgeId id : composite.edges)
@@ -419,8 +421,7 @@ class Suppression {
   }
 
   /// Takes their nodes from the edges that are no longer chains of sides.
-  void find_suppressed(const Composite& composite, const FaceMesh& mesh, const std::vector<int>& node,
-                       std::vector<EdgeId>& suppressed) {
+  void find_suppressed(const CompositeFace& composite, const FaceMesh& mesh, const std::vector<int>& node) {
     std::vector<std::uint64_t> sides;
     std::vector<char> is_used(nodes_.points.size(), 0);
     for (const auto& quad : mesh.quads) {
@@ -434,7 +435,8 @@ class Suppression {
     for (const EdgeId id : composite.edges) {
       BoundaryNodes::Edge& edge = nodes_.edges[id];
       const auto is_side = [&](int a, int b) {
-        return std::binary_search(sides.begin(), sides.end(), DirectedSides::key(std::min(a, b), std::max(a, b)));
+        return std::binary_search(sides.begin(), sides.end(),
+                                  DirectedSides::key(std::min(a, b), std::max(a, b)));
       };
       bool is_whole = true;
       for (std::size_t k = 0; is_whole && k + 1 < edge.nodes.size(); ++k)
@@ -450,23 +452,28 @@ class Suppression {
   }
 
   const CadShape& shape_;
-  const EdgeFlags& kept_;
   BoundaryNodes& nodes_;
   FaceMeshes& faces_;
-  const ImproveOptions& options_;
-  ExecutionContext& context_;
-  IdVector<FaceId, std::shared_ptr<const FaceSurface>> surfaces_;
-  std::vector<char> edges_at_;  // (nodes) number of edges that a node lies inside; 2 = more, or a vertex
-  DirectedSides sides_;
 };
 
 }  // namespace
 
-std::vector<EdgeId> suppress_smooth_edges(const CadShape& shape, const EdgeFlags& kept, BoundaryNodes& nodes,
-                                          FaceMeshes& faces, const ImproveOptions& options,
-                                          ExecutionContext& context) {
-  const StageTimer timer(context, Stage::slide);
-  return Suppression(shape, kept, nodes, faces, options, context).run();
+std::vector<CompositeFace> join_smooth_faces(const CadShape& shape, const EdgeFlags& kept,
+                                             const BoundaryNodes& nodes, FaceMeshes& faces,
+                                             const ExecutionContext& context) {
+  return Joining(shape, kept, nodes, faces, context).run();
+}
+
+std::vector<EdgeId> split_faces(const CadShape& shape, const std::vector<CompositeFace>& composites,
+                                BoundaryNodes& nodes, FaceMeshes& faces, const ExecutionContext& context) {
+  Splitting splitting(shape, nodes, faces);
+  for (const CompositeFace& composite : composites) {
+    context.check();
+    const FaceMesh mesh = std::move(*faces[composite.members.front()]);
+    splitting.split(composite, mesh);
+  }
+  std::sort(splitting.suppressed.begin(), splitting.suppressed.end());
+  return std::move(splitting.suppressed);
 }
 
 }  // namespace quadrille

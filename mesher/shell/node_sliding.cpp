@@ -16,6 +16,7 @@
 #include "mesher/mesh/quality.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/mending.hpp"
+#include "mesher/shell/edge_suppression.hpp"
 
 namespace quadrille {
 namespace {
@@ -63,7 +64,6 @@ struct FaceState {
   std::vector<char> active;                    // (points) 1 = to be visited
   std::vector<char> slid;                      // (boundary points) 1 = moved; uv must be updated
   bool touched = false;                        // nodes or quads changed
-  bool mended = false;                         // quads were replaced
   int moves = 0;                               // nodes moved in the last sweep
 
   const MeshSurface& get_surface() {
@@ -98,10 +98,21 @@ class MovedOnFace : public MeshSurface {
   const MeshSurface& surface_;
 };
 
+/// (edges) the parameters of the nodes.
+using EdgeParameters = IdVector<EdgeId, std::vector<double>>;
+
+EdgeParameters parameters_of(const BoundaryNodes& nodes) {
+  EdgeParameters result;
+  for (const auto& edge : nodes.edges) result.push_back(edge.parameters);
+  return result;
+}
+
 class NodeSliding {
  public:
-  NodeSliding(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces, ExecutionContext& context)
-      : shape_(shape), nodes_(nodes), context_(context), states_(faces.size()) {
+  /// \param sampled before any node moved
+  NodeSliding(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces, const EdgeParameters& sampled,
+              ExecutionContext& context)
+      : shape_(shape), nodes_(nodes), context_(context), states_(faces.size()), sampled_(sampled) {
     for (const FaceId face : faces.ids()) {
       if (!faces[face]) continue;
       states_[face].mesh = &*faces[face];
@@ -109,20 +120,8 @@ class NodeSliding {
       turn_as_surface(states_[face]);
     }
     for_each_face([&](FaceId face) { prepare(states_[face]); });
-    for (const auto& edge : nodes.edges) sampled_.push_back(edge.parameters);
     link_boundary();
     find_slidable();
-  }
-
-  /// Leaves the nodes on CAD edges where they are.
-  void hold_edges() { std::fill(slidable_.begin(), slidable_.end(), 0); }
-
-  /// Moves nodes of quads outside the limits.
-  void mend_only(int sweeps) {
-    slide(sweeps, toward_limits);
-    if (!mend()) return;
-    for (FaceState& face : states_) std::fill(face.active.begin(), face.active.end(), 1);
-    slide(sweeps, toward_limits);
   }
 
   /// Moves active nodes toward right angles, then those of quads outside the limits.
@@ -132,10 +131,21 @@ class NodeSliding {
     slide(sweeps, toward_limits);
   }
 
-  /// Refills patches around quads outside the limits and activates their nodes. \return whether any changed.
-  bool mend() {
-    for_each_face([&](FaceId face) { mend(states_[face]); });
-    return std::any_of(states_.begin(), states_.end(), [](const FaceState& face) { return face.mended; });
+  /// Lets all nodes rest but those of some faces.
+  void wake_only(const std::vector<CompositeFace>& composites) {
+    FaceFlags awake(states_.size(), 0);
+    for (const CompositeFace& composite : composites) awake[composite.members.front()] = 1;
+    for (const FaceId face : states_.ids())
+      if (!awake[face]) std::fill(states_[face].active.begin(), states_[face].active.end(), 0);
+  }
+
+  /// Refills patches around quads outside the limits, and wakes their nodes.
+  void mend() {
+    aim_ = toward_limits;
+    for_each_face([&](FaceId face) {
+      measure(states_[face]);
+      mend(states_[face]);
+    });
   }
 
   /// Updates uv and q_min after nodes moved.
@@ -509,7 +519,6 @@ class NodeSliding {
 
   void mend(FaceState& face) {
     const auto outside = [](double value) { return value > outside_objective; };
-    face.mended = false;
     if (face.mesh->grid || !face.mesh->off.empty() ||
         std::none_of(face.objective.begin(), face.objective.end(), outside))
       return;
@@ -521,7 +530,7 @@ class NodeSliding {
     } catch (const Standard_Failure&) {
       return;  // the surface cannot be evaluated somewhere: the face stays as it is
     }
-    face.mended = face.touched = true;
+    face.touched = true;
     mesh.points = std::move(work.mesh.points);
     mesh.quads = std::move(work.mesh.quads);
     mesh.uv = std::move(work.parameters);
@@ -577,7 +586,7 @@ class NodeSliding {
   ExecutionContext& context_;
   Aim aim_ = toward_limits;
   IdVector<FaceId, FaceState> states_;
-  IdVector<EdgeId, std::vector<double>> sampled_;  // (edges) parameters before sliding
+  const EdgeParameters& sampled_;  // before sliding
   std::vector<int> first_instance_;
   std::vector<Instance> instances_;
   std::vector<char> slidable_;  // (boundary nodes) 1 = may slide along its edge
@@ -585,23 +594,28 @@ class NodeSliding {
 
 }  // namespace
 
-void slide_nodes(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces,
-                 const ImproveOptions& options, ExecutionContext& context) {
-  if (options.sliding_sweeps <= 0) return;
+std::vector<EdgeId> slide_nodes(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces,
+                                const EdgeFlags& kept, const ImproveOptions& options,
+                                ExecutionContext& context) {
+  if (options.sliding_sweeps <= 0) return {};
   const StageTimer timer(context, Stage::slide);
   context.report(Stage::slide, 0);
-  NodeSliding sliding(shape, nodes, faces, context);
-  sliding.run(options.sliding_sweeps);
-  if (options.clean_up && sliding.mend()) sliding.run(options.sliding_sweeps);
-  sliding.finish();
-}
-
-void mend_inside(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces, const ImproveOptions& options,
-                 ExecutionContext& context) {
-  NodeSliding sliding(shape, nodes, faces, context);
-  sliding.hold_edges();
-  sliding.mend_only(options.sliding_sweeps);
-  sliding.finish();
+  const EdgeParameters sampled = parameters_of(nodes);
+  {
+    NodeSliding sliding(shape, nodes, faces, sampled, context);
+    sliding.run(options.sliding_sweeps);
+    sliding.finish();
+  }
+  if (!options.clean_up) return {};
+  const std::vector<CompositeFace> composites = join_smooth_faces(shape, kept, nodes, faces, context);
+  {
+    NodeSliding sliding(shape, nodes, faces, sampled, context);
+    sliding.wake_only(composites);
+    sliding.mend();
+    sliding.run(options.sliding_sweeps);
+    sliding.finish();
+  }
+  return split_faces(shape, composites, nodes, faces, context);
 }
 
 }  // namespace quadrille

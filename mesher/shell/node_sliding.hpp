@@ -19,15 +19,15 @@ namespace quadrille {
 /// scaled Jacobian below both 0.5 and that of the worst quad around the same node. Segments on edges stay
 /// between 0.5 and 1.5 times their original length in the curve's parameter (at most 1.15 times on curved
 /// edges). Updates the parameters and points of `nodes`, and the points, uv and q_min of the faces. With
-/// ImproveOptions::clean_up, patches around quads that are still outside the criteria are then refilled with
-/// other quads (mend_quads()), except in grids, and nodes move once more. This renumbers points inside faces.
-/// Faces run in parallel between passes over the edges, so the result does not depend on the number of
-/// threads. Complexity: linear in the quads, plus about 2 us per sweep for each node of a poor quad.
-void slide_nodes(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces,
-                 const ImproveOptions& options, ExecutionContext& context);
-
-/// Does the same for nodes inside faces only, and only where quads are outside the criteria.
-void mend_inside(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces, const ImproveOptions& options,
-                 ExecutionContext& context);
+/// ImproveOptions::clean_up, faces are then taken as one along smooth edges beside quads that are still
+/// outside the criteria (join_smooth_faces()), patches around these quads are refilled with other quads
+/// (mend_quads()), except in grids, and nodes move once more. This renumbers points inside faces. Faces run
+/// in parallel between passes over the edges, so the result does not depend on the number of threads.
+/// Complexity: linear in the quads, plus about 2 us per sweep for each node of a poor quad. \param kept 1 =
+/// no quad may cross the edge, see join_smooth_faces() \return the edges that quads cross, ascending: they
+/// have no nodes of their own any more
+std::vector<EdgeId> slide_nodes(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces,
+                                const EdgeFlags& kept, const ImproveOptions& options,
+                                ExecutionContext& context);
 
 }  // namespace quadrille
