@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -62,8 +63,7 @@ class Job {
         problems_before_(shape_.faces.size()),
         records_(shape_.faces.size()),
         asked_(used_),
-        let_go_(shape_, asked_, reach_of_let_go(limits_, options),
-                edges_below_size_min(model_, options.sizing, limits_)) {
+        let_go_(shape_, asked_, reach_of_let_go(limits_, options), edges_that_stay()) {
     if (options_.strategy == Strategy::subdivide) plan_.subdivided.assign(shape_.faces.size(), 1);
     plan_.prescribed = prescribed_edges(shape_, options.sizing, limits_.largest);
     leave_out_tiny();
@@ -113,9 +113,19 @@ class Job {
     result.faces = statuses();
     result.let_go = list_let_go();
     result.kept = list_kept();
+    for (const EdgeId id : suppressed_) {
+      const CadEdge& edge = shape_.edges[id];
+      result.suppressed_edges.push_back(
+          {edge.number, {edge.faces.front().number(), edge.faces.back().number()}});
+    }
+    std::sort(result.suppressed_edges.begin(), result.suppressed_edges.end());
+    result.suppressed_edges.erase(std::unique(result.suppressed_edges.begin(), result.suppressed_edges.end()),
+                                  result.suppressed_edges.end());
     std::erase_if(result.corners, [&](const auto& corner) { return corner.vertex > vertices_; });
     return result;
   }
+
+  std::set<int> uncrossed;  ///< numbers of edges that no quad may cross
 
  private:
   /// The model with edges divided at slivers, unless users divide edges: what they name stays as it is.
@@ -143,8 +153,33 @@ class Job {
   }
 
   /// With options.partial and a time limit, undoes the sliding if there is no time for all of it.
+  /// 1 = users name the edge, or a face at it: it keeps nodes of its own.
+  EdgeFlags named_edges() const {
+    const SizingOptions& sizing = options_.sizing;
+    EdgeFlags result(shape_.edges.size(), options_.keep_features ? 1 : 0);
+    for (const EdgeId id : result.ids()) {
+      const CadEdge& edge = shape_.edges[id];
+      result[id] |= sizing.kept_edges.contains(edge.number) || sizing.edge_sizes.contains(edge.number) ||
+                    sizing.layers.edges.contains(edge.number) || sizing.spacings.contains(edge.number) ||
+                    uncrossed.contains(edge.number);
+      for (const FaceId face : edge.faces) result[id] |= sizing.kept_faces.contains(face.number());
+    }
+    return result;
+  }
+
+  /// 1 = the edge must not become a point.
+  EdgeFlags edges_that_stay() const {
+    EdgeFlags result = edges_below_size_min(model_, options_.sizing, limits_);
+    for (const EdgeId id : result.ids()) {
+      const CadEdge& edge = shape_.edges[id];
+      result[id] |= options_.sizing.kept_edges.contains(edge.number);
+      for (const FaceId face : edge.faces) result[id] |= options_.sizing.kept_faces.contains(face.number());
+    }
+    return result;
+  }
+
   void slide() {
-    const EdgeFlags kept(shape_.edges.size(), std::getenv("NOSUP") ? 1 : 0);
+    const EdgeFlags kept = named_edges();
     const auto move = [&] {
       suppressed_ = slide_nodes(shape_, nodes_, meshes_, kept, options_.improve, context_);
     };
@@ -553,6 +588,10 @@ class Job {
         status.status = FaceStatus::merged;
         status.note = "tiny: its place is taken by an edge or a node of its neighbors";
       }
+      if (meshes_[face] && meshes_[face]->quads.empty()) {
+        status.status = FaceStatus::merged;
+        status.note = "crossed: its place is taken by quads whose centers lie on its neighbors";
+      }
       if (problems_[face]) status.note = problems_[face]->what();
       if (!meshes_[face]) continue;
       status.quads = static_cast<int>(meshes_[face]->quads.size());
@@ -583,8 +622,11 @@ class Job {
   LetGo let_go_;
 };
 
-ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
+/// \param uncrossed numbers of edges that no quad may cross
+ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, const std::set<int>& uncrossed,
+                     ExecutionContext& context) {
   Job job(model, options, context);
+  job.uncrossed = uncrossed;
   const SizingField field = job.build_field();
   if (!options.write_size_field.empty()) field.write(options.write_size_field);
   ShellMesh result = job.run(field);
@@ -604,7 +646,7 @@ void check_input(const CadModel& model, const MeshOptions& options) {
 
 ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
   check_input(model, options);
-  return on_threads(context.threads(), [&] { return mesh_whole(model, options, context); });
+  return on_threads(context.threads(), [&] { return mesh_whole(model, options, {}, context); });
 }
 
 SizingField wanted_sizes(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
@@ -636,6 +678,22 @@ std::vector<int> nodes_of_face(const ShellMesh& mesh, int face) {
 
 /// Groups of the middle faces and rims that belong to each face of the solid, for loads and supports that
 /// were meant for that face.
+/// Edges between faces of unlike thickness, and at steps. No quad may belong to both sides.
+std::set<int> edges_where_thickness_changes(const MidSurface& middle) {
+  std::set<int> result;
+  const auto differ = [&](const MiddleFace& a, const MiddleFace& b) {
+    constexpr double same = 1e-6;
+    return a.step != b.step || varies(a) || varies(b) ||
+           std::abs(a.thickness - b.thickness) > same * std::max(a.thickness, b.thickness);
+  };
+  for (const CadEdge& edge : middle.model.shape().edges) {
+    for (const FaceId face : edge.faces)
+      if (differ(middle.faces[edge.faces.front().index()], middle.faces[face.index()]))
+        result.insert(edge.number);
+  }
+  return result;
+}
+
 std::vector<ShellMesh::Group> groups_of_solid_faces(const MidSurface& middle) {
   std::map<int, std::vector<int>> faces, rims;
   for (std::size_t i = 0; i < middle.faces.size(); ++i) {
@@ -656,7 +714,10 @@ std::vector<ShellMesh::Group> groups_of_solid_faces(const MidSurface& middle) {
 }  // namespace
 
 ShellMesh mesh(const MidSurface& middle, const MeshOptions& options, ExecutionContext& context) {
-  ShellMesh result = mesh(middle.model, options, context);
+  check_input(middle.model, options);
+  ShellMesh result = on_threads(context.threads(), [&] {
+    return mesh_whole(middle.model, options, edges_where_thickness_changes(middle), context);
+  });
   result.solid_faces = groups_of_solid_faces(middle);
   for (const MiddleFace& face : middle.faces) {
     result.thicknesses.push_back(face.thickness);

@@ -268,8 +268,13 @@ std::vector<Setting> make_table() {
        "leave out edges that are shorter and faces that are narrower than this length",
        [](Settings& v) -> double& { return v.mesh.merge_tiny; }},
       {"keep_features", "keep-features", "KeepFeatures", "Keep features", mesh, none, 0, 0, false, none,
-       "also mesh features far below the minimum size instead of letting them go",
+       "also mesh features far below the minimum size instead of letting them go, and let no quad cross a "
+       "smooth "
+       "edge",
        [](Settings& v) -> bool& { return v.mesh.keep_features; }},
+      {"keep", "keep", "Keep", none, mesh, none, 0, 0, false, "none",
+       "faces and edges that keep nodes of their own, whatever their size and shape, such as Edge7,Face3",
+       Setting::EntryList{set_kept, kept_of}},
       {"rings", "rings", "Rings", "Rings", mesh, none, 0, 100, false, none,
        "rings of quads around each hole without corners, if there is room for them; 0 = none",
        [](Settings& v) -> int& { return v.mesh.rings; }},
@@ -480,6 +485,17 @@ Settings with_pieces(const Settings& settings, const CadModel& model) {
   rename(entry("sizes"), "Face", model.pieces(), sizing.face_sizes, smaller);
   rename(entry("sizes"), "Edge", model.edge_pieces(), sizing.edge_sizes, smaller);
   rename(entry("sizes"), "Vertex", model.vertex_pieces(), sizing.vertex_sizes, smaller);
+  const auto pieces_named = [&](std::set<int>& numbers, std::string_view kind,
+                                const std::vector<std::vector<int>>& pieces) {
+    std::set<int> renamed;
+    for (const int number : numbers) {
+      const std::vector<int> of_number = pieces_of(entry("keep"), kind, number, pieces);
+      renamed.insert(of_number.begin(), of_number.end());
+    }
+    numbers = std::move(renamed);
+  };
+  pieces_named(sizing.kept_faces, "Face", model.pieces());
+  pieces_named(sizing.kept_edges, "Edge", model.edge_pieces());
   const auto finer = [](const SizeLayers& one, const SizeLayers& other) { return one.first < other.first; };
   rename(entry("layers"), "Face", model.pieces(), sizing.layers.faces, finer);
   rename(entry("layers"), "Edge", model.edge_pieces(), sizing.layers.edges, finer);
@@ -518,6 +534,10 @@ void check(const Settings& settings, const CadModel& model) {
   check_names(entry("sizes"), keys(sizing.face_sizes), "Face", model.face_count());
   check_names(entry("sizes"), keys(sizing.edge_sizes), "Edge", model.edge_count());
   check_names(entry("sizes"), keys(sizing.vertex_sizes), "Vertex", model.vertex_count());
+  check_names(entry("keep"), {sizing.kept_faces.begin(), sizing.kept_faces.end()}, "Face",
+              model.face_count());
+  check_names(entry("keep"), {sizing.kept_edges.begin(), sizing.kept_edges.end()}, "Edge",
+              model.edge_count());
   check_names(entry("layers"), keys(sizing.layers.faces), "Face", model.face_count());
   check_names(entry("layers"), keys(sizing.layers.edges), "Edge", model.edge_count());
   check_names(entry("layers"), keys(sizing.layers.vertices), "Vertex", model.vertex_count());

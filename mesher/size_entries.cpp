@@ -163,6 +163,28 @@ Entries regions_of(const SizingOptions& sizing) {
   return entries;
 }
 
+void set_kept(SizingOptions& sizing, const Entries& entries) {
+  sizing.kept_faces.clear();
+  sizing.kept_edges.clear();
+  for (const std::string& entry : entries) {
+    for (const std::string_view name : split(entry)) {
+      if (const int face = number_of(name, "Face"))
+        sizing.kept_faces.insert(face);
+      else if (const int edge = number_of(name, "Edge"))
+        sizing.kept_edges.insert(edge);
+      else
+        refuse("faces and edges such as Edge7,Face3", entry);
+    }
+  }
+}
+
+Entries kept_of(const SizingOptions& sizing) {
+  Entries entries;
+  for (const int face : sizing.kept_faces) entries.push_back(fmt::format("Face{}", face));
+  for (const int edge : sizing.kept_edges) entries.push_back(fmt::format("Edge{}", edge));
+  return entries;
+}
+
 void set_segments(SizingOptions& sizing, const Entries& entries) {
   for (auto& [edge, spacing] : sizing.spacings) spacing.segments = 0;
   take_edges(entries, "whole numbers from 1 to a million such as Edge4=20", [&](int edge, double value) {

@@ -18,6 +18,8 @@ void set_regions(SizingOptions& sizing, const Entries& entries);
 Entries regions_of(const SizingOptions& sizing);
 
 /// "Edge4=20"; one entry may hold several, separated by commas.
+void set_kept(SizingOptions& sizing, const Entries& entries);
+Entries kept_of(const SizingOptions& sizing);
 void set_segments(SizingOptions& sizing, const Entries& entries);
 Entries segments_of(const SizingOptions& sizing);
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "geometry/base/vector.hpp"
@@ -97,11 +98,13 @@ struct SizingOptions {
   std::vector<SizeRegion> regions;           ///< regions of space with sizes
   ByElement<SizeLayers> layers;              ///< sizes by the distance from faces, edges and vertices
   std::map<int, EdgeSpacing> spacings;       ///< CAD edge -> its division, whatever else is asked for
-  std::filesystem::path size_field;          ///< external .vdb grid that caps the size; empty = none
-  double size_field_scale = 1;               ///< factor on the sizes in it
-  double size_field_unit = 1;                ///< millimeters per unit of length in it (positions and sizes)
-  std::filesystem::path size_points;         ///< .csv with lines x,y,z,size; empty = none
-  Budget budget;                             ///< limits of the run
+  /// CAD faces and edges that are meshed as they are: nothing of them is let go, and no quad crosses them.
+  std::set<int> kept_faces, kept_edges;
+  std::filesystem::path size_field;   ///< external .vdb grid that caps the size; empty = none
+  double size_field_scale = 1;        ///< factor on the sizes in it
+  double size_field_unit = 1;         ///< millimeters per unit of length in it (positions and sizes)
+  std::filesystem::path size_points;  ///< .csv with lines x,y,z,size; empty = none
+  Budget budget;                      ///< limits of the run
 };
 
 }  // namespace quadrille

@@ -2,8 +2,10 @@
 /// Nodes on CAD edges: each edge is sampled once, with counts that make every face even. Internal.
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -42,6 +44,10 @@ struct BoundaryNodes {
   int stride = 1;
   FaceFlags subdivided;  ///< 1 = recombined at twice the size, whatever `stride` is
   FaceOutlines sides;    ///< with facing sides whose counts match
+
+  /// The middles, on the surface, of sides between two nodes that quads of several faces share where they
+  /// cross a smooth edge; by side_key().
+  std::unordered_map<std::uint64_t, Vector3> middles;
 
   /// How many of an edge's segments at its start and at its end a face does not use.
   std::array<int, 2> unused_by(FaceId face, EdgeId edge) const {

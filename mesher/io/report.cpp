@@ -105,6 +105,15 @@ json off_geometry_to_json(const ShellMesh& mesh) {
   return nodes;
 }
 
+json suppressed_to_json(const ShellMesh& mesh) {
+  json edges = json::array();
+  for (const ShellMesh::SuppressedEdge& edge : mesh.suppressed_edges)
+    edges.push_back(
+        {{"name", "Edge" + std::to_string(edge.edge)},
+         {"faces", {"Face" + std::to_string(edge.faces[0]), "Face" + std::to_string(edge.faces[1])}}});
+  return edges;
+}
+
 json let_go_to_json(const ShellMesh& mesh) {
   const auto name = [](ShellMesh::LetGo::Kind kind, int number) {
     return (kind == ShellMesh::LetGo::Kind::edge ? "Edge" : "Vertex") + std::to_string(number);
@@ -149,6 +158,7 @@ json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const Exec
           {"off_geometry", off_geometry_to_json(mesh)},
           {"let_go", let_go_to_json(mesh)},
           {"kept", kept_to_json(mesh)},
+          {"suppressed_edges", suppressed_to_json(mesh)},
           {"warnings", warnings},
           {"versions",
            {{"quadrille", QUADRILLE_VERSION},

@@ -3,6 +3,7 @@
 /// in FreeCAD, and 0 means "none".
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -91,6 +92,13 @@ struct ShellMesh {
     int to = 0;                 ///< number of the edge or vertex whose nodes stand for it
   };
 
+  /// A CAD edge between faces that meet smoothly, or a piece of it, that quads cross: it has no segments.
+  struct SuppressedEdge {
+    int edge = 0;                ///< its number, from 1
+    std::array<int, 2> faces{};  ///< its faces, from 1; quads belong to the one that their center lies on
+    friend auto operator<=>(const SuppressedEdge&, const SuppressedEdge&) = default;
+  };
+
   /// A CAD edge or face below the least size that is meshed all the same.
   struct Kept {
     int dimension = 1;  ///< 1: edge, 2: face
@@ -128,7 +136,8 @@ struct ShellMesh {
   std::vector<OffGeometry> off_geometry;      ///< ascending by node; usually empty
   std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; for faces see Face::status
   std::vector<Kept> kept;                     ///< faces, then edges, ascending
-  std::vector<Face> faces;                    ///< one entry per CAD face; empty in meshes read from files
+  std::vector<SuppressedEdge> suppressed_edges;  ///< ascending
+  std::vector<Face> faces;                       ///< one entry per CAD face; empty in meshes read from files
   /// The groups in a file that the mesh was read from, in file order. Groups may overlap: entities are made
   /// small enough that each group is a set of whole entities. If this is empty, written files get one group
   /// for each entity: Face3, Edge7, Vertex2.

@@ -63,7 +63,7 @@ void mend_folded(FaceQuads& quads, const MeshSurface& surface, ExecutionContext&
   const StageTimer timer(context, Stage::improve);
   if (!is_folded(quads.surface_mesh.mesh)) return;
   std::vector<char> changed;
-  mend_quads(quads.surface_mesh, surface, folded_objective, changed, context);
+  mend_quads(quads.surface_mesh, surface, folded_objective, -1, changed, context);
   keep_poles(quads);
 }
 

@@ -155,8 +155,13 @@ class Trial {
 
 class Mending : private EditedMesh {
  public:
-  Mending(SurfaceMesh& mesh, const MeshSurface& surface, double poor, const ExecutionContext& context)
-      : EditedMesh(mesh, context), surface_(surface), poor_(poor), changed_(mesh.mesh.points.size(), 0) {}
+  Mending(SurfaceMesh& mesh, const MeshSurface& surface, double poor, double least_turn_cosine,
+          const ExecutionContext& context)
+      : EditedMesh(mesh, context),
+        surface_(surface),
+        poor_(poor),
+        least_turn_cosine_(least_turn_cosine),
+        changed_(mesh.mesh.points.size(), 0) {}
 
   int run() {
     int count = 0;
@@ -409,10 +414,22 @@ class Mending : private EditedMesh {
     trial.measure();
     now.weigh();
     if (!(now.gain > least_gain) || !trial.sound()) return false;
+    if (least_turn_cosine_ > -1 && turns_too_much(candidate, trial, normals)) return false;
     if (!replace(candidate, trial, donor)) return false;
     settle(trial, uv, normals);
     for (int i = 0; i < candidate.patch.count; ++i) measured_[candidate.patch.quads[i]].reset();
     return true;
+  }
+
+  /// Whether a quad turns by more than allowed. \param normals (points) of those that move
+  bool turns_too_much(const Candidate& candidate, const Trial& trial, std::vector<Vector3> normals) const {
+    double least = least_turn_cosine_;
+    for (int i = 0; i < candidate.patch.count; ++i)
+      least = std::min(least, turn_cosine(topology_.quad(candidate.patch.quads[i]), mesh_.normals));
+    for (std::size_t i = 0; i < normals.size(); ++i)
+      if (!trial.movable[i]) normals[i] = mesh_.normals[trial.nodes[i]];
+    return std::any_of(trial.quads.begin(), trial.quads.begin() + candidate.filling->quads,
+                       [&](const Quad& quad) { return turn_cosine(quad, normals) < least; });
   }
 
   bool replace(const Candidate& candidate, Trial& trial, int donor) {
@@ -443,16 +460,23 @@ class Mending : private EditedMesh {
   }
 
   const MeshSurface& surface_;
-  double poor_;
+  double poor_, least_turn_cosine_;
   std::vector<char> changed_;  ///< (nodes) 1 = of a trial that was carried out
   mutable std::vector<std::optional<QuadObjective>> measured_;  ///< (quads) filled on demand
 };
 
 }  // namespace
 
-int mend_quads(SurfaceMesh& mesh, const MeshSurface& surface, double poor, std::vector<char>& changed,
-               const ExecutionContext& context) {
-  Mending work(mesh, surface, poor, context);
+double turn_cosine(const std::array<int, 4>& quad, const std::vector<Vector3>& normals) {
+  double least = 1;
+  for (int i = 0; i < 4; ++i)
+    for (int k = i + 1; k < 4; ++k) least = std::min(least, normals[quad[i]].dot(normals[quad[k]]));
+  return least;
+}
+
+int mend_quads(SurfaceMesh& mesh, const MeshSurface& surface, double poor, double least_turn_cosine,
+               std::vector<char>& changed, const ExecutionContext& context) {
+  Mending work(mesh, surface, poor, least_turn_cosine, context);
   const int count = work.run();
   work.write_back(changed);
   return count;

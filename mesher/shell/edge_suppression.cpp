@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "geometry/base/side_key.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/quads/criteria_patch.hpp"
@@ -71,6 +72,18 @@ class JoinedSets {
  private:
   std::vector<int> parent_;
 };
+
+/// The segments of an edge that both of its faces use, and that have its own nodes: from the first to the one
+/// before the last.
+std::array<int, 2> common_segments(const CadShape& shape, const BoundaryNodes& nodes, EdgeId id) {
+  const BoundaryNodes::Edge& edge = nodes.edges[id];
+  std::array<int, 2> result{edge.borrowed[0], edge.segments() - edge.borrowed[1]};
+  for (const FaceId face : shape.edges[id].faces) {
+    const auto [before, after] = nodes.unused_by(face, id);
+    result = {std::max(result[0], before), std::min(result[1], edge.segments() - after)};
+  }
+  return result;
+}
 
 class Joining {
  public:
@@ -151,11 +164,13 @@ class Joining {
   bool is_eligible(EdgeId id) const {
     const CadEdge& cad = shape_.edges[id];
     const BoundaryNodes::Edge& edge = nodes_.edges[id];
-    if (kept_[id] || edge.kept || edge.divided || edge.borrows() || edge.segments() < 1) return false;
+    if (kept_[id] || edge.kept || edge.divided || edge.segments() < 1) return false;
     if (cad.faces.size() != 2 || cad.degenerate) return false;
     for (const FaceId face : cad.faces)
-      if (!faces_[face] || !faces_[face]->off.empty() || nodes_.unused.contains({face, id})) return false;
-    for (std::size_t k = 1; k + 1 < edge.nodes.size(); ++k)
+      if (!faces_[face] || !faces_[face]->off.empty()) return false;
+    const auto [first, last] = common_segments(shape_, nodes_, id);
+    if (first >= last || (first > 0 && last < edge.segments())) return false;
+    for (int k = first + 1; k < last; ++k)
       if (edges_at_[edge.nodes[k]] != 1) return false;
     return edge.nodes.front() != edge.nodes.back() || edge.segments() > 2;
   }
@@ -217,9 +232,13 @@ class Joining {
   /// Whether each segment of an edge is a side of one quad of each of its faces, in opposite directions.
   bool has_sides(EdgeId id) const {
     const auto& nodes = nodes_.edges[id].nodes;
-    for (std::size_t k = 0; k + 1 < nodes.size(); ++k)
-      if (sides_.find(nodes[k], nodes[k + 1]) == nullptr || sides_.find(nodes[k + 1], nodes[k]) == nullptr)
-        return false;
+    const auto& faces = shape_.edges[id].faces;
+    const auto [first, last] = common_segments(shape_, nodes_, id);
+    for (int k = first; k < last; ++k) {
+      for (const FaceSideUse* side :
+           {sides_.find(nodes[k], nodes[k + 1]), sides_.find(nodes[k + 1], nodes[k])})
+        if (side == nullptr || (side->face != faces[0] && side->face != faces[1])) return false;
+    }
     return true;
   }
 
@@ -239,7 +258,8 @@ class Joining {
     JoinedSets sets(count);
     for (const EdgeId id : composite.edges) {
       const auto& nodes = nodes_.edges[id].nodes;
-      for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+      const auto [first, last] = common_segments(shape_, nodes_, id);
+      for (int k = first; k < last; ++k) {
         const FaceSideUse &one = *sides_.find(nodes[k], nodes[k + 1]),
                           &other = *sides_.find(nodes[k + 1], nodes[k]);
         sets.join(offset[one.face] + one.from, offset[other.face] + other.to);
@@ -328,6 +348,10 @@ class Joining {
     composite.surface = std::make_shared<const CompositeSurface>(std::move(triangles), std::move(members),
                                                                  std::move(uvs), composite.surfaces);
     mesh.surface = composite.surface;
+    for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+      Vector2 uv = mesh.uv[p];
+      composite.surface->move(uv, mesh.points[p], mesh.normals.emplace_back());
+    }
   }
 
   const CadShape& shape_;
@@ -363,6 +387,7 @@ class Splitting {
     }
     const std::vector<int> node = number_nodes(composite, mesh, is_shared);
     find_suppressed(composite, mesh, node);
+    add_middles(composite, mesh, node);
     for (std::size_t m = 0; m < composite.members.size(); ++m) {
       FaceMesh part;
       part.surface = composite.own_surfaces[m];
@@ -420,6 +445,18 @@ class Splitting {
     return result;
   }
 
+  void add_middles(const CompositeFace& composite, const FaceMesh& mesh, const std::vector<int>& node) const {
+    for (const auto& quad : mesh.quads) {
+      for (int k = 0; k < 4; ++k) {
+        const int a = quad[k], b = quad[(k + 1) & 3];
+        if (node[a] < 0 || node[b] < 0) continue;
+        Vector2 uv = mesh.uv[a];
+        nodes_.middles.try_emplace(side_key(node[a], node[b]),
+                                   composite.surface->nearest(uv, 0.5 * (mesh.points[a] + mesh.points[b])));
+      }
+    }
+  }
+
   /// Takes their nodes from the edges that are no longer chains of sides.
   void find_suppressed(const CompositeFace& composite, const FaceMesh& mesh, const std::vector<int>& node) {
     std::vector<std::uint64_t> sides;
@@ -438,15 +475,24 @@ class Splitting {
         return std::binary_search(sides.begin(), sides.end(),
                                   DirectedSides::key(std::min(a, b), std::max(a, b)));
       };
+      const auto [first, last] = common_segments(shape_, nodes_, id);
       bool is_whole = true;
-      for (std::size_t k = 0; is_whole && k + 1 < edge.nodes.size(); ++k)
-        is_whole = is_side(edge.nodes[k], edge.nodes[k + 1]);
+      for (int k = first; is_whole && k < last; ++k) is_whole = is_side(edge.nodes[k], edge.nodes[k + 1]);
       for (const VertexId vertex : {shape_.edges[id].first_vertex, shape_.edges[id].last_vertex})
         if (vertex.exists() && nodes_.vertex_nodes[vertex] >= 0 && !is_used[nodes_.vertex_nodes[vertex]])
           nodes_.vertex_nodes[vertex] = -1;
       if (is_whole) continue;
-      edge.nodes.clear();
-      edge.parameters.clear();
+      // A tip that one of the faces leaves out keeps its segments.
+      if (first == 0 && last < edge.segments()) {
+        edge.nodes.erase(edge.nodes.begin(), edge.nodes.begin() + last);
+        edge.parameters.erase(edge.parameters.begin(), edge.parameters.begin() + last);
+        edge.borrowed[0] = 0;
+      } else {
+        const int left = first > 0 ? first + 1 : 0;
+        edge.nodes.resize(left);
+        edge.parameters.resize(left);
+        edge.borrowed[1] = 0;
+      }
       suppressed.push_back(id);
     }
   }

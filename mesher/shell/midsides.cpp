@@ -99,7 +99,11 @@ class MidsidePlacement {
     const int fixed = static_cast<int>(face.nodes.size());
     const auto place = [&](int a, int b) {
       Vector2& uv = result.parameters.emplace_back();
-      const Vector3 middle = surface_middle(*surface, face, a, b, uv);
+      Vector3 middle = surface_middle(*surface, face, a, b, uv);
+      if (std::max(a, b) < fixed && !meshed_.nodes.middles.empty()) {
+        const auto crossing = meshed_.nodes.middles.find(side_key(face.nodes[a], face.nodes[b]));
+        if (crossing != meshed_.nodes.middles.end()) middle = crossing->second;
+      }
       const bool is_off = !face.off.empty() && std::max(face.off[a], face.off[b]) > 0;
       const Vector3 straight = 0.5 * (face.points[a] + face.points[b]);
       result.points.push_back(is_off ? straight : middle);

@@ -41,6 +41,9 @@ constexpr double inside_aspect = 5;
 /// A quad alone in a corner of its face that is sharper than the limit of 40 degrees stays outside whatever
 /// its other nodes do. With its full weight, its neighbors would be drawn outside too.
 constexpr double sharp_cosine = 0.766, sharp_weight = 0.1;
+/// Quads across smooth edges turn by no more than 40 degrees between two corners, or than quads did before,
+/// so that fillets keep their rows.
+constexpr double least_turn_cosine = 0.766;
 /// After a move by more than this share of the mean side, the neighbors are visited again.
 constexpr double still_share = 0.01;
 /// Segments on edges stay between these shares of their original length in the curve's parameter. On curved
@@ -89,13 +92,15 @@ struct FaceState {
 /// The surface on which nodes of a face move while it is mended.
 class MovedOnFace : public MeshSurface {
  public:
-  explicit MovedOnFace(FaceState& face) : surface_(face.get_surface()) {}
-  Vector3 move(Vector2& uv, const Vector3& target, Vector3&) const override {
-    return surface_.approach(uv, target);
+  explicit MovedOnFace(FaceState& face)
+      : surface_(face.get_surface()), is_composite_(!face.mesh->normals.empty()) {}
+  Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const override {
+    return is_composite_ ? surface_.move(uv, target, normal) : surface_.approach(uv, target);
   }
 
  private:
   const MeshSurface& surface_;
+  bool is_composite_;
 };
 
 /// (edges) the parameters of the nodes.
@@ -506,12 +511,31 @@ class NodeSliding {
       Vector2 uv = face.mesh->uv[node];
       trial.point = face.get_surface().approach(uv, here + share * (x * u + y * v));
       if (!is_better(round, trial)) continue;
+      if (!face.mesh->normals.empty() && !turn(face, round, node, uv, trial.point)) continue;
       const double moved = (trial.point - here).norm();
       face.mesh->points[node] = trial.point;
       face.mesh->uv[node] = uv;
       store(round, trial, moved > still_share * round.mean);
       return true;
     }
+    return false;
+  }
+
+  /// Gives a node of faces that are taken as one its new normal, unless a quad would then turn by more than
+  /// allowed, and by more than the quads do now.
+  static bool turn(FaceState& face, const Round& round, int node, Vector2 uv, const Vector3& point) {
+    std::vector<Vector3>& normals = face.mesh->normals;
+    const auto least = [&] {
+      double result = 1;
+      for (const QuadUse& use : round.uses)
+        result = std::min(result, turn_cosine(face.mesh->quads[use.quad], normals));
+      return result;
+    };
+    const double allowed = std::min(least_turn_cosine, least());
+    const Vector3 before = normals[node];
+    face.get_surface().move(uv, point, normals[node]);
+    if (least() >= allowed) return true;
+    normals[node] = before;
     return false;
   }
 
@@ -526,7 +550,8 @@ class NodeSliding {
     SurfaceMesh work = surface_mesh(mesh);
     std::vector<char> changed;
     try {
-      if (mend_quads(work, MovedOnFace(face), outside_objective, changed, context_) == 0) return;
+      const double turn = mesh.normals.empty() ? -1 : least_turn_cosine;
+      if (mend_quads(work, MovedOnFace(face), outside_objective, turn, changed, context_) == 0) return;
     } catch (const Standard_Failure&) {
       return;  // the surface cannot be evaluated somewhere: the face stays as it is
     }
@@ -534,6 +559,7 @@ class NodeSliding {
     mesh.points = std::move(work.mesh.points);
     mesh.quads = std::move(work.mesh.quads);
     mesh.uv = std::move(work.parameters);
+    if (!mesh.normals.empty()) mesh.normals = std::move(work.normals);
     mesh.pole.resize(mesh.points.size(), 0);
     prepare(face);
     face.active = std::move(changed);
@@ -553,6 +579,8 @@ class NodeSliding {
     result.parameters = mesh.uv;
     result.fixed.assign(mesh.points.size(), 0);
     std::fill_n(result.fixed.begin(), mesh.nodes.size(), 1);
+    result.normals = mesh.normals;
+    if (!result.normals.empty()) return result;
     result.normals.assign(mesh.points.size(), Vector3::Zero());
     const auto& p = mesh.points;
     for (const auto& quad : result.mesh.quads) {

@@ -23,7 +23,8 @@ QUADRILLE_API std::vector<std::string> validate(const QuadMesh& mesh, bool requi
 /// diagonal); positive scaled Jacobians; consistent orientation in each face; each side has one midside node;
 /// second-order elements have a positive Jacobian everywhere; segments are sides; segments and corners are
 /// listed once. In meshes with segments, each side that is not a segment has exactly two elements, of the
-/// same face. \param closed require that every side has at least two elements (a watertight shell).
+/// same face, or of faces between which quads cross smooth edges. \param closed require that every side has
+/// at least two elements (a watertight shell).
 QUADRILLE_API std::vector<std::string> validate(const ShellMesh& mesh, bool closed = false);
 
 }  // namespace quadrille

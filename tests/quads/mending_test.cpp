@@ -103,7 +103,7 @@ TEST(Mending, TurnsASideBack) {
   ASSERT_TRUE(turn_side(mesh.mesh.quads, 14, 15));
   ASSERT_GT(poor_quads(mesh), 0);
   std::vector<char> changed;
-  EXPECT_GT(mend_quads(mesh, PlanarSurface(), outside_objective, changed, {}), 0);
+  EXPECT_GT(mend_quads(mesh, PlanarSurface(), outside_objective, -1, changed, {}), 0);
   EXPECT_EQ(poor_quads(mesh), 0);
   EXPECT_EQ(mesh.mesh.quads.size(), before.mesh.quads.size());
   ASSERT_EQ(changed.size(), mesh.mesh.points.size());
@@ -118,7 +118,7 @@ TEST(Mending, LeavesGoodQuadsAlone) {
   SurfaceMesh mesh = grid(5);
   const SurfaceMesh before = mesh;
   std::vector<char> changed;
-  EXPECT_EQ(mend_quads(mesh, PlanarSurface(), outside_objective, changed, {}), 0);
+  EXPECT_EQ(mend_quads(mesh, PlanarSurface(), outside_objective, -1, changed, {}), 0);
   EXPECT_EQ(mesh.mesh.quads, before.mesh.quads);
   EXPECT_EQ(std::count(changed.begin(), changed.end(), 1), 0);
 }
@@ -145,7 +145,7 @@ TEST(Mending, NeverMakesAMeshWorse) {
     }
     const SurfaceMesh before = mesh;
     std::vector<char> changed;
-    mended += mend_quads(mesh, PlanarSurface(), outside_objective, changed, {});
+    mended += mend_quads(mesh, PlanarSurface(), outside_objective, -1, changed, {});
     EXPECT_LE(poor_quads(mesh), poor_quads(before));
     EXPECT_LE(objective(mesh), objective(before));
     EXPECT_GE(least_sine(mesh), std::min(0.3, least_sine(before)) - 1e-9);
@@ -173,7 +173,7 @@ TEST(Mending, UnfoldsWhatIsTurnedOver) {
   mesh.parameters[node] = mesh.mesh.points[node].head<2>();
   ASSERT_LE(least_sine(mesh), 0);
   std::vector<char> changed;
-  EXPECT_GT(mend_quads(mesh, PlanarSurface(), folded_objective, changed, {}), 0);
+  EXPECT_GT(mend_quads(mesh, PlanarSurface(), folded_objective, -1, changed, {}), 0);
   EXPECT_GT(least_sine(mesh), 0);
   EXPECT_NEAR(area(mesh), 36, 1e-9);
 }
@@ -184,7 +184,7 @@ TEST(Mending, StopsWhenCancelled) {
   ExecutionContext context(1);
   context.cancel();
   std::vector<char> changed;
-  EXPECT_THROW(mend_quads(mesh, PlanarSurface(), outside_objective, changed, context), Error);
+  EXPECT_THROW(mend_quads(mesh, PlanarSurface(), outside_objective, -1, changed, context), Error);
 }
 
 }  // namespace

@@ -11,7 +11,10 @@
 #include "geometry/base/threads.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "mesher/quadrille.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+#include "mesher/faces/face_chart.hpp"
 #include "mesher/quads/criteria_patch.hpp"
+#include "mesher/shell/face_mesher.hpp"
 #include "tests/support/ids.hpp"
 #include "tests/support/sample_models.hpp"
 
@@ -75,7 +78,8 @@ struct MeshedFaces {
 
   void slide(int threads = 1) {
     ExecutionContext context(threads);
-    on_threads(threads, [&] { slide_nodes(shape(), nodes, faces, options.improve, context); });
+    const EdgeFlags kept(shape().edges.size(), 1);
+    on_threads(threads, [&] { slide_nodes(shape(), nodes, faces, kept, options.improve, context); });
   }
 
   struct Measures {

@@ -1,0 +1,143 @@
+/// Quads cross smooth edges where these force them outside the limits, and only there.
+
+#include "mesher/shell/edge_suppression.hpp"
+
+#include <gtest/gtest.h>
+
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mesher/quadrille.hpp"
+#include "mesher/shell/validate.hpp"
+#include "tests/support/sheet.hpp"
+
+namespace quadrille {
+namespace {
+
+using namespace testing;
+
+/// Two faces in a plane, between them an edge that meets the rim at 11 degrees: its number is in `edge`.
+CadModel plate_with_slanted_edge(int& edge) {
+  const CadModel model = sheet({{{0, 0}, {40, 0}, {40, 8}}, {{0, 0}, {40, 8}, {40, 20}, {0, 20}}});
+  for (const CadEdge& cad : model.shape().edges)
+    if (cad.faces.size() == 2) edge = cad.number;
+  return model;
+}
+
+/// A box with three rounded edges of radius 0.5 that meet at a corner.
+CadModel rounded_box() {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(40, 30, 20).Shape();
+  BRepFilletAPI_MakeFillet fillet(box);
+  int count = 0;
+  for (TopExp_Explorer at(box, TopAbs_EDGE); at.More(); at.Next())
+    if (count++ % 3 == 0) fillet.Add(0.5, TopoDS::Edge(at.Current()));
+  return CadModel(std::make_shared<CadShape>(fillet.Shape(), "rounded_box"));
+}
+
+ShellMesh meshed(const CadModel& model, double size, MeshOptions options = {}, int threads = 1) {
+  options.sizing.size = size;
+  ExecutionContext context(threads);
+  return mesh(model, options, context);
+}
+
+double outside(const ShellMesh& mesh) {
+  return static_cast<double>(check_criteria(mesh).failing) / static_cast<double>(mesh.quads.size());
+}
+
+double area(const ShellMesh& mesh, int face) {
+  double sum = 0;
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    const auto& [a, b, c, d] = mesh.quads[q];
+    const auto& p = mesh.points;
+    if (mesh.quad_faces[q] == face) sum += 0.5 * (p[c] - p[a]).cross(p[d] - p[b]).norm();
+  }
+  return sum;
+}
+
+std::ptrdiff_t segments(const ShellMesh& mesh, int edge) {
+  return std::count_if(mesh.segments.begin(), mesh.segments.end(),
+                       [&](const auto& segment) { return segment.edge == edge; });
+}
+
+TEST(EdgeSuppression, CrossesAnEdgeThatForcesPoorQuads) {
+  int edge = 0;
+  const CadModel model = plate_with_slanted_edge(edge);
+  MeshOptions keep;
+  keep.sizing.kept_edges = {edge};
+  const ShellMesh crossed = meshed(model, 1.5), whole = meshed(model, 1.5, keep);
+  for (const ShellMesh* mesh : {&crossed, &whole}) {
+    EXPECT_EQ(validate(*mesh), std::vector<std::string>{});
+    EXPECT_NEAR(area(*mesh, 1) + area(*mesh, 2), 800, 0.1);  // but for the tip
+    for (const Vector3& point : mesh->points) EXPECT_EQ(point.z(), 0);
+  }
+  ASSERT_EQ(crossed.suppressed_edges.size(), 1U);
+  EXPECT_EQ(crossed.suppressed_edges[0].edge, edge);
+  EXPECT_TRUE(whole.suppressed_edges.empty());
+  EXPECT_LT(10 * segments(crossed, edge), segments(whole, edge));  // those of the tip stay
+  EXPECT_LT(outside(crossed), 0.5 * outside(whole));
+  // Faces keep their area, as far as quads follow the edge.
+  EXPECT_NEAR(area(crossed, 1) / 160, 1, 0.1);
+}
+
+TEST(EdgeSuppression, LeavesWhatUsersName) {
+  int edge = 0;
+  const CadModel model = plate_with_slanted_edge(edge);
+  std::vector<MeshOptions> all(5);
+  all[0].keep_features = true;
+  all[1].sizing.kept_faces = {1};
+  all[2].sizing.edge_sizes = {{edge, 1.5}};
+  all[3].sizing.spacings[edge].segments = 30;
+  all[4].sizing.layers.edges[edge] = {1, 1.2, 2};
+  for (const MeshOptions& options : all) {
+    const ShellMesh mesh = meshed(model, 1.5, options);
+    EXPECT_TRUE(mesh.suppressed_edges.empty());
+    EXPECT_GT(segments(mesh, edge), 20);
+  }
+}
+
+TEST(EdgeSuppression, LeavesEdgesWithoutPoorQuadsAndCreases) {
+  for (const double size : {2.0, 4.0}) {
+    const ShellMesh flat =
+        meshed(sheet({{{0, 0}, {20, 0}, {20, 20}, {0, 20}}, {{20, 0}, {40, 0}, {40, 20}, {20, 20}}}), size);
+    EXPECT_TRUE(flat.suppressed_edges.empty());
+    const CadModel box(std::make_shared<CadShape>(BRepPrimAPI_MakeBox(40, 30, 1).Shape(), "box"));
+    EXPECT_TRUE(meshed(box, size).suppressed_edges.empty());
+  }
+}
+
+TEST(EdgeSuppression, KeepsSolidsClosedAndNodesOnTheirFaces) {
+  const CadModel model = rounded_box();
+  for (const int order : {1, 2}) {
+    MeshOptions options;
+    options.order = order;
+    options.sizing.elements_per_circle = 8;
+    const ShellMesh mesh = meshed(model, 6, options);
+    EXPECT_EQ(validate(mesh, true), std::vector<std::string>{});
+    for (const Vector3& p : mesh.points) {
+      BRepExtrema_DistShapeShape distance(BRepBuilderAPI_MakeVertex(gp_Pnt(p.x(), p.y(), p.z())),
+                                          model.shape().shape);
+      EXPECT_LT(distance.Value(), order == 2 ? 0.05 : 1e-4);
+    }
+    for (const auto& edge : mesh.suppressed_edges) EXPECT_EQ(segments(mesh, edge.edge), 0);
+  }
+}
+
+TEST(EdgeSuppression, IsTheSameOnAnyNumberOfThreads) {
+  const CadModel model = rounded_box();
+  const ShellMesh one = meshed(model, 3), four = meshed(model, 3, {}, 4);
+  EXPECT_EQ(one.points, four.points);
+  EXPECT_EQ(one.quads, four.quads);
+  EXPECT_EQ(one.suppressed_edges, four.suppressed_edges);
+}
+
+}  // namespace
+}  // namespace quadrille
