@@ -134,6 +134,7 @@ class ShapeJob(FemJob):
             Path(model).write_bytes(brep)
         self.brep = brep  #: the shape that the mesher gets
         self.made_of: Tuple[List[float], str] = ([], "")  #: fingerprint of the part, and settings, when the job was started
+        self.kept: List[str] = []  #: faces and edges that the analysis refers to
         self.found: Dict[Tuple[str, str, str], str] = {}  #: current names of faces, edges, vertices, see links.py
         super().__init__(command, folder, output, MeshJob(model, [output, *outputs], settings, command, picture))
 

@@ -83,6 +83,17 @@ def wanted_groups(mesh, fem_mesh) -> Groups:
     return wanted
 
 
+def referenced(mesh) -> List[str]:
+    """The faces and edges of the part that the members of the analysis and the mesh groups refer to, by name."""
+    names: Set[str] = set()
+    for source in [*_members(mesh), *mesh.MeshGroupList]:
+        try:
+            names.update(shapes.references_to_names(mesh.Shape.Shape, mesh.Shape, source.References))
+        except Error:
+            continue  # left_out() tells of it
+    return sorted(name for name in names if name.startswith(("Face", "Edge")))
+
+
 def left_out(mesh) -> List[str]:
     """One sentence for each member of the analysis that refers to something that is not in the mesh, since only some faces are
     meshed. FreeCAD's writers would silently omit such loads and supports."""
@@ -96,7 +107,8 @@ def left_out(mesh) -> List[str]:
             continue
         missing = [name for name in elements if not part_groups.elements(name)]
         if missing:
-            sentences.append(f"{member.Label} is on {missing[0]}, which is not in the mesh {mesh.Label}: mesh that face too, or "
+            way = "mesh that face too" if links.names_in(mesh.Faces) else "mesh again, so that it gets nodes of its own"
+            sentences.append(f"{member.Label} is on {missing[0]}, which is not in the mesh {mesh.Label}: {way}, or "
                              f"take it out of {member.Label}")
     return sentences
 

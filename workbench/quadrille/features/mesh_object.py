@@ -170,7 +170,13 @@ def start(mesh, command: Optional[str] = None, outputs: Sequence[Union[str, Path
     found = links.follow(mesh, wanted.anew)
     flipped = state.flipped(mesh, found)
     shape = shapes.with_reversed_faces(shape_of(part), flipped)
-    job = ShapeJob(shape, state.settings_to_use(mesh, wanted, found), command, outputs, brep=_brep_as_meshed(mesh, flipped))
+    # What the analysis refers to keeps its nodes, and so its groups. A file gets the mesh that is there.
+    kept = list(mesh.KeptForAnalysis) if outputs else groups.referenced(mesh)
+    used = state.settings_to_use(mesh, wanted, found)
+    if kept:
+        used["keep"] = [*(used.get("keep") or ()), *kept]
+    job = ShapeJob(shape, used, command, outputs, brep=_brep_as_meshed(mesh, flipped))
+    job.kept = kept
     settings = state.settings_key(mesh, wanted, found)
     job.found = found
     _running[_key(mesh)] = job.start()
@@ -297,6 +303,7 @@ class MeshFeature:
             ("App::PropertyLinkList", "MeshRegionList", "Mesh", "FEM mesh regions: sizes on faces, edges, vertices"),
             ("App::PropertyLinkList", "MeshGroupList", "Mesh", "FEM mesh groups to make"),
             *RESULT_PROPERTIES,
+            ("App::PropertyStringList", "KeptForAnalysis", "Hidden", "Faces and edges that the analysis referred to"),
             ("App::PropertyString", "ChosenElements", "Hidden", "What the named faces, edges and vertices were"),
         ):
             if name not in obj.PropertiesList:
@@ -406,6 +413,7 @@ def _store_result(mesh, fem_mesh, report: Dict, job: ShapeJob) -> None:
     while len(_breps) > _KEPT_BREPS:
         _breps.popitem(last=False)
     mesh.MeshedShape, mesh.MeshedSettings = job.made_of
+    mesh.KeptForAnalysis = job.kept
     mesh.Status = state.judge(mesh)[0]
     store_quality(mesh, fem_mesh, report)
 
