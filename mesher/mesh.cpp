@@ -105,7 +105,7 @@ class Job {
     if (!options_.partial || none) throw_first_problem();
     if (none)
       throw failure("size_min",
-                    "all faces are far below the least size: ask for a smaller one, or `keep_features`");
+                    "all faces are far smaller than the minimum size: reduce it, or use `keep_features`");
     slide();
     // The faces meshed so far are delivered, even past the time limit.
     if (options_.partial) context_.lift_time_limit();
@@ -353,9 +353,7 @@ class Job {
   /// Throws FaceProblem if sides of the face are too close. Grids need no room between their sides.
   void widen_gaps(FaceId face, const FaceChart& chart) {
     int& looks = records_[face].looks_at_gaps;
-    const auto outline = nodes_.sides[face].outline;
-    const bool is_grid = outline != FaceSides::Outline::other && outline != FaceSides::Outline::holed;
-    if (looks == FaceRecord::most_looks || is_grid) return;
+    if (looks == FaceRecord::most_looks || nodes_.sides[face].is_filled()) return;
     auto problem = crowding_problem(face, chart.boundary, *chart.surface);
     looks = problem ? looks + 1 : FaceRecord::most_looks;
     if (problem) throw FaceProblem(std::move(*problem));
@@ -393,12 +391,12 @@ class Job {
   FaceProblem share_problem(FaceId face, const Error& error) const {
     if (error.subject() == ExecutionContext::work_subject) {
       return {Cause::out_of_work, face,
-              fmt::format("{}, and {} times the work of its first meshing mends nothing",
+              fmt::format("{}; it still fails after {} times the effort of the first attempt",
                           problems_before_[face]->what(), FaceRecord::most_work)};
     }
     if (!options_.partial) throw Error(error);
     return {Cause::out_of_time, face,
-            fmt::format("Face{} was not done in its share of the time limit of {:g} s", face.number(),
+            fmt::format("Face{} was not finished within its share of the time limit of {:g} s", face.number(),
                         context_.time_limit())};
   }
 
@@ -582,7 +580,7 @@ class Job {
       if (meshes_[face] && meshes_[face]->grid) status.note += status.note.empty() ? "grid" : "; grid";
       const auto end = nodes_.unused.lower_bound({face, EdgeId()});
       if (end != nodes_.unused.end() && end->first.first == face)
-        status.note += fmt::format("{}ends before a tip that is narrower than half the least size",
+        status.note += fmt::format("{}ends before a tip that is narrower than half the minimum size",
                                    status.note.empty() ? "" : "; ");
       if (plan_.tiny.merged_faces[face]) {
         status.status = FaceStatus::merged;

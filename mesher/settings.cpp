@@ -450,7 +450,7 @@ std::vector<int> pieces_of(const Setting& setting, std::string_view kind, int nu
                            const std::vector<std::vector<int>>& pieces) {
   if (pieces.empty())
     throw refused(setting, fmt::format("names {}{}: edges and vertices cannot be named where a model is "
-                                       "imprinted with `sew`, which numbers them anew",
+                                       "imprinted with `sew`, which renumbers them",
                                        kind, number));
   check_names(setting, {number}, kind, static_cast<int>(pieces.size()));
   return pieces[static_cast<std::size_t>(number) - 1];

@@ -142,7 +142,7 @@ TEST(Robustness, NamesTheCauseAndItsRemedy) {
   EXPECT_EQ(note_of(meshed("disc"), 1), "");
   EXPECT_PRED2(has, note_of(meshed("looped_edge"), 1), "meets Edge2 (parameters ");
   const std::string note = note_of(meshed("wrong_curves"), 1);
-  EXPECT_PRED2(has, note, "parametric curves made anew");
+  EXPECT_PRED2(has, note, "parametric curves recreated by projection");
   EXPECT_FALSE(has(note, "seen from above")) << note;
   const ShellMesh ribs = mesh_of(CadModel(std::make_shared<CadShape>(ribbed_plate(3), "ribbed_plate")), 40);
   // Where one way to mesh a face fails, the next is tried at once.

@@ -53,8 +53,8 @@ class Descriptor {
 };
 
 Error no_process(const std::string& name) {
-  return failure(
-      name, fmt::format("{}: cannot be worked on in a process of its own: {}", name, std::strerror(errno)));
+  return failure(name,
+                 fmt::format("{}: cannot be processed in a child process: {}", name, std::strerror(errno)));
 }
 
 /// A child of this process. The destructor kills it and waits for it.

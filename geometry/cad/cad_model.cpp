@@ -101,7 +101,7 @@ constexpr double largest_diagonal = 1e15;
 CadModel build(const TopoDS_Shape& shape, const std::string& name) {
   if (shape.IsNull()) throw failure(name, fmt::format("{} holds no shape", name));
   auto result = std::make_shared<CadShape>(shape, name);
-  if (result->faces.empty()) throw failure(name, fmt::format("{} holds no face to mesh", name));
+  if (result->faces.empty()) throw failure(name, fmt::format("{} has no face to mesh", name));
   if (!(result->diagonal() > 0) || !(result->diagonal() < largest_diagonal)) {
     throw failure(
         name, fmt::format("{} holds a shape of no size or an infinite one: the file may be damaged", name));
@@ -205,8 +205,9 @@ CadModel CadModel::sewn(double tolerance) const {
     if (!made.turned.empty()) {
       std::vector<std::string> names;
       for (const int face : made.turned) names.push_back(fmt::format("Face{}", face));
-      result->problems.push_back(fmt::format("{} faces were turned so that sewn faces face alike: {}",
-                                             names.size(), first_few(names)));
+      result->problems.push_back(
+          fmt::format("{} faces were turned so that sewn faces have consistent orientation: {}", names.size(),
+                      first_few(names)));
     }
     keep_pieces(*result, shape_->face_pieces);
     return CadModel(std::move(result));

@@ -123,7 +123,7 @@ class CurveEndMender {
     std::stable_sort(places.begin(), places.end(),
                      [](const auto& a, const auto& b) { return a.size() > b.size(); });
     shape_.problems.push_back(fmt::format(
-        "{}: {} taken in its stead", what_is_wrong(vertex, places),
+        "{}: {} used instead", what_is_wrong(vertex, places),
         places.size() == 1 ? "the place where its curves end is"
                            : fmt::format("the {} places where its curves end are", places.size())));
     for (std::size_t i = 0; i < places.size(); ++i)
@@ -179,7 +179,7 @@ class CurveEndMender {
         if (edge.faces.empty() || edge.closed()) continue;
         const auto is_shared = [&](VertexId vertex) { return vertex.exists() && uses[vertex] > 1; };
         if (is_shared(edge.first_vertex) && is_shared(edge.last_vertex)) continue;
-        shape_.problems.push_back(fmt::format("Edge{} leads nowhere and is left out", edge.number));
+        shape_.problems.push_back(fmt::format("Edge{} is a dangling edge and is left out", edge.number));
         for (const FaceId face : edge.faces) drop_from(shape_.faces[face], id);
         edge.faces.clear();
         changed = true;

@@ -446,7 +446,7 @@ MidSurface make(const CadModel& model, const MidSurfaceOptions& options, Executi
   const auto kept_skins = std::make_shared<const std::deque<Skin>>(skins_of(shape, options.join));
   const std::deque<Skin>& skins = *kept_skins;
   if (skins.empty())
-    throw failure(name, fmt::format("{} holds no solid, which a middle surface needs", name));
+    throw failure(name, fmt::format("{} has no solid; a middle surface is made of solids", name));
   std::vector<SolidMiddle> middles;
   std::vector<JoinedFace> all;
   for (const Skin& skin : skins) {

@@ -26,8 +26,8 @@ namespace {
 std::string file_of(const VdbField& field, const std::string& name) {
   IsolatedWork options;
   options.subject = name;
-  options.crashed = options.too_long = fmt::format(
-      "{}: OpenVDB crashed while it wrote the sizes, for want of memory or threads perhaps", name);
+  options.crashed = options.too_long =
+      fmt::format("{}: OpenVDB crashed while writing the sizes, probably out of memory or threads", name);
   options.time_limit = longest_with_vdb;
   return isolated_bytes(options, [&] {
     std::string bytes;

@@ -98,7 +98,7 @@ Error SizeSources::too_many_segments(const CadEdge& edge, double segments) const
   return usage_error(
       "size",
       fmt::format("Edge{} of {} mm would take about {:.3g} million segments at the sizes asked for, and "
-                  "all edges more than {:g} million: `force` meshes all the same",
+                  "all edges more than {:g} million: `force` meshes anyway",
                   edge.number, number_text(edge.length), segments / 1e6, options_.budget.segments / 1e6));
 }
 

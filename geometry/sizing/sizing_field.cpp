@@ -278,9 +278,10 @@ CascadeFrame frame_of(const CadModel& model, const SizingOptions& options, const
   const double reach = std::max(model.box_min().cwiseAbs().maxCoeff(), model.box_max().cwiseAbs().maxCoeff());
   const int bits = 30 - std::ilogb(reach / frame.voxel(0) + 1);
   if (bits < 0) {
-    throw usage_error("size", fmt::format("the size {:.3g} cannot be told apart at {} mm from the origin: "
-                                          "move the model there, or ask for a larger size",
-                                          limits.largest, number_text(reach)));
+    throw usage_error(
+        "size", fmt::format("the size {:.3g} is below the numerical resolution at {} mm from the origin: "
+                            "move the model there, or ask for a larger size",
+                            limits.largest, number_text(reach)));
   }
   frame.finest = std::min(bits, max_size_levels - 1);
   return frame;

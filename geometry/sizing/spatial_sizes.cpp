@@ -106,7 +106,7 @@ std::vector<SizePoint> read_size_points(const std::filesystem::path& path) {
     const std::vector<double> values = numbers_of(line);
     if (values.size() != 4) throw refused(number, "is not x,y,z,size");
     if (!std::all_of(values.begin(), values.end() - 1, [](double value) { return std::isfinite(value); }))
-      throw refused(number, "has a place that is no finite number");
+      throw refused(number, "has a coordinate that is not a finite number");
     if (!std::isfinite(values[3]) || !(values[3] > 0))
       throw refused(number, fmt::format("asks for the size {:g}: sizes are positive numbers", values[3]));
     points.push_back({{values[0], values[1], values[2]}, values[3]});
@@ -158,8 +158,9 @@ void SpatialSizes::open_external(const CadModel& model, const SizingOptions& opt
   if ((low.array() > model.box_max().array()).any() || (high.array() < model.box_min().array()).any())
     throw usage_error(
         "size_field",
-        fmt::format("{} lies beside the model: its sizes reach from {} to {} mm; is `size_field_unit` right?",
-                    path, place_text(low), place_text(high)));
+        fmt::format(
+            "{} does not overlap the model: its sizes reach from {} to {} mm; is `size_field_unit` right?",
+            path, place_text(low), place_text(high)));
   external_ = [at = std::move(sizes.at), unit, scale](const Vector3& p) { return scale * at(p / unit); };
   between_voxels_ = sizes.between_voxels;
   spacing_ = std::min(spacing_, std::max(unit * sizes.voxel, limits_.size_min));

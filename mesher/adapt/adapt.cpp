@@ -28,7 +28,7 @@ void check(const ShellMesh& mesh, const AdaptOptions& options) {
     throw failure("", "the mesh has to consist of quads to be adapted");
   if (options.count == 0 && !(options.error > 0 && options.error < 1))
     throw usage_error("error",
-                      fmt::format("the error wanted must be between 0 and 1, not {:g}", options.error));
+                      fmt::format("the target error must be between 0 and 1, not {:g}", options.error));
   if (options.count < 0 || !std::isfinite(options.count))
     throw usage_error("count",
                       fmt::format("the number of elements must be positive, not {:g}", options.count));
@@ -190,7 +190,8 @@ AdaptResult adapt(const ShellMesh& mesh, const std::filesystem::path& solution,
   check(mesh, options);
   const std::string name = solution.string();
   const SolverResult result = read_result(solution);
-  if (!deforms(result)) throw failure(name, fmt::format("{} holds no stresses: nothing is deformed", name));
+  if (!deforms(result))
+    throw failure(name, fmt::format("{} has no stresses: all displacements are zero", name));
   const auto stresses = shell_stresses(mesh, result, options.poisson, name);
   const ErrorEstimate estimate = estimate_error(mesh, stresses, options.poisson);
   const SizePlan::Draft draft = SizePlan(mesh, estimate, options, context).find();

@@ -63,7 +63,7 @@ std::string describe(const CadModel& model, ExecutionContext& context) {
 }  // namespace
 
 void add_info_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("info", "tell what a CAD model holds, and the sizes that suit it");
+  CLI::App* command = app.add_subcommand("info", "show the contents of a CAD model and suitable sizes");
   auto input = std::make_shared<std::filesystem::path>();
   auto limits = std::make_shared<GivenSettings>();
   command->add_option("IN", *input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();

@@ -235,7 +235,7 @@ void add_mesh_command(CLI::App& app) {
   command->add_flag("--thin", arguments->thin,
                     "mesh the middle surface of thin solids, with a group for each thickness");
   command
-      ->add_flag("--join", arguments->join, "with --thin: take solids that touch for one part, as if welded")
+      ->add_flag("--join", arguments->join, "with --thin: treat solids that touch as one part, as if welded")
       ->needs("--thin");
   command->add_flag("--end-with-input", arguments->end_with_input,
                     "end the work when standard input closes, for programs that start this one");

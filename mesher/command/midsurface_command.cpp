@@ -59,15 +59,14 @@ void add_midsurface_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   command->add_option("IN", arguments->input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
   command
-      ->add_option(
-          "-o,--output", arguments->outputs,
-          "the middle surface as .brep or .step, what is known of its faces as .json; may be given more "
-          "than once")
+      ->add_option("-o,--output", arguments->outputs,
+                   "the middle surface as .brep or .step, the data of its faces as .json; may be given more "
+                   "than once")
       ->required()
       ->allow_extra_args(false);
   command->add_flag("--partial", arguments->options.partial,
                     "write what could be paired where the solid is thin in places only");
-  command->add_flag("--join", arguments->options.join, "take solids that touch for one part, as if welded");
+  command->add_flag("--join", arguments->options.join, "treat solids that touch as one part, as if welded");
   add_settings(*command, *arguments, {"read_time_limit", "time_limit"});
   command->add_flag("--end-with-input", arguments->end_with_input,
                     "end the work when standard input closes, for programs that start this one");

@@ -108,9 +108,9 @@ void add_recombine_command(CLI::App& app) {
   command->add_option("--seed", arguments->seed, "seed of the random choices of --no-improve (default 1)")
       ->check([](const std::string& text) { return seed_problem(text); });
   command->add_flag("--no-improve", arguments->no_improve,
-                    "the method of the 2018 paper as it stands: color, swap, remove; no node moves");
+                    "the method of the 2018 paper, unmodified: color, swap, remove; no node moves");
   add_surface_options(*command, arguments->feature_angle, arguments->merge,
-                      "their side is an edge that stays; 0 = none");
+                      "their common side is kept as an edge; 0 = none");
   command->add_option("--report", arguments->report, "write counts, quality and times as JSON");
   add_settings(*command, arguments->options, {"threads", "msh_version", "groups"});
   command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");

@@ -101,7 +101,7 @@ std::vector<std::string> awaited_arguments() {
   try {
     return nlohmann::json::parse(line).get<std::vector<std::string>>();
   } catch (const nlohmann::json::exception&) {
-    throw usage_error("standby", "standby: the first line of its input is no JSON list of arguments");
+    throw usage_error("standby", "standby: the first line of its input is not a JSON list of arguments");
   }
 }
 

@@ -77,7 +77,7 @@ void hold_segments(double segments, const Budget& budget, const CadEdge& edge) {
   if (!(segments > budget.segments)) return;
   throw usage_error("size",
                     fmt::format("the edges take more than {:g} million segments at the sizes asked for, "
-                                "Edge{} many of them: `force` meshes all the same",
+                                "Edge{} many of them: `force` meshes anyway",
                                 budget.segments / 1e6, edge.number));
 }
 

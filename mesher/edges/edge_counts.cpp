@@ -134,7 +134,7 @@ class CountChooser {
       throw usage_error(
           "segments",
           fmt::format(
-              "`segments` gives {} to {}, and a face there that is no grid takes even numbers only: {} or "
+              "`segments` gives {} to {}, and a face there that is not a grid needs an even number: {} or "
               "{}, or `strategy` direct",
               fixed, fixed_edges([&](EdgeId edge) { return chords_.of(edge) == chord; }), fixed - 1,
               fixed + 1));

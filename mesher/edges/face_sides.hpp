@@ -42,6 +42,14 @@ struct FaceSides {
   /// (stepped) direction of each side in quarter turns from that of the first side, 0 to 3: sides with 0 and
   /// 2 run in opposite directions, and so do sides with 1 and 3
   std::vector<int> directions;
+
+  /// Whether a grid fills the face from side to side: its nodes face each other, and its sides need no room
+  /// between them.
+  bool is_filled() const { return outline != Outline::other && outline != Outline::holed; }
+  /// Whether the face has four sides, each with one count.
+  bool is_rectangle() const { return outline == Outline::four && facing.size() == 2; }
+  /// Whether rows run along the face from end to end, or all the way around.
+  bool has_whole_rows() const { return outline == Outline::four || outline == Outline::ring; }
 };
 
 using FaceOutlines = IdVector<FaceId, FaceSides>;

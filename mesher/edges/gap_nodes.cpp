@@ -35,9 +35,9 @@ class GapNodes {
 
   void run(const FaceFlags& unaligned) {
     for (const FaceId face : shape_.faces.ids()) {
-      const auto outline = nodes_.sides[face].outline;
-      const bool free = outline == FaceSides::Outline::other || outline == FaceSides::Outline::holed;
-      if (used_[face] && !unaligned[face] && free && shape_.faces[face].wires.size() > 1) find_pairs(face);
+      const bool is_filled = nodes_.sides[face].is_filled();
+      if (used_[face] && !unaligned[face] && !is_filled && shape_.faces[face].wires.size() > 1)
+        find_pairs(face);
     }
     std::stable_sort(pairs_.begin(), pairs_.end(),
                      [](const Pair& a, const Pair& b) { return a.distance < b.distance; });

@@ -135,7 +135,7 @@ class RowFinder {
     std::vector<std::pair<EdgeId, bool>> found;  // edge, whether the layers start at its first vertex
     for (const FaceId face : edge.faces) {
       const FaceSides& sides = sides_[face];
-      if (sides.outline != FaceSides::Outline::four || sides.facing.size() != 2) return std::nullopt;
+      if (!sides.is_rectangle()) return std::nullopt;
       const bool in_first = holds(sides.facing[0], id);
       const FacingPair& across = sides.facing[in_first ? 1 : 0];
       if (across.first.size() != 1 || across.second.size() != 1) return std::nullopt;
@@ -190,7 +190,7 @@ class RowFinder {
   /// The edge opposite another one across a four-sided face or ring; none if there is no single such edge.
   EdgeId opposite(FaceId face, EdgeId edge) const {
     const FaceSides& sides = sides_[face];
-    if (sides.outline != FaceSides::Outline::four && sides.outline != FaceSides::Outline::ring) return {};
+    if (!sides.has_whole_rows()) return {};
     for (const FacingPair& pair : sides.facing) {
       if (pair.first.size() != 1 || pair.second.size() != 1) continue;
       if (pair.first[0].edge == edge) return pair.second[0].edge;

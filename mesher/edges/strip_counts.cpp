@@ -32,7 +32,7 @@ bool refine_along_strips(const CadShape& shape, const FaceOutlines& sides, const
                          IdVector<EdgeId, CountTable>& tables, CountWishes& wishes) {
   IdVector<EdgeId, double> densities(shape.edges.size());  // (chords) least segments for each whole edge
   for (const FaceSides& face : sides) {
-    if (face.outline != FaceSides::Outline::four || face.facing.size() != 2) continue;
+    if (!face.is_rectangle()) continue;
     for (const int k : {0, 1}) {
       const Extent along = extent_of(shape, face.facing[k], chosen.counts),
                    across = extent_of(shape, face.facing[1 - k], chosen.counts);

@@ -132,7 +132,7 @@ void write_element(const OutputMesh& mesh, int shell, TextWriter& out) {
 void write_bdf(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out) {
   constexpr std::size_t most = 99'999'999;  // the largest number in 8 columns
   if (mesh.nodes().size() > most || static_cast<std::size_t>(mesh.shell_count()) > most)
-    throw failure(".bdf", "the mesh has more nodes or elements than the numbers of .bdf files count");
+    throw failure(".bdf", "the mesh has more nodes or elements than .bdf files can number");
   out << "$ " << options.title << "\nCEND\n";
   write_sets(mesh, out);
   out << "BEGIN BULK\n";

@@ -65,7 +65,7 @@ class FrdReader {
     Number value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
-      throw bad_line(fmt::format("'{}' is no number", text));
+      throw bad_line(fmt::format("'{}' is not a number", text));
     return value;
   }
 

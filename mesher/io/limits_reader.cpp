@@ -55,7 +55,7 @@ class LimitsReader {
       std::size_t criterion = 0;
       while (criterion < criterion_count && criteria_info[criterion].name != key) ++criterion;
       if (criterion == criterion_count)
-        fail(fmt::format("{} is none of the criteria {}", key, known_names()));
+        fail(fmt::format("{} is not one of the criteria {}", key, known_names()));
       if (value.is_null())
         limits_.values[criterion] = CriteriaLimits::unchecked;
       else if (value.is_number())

@@ -83,7 +83,7 @@ std::string med_file(const OutputMesh& mesh, const std::string& name, const std:
   const auto write = med_module().function<MedFileFunction>("_file");
   IsolatedWork options;
   options.subject = name;
-  options.crashed = name + ".med: libmed crashed while it wrote the mesh, for want of memory perhaps";
+  options.crashed = name + ".med: libmed crashed while writing the mesh, probably out of memory";
   // libmed prints lines of its own when it fails; the output of a child process is not shown.
   return isolated_bytes(options, [&] {
     std::string bytes;

@@ -70,8 +70,8 @@ void unite_points(ImportedMesh& mesh, MeshBuilder& builder) {
     return false;
   });
   if (mesh.elements.size() < count)
-    builder.note(
-        fmt::format("{} triangles with two corners on one place are left out", count - mesh.elements.size()));
+    builder.note(fmt::format("{} triangles with two corners at the same position are left out",
+                             count - mesh.elements.size()));
 }
 
 /// (sets) The builder's group for each set.

@@ -212,7 +212,7 @@ std::string validate(const EdgeColoring& coloring) {
       const Side side = make_side(t, i), twin = coloring.twin(side);
       if (twin < 0) continue;
       if (triangle_of(twin) >= coloring.size() || coloring.twin(twin) != side)
-        return fmt::format("triangle {} is no neighbor of its neighbor {}", t, triangle_of(twin));
+        return fmt::format("triangle {} is not a neighbor of its neighbor {}", t, triangle_of(twin));
       if (coloring.color(twin) != coloring.color(side))
         return fmt::format("triangles {} and {} give the edge between them the colors {} and {}", t,
                            triangle_of(twin), coloring.color(side), coloring.color(twin));

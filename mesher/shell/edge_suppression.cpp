@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "geometry/base/error.hpp"
 #include "geometry/base/side_key.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/mesh/quality.hpp"
@@ -272,8 +273,9 @@ class Joining {
         for (int& p : quad) p = sets.find(offset[face] + p);
         quads.push_back(quad);
       }
-    const std::optional<std::vector<char>> fixed = boundary_points(quads, count);
+    std::optional<std::vector<char>> fixed = boundary_points(quads, count);
     if (!fixed) return std::nullopt;
+    fix_tips(composite, offset, sets, *fixed);
     FaceMesh mesh;
     std::vector<int> index(count, -1);
     for (const bool boundary : {true, false}) {
@@ -294,8 +296,32 @@ class Joining {
       for (int& p : quad) p = index[p];
     mesh.quads = std::move(quads);
     mesh.uv.assign(mesh.points.size(), Vector2(-1, 0));
-    add_surface(composite, mesh);
+    try {
+      add_surface(composite, mesh);
+    } catch (const Error& error) {
+      if (error.kind() != Error::Kind::failure) throw;
+      return std::nullopt;  // quads with two sides in common make triangles that are no manifold
+    }
     return mesh;
+  }
+
+  /// Keeps the vertices where the faces do not all meet smoothly, as at the apex of a cone.
+  void fix_tips(const CompositeFace& composite, const IdVector<FaceId, int>& offset, JoinedSets& sets,
+                std::vector<char>& fixed) {
+    std::map<int, Vector3> normals;  // by point of the composite, at a vertex
+    for (const FaceId face : composite.members) {
+      const FaceMesh& mesh = *faces_[face];
+      for (int p = 0; p < static_cast<int>(mesh.nodes.size()); ++p) {
+        const int at = sets.find(offset[face] + p);
+        if (fixed[at] || edges_at_[mesh.nodes[p]] < 2) continue;
+        Vector2 uv = mesh.uv[p];
+        Vector3 normal;
+        (mesh.surface ? *mesh.surface : *surface_of(face)).move(uv, mesh.points[p], normal);
+        if (shape_.faces[face].reversed) normal = -normal;
+        const Vector3& first = normals.try_emplace(at, normal).first->second;
+        if (mesh.pole[p] || !(normal.dot(first) > smooth_cosine)) fixed[at] = 1;
+      }
+    }
   }
 
   /// (points) 1 = on a side that only one quad has. Empty if a side or a point is used more often than on a

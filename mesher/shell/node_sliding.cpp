@@ -466,9 +466,7 @@ class NodeSliding {
 
   /// Whether a face is a grid beside an edge with prescribed spacing, which keeps its rows.
   bool keeps_rows(FaceId face) const {
-    using Outline = FaceSides::Outline;
-    const Outline outline = nodes_.sides[face].outline;
-    if (!states_[face].mesh->grid || (outline != Outline::four && outline != Outline::ring)) return false;
+    if (!states_[face].mesh->grid || !nodes_.sides[face].has_whole_rows()) return false;
     return has_kept_edge(shape_.faces[face], nodes_);
   }
 

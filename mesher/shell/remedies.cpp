@@ -123,7 +123,7 @@ constexpr std::array table{
         without_clean_up},
     Row{any_of({Cause::inverted_inside, Cause::no_mesh}), "denser points", 1, denser_points},
     Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::unusable_boundary, Cause::no_mesh}),
-        "parametric curves made anew", 1, with_curves_made_anew},
+        "parametric curves recreated by projection", 1, with_curves_made_anew},
     Row{any_of({Cause::inverted_inside, Cause::inverted_at_boundary}), "finer segments there", 2,
         finer_there},
     Row{any_of({Cause::inverted_inside, Cause::inverted_at_boundary}), "the whole face twice as fine", 3,

@@ -294,7 +294,7 @@ void check_shell_sides(const ShellMesh& mesh, const Elements& elements, bool clo
                    group[0].element, group[1].element, face(group[0]), side.low, side.high);
   });
   for (std::size_t i = 0; i < met.size(); ++i)
-    if (!met[i]) findings.add("segment {} is no side of any quad", i);
+    if (!met[i]) findings.add("segment {} is not a side of any quad", i);
 }
 
 void check_corners(const ShellMesh& mesh, Findings& findings) {

@@ -1,4 +1,4 @@
-/// Faces narrower than half the least size, with any number of edges.
+/// Faces narrower than half the minimum size, with any number of edges.
 
 #include "mesher/edges/slivers.hpp"
 

@@ -76,7 +76,7 @@ TEST(Tips, AreLeftOutOfTheMesh) {
   EXPECT_TRUE(ends_early(early, 1));
   EXPECT_FALSE(ends_early(whole, 1));
   EXPECT_LE(check_criteria(early).failing, check_criteria(whole).failing);
-  // The wedge is 5.6 long where it is narrower than half the least size, 0.625.
+  // The wedge is 5.6 long where it is narrower than half the minimum size, 0.625.
   const auto first = [](const ShellMesh& mesh) {
     double least = 100;
     for (std::size_t i = 0; i < mesh.quads.size(); ++i) {

@@ -85,9 +85,9 @@ TEST_F(Remedies, ComeInTheOrderOfTheTable) {
   EXPECT_EQ(all(Cause::coarse_segments, true),
             (std::vector<std::string>{"it failed: nodes not moved to face each other", finer, finer, finer,
                                       finer}));
-  EXPECT_EQ(
-      all(Cause::unusable_boundary, true),
-      (std::vector<std::string>{"it failed: parametric curves made anew", "it failed: seen from above"}));
+  EXPECT_EQ(all(Cause::unusable_boundary, true),
+            (std::vector<std::string>{"it failed: parametric curves recreated by projection",
+                                      "it failed: seen from above"}));
 }
 
 /// Where no places are known, the whole face becomes finer each time.

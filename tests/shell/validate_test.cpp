@@ -144,7 +144,7 @@ TEST(ValidateShell, NamesEachFault) {
   EXPECT_TRUE(says(validate(mesh), "have the same nodes"));
   mesh = cube();
   mesh.segments.push_back({{0, 7}, -1, 1});
-  EXPECT_TRUE(says(validate(mesh), "segment 12 is no side of any quad"));
+  EXPECT_TRUE(says(validate(mesh), "segment 12 is not a side of any quad"));
   mesh = cube();
   mesh.points[1] = mesh.points[0] + Vector3(1e-10, 0, 0);
   EXPECT_TRUE(says(validate(mesh), "points 0 and 1 coincide"));
