@@ -87,7 +87,7 @@ Images cut_pieces(const BOPAlgo_Builder& fuse, const Skin& skin, const std::vect
     for (const TopoDS_Face& piece : pieces[wall]) {
       for (const TopoDS_Shape& image : images(fuse, piece)) {
         const TopoDS_Face& face = TopoDS::Face(image);
-        triangulate(face, 0.2 * walls[wall].thickness);
+        triangulate_middle(face, walls[wall].thickness);
         const Coverage coverage = coverage_of(face, walls[wall], skin);
         (coverage.share < least_share ? result.hung_over : result.between)
             .push_back({face, static_cast<int>(wall), false, coverage});
@@ -274,7 +274,7 @@ void merge_wall(int wall, const Skin& skin, const std::vector<Wall>& walls,
   unify.Build();
   for (TopExp_Explorer it(unify.Shape(), TopAbs_FACE); it.More(); it.Next()) {
     const TopoDS_Face& face = TopoDS::Face(it.Current());
-    triangulate(face, 0.2 * walls[wall].thickness);
+    triangulate_middle(face, walls[wall].thickness);
     merged.push_back({face, wall, false, coverage_of(face, walls[wall], skin)});
     if (merged.back().coverage.share == 0) merged.back().coverage = whole_coverage(wall, walls);
   }

@@ -3,6 +3,8 @@
 #include "geometry/midsurface/midsurface.hpp"
 
 #include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepGProp.hxx>
 #include <BRepTools.hxx>
@@ -10,6 +12,7 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
+#include <Poly_Triangulation.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -56,10 +59,53 @@ struct SolidMiddle {
   std::vector<std::string> problems;  ///< what was left out or is imprecise, and why
 };
 
-double volume_of(const TopoDS_Shape& shape) {
+/// The volume between the triangles of a solid's faces. \param deflection largest distance from the faces.
+double volume_of_triangles(const TopoDS_Shape& solid, double deflection) {
+  const TopoDS_Shape copy = BRepBuilderAPI_Copy(solid, Standard_True, Standard_False).Shape();
+  triangulate(copy, deflection);
+  double six_times = 0;
+  for (TopExp_Explorer it(copy, TopAbs_FACE); it.More(); it.Next()) {
+    TopLoc_Location place;
+    const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(TopoDS::Face(it.Current()), place);
+    if (mesh.IsNull()) continue;
+    double face = 0;
+    for (int i = 1; i <= mesh->NbTriangles(); ++i) {
+      std::array<int, 3> nodes{};
+      mesh->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
+      std::array<gp_XYZ, 3> corners;
+      for (int j = 0; j < 3; ++j) corners[j] = mesh->Node(nodes[j]).Transformed(place.Transformation()).XYZ();
+      face += corners[0].DotCross(corners[1], corners[2]);
+    }
+    six_times += it.Current().Orientation() == TopAbs_REVERSED ? -face : face;
+  }
+  return std::abs(six_times) / 6;
+}
+
+/// The volume within about a thousandth. OpenCASCADE's integral with a tolerance is exact for plain faces,
+/// but may be off by a fifth for B-splines, whatever tolerance it tells.
+double volume_of(const TopoDS_Shape& solid) {
+  constexpr double tolerance = 1e-3;
+  bool plain = true;
+  for (TopExp_Explorer it(solid, TopAbs_FACE); it.More(); it.Next())
+    plain = plain &&
+            BRepAdaptor_Surface(TopoDS::Face(it.Current()), Standard_False).GetType() < GeomAbs_BezierSurface;
   GProp_GProps properties;
-  BRepGProp::VolumeProperties(shape, properties, 1e-6);
-  return std::abs(properties.Mass());
+  if (plain) {
+    BRepGProp::VolumeProperties(solid, properties, 1e-6);
+    return std::abs(properties.Mass());
+  }
+  const double error = BRepGProp::VolumePropertiesGK(solid, properties, tolerance);
+  if (error >= 0 && error < 2 * tolerance) return std::abs(properties.Mass());
+  Bnd_Box box;
+  BRepBndLib::Add(solid, box, Standard_False);
+  double deflection = 1e-3 * std::sqrt(box.SquareExtent());
+  double volume = volume_of_triangles(solid, deflection);
+  for (int i = 0; i < 4; ++i) {
+    const double coarse = volume;
+    volume = volume_of_triangles(solid, deflection *= 0.25);
+    if (std::abs(volume - coarse) < tolerance * volume) break;
+  }
+  return volume;
 }
 
 /// A group number for each wall. Walls that bend into each other, or share a face as the halves of a tapered

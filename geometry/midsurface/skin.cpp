@@ -4,6 +4,7 @@
 #include "geometry/base/whole_number.hpp"
 
 #include <BRepBndLib.hxx>
+#include <BRepClass_FaceClassifier.hxx>
 #include <BRepGProp.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRep_Tool.hxx>
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace quadrille {
 
@@ -68,6 +70,28 @@ void add_centers(const Triangle& triangle, double area, int n, const BRepAdaptor
   }
 }
 
+/// Points inside a face on a grid of its parameters that is refined until there are enough.
+std::vector<FaceSample> grid_samples(const TopoDS_Face& face, int at_least) {
+  constexpr int most = 256;
+  const BRepAdaptor_Surface surface(face, Standard_True);
+  BRepTopAdaptor_FClass2d inside(face, Precision::PConfusion());
+  const double u = surface.FirstUParameter(), v = surface.FirstVParameter();
+  std::vector<FaceSample> result;
+  for (int n = 16; n <= most && std::ssize(result) < at_least; n *= 2) {
+    result.clear();
+    const double du = (surface.LastUParameter() - u) / n, dv = (surface.LastVParameter() - v) / n;
+    for (int i = 0; i < n * n; ++i) {
+      const gp_Pnt2d uv(u + (i % n + 0.5) * du, v + (i / n + 0.5) * dv);
+      if (inside.Perform(uv) != TopAbs_IN) continue;
+      gp_Pnt at;
+      gp_Vec along_u, along_v;
+      surface.D1(uv.X(), uv.Y(), at, along_u, along_v);
+      result.push_back({uv, at, along_u.Crossed(along_v).Magnitude() * std::abs(du * dv)});
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least) {
@@ -76,6 +100,14 @@ std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least) {
   for (const Triangle& triangle : triangles) area += triangle.area;
   std::vector<FaceSample> result;
   if (!(area > 0)) return result;
+  // OpenCASCADE fills some crescents with triangles that leave the face.
+  constexpr double most_off = 0.25;
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(face, properties);
+  if (std::abs(area / std::abs(properties.Mass()) - 1) > most_off) {
+    result = grid_samples(face, at_least);
+    if (!result.empty()) return result;
+  }
   const BRepAdaptor_Surface surface(face, Standard_False);
   double left_out = 0;  // area of small triangles, which the next one represents
   for (const Triangle& triangle : triangles) {
@@ -120,7 +152,15 @@ gp_Pnt2d SkinFace::closest(const gp_Pnt& point) const {
 
 std::optional<gp_Pnt> SkinFace::foot(const gp_Pnt& from) const {
   const gp_Pnt2d uv = closest(from);
-  const TopAbs_State state = inside_->Perform(uv, Standard_True);
+  TopAbs_State state = inside_->Perform(uv, Standard_True);
+  if (state == TopAbs_ON) {
+    // OpenCASCADE takes the boundary for a polygon, and what is as near to it as the polygon is off for a
+    // point on it. For a face with curved sides that may be a hundredth of its size.
+    const double near = 1e-6 * std::sqrt(box_.SquareExtent());
+    BRepClass_FaceClassifier exact;
+    exact.Perform(face_, uv, std::max(adaptor_->UResolution(near), adaptor_->VResolution(near)));
+    state = exact.State();
+  }
   if (state != TopAbs_IN && state != TopAbs_ON) return std::nullopt;
   return point(uv);
 }

@@ -27,7 +27,8 @@ struct FaceSample {
   double area = 0;
 };
 
-/// Points inside a face, about `at_least` or more, spread over the triangulation that the face must carry.
+/// Points inside a face, about `at_least` or more, spread over the triangulation that the face must carry;
+/// over its parameters if the triangles do not have its area.
 std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least);
 
 /// Triangulates the faces of a shape for sampling. \param deflection largest distance from the shape.
