@@ -299,6 +299,9 @@ double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std
   }
   FilletVolumes twice;  // by the walls that meet
   for (const std::vector<Use>& around : uses) {
+    std::size_t meet = 0;
+    for (const Use& use : around) meet += use.edge.Orientation() == TopAbs_INTERNAL ? 2 : 1;
+    if (meet < 3) continue;
     struct Half {
       double angle, thickness;
     };

@@ -182,12 +182,12 @@ void tell(const std::string& problem, const std::string& name, const MidSurfaceO
   problems.push_back(problem);
 }
 
-/// The error for a solid that is not thin.
-Error not_thin(const std::string& name, const MidSurfaceOptions& options) {
-  return failure(name,
-                 fmt::format("{} is not a thin solid: no wall whose thickness is under {:g} of its width "
-                             "makes up its volume; mesh it as a solid, or its skin with quadrille mesh",
-                             name, options.thickest));
+/// The sentence for a solid that is not thin.
+std::string not_thin_sentence(const std::string& solid, const MidSurfaceOptions& options) {
+  return fmt::format(
+      "{} is not a thin solid: no wall whose thickness is under {:g} of its width makes up its "
+      "volume; mesh it as a solid, or its skin with quadrille mesh",
+      solid, options.thickest);
 }
 
 std::string face_names(const std::vector<int>& numbers) {
@@ -198,6 +198,14 @@ std::string face_names(const std::vector<int>& numbers) {
   }
   if (numbers.size() > most) names.push_back(fmt::format("{} more", numbers.size() - most));
   return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// The numbers of a solid's faces.
+std::vector<int> numbers_of(const Skin& skin) {
+  std::vector<int> result;
+  for (const SkinFace& face : skin.faces()) result.push_back(face.number());
+  sort_unique(result);
+  return result;
 }
 
 /// The walls with a B-spline middle that continue into others of that kind. They are nearly tangent to each
@@ -232,7 +240,7 @@ std::string cannot_join(const std::string& name, const Skin& skin, const std::ve
 }
 
 /// If most of the volume of the middle surface is in walls that are not thin, throws an error; with
-/// options.partial keeps the thin walls and reports the others.
+/// options.partial keeps the thin walls and reports the others. Leaves nothing of a solid that is not thin.
 void drop_thick(const Skin& skin, const std::string& name, const std::vector<WallEnd>& ends,
                 const MidSurfaceOptions& options, SolidMiddle& middle) {
   const std::vector<char> thick = find_thick(middle, ends, options.thickest);
@@ -251,11 +259,11 @@ void drop_thick(const Skin& skin, const std::string& name, const std::vector<Wal
     for (const int index : face.coverage.faces) numbers.insert(skin.faces()[index].number());
   }
   if (thick_volume <= 0.5 * all && all > 0) return;
-  if (thin.empty()) throw not_thin(name, options);
+  middle.faces = std::move(thin);
+  if (middle.faces.empty()) return;
   tell(fmt::format("{} is thin in places only: {} are further apart than {:g} of their width", name,
                    face_names({numbers.begin(), numbers.end()}), options.thickest),
        name, options, middle.problems);
-  middle.faces = std::move(thin);
 }
 
 /// Tells which fitted walls of the middle surface miss the tolerance even on the finest grid.
@@ -272,14 +280,14 @@ void check_fits(const Skin& skin, const std::string& name, const MidSurfaceOptio
   }
 }
 
-/// \param told called with the fraction that is done.
+/// \param told called with the fraction that is done. \return no faces if the solid is not thin.
 SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const MidSurfaceOptions& options,
                             const ExecutionContext& context, const std::function<void(double)>& told) {
   SolidMiddle result;
   result.volume = volume_of(skin.solid());
   const std::vector<int> surfaces = surface_numbers(skin);
   result.walls = find_walls(skin, surfaces, options.tolerance, context);
-  if (result.walls.empty()) throw not_thin(name, options);
+  if (result.walls.empty()) return result;
   const std::vector<WallEnd> ends = find_wall_ends(skin, result.walls, surfaces);
   constexpr std::size_t most_blended = 4;
   std::set<int> blended = blended_walls(result.walls, ends);
@@ -334,7 +342,6 @@ TopoDS_Compound assemble(const std::vector<JoinedFace>& faces) {
       if (part[i] == p) builder.Add(result, faces[i].face);
     }
   }
-  BRepTools::Clean(result);  // removes the triangles used for sampling
   return result;
 }
 
@@ -410,8 +417,9 @@ void describe_faces(const std::vector<SolidMiddle>& middles, const std::deque<Sk
   result.faces.resize(numbers.Extent());
   for (std::size_t solid = 0; solid < middles.size(); ++solid) {
     const SolidMiddle& middle = middles[solid];
+    if (middle.faces.empty()) continue;  // not thin
     for (const JoinedFace& joined : middle.faces) {
-      triangulate(joined.face, 0.2 * middle.walls[joined.wall].thickness);  // for samples
+      triangulate_middle(joined.face, middle.walls[joined.wall].thickness);  // for samples
       const Coverage& coverage = joined.coverage;
       MiddleFace& face = result.faces.at(numbers.FindIndex(joined.face) - 1);
       face.thinnest = coverage.thinnest;
@@ -495,22 +503,28 @@ MidSurface make(const CadModel& model, const MidSurfaceOptions& options, Executi
     throw failure(name, fmt::format("{} holds no solid, which a middle surface needs", name));
   std::vector<SolidMiddle> middles;
   std::vector<JoinedFace> all;
+  std::vector<std::string> left_out;
   for (const Skin& skin : skins) {
     const auto told = [&, done = static_cast<double>(middles.size())](double fraction) {
       context.report(Stage::midsurface, (done + fraction) / static_cast<double>(skins.size()));
     };
     told(0);
+    const std::string one = skins.size() == 1 ? name
+                                              : fmt::format("{}: solid {} ({})", name, middles.size() + 1,
+                                                            face_names(numbers_of(skin)));
     middles.push_back(middle_of_solid(skin, name, options, context, told));
+    if (middles.back().faces.empty()) left_out.push_back(not_thin_sentence(one, options));
     all.insert(all.end(), middles.back().faces.begin(), middles.back().faces.end());
   }
-  if (all.empty()) throw not_thin(name, options);
+  if (all.empty()) throw failure(name, not_thin_sentence(name, options));
   MidSurface result{CadModel(std::make_shared<CadShape>(assemble(all), name + " (middle surface)"))};
-  result.solids = static_cast<int>(skins.size());
+  result.solids = static_cast<int>(skins.size() - left_out.size());
   const std::vector<int> part = connected_parts(all);
   result.parts = 1 + *std::max_element(part.begin(), part.end());
   describe_faces(middles, skins, result);
   const auto thickness = thickness_source(middles, kept_skins, result);
   result.thickness_at = [thickness](int face, const Vector3& point) { return thickness->at(face, point); };
+  for (const std::string& solid : left_out) tell(solid, name, options, result.problems, "the others");
   for (const SolidMiddle& middle : middles)
     result.problems.insert(result.problems.end(), middle.problems.begin(), middle.problems.end());
   for (const std::string& problem : find_problems(result, name))
