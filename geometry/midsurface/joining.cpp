@@ -7,6 +7,7 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
+#include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_ListOfShape.hxx>
@@ -263,15 +264,23 @@ void merge_wall(int wall, const Skin& skin, const std::vector<Wall>& walls,
     builder.Add(shell, face.face);
     ++count;
   }
-  if (count < 2) {
+  const auto keep_all = [&] {
     for (const JoinedFace& face : all) {
       if (face.wall == wall && !face.step) merged.push_back(face);
     }
+  };
+  if (count < 2) {
+    keep_all();
     return;
   }
   ShapeUpgrade_UnifySameDomain unify(shell, Standard_False, Standard_True, Standard_False);
   unify.KeepShapes(kept_edges);
-  unify.Build();
+  try {
+    unify.Build();
+  } catch (const Standard_Failure&) {  // as at some seams; the faces are right as they are
+    keep_all();
+    return;
+  }
   for (TopExp_Explorer it(unify.Shape(), TopAbs_FACE); it.More(); it.Next()) {
     const TopoDS_Face& face = TopoDS::Face(it.Current());
     triangulate_middle(face, walls[wall].thickness);

@@ -477,7 +477,8 @@ class EdgeEnds {
 /// Finds where a wall runs into others but its rim stops at their skin.
 class RimEnds {
  public:
-  explicit RimEnds(const Skin& skin) : skin_(skin), edges_(skin.solid()), material_(skin) {}
+  RimEnds(const Skin& skin, const std::vector<Wall>& walls)
+      : skin_(skin), walls_(walls), edges_(skin.solid()), material_(skin) {}
 
   /// Adds the fences at the vertices of one face where an edge past which the wall continues meets its rim.
   /// \param t thickness of the wall. \param edges of the face. \param centers of its fences, old and new.
@@ -501,15 +502,37 @@ class RimEnds {
         if (own == around.end() || around.size() != 2 || rim == around.end()) continue;
         const gp_Pnt center = edge.inside(at, 0.5 * t);
         const auto [away, length] = onward(*own, *rim, t);
-        if (!continues(center, away, length, 0.05 * t * own->outward_along) ||
-            is_near(center, 0.01 * t, centers))
-          continue;
-        ends.push_back({wall, wall, fence(*own, away, length, t), false});
+        TopoDS_Face across;
+        if (continues(center, away, length, 0.05 * t * own->outward_along))
+          across = fence(*own, away, length, t);
+        else if (runs_under_an_end(wall, edge))
+          across = face_between(moved(edge, 0.3 * t, 0.1 * t), moved(edge, 0.7 * t, 0.1 * t));
+        if (!across.IsNull() && !is_near(center, 0.01 * t, centers))
+          ends.push_back({wall, wall, across, false});
       }
     }
   }
 
  private:
+  /// Whether another wall that stands on this one ends along the edge: its middle crosses the edge. Where it
+  /// is flush with the rim, what lies past its middle must be cut off at its end.
+  bool runs_under_an_end(int own, const FaceEdge& edge) const {
+    const double t = walls_[own].thickness;
+    const auto share_of = [&](const Wall& wall, double share) -> std::optional<double> {
+      const double at = edge.first() + share * (edge.last() - edge.first());
+      const gp_Pnt above = edge.inside(at, -0.5 * t).Translated(close_by * t * edge.away(at));
+      const auto position = position_in(wall, skin_, above);
+      if (!position) return std::nullopt;
+      return position->feet[0].Distance(above) / position->thickness() - 0.5;
+    };
+    for (int wall = 0; wall < static_cast<int>(walls_.size()); ++wall) {
+      if (wall == own) continue;
+      const auto from = share_of(walls_[wall], 0.1), to = share_of(walls_[wall], 0.9);
+      if (from && to && *from * *to < 0) return true;
+    }
+    return false;
+  }
+
   /// The direction in which the rim would continue, and the length up to the next skin.
   std::pair<gp_Vec, double> onward(const EdgeEnd& end, const EdgeEnd& rim, double t) const {
     const gp_Vec straight = end.edge->away(end.at);
@@ -539,6 +562,7 @@ class RimEnds {
   }
 
   const Skin& skin_;
+  const std::vector<Wall>& walls_;
   EdgeEnds edges_;
   Material material_;
 };
@@ -796,7 +820,7 @@ std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& w
 std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& walls,
                                    const std::vector<int>& surfaces) {
   const Borders borders(skin, surfaces);
-  RimEnds rims(skin);
+  RimEnds rims(skin, walls);
   std::vector<WallEnd> ends;
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
     std::vector<gp_Pnt> centers;

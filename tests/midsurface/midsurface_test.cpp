@@ -653,7 +653,10 @@ TopoDS_Shape bottom_with_a_short_wall() {
 
 /// What is delivered as right has no free edge but at a rim.
 TEST(MidSurface, RefusesFreeEdgesThatAreNotAtARim) {
-  const TopoDS_Shape solid = bottom_with_a_short_wall();
+  // The plate ends inside the foot of a wall that is wider than it and reaches past its corner.
+  const TopoDS_Shape solid = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(100, 60, 3).Shape(),
+                                              BRepPrimAPI_MakeBox(gp_Pnt(97, 50, 0), 5, 20, 30).Shape())
+                                 .Shape();
   try {
     middle_of(solid);
     ADD_FAILURE() << "its middle surface has free edges in the material";
@@ -699,6 +702,29 @@ TEST(MidSurface, EndsFilletedRibsAtTheirRims) {
   const MidSurface middle = middle_of(rib_rounded_at_its_sides());
   expect_right(middle);
   EXPECT_NEAR(area_of(middle), 100 * 60 + 40 * 16.5, 1e-6);
+}
+
+/// The bottom ends at the wall's middle where the wall stands at its rim, and at its own rim past the wall's
+/// end.
+TEST(MidSurface, EndsAPlateAtAWallThatIsShorter) {
+  const MidSurface middle = middle_of(bottom_with_a_short_wall());
+  expect_right(middle);
+  EXPECT_NEAR(area_of(middle), 99.25 * 59.25 + 0.75 * 30 + 19.25 * (99.25 + 29.25), 1e-6);
+}
+
+/// The middle of the pad lies in the outside of the tube, and its own side leans to its rim.
+TEST(MidSurface, OfAPadOnATube) {
+  const TopoDS_Shape pad =
+      BRepAlgoAPI_Common(BRepPrimAPI_MakeCylinder(51, 90).Shape(),
+                         BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, 45), gp::DX()), 15, 80).Shape())
+          .Shape();
+  const TopoDS_Shape solid =
+      BRepAlgoAPI_Cut(BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(50, 90).Shape(), pad).Shape(),
+                      BRepPrimAPI_MakeCylinder(49, 90).Shape())
+          .Shape();
+  const MidSurface middle = middle_of(solid);
+  expect_right(middle);
+  EXPECT_EQ(free_loops(middle.model), 2);
 }
 
 /// The pairs of sides that face each other across both ribs are no walls.
