@@ -29,13 +29,19 @@ namespace quadrille {
 
 namespace {
 
+/// Whether a face's surface counts at a point: the point may lie on the other side of the wall and, below the
+/// skin of the plate on which the wall stands, past the end of the face.
+bool is_near(const SkinFace& face, const Wall& wall, const gp_Pnt& point) {
+  return face.box().Distance(Bnd_Box(point, point)) <= 1.5 * wall.thickness;
+}
+
 /// The distance of a point from the nearest surface of each side of a wall; skin.size() if none is near.
 std::array<double, 2> distances_to_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
   std::array<double, 2> result{skin.size(), skin.size()};
   for (int side = 0; side < 2; ++side) {
     for (const int index : wall.sides[side]) {
       const SkinFace& face = skin.faces()[index];
-      if (face.box().Distance(Bnd_Box(point, point)) > wall.thickness) continue;
+      if (!is_near(face, wall, point)) continue;
       result[side] = std::min(result[side], face.point(face.closest(point)).Distance(point));
     }
   }
@@ -50,7 +56,7 @@ bool between_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
   const std::vector<int> sides = both_sides(wall);
   return std::any_of(sides.begin(), sides.end(), [&](int index) {
     const SkinFace& face = skin.faces()[index];
-    return face.box().Distance(Bnd_Box(point, point)) <= wall.thickness && face.foot(point);
+    return is_near(face, wall, point) && face.foot(point);
   });
 }
 
@@ -168,7 +174,7 @@ class RimCheck {
     bool result = false;
     for (const int index : both_sides(wall)) {
       const SkinFace& face = skin_.faces()[index];
-      if (face.box().Distance(Bnd_Box(fan.point, fan.point)) > wall.thickness) continue;
+      if (!is_near(face, wall, fan.point)) continue;
       const gp_Pnt2d uv = face.closest(fan.point);
       const double distance = face.point(uv).Distance(fan.point);
       const auto outward = face.outward(uv);
@@ -299,6 +305,9 @@ double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std
   }
   FilletVolumes twice;  // by the walls that meet
   for (const std::vector<Use>& around : uses) {
+    std::size_t meet = 0;
+    for (const Use& use : around) meet += use.edge.Orientation() == TopAbs_INTERNAL ? 2 : 1;
+    if (meet < 3) continue;
     struct Half {
       double angle, thickness;
     };

@@ -79,7 +79,7 @@ std::vector<JoinedFace> cut_faces(const BOPAlgo_Builder& fuse, const Skin& skin,
       part.face = TopoDS::Face(piece);
       bool strip = false;
       if (pieces.Extent() > 1 && !whole.step) {
-        triangulate(part.face, 0.2 * walls[whole.wall].thickness);
+        triangulate_middle(part.face, walls[whole.wall].thickness);
         const Coverage coverage = coverage_of(part.face, walls[whole.wall], skin);
         strip = coverage.share < least_share;
         if (!strip) {

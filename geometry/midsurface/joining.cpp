@@ -7,6 +7,7 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
+#include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_ListOfShape.hxx>
@@ -87,7 +88,7 @@ Images cut_pieces(const BOPAlgo_Builder& fuse, const Skin& skin, const std::vect
     for (const TopoDS_Face& piece : pieces[wall]) {
       for (const TopoDS_Shape& image : images(fuse, piece)) {
         const TopoDS_Face& face = TopoDS::Face(image);
-        triangulate(face, 0.2 * walls[wall].thickness);
+        triangulate_middle(face, walls[wall].thickness);
         const Coverage coverage = coverage_of(face, walls[wall], skin);
         (coverage.share < least_share ? result.hung_over : result.between)
             .push_back({face, static_cast<int>(wall), false, coverage});
@@ -263,18 +264,26 @@ void merge_wall(int wall, const Skin& skin, const std::vector<Wall>& walls,
     builder.Add(shell, face.face);
     ++count;
   }
-  if (count < 2) {
+  const auto keep_all = [&] {
     for (const JoinedFace& face : all) {
       if (face.wall == wall && !face.step) merged.push_back(face);
     }
+  };
+  if (count < 2) {
+    keep_all();
     return;
   }
   ShapeUpgrade_UnifySameDomain unify(shell, Standard_False, Standard_True, Standard_False);
   unify.KeepShapes(kept_edges);
-  unify.Build();
+  try {
+    unify.Build();
+  } catch (const Standard_Failure&) {  // as at some seams; the faces are right as they are
+    keep_all();
+    return;
+  }
   for (TopExp_Explorer it(unify.Shape(), TopAbs_FACE); it.More(); it.Next()) {
     const TopoDS_Face& face = TopoDS::Face(it.Current());
-    triangulate(face, 0.2 * walls[wall].thickness);
+    triangulate_middle(face, walls[wall].thickness);
     merged.push_back({face, wall, false, coverage_of(face, walls[wall], skin)});
     if (merged.back().coverage.share == 0) merged.back().coverage = whole_coverage(wall, walls);
   }

@@ -3,6 +3,8 @@
 #include "geometry/midsurface/midsurface.hpp"
 
 #include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepGProp.hxx>
 #include <BRepTools.hxx>
@@ -10,6 +12,7 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
+#include <Poly_Triangulation.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -56,10 +59,53 @@ struct SolidMiddle {
   std::vector<std::string> problems;  ///< what was left out or is imprecise, and why
 };
 
-double volume_of(const TopoDS_Shape& shape) {
+/// The volume between the triangles of a solid's faces. \param deflection largest distance from the faces.
+double volume_of_triangles(const TopoDS_Shape& solid, double deflection) {
+  const TopoDS_Shape copy = BRepBuilderAPI_Copy(solid, Standard_True, Standard_False).Shape();
+  triangulate(copy, deflection);
+  double six_times = 0;
+  for (TopExp_Explorer it(copy, TopAbs_FACE); it.More(); it.Next()) {
+    TopLoc_Location place;
+    const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(TopoDS::Face(it.Current()), place);
+    if (mesh.IsNull()) continue;
+    double face = 0;
+    for (int i = 1; i <= mesh->NbTriangles(); ++i) {
+      std::array<int, 3> nodes{};
+      mesh->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
+      std::array<gp_XYZ, 3> corners;
+      for (int j = 0; j < 3; ++j) corners[j] = mesh->Node(nodes[j]).Transformed(place.Transformation()).XYZ();
+      face += corners[0].DotCross(corners[1], corners[2]);
+    }
+    six_times += it.Current().Orientation() == TopAbs_REVERSED ? -face : face;
+  }
+  return std::abs(six_times) / 6;
+}
+
+/// The volume within about a thousandth. OpenCASCADE's integral with a tolerance is exact for plain faces,
+/// but may be off by a fifth for B-splines, whatever tolerance it tells.
+double volume_of(const TopoDS_Shape& solid) {
+  constexpr double tolerance = 1e-3;
+  bool plain = true;
+  for (TopExp_Explorer it(solid, TopAbs_FACE); it.More(); it.Next())
+    plain = plain &&
+            BRepAdaptor_Surface(TopoDS::Face(it.Current()), Standard_False).GetType() < GeomAbs_BezierSurface;
   GProp_GProps properties;
-  BRepGProp::VolumeProperties(shape, properties, 1e-6);
-  return std::abs(properties.Mass());
+  if (plain) {
+    BRepGProp::VolumeProperties(solid, properties, 1e-6);
+    return std::abs(properties.Mass());
+  }
+  const double error = BRepGProp::VolumePropertiesGK(solid, properties, tolerance);
+  if (error >= 0 && error < 2 * tolerance) return std::abs(properties.Mass());
+  Bnd_Box box;
+  BRepBndLib::Add(solid, box, Standard_False);
+  double deflection = 1e-3 * std::sqrt(box.SquareExtent());
+  double volume = volume_of_triangles(solid, deflection);
+  for (int i = 0; i < 4; ++i) {
+    const double coarse = volume;
+    volume = volume_of_triangles(solid, deflection *= 0.25);
+    if (std::abs(volume - coarse) < tolerance * volume) break;
+  }
+  return volume;
 }
 
 /// A group number for each wall. Walls that bend into each other, or share a face as the halves of a tapered
@@ -136,12 +182,12 @@ void tell(const std::string& problem, const std::string& name, const MidSurfaceO
   problems.push_back(problem);
 }
 
-/// The error for a solid that is not thin.
-Error not_thin(const std::string& name, const MidSurfaceOptions& options) {
-  return failure(name,
-                 fmt::format("{} is not a thin solid: no wall whose thickness is under {:g} of its width "
-                             "makes up its volume; mesh it as a solid, or its skin with quadrille mesh",
-                             name, options.thickest));
+/// The sentence for a solid that is not thin.
+std::string not_thin_sentence(const std::string& solid, const MidSurfaceOptions& options) {
+  return fmt::format(
+      "{} is not a thin solid: no wall whose thickness is under {:g} of its width makes up its "
+      "volume; mesh it as a solid, or its skin with quadrille mesh",
+      solid, options.thickest);
 }
 
 std::string face_names(const std::vector<int>& numbers) {
@@ -152,6 +198,14 @@ std::string face_names(const std::vector<int>& numbers) {
   }
   if (numbers.size() > most) names.push_back(fmt::format("{} more", numbers.size() - most));
   return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// The numbers of a solid's faces.
+std::vector<int> numbers_of(const Skin& skin) {
+  std::vector<int> result;
+  for (const SkinFace& face : skin.faces()) result.push_back(face.number());
+  sort_unique(result);
+  return result;
 }
 
 /// The walls with a B-spline middle that continue into others of that kind. They are nearly tangent to each
@@ -186,7 +240,7 @@ std::string cannot_join(const std::string& name, const Skin& skin, const std::ve
 }
 
 /// If most of the volume of the middle surface is in walls that are not thin, throws an error; with
-/// options.partial keeps the thin walls and reports the others.
+/// options.partial keeps the thin walls and reports the others. Leaves nothing of a solid that is not thin.
 void drop_thick(const Skin& skin, const std::string& name, const std::vector<WallEnd>& ends,
                 const MidSurfaceOptions& options, SolidMiddle& middle) {
   const std::vector<char> thick = find_thick(middle, ends, options.thickest);
@@ -205,11 +259,11 @@ void drop_thick(const Skin& skin, const std::string& name, const std::vector<Wal
     for (const int index : face.coverage.faces) numbers.insert(skin.faces()[index].number());
   }
   if (thick_volume <= 0.5 * all && all > 0) return;
-  if (thin.empty()) throw not_thin(name, options);
+  middle.faces = std::move(thin);
+  if (middle.faces.empty()) return;
   tell(fmt::format("{} is thin in places only: {} are further apart than {:g} of their width", name,
                    face_names({numbers.begin(), numbers.end()}), options.thickest),
        name, options, middle.problems);
-  middle.faces = std::move(thin);
 }
 
 /// Tells which fitted walls of the middle surface miss the tolerance even on the finest grid.
@@ -226,14 +280,14 @@ void check_fits(const Skin& skin, const std::string& name, const MidSurfaceOptio
   }
 }
 
-/// \param told called with the fraction that is done.
+/// \param told called with the fraction that is done. \return no faces if the solid is not thin.
 SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const MidSurfaceOptions& options,
                             const ExecutionContext& context, const std::function<void(double)>& told) {
   SolidMiddle result;
   result.volume = volume_of(skin.solid());
   const std::vector<int> surfaces = surface_numbers(skin);
   result.walls = find_walls(skin, surfaces, options.tolerance, context);
-  if (result.walls.empty()) throw not_thin(name, options);
+  if (result.walls.empty()) return result;
   const std::vector<WallEnd> ends = find_wall_ends(skin, result.walls, surfaces);
   constexpr std::size_t most_blended = 4;
   std::set<int> blended = blended_walls(result.walls, ends);
@@ -288,7 +342,6 @@ TopoDS_Compound assemble(const std::vector<JoinedFace>& faces) {
       if (part[i] == p) builder.Add(result, faces[i].face);
     }
   }
-  BRepTools::Clean(result);  // removes the triangles used for sampling
   return result;
 }
 
@@ -364,8 +417,9 @@ void describe_faces(const std::vector<SolidMiddle>& middles, const std::deque<Sk
   result.faces.resize(numbers.Extent());
   for (std::size_t solid = 0; solid < middles.size(); ++solid) {
     const SolidMiddle& middle = middles[solid];
+    if (middle.faces.empty()) continue;  // not thin
     for (const JoinedFace& joined : middle.faces) {
-      triangulate(joined.face, 0.2 * middle.walls[joined.wall].thickness);  // for samples
+      triangulate_middle(joined.face, middle.walls[joined.wall].thickness);  // for samples
       const Coverage& coverage = joined.coverage;
       MiddleFace& face = result.faces.at(numbers.FindIndex(joined.face) - 1);
       face.thinnest = coverage.thinnest;
@@ -449,22 +503,28 @@ MidSurface make(const CadModel& model, const MidSurfaceOptions& options, Executi
     throw failure(name, fmt::format("{} has no solid; a middle surface is made of solids", name));
   std::vector<SolidMiddle> middles;
   std::vector<JoinedFace> all;
+  std::vector<std::string> left_out;
   for (const Skin& skin : skins) {
     const auto told = [&, done = static_cast<double>(middles.size())](double fraction) {
       context.report(Stage::midsurface, (done + fraction) / static_cast<double>(skins.size()));
     };
     told(0);
+    const std::string one = skins.size() == 1 ? name
+                                              : fmt::format("{}: solid {} ({})", name, middles.size() + 1,
+                                                            face_names(numbers_of(skin)));
     middles.push_back(middle_of_solid(skin, name, options, context, told));
+    if (middles.back().faces.empty()) left_out.push_back(not_thin_sentence(one, options));
     all.insert(all.end(), middles.back().faces.begin(), middles.back().faces.end());
   }
-  if (all.empty()) throw not_thin(name, options);
+  if (all.empty()) throw failure(name, not_thin_sentence(name, options));
   MidSurface result{CadModel(std::make_shared<CadShape>(assemble(all), name + " (middle surface)"))};
-  result.solids = static_cast<int>(skins.size());
+  result.solids = static_cast<int>(skins.size() - left_out.size());
   const std::vector<int> part = connected_parts(all);
   result.parts = 1 + *std::max_element(part.begin(), part.end());
   describe_faces(middles, skins, result);
   const auto thickness = thickness_source(middles, kept_skins, result);
   result.thickness_at = [thickness](int face, const Vector3& point) { return thickness->at(face, point); };
+  for (const std::string& solid : left_out) tell(solid, name, options, result.problems, "the others");
   for (const SolidMiddle& middle : middles)
     result.problems.insert(result.problems.end(), middle.problems.begin(), middle.problems.end());
   for (const std::string& problem : find_problems(result, name))

@@ -61,7 +61,7 @@ struct MidSurface {
   double shell_volume = 0;          ///< sum of area times mean thickness, without steps
   /// What of shell_volume is counted twice where walls meet, and makes up for no fillet there.
   double counted_twice = 0;
-  int solids = 0;                  ///< number of solids; with options.join, after joining
+  int solids = 0;                  ///< number of solids that are thin; with options.join, after joining
   int parts = 0;                   ///< number of connected parts of the middle surface
   int free_edges = 0;              ///< number of edges that bound one face only
   std::vector<int> stray_edges{};  ///< numbers of the free edges that end inside the material

@@ -4,6 +4,7 @@
 #include "geometry/base/whole_number.hpp"
 
 #include <BRepBndLib.hxx>
+#include <BRepClass_FaceClassifier.hxx>
 #include <BRepGProp.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRep_Tool.hxx>
@@ -15,6 +16,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 namespace quadrille {
 
@@ -68,6 +71,28 @@ void add_centers(const Triangle& triangle, double area, int n, const BRepAdaptor
   }
 }
 
+/// Points inside a face on a grid of its parameters that is refined until there are enough.
+std::vector<FaceSample> grid_samples(const TopoDS_Face& face, int at_least) {
+  constexpr int most = 256;
+  const BRepAdaptor_Surface surface(face, Standard_True);
+  BRepTopAdaptor_FClass2d inside(face, Precision::PConfusion());
+  const double u = surface.FirstUParameter(), v = surface.FirstVParameter();
+  std::vector<FaceSample> result;
+  for (int n = 16; n <= most && std::ssize(result) < at_least; n *= 2) {
+    result.clear();
+    const double du = (surface.LastUParameter() - u) / n, dv = (surface.LastVParameter() - v) / n;
+    for (int i = 0; i < n * n; ++i) {
+      const gp_Pnt2d uv(u + (i % n + 0.5) * du, v + (i / n + 0.5) * dv);
+      if (inside.Perform(uv) != TopAbs_IN) continue;
+      gp_Pnt at;
+      gp_Vec along_u, along_v;
+      surface.D1(uv.X(), uv.Y(), at, along_u, along_v);
+      result.push_back({uv, at, along_u.Crossed(along_v).Magnitude() * std::abs(du * dv)});
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least) {
@@ -76,6 +101,14 @@ std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least) {
   for (const Triangle& triangle : triangles) area += triangle.area;
   std::vector<FaceSample> result;
   if (!(area > 0)) return result;
+  // OpenCASCADE fills some crescents with triangles that leave the face.
+  constexpr double most_off = 0.25;
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(face, properties);
+  if (std::abs(area / std::abs(properties.Mass()) - 1) > most_off) {
+    result = grid_samples(face, at_least);
+    if (!result.empty()) return result;
+  }
   const BRepAdaptor_Surface surface(face, Standard_False);
   double left_out = 0;  // area of small triangles, which the next one represents
   for (const Triangle& triangle : triangles) {
@@ -88,8 +121,7 @@ std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least) {
   return result;
 }
 
-void triangulate(const TopoDS_Shape& shape, double deflection) {
-  const double angle = 0.4;  // radians between neighboring triangles of a curved face
+void triangulate(const TopoDS_Shape& shape, double deflection, double angle) {
   BRepMesh_IncrementalMesh(shape, deflection, Standard_False, angle, Standard_False);
 }
 
@@ -120,7 +152,15 @@ gp_Pnt2d SkinFace::closest(const gp_Pnt& point) const {
 
 std::optional<gp_Pnt> SkinFace::foot(const gp_Pnt& from) const {
   const gp_Pnt2d uv = closest(from);
-  const TopAbs_State state = inside_->Perform(uv, Standard_True);
+  TopAbs_State state = inside_->Perform(uv, Standard_True);
+  if (state == TopAbs_ON) {
+    // OpenCASCADE takes the boundary for a polygon, and what is as near to it as the polygon is off for a
+    // point on it. For a face with curved sides that may be a hundredth of its size.
+    const double near = 1e-6 * std::sqrt(box_.SquareExtent());
+    BRepClass_FaceClassifier exact;
+    exact.Perform(face_, uv, std::max(adaptor_->UResolution(near), adaptor_->VResolution(near)));
+    state = exact.State();
+  }
   if (state != TopAbs_IN && state != TopAbs_ON) return std::nullopt;
   return point(uv);
 }
@@ -130,26 +170,86 @@ RayFace::RayFace(const SkinFace& face, double near) : surface_(face.surface()), 
     const gp_Vec ab(points[0], points[1]), ac(points[0], points[2]);
     triangles_.push_back({points[0], ab, ac, uv});
   }
+  if (!triangles_.empty()) add_boxes(0, triangles_.size());
+}
+
+void RayFace::add_boxes(std::size_t first, std::size_t last) {
+  constexpr std::size_t leaf = 8;
+  const std::size_t index = boxes_.size();
+  Box box{triangles_[first].corner.XYZ(), triangles_[first].corner.XYZ(), first, last};
+  for (std::size_t i = first; i < last; ++i) {
+    const Flat& flat = triangles_[i];
+    for (const gp_Vec& way : {gp_Vec(), flat.ab, flat.ac}) {
+      const gp_Pnt corner = flat.corner.Translated(way);
+      for (int axis = 1; axis <= 3; ++axis) {
+        box.low.SetCoord(axis, std::min(box.low.Coord(axis), corner.Coord(axis) - near_));
+        box.high.SetCoord(axis, std::max(box.high.Coord(axis), corner.Coord(axis) + near_));
+      }
+    }
+  }
+  boxes_.push_back(box);
+  if (last - first <= leaf) return;
+  const gp_XYZ size = box.high - box.low;
+  int longest = 1;
+  for (const int axis : {2, 3}) longest = size.Coord(axis) > size.Coord(longest) ? axis : longest;
+  const std::size_t half = (first + last) / 2;
+  const auto at = [&](std::size_t i) { return triangles_.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(first), at(half), at(last), [&](const Flat& a, const Flat& b) {
+    return a.center().Coord(longest) < b.center().Coord(longest);
+  });
+  add_boxes(first, half);
+  boxes_[index].second_half = boxes_.size();
+  add_boxes(half, last);
 }
 
 std::vector<RayFace::Hit> RayFace::hits(const gp_Lin& line) const {
+  const auto meets = [&](const Box& box) {
+    double first = -std::numeric_limits<double>::infinity(), last = -first;
+    for (int axis = 1; axis <= 3; ++axis) {
+      const double start = line.Location().Coord(axis), along = line.Direction().Coord(axis);
+      const double low = box.low.Coord(axis) - start, high = box.high.Coord(axis) - start;
+      if (std::abs(along) < 1e-12) {  // a face is shorter than 1e12 times the width of its box
+        if (low > 0 || high < 0) return false;
+        continue;
+      }
+      first = std::max(first, std::min(low / along, high / along));
+      last = std::min(last, std::max(low / along, high / along));
+    }
+    return first <= last;
+  };
   std::vector<Hit> result;
-  const gp_Vec along(line.Direction());
-  for (const Flat& flat : triangles_) {
-    // Barycentric coordinates, with a small margin. A line through a shared edge may give a hit twice.
-    const gp_Vec normal = along.Crossed(flat.ac);
-    const double volume = flat.ab.Dot(normal);
-    if (std::abs(volume) < 1e-12 * flat.ab.Magnitude() * flat.ac.Magnitude()) continue;
-    const gp_Vec from(flat.corner, line.Location());
-    const double b = from.Dot(normal) / volume;
-    const gp_Vec aside = from.Crossed(flat.ab);
-    const double c = along.Dot(aside) / volume;
-    constexpr double beyond = 1e-9;
-    if (b < -beyond || c < -beyond || b + c > 1 + beyond) continue;
-    if (const auto hit = polished(line, blend(flat.uv, 1 - b - c, b), flat.ac.Dot(aside) / volume))
-      result.push_back(*hit);
+  std::vector<std::size_t> open;
+  if (!boxes_.empty()) open.push_back(0);
+  while (!open.empty()) {
+    const std::size_t index = open.back();
+    open.pop_back();
+    const Box& box = boxes_[index];
+    if (!meets(box)) continue;
+    if (box.second_half > 0) {
+      open.push_back(box.second_half);
+      open.push_back(index + 1);
+      continue;
+    }
+    for (std::size_t i = box.first; i < box.last; ++i) {
+      if (const auto found = hit(line, triangles_[i])) result.push_back(*found);
+    }
   }
   return result;
+}
+
+std::optional<RayFace::Hit> RayFace::hit(const gp_Lin& line, const Flat& flat) const {
+  const gp_Vec along(line.Direction());
+  // Barycentric coordinates, with a small margin. A line through a shared edge may give a hit twice.
+  const gp_Vec normal = along.Crossed(flat.ac);
+  const double volume = flat.ab.Dot(normal);
+  if (std::abs(volume) < 1e-12 * flat.ab.Magnitude() * flat.ac.Magnitude()) return std::nullopt;
+  const gp_Vec from(flat.corner, line.Location());
+  const double b = from.Dot(normal) / volume;
+  const gp_Vec aside = from.Crossed(flat.ab);
+  const double c = along.Dot(aside) / volume;
+  constexpr double beyond = 1e-9;
+  if (b < -beyond || c < -beyond || b + c > 1 + beyond) return std::nullopt;
+  return polished(line, blend(flat.uv, 1 - b - c, b), flat.ac.Dot(aside) / volume);
 }
 
 std::optional<RayFace::Hit> RayFace::polished(const gp_Lin& line, gp_Pnt2d uv, double along) const {

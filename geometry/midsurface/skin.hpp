@@ -27,11 +27,13 @@ struct FaceSample {
   double area = 0;
 };
 
-/// Points inside a face, about `at_least` or more, spread over the triangulation that the face must carry.
+/// Points inside a face, about `at_least` or more, spread over the triangulation that the face must carry;
+/// over its parameters if the triangles do not have its area.
 std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least);
 
-/// Triangulates the faces of a shape for sampling. \param deflection largest distance from the shape.
-void triangulate(const TopoDS_Shape& shape, double deflection);
+/// Triangulates the faces of a shape for sampling. \param deflection largest distance from the shape. \param
+/// angle radians between neighboring triangles of a curved face, and between parts of its edges.
+void triangulate(const TopoDS_Shape& shape, double deflection, double angle = 0.4);
 
 /// One face of a solid. Evaluation uses internal caches: threads must not share an object.
 class SkinFace {
@@ -74,6 +76,7 @@ class RayFace {
   };
   /// \param face with triangles. \param near points closer to a line than this lie on it.
   RayFace(const SkinFace& face, double near);
+  /// Time: logarithmic in the triangles.
   std::vector<Hit> hits(const gp_Lin& line) const;
 
  private:
@@ -81,12 +84,22 @@ class RayFace {
     gp_Pnt corner;
     gp_Vec ab, ac;  ///< the sides that start at the corner
     std::array<gp_Pnt2d, 3> uv;
+    gp_XYZ center() const { return corner.XYZ() + (ab.XYZ() + ac.XYZ()) / 3; }
   };
+  /// A box around some triangles; its first half follows it in the list, unless it is a leaf.
+  struct Box {
+    gp_XYZ low, high;
+    std::size_t first = 0, last = 0;  ///< of the triangles
+    std::size_t second_half = 0;      ///< index of its box; 0 = a leaf
+  };
+  void add_boxes(std::size_t first, std::size_t last);
+  std::optional<Hit> hit(const gp_Lin& line, const Flat& flat) const;
   /// The point of the surface on the line, starting from a guess.
   std::optional<Hit> polished(const gp_Lin& line, gp_Pnt2d uv, double along) const;
 
   const BRepAdaptor_Surface& surface_;
   std::vector<Flat> triangles_;
+  std::vector<Box> boxes_;  ///< a tree, the root first
   double near_;
 };
 

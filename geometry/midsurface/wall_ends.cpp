@@ -10,6 +10,7 @@
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRep_Tool.hxx>
 #include <GeomAPI_Interpolate.hxx>
+#include <GeomAdaptor_Surface.hxx>
 #include <GeomFill.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_Circle.hxx>
@@ -33,6 +34,7 @@
 #include <gp_Pln.hxx>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "geometry/midsurface/wall_pieces.hpp"
@@ -69,6 +71,7 @@ class FaceEdge {
         first_(curve_.FirstParameter()),
         last_(curve_.LastParameter()) {}
 
+  const SkinFace& beside() const { return beside_; }
   double first() const { return first_; }
   double last() const { return last_; }
   /// The part of the edge between two parameters.
@@ -220,6 +223,7 @@ struct NextWall {
   int wall = -1;     ///< -1 = none
   double away = 0;   ///< distance from the edge at which it was found; large if a riser leans or is rounded
   double depth = 0;  ///< depth below the edge at which it was found
+  double at = 0;     ///< parameter of the edge at which it was found
 };
 
 constexpr double close_by = 0.05;       // over the thickness
@@ -244,7 +248,7 @@ NextWall next_wall(const Skin& skin, const std::vector<Wall>& walls, int wall, c
       for (const double share : {0.5, 0.25, 0.75}) {
         const double at = edge.first() + share * (edge.last() - edge.first());
         for (int other = 0; other < static_cast<int>(walls.size()); ++other) {
-          const NextWall next{other, away * t, depth * t};
+          const NextWall next{other, away * t, depth * t, at};
           if (other != wall && begins_behind(skin, walls[other], edge, at, next)) return next;
         }
       }
@@ -253,10 +257,10 @@ NextWall next_wall(const Skin& skin, const std::vector<Wall>& walls, int wall, c
   return {};
 }
 
-/// The depth of a wall's middle below the edge, a little before the edge (`step` negative) or behind it.
-/// \param guess of the depth, which is returned if the wall is not there.
-double depth_at(const Skin& skin, const Wall& wall, const FaceEdge& edge, double step, double guess) {
-  const double at = 0.5 * (edge.first() + edge.last());
+/// The depth of a wall's middle below the edge at a parameter, a little before the edge (`step` negative) or
+/// behind it. \param guess of the depth, which is returned if the wall is not there.
+double depth_at(const Skin& skin, const Wall& wall, const FaceEdge& edge, double at, double step,
+                double guess) {
   const gp_Pnt start = edge.curve().Value(at).Translated(step * edge.away(at));
   double depth = guess;
   for (int i = 0; i < 4; ++i) {  // if the sides are not parallel their middle lies a little aside
@@ -275,14 +279,58 @@ double thickest_of(const std::vector<Wall>& walls) {
   return result;
 }
 
+/// Whether the middles of two walls meet in a corner at the edge, as at a sharp fold. Such walls are extended
+/// to where their middles intersect, and no fence separates them.
+bool meet_in_corner(const Skin& skin, const std::vector<Wall>& walls, int wall, const NextWall& next,
+                    const FaceEdge& edge) {
+  const double t = std::min(walls[wall].thickness, walls[next.wall].thickness);
+  const gp_Pnt start = edge.curve().Value(next.at);
+  const gp_Vec away = edge.away(next.at), down = gp_Vec(edge.outward(next.at)).Reversed();
+  /// The line in which a wall's middle crosses the plane across the edge: its depth at the edge and its
+  /// slope.
+  struct Line {
+    double depth = 0, slope = 0;
+  };
+  const auto line_of = [&](const Wall& of, double aside, double depth) -> std::optional<Line> {
+    const auto position = position_in(of, skin, start.Translated(aside * away + depth * down));
+    if (!position || position->thickness() < Precision::Confusion()) return std::nullopt;
+    const gp_Vec across(position->feet[0], position->feet[1]);
+    const gp_Vec to(start, gp_Pnt(0.5 * (position->feet[0].XYZ() + position->feet[1].XYZ())));
+    if (std::abs(across.Dot(down)) < Precision::Confusion()) return std::nullopt;
+    const double slope = -across.Dot(away) / across.Dot(down);
+    return Line{to.Dot(down) - slope * to.Dot(away), slope};
+  };
+  const auto is_plane = [](const Wall& of) {
+    return GeomAdaptor_Surface(of.middle).GetType() == GeomAbs_Plane;
+  };
+  const double least_turn = is_plane(walls[wall]) && is_plane(walls[next.wall]) ? 1e-3 : 0.05;  // radians
+  // The other side of a fold ends before this one, or after it.
+  const double own_thickness = walls[wall].thickness;
+  auto own = line_of(walls[wall], -close_by * own_thickness, 0.5 * own_thickness);
+  if (!own) own = line_of(walls[wall], -0.5 * own_thickness, 0.5 * own_thickness);
+  const auto other = line_of(walls[next.wall], next.away, next.depth);
+  if (!own || !other || std::abs(std::atan(own->slope) - std::atan(other->slope)) < least_turn) return false;
+  const double meet = (other->depth - own->depth) / (own->slope - other->slope);  // distance from the edge
+  return std::abs(meet) < 0.5 * t;
+}
+
 WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, const NextWall& next,
                  const FaceEdge& edge) {
   const double t = walls[wall].thickness;
-  const double own = depth_at(skin, walls[wall], edge, -1e-3 * t, 0.5 * t);
   const double step_over = next.away > close_by * t ? next.away : 1e-3 * t;
-  const double other = depth_at(skin, walls[next.wall], edge, step_over, next.depth);
-  const bool step = std::abs(own - other) > 1e-2 * t;
-  const double high = std::min(own, other) - 0.1 * t, low = std::max(own, other) + 0.1 * t;
+  bool step = false;
+  double high = skin.size(), low = 0;  // the depths between which both middles lie all along the edge
+  for (const double share : {0.5, 0.1, 0.9}) {
+    const double at = edge.first() + share * (edge.last() - edge.first());
+    const double own = depth_at(skin, walls[wall], edge, at, -1e-3 * t, 0.5 * t);
+    const double other = depth_at(skin, walls[next.wall], edge, at, step_over, next.depth);
+    if (share == 0.5) step = std::abs(own - other) > 1e-2 * t;
+    high = std::min({high, own, other});
+    low = std::max({low, own, other});
+    if (!step) break;
+  }
+  high -= 0.1 * t;
+  low += 0.1 * t;
   // A rib across the bend interrupts the edge, not the wall: the fence is extended through the rib.
   const double longer = step ? 0 : thickest_of(walls);
   return {wall, next.wall, face_between(moved(edge, high, longer), moved(edge, low, longer)), step};
@@ -429,7 +477,8 @@ class EdgeEnds {
 /// Finds where a wall runs into others but its rim stops at their skin.
 class RimEnds {
  public:
-  explicit RimEnds(const Skin& skin) : skin_(skin), edges_(skin.solid()), material_(skin) {}
+  RimEnds(const Skin& skin, const std::vector<Wall>& walls)
+      : skin_(skin), walls_(walls), edges_(skin.solid()), material_(skin) {}
 
   /// Adds the fences at the vertices of one face where an edge past which the wall continues meets its rim.
   /// \param t thickness of the wall. \param edges of the face. \param centers of its fences, old and new.
@@ -452,24 +501,60 @@ class RimEnds {
         });
         if (own == around.end() || around.size() != 2 || rim == around.end()) continue;
         const gp_Pnt center = edge.inside(at, 0.5 * t);
-        const gp_Vec aside = 0.05 * t * (edge.away(at) + own->outward_along);
-        if (!material_.holds(center.Translated(aside)) || is_near(center, 0.01 * t, centers)) continue;
-        ends.push_back({wall, wall, fence(*own, *rim, t), false});
+        const auto [away, length] = onward(*own, *rim, t);
+        TopoDS_Face across;
+        if (continues(center, away, length, 0.05 * t * own->outward_along))
+          across = fence(*own, away, length, t);
+        else if (runs_under_an_end(wall, edge))
+          across = face_between(moved(edge, 0.3 * t, 0.1 * t), moved(edge, 0.7 * t, 0.1 * t));
+        if (!across.IsNull() && !is_near(center, 0.01 * t, centers))
+          ends.push_back({wall, wall, across, false});
       }
     }
   }
 
  private:
+  /// Whether another wall that stands on this one ends along the edge: its middle crosses the edge. Where it
+  /// is flush with the rim, what lies past its middle must be cut off at its end.
+  bool runs_under_an_end(int own, const FaceEdge& edge) const {
+    const double t = walls_[own].thickness;
+    const auto share_of = [&](const Wall& wall, double share) -> std::optional<double> {
+      const double at = edge.first() + share * (edge.last() - edge.first());
+      const gp_Pnt above = edge.inside(at, -0.5 * t).Translated(close_by * t * edge.away(at));
+      const auto position = position_in(wall, skin_, above);
+      if (!position) return std::nullopt;
+      return position->feet[0].Distance(above) / position->thickness() - 0.5;
+    };
+    for (int wall = 0; wall < static_cast<int>(walls_.size()); ++wall) {
+      if (wall == own) continue;
+      const auto from = share_of(walls_[wall], 0.1), to = share_of(walls_[wall], 0.9);
+      if (from && to && *from * *to < 0) return true;
+    }
+    return false;
+  }
+
+  /// The direction in which the rim would continue, and the length up to the next skin.
+  std::pair<gp_Vec, double> onward(const EdgeEnd& end, const EdgeEnd& rim, double t) const {
+    const gp_Vec straight = end.edge->away(end.at);
+    const gp_Vec away = rim.outward_along.Dot(straight) > 0.3 ? rim.outward_along : straight;
+    // A little within the rim, beside which the ray might run along the skin.
+    const gp_Pnt start = end.edge->inside(end.at, 0.5 * t).Translated(0.05 * t * (away - end.outward_along));
+    const auto hit = skin_.first_hit(start, gp_Dir(away));
+    return {away, hit ? hit->distance + 0.1 * t : 2 * t};
+  }
+
+  /// Whether the material is wider than the rim anywhere along its continuation. Beside the vertex it need
+  /// not be: a fillet or chamfer along a rib ends in the same plane as the rib.
+  bool continues(const gp_Pnt& center, const gp_Vec& away, double length, const gp_Vec& aside) {
+    for (const double share : {0.02, 0.1, 0.25, 0.4, 0.55, 0.7, 0.85})
+      if (material_.holds(center.Translated(share * length * away + aside))) return true;
+    return false;
+  }
+
   /// A rectangle across the wall, from the vertex in the direction in which the rim would continue. It
   /// contains the edge that leads from the vertex to the other side. If the side leans, a rectangle along its
   /// normal would miss that edge, and with it the end of the rim.
-  TopoDS_Face fence(const EdgeEnd& end, const EdgeEnd& rim, double t) const {
-    const gp_Vec straight = end.edge->away(end.at);
-    const bool onward = rim.outward_along.Dot(straight) > 0.3;
-    const gp_Vec& away = onward ? rim.outward_along : straight;
-    const gp_Pnt start = end.edge->inside(end.at, 0.5 * t).Translated(0.05 * t * away);
-    const auto hit = skin_.first_hit(start, gp_Dir(away));
-    const double length = hit ? hit->distance + 0.1 * t : 2 * t;
+  TopoDS_Face fence(const EdgeEnd& end, const gp_Vec& away, double length, double t) const {
     const gp_Pnt vertex = end.edge->curve().Value(end.at);
     const gp_Dir across = edges_.leaving(vertex, end.edge->outward(end.at).Reversed(), at_one_vertex * t);
     const gp_Ax3 frame(vertex.Translated(0.2 * t * gp_Vec(across)), across.Crossed(gp_Dir(away)), across);
@@ -477,6 +562,7 @@ class RimEnds {
   }
 
   const Skin& skin_;
+  const std::vector<Wall>& walls_;
   EdgeEnds edges_;
   Material material_;
 };
@@ -532,26 +618,91 @@ class WallEnds {
     if (next.wall < 0) return;
     const bool riser = next.away > close_by * t;
     if (riser && !stands_on(walls_, wall, next.wall)) return;
+    if (meet_in_corner(skin_, walls_, wall, next, edge)) return;
     if (stands_already(wall, next.wall, side, edge)) return;
     const gp_Pnt middle = edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * t);
     if (is_near(middle, 0.01 * t, middles_[wall])) return;
     const WallEnd end = make_end(skin_, walls_, wall, next, edge);
     if (!end.step) {
       push(end, riser, side);
-      return;
+    } else if (stands_on(walls_, wall, next.wall)) {
+      for (const FaceEdge& part : stretches_along(skin_, walls_[next.wall], edge, next, material_)) {
+        WallEnd stretch = make_end(skin_, walls_, wall, next, part);
+        if (part.last() - part.first() > 0.999999 * (edge.last() - edge.first()))
+          stretch.riser = skin_.index_of(edge.beside().face());
+        push(stretch, true, between);
+      }
+    } else {
+      thinner_.push_back({wall, next, edge});
     }
-    for (const FaceEdge& part : stretches_along(skin_, walls_[next.wall], edge, next, material_))
-      push(make_end(skin_, walls_, wall, next, part), riser, between);
+  }
+
+  /// Forgets the risers along which fences do not stand everywhere.
+  void keep_whole_risers(const Borders& borders) {
+    std::map<std::pair<int, int>, int> open;  // by wall and riser: edges between them without a fence
+    for (const WallEnd& end : ends_) {
+      if (end.riser >= 0) --open[{end.wall, end.riser}];
+    }
+    std::set<int> walls;
+    for (const auto& [key, count] : open) walls.insert(key.first);
+    for (const int wall : walls) {
+      for (const int index : both_sides(walls_[wall])) {
+        for (const FaceEdge& edge : borders.of_face(skin_.faces()[index])) {
+          const auto entry = open.find({wall, skin_.index_of(edge.beside().face())});
+          if (entry != open.end()) ++entry->second;
+        }
+      }
+    }
+    for (WallEnd& end : ends_) {
+      if (end.riser >= 0 && open[{end.wall, end.riser}] > 0) end.riser = -1;
+    }
+  }
+
+  /// Adds the ends of the thinner walls at steps where no fence of the thicker wall stands.
+  void add_thinner() {
+    for (const Thinner& thinner : thinner_) {
+      if (ends_at_fence(thinner)) continue;
+      const Wall& next = walls_[thinner.next.wall];
+      for (const FaceEdge& part : stretches_along(skin_, next, thinner.edge, thinner.next, material_))
+        push(make_end(skin_, walls_, thinner.wall, thinner.next, part), false, between);
+    }
   }
 
  private:
   static constexpr int between = -1;
 
-  /// \param side of the wall at whose edge the fence stands, or `between`.
-  void push(const WallEnd& end, bool riser, int side) {
+  /// An edge at which a thinner wall ends at a step.
+  struct Thinner {
+    int wall = 0;
+    NextWall next;
+    FaceEdge edge;
+  };
+
+  /// Whether fences of the thicker wall, at which the thinner one ends too, stand all along the edge. They
+  /// stand across the thicker wall; the thinner one may lean.
+  bool ends_at_fence(const Thinner& thinner) const {
+    constexpr double near = 0.35;  // over the thickness; half of it times the sine of the steepest slope
+    const double t = walls_[thinner.wall].thickness;
+    for (const double share : {0.5, 0.05, 0.95}) {
+      const FaceEdge& edge = thinner.edge;
+      const double at = edge.first() + share * (edge.last() - edge.first());
+      const gp_Pnt middle =
+          edge.inside(at, depth_at(skin_, walls_[thinner.wall], edge, at, -1e-3 * t, 0.5 * t));
+      const bool stands = std::any_of(ends_.begin(), ends_.end(), [&](const WallEnd& end) {
+        if (end.wall != thinner.wall || end.next != thinner.next.wall || !end.step) return false;
+        const auto way = way_from(end.fence, middle);
+        return way && way->Magnitude() < near * t;
+      });
+      if (!stands) return false;
+    }
+    return true;
+  }
+
+  /// \param side of the wall at whose edge the fence stands, or `between`. \param both whether the other wall
+  /// ends at the same fence, as below a riser.
+  void push(const WallEnd& end, bool both, int side) {
     ends_.push_back(end);
-    // The other wall continues below the riser, up to the same fence.
-    if (riser) ends_.push_back({end.next, end.wall, end.fence, end.step});
+    if (both) ends_.push_back({end.next, end.wall, end.fence, end.step});
     sides_.resize(ends_.size(), side);
   }
 
@@ -579,6 +730,7 @@ class WallEnds {
   std::vector<std::vector<gp_Pnt>> middles_;  ///< for each wall, points on its middle at edges with fences
   std::vector<WallEnd> ends_;
   std::vector<int> sides_;  ///< see push()
+  std::vector<Thinner> thinner_;
 };
 
 /// (faces of the skin) the wall that each is a side of; -1 = none.
@@ -660,13 +812,15 @@ std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& w
       }
     }
   }
+  ends.add_thinner();
+  ends.keep_whole_risers(borders);
   return ends.found();
 }
 
 std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& walls,
                                    const std::vector<int>& surfaces) {
   const Borders borders(skin, surfaces);
-  RimEnds rims(skin);
+  RimEnds rims(skin, walls);
   std::vector<WallEnd> ends;
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
     std::vector<gp_Pnt> centers;

@@ -22,6 +22,7 @@
 #include <set>
 
 #include "geometry/midsurface/parameter_range.hpp"
+#include "geometry/midsurface/widths.hpp"
 
 namespace quadrille {
 
@@ -108,7 +109,8 @@ TopoDS_Face middle_patch(const Skin& skin, const std::vector<Wall>& walls, int w
 
 /// The faces that need not cut a wall's middle: the wall's own sides, which it cannot meet, and the sides of
 /// walls that continue behind its fences. It meets the latter only beyond the fences and nearly tangent,
-/// where OpenCASCADE takes long and may lose everything.
+/// where OpenCASCADE takes long and may lose everything. Nor need the risers behind fences at steps: a
+/// riser's lower edge, and the side where it ends, may lie in the middle.
 std::set<int> left_out(const std::vector<Wall>& walls, int wall, const std::vector<WallEnd>& ends) {
   std::set<int> result;
   const auto leave_out = [&](int other) {
@@ -117,7 +119,8 @@ std::set<int> left_out(const std::vector<Wall>& walls, int wall, const std::vect
   };
   leave_out(wall);
   for (const WallEnd& end : ends) {
-    if (end.wall == wall && !end.step) leave_out(end.next);
+    if (end.wall == wall && (!end.step || end.riser >= 0)) leave_out(end.next);
+    if (end.wall == wall && end.riser >= 0) result.insert(end.riser);
   }
   return result;
 }
@@ -174,6 +177,13 @@ Coverage measured(const TopoDS_Face& face, const Wall& wall, const Skin& skin, T
 
 }  // namespace
 
+void triangulate_middle(const TopoDS_Face& face, double thickness) {
+  // A crescent is narrower than the sagitta of its sides.
+  const double width = width_of(face);
+  constexpr double turn = 0.8;  // OpenCASCADE's time is quadratic in the nodes, of which each hole has eight
+  triangulate(face, std::min(0.2 * thickness, width > 0 ? 0.1 * width : thickness), turn);
+}
+
 Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin) {
   return measured(face, wall, skin, [&](const gp_Pnt& point, Coverage& so_far) -> std::optional<double> {
     const auto position = position_in(wall, skin, point);
@@ -215,7 +225,7 @@ std::vector<TopoDS_Face> between_sides(const std::vector<TopoDS_Face>& pieces, c
   constexpr double least_share = 0.02;
   std::vector<TopoDS_Face> result;
   for (const TopoDS_Face& piece : pieces) {
-    triangulate(piece, 0.2 * wall.thickness);
+    triangulate_middle(piece, wall.thickness);
     if (coverage_of(piece, wall, skin).share > least_share) result.push_back(piece);
   }
   return result;

@@ -17,6 +17,7 @@ struct WallEnd {
   int wall = 0, next = 0;  ///< indices of the walls
   TopoDS_Face fence;       ///< stands across the wall, at an edge of one of its sides
   bool step = false;       ///< the two middle surfaces do not meet; the fence reaches from one to the other
+  int riser = -1;  ///< index of the face behind the fence, if fences stand along all its edges at the wall
 };
 
 /// Whether the fence at a step stands at the end of `wall`: it stands at the thicker one, of equal ones the
@@ -30,6 +31,9 @@ struct Coverage {
   std::set<int> faces{};  ///< indices of the skin's faces that the middle face lies between
   double added = 0;  ///< what fillets add to the distance between the sides; contained in the three above
 };
+
+/// Triangulates a middle face for coverage_of(): finely enough for its thickness and its width.
+void triangulate_middle(const TopoDS_Face& face, double thickness);
 
 /// \param face with triangles.
 Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin);

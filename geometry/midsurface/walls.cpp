@@ -104,6 +104,26 @@ std::vector<SurfacePair> pair_surfaces(const Skin& skin, const std::vector<int>&
   return result;
 }
 
+/// Removes pairs whose surfaces lean to each other and both face another surface over more of their area:
+/// between them lies no wall but the inside of a junction, as between two ribs that cross at an acute angle.
+void drop_junctions(const Skin& skin, std::vector<SurfacePair>& pairs) {
+  const double leaning = std::cos(5 * M_PI / 180);
+  std::map<int, double> most;  // by surface: area that faces one other surface
+  for (const SurfacePair& pair : pairs) {
+    for (int side = 0; side < 2; ++side) {
+      double& area = most[pair.surfaces[side]];
+      area = std::max(area, pair.areas[side]);
+    }
+  }
+  std::erase_if(pairs, [&](const SurfacePair& pair) {
+    const BRepAdaptor_Surface& a = skin.faces()[pair.faces[0].front()].surface();
+    const BRepAdaptor_Surface& b = skin.faces()[pair.faces[1].front()].surface();
+    return a.GetType() == GeomAbs_Plane && b.GetType() == GeomAbs_Plane &&
+           std::abs(a.Plane().Axis().Direction().Dot(b.Plane().Axis().Direction())) < leaning &&
+           pair.areas[0] < most[pair.surfaces[0]] && pair.areas[1] < most[pair.surfaces[1]];
+  });
+}
+
 using Touching = std::set<std::pair<int, int>>;
 
 /// The pairs of surfaces whose faces have an edge in common.
@@ -266,6 +286,7 @@ std::vector<int> surface_numbers(const Skin& skin) {
 std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces, double tolerance,
                              const ExecutionContext& context) {
   std::vector<SurfacePair> pairs = pair_surfaces(skin, surfaces, look_through_all(skin, context));
+  drop_junctions(skin, pairs);
   std::vector<Wall> walls;
   double thickest = 0;
   for (SurfacePair& pair : pairs) {

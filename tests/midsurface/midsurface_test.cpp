@@ -8,6 +8,7 @@
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
@@ -17,6 +18,7 @@
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepGProp.hxx>
 #include <BRepOffsetAPI_MakeThickSolid.hxx>
+#include <BRepOffset_MakeOffset.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
@@ -25,8 +27,12 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
+#include <GeomAPI_PointsToBSpline.hxx>
+#include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <IntCurvesFace_ShapeIntersector.hxx>
+#include <ShapeUpgrade_UnifySameDomain.hxx>
+#include <TColgp_Array1OfPnt.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -186,6 +192,30 @@ TEST(MidSurface, RefusesABlock) {
     EXPECT_EQ(error.kind(), Error::Kind::failure);
     EXPECT_NE(std::string(error.what()).find("not a thin solid"), std::string::npos);
   }
+}
+
+/// One solid that is not thin does not spoil the others.
+TEST(MidSurface, NamesTheSolidThatIsNotThin) {
+  TopoDS_Compound both;
+  const BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, BRepPrimAPI_MakeBox(200, 150, 3).Shape());
+  builder.Add(both, BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(50, 50, 10), gp::DZ()), 5, 30).Shape());
+  try {
+    middle_of(both);
+    FAIL() << "the pin is not thin";
+  } catch (const Error& error) {
+    const std::string told = error.what();
+    EXPECT_NE(told.find("solid 2 (Face7, Face8, Face9) is not a thin solid"), std::string::npos) << told;
+    EXPECT_NE(told.find("`partial` gives the others"), std::string::npos) << told;
+  }
+  const MidSurface middle = middle_of(both, true);
+  EXPECT_EQ(middle.solids, 1);
+  ASSERT_EQ(middle.faces.size(), 1U);
+  EXPECT_EQ(middle.faces[0].solid_faces, (std::vector<int>{5, 6}));
+  EXPECT_NEAR(middle.volume, 200 * 150 * 3, 1e-3);
+  ASSERT_EQ(middle.problems.size(), 1U);
+  EXPECT_NE(middle.problems[0].find("solid 2"), std::string::npos);
 }
 
 TEST(MidSurface, NamesTheFacesWithoutAPartner) {
@@ -610,31 +640,135 @@ TopoDS_Shape welded_tee(double weld) {
   return profile({outline}, 200);
 }
 
+/// A box open on two sides: a bottom and two walls in its corner, one of which ends half way.
+TopoDS_Shape bottom_with_a_short_wall() {
+  const TopoDS_Shape bottom = BRepPrimAPI_MakeBox(100, 60, 1.5).Shape();
+  const TopoDS_Shape walls = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(100, 1.5, 20).Shape(),
+                                              BRepPrimAPI_MakeBox(gp_Pnt(98.5, 0, 0), 1.5, 30, 20).Shape())
+                                 .Shape();
+  ShapeUpgrade_UnifySameDomain unify(BRepAlgoAPI_Fuse(bottom, walls).Shape());
+  unify.Build();
+  return unify.Shape();
+}
+
 /// What is delivered as right has no free edge but at a rim.
 TEST(MidSurface, RefusesFreeEdgesThatAreNotAtARim) {
-  for (const TopoDS_Shape& solid : {leaning_pocket(), rib_rounded_at_its_sides()}) {
-    try {
-      middle_of(solid);
-      ADD_FAILURE() << "its middle surface has free edges in the material";
-    } catch (const Error& error) {
-      const std::string told = error.what();
-      EXPECT_NE(told.find("inside the material between Face"), std::string::npos) << told;
-      EXPECT_NE(told.find("; `partial` gives it all the same"), std::string::npos) << told;
-    }
-    const MidSurface middle = middle_of(solid, true);
-    ASSERT_FALSE(middle.stray_edges.empty());
-    ASSERT_EQ(middle.stray_faces.size(), middle.stray_edges.size());
-    const std::size_t edges = middle.stray_edges.size();
-    const std::string count = edges == 1 ? "a free edge of the middle surface ends"
-                                         : fmt::format("{} free edges of the middle surface end", edges);
-    EXPECT_NE(middle.problems[0].find(count + " inside"), std::string::npos) << middle.problems[0];
-    for (const std::vector<int>& faces : middle.stray_faces) EXPECT_EQ(faces.size(), 2U);
+  // The plate ends inside the foot of a wall that is wider than it and reaches past its corner.
+  const TopoDS_Shape solid = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(100, 60, 3).Shape(),
+                                              BRepPrimAPI_MakeBox(gp_Pnt(97, 50, 0), 5, 20, 30).Shape())
+                                 .Shape();
+  try {
+    middle_of(solid);
+    ADD_FAILURE() << "its middle surface has free edges in the material";
+  } catch (const Error& error) {
+    const std::string told = error.what();
+    EXPECT_NE(told.find("inside the material between Face"), std::string::npos) << told;
+    EXPECT_NE(told.find("; `partial` gives it all the same"), std::string::npos) << told;
   }
+  const MidSurface middle = middle_of(solid, true);
+  ASSERT_FALSE(middle.stray_edges.empty());
+  ASSERT_EQ(middle.stray_faces.size(), middle.stray_edges.size());
+  const std::size_t edges = middle.stray_edges.size();
+  const std::string count = edges == 1 ? "a free edge of the middle surface ends"
+                                       : fmt::format("{} free edges of the middle surface end", edges);
+  EXPECT_NE(middle.problems[0].find(count + " inside"), std::string::npos) << middle.problems[0];
+  for (const std::vector<int>& faces : middle.stray_faces) EXPECT_EQ(faces.size(), 2U);
+}
+
+/// Expects one connected part without problems, whose area times thickness is the volume.
+void expect_right(const MidSurface& middle) {
+  EXPECT_TRUE(middle.problems.empty());
+  EXPECT_TRUE(middle.warnings.empty());
+  EXPECT_TRUE(middle.stray_edges.empty());
+  EXPECT_EQ(middle.parts, middle.solids);
+  EXPECT_NEAR((middle.shell_volume - middle.counted_twice) / middle.volume, 1, 0.01);
+}
+
+double area_of_steps(const MidSurface& middle) {
+  return std::accumulate(
+      middle.faces.begin(), middle.faces.end(), 0.0,
+      [](double sum, const MiddleFace& face) { return sum + (face.step ? face.area : 0); });
+}
+
+/// The floor is not parallel to the sheet, so that its own normal leans to the step.
+TEST(MidSurface, JoinsALeaningFloorToItsStep) {
+  const MidSurface middle = middle_of(leaning_pocket());
+  expect_right(middle);
+  EXPECT_EQ(free_loops(middle.model), 1);
+}
+
+/// The rib's middle ends where the rib does, also where the fillets beside it hide its corner.
+TEST(MidSurface, EndsFilletedRibsAtTheirRims) {
+  const MidSurface middle = middle_of(rib_rounded_at_its_sides());
+  expect_right(middle);
+  EXPECT_NEAR(area_of(middle), 100 * 60 + 40 * 16.5, 1e-6);
+}
+
+/// The bottom ends at the wall's middle where the wall stands at its rim, and at its own rim past the wall's
+/// end.
+TEST(MidSurface, EndsAPlateAtAWallThatIsShorter) {
+  const MidSurface middle = middle_of(bottom_with_a_short_wall());
+  expect_right(middle);
+  EXPECT_NEAR(area_of(middle), 99.25 * 59.25 + 0.75 * 30 + 19.25 * (99.25 + 29.25), 1e-6);
+}
+
+/// The middle of the pad lies in the outside of the tube, and its own side leans to its rim.
+TEST(MidSurface, OfAPadOnATube) {
+  const TopoDS_Shape pad =
+      BRepAlgoAPI_Common(BRepPrimAPI_MakeCylinder(51, 90).Shape(),
+                         BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, 45), gp::DX()), 15, 80).Shape())
+          .Shape();
+  const TopoDS_Shape solid =
+      BRepAlgoAPI_Cut(BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(50, 90).Shape(), pad).Shape(),
+                      BRepPrimAPI_MakeCylinder(49, 90).Shape())
+          .Shape();
+  const MidSurface middle = middle_of(solid);
+  expect_right(middle);
+  EXPECT_EQ(free_loops(middle.model), 2);
 }
 
 /// The pairs of sides that face each other across both ribs are no walls.
-TEST(MidSurface, RefusesFalseWallsBetweenRibs) {
-  EXPECT_THROW(middle_of(ribs_at_an_acute_angle()), Error);
+TEST(MidSurface, MakesNoWallsBetweenCrossingRibs) {
+  const MidSurface middle = middle_of(ribs_at_an_acute_angle());
+  expect_right(middle);
+  EXPECT_NEAR(area_of(middle), 120 * 80 + 2 * 90 * 18.5, 1e-6);
+  for (const MiddleFace& face : middle.faces) EXPECT_NEAR(face.thickest, 3, 1e-6);
+}
+
+/// Two flat parts of a sheet of 2 mm, 50 mm long in the middle, at an angle, without a radius.
+TopoDS_Shape sharp_fold(double degrees) {
+  const double turn = degrees * M_PI / 180, c = std::cos(turn), s = std::sin(turn), k = std::tan(0.5 * turn);
+  return profile({{{0, -1},
+                   {50 + k, -1},
+                   {50 + 50 * c + s, 50 * s - c},
+                   {50 + 50 * c - s, 50 * s + c},
+                   {50 - k, 1},
+                   {0, 1}}},
+                 80);
+}
+
+TEST(MidSurface, JoinsSharpFoldsInAnEdge) {
+  for (const double degrees : {0.5, 2.0, 10.0, 30.0, 45.0, 60.0}) {
+    const MidSurface middle = middle_of(sharp_fold(degrees));
+    expect_right(middle);
+    EXPECT_EQ(middle.faces.size(), 2U) << degrees;
+    EXPECT_NEAR(area_of(middle), 80 * 100, 1e-5) << degrees;
+    EXPECT_EQ(area_of_steps(middle), 0) << degrees;
+  }
+}
+
+/// OpenCASCADE integrates the volume of this solid 7 % too large.
+TEST(MidSurface, OfASineSheet) {
+  TColgp_Array1OfPnt points(1, 61);
+  for (int i = 0; i <= 60; ++i) points.SetValue(i + 1, gp_Pnt(5 * i, 0, 6 * std::sin(2 * M_PI * i / 20)));
+  const TopoDS_Edge line = BRepBuilderAPI_MakeEdge(GeomAPI_PointsToBSpline(points).Curve());
+  const TopoDS_Shape sheet = BRepPrimAPI_MakePrism(line, gp_Vec(0, 120, 0)).Shape();
+  BRepOffset_MakeOffset thicken(sheet, 1, 1e-4, BRepOffset_Skin, Standard_False, Standard_False,
+                                GeomAbs_Intersection, Standard_True);
+  ASSERT_TRUE(thicken.IsDone());
+  const MidSurface middle = middle_of(thicken.Shape());
+  expect_right(middle);
+  EXPECT_EQ(middle.faces.size(), 1U);
 }
 
 /// Studs are left out, what is counted twice where walls meet does not make up for them.
