@@ -165,6 +165,14 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
   }
   if (arguments.quiet) return;
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+  if (!result.suppressed_edges.empty()) {
+    const int edge = result.suppressed_edges.front().edge;
+    fmt::print(
+        stderr,
+        "note: quads cross {} smooth edges, which get no group of their own, as Edge{}: --keep Edge{} keeps "
+        "it, --keep-features all\n",
+        result.suppressed_edges.size(), edge, edge);
+  }
   if (meshed.middle) print(middle_table(*meshed.middle));
   print(quality_table(measured.elements.quality));
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,6 +19,7 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/cad/parallel_ids.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
+#include "mesher/mesh/joined_faces.hpp"
 
 namespace quadrille {
 
@@ -110,10 +112,11 @@ std::vector<std::string> area_differences(const CadModel& model, const ShellMesh
   IdVector<FaceId, double> areas(shape.faces.size());
   for (std::size_t i = 0; i < mesh.quads.size(); ++i)
     areas[FaceId::from_number(mesh.quad_faces[i])] += area_vector(mesh, i).norm();
+  const JoinedFaces joined(mesh);
   IdVector<FaceId, double> integrals(areas.size());
   for_each_id(areas, [&](FaceId face) {
     integrals[face] = areas[face];
-    if (!(areas[face] > 0)) return;
+    if (!(areas[face] > 0) && !joined.contains(face.number())) return;
     try {
       GProp_GProps properties;
       BRepGProp::SurfaceProperties(shape.faces[face].face, properties);
@@ -122,18 +125,29 @@ std::vector<std::string> area_differences(const CadModel& model, const ShellMesh
       return;  // no integral to compare with
     }
   });
+  // Faces that share quads are compared together, at the first of them.
+  const auto first = [&](FaceId face) { return FaceId::from_number(joined.first(face.number())); };
+  for (const FaceId face : areas.ids()) {
+    if (first(face) == face) continue;
+    areas[first(face)] += std::exchange(areas[face], 0);
+    integrals[first(face)] += std::exchange(integrals[face], 0);
+  }
   const auto difference = [&](FaceId face) { return std::abs(areas[face] - integrals[face]); };
   FaceFlags differ(areas.size());
-  for (const FaceId face : areas.ids()) differ[face] = difference(face) > largest * integrals[face];
+  for (const FaceId face : areas.ids())
+    differ[face] = difference(first(face)) > largest * integrals[first(face)];
   std::vector<std::string> result;
   if (std::none_of(differ.begin(), differ.end(), [](char d) { return d != 0; })) return result;
   const FlatLoss loss(shape, mesh, differ);
+  IdVector<FaceId, double> losses(areas.size());
+  for (const FaceId face : areas.ids()) losses[first(face)] += loss.of(face);
   for (const FaceId face : areas.ids()) {
-    if (!differ[face] || difference(face) <= largest * integrals[face] + of_loss * loss.of(face)) continue;
+    if (!differ[face] || difference(face) <= largest * integrals[face] + of_loss * losses[face]) continue;
     result.push_back(fmt::format(
-        "Face{} has an area of {} in the mesh and of {} by OpenCASCADE's integration: the "
+        "Face{}{} has an area of {} in the mesh and of {} by OpenCASCADE's integration: the "
         "size is too coarse for its shape, or the file or the integral wrong",
-        face.number(), number_text(areas[face], integrals[face]), number_text(integrals[face], areas[face])));
+        face.number(), joined.contains(face.number()) ? " with the faces that share quads with it" : "",
+        number_text(areas[face], integrals[face]), number_text(integrals[face], areas[face])));
   }
   return result;
 }

@@ -9,10 +9,10 @@
 
 namespace quadrille {
 
-/// One sentence for each meshed face whose quads differ in area from OpenCASCADE's integral over the CAD
-/// face. The tolerance is 3 % plus twice the area that flat elements with straight sides lose. If it is
-/// exceeded, the size is too coarse for the shape, the file contradicts itself, or the integral is wrong.
-/// Takes about a tenth of a millisecond per face, and more on splines.
+/// One sentence for each meshed face, or for faces that share quads, whose quads differ in area from the
+/// integral over the CAD face. The tolerance is 3 % plus twice the area that flat elements with straight
+/// sides lose. If it is exceeded, the size is too coarse for the shape, the file contradicts itself, or the
+/// integral is wrong. Takes about a tenth of a millisecond per face, and more on splines.
 std::vector<std::string> area_differences(const CadModel& model, const ShellMesh& mesh);
 
 }  // namespace quadrille

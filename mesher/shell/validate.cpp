@@ -9,12 +9,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <span>
 #include <unordered_map>
 
 #include "geometry/base/place_text.hpp"
 #include "geometry/base/side_key.hpp"
+#include "mesher/mesh/joined_faces.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/second_order.hpp"
 
@@ -250,28 +250,9 @@ SegmentIndex index_segments(const ShellMesh& mesh, Findings& findings) {
   return index;
 }
 
-/// Faces between which quads cross edges.
-class FacesTakenAsOne {
- public:
-  explicit FacesTakenAsOne(const ShellMesh& mesh) {
-    for (const auto& edge : mesh.suppressed_edges) {
-      const int a = first(edge.faces[0]), b = first(edge.faces[1]);
-      if (a != b) before_[std::max(a, b)] = std::min(a, b);
-    }
-  }
-  /// The lowest number of the faces that are taken as one with a face.
-  int first(int face) const {
-    for (auto at = before_.find(face); at != before_.end(); at = before_.find(face)) face = at->second;
-    return face;
-  }
-
- private:
-  std::map<int, int> before_;
-};
-
 void check_shell_sides(const ShellMesh& mesh, const Elements& elements, bool closed, Findings& findings) {
   const SegmentIndex segments = index_segments(mesh, findings);
-  const FacesTakenAsOne joined(mesh);
+  const JoinedFaces joined(mesh);
   const auto face = [&](const ElementSide& side) { return joined.first(mesh.quad_faces[side.element]); };
   std::vector<char> met(mesh.segments.size(), 0);
   each_side(sorted_sides(elements), [&](std::span<const ElementSide> group) {
