@@ -98,13 +98,13 @@ struct SizingOptions {
   std::vector<SizeRegion> regions;           ///< regions of space with sizes
   ByElement<SizeLayers> layers;              ///< sizes by the distance from faces, edges and vertices
   std::map<int, EdgeSpacing> spacings;       ///< CAD edge -> its division, whatever else is asked for
-  /// CAD faces and edges that are meshed as they are: nothing of them is let go, and no quad crosses them.
-  std::set<int> kept_faces, kept_edges;
-  std::filesystem::path size_field;   ///< external .vdb grid that caps the size; empty = none
-  double size_field_scale = 1;        ///< factor on the sizes in it
-  double size_field_unit = 1;         ///< millimeters per unit of length in it (positions and sizes)
-  std::filesystem::path size_points;  ///< .csv with lines x,y,z,size; empty = none
-  Budget budget;                      ///< limits of the run
+  std::set<int> kept_faces;                  ///< CAD faces whose edges are kept too
+  std::set<int> kept_edges;                  ///< CAD edges that are not let go, and that no quad crosses
+  std::filesystem::path size_field;          ///< external .vdb grid that caps the size; empty = none
+  double size_field_scale = 1;               ///< factor on the sizes in it
+  double size_field_unit = 1;                ///< millimeters per unit of length in it (positions and sizes)
+  std::filesystem::path size_points;         ///< .csv with lines x,y,z,size; empty = none
+  Budget budget;                             ///< limits of the run
 };
 
 }  // namespace quadrille

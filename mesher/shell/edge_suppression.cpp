@@ -275,7 +275,7 @@ class Joining {
       }
     std::optional<std::vector<char>> fixed = boundary_points(quads, count);
     if (!fixed) return std::nullopt;
-    fix_tips(composite, offset, sets, *fixed);
+    fix_vertices(composite, offset, sets, *fixed);
     FaceMesh mesh;
     std::vector<int> index(count, -1);
     for (const bool boundary : {true, false}) {
@@ -305,22 +305,13 @@ class Joining {
     return mesh;
   }
 
-  /// Keeps the vertices where the faces do not all meet smoothly, as at the apex of a cone.
-  void fix_tips(const CompositeFace& composite, const IdVector<FaceId, int>& offset, JoinedSets& sets,
-                std::vector<char>& fixed) {
-    std::map<int, Vector3> normals;  // by point of the composite, at a vertex
+  /// CAD vertices keep their nodes.
+  void fix_vertices(const CompositeFace& composite, const IdVector<FaceId, int>& offset, JoinedSets& sets,
+                    std::vector<char>& fixed) const {
     for (const FaceId face : composite.members) {
-      const FaceMesh& mesh = *faces_[face];
-      for (int p = 0; p < static_cast<int>(mesh.nodes.size()); ++p) {
-        const int at = sets.find(offset[face] + p);
-        if (fixed[at] || edges_at_[mesh.nodes[p]] < 2) continue;
-        Vector2 uv = mesh.uv[p];
-        Vector3 normal;
-        (mesh.surface ? *mesh.surface : *surface_of(face)).move(uv, mesh.points[p], normal);
-        if (shape_.faces[face].reversed) normal = -normal;
-        const Vector3& first = normals.try_emplace(at, normal).first->second;
-        if (mesh.pole[p] || !(normal.dot(first) > smooth_cosine)) fixed[at] = 1;
-      }
+      const std::vector<int>& nodes = faces_[face]->nodes;
+      for (std::size_t p = 0; p < nodes.size(); ++p)
+        if (edges_at_[nodes[p]] == 2) fixed[sets.find(offset[face] + static_cast<int>(p))] = 1;
     }
   }
 
@@ -486,11 +477,9 @@ class Splitting {
   /// Takes their nodes from the edges that are no longer chains of sides.
   void find_suppressed(const CompositeFace& composite, const FaceMesh& mesh, const std::vector<int>& node) {
     std::vector<std::uint64_t> sides;
-    std::vector<char> is_used(nodes_.points.size(), 0);
     for (const auto& quad : mesh.quads) {
       for (int k = 0; k < 4; ++k) {
         const int from = node[quad[k]], to = node[quad[(k + 1) & 3]];
-        if (from >= 0) is_used[from] = 1;
         if (from >= 0 && to >= 0) sides.push_back(DirectedSides::key(std::min(from, to), std::max(from, to)));
       }
     }
@@ -504,9 +493,6 @@ class Splitting {
       const auto [first, last] = common_segments(shape_, nodes_, id);
       bool is_whole = true;
       for (int k = first; is_whole && k < last; ++k) is_whole = is_side(edge.nodes[k], edge.nodes[k + 1]);
-      for (const VertexId vertex : {shape_.edges[id].first_vertex, shape_.edges[id].last_vertex})
-        if (vertex.exists() && nodes_.vertex_nodes[vertex] >= 0 && !is_used[nodes_.vertex_nodes[vertex]])
-          nodes_.vertex_nodes[vertex] = -1;
       if (is_whole) continue;
       // A tip that one of the faces leaves out keeps its segments.
       if (first == 0 && last < edge.segments()) {

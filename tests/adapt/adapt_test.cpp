@@ -386,7 +386,7 @@ TEST(FrdReader, SaysWhatIsWrong) {
   refused(good.substr(0, good.find("  100C")), "no displacements");
   refused(with("DISP", "TEMP"), "no displacements");
   refused(with("1.00000E+01", "        nan"), "not finite");
-  refused(with("1.00000E+01", "1.0000xE+01"), "no number");
+  refused(with("1.00000E+01", "1.0000xE+01"), "not a number");
   refused(with(" -1         2 ", " -1         1 "), "twice");
   refused(with("\n -2         1", "\n -2        99"), "no node 99");
   std::string binary = good;

@@ -69,7 +69,7 @@ TEST_F(LimitsReading, RefusalsNameTheReason) {
   says("", "empty");
   says("nothing of the kind\n", "neither JSON");
   says("{\"aspect\": 5", "not valid JSON");
-  says("{\"aspects\": 5}", "aspects is none of the criteria aspect, warp");
+  says("{\"aspects\": 5}", "aspects is not one of the criteria aspect, warp");
   says("{\"aspect\": \"five\"}", "aspect must be a number");
   says("{\"aspect\": 0.5}", "aspect must be above 1");
   says("{\"angle_min\": 90}", "angle_min must be below 90");

@@ -58,7 +58,7 @@ class WordsTest(unittest.TestCase):
         for told, ours in (
                 ("--size-min must be at most the size", '"Minimum" must be at most the size'),
                 ("--size-on names Face7", '"Refinements" names Face7'),
-                ("too many: --force meshes all the same", "too many: the property Force meshes all the same"),
+                ("too many: --force meshes anyway", "too many: the property Force meshes anyway"),
                 ("/tmp/a--size.brep: is no --option", "/tmp/a--size.brep: is no --option")):
             self.assertEqual(in_words_of_panel(told), ours)
         self.assertEqual(in_words_of_panel("--sew 1", {"Sew": "Nähen"}.get), '"Nähen" 1')

@@ -352,8 +352,8 @@ TEST(SizeSources, RefuseGridsThatMakeNoSense) {
   refused({1, -2}, 3, 1, "the size -2 at");
   refused({1, std::nanf("")}, 3, 1, "nan");
   refused({1, INFINITY}, 3, 1, "inf");
-  refused({1, 1}, 900, 1, "beside the model");
-  refused({1, 1}, 3, 1000, "beside the model");
+  refused({1, 1}, 900, 1, "does not overlap the model");
+  refused({1, 1}, 3, 1000, "does not overlap the model");
   std::filesystem::remove(path);
 }
 
@@ -417,7 +417,7 @@ TEST(SizeSources, RefuseFilesThatMakeNoSense) {
     read_size_points(path);
     FAIL();
   } catch (const Error& problem) {
-    EXPECT_NE(std::string(problem.what()).find("line 1 has a place"), std::string::npos) << problem.what();
+    EXPECT_NE(std::string(problem.what()).find("line 1 has a coordinate"), std::string::npos) << problem.what();
   }
   std::filesystem::remove(path);
 }

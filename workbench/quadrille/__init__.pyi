@@ -130,6 +130,7 @@ def mesh(
     partial: Optional[bool] = None,
     strict: Optional[bool] = None,
     keep_features: Optional[bool] = None,
+    keep: Optional[_Entries] = None,
     force: Optional[bool] = None,
     time_limit: Optional[float] = None,
     threads: Optional[int] = None,
