@@ -55,12 +55,14 @@ CASES = {
 }
 
 
-def mesh_with(mesher, part, size, refined=(), share=1.0):
-    """A second-order mesh of a part. At the points `refined`, the size is `share` times `size`."""
+def mesh_with(mesher, part, size, refined=(), share=1.0, strips=False):
+    """A second-order mesh of a part. At the points `refined`, the size is `share` times `size`. With `strips`, no
+    quad of Quadrille crosses the smooth edges between faces."""
     if mesher == "quadrille":
         names = {f"Vertex{i}": share * size for i, vertex in enumerate(part.Shape.Vertexes, 1)
                  if any(vertex.Point.isEqual(Vector(*point), 1e-6) for point in refined)}
-        return Mesh.of_fem_mesh(quadrille.freecad.mesh_object(part, size=size, order=2, sizes=names).FemMesh)
+        return Mesh.of_fem_mesh(quadrille.freecad.mesh_object(part, size=size, order=2, sizes=names,
+                                                             keep_features=strips).FemMesh)
     with tempfile.TemporaryDirectory() as folder:
         model, result = Path(folder) / "part.brep", Path(folder) / "part.msh"
         part.Shape.exportBrep(str(model))
@@ -104,7 +106,8 @@ def run(name, mesher, size):
                 raise RuntimeError("a grid has one size")
             mesh = grid(part.Shape, size, getattr(case, "corners", ()))
         else:
-            mesh = mesh_with(mesher, part, size, getattr(case, "refined", ()), getattr(case, "share", 1.0))
+            mesh = mesh_with(mesher, part, size, getattr(case, "refined", ()), getattr(case, "share", 1.0),
+                             getattr(case, "strips", False))
     finally:
         FreeCAD.closeDocument(document.Name)
     started = time.monotonic()
@@ -121,7 +124,7 @@ def print_shells():
         document = FreeCAD.newDocument("Verification")
         part = document.addObject("Part::Feature", "Part")
         part.Shape = case.shape()
-        mesh = mesh_with("quadrille", part, case.size)
+        mesh = mesh_with("quadrille", part, case.size, strips=getattr(case, "strips", False))
         FreeCAD.closeDocument(document.Name)
         for shell in ("S4", "S4R", "S8", "S8R"):
             print(f"{type(case).__name__:22} {len(mesh.elements):4} {shell:4} off by {case.error(mesh, shell):.2g}")

@@ -41,6 +41,7 @@ class SkewBendingPatch:
 
     reference, sizes, size, tolerance = 0.0, (3, 2, 1.3, 0.9, 0.6), 1.3, None
     absolute = 1e-6
+    strips = True
     shells = ("S8R", "S8", "S4")
     curvatures = (1e-3, 0.4e-3, 0.6e-3)  # xx, yy, xy
 
