@@ -19,6 +19,7 @@ std::vector<std::string> other_text(const Setting& setting) {
       {"segments", "Edge4=20"},
       {"bias", "Edge4=1.2"},
       {"bias_both", "Edge4=1.2"},
+      {"keep", "Edge7"},
       {"order", "1"},
       {"nodes", "9"},
       {"rings", "2"},

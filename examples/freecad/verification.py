@@ -62,7 +62,7 @@ def mesh_with(mesher, part, size, refined=(), share=1.0, strips=False):
         names = {f"Vertex{i}": share * size for i, vertex in enumerate(part.Shape.Vertexes, 1)
                  if any(vertex.Point.isEqual(Vector(*point), 1e-6) for point in refined)}
         return Mesh.of_fem_mesh(quadrille.freecad.mesh_object(part, size=size, order=2, sizes=names,
-                                                             keep_features=strips).FemMesh)
+                                                              keep_features=strips).FemMesh)
     with tempfile.TemporaryDirectory() as folder:
         model, result = Path(folder) / "part.brep", Path(folder) / "part.msh"
         part.Shape.exportBrep(str(model))
