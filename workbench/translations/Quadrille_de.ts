@@ -308,8 +308,8 @@
         <translation>vernetze</translation>
     </message>
     <message>
-        <source>{} quads: mesher {:.2f} s, into FreeCAD {:.2f} s</source>
-        <translation>{} Vierecke: Vernetzer {:.2f} s, nach FreeCAD {:.2f} s</translation>
+        <source>{} quads: mesher {} s, into FreeCAD {} s</source>
+        <translation>{} Vierecke: Vernetzer {} s, nach FreeCAD {} s</translation>
     </message>
     <message>
         <source>Another task panel is open: close it first.</source>
@@ -468,12 +468,12 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Größen werden bestimmt: {} %</translation>
     </message>
     <message>
-        <source>dark {:.3g} mm, light {:.3g} mm</source>
-        <translation>dunkel {:.3g} mm, hell {:.3g} mm</translation>
+        <source>dark {} mm, light {} mm</source>
+        <translation>dunkel {} mm, hell {} mm</translation>
     </message>
     <message>
-        <source>{}: {:.0f} quads on {:.1f} % of the area</source>
-        <translation>{}: {:.0f} Vierecke auf {:.1f} % der Fläche</translation>
+        <source>{}: {:.0f} quads on {} % of the area</source>
+        <translation>{}: {:.0f} Vierecke auf {} % der Fläche</translation>
     </message>
     <message>
         <source>Follow results</source>

@@ -308,8 +308,8 @@
         <translation>maillage</translation>
     </message>
     <message>
-        <source>{} quads: mesher {:.2f} s, into FreeCAD {:.2f} s</source>
-        <translation>{} quadrangles : mailleur {:.2f} s, vers FreeCAD {:.2f} s</translation>
+        <source>{} quads: mesher {} s, into FreeCAD {} s</source>
+        <translation>{} quadrangles : mailleur {} s, vers FreeCAD {} s</translation>
     </message>
     <message>
         <source>Another task panel is open: close it first.</source>
@@ -468,12 +468,12 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>recherche des tailles : {} %</translation>
     </message>
     <message>
-        <source>dark {:.3g} mm, light {:.3g} mm</source>
-        <translation>foncé {:.3g} mm, clair {:.3g} mm</translation>
+        <source>dark {} mm, light {} mm</source>
+        <translation>foncé {} mm, clair {} mm</translation>
     </message>
     <message>
-        <source>{}: {:.0f} quads on {:.1f} % of the area</source>
-        <translation>{} : {:.0f} quadrangles sur {:.1f} % de l'aire</translation>
+        <source>{}: {:.0f} quads on {} % of the area</source>
+        <translation>{} : {:.0f} quadrangles sur {} % de l'aire</translation>
     </message>
     <message>
         <source>Follow results</source>

@@ -4,11 +4,12 @@
 from typing import Optional
 
 import FreeCADGui
-import numpy as np
 from PySide import QtCore, QtGui
 
 from ..core import quality
+from ..core.units import digits
 from . import QT_TRANSLATE_NOOP, drawn_icon, overlays, standard_buttons, translate
+from .histogram import Histogram
 from .wheel import calm
 
 WORST = 20
@@ -50,11 +51,7 @@ class QualityWidget(QtGui.QWidget):
         self.criteria.setHorizontalHeaderLabels([
             translate("Quadrille", "Criterion"), translate("Quadrille", "Limit"), translate("Quadrille", "Fail"),
             translate("Quadrille", "Worst")])
-        self.histogram = QtGui.QLabel()
-        self.histogram.setObjectName("QuadrilleHistogram")
-        self.histogram.setScaledContents(True)
-        self.histogram.setMinimumSize(100, 130)
-        self.histogram.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
+        self.histogram = Histogram()
         self.measure = QtGui.QComboBox()
         self.measure.setObjectName("QuadrilleMeasure")
         self.measure.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
@@ -116,11 +113,11 @@ class QualityWidget(QtGui.QWidget):
         _fill(self.table, (
             (translate("Quadrille", "Quads"), f"{mesh.QuadCount}"),
             (translate("Quadrille", "Nodes"), f"{mesh.NodeCount}"),
-            (translate("Quadrille", "q: smallest, mean"), f"{mesh.WorstQuality:.3f}, {mesh.MeanQuality:.3f}"),
-            (translate("Quadrille", "Jacobian"), f"{mesh.WorstJacobian:.3f}, {mesh.MeanJacobian:.3f}"),
-            (translate("Quadrille", "Irregular nodes"), f"{mesh.IrregularPercent:.2f} %"),
-            (translate("Quadrille", "Outside limits"), f"{mesh.OutsidePercent:.2f} %"),
-            (translate("Quadrille", "Mesher's time"), f"{mesh.Seconds:.2f} s"),
+            (translate("Quadrille", "q: smallest, mean"), f"{digits(mesh.WorstQuality)}, {digits(mesh.MeanQuality)}"),
+            (translate("Quadrille", "Jacobian"), f"{digits(mesh.WorstJacobian)}, {digits(mesh.MeanJacobian)}"),
+            (translate("Quadrille", "Irregular nodes"), f"{digits(mesh.IrregularPercent)} %"),
+            (translate("Quadrille", "Outside limits"), f"{digits(mesh.OutsidePercent)} %"),
+            (translate("Quadrille", "Mesher's time"), f"{digits(mesh.Seconds)} s"),
         ))
         self.show_status(mesh.Status)
 
@@ -136,13 +133,13 @@ class QualityWidget(QtGui.QWidget):
             return
         if not measured.ids.size:  # the mesh has been undone
             return
-        self.histogram.setPixmap(histogram_pixmap(np.histogram(measured.q, bins=BINS, range=(0.0, 1.0))[0]))
+        self.histogram.show_values(measured.q, BINS)
         rows = []
         for name, (ideal, limit) in quality.CRITERIA.items():
             values = measured.criteria[name]
             worst = values.max() if limit > ideal else values.min()
             rows.append((translate("Quadrille", MEASURES[name]), f"{limit:g}", f"{int(measured.fails(name).sum())}",
-                         f"{worst:.3g}"))
+                         digits(worst)))
         _fill(self.criteria, rows)
         self._list_worst()
 
@@ -152,7 +149,7 @@ class QualityWidget(QtGui.QWidget):
         self.worst.blockSignals(True)
         self.worst.clear()
         for index in measured.worst(WORST, measure):
-            self.worst.addItem(f"{measured.ids[index]}: {translate('Quadrille', MEASURES[measure])} {values[index]:.3g}")
+            self.worst.addItem(f"{measured.ids[index]}: {translate('Quadrille', MEASURES[measure])} {digits(values[index])}")
         self.worst.blockSignals(False)
 
     def _another_measure(self, _index: int) -> None:
@@ -235,34 +232,6 @@ def show_element(mesh, measured: quality.ElementQuality, index: int) -> None:
     camera.focalDistance.setValue(reach)
     if hasattr(camera, "height"):
         camera.height.setValue(reach)
-
-
-def histogram_pixmap(counts: np.ndarray, width: int = 340, height: int = 150):
-    """A picture of a histogram of q. counts: numbers of quads in equal intervals from 0 to 1.
-
-    Drawn by matplotlib without its Qt backend, which may not fit FreeCAD's Qt. Empty if matplotlib is missing.
-    """
-    try:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-    except ImportError:
-        return QtGui.QPixmap()
-    figure = Figure(figsize=(width / 100, height / 100), dpi=100)
-    canvas = FigureCanvasAgg(figure)
-    axes = figure.add_axes((0.14, 0.26, 0.83, 0.68))
-    middles = (np.arange(len(counts)) + 0.5) / len(counts)
-    axes.bar(middles, counts, width=1.0 / len(counts), color=quality.colors(middles), edgecolor="0.4", linewidth=0.5)
-    axes.set_xlim(0, 1)
-    axes.set_xlabel("q", fontsize=8)
-    axes.set_ylabel("quads", fontsize=8)
-    axes.tick_params(labelsize=7)
-    if counts.max() > 0:
-        axes.set_yscale("symlog")
-    canvas.draw()
-    buffer = bytes(canvas.buffer_rgba())
-    columns, rows = canvas.get_width_height()
-    image = QtGui.QImage(buffer, columns, rows, 4 * columns, QtGui.QImage.Format_RGBA8888)
-    return QtGui.QPixmap.fromImage(image.copy())
 
 
 class QualityPanel:
