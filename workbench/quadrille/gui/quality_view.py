@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shows the quality of a mesh: table, histogram, criteria, colors in the 3-D view, and a list of the worst elements."""
 
-from typing import Optional
+from typing import Dict, Optional, Sequence
 
 import FreeCADGui
 from PySide import QtCore, QtGui
@@ -45,6 +45,10 @@ class QualityWidget(QtGui.QWidget):
         self.status = QtGui.QLabel()
         self.status.setObjectName("QuadrilleStatus")
         self.status.setWordWrap(True)
+        self.crossed = QtGui.QLabel()
+        self.crossed.setObjectName("QuadrilleCrossed")
+        self.crossed.setWordWrap(True)
+        self.crossed.hide()
         self.table = _table("QuadrilleQualityTable", 2)
         self.table.horizontalHeader().setVisible(False)
         self.criteria = _table("QuadrilleCriteria", 4)
@@ -76,6 +80,7 @@ class QualityWidget(QtGui.QWidget):
         by.addWidget(self.color)
         by.addWidget(self.measure, 1)
         layout.addWidget(self.status)
+        layout.addWidget(self.crossed)
         layout.addWidget(self.table)
         layout.addWidget(self.histogram)
         layout.addWidget(self.criteria)
@@ -89,6 +94,7 @@ class QualityWidget(QtGui.QWidget):
         """Fills the table at once and the rest a moment later. Hides the widget if there is no mesh."""
         self._measured = None
         self._timer.stop()
+        self.crossed.hide()
         self.worst.clear()
         self.criteria.setRowCount(0)
         self.setVisible(self.mesh.FemMesh.FaceCount > 0)
@@ -113,17 +119,28 @@ class QualityWidget(QtGui.QWidget):
         _fill(self.table, (
             (translate("Quadrille", "Quads"), f"{mesh.QuadCount}"),
             (translate("Quadrille", "Nodes"), f"{mesh.NodeCount}"),
-            (translate("Quadrille", "q: smallest, mean"), f"{digits(mesh.WorstQuality)}, {digits(mesh.MeanQuality)}"),
-            (translate("Quadrille", "Jacobian"), f"{digits(mesh.WorstJacobian)}, {digits(mesh.MeanJacobian)}"),
-            (translate("Quadrille", "Irregular nodes"), f"{digits(mesh.IrregularPercent)} %"),
-            (translate("Quadrille", "Outside limits"), f"{digits(mesh.OutsidePercent)} %"),
-            (translate("Quadrille", "Mesher's time"), f"{digits(mesh.Seconds)} s"),
+            (translate("Quadrille", "q: smallest, mean"), f"{mesh.WorstQuality:.3f}, {mesh.MeanQuality:.3f}"),
+            (translate("Quadrille", "Jacobian"), f"{mesh.WorstJacobian:.3f}, {mesh.MeanJacobian:.3f}"),
+            (translate("Quadrille", "Irregular nodes"), f"{digits(round(mesh.IrregularPercent, 2))} %"),
+            (translate("Quadrille", "Outside limits"), f"{digits(round(mesh.OutsidePercent, 2))} %"),
+            (translate("Quadrille", "Mesher's time"), f"{digits(round(mesh.Seconds, 2))} s"),
         ))
         self.show_status(mesh.Status)
 
     def show_status(self, status: str) -> None:
         """Shows a status, one of those that the property Status has."""
         self.status.setText(translate("QuadrilleStatus", status))
+
+    def show_crossed(self, edges: Sequence[Dict]) -> None:
+        """Tells which smooth edges quads cross.
+
+        Args:
+            edges: the names of each and of its faces, as in the mesher's report.
+        """
+        self.crossed.setText(translate("Quadrille", "Quads cross {} smooth edges, which get no group; Keep names edges that stay")
+                             .format(len(edges)))
+        self.crossed.setToolTip("\n".join(f"{edge['name']} ({', '.join(dict.fromkeys(edge['faces']))})" for edge in edges))
+        self.crossed.setVisible(bool(edges))
 
     def fill_elements(self) -> None:
         """Measures each element, for the histogram, the criteria and the worst ones."""

@@ -11,6 +11,7 @@ from ..core.setting_table import SETTINGS, property_help, property_kind, words
 from . import translate
 from .field_errors import FieldError
 from .length_field import LengthField
+from .placeholders import dim_placeholder
 
 
 class SettingWidget:
@@ -41,6 +42,7 @@ class SettingWidget:
         if self._kind in ("App::PropertyStringList", "App::PropertyString", "App::PropertyFile"):
             line = QtGui.QLineEdit()
             line.setPlaceholderText(translate("QuadrilleSettings", setting["otherwise"]))
+            dim_placeholder(line)
             return line
         box = QtGui.QDoubleSpinBox()
         whole = setting["default"] is None or float(setting["default"]).is_integer()

@@ -6,7 +6,7 @@ document with the mesh, or by OK, each as one undo step. Cancel undoes all of it
 """
 
 import time
-from typing import Dict, Optional
+from typing import Callable, Dict, Optional
 
 import FreeCAD
 import FreeCADGui
@@ -38,6 +38,10 @@ from .wheel import calm
 _POLL_MILLISECONDS = 10
 #: Delay before a mesher is started to stand by, after opening and after meshing, which it would slow down.
 _STAND_BY_MILLISECONDS = 500
+#: The mesher's minimum size, where none is given, is the size divided by this (see "Minimum" in the table of settings).
+_SIZE_TO_MINIMUM = 8
+#: What the mesher writes about smooth edges, which the panel tells in its own words.
+_CROSSED = "note: quads cross"
 #: Properties that are always visible; the others are under "More settings".
 _IN_SIGHT = ("Size", "ElementOrder", "Faces")
 
@@ -284,8 +288,17 @@ class MeshPanel:
         regions = {entry.region for entry in state.wanted_of(self.mesh).refinements if entry.region}
         return "Refinements" if error.subject in regions else error.subject
 
+    def _show_minimum(self) -> None:
+        """Shows the minimum size that holds where none is given: it follows the size."""
+        try:
+            minimum = self._usual_size() / _SIZE_TO_MINIMUM
+        except FAILURES:
+            minimum = None
+        self.settings["SizeMin"].widget.show_otherwise(minimum)
+
     def _update_estimate(self) -> None:
         self._show_errors()
+        self._show_minimum()
         if self._measuring.running:
             self.estimate.setText("...")
             return
@@ -312,9 +325,9 @@ class MeshPanel:
     def _show_status(self, wanted: state.Wanted, found) -> None:
         """Says whether the mesh is that of the settings in the panel, which the document may not have yet."""
         status = self.mesh.Status
-        if status in (state.UP_TO_DATE, state.SETTINGS_CHANGED) and self.mesh.MeshedSettings:
-            same = state.same_settings(state.settings_key(self.mesh, wanted, found), self.mesh.MeshedSettings)
-            self.quality.show_status(state.UP_TO_DATE if same else state.SETTINGS_CHANGED)
+        other_part = status in (state.PART_CHANGED, state.BOTH_CHANGED)
+        if (other_part or status in (state.UP_TO_DATE, state.SETTINGS_CHANGED)) and self.mesh.MeshedSettings:
+            self.quality.show_status(state.changed(self.mesh, wanted, found, other_part))
 
     def _show_count(self, count: float) -> None:
         self.estimate.setText(translate("Quadrille", "about {} quads").format(_rounded(round(count))))
@@ -353,21 +366,26 @@ class MeshPanel:
         names = self._picked("Face", "Edge", "Vertex")
         if not names:
             return
-        usual = self._usual_size()
+        usual = self._told(self._usual_size)
         if usual is not None:
             self.refinements.add(links.link(self.mesh.Shape, names), float(digits(usual / 2)))
 
     def _divide_selection(self) -> None:
         names = self._picked("Edge")
-        usual = self._usual_size() if names else None
+        usual = self._told(self._usual_size) if names else None
         if usual is not None:
             shape = self.mesh.Shape.Shape
             self.entries.add("Segments", {name: f"{max(1, round(shape.getElement(name).Length / usual))}" for name in names})
 
-    def _usual_size(self) -> Optional[float]:
-        """The size where no other is asked for. None, with a message box, if it cannot be read."""
+    def _usual_size(self) -> float:
+        """The size where no other is asked for. Raises Error if it cannot be read."""
+        return self.settings["Size"].value() or default_size(state.part_of(self.mesh).Shape.BoundBox.DiagonalLength)
+
+    @staticmethod
+    def _told(find: Callable[[], float]) -> Optional[float]:
+        """What a function finds. None, with a message box, if it raises Error."""
         try:
-            return self.settings["Size"].value() or default_size(state.part_of(self.mesh).Shape.BoundBox.DiagonalLength)
+            return find()
         except Error as error:
             tell(str(error))
             return None
@@ -414,7 +432,7 @@ class MeshPanel:
         self.stop_button.setEnabled(False)
         ended = time.monotonic()
         try:
-            job.result()
+            _, report = job.result()
             with self._session.step("Quad mesh"):
                 self._store(self._commands(self._job_wanted))
                 core.hand_over(self.mesh, job)
@@ -430,7 +448,8 @@ class MeshPanel:
             return
         self.preview.button.setChecked(False)
         for line in job.messages:
-            self._say(line)
+            if not line.startswith(_CROSSED):
+                self._say(line)
         self._show_progress(1)
         self._say(translate("Quadrille", "{} quads: mesher {} s, into FreeCAD {} s").format(
             self.mesh.QuadCount, digits(round(ended - self._started, 2)), digits(round(time.monotonic() - ended, 2))))
@@ -438,6 +457,7 @@ class MeshPanel:
         if self.mesh.Shape is not None:  # None if it was deleted while the mesher worked
             self.mesh.Shape.ViewObject.hide()
         self.quality.refresh()
+        self.quality.show_crossed(report.get("suppressed_edges", ()))
         if preferences.color_after_meshing():
             self.quality.color.setChecked(True)
 
