@@ -708,8 +708,9 @@ class PanelTest(GuiCase):
         self.assertTrue(pages and pages[0], "the page is in FreeCAD's dialog")
 
     def test_languages(self):
-        for language, mesh_word, command_word, status in (("German", "Vernetzen", "Vierecknetz aus Form", "aktuell"),
-                                                          ("French", "Mailler", "Maillage de quadrangles", "à jour")):
+        for language, mesh_word, command_word, status, words in (
+                ("German", "Vernetzen", "Vierecknetz aus Form", "aktuell", ("Übernehmen", "Größenvorschau", "Schlechteste")),
+                ("French", "Mailler", "Maillage de quadrangles", "à jour", ("Prendre", "Aperçu des tailles", "Pire"))):
             with self.subTest(language=language):
                 FreeCADGui.setLocale(language)
                 try:
@@ -718,6 +719,8 @@ class PanelTest(GuiCase):
                     self.edit(mesh)
                     self.assertEqual(find("QuadrilleMesh").text(), mesh_word)
                     self.assertEqual(find("QuadrilleStatus").text(), status)
+                    self.assertEqual((find("QuadrilleTakeSelection").text(), find("QuadrillePreview").text(),
+                                      find("QuadrilleCriteria").horizontalHeaderItem(3).text()), words)
                     self.assertEqual(mesh.Status, "up to date")  # for scripts, whatever the language
                     picture(f"panel_{language}")
                     type_into("QuadrilleSize", "2,5 mm")
