@@ -127,7 +127,7 @@ class SurfaceJob(FemJob):
         surface.Mesh.write(model)  # single precision, like FreeCAD's meshes
         self._told_as = ((model, surface.Label), ("triangles and points counted from 0, as they come in the file",
                                                   "triangles and points counted from 0"),
-                         ("the property Force meshes all the same", "take a larger Size"))
+                         ("the property Force meshes anyway", "take a larger Size"))
         work = ("remesh", "--feature-angle", repr(float(asked.feature_angle)), "--merge", repr(float(asked.merge)))
         settings = MeshSettings(size=float(asked.size), order=int(asked.order))
         super().__init__(command, folder, output, MeshJob(model, [output, *outputs], settings, command, None, work))
