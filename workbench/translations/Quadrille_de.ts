@@ -169,7 +169,7 @@
     </message>
     <message>
         <source>Worst</source>
-        <translation>Ärgster</translation>
+        <translation>Schlechteste</translation>
     </message>
     <message>
         <source>Color the mesh</source>
@@ -189,7 +189,7 @@
     </message>
     <message>
         <source>Worst elements (click on one)</source>
-        <translation>Ärgste Elemente (anklicken)</translation>
+        <translation>Schlechteste Elemente (anklicken)</translation>
     </message>
     <message>
         <source>Quads</source>
@@ -253,7 +253,7 @@
     </message>
     <message>
         <source>Take</source>
-        <translation>Holen</translation>
+        <translation>Übernehmen</translation>
     </message>
     <message>
         <source>Mesh only the faces that are selected in the 3-D view</source>
@@ -308,8 +308,8 @@
         <translation>vernetze</translation>
     </message>
     <message>
-        <source>{} quads: mesher {:.2f} s, into FreeCAD {:.2f} s</source>
-        <translation>{} Vierecke: Vernetzer {:.2f} s, nach FreeCAD {:.2f} s</translation>
+        <source>{} quads: mesher {} s, into FreeCAD {} s</source>
+        <translation>{} Vierecke: Vernetzer {} s, nach FreeCAD {} s</translation>
     </message>
     <message>
         <source>Another task panel is open: close it first.</source>
@@ -453,7 +453,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     </message>
     <message>
         <source>Preview sizes</source>
-        <translation>Größen vorab zeigen</translation>
+        <translation>Größenvorschau</translation>
     </message>
     <message>
         <source>Show the element sizes in colors, and what requests them, before meshing</source>
@@ -468,12 +468,12 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Größen werden bestimmt: {} %</translation>
     </message>
     <message>
-        <source>dark {:.3g} mm, light {:.3g} mm</source>
-        <translation>dunkel {:.3g} mm, hell {:.3g} mm</translation>
+        <source>dark {} mm, light {} mm</source>
+        <translation>dunkel {} mm, hell {} mm</translation>
     </message>
     <message>
-        <source>{}: {:.0f} quads on {:.1f} % of the area</source>
-        <translation>{}: {:.0f} Vierecke auf {:.1f} % der Fläche</translation>
+        <source>{}: {:.0f} quads on {} % of the area</source>
+        <translation>{}: {:.0f} Vierecke auf {} % der Fläche</translation>
     </message>
     <message>
         <source>Follow results</source>
@@ -490,6 +490,14 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>Expected by face</source>
         <translation>Erwartet je Fläche</translation>
+    </message>
+    <message>
+        <source>{} has no {}</source>
+        <translation>{} hat kein {}</translation>
+    </message>
+    <message>
+        <source>Quads cross {} smooth edges, which get no group; Keep names edges that stay</source>
+        <translation>Vierecke überqueren {} glatte Kanten, die keine Gruppe bekommen; Keep nennt Kanten, die bleiben</translation>
     </message>
 </context>
 <context>
@@ -513,10 +521,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>Keep features</source>
         <translation>Feinheiten behalten</translation>
-    </message>
-    <message>
-        <source>Also mesh features far below the minimum size instead of letting them go</source>
-        <translation>Auch Formelemente weit unter der kleinsten Größe vernetzen, statt sie wegzulassen</translation>
     </message>
     <message>
         <source>1: four-node quads; 2: eight-node quads, better for shells</source>
@@ -715,14 +719,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Ringe von Vierecken um jedes Loch ohne Ecken, wo Platz dafür ist; 0 = keine</translation>
     </message>
     <message>
-        <source>Symmetry</source>
-        <translation>Symmetrie</translation>
-    </message>
-    <message>
-        <source>If the model has mirror planes, mesh one side and copy it, with nodes on the planes</source>
-        <translation>Wo das Modell Spiegelebenen hat, eine Seite davon vernetzen und spiegeln, mit Knoten auf den Ebenen</translation>
-    </message>
-    <message>
         <source>Sizes by distance from a face, edge or vertex that grow like the heights of layers: first height, ratio and number, such as Edge4=0.1,1.2,6; empty = none</source>
         <translation>Größen nach dem Abstand von Fläche, Kante oder Ecke, wie Schichthöhen wachsen: erste Höhe, Verhältnis und Anzahl, etwa Edge4=0.1,1.2,6; leer = keine</translation>
     </message>
@@ -758,6 +754,14 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <source>surface</source>
         <translation>Fläche</translation>
     </message>
+    <message>
+        <source>Also mesh features far below the minimum size instead of letting them go, and let no quad cross a smooth edge</source>
+        <translation>Auch Formelemente weit unter der kleinsten Größe vernetzen, statt sie wegzulassen, und keine Vierecke über glatte Kanten</translation>
+    </message>
+    <message>
+        <source>Faces and edges that keep nodes of their own, whatever their size and shape, such as Edge7,Face3; empty = none</source>
+        <translation>Flächen und Kanten, die eigene Knoten behalten, wie groß und geformt sie auch sind, etwa Edge7,Face3; leer = keine</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleStatus</name>
@@ -792,6 +796,10 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>made by other means: mesh again</source>
         <translation>auf andere Weise entstanden: neu vernetzen</translation>
+    </message>
+    <message>
+        <source>the part and the settings have changed: mesh again</source>
+        <translation>Teil und Einstellungen haben sich geändert: neu vernetzen</translation>
     </message>
 </context>
 <context>
@@ -868,7 +876,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     </message>
     <message>
         <source>Show the quality of a quad mesh: numbers, histogram, colors, worst elements</source>
-        <translation>Die Qualität eines Vierecknetzes zeigen: Zahlen, Histogramm, Farben, ärgste Elemente</translation>
+        <translation>Die Qualität eines Vierecknetzes zeigen: Zahlen, Histogramm, Farben, schlechteste Elemente</translation>
     </message>
 </context>
 <context>

@@ -308,8 +308,8 @@
         <translation>maillage</translation>
     </message>
     <message>
-        <source>{} quads: mesher {:.2f} s, into FreeCAD {:.2f} s</source>
-        <translation>{} quadrangles : mailleur {:.2f} s, vers FreeCAD {:.2f} s</translation>
+        <source>{} quads: mesher {} s, into FreeCAD {} s</source>
+        <translation>{} quadrangles : mailleur {} s, vers FreeCAD {} s</translation>
     </message>
     <message>
         <source>Another task panel is open: close it first.</source>
@@ -468,12 +468,12 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>recherche des tailles : {} %</translation>
     </message>
     <message>
-        <source>dark {:.3g} mm, light {:.3g} mm</source>
-        <translation>foncé {:.3g} mm, clair {:.3g} mm</translation>
+        <source>dark {} mm, light {} mm</source>
+        <translation>foncé {} mm, clair {} mm</translation>
     </message>
     <message>
-        <source>{}: {:.0f} quads on {:.1f} % of the area</source>
-        <translation>{} : {:.0f} quadrangles sur {:.1f} % de l'aire</translation>
+        <source>{}: {:.0f} quads on {} % of the area</source>
+        <translation>{} : {:.0f} quadrangles sur {} % de l'aire</translation>
     </message>
     <message>
         <source>Follow results</source>
@@ -490,6 +490,14 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>Expected by face</source>
         <translation>Attendus par face</translation>
+    </message>
+    <message>
+        <source>{} has no {}</source>
+        <translation>{} n'a pas de {}</translation>
+    </message>
+    <message>
+        <source>Quads cross {} smooth edges, which get no group; Keep names edges that stay</source>
+        <translation>Des quadrangles traversent {} arêtes lisses, qui n'ont pas de groupe ; Keep nomme les arêtes qui restent</translation>
     </message>
 </context>
 <context>
@@ -513,10 +521,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>Keep features</source>
         <translation>Garder les détails</translation>
-    </message>
-    <message>
-        <source>Also mesh features far below the minimum size instead of letting them go</source>
-        <translation>Mailler aussi les détails bien inférieurs à la taille minimale, au lieu de les omettre</translation>
     </message>
     <message>
         <source>1: four-node quads; 2: eight-node quads, better for shells</source>
@@ -715,14 +719,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Anneaux de quadrangles autour de chaque trou sans coin, là où il y a de la place ; 0 = aucun</translation>
     </message>
     <message>
-        <source>Symmetry</source>
-        <translation>Symétrie</translation>
-    </message>
-    <message>
-        <source>If the model has mirror planes, mesh one side and copy it, with nodes on the planes</source>
-        <translation>Là où le modèle a des plans de symétrie, mailler un côté et le copier en miroir, avec des nœuds sur les plans</translation>
-    </message>
-    <message>
         <source>Sizes by distance from a face, edge or vertex that grow like the heights of layers: first height, ratio and number, such as Edge4=0.1,1.2,6; empty = none</source>
         <translation>Tailles selon la distance à une face, une arête ou un sommet, comme croissent des couches : première hauteur, rapport et nombre, par exemple Edge4=0.1,1.2,6 ; vide = aucune</translation>
     </message>
@@ -758,6 +754,14 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <source>surface</source>
         <translation>surface</translation>
     </message>
+    <message>
+        <source>Also mesh features far below the minimum size instead of letting them go, and let no quad cross a smooth edge</source>
+        <translation>Mailler aussi les détails bien plus petits que la taille minimale au lieu de les omettre, et ne laisser aucun quadrangle traverser une arête lisse</translation>
+    </message>
+    <message>
+        <source>Faces and edges that keep nodes of their own, whatever their size and shape, such as Edge7,Face3; empty = none</source>
+        <translation>Faces et arêtes qui gardent leurs propres nœuds, quelles que soient leur taille et leur forme, par exemple Edge7,Face3 ; vide = aucune</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleStatus</name>
@@ -792,6 +796,10 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>made by other means: mesh again</source>
         <translation>fait par d'autres moyens : maillez à nouveau</translation>
+    </message>
+    <message>
+        <source>the part and the settings have changed: mesh again</source>
+        <translation>la pièce et les réglages ont changé : maillez à nouveau</translation>
     </message>
 </context>
 <context>

@@ -17,7 +17,7 @@ import Part
 from PySide import QtCore, QtGui
 
 import quadrille.freecad
-from case import GuiCase, picture, run, type_into
+from case import MODELS, GuiCase, picture, run, type_into
 from driver import Boxes, close_panel, find, process, trigger, turn_wheel, wait_for, window
 from quadrille.core import command, quality
 from quadrille.core.setting_table import SETTINGS
@@ -140,6 +140,122 @@ class PanelTest(GuiCase):
         self.assertEqual(find("QuadrilleStatus").text(), state.UP_TO_DATE)
         close_panel()
         self.assertEqual(mesh.Status, state.UP_TO_DATE)
+
+    def test_status_names_part_and_settings(self):
+        box = self.box()
+        mesh = quadrille.freecad.mesh_object(box, size=2, faces=[1])
+        box.Length = 12
+        self.document.recompute()
+        self.assertEqual(mesh.Status, state.PART_CHANGED)
+        self.edit(mesh)
+        self.assertEqual(find("QuadrilleStatus").text(), state.PART_CHANGED)
+        type_into("QuadrilleSize", "3 mm")
+        self.assertEqual(find("QuadrilleStatus").text(), state.BOTH_CHANGED)
+        close_panel()
+        self.assertEqual(mesh.Status, state.BOTH_CHANGED)
+        mesh.Size = 2
+        self.document.recompute()
+        self.assertEqual(mesh.Status, state.PART_CHANGED)
+
+    def test_the_minimum_follows_the_size(self):
+        self.open_panel(self.box())
+        find("QuadrilleMore").setChecked(True)
+        field = find("QuadrilleSizeMin")
+        for size, minimum in (("2 mm", "0.25 mm"), ("1.23456 mm", "0.1543 mm"), ("", "0.03608 mm"), ("nonsense", "")):
+            type_into("QuadrilleSize", size)
+            self.assertEqual(field.placeholderText(), f"{minimum} (size / 8)" if minimum else "size / 8")
+            self.assertEqual(field.text(), "")
+        for line in (field, find("QuadrilleFaces")):
+            palette = line.palette()
+            self.assertLess(palette.color(QtGui.QPalette.PlaceholderText).alpha(), palette.color(QtGui.QPalette.Text).alpha())
+
+    # What is wrong
+
+    def error_of(self, name):
+        """What stands below a field, empty if nothing does."""
+        line = find(f"Quadrille{name}Error")
+        return line.text() if line.isVisible() else ""
+
+    def test_errors_stand_below_their_fields(self):
+        mesh = self.open_panel(self.box())
+        find("QuadrilleMore").setChecked(True)
+        type_into("QuadrilleSize", "5 kg")
+        type_into("QuadrilleSew", "much")
+        self.assertIn("5 kg", self.error_of("Size"))
+        self.assertIn("much", self.error_of("Sew"))
+        picture("errors")
+        type_into("QuadrilleSew", "")
+        type_into("QuadrilleSize", "300 mm")  # which can be read
+        self.assertIn("larger than the model", self.error_of("Size"))
+        type_into("QuadrilleSize", "2 mm")
+        self.assertEqual((self.error_of("Size"), self.error_of("Sew")), ("", ""))
+        faces = find("QuadrilleFaces")
+        for text, unknown in (("Face1, Face7", "Face7"), ("Face1, Edge2, Fac", "Edge2, Fac"), ("Face0", "Face0"), ("Face1, Face6", "")):
+            faces.setText(text)
+            self.assertEqual(self.error_of("Faces"), f"Box has no {unknown}" if unknown else "")
+        type_into("QuadrilleSizeMin", "5 mm")
+        with Boxes() as boxes:
+            find("QuadrilleMesh").click()
+            wait_for(lambda: boxes.texts, what="the mesher's refusal")
+        self.assertIn('"Minimum"', self.error_of("SizeMin"))
+        self.assertEqual(self.error_of("Size"), "")
+        type_into("QuadrilleSizeMin", "0.5 mm")
+        self.assertEqual(self.error_of("SizeMin"), "")
+        self.press_mesh()
+        close_panel()
+        self.assertEqual(links.names_in(mesh.Faces), ["Face1", "Face6"])
+
+    def test_what_is_kept_is_named(self):
+        mesh = quadrille.freecad.make_mesh(self.box(), size=2, keep=["Edge7", "Face3"])
+        self.edit(mesh)
+        find("QuadrilleRefinements").setChecked(True)
+        self.assertEqual(find("QuadrilleEntry0").text(), "Edge7, Face3")
+        close_panel()
+        self.assertEqual(mesh.Keep, ["Edge7", "Face3"])
+        self.edit(mesh)
+        find("QuadrilleEntry0").setText("Edge7, Edge13")
+        self.assertEqual(self.error_of("Entries"), "Box has no Edge13")
+        find("QuadrilleEntry0").setText("Edge7, Edge12")
+        self.assertEqual(self.error_of("Entries"), "")
+        close_panel()
+        self.assertEqual(mesh.Keep, ["Edge7", "Edge12"])
+
+    def test_smooth_edges_that_quads_cross_are_told_once(self):
+        part = self.document.addObject("Part::Feature", "Cone")
+        part.Shape = Part.read(str(MODELS / "cone.brep"))
+        self.show()
+        self.open_panel(part)
+        self.press_mesh()
+        crossed = find("QuadrilleCrossed")
+        self.assertTrue(crossed.isVisible())
+        self.assertIn("Quads cross 1 smooth edges", crossed.text())
+        self.assertEqual(crossed.toolTip(), "Edge2 (Face1)")
+        self.assertNotIn("cross", find("QuadrilleLog").toPlainText())
+        picture("crossed")
+        find("QuadrilleMore").setChecked(True)
+        find("QuadrilleKeepFeatures").setChecked(True)
+        self.press_mesh()
+        self.assertFalse(crossed.isVisible())
+        close_panel()
+
+    def test_buttons_stay_in_sight(self):
+        self.open_panel(self.bracket())
+        self.press_mesh()
+        for name in ("QuadrilleByFace", "QuadrilleRefinements", "QuadrilleMore"):
+            find(name).setChecked(True)
+        process(0.5)
+        bar = find("QuadrilleScrolled").verticalScrollBar()
+        self.assertGreater(bar.maximum(), 0)
+        for height in (940, 700):
+            window().resize(1500, height)
+            for value in (bar.minimum(), bar.maximum()):
+                bar.setValue(value)
+                process(0.5)
+                for name in ("QuadrilleMesh", "QuadrilleStop", "QuadrilleProgress"):
+                    button = find(name)
+                    self.assertEqual(button.visibleRegion().boundingRect(), button.rect(), f"{name} at height {height}")
+        picture("buttons")
+        close_panel()
 
     def test_stale_meshes_are_meshed_again_from_the_menu(self):
         box = self.box()
@@ -531,6 +647,22 @@ class PanelTest(GuiCase):
         self.assertFalse(overlays.is_shown(mesh, overlays.FREE))
         self.assertFalse(overlays.is_shown(mesh, overlays.QUALITY))
 
+    def test_the_histogram_needs_no_other_library(self):
+        """Importing matplotlib blocks the window for seconds."""
+        self.open_panel(self.box())
+        self.press_mesh()
+        wait_for(lambda: find("QuadrilleWorst").count(), what="the worst elements")
+        self.assertNotIn("matplotlib", sys.modules)
+        histogram = find("QuadrilleHistogram")
+        for background in (QtCore.Qt.white, QtCore.Qt.black):
+            palette = histogram.palette()
+            palette.setColor(QtGui.QPalette.Base, background)
+            histogram.setPalette(palette)
+            image = histogram.grab().toImage()
+            colors = [image.pixelColor(x, y).name() for x in range(image.width()) for y in range(0, image.height(), 3)]
+            self.assertEqual(max(set(colors), key=colors.count) if background == QtCore.Qt.black else "#000000", "#000000")
+            self.assertGreater(len(set(colors)), 4)
+
     # Preferences, languages, commands
 
     def test_preferences(self):
@@ -576,8 +708,9 @@ class PanelTest(GuiCase):
         self.assertTrue(pages and pages[0], "the page is in FreeCAD's dialog")
 
     def test_languages(self):
-        for language, mesh_word, command_word, status in (("German", "Vernetzen", "Vierecknetz aus Form", "aktuell"),
-                                                          ("French", "Mailler", "Maillage de quadrangles", "à jour")):
+        for language, mesh_word, command_word, status, words in (
+                ("German", "Vernetzen", "Vierecknetz aus Form", "aktuell", ("Übernehmen", "Größenvorschau", "Schlechteste")),
+                ("French", "Mailler", "Maillage de quadrangles", "à jour", ("Prendre", "Aperçu des tailles", "Pire"))):
             with self.subTest(language=language):
                 FreeCADGui.setLocale(language)
                 try:
@@ -586,6 +719,8 @@ class PanelTest(GuiCase):
                     self.edit(mesh)
                     self.assertEqual(find("QuadrilleMesh").text(), mesh_word)
                     self.assertEqual(find("QuadrilleStatus").text(), status)
+                    self.assertEqual((find("QuadrilleTakeSelection").text(), find("QuadrillePreview").text(),
+                                      find("QuadrilleCriteria").horizontalHeaderItem(3).text()), words)
                     self.assertEqual(mesh.Status, "up to date")  # for scripts, whatever the language
                     picture(f"panel_{language}")
                     type_into("QuadrilleSize", "2,5 mm")

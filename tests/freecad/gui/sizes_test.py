@@ -72,7 +72,7 @@ class SizesTest(GuiCase):
     def test_colors_count_and_who_rules(self):
         part = self.bracket()
         self.open_and_show(part)
-        self.assertIn("on 100.0 % of the area", find("QuadrillePreviewText").text())
+        self.assertIn("on 100 % of the area", find("QuadrillePreviewText").text())
         few = count_shown()
         count, colors = self.drawn()
         self.assertGreater(count, 1000)

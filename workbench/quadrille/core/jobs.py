@@ -12,7 +12,7 @@ import Fem
 from . import command as child
 from .command import MeshJob, Progress, check_version, find_command, scratch_folder
 from .errors import Error
-from .setting_table import MeshSettings, in_words_of_panel
+from .setting_table import MeshSettings, in_words_of_panel, subject_of
 
 PREFERENCES = "User parameter:BaseApp/Preferences/Mod/Quadrille"
 
@@ -159,8 +159,8 @@ def in_own_words(sentence: str) -> str:
 
 
 def error_in_own_words(error: Error) -> Error:
-    """The same error, with its sentence in the panel's words."""
-    return Error(in_own_words(str(error)), error.kind, error.subject)
+    """The same error, with its sentence in the panel's words, and the property concerned as its subject."""
+    return Error(in_own_words(str(error)), error.kind, error.subject or subject_of(str(error)))
 
 
 def _with_names_of_the_part(fem_mesh: "Fem.FemMesh", pieces: Dict[str, List[str]]) -> None:

@@ -110,6 +110,17 @@ def in_words_of_panel(sentence: str, translate: Callable[[str], str] = str) -> s
     return _OPTION.sub(lambda found: words_for(found.group(), translate) or found.group(), sentence)
 
 
+def subject_of(sentence: str) -> str:
+    """The property of the setting that a sentence of the command begins with; "Refinements" for sizes on faces, edges and
+    vertices; empty if it begins with no setting."""
+    found = _OPTION.match(sentence)
+    if found is None:
+        return ""
+    if found.group() == BY_NAME["sizes"]["option"]:
+        return "Refinements"
+    return next((setting["property"] for setting in SETTINGS if setting["option"] == found.group()), "")
+
+
 # Properties of mesh objects
 
 

@@ -107,7 +107,7 @@ def on_mesh(mesh, point: Sequence[float]) -> str:
     """The name of the part's face, edge or vertex that a mesh has at a point, in global coordinates. Empty if it has none there.
     FreeCAD 0.20 names elements other than those that were clicked, so it is found by the point. Raises Error if the part has
     changed since it was meshed."""
-    if mesh.Status in (state.PART_CHANGED, state.PART_GONE, state.LOST, state.OTHER_MEANS):
+    if mesh.Status in (state.PART_CHANGED, state.BOTH_CHANGED, state.PART_GONE, state.LOST, state.OTHER_MEANS):
         raise Error(f"{mesh.Label}: {mesh.Status}; its faces, edges and vertices can be picked on the part alone until then", "usage",
                     mesh.Name)
     fem_mesh = mesh.FemMesh

@@ -108,9 +108,11 @@ class SizeEstimate:
         sizes = sizes or {}
         least = min([size, *sizes.values()])
         if not least > 1e-9 * self._diagonal:
-            raise Error(f"a size of {least:.3g} mm is too small for a part of {self._diagonal:.3g} mm", "usage")
+            raise Error(f"a size of {least:.3g} mm is too small for a part of {self._diagonal:.3g} mm", "usage",
+                        "Size")
         if size > self._diagonal:  # the mesher refuses it
-            raise Error(f"a size of {size:.3g} mm is larger than the model, whose diagonal is {self._diagonal:.3g} mm", "usage")
+            raise Error(f"a size of {size:.3g} mm is larger than the model, whose diagonal is {self._diagonal:.3g} mm", "usage",
+                        "Size")
 
         def caps(kind: str, count: int):
             return np.array([min(size, sizes.get(f"{kind}{index}", size)) for index in range(1, count + 1)]) if sizes else \

@@ -30,7 +30,10 @@ PART_GONE = "the part is gone"
 LOST = "the part has changed: choose faces, edges, vertices again"
 SENSELESS = "the settings make no sense"
 OTHER_MEANS = "made by other means: mesh again"
-STATUSES = (NOT_MESHED, UP_TO_DATE, PART_CHANGED, SETTINGS_CHANGED, PART_GONE, LOST, SENSELESS, OTHER_MEANS)
+BOTH_CHANGED = "the part and the settings have changed: mesh again"
+STATUSES = (NOT_MESHED, UP_TO_DATE, PART_CHANGED, SETTINGS_CHANGED, PART_GONE, LOST, SENSELESS, OTHER_MEANS, BOTH_CHANGED)
+#: Settings that name faces, edges and vertices: other names may mean the same elements of a part that has changed.
+_NAMING = frozenset(("flipped", *(setting["name"] for setting in SETTINGS if setting["kind"] in ("names", "entries"))))
 
 
 class Refinement(NamedTuple):
@@ -159,10 +162,36 @@ def _digest(mesh, path: str) -> str:
                     mesh.Name) from error
 
 
-def same_settings(one: str, other: str) -> bool:
-    """Compares two keys of settings_key(). A setting that is missing in one of them counts as having its current default."""
+def same_settings(one: str, other: str, by_name: bool = True) -> bool:
+    """Compares two keys of settings_key(). A setting that is missing in one of them counts as having its current default.
+
+    Args:
+        by_name: whether to compare what is said of faces, edges and vertices by name, too.
+    """
     defaults = {setting["name"]: setting["default"] for setting in SETTINGS if setting["default"] is not None}
-    return {**defaults, **json.loads(one or "{}")} == {**defaults, **json.loads(other or "{}")}
+    both = [{**defaults, **json.loads(key or "{}")} for key in (one, other)]
+    if not by_name:
+        both = [{**{name: value for name, value in settings.items() if name not in _NAMING},
+                 "sizes": sorted(set(settings.get("sizes", {}).values()))} for settings in both]
+    return both[0] == both[1]
+
+
+def changed(mesh, wanted: Wanted, found: Dict[links.Key, str], part_too: bool) -> str:
+    """The status of a mesh whose part has changed, or not, with the wanted settings."""
+    same = same_settings(settings_key(mesh, wanted, found), mesh.MeshedSettings, not part_too)
+    if part_too:
+        return PART_CHANGED if same else BOTH_CHANGED
+    return UP_TO_DATE if same else SETTINGS_CHANGED
+
+
+def name_statuses(mesh) -> None:
+    """Gives the property Status of a mesh object, also one of an older version, all the values that it can have."""
+    known = mesh.getEnumerationsOfProperty("Status")
+    if known != list(STATUSES):
+        value = mesh.Status if known else ""
+        mesh.Status = list(STATUSES)
+        if value in STATUSES:
+            mesh.Status = value
 
 
 def judge(mesh) -> Tuple[str, str]:
@@ -178,12 +207,14 @@ def judge(mesh) -> Tuple[str, str]:
     except Error as error:
         return LOST, str(error)
     try:
-        if not shapes.same_fingerprint(list(mesh.MeshedShape), shapes.fingerprint(shape_of(mesh.Shape))):
-            return PART_CHANGED, PART_CHANGED
-        changed = not same_settings(settings_key(mesh, wanted_of(mesh), found), mesh.MeshedSettings)
+        other_part = not shapes.same_fingerprint(list(mesh.MeshedShape), shapes.fingerprint(shape_of(mesh.Shape)))
     except Error as error:
         return SENSELESS, str(error)
-    return (SETTINGS_CHANGED, SETTINGS_CHANGED) if changed else (UP_TO_DATE, UP_TO_DATE)
+    try:
+        now = changed(mesh, wanted_of(mesh), found, other_part)
+    except Error as error:
+        return (PART_CHANGED, PART_CHANGED) if other_part else (SENSELESS, str(error))
+    return now, now
 
 
 def update(mesh) -> Optional[str]:

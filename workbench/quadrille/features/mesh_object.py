@@ -308,10 +308,9 @@ class MeshFeature:
         ):
             if name not in obj.PropertiesList:
                 obj.addProperty(kind, name, group, text)
-                if name == "Status":
-                    obj.Status = list(state.STATUSES)
-                elif name == "ReducedShells":
+                if name == "ReducedShells":
                     obj.ReducedShells = True
+        state.name_statuses(obj)
         self._set_editor_modes(obj)
 
     @staticmethod

@@ -91,11 +91,12 @@ def judge(mesh) -> Tuple[str, str]:
         return state.NOT_MESHED, state.NOT_MESHED
     if not mesh.MeshedShape:
         return state.OTHER_MEANS, state.OTHER_MEANS
-    if not _same(list(mesh.MeshedShape), fingerprint(surface)):
-        return state.PART_CHANGED, state.PART_CHANGED
+    other_surface = not _same(list(mesh.MeshedShape), fingerprint(surface))
     if _text(asked_of(mesh)) != mesh.MeshedSettings:
-        return state.SETTINGS_CHANGED, state.SETTINGS_CHANGED
-    return state.UP_TO_DATE, state.UP_TO_DATE
+        now = state.BOTH_CHANGED if other_surface else state.SETTINGS_CHANGED
+    else:
+        now = state.PART_CHANGED if other_surface else state.UP_TO_DATE
+    return now, now
 
 
 def fingerprint(surface) -> List[float]:
@@ -234,12 +235,11 @@ class SurfaceMesh:
             obj.addProperty(kind, name, group, text)
             if name == "ElementOrder":
                 obj.ElementOrder = list(reversed(ORDERS))
-            elif name == "Status":
-                obj.Status = list(state.STATUSES)
             elif name == "ReducedShells":
                 obj.ReducedShells = True
             if group in ("Result", "Hidden"):
                 obj.setEditorMode(name, 1 if group == "Result" else 2)
+        state.name_statuses(obj)
 
     def execute(self, obj) -> None:
         """FreeCAD calls this when the surface or a setting has changed. Reports the change and leaves the mesh as it is."""

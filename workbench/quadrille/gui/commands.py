@@ -13,6 +13,7 @@ import quadrille_commands
 from ..core.errors import Error
 from ..core.jobs import find_mesher
 from ..core.setting_table import ORDERS, default_size
+from ..core.units import digits
 from ..document import picks, regions
 from ..document.groups import analysis_of
 from ..document.state import is_quad_mesh, is_surface_mesh, part_of, source_of
@@ -292,7 +293,7 @@ class RefineCommand(_Command):
         dialog.setWindowTitle(translate("Quadrille", "Refine"))
         label = translate("Quadrille", "Element size")
         box = LengthField("QuadrilleRefineSize")
-        box.show_length(usual / 2)
+        box.show_length(float(digits(usual / 2)))
         buttons = QtGui.QDialogButtonBox(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Cancel)
         buttons.accepted.connect(dialog.accept)
         buttons.rejected.connect(dialog.reject)

@@ -12,6 +12,8 @@ from ..core.setting_table import SETTINGS
 from . import translate
 from .row_list import RowList
 
+#: The one whose entries are only names: they share a row.
+NAMES = "Keep"
 #: Properties whose value is a list of texts such as "Edge4=20".
 PROPERTIES = tuple(setting["property"] for setting in SETTINGS if setting["property"] and setting["kind"] == "entries")
 
@@ -20,8 +22,15 @@ class _Row(NamedTuple):
     """One entry as it is shown."""
 
     property: str
-    place: str  #: the text before the equals sign
-    box: Any  #: the field with the text after it
+    place: str  #: the text before the equals sign; empty for NAMES
+    box: Any  #: the field with the text after it, or with the names
+
+    def entries(self) -> List[str]:
+        """The entries as texts."""
+        text = self.box.text().strip()
+        if self.property == NAMES:
+            return [name.strip() for name in text.split(",") if name.strip()]
+        return [f"{self.place}={text}"]
 
 
 class EntryRows(RowList):
@@ -36,32 +45,39 @@ class EntryRows(RowList):
         """The entries shown, by property. Raises Error if one has no number."""
         found: Dict[str, List[str]] = {name: [] for name in PROPERTIES}
         for row in self._rows:
-            text = row.box.text().strip()
-            if not text:
+            if row.property != NAMES and not row.box.text().strip():
                 raise Error(translate("Quadrille", "{} of {}: give its numbers, or remove it").format(row.property, row.place),
                             "usage", row.property)
-            found[row.property].append(f"{row.place}={text}")
+            found[row.property] += row.entries()
         return found
 
     def show_all(self, values: Dict[str, Sequence[str]]) -> None:
         """Shows these entries, by property, and no others."""
         self._clear()
         for name in PROPERTIES:
+            if name == NAMES:
+                if values[name]:
+                    self._add_row(name, "", ", ".join(values[name]))
+                continue
             for entry in values[name]:
-                self._add_row(name, entry)
+                place, _, text = entry.rpartition("=")
+                self._add_row(name, place, text)
 
-    def _add_row(self, name: str, entry: str) -> None:
-        place, _, text = entry.rpartition("=")
+    def names(self) -> List[str]:
+        """The faces and edges to keep that are shown."""
+        return [name for row in self._rows if row.property == NAMES for name in row.entries()]
+
+    def _add_row(self, name: str, place: str, text: str) -> None:
         box = QtGui.QLineEdit(text)
         box.setObjectName(f"QuadrilleEntry{len(self._rows)}")
-        self._show_row(_Row(name, place, box), f"{name} {place}", f"{name}: {entry}", box, "QuadrilleEntry")
+        self._show_row(_Row(name, place, box), f"{name} {place}".rstrip(), f"{name}: {place}={text}" if place else name, box, "QuadrilleEntry")
 
     def add(self, name: str, entries: Dict[str, str]) -> None:
         """Adds entries of a property, by place. They replace existing entries with the same place."""
         shown: Dict[str, List[str]] = {other: [] for other in PROPERTIES}
         for row in self._rows:
             if row.property != name or row.place not in entries:
-                shown[row.property].append(f"{row.place}={row.box.text()}")
+                shown[row.property] += row.entries()
         shown[name] += [f"{place}={text}" for place, text in entries.items()]
         self.show_all(shown)
         self._changed()
@@ -70,6 +86,6 @@ class EntryRows(RowList):
         rest: Dict[str, List[str]] = {name: [] for name in PROPERTIES}
         for index, row in enumerate(self._rows):
             if index != number:
-                rest[row.property].append(f"{row.place}={row.box.text()}")
+                rest[row.property] += row.entries()
         self.show_all(rest)
         self._changed()

@@ -6,12 +6,15 @@ panel with them would change sizes just by opening."""
 
 import math
 import sys
+from typing import Optional
 
 import FreeCAD
 from PySide import QtCore, QtGui
 
 from ..core.errors import Error
+from ..core.units import digits
 from . import translate
+from .placeholders import dim_placeholder
 
 
 class LengthField(QtGui.QLineEdit):
@@ -22,6 +25,7 @@ class LengthField(QtGui.QLineEdit):
         super().__init__()
         self._otherwise = otherwise
         self.setPlaceholderText(otherwise)
+        dim_placeholder(self)
         self.setObjectName(name)
         # It may become narrow in a narrow panel, since its text scrolls.
         self.setMinimumWidth(70)
@@ -40,6 +44,10 @@ class LengthField(QtGui.QLineEdit):
             exact = False
         self.setText(text if exact else f"{millimeters:.10g} mm")
         self.setCursorPosition(0)
+
+    def show_otherwise(self, millimeters: Optional[float]) -> None:
+        """Shows in the placeholder the length that is used while the field is empty."""
+        self.setPlaceholderText(self._otherwise if millimeters is None else f"{digits(millimeters)} mm ({self._otherwise})")
 
     def _write_unit(self) -> None:
         """Appends the current unit to a bare number. So the length does not change when the unit schema changes, as it may with

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shows the quality of a mesh: table, histogram, criteria, colors in the 3-D view, and a list of the worst elements."""
 
-from typing import Optional
+from typing import Dict, Optional, Sequence
 
 import FreeCADGui
-import numpy as np
 from PySide import QtCore, QtGui
 
 from ..core import quality
+from ..core.units import digits
 from . import QT_TRANSLATE_NOOP, drawn_icon, overlays, standard_buttons, translate
+from .histogram import Histogram
 from .wheel import calm
 
 WORST = 20
@@ -44,17 +45,17 @@ class QualityWidget(QtGui.QWidget):
         self.status = QtGui.QLabel()
         self.status.setObjectName("QuadrilleStatus")
         self.status.setWordWrap(True)
+        self.crossed = QtGui.QLabel()
+        self.crossed.setObjectName("QuadrilleCrossed")
+        self.crossed.setWordWrap(True)
+        self.crossed.hide()
         self.table = _table("QuadrilleQualityTable", 2)
         self.table.horizontalHeader().setVisible(False)
         self.criteria = _table("QuadrilleCriteria", 4)
         self.criteria.setHorizontalHeaderLabels([
             translate("Quadrille", "Criterion"), translate("Quadrille", "Limit"), translate("Quadrille", "Fail"),
             translate("Quadrille", "Worst")])
-        self.histogram = QtGui.QLabel()
-        self.histogram.setObjectName("QuadrilleHistogram")
-        self.histogram.setScaledContents(True)
-        self.histogram.setMinimumSize(100, 130)
-        self.histogram.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
+        self.histogram = Histogram()
         self.measure = QtGui.QComboBox()
         self.measure.setObjectName("QuadrilleMeasure")
         self.measure.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
@@ -79,6 +80,7 @@ class QualityWidget(QtGui.QWidget):
         by.addWidget(self.color)
         by.addWidget(self.measure, 1)
         layout.addWidget(self.status)
+        layout.addWidget(self.crossed)
         layout.addWidget(self.table)
         layout.addWidget(self.histogram)
         layout.addWidget(self.criteria)
@@ -92,6 +94,7 @@ class QualityWidget(QtGui.QWidget):
         """Fills the table at once and the rest a moment later. Hides the widget if there is no mesh."""
         self._measured = None
         self._timer.stop()
+        self.crossed.hide()
         self.worst.clear()
         self.criteria.setRowCount(0)
         self.setVisible(self.mesh.FemMesh.FaceCount > 0)
@@ -118,15 +121,26 @@ class QualityWidget(QtGui.QWidget):
             (translate("Quadrille", "Nodes"), f"{mesh.NodeCount}"),
             (translate("Quadrille", "q: smallest, mean"), f"{mesh.WorstQuality:.3f}, {mesh.MeanQuality:.3f}"),
             (translate("Quadrille", "Jacobian"), f"{mesh.WorstJacobian:.3f}, {mesh.MeanJacobian:.3f}"),
-            (translate("Quadrille", "Irregular nodes"), f"{mesh.IrregularPercent:.2f} %"),
-            (translate("Quadrille", "Outside limits"), f"{mesh.OutsidePercent:.2f} %"),
-            (translate("Quadrille", "Mesher's time"), f"{mesh.Seconds:.2f} s"),
+            (translate("Quadrille", "Irregular nodes"), f"{digits(round(mesh.IrregularPercent, 2))} %"),
+            (translate("Quadrille", "Outside limits"), f"{digits(round(mesh.OutsidePercent, 2))} %"),
+            (translate("Quadrille", "Mesher's time"), f"{digits(round(mesh.Seconds, 2))} s"),
         ))
         self.show_status(mesh.Status)
 
     def show_status(self, status: str) -> None:
         """Shows a status, one of those that the property Status has."""
         self.status.setText(translate("QuadrilleStatus", status))
+
+    def show_crossed(self, edges: Sequence[Dict]) -> None:
+        """Tells which smooth edges quads cross.
+
+        Args:
+            edges: the names of each and of its faces, as in the mesher's report.
+        """
+        self.crossed.setText(translate("Quadrille", "Quads cross {} smooth edges, which get no group; Keep names edges that stay")
+                             .format(len(edges)))
+        self.crossed.setToolTip("\n".join(f"{edge['name']} ({', '.join(dict.fromkeys(edge['faces']))})" for edge in edges))
+        self.crossed.setVisible(bool(edges))
 
     def fill_elements(self) -> None:
         """Measures each element, for the histogram, the criteria and the worst ones."""
@@ -136,13 +150,13 @@ class QualityWidget(QtGui.QWidget):
             return
         if not measured.ids.size:  # the mesh has been undone
             return
-        self.histogram.setPixmap(histogram_pixmap(np.histogram(measured.q, bins=BINS, range=(0.0, 1.0))[0]))
+        self.histogram.show_values(measured.q, BINS)
         rows = []
         for name, (ideal, limit) in quality.CRITERIA.items():
             values = measured.criteria[name]
             worst = values.max() if limit > ideal else values.min()
             rows.append((translate("Quadrille", MEASURES[name]), f"{limit:g}", f"{int(measured.fails(name).sum())}",
-                         f"{worst:.3g}"))
+                         digits(worst)))
         _fill(self.criteria, rows)
         self._list_worst()
 
@@ -152,7 +166,7 @@ class QualityWidget(QtGui.QWidget):
         self.worst.blockSignals(True)
         self.worst.clear()
         for index in measured.worst(WORST, measure):
-            self.worst.addItem(f"{measured.ids[index]}: {translate('Quadrille', MEASURES[measure])} {values[index]:.3g}")
+            self.worst.addItem(f"{measured.ids[index]}: {translate('Quadrille', MEASURES[measure])} {digits(values[index])}")
         self.worst.blockSignals(False)
 
     def _another_measure(self, _index: int) -> None:
@@ -235,34 +249,6 @@ def show_element(mesh, measured: quality.ElementQuality, index: int) -> None:
     camera.focalDistance.setValue(reach)
     if hasattr(camera, "height"):
         camera.height.setValue(reach)
-
-
-def histogram_pixmap(counts: np.ndarray, width: int = 340, height: int = 150):
-    """A picture of a histogram of q. counts: numbers of quads in equal intervals from 0 to 1.
-
-    Drawn by matplotlib without its Qt backend, which may not fit FreeCAD's Qt. Empty if matplotlib is missing.
-    """
-    try:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-    except ImportError:
-        return QtGui.QPixmap()
-    figure = Figure(figsize=(width / 100, height / 100), dpi=100)
-    canvas = FigureCanvasAgg(figure)
-    axes = figure.add_axes((0.14, 0.26, 0.83, 0.68))
-    middles = (np.arange(len(counts)) + 0.5) / len(counts)
-    axes.bar(middles, counts, width=1.0 / len(counts), color=quality.colors(middles), edgecolor="0.4", linewidth=0.5)
-    axes.set_xlim(0, 1)
-    axes.set_xlabel("q", fontsize=8)
-    axes.set_ylabel("quads", fontsize=8)
-    axes.tick_params(labelsize=7)
-    if counts.max() > 0:
-        axes.set_yscale("symlog")
-    canvas.draw()
-    buffer = bytes(canvas.buffer_rgba())
-    columns, rows = canvas.get_width_height()
-    image = QtGui.QImage(buffer, columns, rows, 4 * columns, QtGui.QImage.Format_RGBA8888)
-    return QtGui.QPixmap.fromImage(image.copy())
 
 
 class QualityPanel:

@@ -4,6 +4,7 @@ changes only when the panel stores them."""
 
 from typing import Any, Callable, NamedTuple, Tuple
 
+from ..core.errors import Error
 from ..document.links import Links, names_in
 from ..document.state import Refinement
 from . import translate
@@ -32,7 +33,10 @@ class RefinementList(RowList):
         """The refinements shown. Raises Error if a size cannot be read."""
         found = []
         for row in self._rows:
-            size = row.box.length(translate("Quadrille", "Refinement"))
+            try:
+                size = row.box.length(translate("Quadrille", "Refinement"))
+            except Error as error:
+                raise Error(str(error), error.kind, "Refinements") from None
             found.append(Refinement(row.region, row.references, row.shown[0] if size == row.shown[1] else size))
         return tuple(found)
 

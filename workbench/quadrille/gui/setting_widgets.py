@@ -6,9 +6,12 @@ from typing import Any, Callable, Dict, Tuple
 
 from PySide import QtGui
 
+from ..core.errors import Error
 from ..core.setting_table import SETTINGS, property_help, property_kind, words
 from . import translate
+from .field_errors import FieldError
 from .length_field import LengthField
+from .placeholders import dim_placeholder
 
 
 class SettingWidget:
@@ -21,6 +24,7 @@ class SettingWidget:
         self.widget = self._make(setting)
         self.widget.setObjectName(f"Quadrille{self.property}")
         self.widget.setToolTip(translate("QuadrilleSettings", property_help(setting)))
+        self.error = FieldError(self.property)
         self._shown: Tuple[Any, Any] = (None, None)  # the value, and what the widget returned for it right after showing it
 
     def _make(self, setting: Dict[str, Any]):
@@ -38,6 +42,7 @@ class SettingWidget:
         if self._kind in ("App::PropertyStringList", "App::PropertyString", "App::PropertyFile"):
             line = QtGui.QLineEdit()
             line.setPlaceholderText(translate("QuadrilleSettings", setting["otherwise"]))
+            dim_placeholder(line)
             return line
         box = QtGui.QDoubleSpinBox()
         whole = setting["default"] is None or float(setting["default"]).is_integer()
@@ -49,7 +54,10 @@ class SettingWidget:
 
     def value(self) -> Any:
         """The value in the property's form (names for links). Raises Error if it cannot be read."""
-        raw = self._raw()
+        try:
+            raw = self._raw()
+        except Error as error:
+            raise Error(str(error), error.kind, self.property) from None
         if raw == self._shown[1]:
             return self._shown[0]
         return int(raw) if self._kind == "App::PropertyInteger" else raw

@@ -9,6 +9,7 @@ import numpy as np
 from PySide import QtCore, QtGui
 
 from ..core.errors import Error
+from ..core.units import digits
 from ..document.state import Wanted
 from ..features import sizes
 from . import translate
@@ -161,11 +162,12 @@ class SizePreview(QtGui.QWidget):
 
 def summary(found: sizes.SizeMap) -> str:
     """A text that says what the colors mean, and what asks for the sizes."""
-    lines = [translate("Quadrille", "dark {:.3g} mm, light {:.3g} mm").format(float(found.sizes.min()), float(found.sizes.max()))]
+    lines = [translate("Quadrille", "dark {} mm, light {} mm").format(
+        digits(found.sizes.min()), digits(found.sizes.max()))]
     area = sum(source.area for source in found.sources)
     for source in sorted(found.sources, key=lambda entry: -entry.quads):
-        lines.append(translate("Quadrille", "{}: {:.0f} quads on {:.1f} % of the area").format(
-            source.name, source.quads, 100 * source.area / area))
+        lines.append(translate("Quadrille", "{}: {:.0f} quads on {} % of the area").format(
+            source.name, source.quads, digits(100 * source.area / area)))
     return "\n".join(lines)
 
 

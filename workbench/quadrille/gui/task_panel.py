@@ -6,7 +6,7 @@ document with the mesh, or by OK, each as one undo step. Cancel undoes all of it
 """
 
 import time
-from typing import Optional
+from typing import Callable, Dict, Optional
 
 import FreeCAD
 import FreeCADGui
@@ -15,17 +15,20 @@ from PySide import QtCore, QtGui
 from ..core import command, jobs
 from ..core.errors import Error
 from ..core.setting_table import default_size
+from ..core.units import digits
 from ..document import groups, links, old_documents, picks, shapes, state
 from ..features import mesh_object as core
 from ..solvers import results
 from . import do, drawn_icon, links_text, mesh_clicks, path_of, preferences, standard_buttons, tell, translate
-from .entry_rows import EntryRows
+from .entry_rows import NAMES, EntryRows
 from .entry_rows import PROPERTIES as ENTRIES
 from .face_counts import FaceCounts
+from .field_errors import FieldError, below, unknown_names
 from .measuring import FAILURES, Measuring
 from .mesher_choice import MesherChoice, is_missing
 from .quality_view import QualityWidget
 from .refinement_list import RefinementList
+from .scrolled import Scrolled
 from .session import Session
 from .setting_widgets import setting_widgets
 from .size_preview import SizePreview
@@ -35,6 +38,10 @@ from .wheel import calm
 _POLL_MILLISECONDS = 10
 #: Delay before a mesher is started to stand by, after opening and after meshing, which it would slow down.
 _STAND_BY_MILLISECONDS = 500
+#: The mesher's minimum size, where none is given, is the size divided by this (see "Minimum" in the table of settings).
+_SIZE_TO_MINIMUM = 8
+#: What the mesher writes about smooth edges, which the panel tells in its own words.
+_CROSSED = "note: quads cross"
 #: Properties that are always visible; the others are under "More settings".
 _IN_SIGHT = ("Size", "ElementOrder", "Faces")
 
@@ -51,6 +58,7 @@ class MeshPanel:
         self._job: Optional[core.ShapeJob] = None
         self._job_wanted: Optional[state.Wanted] = None
         self._anew: set = set()
+        self._refused: Dict[str, str] = {}  # what the mesher has said about fields that have not changed since, by property
         self._started = 0.0
         self._part_was_visible = mesh.Shape.ViewObject.Visibility
         self._measuring = Measuring(mesh, self._measured)
@@ -69,7 +77,7 @@ class MeshPanel:
     # Widgets
 
     def _build(self) -> None:
-        self.form = QtGui.QWidget()
+        self.form = Scrolled()
         self.form.setWindowTitle(translate("Quadrille", "Quad mesh"))
         self.form.setWindowIcon(drawn_icon("quadrille_mesh"))
         self.settings = setting_widgets()
@@ -86,10 +94,11 @@ class MeshPanel:
         self.estimate.setObjectName("QuadrilleEstimate")
         self.estimate.setWordWrap(True)
         self.by_face = FaceCounts(self.mesh)
-        self.refinements = RefinementList(self._refine_selection, self._update_estimate)
+        self.refinements = RefinementList(self._refine_selection, lambda: self._changed("Refinements"))
+        self.refinements_error, self.entries_error = FieldError("Refinements"), FieldError("Entries")
         self.follows = QtGui.QCheckBox(translate("Quadrille", "Follow results"))
         self.follows.setObjectName("QuadrilleFollows")
-        self.entries = EntryRows(self._divide_selection, self._update_estimate)
+        self.entries = EntryRows(self._divide_selection, lambda: self._changed(*ENTRIES))
         self.preview = SizePreview(self.mesh, self._wanted, self._show_count)
         self.mesh_button = _button("QuadrilleMesh", translate("Quadrille", "Mesh"), "")
         self.mesh_button.setIcon(drawn_icon("quadrille_mesh"))
@@ -112,8 +121,8 @@ class MeshPanel:
         self.mesh_button.clicked.connect(self._start)
         self.stop_button.clicked.connect(self._stop)
         self.follows.toggled.connect(lambda *_: self._update_estimate())
-        for setting in self.settings.values():
-            setting.when_changed(self._update_estimate)
+        for name, setting in self.settings.items():
+            setting.when_changed(lambda name=name: self._changed(name))
 
     def _lay_out(self) -> None:
         basic, more = _form(), _form()
@@ -123,11 +132,11 @@ class MeshPanel:
         beside = {"Size": self.suggest, "Faces": self.take_selection}
         for name, setting in self.settings.items():
             widget = _beside(setting.widget, beside[name]) if name in beside else setting.widget
-            (basic if name in _IN_SIGHT else more).addRow(setting.label, widget)
+            (basic if name in _IN_SIGHT else more).addRow(setting.label, below(widget, setting.error))
         if self._solvers():
             basic.addRow(self.surfaces)
         basic.addRow(translate("Quadrille", "Expected"), self.estimate)
-        layout = QtGui.QVBoxLayout(self.form)
+        layout = QtGui.QVBoxLayout(self.form.content)
         if is_missing():
             choice = MesherChoice(lambda _command: choice.hide())
             layout.addWidget(choice)
@@ -136,16 +145,14 @@ class MeshPanel:
         layout.addLayout(basic)
         layout.addWidget(_section("QuadrilleByFace", translate("Quadrille", "Expected by face"), self.by_face, False))
         layout.addWidget(self.preview)
-        layout.addWidget(_beside(self.mesh_button, self.stop_button))
         layout.addWidget(self.show_other)
-        layout.addWidget(self.bar)
         layout.addWidget(self.log)
         listed = QtGui.QWidget()
         rows = QtGui.QVBoxLayout(listed)
         rows.setContentsMargins(0, 0, 0, 0)
         rows.addWidget(self.follows)
-        rows.addWidget(self.refinements)
-        rows.addWidget(self.entries)
+        rows.addWidget(below(self.refinements, self.refinements_error))
+        rows.addWidget(below(self.entries, self.entries_error))
         refinements = _section("QuadrilleRefinements", translate("Quadrille", "Refinements"), listed,
                                any(getattr(self.mesh, name) for name in ("MeshRegionList", state.ADAPTED, *ENTRIES)))
         holder = QtGui.QWidget()
@@ -156,6 +163,9 @@ class MeshPanel:
         layout.addWidget(_section("QuadrilleMore", translate("Quadrille", "More settings"), holder, changed))
         layout.addWidget(self.quality)
         layout.addStretch()
+        always = QtGui.QVBoxLayout(self.form.below)
+        always.addWidget(_beside(self.mesh_button, self.stop_button))
+        always.addWidget(self.bar)
         calm(self.form)
 
     def _load(self) -> None:
@@ -185,8 +195,14 @@ class MeshPanel:
             if name not in links.OWN:
                 values[name] = shown
             elif shown != links.names_in(values[name]):
+                unknown = unknown_names(part, shown, ("Face",))
+                if unknown:
+                    raise Error(unknown, "usage", name)
                 values[name] = links.link(part, shown)
                 anew.add(name)
+        unknown = unknown_names(part, self.entries.names(), ("Face", "Edge", "Vertex"))
+        if unknown:
+            raise Error(unknown, "usage", NAMES)
         values.update(self.entries.values(), **{state.FOLLOWS: self.follows.isChecked()})
         return state.Wanted(values, self.refinements.refinements(), frozenset(anew))
 
@@ -237,7 +253,52 @@ class MeshPanel:
             pass
         self._update_estimate()
 
+    def _changed(self, *names: str) -> None:
+        """Called when a field has changed, or one of several: what the mesher said about it no longer holds."""
+        for name in names:
+            self._refused.pop(name, None)
+        self._update_estimate()
+
+    def _show_errors(self, error: Optional[Exception] = None) -> None:
+        """Tells what is wrong below the fields that it concerns.
+
+        Args:
+            error: what came up when all the fields were used together.
+        """
+        sentences = dict(self._refused)
+        if isinstance(error, Error):
+            sentences[self._field_of(error)] = str(error)
+        for name, setting in self.settings.items():
+            setting.error.tell(self._wrong_in(name) or sentences.get(name, ""))
+        self.refinements_error.tell(sentences.get("Refinements", ""))
+        self.entries_error.tell("\n".join(sentences[name] for name in ENTRIES if name in sentences))
+
+    def _wrong_in(self, name: str) -> str:
+        """What is wrong with a field by itself."""
+        try:
+            shown = self.settings[name].value()
+            if name in links.OWN and shown != links.names_in(getattr(self.mesh, name)):
+                return unknown_names(state.part_of(self.mesh), shown, ("Face",)) or ""
+        except FAILURES as error:
+            return str(error)
+        return ""
+
+    def _field_of(self, error: Error) -> str:
+        """The property that an error concerns; "Refinements" for all of these; else what the error says itself."""
+        regions = {entry.region for entry in state.wanted_of(self.mesh).refinements if entry.region}
+        return "Refinements" if error.subject in regions else error.subject
+
+    def _show_minimum(self) -> None:
+        """Shows the minimum size that holds where none is given: it follows the size."""
+        try:
+            minimum = self._usual_size() / _SIZE_TO_MINIMUM
+        except FAILURES:
+            minimum = None
+        self.settings["SizeMin"].widget.show_otherwise(minimum)
+
     def _update_estimate(self) -> None:
+        self._show_errors()
+        self._show_minimum()
         if self._measuring.running:
             self.estimate.setText("...")
             return
@@ -254,6 +315,7 @@ class MeshPanel:
                 settings["growth"])
         except FAILURES as error:
             self.estimate.setText(str(error))
+            self._show_errors(error)
             self.by_face.show_counts({})
             return
         self._show_status(wanted, found)
@@ -263,9 +325,9 @@ class MeshPanel:
     def _show_status(self, wanted: state.Wanted, found) -> None:
         """Says whether the mesh is that of the settings in the panel, which the document may not have yet."""
         status = self.mesh.Status
-        if status in (state.UP_TO_DATE, state.SETTINGS_CHANGED) and self.mesh.MeshedSettings:
-            same = state.same_settings(state.settings_key(self.mesh, wanted, found), self.mesh.MeshedSettings)
-            self.quality.show_status(state.UP_TO_DATE if same else state.SETTINGS_CHANGED)
+        other_part = status in (state.PART_CHANGED, state.BOTH_CHANGED)
+        if (other_part or status in (state.UP_TO_DATE, state.SETTINGS_CHANGED)) and self.mesh.MeshedSettings:
+            self.quality.show_status(state.changed(self.mesh, wanted, found, other_part))
 
     def _show_count(self, count: float) -> None:
         self.estimate.setText(translate("Quadrille", "about {} quads").format(_rounded(round(count))))
@@ -304,21 +366,26 @@ class MeshPanel:
         names = self._picked("Face", "Edge", "Vertex")
         if not names:
             return
-        usual = self._usual_size()
+        usual = self._told(self._usual_size)
         if usual is not None:
-            self.refinements.add(links.link(self.mesh.Shape, names), usual / 2)
+            self.refinements.add(links.link(self.mesh.Shape, names), float(digits(usual / 2)))
 
     def _divide_selection(self) -> None:
         names = self._picked("Edge")
-        usual = self._usual_size() if names else None
+        usual = self._told(self._usual_size) if names else None
         if usual is not None:
             shape = self.mesh.Shape.Shape
             self.entries.add("Segments", {name: f"{max(1, round(shape.getElement(name).Length / usual))}" for name in names})
 
-    def _usual_size(self) -> Optional[float]:
-        """The size where no other is asked for. None, with a message box, if it cannot be read."""
+    def _usual_size(self) -> float:
+        """The size where no other is asked for. Raises Error if it cannot be read."""
+        return self.settings["Size"].value() or default_size(state.part_of(self.mesh).Shape.BoundBox.DiagonalLength)
+
+    @staticmethod
+    def _told(find: Callable[[], float]) -> Optional[float]:
+        """What a function finds. None, with a message box, if it raises Error."""
         try:
-            return self.settings["Size"].value() or default_size(state.part_of(self.mesh).Shape.BoundBox.DiagonalLength)
+            return find()
         except Error as error:
             tell(str(error))
             return None
@@ -329,11 +396,14 @@ class MeshPanel:
         if self._job is not None:
             return
         self.log.clear()
+        self._refused.clear()
+        self._show_errors()
         try:
             self._job_wanted = self._wanted()
             self._job = core.start(self.mesh, wanted=self._job_wanted)
         except Error as error:
             self._say(str(error))
+            self._show_errors(error)
             tell(str(error))
             return
         self._started = time.monotonic()
@@ -362,7 +432,7 @@ class MeshPanel:
         self.stop_button.setEnabled(False)
         ended = time.monotonic()
         try:
-            job.result()
+            _, report = job.result()
             with self._session.step("Quad mesh"):
                 self._store(self._commands(self._job_wanted))
                 core.hand_over(self.mesh, job)
@@ -371,19 +441,23 @@ class MeshPanel:
             core.forget(self._document_name, self._name)
             self._show_progress(0)
             self._say(str(error))
+            self._refused[self._field_of(error)] = str(error)
+            self._show_errors()
             if error.kind != "cancelled":
                 tell(str(error))
             return
         self.preview.button.setChecked(False)
         for line in job.messages:
-            self._say(line)
+            if not line.startswith(_CROSSED):
+                self._say(line)
         self._show_progress(1)
-        self._say(translate("Quadrille", "{} quads: mesher {:.2f} s, into FreeCAD {:.2f} s").format(
-            self.mesh.QuadCount, ended - self._started, time.monotonic() - ended))
+        self._say(translate("Quadrille", "{} quads: mesher {} s, into FreeCAD {} s").format(
+            self.mesh.QuadCount, digits(round(ended - self._started, 2)), digits(round(time.monotonic() - ended, 2))))
         self.mesh.ViewObject.show()
         if self.mesh.Shape is not None:  # None if it was deleted while the mesher worked
             self.mesh.Shape.ViewObject.hide()
         self.quality.refresh()
+        self.quality.show_crossed(report.get("suppressed_edges", ()))
         if preferences.color_after_meshing():
             self.quality.color.setChecked(True)
 
