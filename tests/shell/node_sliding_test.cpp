@@ -10,9 +10,9 @@
 
 #include "geometry/base/threads.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
-#include "mesher/quadrille.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/faces/face_chart.hpp"
+#include "mesher/quadrille.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/shell/face_mesher.hpp"
 #include "tests/support/ids.hpp"

@@ -417,7 +417,8 @@ TEST(SizeSources, RefuseFilesThatMakeNoSense) {
     read_size_points(path);
     FAIL();
   } catch (const Error& problem) {
-    EXPECT_NE(std::string(problem.what()).find("line 1 has a coordinate"), std::string::npos) << problem.what();
+    EXPECT_NE(std::string(problem.what()).find("line 1 has a coordinate"), std::string::npos)
+        << problem.what();
   }
   std::filesystem::remove(path);
 }
