@@ -132,6 +132,7 @@ class Joining {
       if (found != by_root.end()) found->second.members.push_back(face);
     }
     std::vector<CompositeFace> result;
+    result.reserve(by_root.size());
     for (auto& [root, composite] : by_root) result.push_back(std::move(composite));
     return result;
   }

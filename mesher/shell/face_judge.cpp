@@ -53,24 +53,24 @@ double badness(const FaceMesh& mesh) {
 bool FaceJudge::is_doubtful(const FaceMesh& grid, bool stepped, bool divided) {
   stepped_ = stepped;
   outside_ = stepped || has_rows(grid) ? share_outside(grid) : 0;
-  wasteful_ = !divided && wastes_quads(grid, limits_.wasteful);
-  return wasteful_ || outside_ > (stepped ? limits_.outside_of_steps : limits_.outside_of_grid);
+  wasteful_ = !divided && wastes_quads(grid, thresholds.wasteful);
+  return wasteful_ || outside_ > (stepped ? thresholds.outside_of_steps : thresholds.outside_of_grid);
 }
 
 bool FaceJudge::replaces_grid(const FaceMesh& other, const FaceMesh& grid) const {
   const double left = share_outside(other);
   const double share = static_cast<double>(other.quads.size()) / static_cast<double>(grid.quads.size());
-  if ((stepped_ ? limits_.gain_of_steps : limits_.gain) * left < outside_) return true;
-  return wasteful_ && share < limits_.fewer && left <= std::max(outside_, limits_.most_outside / share);
+  if ((stepped_ ? thresholds.gain_of_steps : thresholds.gain) * left < outside_) return true;
+  return wasteful_ && share < thresholds.fewer && left <= std::max(outside_, thresholds.most_outside / share);
 }
 
 bool FaceJudge::is_doubtful(const FaceMesh& cut) {
-  if (cut.quads.size() > limits_.few) return wastes_quads(cut, limits_.too_many);
-  return badness(cut) >= limits_.poor * static_cast<double>(cut.quads.size());
+  if (cut.quads.size() > thresholds.few) return wastes_quads(cut, thresholds.too_many);
+  return badness(cut) >= thresholds.poor * static_cast<double>(cut.quads.size());
 }
 
 bool FaceJudge::replaces_cut(const FaceMesh& direct, const FaceMesh& cut) const {
-  return cut.quads.size() > limits_.few || badness(direct) < limits_.better * badness(cut);
+  return cut.quads.size() > thresholds.few || badness(direct) < thresholds.better * badness(cut);
 }
 
 /// Whether there are more than `most` times the quads that the sizes ask for, plus half of the boundary

@@ -48,7 +48,7 @@ class FaceJudge {
  private:
   bool wastes_quads(const FaceMesh& mesh, double most);
 
-  static constexpr FaceThresholds limits_{};
+  static constexpr FaceThresholds thresholds{};
   SizingField::Sampler size_at_;
   const ExecutionContext& context_;
   double outside_ = 0;  // of the grid, as far as it counts

@@ -52,7 +52,8 @@ void look(const CadModel& model, const SizingOptions& options, Visit&& visit) {
     const FaceSurface surface(cad);
     constexpr int n = 40;
     for (int k = 0; k <= n * n; ++k) {
-      const Vector2 share(1.0 * (k % n) / n, 1.0 * (k / n) / n);
+      const int row = k / n;
+      const Vector2 share(1.0 * (k % n) / n, 1.0 * row / n);
       const Vector3 p = surface.point(
           {cad.u_min + share.x() * (cad.u_max - cad.u_min), cad.v_min + share.y() * (cad.v_max - cad.v_min)});
       visit(p, size_at(p));
@@ -236,18 +237,21 @@ TEST(SizeSources, MeansOfPointsAreWhatTheyAskFor) {
   constexpr double slope = 0.2;
   const auto wanted = [](double x) { return 0.1 + slope * x; };
   std::vector<SizePoint> points;
-  for (double x = 0; x < 20; x += 0.5 * wanted(x)) {
-    for (double y = 0; y < 10; y += 0.5 * wanted(x)) points.push_back({{x, y, 0.3}, wanted(x)});
+  double x = 0;
+  while (x < 20) {
+    const double step = 0.5 * wanted(x);
+    for (int k = 0; k * step < 10; ++k) points.push_back({{x, k * step, 0.3}, wanted(x)});
+    x += step;
   }
   ExecutionContext context;
   const SizeCascade field = mean_sizes(points, 0.3, context);
   EXPECT_GT(field.levels(), 4);
   SizeCascade::Lookup size_at(field);
   double sum = 0, count = 0;
-  for (double x = 0.5; x < 19; x += 0.1) {
-    const double ratio = size_at({x, 5, 0.3}) / wanted(x);
-    EXPECT_GT(ratio, 0.85) << x;
-    EXPECT_LT(ratio, 1.15) << x;
+  for (int k = 5; k < 190; ++k) {
+    const double ratio = size_at({0.1 * k, 5, 0.3}) / wanted(0.1 * k);
+    EXPECT_GT(ratio, 0.85) << k;
+    EXPECT_LT(ratio, 1.15) << k;
     sum += std::log(ratio);
     ++count;
   }
