@@ -167,11 +167,11 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
   if (!result.suppressed_edges.empty()) {
     const int edge = result.suppressed_edges.front().edge;
-    fmt::print(
-        stderr,
-        "note: quads cross {} smooth edges, which get no group of their own, as Edge{}: --keep Edge{} keeps "
-        "it, --keep-features all\n",
-        result.suppressed_edges.size(), edge, edge);
+    fmt::print(stderr,
+               "note: quads cross smooth edges ({}, Edge{} first), which get no groups of their own: --keep "
+               "Edge{} keeps "
+               "it, --keep-features all\n",
+               result.suppressed_edges.size(), edge, edge);
   }
   if (meshed.middle) print(middle_table(*meshed.middle));
   print(quality_table(measured.elements.quality));
