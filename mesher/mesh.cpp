@@ -159,10 +159,9 @@ class Job {
     EdgeFlags result(shape_.edges.size(), options_.keep_features ? 1 : 0);
     for (const EdgeId id : result.ids()) {
       const CadEdge& edge = shape_.edges[id];
-      result[id] |= sizing.kept_edges.contains(edge.number) || sizing.edge_sizes.contains(edge.number) ||
+      result[id] |= is_kept(edge) || sizing.edge_sizes.contains(edge.number) ||
                     sizing.layers.edges.contains(edge.number) || sizing.spacings.contains(edge.number) ||
                     uncrossed.contains(edge.number);
-      for (const FaceId face : edge.faces) result[id] |= sizing.kept_faces.contains(face.number());
     }
     return result;
   }
@@ -170,12 +169,15 @@ class Job {
   /// 1 = the edge must not become a point.
   EdgeFlags edges_that_stay() const {
     EdgeFlags result = edges_below_size_min(model_, options_.sizing, limits_);
-    for (const EdgeId id : result.ids()) {
-      const CadEdge& edge = shape_.edges[id];
-      result[id] |= options_.sizing.kept_edges.contains(edge.number);
-      for (const FaceId face : edge.faces) result[id] |= options_.sizing.kept_faces.contains(face.number());
-    }
+    for (const EdgeId id : result.ids()) result[id] |= is_kept(shape_.edges[id]);
     return result;
+  }
+
+  /// Whether `keep` names the edge or a face at it.
+  bool is_kept(const CadEdge& edge) const {
+    return options_.sizing.kept_edges.contains(edge.number) ||
+           std::any_of(edge.faces.begin(), edge.faces.end(),
+                       [&](FaceId face) { return options_.sizing.kept_faces.contains(face.number()); });
   }
 
   void slide() {

@@ -49,6 +49,18 @@ struct BoundaryNodes {
   /// cross a smooth edge; by side_key().
   std::unordered_map<std::uint64_t, Vector3> middles;
 
+  /// (points) the number of edges that a node lies inside; 2 = more than one, or a vertex. Linear in the
+  /// nodes.
+  std::vector<char> edges_at_nodes() const {
+    std::vector<char> result(points.size(), 0);
+    for (const Edge& edge : edges)
+      for (std::size_t k = 1; k + 1 < edge.nodes.size(); ++k)
+        result[edge.nodes[k]] += result[edge.nodes[k]] < 2;
+    for (const int node : vertex_nodes)
+      if (node >= 0) result[node] = 2;
+    return result;
+  }
+
   /// How many of an edge's segments at its start and at its end a face does not use.
   std::array<int, 2> unused_by(FaceId face, EdgeId edge) const {
     const auto found = unused.find({face, edge});

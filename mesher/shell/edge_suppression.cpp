@@ -3,12 +3,13 @@
 
 #include "mesher/shell/edge_suppression.hpp"
 
+#include <boost/pending/disjoint_sets.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -56,23 +57,7 @@ class DirectedSides {
   std::unordered_map<std::uint64_t, std::vector<FaceSideUse>> uses_;
 };
 
-/// Sets of integers that are joined.
-class JoinedSets {
- public:
-  explicit JoinedSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int a, int b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
+using Sets = boost::disjoint_sets_with_storage<>;
 
 /// The segments of an edge that both of its faces use, and that have its own nodes: from the first to the one
 /// before the last.
@@ -95,7 +80,8 @@ class Joining {
         nodes_(nodes),
         faces_(faces),
         context_(context),
-        surfaces_(faces.size()) {}
+        surfaces_(faces.size()),
+        edges_at_node_(nodes.edges_at_nodes()) {}
 
   std::vector<CompositeFace> run() {
     std::vector<CompositeFace> result;
@@ -115,25 +101,27 @@ class Joining {
 
   std::vector<CompositeFace> find_composites() {
     const std::vector<char> touched = nodes_of_poor_quads();
-    find_shared_nodes();
     std::vector<EdgeId> candidates;
     for (const EdgeId id : nodes_.edges.ids())
       if (is_eligible(id) && is_touched(id, touched) && is_smooth(id)) candidates.push_back(id);
     find_sides(candidates);
     std::erase_if(candidates, [&](EdgeId id) { return !has_sides(id); });
-    JoinedSets sets(faces_.size());
+    Sets sets(faces_.size());
     for (const EdgeId id : candidates)
-      sets.join(shape_.edges[id].faces.front().index(), shape_.edges[id].faces.back().index());
-    std::map<int, CompositeFace> by_root;
+      sets.union_set(shape_.edges[id].faces.front().index(), shape_.edges[id].faces.back().index());
+    std::map<std::size_t, std::vector<EdgeId>> edges_of;  // by set
     for (const EdgeId id : candidates)
-      by_root[sets.find(shape_.edges[id].faces.front().index())].edges.push_back(id);
-    for (const FaceId face : faces_.ids()) {
-      const auto found = by_root.find(sets.find(face.index()));
-      if (found != by_root.end()) found->second.members.push_back(face);
-    }
+      edges_of[sets.find_set(shape_.edges[id].faces.front().index())].push_back(id);
     std::vector<CompositeFace> result;
-    result.reserve(by_root.size());
-    for (auto& [root, composite] : by_root) result.push_back(std::move(composite));
+    std::map<std::size_t, std::size_t> place;  // of the set in the result
+    for (const FaceId face : faces_.ids()) {
+      const std::size_t set = sets.find_set(face.index());
+      const auto edges = edges_of.find(set);
+      if (edges == edges_of.end()) continue;
+      const auto [found, is_new] = place.try_emplace(set, result.size());
+      if (is_new) result.emplace_back().edges = std::move(edges->second);
+      result[found->second].members.push_back(face);
+    }
     return result;
   }
 
@@ -154,15 +142,6 @@ class Joining {
     return touched;
   }
 
-  void find_shared_nodes() {
-    edges_at_.assign(nodes_.points.size(), 0);
-    for (const auto& edge : nodes_.edges)
-      for (std::size_t k = 1; k + 1 < edge.nodes.size(); ++k)
-        edges_at_[edge.nodes[k]] += edges_at_[edge.nodes[k]] < 2;
-    for (const int node : nodes_.vertex_nodes)
-      if (node >= 0) edges_at_[node] = 2;
-  }
-
   bool is_eligible(EdgeId id) const {
     const CadEdge& cad = shape_.edges[id];
     const BoundaryNodes::Edge& edge = nodes_.edges[id];
@@ -173,7 +152,7 @@ class Joining {
     const auto [first, last] = common_segments(shape_, nodes_, id);
     if (first >= last || (first > 0 && last < edge.segments())) return false;
     for (int k = first + 1; k < last; ++k)
-      if (edges_at_[edge.nodes[k]] != 1) return false;
+      if (edges_at_node_[edge.nodes[k]] != 1) return false;
     return edge.nodes.front() != edge.nodes.back() || edge.segments() > 2;
   }
 
@@ -257,21 +236,21 @@ class Joining {
       composite.own_surfaces.push_back(own);
       composite.surfaces.push_back(own ? own : surface_of(face));
     }
-    JoinedSets sets(count);
+    Sets sets(count);
     for (const EdgeId id : composite.edges) {
       const auto& nodes = nodes_.edges[id].nodes;
       const auto [first, last] = common_segments(shape_, nodes_, id);
       for (int k = first; k < last; ++k) {
         const FaceSideUse &one = *sides_.find(nodes[k], nodes[k + 1]),
                           &other = *sides_.find(nodes[k + 1], nodes[k]);
-        sets.join(offset[one.face] + one.from, offset[other.face] + other.to);
-        sets.join(offset[one.face] + one.to, offset[other.face] + other.from);
+        sets.union_set(offset[one.face] + one.from, offset[other.face] + other.to);
+        sets.union_set(offset[one.face] + one.to, offset[other.face] + other.from);
       }
     }
     std::vector<std::array<int, 4>> quads;
     for (const FaceId face : composite.members)
       for (auto quad : faces_[face]->quads) {
-        for (int& p : quad) p = sets.find(offset[face] + p);
+        for (int& p : quad) p = static_cast<int>(sets.find_set(offset[face] + p));
         quads.push_back(quad);
       }
     std::optional<std::vector<char>> fixed = boundary_points(quads, count);
@@ -283,7 +262,7 @@ class Joining {
       for (std::size_t m = 0; m < composite.members.size(); ++m) {
         const FaceMesh& part = *faces_[composite.members[m]];
         for (int p = 0; p < static_cast<int>(part.points.size()); ++p) {
-          const int at = sets.find(offset[composite.members[m]] + p);
+          const std::size_t at = sets.find_set(offset[composite.members[m]] + p);
           if ((*fixed)[at] != boundary || index[at] >= 0) continue;
           if (boundary && p >= static_cast<int>(part.nodes.size())) return std::nullopt;
           index[at] = static_cast<int>(mesh.points.size());
@@ -307,12 +286,12 @@ class Joining {
   }
 
   /// CAD vertices keep their nodes.
-  void fix_vertices(const CompositeFace& composite, const IdVector<FaceId, int>& offset, JoinedSets& sets,
+  void fix_vertices(const CompositeFace& composite, const IdVector<FaceId, int>& offset, Sets& sets,
                     std::vector<char>& fixed) const {
     for (const FaceId face : composite.members) {
       const std::vector<int>& nodes = faces_[face]->nodes;
       for (std::size_t p = 0; p < nodes.size(); ++p)
-        if (edges_at_[nodes[p]] == 2) fixed[sets.find(offset[face] + static_cast<int>(p))] = 1;
+        if (edges_at_node_[nodes[p]] == 2) fixed[sets.find_set(offset[face] + static_cast<int>(p))] = 1;
     }
   }
 
@@ -378,7 +357,7 @@ class Joining {
   FaceMeshes& faces_;
   const ExecutionContext& context_;
   IdVector<FaceId, std::shared_ptr<const FaceSurface>> surfaces_;
-  std::vector<char> edges_at_;  // (nodes) number of edges that a node lies inside; 2 = more, or a vertex
+  const std::vector<char> edges_at_node_;  // (nodes) see BoundaryNodes::edges_at_nodes()
   DirectedSides sides_;
 };
 
@@ -390,6 +369,7 @@ class Splitting {
   void split(const CompositeFace& composite, const FaceMesh& mesh) {
     const int fixed = static_cast<int>(mesh.nodes.size()), count = static_cast<int>(mesh.points.size());
     std::vector<Vector2> centers;  // of the quads
+    std::vector<std::vector<std::size_t>> quads_of(composite.members.size());
     std::vector<int> member(count, -1);
     std::vector<char> is_shared(count, 0);
     for (const auto& quad : mesh.quads) {
@@ -398,6 +378,7 @@ class Splitting {
       Vector2& uv = centers.emplace_back(mesh.uv[quad[0]]);
       composite.surface->approach(uv, center);
       const int m = composite.surface->member(uv);
+      quads_of[m].push_back(centers.size() - 1);
       for (const int p : quad) {
         is_shared[p] |= member[p] >= 0 && member[p] != m;
         member[p] = m;
@@ -406,11 +387,11 @@ class Splitting {
     const std::vector<int> node = number_nodes(composite, mesh, is_shared);
     find_suppressed(composite, mesh, node);
     add_middles(composite, mesh, node);
+    std::vector<int> index(count, -1);  // of points in the face at hand
     for (std::size_t m = 0; m < composite.members.size(); ++m) {
       FaceMesh part;
       part.surface = composite.own_surfaces[m];
       part.q_min = 1;
-      std::vector<int> index(count, -1);
       const auto add = [&](int p, const Vector2& near) {
         index[p] = static_cast<int>(part.points.size());
         part.points.push_back(mesh.points[p]);
@@ -422,19 +403,19 @@ class Splitting {
         composite.surfaces[m]->nearest(uv, mesh.points[p]);
       };
       for (const bool boundary : {true, false}) {
-        for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-          if (composite.surface->member(centers[q]) != static_cast<int>(m)) continue;
+        for (const std::size_t q : quads_of[m]) {
           for (const int p : mesh.quads[q])
             if (index[p] < 0 && (node[p] >= 0) == boundary) add(p, centers[q]);
         }
       }
-      for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-        if (composite.surface->member(centers[q]) != static_cast<int>(m)) continue;
+      for (const std::size_t q : quads_of[m]) {
         auto& [a, b, c, d] = part.quads.emplace_back(mesh.quads[q]);
         for (int* p : {&a, &b, &c, &d}) *p = index[*p];
         part.q_min =
             std::min(part.q_min, quad_q(part.points[a], part.points[b], part.points[c], part.points[d]));
       }
+      for (const std::size_t q : quads_of[m])
+        for (const int p : mesh.quads[q]) index[p] = -1;
       faces_[composite.members[m]] = std::move(part);
     }
   }
@@ -481,15 +462,14 @@ class Splitting {
     for (const auto& quad : mesh.quads) {
       for (int k = 0; k < 4; ++k) {
         const int from = node[quad[k]], to = node[quad[(k + 1) & 3]];
-        if (from >= 0 && to >= 0) sides.push_back(DirectedSides::key(std::min(from, to), std::max(from, to)));
+        if (from >= 0 && to >= 0) sides.push_back(side_key(from, to));
       }
     }
     std::sort(sides.begin(), sides.end());
     for (const EdgeId id : composite.edges) {
       BoundaryNodes::Edge& edge = nodes_.edges[id];
       const auto is_side = [&](int a, int b) {
-        return std::binary_search(sides.begin(), sides.end(),
-                                  DirectedSides::key(std::min(a, b), std::max(a, b)));
+        return std::binary_search(sides.begin(), sides.end(), side_key(a, b));
       };
       const auto [first, last] = common_segments(shape_, nodes_, id);
       bool is_whole = true;

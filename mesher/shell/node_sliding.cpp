@@ -144,13 +144,14 @@ class NodeSliding {
       if (!awake[face]) std::fill(states_[face].active.begin(), states_[face].active.end(), 0);
   }
 
-  /// Refills patches around quads outside the limits, and wakes their nodes.
-  void mend() {
+  /// Refills patches around quads outside the limits, and wakes their nodes. \return whether any changed.
+  bool mend() {
     aim_ = toward_limits;
     for_each_face([&](FaceId face) {
       measure(states_[face]);
       mend(states_[face]);
     });
+    return std::any_of(states_.begin(), states_.end(), [](const FaceState& face) { return face.touched; });
   }
 
   /// Updates uv and q_min after nodes moved.
@@ -286,15 +287,11 @@ class NodeSliding {
 
   /// Finds the slidable nodes: those inside a single edge, unless its spacing is prescribed.
   void find_slidable() {
-    std::vector<char> uses(nodes_.points.size(), 0);
-    for (const auto& edge : nodes_.edges)
-      for (std::size_t k = 1; k + 1 < edge.nodes.size(); ++k) uses[edge.nodes[k]] += uses[edge.nodes[k]] < 2;
+    std::vector<char> uses = nodes_.edges_at_nodes();
     for (const auto& edge : nodes_.edges) {
       if (!edge.kept) continue;
       for (const int node : edge.nodes) uses[node] = 2;
     }
-    for (const int node : nodes_.vertex_nodes)
-      if (node >= 0) uses[node] = 2;
     slidable_.resize(uses.size());
     for (std::size_t i = 0; i < uses.size(); ++i) slidable_[i] = uses[i] == 1;
   }
@@ -637,8 +634,8 @@ std::vector<EdgeId> slide_nodes(const CadShape& shape, BoundaryNodes& nodes, Fac
   {
     NodeSliding sliding(shape, nodes, faces, sampled, context);
     sliding.wake_only(composites);
-    sliding.mend();
-    sliding.run(options.sliding_sweeps);
+    const bool mended = sliding.mend();
+    if (mended || !composites.empty()) sliding.run(options.sliding_sweeps);
     sliding.finish();
   }
   return split_faces(shape, composites, nodes, faces, context);
