@@ -704,6 +704,7 @@ std::vector<ShellMesh::Group> groups_of_solid_faces(const MidSurface& middle) {
     for (const int face : rim.solid_faces) rims[face].push_back(rim.edge);
   }
   std::vector<ShellMesh::Group> result;
+  result.reserve(faces.size() + rims.size());
   for (auto& [face, numbers] : faces)
     result.push_back({fmt::format("SolidFace{}", face), 2, 0, std::move(numbers)});
   for (auto& [face, numbers] : rims)

@@ -97,6 +97,7 @@ struct ShellMesh {
     int edge = 0;                ///< its number, from 1
     std::array<int, 2> faces{};  ///< its faces, from 1; quads belong to the one that their center lies on
     /// By edge, then by faces.
+    // NOLINTNEXTLINE(modernize-use-nullptr)
     friend auto operator<=>(const SuppressedEdge&, const SuppressedEdge&) = default;
   };
 
