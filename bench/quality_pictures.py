@@ -41,7 +41,8 @@ class Meshed(NamedTuple):
 def shares_of(points: np.ndarray, quads: np.ndarray) -> Meshed:
     """Measures quads."""
     quality = measure_quads(np.arange(len(quads)), quads, points[quads])
-    shares = [(quality.criteria[name] - ideal) / (limit - ideal) for name, (ideal, limit) in CRITERIA.items() if name != "warp"]
+    shares = [(quality.criteria[name] - ideal) / (limit - ideal) for name, (ideal, limit) in CRITERIA.items()
+              if name not in ("warp", "min_length")]
     return Meshed(points, quads, np.max(shares, axis=0), quality.q)
 
 

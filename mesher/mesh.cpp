@@ -34,6 +34,7 @@
 #include "mesher/shell/last_resort.hpp"
 #include "mesher/shell/node_sliding.hpp"
 #include "mesher/shell/remedies.hpp"
+#include "mesher/shell/short_sides.hpp"
 
 namespace quadrille {
 
@@ -114,14 +115,25 @@ class Job {
     result.let_go = list_let_go();
     result.kept = list_kept();
     for (const EdgeId id : suppressed_) {
+      constexpr int pieces = 32;
       const CadEdge& edge = shape_.edges[id];
-      result.suppressed_edges.push_back(
-          {edge.number, {edge.faces.front().number(), edge.faces.back().number()}});
+      result.suppressed_edges.push_back({edge.number,
+                                         {edge.faces.front().number(), edge.faces.back().number()},
+                                         points_along(edge, pieces)});
     }
     std::sort(result.suppressed_edges.begin(), result.suppressed_edges.end());
     result.suppressed_edges.erase(std::unique(result.suppressed_edges.begin(), result.suppressed_edges.end()),
                                   result.suppressed_edges.end());
     std::erase_if(result.corners, [&](const auto& corner) { return corner.vertex > vertices_; });
+    if (options_.sizing.spacings.empty()) result.size_min = limits_.least;
+    result.short_sides = short_sides(shape_, result);
+    return result;
+  }
+
+  SmallFeatures small_features() const {
+    SmallFeatures result{list_let_go(), {}, list_kept()};
+    for (const FaceId face : asked_.ids())
+      if (asked_[face] && plan_.tiny.merged_faces[face]) result.faces.push_back(face.number());
     return result;
   }
 
@@ -296,7 +308,8 @@ class Job {
 
   static double reach_of_let_go(const SizeLimits& limits, const MeshOptions& options) {
     constexpr double far_below = 0.5;
-    return options.keep_features ? 0 : far_below * limits.size_min;
+    if (options.keep_features) return 0;
+    return options.reach > 0 ? options.reach : far_below * limits.size_min;
   }
 
   void sample(const SizingField& field) {
@@ -535,14 +548,18 @@ class Job {
     std::vector<ShellMesh::LetGo> result;
     for (const EdgeId id : tiny.edges.ids()) {
       const CadEdge& edge = shape_.edges[id];
-      if (tiny.collapsed_edges[id] && tiny.end(edge.first_vertex).number() <= vertices_)
-        result.push_back({Kind::edge, edge.number, Kind::vertex, tiny.end(edge.first_vertex).number()});
+      const VertexId end = tiny.end(edge.first_vertex);
+      if (tiny.collapsed_edges[id] && end.number() <= vertices_)
+        result.push_back({Kind::edge, edge.number, Kind::vertex, end.number(), distance_from(end, edge)});
       else if (tiny.edges[id] != id && shape_.edges[tiny.edges[id]].number != edge.number)
-        result.push_back({Kind::edge, edge.number, Kind::edge, shape_.edges[tiny.edges[id]].number});
+        result.push_back({Kind::edge, edge.number, Kind::edge, shape_.edges[tiny.edges[id]].number,
+                          distance_between(edge, shape_.edges[tiny.edges[id]])});
     }
     for (const VertexId vertex : tiny.vertices.ids()) {
-      if (tiny.end(vertex) != vertex && std::max(vertex.number(), tiny.end(vertex).number()) <= vertices_)
-        result.push_back({Kind::vertex, vertex.number(), Kind::vertex, tiny.end(vertex).number()});
+      const VertexId end = tiny.end(vertex);
+      if (end != vertex && std::max(vertex.number(), end.number()) <= vertices_)
+        result.push_back({Kind::vertex, vertex.number(), Kind::vertex, end.number(),
+                          (shape_.vertices[vertex] - shape_.vertices[end]).norm()});
     }
     // The pieces of a divided edge come last, and may be let go in the same way.
     const auto place = [](const ShellMesh::LetGo& a) {
@@ -553,6 +570,14 @@ class Job {
     result.erase(std::unique(result.begin(), result.end(),
                              [&](const auto& a, const auto& b) { return place(a) == place(b); }),
                  result.end());
+    return result;
+  }
+
+  double distance_from(VertexId vertex, const CadEdge& edge) const {
+    constexpr int pieces = 16;
+    double result = 0;
+    for (const Vector3& point : points_along(edge, pieces))
+      result = std::max(result, (point - shape_.vertices[vertex]).norm());
     return result;
   }
 
@@ -582,7 +607,7 @@ class Job {
       if (meshes_[face] && meshes_[face]->grid) status.note += status.note.empty() ? "grid" : "; grid";
       const auto end = nodes_.unused.lower_bound({face, EdgeId()});
       if (end != nodes_.unused.end() && end->first.first == face)
-        status.note += fmt::format("{}ends before a tip that is narrower than half the minimum size",
+        status.note += fmt::format("{}ends before a tip that is narrower than the reach",
                                    status.note.empty() ? "" : "; ");
       if (plan_.tiny.merged_faces[face]) {
         status.status = FaceStatus::merged;
@@ -647,6 +672,11 @@ void check_input(const CadModel& model, const MeshOptions& options) {
 ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
   check_input(model, options);
   return on_threads(context.threads(), [&] { return mesh_whole(model, options, {}, context); });
+}
+
+SmallFeatures small_features(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
+  check_input(model, options);
+  return Job(model, options, context).small_features();
 }
 
 SizingField wanted_sizes(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {

@@ -54,7 +54,10 @@ struct MeshOptions {
   /// Edges shorter than this become points, and faces narrower than this between two edges become edges; 0 =
   /// all are kept.
   double merge_tiny = 0;
-  /// Mesh edges and slivers below half the least size too, instead of letting them go (ShellMesh::let_go).
+  /// Edges shorter and faces narrower than this are let go where that does no harm (ShellMesh::let_go); 0 =
+  /// half the least size.
+  double reach = 0;
+  /// Mesh edges and slivers below the reach too, instead of letting them go (ShellMesh::let_go).
   bool keep_features = false;
   int rings = 1;         ///< most rings of quads around each hole without corners
   bool partial = false;  ///< deliver what could be meshed when a face fails, instead of throwing

@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "geometry/base/api.hpp"
 #include "geometry/base/error.hpp"
@@ -40,6 +41,18 @@ QUADRILLE_API ShellMesh mesh(const CadModel& model, const MeshOptions& options, 
 
 /// Meshes the middle surface of thin solids, as above; the mesh carries the thickness of each face.
 QUADRILLE_API ShellMesh mesh(const MidSurface& middle, const MeshOptions& options, ExecutionContext& context);
+
+/// What is too small for the sizes of a mesh.
+struct SmallFeatures {
+  std::vector<ShellMesh::LetGo> let_go;  ///< edges, then vertices, ascending
+  std::vector<int> faces;                ///< faces whose place an edge or a node takes, from 1, ascending
+  std::vector<ShellMesh::Kept> kept;     ///< small faces, then edges, that stay all the same
+};
+
+/// What mesh() lets go at these options, before any face is meshed: a face that then has no mesh gets its
+/// features back. Throws Error (usage) for invalid options. Time is linear in the edges.
+QUADRILLE_API SmallFeatures small_features(const CadModel& model, const MeshOptions& options,
+                                           ExecutionContext& context);
 
 /// The library's version, "major.minor.patch".
 QUADRILLE_API std::string version();

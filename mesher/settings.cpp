@@ -267,10 +267,11 @@ std::vector<Setting> make_table() {
       {"merge_tiny", "merge-tiny", "MergeTiny", "Merge tiny", mesh, mm, 0, infinity, true, "all are meshed",
        "leave out edges that are shorter and faces that are narrower than this length",
        [](Settings& v) -> double& { return v.mesh.merge_tiny; }},
+      {"reach", "reach", "Reach", none, mesh, mm, 0, infinity, true, "half the minimum size",
+       "let go edges that are shorter and faces that are narrower than this length, where that does no harm",
+       [](Settings& v) -> double& { return v.mesh.reach; }},
       {"keep_features", "keep-features", "KeepFeatures", "Keep features", mesh, none, 0, 0, false, none,
-       "also mesh features far below the minimum size instead of letting them go, and let no quad cross a "
-       "smooth "
-       "edge",
+       "also mesh features below the reach instead of letting them go, and let no quad cross a smooth edge",
        [](Settings& v) -> bool& { return v.mesh.keep_features; }},
       {"keep", "keep", "Keep", none, mesh, none, 0, 0, false, "none",
        "faces and edges that keep nodes of their own, whatever their size and shape, such as Edge7,Face3",
@@ -527,9 +528,10 @@ void check(const Settings& settings, const CadModel& model) {
   if (sizing.size_min > size)
     throw refused(entry("size_min"),
                   fmt::format("must be at most the size, {:.6g}, not {:g}", size, sizing.size_min));
-  if (settings.mesh.merge_tiny > size)
-    throw refused(entry("merge_tiny"),
-                  fmt::format("must be at most the size, {:.6g}, not {:g}", size, settings.mesh.merge_tiny));
+  for (const auto& [name, length] :
+       {std::pair("merge_tiny", settings.mesh.merge_tiny), std::pair("reach", settings.mesh.reach)})
+    if (length > size)
+      throw refused(entry(name), fmt::format("must be at most the size, {:.6g}, not {:g}", size, length));
   check_names(entry("faces"), settings.mesh.faces, "Face", model.face_count());
   check_names(entry("sizes"), keys(sizing.face_sizes), "Face", model.face_count());
   check_names(entry("sizes"), keys(sizing.edge_sizes), "Edge", model.edge_count());

@@ -32,7 +32,7 @@ py::object quality_dict(const PythonMesh& mesh, const std::optional<std::filesys
   std::string text;
   {
     const py::gil_scoped_release release;
-    text = quality_json(mesh.mesh, limits ? read_limits(*limits) : CriteriaLimits());
+    text = quality_json(mesh.mesh, limits ? read_limits(*limits) : limits_of(mesh.mesh));
   }
   return py::module_::import("json").attr("loads")(text);
 }

@@ -60,6 +60,25 @@ std::string describe(const CadModel& model, ExecutionContext& context) {
   return text;
 }
 
+/// What goes at a size, and what is as small but stays.
+std::string features(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
+  const SmallFeatures found = small_features(model, options, context);
+  using Kind = ShellMesh::LetGo::Kind;
+  const auto name = [](Kind kind, int number) {
+    return fmt::format("{}{}", kind == Kind::edge ? "Edge" : "Vertex", number);
+  };
+  std::string text;
+  for (const auto& feature : found.let_go)
+    text +=
+        fmt::format("{:<12} {} becomes {}, at most {} mm away\n", "goes", name(feature.kind, feature.number),
+                    name(feature.to_kind, feature.to), number_text(feature.distance));
+  for (const int face : found.faces) text += fmt::format("{:<12} Face{}\n", "goes", face);
+  for (const auto& feature : found.kept)
+    text += fmt::format("{:<12} {}{}: {}\n", "stays", feature.dimension == 2 ? "Face" : "Edge",
+                        feature.number, feature.why);
+  return text.empty() ? fmt::format("{:<12} nothing is too small for this size\n", "features") : text;
+}
+
 }  // namespace
 
 void add_info_command(CLI::App& app) {
@@ -67,8 +86,14 @@ void add_info_command(CLI::App& app) {
   auto input = std::make_shared<std::filesystem::path>();
   auto limits = std::make_shared<GivenSettings>();
   command->add_option("IN", *input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
-  add_settings(*command, *limits, {"imprint", "sew", "read_time_limit", "time_limit"});
-  command->callback([input, limits] {
+  add_settings(*command, *limits,
+               {"imprint", "sew", "read_time_limit", "time_limit", "size", "size_min", "reach", "keep"});
+  auto with_features = std::make_shared<bool>(false);
+  command
+      ->add_flag("--features", *with_features,
+                 "list the small features that a mesh of --size lets go, and those that stay and why")
+      ->needs("--size");
+  command->callback([input, limits, with_features] {
     require_readable(*input);
     report_crashes(*input, "reading");
     ExecutionContext context;
@@ -77,7 +102,10 @@ void add_info_command(CLI::App& app) {
     const CadModel model = joined(limits->settings, CadModel::read(*input));
     cancel.reading_is_done();
     report_crashes(*input, "measuring");
-    print(describe(model, context));
+    if (*with_features)
+      print(features(model, limits->settings.mesh, context));
+    else
+      print(describe(model, context));
   });
 }
 

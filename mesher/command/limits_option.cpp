@@ -18,15 +18,17 @@ void LimitsOption::add_to(CLI::App& command) {
                 ->expected(0, 1);
 }
 
-CriteriaLimits LimitsOption::limits() const {
-  if (file_.empty()) return {};
+CriteriaLimits LimitsOption::limits(const ShellMesh& mesh) const {
+  if (file_.empty()) return limits_of(mesh);
   require_readable(file_);
   return read_limits(file_);
 }
 
-void LimitsOption::hold(const std::filesystem::path& mesh, const CriteriaSummary& criteria) const {
-  if (!given() || criteria.failing == 0) return;
-  throw failure(mesh.string(), fmt::format("{}: {} of {} quads are outside the limits", mesh.string(),
+void LimitsOption::hold(const std::filesystem::path& file, const ShellMesh& mesh) const {
+  if (!given()) return;
+  const CriteriaSummary criteria = check_criteria(mesh, limits(mesh));
+  if (criteria.failing == 0) return;
+  throw failure(file.string(), fmt::format("{}: {} of {} quads are outside the limits", file.string(),
                                            criteria.failing, criteria.quads));
 }
 

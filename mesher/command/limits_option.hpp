@@ -17,12 +17,14 @@ class LimitsOption {
 
   bool given() const { return option_->count() > 0; }
 
-  /// The limits in the file, or the usual ones if no file is given. Throws Error (failure) if the file cannot
-  /// be read or makes no sense.
-  CriteriaLimits limits() const;
+  /// Throws Error (failure) if the file of limits cannot be read or makes no sense.
+  void check() const { limits({}); }
 
-  /// Throws Error (failure) if the option is given and quads of the mesh fail. \param mesh file of the mesh.
-  void hold(const std::filesystem::path& mesh, const CriteriaSummary& criteria) const;
+  /// The limits in the file; if none is given those of limits_of(). Throws as check().
+  CriteriaLimits limits(const ShellMesh& mesh) const;
+
+  /// Throws Error (failure) if the option is given and quads of the mesh fail. \param file of the mesh
+  void hold(const std::filesystem::path& file, const ShellMesh& mesh) const;
 
  private:
   std::string file_;

@@ -141,6 +141,18 @@ struct Meshed {
   const std::optional<SizeFidelity>& sizes;
 };
 
+/// Adds a note on sides below half the least size, with what forces most of them.
+void tell_short_sides(const ShellMesh& mesh) {
+  if (mesh.short_sides.empty()) return;
+  int quads = 0;
+  for (const auto& found : mesh.short_sides) quads += found.quads;
+  const auto& most = mesh.short_sides.front();
+  fmt::print(stderr,
+             "note: {} quads have a side shorter than half the minimum size, most of them at {}{} ({}): {}; "
+             "--report lists all\n",
+             quads, most.dimension == 2 ? "Face" : "Edge", most.number, most.quads, most.why);
+}
+
 /// Writes the report, the warnings to stderr and the tables to stdout, as far as they are wanted.
 void tell_quality(const ShellMesh& result, const Measured& measured, const Meshed& meshed,
                   const MeshArguments& arguments, ExecutionContext& context) {
@@ -173,13 +185,14 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
                "it, --keep-features all\n",
                result.suppressed_edges.size(), edge, edge);
   }
+  tell_short_sides(result);
   if (meshed.middle) print(middle_table(*meshed.middle));
   print(quality_table(measured.elements.quality));
 }
 
 void run(const MeshArguments& arguments) {
   check_files(arguments);
-  const CriteriaLimits limits = arguments.limits.limits();
+  arguments.limits.check();
   Settings settings = arguments.settings;
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(settings.threads, [&](std::string_view stage, double fraction) {
@@ -219,8 +232,7 @@ void run(const MeshArguments& arguments) {
   list_left_out(result);
   if (measured.valid()) tell_quality(result, measured.get(), {model, middle, sizes}, arguments, context);
   // Last, so that a failing mesh has been written and can be inspected.
-  if (arguments.limits.given())
-    arguments.limits.hold(arguments.outputs.front(), check_criteria(result, limits));
+  arguments.limits.hold(arguments.outputs.front(), result);
 }
 
 }  // namespace

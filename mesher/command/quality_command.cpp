@@ -19,15 +19,22 @@ void add_quality_command(CLI::App& app) {
                    "mesh file: .msh, .inp, .unv, .bdf, .nas, .dat, .stl, .obj, .ply, .vtk, .vtu or .vtp")
       ->required();
   limits_option->add_to(*command);
-  command->callback([input, limits_option] {
+  auto size_min = std::make_shared<double>(0);
+  command
+      ->add_option("--size-min", *size_min,
+                   "least size that the mesh was made with, in mm: sides shorter than half of it fail")
+      ->check(CLI::PositiveNumber);
+  command->callback([input, limits_option, size_min] {
     require_readable(*input);
-    const CriteriaLimits limits = limits_option->limits();
-    const ShellMesh mesh = read_mesh(*input);
+    limits_option->check();
+    ShellMesh mesh = read_mesh(*input);
+    mesh.size_min = *size_min;
+    const CriteriaLimits limits = limits_option->limits(mesh);
     const QualitySummary summary = quality(mesh);
     const CriteriaSummary criteria = check_criteria(mesh, limits);
     print(quality_table(summary) + "\n" + quality_histogram(summary) + "\n" + valence_table(summary) + "\n" +
           criteria_table(criteria, limits));
-    limits_option->hold(*input, criteria);
+    limits_option->hold(*input, mesh);
   });
 }
 

@@ -80,7 +80,7 @@ void tell(const ShellMesh& mesh, const RemeshFidelity& fidelity, const std::vect
 
 void run(const RemeshArguments& arguments) {
   check_files(arguments);
-  const CriteriaLimits limits = arguments.limits.limits();
+  arguments.limits.check();
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(arguments.settings.threads, [&](std::string_view stage, double fraction) {
     return display.show(stage, fraction);
@@ -114,8 +114,7 @@ void run(const RemeshArguments& arguments) {
                 cancel);
   tell(mesh, fidelity, notes, arguments, context);
   // Last, so that a failing mesh has been written and can be inspected.
-  if (arguments.limits.given())
-    arguments.limits.hold(arguments.outputs.front(), check_criteria(mesh, limits));
+  arguments.limits.hold(arguments.outputs.front(), mesh);
 }
 
 }  // namespace

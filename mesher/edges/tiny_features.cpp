@@ -204,37 +204,40 @@ bool is_small(const CadEdge& edge, double reach) {
   constexpr double longest = 4;
   constexpr int samples = 16;
   if (!(edge.length < longest * reach)) return false;
-  const EdgeCurve curve(edge);
-  if (curve.straight()) return false;
-  std::vector<Vector3> points;
-  for (int i = 0; i <= samples; ++i) {
-    points.push_back(curve.point(edge.first + (edge.last - edge.first) * (static_cast<double>(i) / samples)));
-    for (const Vector3& other : points) {
-      if ((points.back() - other).norm() > reach) return false;
-    }
-  }
+  if (EdgeCurve(edge).straight()) return false;
+  const std::vector<Vector3> points = points_along(edge, samples);
+  for (const Vector3& one : points)
+    for (const Vector3& other : points)
+      if ((one - other).norm() > reach) return false;
   return true;
 }
 
-bool lies_along(const CadEdge& edge, const CadEdge& other, double reach) {
-  if (!(reach > 0)) return false;
-  constexpr int samples = 16, dense = 256;
-  const auto place = [](const CadEdge& on, const EdgeCurve& curve, int i, int of) {
-    return curve.point(on.first + (on.last - on.first) * (static_cast<double>(i) / of));
-  };
-  const EdgeCurve curve(edge), other_curve(other);
+std::vector<Vector3> points_along(const CadEdge& edge, int pieces) {
+  const EdgeCurve curve(edge);
   std::vector<Vector3> points;
-  for (int i = 0; i <= dense; ++i) points.push_back(place(other, other_curve, i, dense));
+  for (int i = 0; i <= pieces; ++i)
+    points.push_back(curve.point(edge.first + (edge.last - edge.first) * (static_cast<double>(i) / pieces)));
+  return points;
+}
+
+double distance_between(const CadEdge& edge, const CadEdge& other) {
+  constexpr int samples = 16, dense = 256;
+  const std::vector<Vector3> along = points_along(edge, samples), points = points_along(other, dense);
+  double farthest = 0;
   for (int i = 1; i < samples; ++i) {
-    const Vector3 p = place(edge, curve, i, samples);
+    const Vector3& p = along[i];
     double nearest = (p - points[0]).norm();
     for (int k = 0; k < dense; ++k) {
       const double t = nearest_share(points[k], points[k + 1], p);
       nearest = std::min(nearest, (p - points[k] - t * (points[k + 1] - points[k])).norm());
     }
-    if (!(nearest < reach)) return false;
+    farthest = std::max(farthest, nearest);
   }
-  return true;
+  return farthest;
+}
+
+bool lies_along(const CadEdge& edge, const CadEdge& other, double reach) {
+  return distance_between(edge, other) < reach;
 }
 
 TinyFeatures find_tiny_features(const CadShape& shape, const FaceFlags& used, const EdgeFlags& collapse,

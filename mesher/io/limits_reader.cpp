@@ -41,7 +41,7 @@ class LimitsReader {
 
   void set(std::size_t criterion, double limit) {
     const CriterionInfo& info = criteria_info[criterion];
-    const bool above = info.usual_limit > info.ideal;
+    const bool above = info.has_most() || criterion == static_cast<std::size_t>(Criterion::min_length);
     if (!(above ? limit > info.ideal : limit < info.ideal) || !std::isfinite(limit))
       fail(fmt::format("the limit of {} must be {} {}, not {}", info.name, above ? "above" : "below",
                        info.ideal, limit));
@@ -108,7 +108,8 @@ class LimitsReader {
   /// Reads one line. \return false if its criterion is not measured here.
   bool read_criterion(const std::string& criterion, const std::vector<double>& numbers, int row) {
     constexpr std::array<std::string_view, criterion_count> names{
-        "aspect ratio", "warpage", "skew", "min angle quad", "max angle quad", "jacobian", "taper"};
+        "aspect ratio",   "warpage",  "skew",  "min angle quad",
+        "max angle quad", "jacobian", "taper", "min length"};
     enum Column { checked, weight, ideal, good, warn, fail_limit, worst, columns };
     const auto at = std::find(names.begin(), names.end(), criterion);
     const bool is_checked = !numbers.empty() && numbers[checked] == 1;

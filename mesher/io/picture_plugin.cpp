@@ -116,6 +116,24 @@ double median_length(const ShellMesh& mesh, const std::vector<std::array<int, 2>
   return *middle;
 }
 
+/// Dots along the edges that quads cross. \param step from dot to dot, mesh units
+vtkNew<vtkActor> suppressed_actor(const ShellMesh& mesh, double step, double width) {
+  std::vector<Vector3> ends;
+  std::vector<std::array<int, 2>> dots;
+  for (const ShellMesh::SuppressedEdge& edge : mesh.suppressed_edges) {
+    for (std::size_t k = 0; k + 1 < edge.line.size(); ++k) {
+      const Vector3 &from = edge.line[k], &to = edge.line[k + 1];
+      constexpr double most = 1000;
+      const double count = std::clamp(std::ceil((to - from).norm() / step), 1.0, most);
+      for (double i = 0; i < count; ++i) {
+        for (const double part : {0.25, 0.75}) ends.emplace_back(from + (i + part) / count * (to - from));
+        dots.push_back({static_cast<int>(ends.size()) - 2, static_cast<int>(ends.size()) - 1});
+      }
+    }
+  }
+  return line_actor(dots, make_points(ends), width, 1);
+}
+
 /// \param pixel size of a pixel in mesh units.
 void add_actors(const ShellMesh& mesh, const std::vector<double>& qualities, double pixel, double line_width,
                 vtkLookupTable* colors, vtkRenderer* renderer) {
@@ -128,6 +146,8 @@ void add_actors(const ShellMesh& mesh, const std::vector<double>& qualities, dou
   renderer->AddActor(surface_actor(mesh, qualities, points, colors));
   renderer->AddActor(line_actor(sides, points, line_width, opacity));
   renderer->AddActor(line_actor(features, points, 2.4 * line_width, 1));
+  if (!mesh.suppressed_edges.empty())
+    renderer->AddActor(suppressed_actor(mesh, 8 * line_width * pixel, 2.4 * line_width));
 }
 
 std::string draw(const ShellMesh& mesh, const std::vector<double>& qualities, int width, int height) {

@@ -120,9 +120,20 @@ json let_go_to_json(const ShellMesh& mesh) {
   };
   json features = json::array();
   for (const ShellMesh::LetGo& feature : mesh.let_go)
-    features.push_back(
-        {{"name", name(feature.kind, feature.number)}, {"to", name(feature.to_kind, feature.to)}});
+    features.push_back({{"name", name(feature.kind, feature.number)},
+                        {"to", name(feature.to_kind, feature.to)},
+                        {"distance", feature.distance}});
   return features;
+}
+
+json short_sides_to_json(const ShellMesh& mesh) {
+  json entities = json::array();
+  for (const ShellMesh::ShortSides& found : mesh.short_sides)
+    entities.push_back({{"name", (found.dimension == 2 ? "Face" : "Edge") + std::to_string(found.number)},
+                        {"quads", found.quads},
+                        {"shortest", found.shortest},
+                        {"why", found.why}});
+  return entities;
 }
 
 json kept_to_json(const ShellMesh& mesh) {
@@ -138,7 +149,7 @@ json kept_to_json(const ShellMesh& mesh) {
 MeshMeasures measure(const ShellMesh& mesh) {
   MeshMeasures measures;
   oneapi::tbb::parallel_invoke([&] { measures.quality = quality(mesh); },
-                               [&] { measures.criteria = check_criteria(mesh); });
+                               [&] { measures.criteria = check_criteria(mesh, limits_of(mesh)); });
   return measures;
 }
 
@@ -150,7 +161,7 @@ json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const Exec
           {"order", mesh.order},
           {"counts", {{"nodes", summary.nodes}, {"quads", summary.quads}, {"triangles", summary.triangles}}},
           {"quality", quality_to_json(summary)},
-          {"criteria", criteria_to_json(measures.criteria, {})},
+          {"criteria", criteria_to_json(measures.criteria, limits_of(mesh))},
           {"seconds", seconds_to_json(context)},
           {"cpu_seconds", usage.cpu_seconds},
           {"peak_bytes", usage.peak_bytes},
@@ -159,6 +170,7 @@ json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const Exec
           {"let_go", let_go_to_json(mesh)},
           {"kept", kept_to_json(mesh)},
           {"suppressed_edges", suppressed_to_json(mesh)},
+          {"short_sides", short_sides_to_json(mesh)},
           {"warnings", warnings},
           {"versions",
            {{"quadrille", QUADRILLE_VERSION},

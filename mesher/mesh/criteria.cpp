@@ -25,13 +25,12 @@ struct Quad {
     for (int j = 0; j < 4; ++j) crosses[j] = sides[(j + 3) & 3].cross(sides[j]);
   }
 
-  double aspect() const {
-    double shortest = std::numeric_limits<double>::max(), longest = 0;
-    for (const Vector3& side : sides) {
-      shortest = std::min(shortest, side.norm());
-      longest = std::max(longest, side.norm());
-    }
-    return longest / std::max(shortest, tiny);
+  /// Shortest and longest.
+  std::array<double, 2> lengths() const {
+    std::array<double, 2> result{std::numeric_limits<double>::max(), 0};
+    for (const Vector3& side : sides)
+      result = {std::min(result[0], side.norm()), std::max(result[1], side.norm())};
+    return result;
   }
 
   double warp() const {
@@ -105,19 +104,34 @@ Worst worst_of(const CriteriaValues& values, const CriteriaLimits& limits) {
 double CriteriaLimits::severity(Criterion criterion, double value) const {
   const auto i = static_cast<std::size_t>(criterion);
   if (std::isnan(values[i])) return 0;
+  if (criterion == Criterion::min_length) return values[i] / std::max(value, tiny);
   return (value - criteria_info[i].ideal) / (values[i] - criteria_info[i].ideal);
 }
 
 bool CriteriaLimits::fails(Criterion criterion, double value) const {
   const auto i = static_cast<std::size_t>(criterion);
   // Comparisons with NaN are false: an unchecked criterion never fails.
-  return criteria_info[i].usual_limit > criteria_info[i].ideal ? value > values[i] : value < values[i];
+  return criteria_info[i].has_most() ? value > values[i] : value < values[i];
+}
+
+CriteriaLimits limits_of(const ShellMesh& mesh) {
+  CriteriaLimits result;
+  if (mesh.size_min > 0) result.values[static_cast<std::size_t>(Criterion::min_length)] = 0.5 * mesh.size_min;
+  return result;
 }
 
 CriteriaValues measure_criteria(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
   const Quad quad(a, b, c, d);
   const auto [angle_min, angle_max] = quad.corner_angles();
-  return {quad.aspect(), quad.warp(), quad.skew(), angle_min, angle_max, quad.jacobian_ratio(), quad.taper()};
+  const auto [shortest, longest] = quad.lengths();
+  return {longest / std::max(shortest, tiny),
+          quad.warp(),
+          quad.skew(),
+          angle_min,
+          angle_max,
+          quad.jacobian_ratio(),
+          quad.taper(),
+          shortest};
 }
 
 CriteriaSummary check_criteria(const ShellMesh& mesh, const CriteriaLimits& limits, int worst_count) {

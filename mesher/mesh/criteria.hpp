@@ -23,20 +23,26 @@ enum class Criterion {
   angle_min,       ///< smallest corner angle, degrees
   angle_max,       ///< largest corner angle, degrees
   jacobian_ratio,  ///< smallest over largest Jacobian at the four Gauss points
-  taper            ///< 1 - (smallest corner triangle / half the quad's area)
+  taper,           ///< 1 - (smallest corner triangle / half the quad's area)
+  min_length       ///< shortest side, millimeters; checked where a limit is known, see limits_of()
 };
 
-constexpr std::size_t criterion_count = 7;  ///< number of members of Criterion
+constexpr std::size_t criterion_count = 8;  ///< number of members of Criterion
 
 /// The values of all criteria, indexed by Criterion.
 using CriteriaValues = std::array<double, criterion_count>;
 
+/// A limit that no value fails.
+constexpr double unchecked = std::numeric_limits<double>::quiet_NaN();
+
 /// The properties of a criterion that do not depend on the limit in use.
 struct CriterionInfo {
   std::string_view name;  ///< name in reports and limit files
-  std::string_view unit;  ///< empty, or "degrees"
+  std::string_view unit;  ///< empty, "degrees" or "mm"
   double ideal;           ///< value of a perfect square; values farther from it than the limit fail
-  double usual_limit;     ///< default limit in CriteriaLimits
+  double usual_limit;     ///< default limit in CriteriaLimits; NaN = not checked
+  /// Whether values above the limit fail, instead of those below.
+  constexpr bool has_most() const { return usual_limit > ideal; }
 };
 
 /// Indexed by Criterion.
@@ -46,11 +52,12 @@ constexpr std::array<CriterionInfo, criterion_count> criteria_info{{{"aspect", "
                                                                     {"angle_min", "degrees", 90, 40},
                                                                     {"angle_max", "degrees", 90, 140},
                                                                     {"jacobian_ratio", "", 1, 0.6},
-                                                                    {"taper", "", 0, 0.6}}};
+                                                                    {"taper", "", 0, 0.6},
+                                                                    {"min_length", "mm", 0, unchecked}}};
 
-/// One limit per criterion; NaN = not checked.
+/// One limit per criterion.
 struct QUADRILLE_API CriteriaLimits {
-  static constexpr double unchecked = std::numeric_limits<double>::quiet_NaN();  ///< no value fails it
+  static constexpr double unchecked = quadrille::unchecked;  ///< no value fails it
 
   CriteriaValues values = usual();        ///< limits, indexed by Criterion
   std::vector<std::string> not_measured;  ///< criteria that a limits file checks and Criterion lacks
@@ -67,6 +74,9 @@ struct QUADRILLE_API CriteriaLimits {
     return result;
   }
 };
+
+/// The usual limits, with half the least size that the mesh was made with as the least length of a side.
+QUADRILLE_API CriteriaLimits limits_of(const ShellMesh& mesh);
 
 /// Measures all criteria of the quad a, b, c, d.
 QUADRILLE_API CriteriaValues measure_criteria(const Vector3& a, const Vector3& b, const Vector3& c,

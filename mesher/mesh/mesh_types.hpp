@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "geometry/base/vector.hpp"
@@ -90,15 +91,22 @@ struct ShellMesh {
     int number = 0;             ///< its number, from 1
     Kind to_kind = Kind::edge;  ///< kind of the entity that stands for it
     int to = 0;                 ///< number of the edge or vertex whose nodes stand for it
+    double distance = 0;        ///< farthest that a point of it lies from that edge or vertex, millimeters
   };
 
   /// A CAD edge between faces that meet smoothly, or a piece of it, that quads cross: it has no segments.
   struct SuppressedEdge {
     int edge = 0;                ///< its number, from 1
     std::array<int, 2> faces{};  ///< its faces, from 1; quads belong to the one that their center lies on
+    std::vector<Vector3> line;   ///< points on it, in the direction of its parameter, to draw it by
+    /// Whether edge and faces are the same.
+    friend bool operator==(const SuppressedEdge& a, const SuppressedEdge& b) {
+      return a.edge == b.edge && a.faces == b.faces;
+    }
     /// By edge, then by faces.
-    // NOLINTNEXTLINE(modernize-use-nullptr)
-    friend auto operator<=>(const SuppressedEdge&, const SuppressedEdge&) = default;
+    friend bool operator<(const SuppressedEdge& a, const SuppressedEdge& b) {
+      return std::pair(a.edge, a.faces) < std::pair(b.edge, b.faces);
+    }
   };
 
   /// A CAD edge or face below the least size that is meshed all the same.
@@ -106,6 +114,15 @@ struct ShellMesh {
     int dimension = 1;  ///< 1: edge, 2: face
     int number = 0;     ///< its number, from 1
     std::string why;    ///< what the mesh would get without it
+  };
+
+  /// The quads with a side shorter than half the least size that one CAD edge or face forces.
+  struct ShortSides {
+    int dimension = 2;    ///< 1: edge, 2: face
+    int number = 0;       ///< its number, from 1
+    int quads = 0;        ///< number of quads
+    double shortest = 0;  ///< shortest side of these, millimeters
+    std::string why;      ///< what is small there
   };
 
   /// A set of entities that has a name or a number of its own in the file that the mesh was read from.
@@ -125,6 +142,7 @@ struct ShellMesh {
     std::vector<double> thicknesses;  ///< thickness at each of those nodes, millimeters
   };
 
+  double size_min = 0;                    ///< least size of the mesh by its sizes, millimeters; 0 = not known
   int order = 1;                          ///< 1: four-node quads; 2: eight-node (serendipity) quads
   std::vector<Vector3> points;            ///< (n) all nodes, corner nodes first, then midside nodes
   std::vector<std::array<int, 4>> quads;  ///< (m) corner nodes, counter-clockwise seen from outside
@@ -139,6 +157,7 @@ struct ShellMesh {
   std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; for faces see Face::status
   std::vector<Kept> kept;                     ///< faces, then edges, ascending
   std::vector<SuppressedEdge> suppressed_edges;  ///< ascending
+  std::vector<ShortSides> short_sides;           ///< those that most quads have first
   std::vector<Face> faces;                       ///< one entry per CAD face; empty in meshes read from files
   /// The groups in a file that the mesh was read from, in file order. Groups may overlap: entities are made
   /// small enough that each group is a set of whole entities. If this is empty, written files get one group

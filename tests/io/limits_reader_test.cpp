@@ -54,12 +54,13 @@ TEST_F(LimitsReading, HyperMeshLinesGiveTheirColumnFail) {
       " 13 % of trias        1 1.0   0.000   6.000  10.000  15.000  20.000    0    0   -1\n"
       "   Global_solver -1\n");
   EXPECT_EQ(limit(limits, Criterion::aspect), 6);
+  EXPECT_EQ(limit(limits, Criterion::min_length), 2);
   EXPECT_EQ(limit(limits, Criterion::angle_max), 145);
   EXPECT_EQ(limit(limits, Criterion::angle_min), 35);
   EXPECT_EQ(limit(limits, Criterion::jacobian_ratio), 0.5);
   EXPECT_FALSE(limits.fails(Criterion::warp, 89));  // switched off
   EXPECT_FALSE(limits.fails(Criterion::skew, 89));  // not in the file
-  EXPECT_EQ(limits.not_measured, (std::vector<std::string>{"min length", "% of trias"}));
+  EXPECT_EQ(limits.not_measured, (std::vector<std::string>{"% of trias"}));
 }
 
 TEST_F(LimitsReading, RefusalsNameTheReason) {
@@ -72,6 +73,7 @@ TEST_F(LimitsReading, RefusalsNameTheReason) {
   says("{\"aspects\": 5}", "aspects is not one of the criteria aspect, warp");
   says("{\"aspect\": \"five\"}", "aspect must be a number");
   says("{\"aspect\": 0.5}", "aspect must be above 1");
+  says("{\"min_length\": 0}", "min_length must be above 0");
   says("{\"angle_min\": 90}", "angle_min must be below 90");
   says("  3 aspect ratio      1 1.0   1.000   2.000\n", "line 1: aspect ratio needs the columns");
   says("\n 10 jacobian 1 1.0 1 0.9 0.7 1.5 0.3 0\n", "jacobian_ratio must be below 1");

@@ -71,6 +71,21 @@ TEST(Criteria, OfTheConcaveQuad) {
   EXPECT_LT(value(Criterion::jacobian_ratio, arrow), 0.6);
 }
 
+TEST(Criteria, SidesAreTooShortUnderHalfTheLeastSize) {
+  ShellMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 0.4, 0}, {0, 0.4, 0}};
+  mesh.quads = {{0, 1, 2, 3}};
+  const auto failing = [&](double least) {
+    mesh.size_min = least;
+    return check_criteria(mesh, limits_of(mesh)).failing_by[static_cast<std::size_t>(Criterion::min_length)];
+  };
+  EXPECT_EQ(failing(0), 0);
+  EXPECT_EQ(failing(0.79), 0);
+  EXPECT_EQ(failing(0.81), 1);
+  EXPECT_DOUBLE_EQ(limits_of(mesh).severity(Criterion::min_length, 0.2025), 2);
+  EXPECT_EQ(check_criteria(mesh, limits_of(mesh)).worst.at(0).value, 0.4);
+}
+
 TEST(Criteria, DoNotDependOnOrientationOrFirstCorner) {
   const std::array<Vector3, 4> quad{{{0, 0, 0.1}, {2, 0.3, 0}, {1.7, 1, 0.3}, {-0.2, 1.4, 0}}};
   const CriteriaValues values = measure_criteria(quad[0], quad[1], quad[2], quad[3]);
@@ -86,6 +101,7 @@ TEST(Criteria, SeverityIsOneAtTheLimit) {
   const CriteriaLimits limits;
   for (std::size_t i = 0; i < criterion_count; ++i) {
     const auto criterion = static_cast<Criterion>(i);
+    if (criterion == Criterion::min_length) continue;  // has no limit of its own
     EXPECT_DOUBLE_EQ(limits.severity(criterion, criteria_info[i].usual_limit), 1);
     EXPECT_DOUBLE_EQ(limits.severity(criterion, criteria_info[i].ideal), 0);
     EXPECT_FALSE(limits.fails(criterion, criteria_info[i].usual_limit));

@@ -11,13 +11,18 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/validate.hpp"
+#include "tests/support/process.hpp"
 #include "tests/support/sheet.hpp"
 
 namespace quadrille {
@@ -129,6 +134,44 @@ TEST(EdgeSuppression, KeepsSolidsClosedAndNodesOnTheirFaces) {
     }
     for (const auto& edge : mesh.suppressed_edges) EXPECT_EQ(segments(mesh, edge.edge), 0);
   }
+}
+
+/// What CalculiX prints as the total reaction in z to a pressure of 1 on the elements of one face's group,
+/// where the nodes at x = -10 are held.
+double reaction(const ShellMesh& mesh, int face, const test::TemporaryFolder& folder) {
+  std::string rim;
+  for (std::size_t node = 0; node < mesh.points.size(); ++node)
+    if (mesh.points[node].x() < -9.99) rim += fmt::format("{}\n", node + 1);
+  write_mesh(mesh, folder / "mesh.inp");
+  test::write_text(
+      folder / "job.inp",
+      fmt::format("*INCLUDE, INPUT=mesh.inp\n*MATERIAL, NAME=Steel\n*ELASTIC\n210000, 0.3\n*SHELL SECTION, "
+                  "ELSET=Eall, MATERIAL=Steel\n1\n*NSET, NSET=Rim\n{}*BOUNDARY\nRim, 1, 6\n*STEP\n*STATIC\n"
+                  "*DLOAD\nFace{}, P, 1\n*NODE PRINT, NSET=Rim, TOTALS=ONLY\nRF\n*END STEP\n",
+                  rim, face));
+  const test::ProcessResult run = test::run(
+      "cd '" + folder.path().string() +
+      "' && OMP_NUM_THREADS=1 timeout 120 ccx job >log.txt 2>&1; grep -A2 'total force' job.dat | tail -1");
+  double x = 0, y = 0, z = 0;
+  EXPECT_EQ(std::sscanf(run.out.c_str(), "%lf %lf %lf", &x, &y, &z), 3) << run.out;
+  return std::abs(z);
+}
+
+TEST(EdgeSuppression, LoadsOnCrossedFacesSumUpInCalculix) {
+  if (!test::has_program("ccx")) GTEST_SKIP() << "CalculiX (ccx) is not installed";
+  // The plate with the slanted edge, and a strip beside it that is held.
+  const CadModel model = sheet({{{0, 0}, {40, 0}, {40, 8}},
+                                {{0, 0}, {40, 8}, {40, 20}, {0, 20}},
+                                {{-10, 0}, {0, 0}, {0, 20}, {-10, 20}}});
+  MeshOptions options;
+  for (const CadEdge& cad : model.shape().edges)
+    if (cad.faces.size() == 2 && cad.length < 30) options.sizing.kept_edges.insert(cad.number);
+  const ShellMesh mesh = meshed(model, 2, options);
+  ASSERT_EQ(mesh.suppressed_edges.size(), 1U);
+  const test::TemporaryFolder folder;
+  const double triangle = reaction(mesh, 1, folder), rest = reaction(mesh, 2, folder);
+  EXPECT_NEAR(triangle + rest, 800, 0.8);  // the areas of the CAD faces are 160 and 640
+  EXPECT_NEAR(triangle, 160, 8);
 }
 
 TEST(EdgeSuppression, IsTheSameOnAnyNumberOfThreads) {

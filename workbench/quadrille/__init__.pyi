@@ -129,6 +129,7 @@ def mesh(
     rings: Optional[int] = None,
     partial: Optional[bool] = None,
     strict: Optional[bool] = None,
+    reach: Optional[float] = None,
     keep_features: Optional[bool] = None,
     keep: Optional[_Entries] = None,
     force: Optional[bool] = None,

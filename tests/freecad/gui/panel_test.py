@@ -630,7 +630,7 @@ class PanelTest(GuiCase):
         mesh = quadrille.freecad.mesh_object(part, size=2.5, order=1)
         self.edit(mesh)
         wait_for(lambda: find("QuadrilleWorst").count(), what="the worst elements")
-        table, measured = find("QuadrilleCriteria"), quality.measure(mesh.FemMesh)
+        table, measured = find("QuadrilleCriteria"), quality.measure(mesh.FemMesh, mesh.LeastSize)
         counts = [int(table.item(row, 2).text()) for row in range(table.rowCount())]
         self.assertEqual(counts, [int(measured.fails(name).sum()) for name in quality.CRITERIA])
         self.assertGreater(sum(counts), 0)

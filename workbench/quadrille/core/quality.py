@@ -1,19 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The quality of each quad of a FEM mesh, computed with NumPy. Runs inside FreeCAD."""
 
-from typing import Dict, NamedTuple
+from typing import Dict, NamedTuple, Tuple
 
 import numpy as np
 
 from .arrays import faces_of, nodes_of
 
 #: The industry criteria: the value of a perfect square, and the usual limit. Same as in the mesher (mesher/mesh/criteria.hpp).
+#: Half the least size of a mesh is the limit of min_length, see limits().
 CRITERIA = {
     "aspect": (1.0, 5.0), "warp": (0.0, 15.0), "skew": (0.0, 40.0), "angle_min": (90.0, 40.0), "angle_max": (90.0, 140.0),
-    "jacobian_ratio": (1.0, 0.6), "taper": (0.0, 0.6),
+    "jacobian_ratio": (1.0, 0.6), "taper": (0.0, 0.6), "min_length": (np.inf, 0.0),
 }
 #: A direction that no mesh has, of at most unit length: few nodes that lie apart are close together along it.
 _SLANTED = np.array([0.5271, 0.3817, 0.7590])
+
+
+def limits(least_size: float = 0.0) -> Dict[str, Tuple[float, float]]:
+    """CRITERIA for a mesh of a least size, in mm; 0 = not known, no side is too short."""
+    return {**CRITERIA, "min_length": (np.inf, 0.5 * least_size)}
 
 
 class ElementQuality(NamedTuple):
@@ -29,6 +35,7 @@ class ElementQuality(NamedTuple):
     lengths: np.ndarray  #: mean edge length
     criteria: Dict[str, np.ndarray]  #: values of the industry criteria, by name
     nodes: np.ndarray  #: (n, 4) ids of the corner nodes
+    limits: Dict[str, Tuple[float, float]]  #: see limits()
 
     def free_sides(self) -> np.ndarray:
         """The end points of the sides that belong to only one element, (m, 2, 3)."""
@@ -60,25 +67,27 @@ class ElementQuality(NamedTuple):
         ideal."""
         if measure == "q":
             return self.q
-        ideal, limit = CRITERIA[measure]
+        ideal, limit = self.limits[measure]
+        if np.isinf(ideal):
+            return np.clip(0.5 * self.criteria[measure] / max(limit, 1e-300), 0.0, 1.0)
         return np.clip(1 - 0.5 * (self.criteria[measure] - ideal) / (limit - ideal), 0.0, 1.0)
 
     def fails(self, criterion: str) -> np.ndarray:
         """A mask of the elements that are beyond the limit of a criterion."""
-        ideal, limit = CRITERIA[criterion]
+        ideal, limit = self.limits[criterion]
         values = self.criteria[criterion]
         return values > limit if limit > ideal else values < limit
 
     def worst(self, count: int = 20, measure: str = "q") -> np.ndarray:
         """The indices of the worst elements by a measure, the worst first."""
         values = self.q if measure == "q" else self.criteria[measure]
-        if measure != "q" and CRITERIA[measure][1] > CRITERIA[measure][0]:
+        if measure != "q" and self.limits[measure][1] > self.limits[measure][0]:
             values = -values
         return np.argsort(values, kind="stable")[:count]
 
 
-def measure(fem_mesh) -> ElementQuality:
-    """Measures the quads of a FEM mesh by their corners; midside nodes are ignored."""
+def measure(fem_mesh, least_size: float = 0.0) -> ElementQuality:
+    """Measures the quads of a FEM mesh by their corners; midside nodes are ignored. least_size: see limits()."""
     numbers, places = nodes_of(fem_mesh)
     points = np.zeros((max(numbers, default=0) + 1, 3))
     points[numbers] = places
@@ -86,10 +95,10 @@ def measure(fem_mesh) -> ElementQuality:
     quads = np.isin(sizes, (4, 8))
     starts = (np.cumsum(sizes) - sizes)[quads]
     corners = flat[starts[:, None] + np.arange(4)]
-    return measure_quads(ids[quads], corners, points[corners])
+    return measure_quads(ids[quads], corners, points[corners], least_size)
 
 
-def measure_quads(ids: np.ndarray, nodes: np.ndarray, corners: np.ndarray) -> ElementQuality:
+def measure_quads(ids: np.ndarray, nodes: np.ndarray, corners: np.ndarray, least_size: float = 0.0) -> ElementQuality:
     """Measures quads. ids: (n,) element ids; nodes: (n, 4) ids of the corner nodes; corners: (n, 4, 3) their coordinates."""
     out = np.roll(corners, -1, axis=1) - corners  # edge from each corner to the next
     back = np.roll(corners, 1, axis=1) - corners
@@ -107,7 +116,7 @@ def measure_quads(ids: np.ndarray, nodes: np.ndarray, corners: np.ndarray) -> El
     centers = corners.mean(axis=1)
     aspect = lengths.max(axis=1) / np.maximum(lengths.min(axis=1), 1e-300)
     return ElementQuality(ids, q, sines.min(axis=1), aspect, corners, centers, normals,
-                          lengths.mean(axis=1), _criteria(corners, out, aspect), nodes)
+                          lengths.mean(axis=1), _criteria(corners, out, aspect), nodes, limits(least_size))
 
 
 def _criteria(corners: np.ndarray, sides: np.ndarray, aspect: np.ndarray) -> Dict[str, np.ndarray]:
@@ -134,6 +143,7 @@ def _criteria(corners: np.ndarray, sides: np.ndarray, aspect: np.ndarray) -> Dic
         "angle_max": angles.max(axis=1),
         "jacobian_ratio": jacobians.min(axis=1) / np.maximum(jacobians.max(axis=1), 1e-300),
         "taper": 1 - areas.min(axis=1) / np.maximum(areas.mean(axis=1), 1e-300),
+        "min_length": np.linalg.norm(sides, axis=2).min(axis=1),
     }
 
 

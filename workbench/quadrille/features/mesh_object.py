@@ -264,6 +264,7 @@ RESULT_PROPERTIES = (
     ("App::PropertyFloat", "LargestAspect", "Result", "Largest ratio of longest to shortest edge of a quad"),
     ("App::PropertyFloat", "IrregularPercent", "Result", "Inner nodes with more or fewer than four quads, percent"),
     ("App::PropertyFloat", "OutsidePercent", "Result", "Quads outside the limits of industry, percent"),
+    ("App::PropertyFloat", "LeastSize", "Result", "Least size of the mesh by its sizes, mm; sides under half of it count as outside"),
     ("App::PropertyFloat", "Seconds", "Result", "Seconds that the mesher took, all threads together"),
     ("App::PropertyFloatList", "MeshedShape", "Hidden", "Measures of the part when it was meshed"),
     ("App::PropertyString", "MeshedSettings", "Hidden", "Settings that the mesh was made with"),
@@ -428,5 +429,8 @@ def store_quality(mesh, fem_mesh, report: Dict) -> None:
     mesh.MeanJacobian = quality.get("sj_mean", 0.0)
     mesh.LargestAspect = quality.get("aspect_max", 0.0)
     mesh.IrregularPercent = quality.get("irregular_percent", 0.0)
-    mesh.OutsidePercent = report.get("criteria", {}).get("failing_percent", 0.0)
+    criteria = report.get("criteria", {})
+    mesh.OutsidePercent = criteria.get("failing_percent", 0.0)
+    shortest = criteria.get("by_criterion", {}).get("min_length", {}).get("limit")
+    mesh.LeastSize = 2 * shortest if shortest else 0.0
     mesh.Seconds = sum(report.get("seconds", {}).values())

@@ -28,6 +28,7 @@ MEASURES = {
     "angle_max": QT_TRANSLATE_NOOP("Quadrille", "Largest angle"),
     "jacobian_ratio": QT_TRANSLATE_NOOP("Quadrille", "Jacobian ratio"),
     "taper": QT_TRANSLATE_NOOP("Quadrille", "Taper"),
+    "min_length": QT_TRANSLATE_NOOP("Quadrille", "Shortest side"),
 }
 
 
@@ -111,7 +112,7 @@ class QualityWidget(QtGui.QWidget):
     def measured(self) -> quality.ElementQuality:
         """The quality of each element, measured at the first call."""
         if self._measured is None:
-            self._measured = quality.measure(self.mesh.FemMesh)
+            self._measured = quality.measure(self.mesh.FemMesh, self.mesh.LeastSize)
         return self._measured
 
     def _fill_table(self) -> None:
@@ -152,10 +153,10 @@ class QualityWidget(QtGui.QWidget):
             return
         self.histogram.show_values(measured.q, BINS)
         rows = []
-        for name, (ideal, limit) in quality.CRITERIA.items():
+        for name, (ideal, limit) in measured.limits.items():
             values = measured.criteria[name]
             worst = values.max() if limit > ideal else values.min()
-            rows.append((translate("Quadrille", MEASURES[name]), f"{limit:g}", f"{int(measured.fails(name).sum())}",
+            rows.append((translate("Quadrille", MEASURES[name]), digits(limit), f"{int(measured.fails(name).sum())}",
                          digits(worst)))
         _fill(self.criteria, rows)
         self._list_worst()

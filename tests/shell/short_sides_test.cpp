@@ -1,0 +1,101 @@
+/// What forces short sides is named: a short edge, two edges that come close, a sharp corner.
+
+#include "mesher/shell/short_sides.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "mesher/quadrille.hpp"
+#include "tests/support/sheet.hpp"
+
+namespace quadrille {
+namespace {
+
+using namespace testing;
+
+ShellMesh meshed(const CadModel& model, double size, double least) {
+  MeshOptions options;
+  options.sizing.size = size;
+  options.sizing.size_min = least;
+  ExecutionContext context(1);
+  return mesh(model, options, context);
+}
+
+int failing(const ShellMesh& mesh) {
+  return check_criteria(mesh, limits_of(mesh)).failing_by[static_cast<std::size_t>(Criterion::min_length)];
+}
+
+TEST(ShortSides, AnEdgeShorterThanTheLeastSizeIsNamed) {
+  // A notch 0.8 wide and 6 deep in a plate, least size 1: two segments on its base are 0.4 long.
+  const CadModel model =
+      sheet({{{0, 0}, {20, 0}, {20, 20}, {10.8, 20}, {10.8, 14}, {10, 14}, {10, 20}, {0, 20}}});
+  const ShellMesh mesh = meshed(model, 4, 1);
+  ASSERT_FALSE(mesh.short_sides.empty());
+  int quads = 0;
+  bool is_edge = false;
+  for (const auto& found : mesh.short_sides) {
+    quads += found.quads;
+    EXPECT_LT(found.shortest, 0.5);
+    EXPECT_FALSE(found.why.empty());
+    is_edge |= found.dimension == 1 && found.why == "it is 0.8 long";
+  }
+  EXPECT_TRUE(is_edge);
+  EXPECT_EQ(quads, failing(mesh));
+}
+
+TEST(ShortSides, EdgesThatComeCloseAreNamed) {
+  // Two plates joined by a neck 0.7 wide: the reach is 0.5, so that the neck stays.
+  const CadModel model = sheet({{{0, 0},
+                                 {10, 0},
+                                 {10, 4.65},
+                                 {14, 4.65},
+                                 {14, 0},
+                                 {24, 0},
+                                 {24, 10},
+                                 {14, 10},
+                                 {14, 5.35},
+                                 {10, 5.35},
+                                 {10, 10},
+                                 {0, 10}}});
+  const ShellMesh mesh = meshed(model, 3, 1);
+  ASSERT_EQ(mesh.short_sides.size(), 1U);
+  EXPECT_EQ(mesh.short_sides[0].dimension, 2);
+  EXPECT_NE(mesh.short_sides[0].why.find("come within 0.7"), std::string::npos) << mesh.short_sides[0].why;
+}
+
+TEST(ShortSides, NothingIsToldOfLargeFeaturesAndUnknownSizes) {
+  const CadModel model = sheet({{{0, 0}, {20, 0}, {20, 20}, {0, 20}}});
+  ShellMesh mesh = meshed(model, 4, 1);
+  EXPECT_TRUE(mesh.short_sides.empty());
+  EXPECT_EQ(mesh.size_min, 1);
+  mesh.size_min = 100;
+  EXPECT_FALSE(short_sides(model.shape(), mesh).empty());
+  mesh.size_min = 0;
+  EXPECT_TRUE(short_sides(model.shape(), mesh).empty());
+}
+
+TEST(SmallFeatures, FollowTheReach) {
+  // A step of 0.2 in the rim.
+  const CadModel model = sheet({{{0, 0}, {20, 0}, {20, 20}, {10, 20}, {10, 19.8}, {0, 19.8}}});
+  const auto found = [&](double reach, bool keep) {
+    MeshOptions options;
+    options.sizing.size = 4;
+    options.sizing.size_min = 1;
+    options.reach = reach;
+    options.keep_features = keep;
+    ExecutionContext context(1);
+    return small_features(model, options, context);
+  };
+  const SmallFeatures usual = found(0, false);
+  ASSERT_FALSE(usual.let_go.empty());
+  EXPECT_EQ(usual.let_go[0].kind, ShellMesh::LetGo::Kind::edge);
+  EXPECT_NEAR(usual.let_go[0].distance, 0.2, 1e-9);
+  EXPECT_TRUE(found(0.1, false).let_go.empty());
+  EXPECT_FALSE(found(0.3, false).let_go.empty());
+  EXPECT_TRUE(found(0, true).let_go.empty());
+}
+
+}  // namespace
+}  // namespace quadrille
