@@ -8,20 +8,12 @@
 #include <vector>
 
 #include "mesher/mesh/mesh_types.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
-/// A side of a triangle as 4 * triangle + i, i = 0, 1, 2: from corner i to the next corner. -1 = none.
-using Side = std::int32_t;
-
-inline Side make_side(int triangle, int i) {
-  return 4 * triangle + i;
-}
 inline int triangle_of(Side side) {
-  return side >> 2;
-}
-inline int index_of(Side side) {
-  return side & 3;
+  return element_of(side);
 }
 inline int next_index(int i) {
   return i == 2 ? 0 : i + 1;
