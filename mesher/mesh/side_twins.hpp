@@ -30,6 +30,22 @@ inline Side previous_side(Side side) {
   return make_side(triangle_of(side), previous_index(index_of(side)));
 }
 
+/// Calls visit(sides) once for each two points and tag that sides have in common: all of these, ascending.
+template <class Visit>
+void for_each_side_of_tag(const TriangleMesh& mesh, Visit&& visit) {
+  const auto tag_of = [&](Side side) { return mesh.tags.empty() ? 0 : mesh.tags[triangle_of(side)]; };
+  std::vector<Side> by_tag;
+  const auto split = [&](int, int, std::span<const Side> sides) {
+    by_tag.assign(sides.begin(), sides.end());
+    std::stable_sort(by_tag.begin(), by_tag.end(), [&](Side a, Side b) { return tag_of(a) < tag_of(b); });
+    for (auto at = by_tag.begin(), end = at; at != by_tag.end(); at = end) {
+      while (end != by_tag.end() && tag_of(*end) == tag_of(*at)) ++end;
+      visit(std::span<const Side>(at, end));
+    }
+  };
+  for_each_shared_side(mesh.points.size(), no_check, split, mesh.triangles);
+}
+
 /// Throws Error (failure) for indices out of range or repeated, naming the triangle, or a wrong count of
 /// tags.
 void check_indices(const TriangleMesh& mesh);
