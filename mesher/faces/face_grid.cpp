@@ -339,14 +339,11 @@ class GridMaker {
   }
 
   static std::optional<HoleBlock> block_round(const std::vector<Vector2>& places, const GridSize& grid) {
-    HolePlace place{places.front(), places.front()};
+    HolePlace place;
     for (const Vector2& p : places) place.include(p);
     if (!place.low.allFinite() || !place.high.allFinite()) return std::nullopt;
     // Edges start with a vertex, and so do loops.
-    const Vector2 off =
-        (places.front() - 0.5 * (place.low + place.high)).cwiseQuotient(place.high - place.low);
-    constexpr double straight = 0.05;
-    place.even = off.cwiseAbs().minCoeff() < straight;
+    place.note_vertex(places.front());
     return block_of(place, static_cast<int>(places.size()), grid);
   }
 
