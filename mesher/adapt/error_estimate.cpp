@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
@@ -23,11 +24,6 @@ Values values_of(const ShellStress& stress) {
   Values values;
   values << stress.membrane.transpose(), stress.bending.transpose();
   return values;
-}
-
-Vector3 vector_area(const ShellMesh& mesh, int quad) {
-  const auto& [a, b, c, d] = mesh.quads[quad];
-  return 0.5 * (mesh.points[c] - mesh.points[a]).cross(mesh.points[d] - mesh.points[b]);
 }
 
 /// Polynomials fitted to the stresses around a corner node.
@@ -68,8 +64,7 @@ class Recovery {
  public:
   Recovery(const ShellMesh& mesh, const std::vector<std::array<ShellStress, 4>>& stresses)
       : mesh_(mesh), stresses_(stresses), corners_(corners_by_node(mesh.points.size(), mesh.quads)) {
-    for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad)
-      normals_.push_back(vector_area(mesh, static_cast<int>(quad)).normalized());
+    for (const auto& quad : mesh.quads) normals_.push_back(quad_area_vector(mesh.points, quad).normalized());
   }
 
   /// The patch around a node. If the node lies on a fold, only quads on the side of `quad` belong to it.
@@ -147,8 +142,7 @@ int order_of(const ShellMesh& mesh) {
 
 std::vector<double> sizes_of(const ShellMesh& mesh) {
   std::vector<double> sizes;
-  for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad)
-    sizes.push_back(std::sqrt(vector_area(mesh, static_cast<int>(quad)).norm()));
+  for (const auto& quad : mesh.quads) sizes.push_back(std::sqrt(quad_area_vector(mesh.points, quad).norm()));
   return sizes;
 }
 

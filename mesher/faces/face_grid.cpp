@@ -12,7 +12,7 @@
 #include "geometry/base/whole_number.hpp"
 #include "mesher/edges/hole_blocks.hpp"
 #include "mesher/faces/step_layout.hpp"
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/quad_geometry.hpp"
 
 namespace quadrille {
 
@@ -455,10 +455,10 @@ class GridMaker {
   /// Whether all cells have a good shape in space and none is folded in the parameter plane.
   bool is_good() {
     turn_to_left();
-    for (const auto& [a, b, c, d] : grid_.quads) {
+    for (const auto& quad : grid_.quads) {
       check_();
-      const auto& p = grid_.points;
-      if (quad_scaled_jacobian(p[a], p[b], p[c], p[d]) < least_jacobian) return false;
+      const auto& [a, b, c, d] = quad;
+      if (quad_scaled_jacobian(grid_.points, quad) < least_jacobian) return false;
       if (!(cross(a, b, d) > 0) || !(cross(c, d, b) > 0)) return false;
     }
     return true;

@@ -228,9 +228,7 @@ QualitySummary quality(const ShellMesh& mesh) {
 std::vector<double> quad_qualities(const ShellMesh& mesh) {
   std::vector<double> result;
   result.reserve(mesh.quads.size());
-  for (const auto& quad : mesh.quads)
-    result.push_back(
-        quad_q(mesh.points[quad[0]], mesh.points[quad[1]], mesh.points[quad[2]], mesh.points[quad[3]]));
+  for (const auto& quad : mesh.quads) result.push_back(quad_q(mesh.points, quad));
   return result;
 }
 

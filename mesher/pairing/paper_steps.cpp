@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
@@ -84,8 +84,7 @@ int smooth_poor(QuadMesh& mesh, double q_limit, int sweeps) {
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     poor.assign(mesh.points.size(), 0);
     for (const auto& q : mesh.quads) {
-      if (quad_q(mesh.points[q[0]], mesh.points[q[1]], mesh.points[q[2]], mesh.points[q[3]]) >= q_limit)
-        continue;
+      if (quad_q(mesh.points, q) >= q_limit) continue;
       for (int v : q) poor[v] = 1;
     }
     for (int v = 0; v < static_cast<int>(mesh.points.size()); ++v) {

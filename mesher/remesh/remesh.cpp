@@ -23,7 +23,7 @@
 #include "geometry/cad/parallel_ids.hpp"
 #include "geometry/sizing/element_count.hpp"
 #include "geometry/sizing/sizing_options.hpp"
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/side_twins.hpp"
 #include "mesher/mesh/surface_cut.hpp"
 #include "mesher/quads/face_quads.hpp"
@@ -293,7 +293,7 @@ class Remesher : public ShellGeometry {
   bool is_spoiled(const std::vector<Vector3>& p, const std::array<int, 4>& quad) const {
     for (int k = 0; k < 4; ++k)
       if ((p[quad[(k + 1) % 4]] - p[quad[k]]).norm() < least_side_) return true;
-    return quad_scaled_jacobian(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]) <= 0;
+    return quad_scaled_jacobian(p, quad) <= 0;
   }
 
   /// A node of each quad that is spoiled or lies on another quad.
@@ -602,11 +602,9 @@ class Remesher : public ShellGeometry {
       faces[number].q_min = 1;
     }
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-      const auto& [a, b, c, d] = mesh.quads[q];
-      const auto& p = mesh.points;
       ShellMesh::Face& face = faces[mesh.quad_faces[q]];
       ++face.quads;
-      face.q_min = std::min(face.q_min, quad_q(p[a], p[b], p[c], p[d]));
+      face.q_min = std::min(face.q_min, quad_q(mesh.points, mesh.quads[q]));
     }
     for (auto& [number, face] : faces) mesh.faces.push_back(face);
   }

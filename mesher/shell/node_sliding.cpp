@@ -13,6 +13,7 @@
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/grid_rows.hpp"
+#include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/sides.hpp"
 #include "mesher/quads/criteria_patch.hpp"
@@ -560,10 +561,8 @@ class NodeSliding {
     result.normals = mesh.normals;
     if (!result.normals.empty()) return result;
     result.normals.assign(mesh.points.size(), Vector3::Zero());
-    const auto& p = mesh.points;
     for (const auto& quad : result.mesh.quads) {
-      const auto& [a, b, c, d] = quad;
-      const Vector3 normal = (p[c] - p[a]).cross(p[d] - p[b]).normalized();
+      const Vector3 normal = quad_area_vector(mesh.points, quad).normalized();
       for (const int node : quad) result.normals[node] += normal;
     }
     for (Vector3& normal : result.normals) normal.normalize();
@@ -580,10 +579,9 @@ class NodeSliding {
       if (face.slid[i]) face.get_surface().nearest(mesh.uv[i], mesh.points[i]);
     mesh.q_min = 1;
     SparseCheck check(context_);
-    for (const auto& [a, b, c, d] : mesh.quads) {
+    for (const auto& quad : mesh.quads) {
       check();
-      const auto& p = mesh.points;
-      mesh.q_min = std::min(mesh.q_min, quad_q(p[a], p[b], p[c], p[d]));
+      mesh.q_min = std::min(mesh.q_min, quad_q(mesh.points, quad));
     }
   }
 

@@ -15,7 +15,7 @@
 #include "geometry/base/place_text.hpp"
 #include "geometry/base/side_key.hpp"
 #include "mesher/mesh/joined_faces.hpp"
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/second_order.hpp"
 #include "mesher/mesh/sides.hpp"
 
@@ -116,9 +116,7 @@ void check_areas(const Elements& elements, Findings& findings) {
 
 void check_convex(const Elements& elements, Findings& findings) {
   for (std::size_t i = 0; i < elements.quads.size(); ++i) {
-    const auto& q = elements.quads[i];
-    const double sj = quad_scaled_jacobian(elements.points[q[0]], elements.points[q[1]],
-                                           elements.points[q[2]], elements.points[q[3]]);
+    const double sj = quad_scaled_jacobian(elements.points, elements.quads[i]);
     if (!(sj > 0)) findings.add("quad {} is not convex: its scaled Jacobian is {}", i, number_text(sj));
   }
 }
