@@ -4,7 +4,6 @@
 #include "mesher/pairing/paper_steps.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/sides.hpp"

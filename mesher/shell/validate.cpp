@@ -182,12 +182,9 @@ class CoincidenceSearch {
 
 void check_coincident(std::span<const Vector3> points, Findings& findings) {
   if (points.empty()) return;
-  Vector3 low = points[0], high = points[0];
-  for (const Vector3& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const double diagonal = (high - low).norm();
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : points) box.extend(p);
+  const double diagonal = box.diagonal().norm();
   if (!(diagonal > 0)) {
     if (points.size() > 1) findings.add("all {} points coincide", points.size());
     return;
