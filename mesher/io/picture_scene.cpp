@@ -13,7 +13,6 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
-
 namespace quadrille {
 
 namespace {
