@@ -52,7 +52,7 @@ void for_each_shared_side(std::size_t nodes, Check check, Visit&& visit, const L
   struct End {
     int high;
     Side side;
-    auto operator<=>(const End&) const = default;
+    auto operator<=>(const End&) const = default;  // NOLINT(modernize-use-nullptr)
   };
   Rows<End> rows(nodes, [&](auto&& add) {
     int element = 0;

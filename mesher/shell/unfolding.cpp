@@ -208,11 +208,12 @@ class Straightening {
       check_();
       const int share = side.share;
       std::vector<double> least;
-      for (const Side user : users_[node])
+      const std::span<const Side> users = users_[node];
+      for (const Side user : users)
         least.push_back(std::min(wanted(quad_of(user)), jacobian_bound_of(mesh_, quad_of(user))));
       const auto holds = [&] {
         for (std::size_t i = 0; i < least.size(); ++i) {
-          if (jacobian_bound_of(mesh_, quad_of(users_[node][i])) < least[i]) return false;
+          if (jacobian_bound_of(mesh_, quad_of(users[i])) < least[i]) return false;
         }
         return true;
       };
