@@ -509,7 +509,7 @@ class Job {
 
   /// Meshes the tips of a face, and of those beside it, that ended early. \return whether there are any.
   bool mesh_to_tips(FaceId face) {
-    const auto is_beside = [&](const Tip::Side& side) {
+    const auto is_beside = [&](const Tip::Flank& side) {
       const auto& faces = shape_.edges[side.edge].faces;
       return std::find(faces.begin(), faces.end(), face) != faces.end();
     };

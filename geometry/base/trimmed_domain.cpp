@@ -17,18 +17,12 @@ TrimmedDomain::TrimmedDomain(std::vector<Segment> segments) : segments_(std::mov
   slab_count_ = static_cast<int>(std::clamp<std::size_t>(segments_.size(), 1, 1 << 20));
   const double height = high_.y() - low_.y();
   slab_scale_ = height > 0 ? slab_count_ / height : 0;
-  offsets_.assign(slab_count_ + 1, 0);
-  const auto for_each_slab = [&](const Segment& s, auto&& visit) {
-    const int first = slab(std::min(s.a.y(), s.b.y())), last = slab(std::max(s.a.y(), s.b.y()));
-    for (int i = first; i <= last; ++i) visit(i);
-  };
-  for (const Segment& s : segments_) for_each_slab(s, [&](int i) { ++offsets_[i + 1]; });
-  for (int i = 0; i < slab_count_; ++i) offsets_[i + 1] += offsets_[i];
-  members_.resize(offsets_.back());
-  std::vector<int> next(offsets_.begin(), offsets_.end() - 1);
-  for (std::size_t k = 0; k < segments_.size(); ++k) {
-    for_each_slab(segments_[k], [&](int i) { members_[next[i]++] = static_cast<int>(k); });
-  }
+  members_ = Rows<>(slab_count_, [&](auto&& add) {
+    for (std::size_t k = 0; k < segments_.size(); ++k) {
+      const auto [low, high] = std::minmax(segments_[k].a.y(), segments_[k].b.y());
+      for (int i = slab(low); i <= slab(high); ++i) add(i, static_cast<int>(k));
+    }
+  });
 }
 
 int TrimmedDomain::slab(double y) const {
@@ -39,9 +33,8 @@ bool TrimmedDomain::inside(const Vector2& p) const {
   if (segments_.empty() || (p.array() < low_.array()).any() || (p.array() > high_.array()).any())
     return false;
   bool odd = false;
-  const int i = slab(p.y());
-  for (int k = offsets_[i]; k < offsets_[i + 1]; ++k) {
-    const Segment& s = segments_[members_[k]];
+  for (const int member : members_[slab(p.y())]) {
+    const Segment& s = segments_[member];
     if ((s.a.y() > p.y()) == (s.b.y() > p.y())) continue;
     const double x = s.a.x() + (p.y() - s.a.y()) / (s.b.y() - s.a.y()) * (s.b.x() - s.a.x());
     if (p.x() < x) odd = !odd;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "geometry/base/rows.hpp"
 #include "geometry/base/vector.hpp"
 
 namespace quadrille {
@@ -28,7 +29,7 @@ class TrimmedDomain {
   int slab(double y) const;
 
   std::vector<Segment> segments_;
-  std::vector<int> offsets_, members_;  // segments of slab i: members_[offsets_[i] .. offsets_[i + 1])
+  Rows<> members_;  // the segments of each slab
   Vector2 low_{0, 0}, high_{0, 0};
   double slab_scale_ = 0;
   int slab_count_ = 0;

@@ -11,9 +11,9 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include <fmt/format.h>
@@ -28,32 +28,15 @@ namespace {
 constexpr double least_tolerance = 1e-7;  ///< share of the diagonal
 constexpr int most_tests = 20000;         ///< of an edge against a face
 
-/// Sets that can be united.
-class Unions {
- public:
-  explicit Unions(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(int a, int b) {
-    a = root(a), b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
-
 /// The faces of the model by part.
 std::vector<std::vector<FaceId>> parts_of(const CadShape& shape) {
   const int count = static_cast<int>(shape.faces.size());
-  Unions unions(count + static_cast<int>(shape.vertices.size()));
+  boost::disjoint_sets_with_storage<> unions(shape.faces.size() + shape.vertices.size());
   for (const CadEdge& edge : shape.edges) {
     for (const FaceId face : edge.faces) {
-      unions.unite(edge.faces.front().index(), face.index());
+      unions.union_set(edge.faces.front().index(), face.index());
       for (const VertexId vertex : {edge.first_vertex, edge.last_vertex})
-        if (vertex.exists()) unions.unite(face.index(), count + vertex.index());
+        if (vertex.exists()) unions.union_set(face.index(), count + vertex.index());
     }
   }
   if (shape.solids > 0) {
@@ -63,15 +46,18 @@ std::vector<std::vector<FaceId>> parts_of(const CadShape& shape) {
       int first = -1;
       for (TopExp_Explorer face(solid.Current(), TopAbs_FACE); face.More(); face.Next()) {
         const int index = faces.FindIndex(face.Current()) - 1;
-        if (first >= 0) unions.unite(first, index);
+        if (first >= 0) unions.union_set(first, index);
         first = index;
       }
     }
   }
-  std::map<int, std::vector<FaceId>> by_root;
-  for (const FaceId face : shape.faces.ids()) by_root[unions.root(face.index())].push_back(face);
+  std::map<std::size_t, std::size_t> part_of;  // by representative
   std::vector<std::vector<FaceId>> parts;
-  for (auto& [root, faces] : by_root) parts.push_back(std::move(faces));
+  for (const FaceId face : shape.faces.ids()) {
+    const auto [part, is_new] = part_of.try_emplace(unions.find_set(face.index()), parts.size());
+    if (is_new) parts.emplace_back();
+    parts[part->second].push_back(face);
+  }
   return parts;
 }
 

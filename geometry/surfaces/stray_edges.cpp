@@ -25,12 +25,9 @@ Bnd_Box box_of_surfaces(const CadShape& shape) {
 
 double diagonal_of_vertices(const CadShape& shape) {
   if (shape.vertices.empty()) return 0;
-  Vector3 low = *shape.vertices.begin(), high = low;
-  for (const Vector3& vertex : shape.vertices) {
-    low = low.cwiseMin(vertex);
-    high = high.cwiseMax(vertex);
-  }
-  return (high - low).norm();
+  Eigen::AlignedBox3d box;
+  for (const Vector3& vertex : shape.vertices) box.extend(vertex);
+  return box.diagonal().norm();
 }
 
 /// The largest distance of points of an edge from a box.

@@ -67,7 +67,7 @@ class Round {
       for (int k = 0; k < 3; ++k) {
         const auto [a, b] = side(i, k);
         const auto [found, is_new] = middles_.try_emplace(side_key(a, b));
-        Side& own = found->second;
+        SharedSide& own = found->second;
         if (!is_new) {
           own.triangles[1] = static_cast<int>(i);
           continue;
@@ -108,12 +108,12 @@ class Round {
  private:
   static constexpr int whole = -1, to_divide = -2;
 
-  struct Side {
+  struct SharedSide {
     int middle = whole;  // index of its midpoint, or one of the states above
     std::array<int, 2> triangles{-1, -1};
   };
 
-  void mark(Side& side) {
+  void mark(SharedSide& side) {
     side.middle = to_divide;
     divided_.push_back(&side);
   }
@@ -135,17 +135,17 @@ class Round {
   /// Marks the longest side of every triangle that has a marked side. This keeps angles from degenerating.
   void close() {
     while (!divided_.empty()) {
-      const Side& side = *divided_.back();
+      const SharedSide& side = *divided_.back();
       divided_.pop_back();
       for (const int triangle : side.triangles) {
         if (triangle < 0) continue;
-        Side& longest = side_of(triangle, longest_side(triangle));
+        SharedSide& longest = side_of(triangle, longest_side(triangle));
         if (longest.middle == whole) mark(longest);
       }
     }
   }
 
-  Side& side_of(std::size_t triangle, int k) {
+  SharedSide& side_of(std::size_t triangle, int k) {
     const auto [a, b] = side(triangle, k);
     return middles_.at(side_key(a, b));
   }
@@ -187,8 +187,8 @@ class Round {
   }
 
   SurfaceTriangles& surface_;
-  std::unordered_map<std::uint64_t, Side> middles_;
-  std::vector<Side*> divided_;  // marked sides whose triangles still have to be checked
+  std::unordered_map<std::uint64_t, SharedSide> middles_;
+  std::vector<SharedSide*> divided_;  // marked sides whose triangles still have to be checked
 };
 
 }  // namespace

@@ -8,6 +8,9 @@
 #include <numeric>
 #include <set>
 
+#include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/mesh/sides.hpp"
+
 namespace quadrille {
 
 namespace {
@@ -21,11 +24,6 @@ Values values_of(const ShellStress& stress) {
   Values values;
   values << stress.membrane.transpose(), stress.bending.transpose();
   return values;
-}
-
-Vector3 vector_area(const ShellMesh& mesh, int quad) {
-  const auto& [a, b, c, d] = mesh.quads[quad];
-  return 0.5 * (mesh.points[c] - mesh.points[a]).cross(mesh.points[d] - mesh.points[b]);
 }
 
 /// Polynomials fitted to the stresses around a corner node.
@@ -65,18 +63,16 @@ class Patch {
 class Recovery {
  public:
   Recovery(const ShellMesh& mesh, const std::vector<std::array<ShellStress, 4>>& stresses)
-      : mesh_(mesh), stresses_(stresses), quads_at_(mesh.points.size()) {
-    for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
-      normals_.push_back(vector_area(mesh, static_cast<int>(quad)).normalized());
-      for (const int node : mesh.quads[quad]) quads_at_[node].push_back(static_cast<int>(quad));
-    }
+      : mesh_(mesh), stresses_(stresses), corners_(corners_by_node(mesh.points.size(), mesh.quads)) {
+    for (const auto& quad : mesh.quads) normals_.push_back(quad_area_vector(mesh.points, quad).normalized());
   }
 
   /// The patch around a node. If the node lies on a fold, only quads on the side of `quad` belong to it.
   Patch patch(int node, int quad) const {
     std::set<int> quads;
     const auto take = [&](int from) {
-      for (const int other : quads_at_[from]) {
+      for (const Side corner : corners_[from]) {
+        const int other = element_of(corner);
         if (normals_[other].dot(normals_[quad]) > fold) quads.insert(other);
       }
     };
@@ -98,7 +94,7 @@ class Recovery {
  private:
   const ShellMesh& mesh_;
   const std::vector<std::array<ShellStress, 4>>& stresses_;
-  std::vector<std::vector<int>> quads_at_;
+  Rows<Side> corners_;  // at each node
   std::vector<Vector3> normals_;
 };
 
@@ -146,8 +142,7 @@ int order_of(const ShellMesh& mesh) {
 
 std::vector<double> sizes_of(const ShellMesh& mesh) {
   std::vector<double> sizes;
-  for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad)
-    sizes.push_back(std::sqrt(vector_area(mesh, static_cast<int>(quad)).norm()));
+  for (const auto& quad : mesh.quads) sizes.push_back(std::sqrt(quad_area_vector(mesh.points, quad).norm()));
   return sizes;
 }
 
@@ -177,10 +172,10 @@ std::vector<double> even_sizes(const ShellMesh& mesh, const ErrorEstimate& estim
 
 std::vector<char> singular_corners(const ShellMesh& mesh, const ErrorEstimate& estimate) {
   constexpr double much = 4;  // ratio of the mean squared errors per quad
-  std::vector<std::vector<int>> quads_at(mesh.points.size());
-  for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
-    for (const int node : mesh.quads[quad]) quads_at[node].push_back(static_cast<int>(quad));
-  }
+  const Rows<Side> corners = corners_by_node(mesh.points.size(), mesh.quads);
+  const auto add_quads_at = [&](std::size_t node, std::set<int>& quads) {
+    for (const Side corner : corners[node]) quads.insert(element_of(corner));
+  };
   const auto mean_of = [&](const std::set<int>& quads) {
     double sum = 0;
     for (const int quad : quads) sum += estimate.squares[quad];
@@ -188,11 +183,10 @@ std::vector<char> singular_corners(const ShellMesh& mesh, const ErrorEstimate& e
   };
   std::vector<char> singular(mesh.points.size(), 0);
   for (std::size_t node = 0; node < singular.size(); ++node) {
-    const std::set<int> own(quads_at[node].begin(), quads_at[node].end());
-    std::set<int> round;
+    std::set<int> own, round;
+    add_quads_at(node, own);
     for (const int quad : own) {
-      for (const int corner : mesh.quads[quad])
-        round.insert(quads_at[corner].begin(), quads_at[corner].end());
+      for (const int corner : mesh.quads[quad]) add_quads_at(corner, round);
     }
     for (const int quad : own) round.erase(quad);
     singular[node] = !own.empty() && !round.empty() && mean_of(own) > much * mean_of(round);

@@ -122,15 +122,9 @@ class HoleFitter {
     std::vector<HolePlace> result;
     for (std::size_t wire = 0; wire < face.wires.size(); ++wire) {
       if (static_cast<int>(wire) == sides.outer) continue;
-      HolePlace place{Vector2::Constant(std::numeric_limits<double>::infinity()),
-                      Vector2::Constant(-std::numeric_limits<double>::infinity())};
+      HolePlace place;
       for (const Vector2& uv : points_along(face.wires[wire])) place.include(share_of(uv));
-      const Vector2 middle = 0.5 * (place.low + place.high);
-      constexpr double straight = 0.05;  // distance from the axis over the hole's size
-      for (const Coedge& coedge : face.wires[wire].coedges) {
-        const Vector2 off = (share_of(start_of(coedge)) - middle).cwiseQuotient(place.high - place.low);
-        place.even |= off.cwiseAbs().minCoeff() < straight;
-      }
+      for (const Coedge& coedge : face.wires[wire].coedges) place.note_vertex(share_of(start_of(coedge)));
       result.push_back(place);
     }
     return result;

@@ -1,6 +1,7 @@
 #pragma once
 /// Holes in grids: which cells make room for a hole. Internal.
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -12,13 +13,19 @@ namespace quadrille {
 
 /// The bounding box of a hole in a grid, in cells counted from the first column and row.
 struct HolePlace {
-  Vector2 low{0, 0}, high{0, 0};
+  Vector2 low = Vector2::Constant(std::numeric_limits<double>::infinity()), high = -low;
   /// The hole has a vertex straight beside, above or below its center, so the block needs nodes there too.
   bool even = false;
 
   void include(const Vector2& cell) {
     low = low.cwiseMin(cell);
     high = high.cwiseMax(cell);
+  }
+  /// Sets `even` if a vertex lies so. All points of the hole must be included.
+  void note_vertex(const Vector2& cell) {
+    constexpr double straight = 0.05;  // distance from the axis over the hole's size
+    const Vector2 off = (cell - 0.5 * (low + high)).cwiseQuotient(high - low);
+    even |= off.cwiseAbs().minCoeff() < straight;
   }
 };
 

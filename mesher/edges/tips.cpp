@@ -163,14 +163,14 @@ class TipEnder {
     if (count == 0 || !follow(tip.before, tip.after, count)) return;
     BoundaryNodes::Edge& follower = nodes_.edges[tip.after.edge];
     follower.borrowed[tip.after.at_end ? 1 : 0] = count;
-    for (const Tip::Side* side : {&tip.before, &tip.after})
+    for (const Tip::Flank* side : {&tip.before, &tip.after})
       nodes_.unused[{tip.face, side->edge}][side->at_end ? 1 : 0] = count;
     nodes_.sides[tip.face].outline = FaceSides::Outline::other;
   }
 
  private:
   /// Whether the edge and the faces beside it are left as they are, and nobody prescribes its nodes.
-  bool is_whole(const Tip::Side& side) const {
+  bool is_whole(const Tip::Flank& side) const {
     const auto& faces = shape_.edges[side.edge].faces;
     const BoundaryNodes::Edge& edge = nodes_.edges[side.edge];
     return tiny_.edges[side.edge] == side.edge && !tiny_.collapsed_edges[side.edge] && !edge.divided &&
@@ -180,13 +180,13 @@ class TipEnder {
   }
 
   /// The index of the node that is k segments from the tip.
-  int at(const Tip::Side& side, int k) const {
+  int at(const Tip::Flank& side, int k) const {
     return side.at_end ? nodes_.edges[side.edge].segments() - k : k;
   }
 
   /// The number of segments of an edge between its tip and the place where the face is wide enough: an even
   /// one, that leaves some.
-  int segments_before(const Tip::Side& side) const {
+  int segments_before(const Tip::Flank& side) const {
     constexpr int left = 4;
     const BoundaryNodes::Edge& edge = nodes_.edges[side.edge];
     int count = 0;
@@ -197,7 +197,7 @@ class TipEnder {
   }
 
   /// Gives the first `count` nodes of one edge to the other one, and spreads the rest of its nodes.
-  bool follow(const Tip::Side& leader, const Tip::Side& follower, int count) {
+  bool follow(const Tip::Flank& leader, const Tip::Flank& follower, int count) {
     const BoundaryNodes::Edge& from = nodes_.edges[leader.edge];
     BoundaryNodes::Edge& to = nodes_.edges[follower.edge];
     const EdgeCurve curve(shape_.edges[follower.edge]);

@@ -13,13 +13,13 @@ struct TinyFeatures;
 /// A vertex towards which a face gets narrow: a cusp, the end of a fillet that runs out.
 struct Tip {
   /// One of the two edges that meet there.
-  struct Side {
+  struct Flank {
     EdgeId edge;
     bool at_end = false;   ///< the tip is the edge's last vertex
     double parameter = 0;  ///< of the edge, where the other one is as far away as the width
   };
   FaceId face;
-  Side before, after;  ///< the wire runs to the tip along the first, and away along the second
+  Flank before, after;  ///< the wire runs to the tip along the first, and away along the second
 };
 
 /// The tips of the used faces: vertices at which two edges of a face stay closer than `width` over more than

@@ -12,7 +12,7 @@
 #include "geometry/base/whole_number.hpp"
 #include "mesher/edges/hole_blocks.hpp"
 #include "mesher/faces/step_layout.hpp"
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/quad_geometry.hpp"
 
 namespace quadrille {
 
@@ -339,14 +339,11 @@ class GridMaker {
   }
 
   static std::optional<HoleBlock> block_round(const std::vector<Vector2>& places, const GridSize& grid) {
-    HolePlace place{places.front(), places.front()};
+    HolePlace place;
     for (const Vector2& p : places) place.include(p);
     if (!place.low.allFinite() || !place.high.allFinite()) return std::nullopt;
     // Edges start with a vertex, and so do loops.
-    const Vector2 off =
-        (places.front() - 0.5 * (place.low + place.high)).cwiseQuotient(place.high - place.low);
-    constexpr double straight = 0.05;
-    place.even = off.cwiseAbs().minCoeff() < straight;
+    place.note_vertex(places.front());
     return block_of(place, static_cast<int>(places.size()), grid);
   }
 
@@ -458,10 +455,10 @@ class GridMaker {
   /// Whether all cells have a good shape in space and none is folded in the parameter plane.
   bool is_good() {
     turn_to_left();
-    for (const auto& [a, b, c, d] : grid_.quads) {
+    for (const auto& quad : grid_.quads) {
       check_();
-      const auto& p = grid_.points;
-      if (quad_scaled_jacobian(p[a], p[b], p[c], p[d]) < least_jacobian) return false;
+      const auto& [a, b, c, d] = quad;
+      if (quad_scaled_jacobian(grid_.points, quad) < least_jacobian) return false;
       if (!(cross(a, b, d) > 0) || !(cross(c, d, b) > 0)) return false;
     }
     return true;

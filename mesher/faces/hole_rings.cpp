@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "geometry/base/nearest_on_segment.hpp"
 
 namespace quadrille {
 
@@ -23,42 +24,40 @@ constexpr std::size_t fewest_segments = 6;
 constexpr double shortest_segment = 0.5, longest_segment = 2.3;
 
 double distance(const Vector3& p, const Vector3& a, const Vector3& b) {
-  const Vector3 along = b - a;
-  const double t = (p - a).dot(along) / std::max(along.squaredNorm(), std::numeric_limits<double>::min());
-  return (a + std::clamp(t, 0.0, 1.0) * along - p).norm();
+  return (a + nearest_share(a, b, p) * (b - a) - p).norm();
 }
 
 /// The segments of all loops, sorted along an axis.
-class Sides {
+class Segments {
  public:
-  struct Side {
+  struct Segment {
     Vector3 a, b;
     int loop;
   };
 
-  explicit Sides(std::vector<Side> sides) : sides_(std::move(sides)) {
-    Vector3 low = sides_.front().a, high = low;
-    for (const Side& side : sides_) {
-      low = low.cwiseMin(side.a);
-      high = high.cwiseMax(side.a);
-      longest_ = std::max(longest_, (side.b - side.a).norm());
+  explicit Segments(std::vector<Segment> segments) : segments_(std::move(segments)) {
+    Vector3 low = segments_.front().a, high = low;
+    for (const Segment& segment : segments_) {
+      low = low.cwiseMin(segment.a);
+      high = high.cwiseMax(segment.a);
+      longest_ = std::max(longest_, (segment.b - segment.a).norm());
     }
     (high - low).maxCoeff(&axis_);
-    std::sort(sides_.begin(), sides_.end(),
-              [this](const Side& a, const Side& b) { return a.a[axis_] < b.a[axis_]; });
+    std::sort(segments_.begin(), segments_.end(),
+              [this](const Segment& a, const Segment& b) { return a.a[axis_] < b.a[axis_]; });
   }
 
   /// Visits the segments that may lie within `reach` of p.
   template <class Visit>
   void near(const Vector3& p, double reach, Visit&& visit) const {
     const double from = p[axis_] - reach - longest_, to = p[axis_] + reach + longest_;
-    auto it = std::lower_bound(sides_.begin(), sides_.end(), from,
-                               [this](const Side& side, double x) { return side.a[axis_] < x; });
-    for (; it != sides_.end() && it->a[axis_] <= to; ++it) visit(*it);
+    auto it = std::lower_bound(segments_.begin(), segments_.end(), from,
+                               [this](const Segment& segment, double x) { return segment.a[axis_] < x; });
+    for (; it != segments_.end() && it->a[axis_] <= to; ++it) visit(*it);
   }
 
  private:
-  std::vector<Side> sides_;
+  std::vector<Segment> segments_;
   double longest_ = 0;
   int axis_ = 0;
 };
@@ -71,7 +70,7 @@ class RingPlacer {
   HoleRings run(int rings) {
     find_loops();
     if (loops_.size() < 2 || std::none_of(loops_.begin(), loops_.end(), is_hole)) return {};
-    const Sides sides(all_sides());
+    const Segments segments(all_segments());
     for (std::size_t i = 0; i < loops_.size(); ++i) {
       const Loop& loop = loops_[i];
       if (!is_hole(loop)) continue;
@@ -80,7 +79,7 @@ class RingPlacer {
       for (int count = rings; count > 0 && hole.lines.size() < 2; --count) {
         const double side = side_of(loop);
         const std::vector<double> widths =
-            side == 0 ? std::vector<double>{} : find_widths(i, count, side, sides);
+            side == 0 ? std::vector<double>{} : find_widths(i, count, side, segments);
         for (int k = 0; k < count && !widths.empty() && add_line(hole, widths, side); ++k) continue;
         if (static_cast<int>(hole.lines.size()) < count + 1) hole.lines.resize(1);
       }
@@ -138,14 +137,14 @@ class RingPlacer {
     return std::abs(sum);
   }
 
-  std::vector<Sides::Side> all_sides() const {
-    std::vector<Sides::Side> sides;
+  std::vector<Segments::Segment> all_segments() const {
+    std::vector<Segments::Segment> segments;
     for (std::size_t i = 0; i < loops_.size(); ++i) {
       const auto& nodes = loops_[i].nodes;
       for (std::size_t k = 0; k < nodes.size(); ++k)
-        sides.push_back({nodes[k].point, nodes[(k + 1) % nodes.size()].point, static_cast<int>(i)});
+        segments.push_back({nodes[k].point, nodes[(k + 1) % nodes.size()].point, static_cast<int>(i)});
     }
-    return sides;
+    return segments;
   }
 
   /// Unit vector tangent to the surface and normal to a line: to its left if side is 1, to its right if -1.
@@ -172,7 +171,7 @@ class RingPlacer {
   }
 
   /// The width of each of `count` rings at the nodes of a loop; empty if there is no room.
-  std::vector<double> find_widths(std::size_t index, int count, double side, const Sides& sides) const {
+  std::vector<double> find_widths(std::size_t index, int count, double side, const Segments& segments) const {
     const auto& line = loops_[index].nodes;
     const std::size_t n = line.size();
     std::vector<double> widths(n);
@@ -181,7 +180,7 @@ class RingPlacer {
       const Vector3 outward = across(line, i, side);
       const double wanted = usual_width * spacing(line, i);
       widths[i] = wanted;
-      sides.near(p, wanted * (2 * count + rows_beside), [&](const Sides::Side& other) {
+      segments.near(p, wanted * (2 * count + rows_beside), [&](const Segments::Segment& other) {
         const bool own = other.loop == static_cast<int>(index);
         if (own &&
             (0.5 * (other.a + other.b) - p).dot(outward) < 0.5 * (0.5 * (other.a + other.b) - p).norm())

@@ -6,43 +6,22 @@
 #include <set>
 #include <utility>
 
+#include "mesher/mesh/sides.hpp"
+
 namespace quadrille {
 
 std::vector<int> triangle_neighbors(const std::vector<std::array<int, 3>>& triangles, int points,
                                     const ExecutionContext& context) {
-  SparseCheck check(context);
-  // Sides are bucketed by their lower end.
-  std::vector<int> offsets(points + 1, 0), sides(3 * triangles.size());
-  const auto low = [&](int side) {
-    const auto& t = triangles[side / 3];
-    return std::min(t[side % 3], t[(side % 3 + 1) % 3]);
-  };
-  const auto high = [&](int side) {
-    const auto& t = triangles[side / 3];
-    return std::max(t[side % 3], t[(side % 3 + 1) % 3]);
-  };
-  const int n = static_cast<int>(sides.size());
-  for (int side = 0; side < n; ++side) {
-    check();
-    ++offsets[low(side) + 1];
-  }
-  for (int i = 0; i < points; ++i) offsets[i + 1] += offsets[i];
-  std::vector<int> next(offsets.begin(), offsets.end() - 1), neighbor(n, -1);
-  for (int side = 0; side < n; ++side) {
-    check();
-    sides[next[low(side)]++] = side;
-  }
-  for (int p = 0; p < points; ++p) {
-    check();
-    for (int i = offsets[p]; i < offsets[p + 1]; ++i) {
-      for (int j = i + 1; j < offsets[p + 1]; ++j) {
-        if (high(sides[i]) == high(sides[j])) {
-          neighbor[sides[i]] = sides[j];
-          neighbor[sides[j]] = sides[i];
-        }
+  std::vector<int> neighbor(3 * triangles.size(), -1);
+  const auto number = [](Side side) { return 3 * element_of(side) + index_of(side); };
+  const auto join = [&](int, int, std::span<const Side> sides) {
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      for (std::size_t j = i + 1; j < sides.size(); ++j) {
+        neighbor[number(sides[i])] = number(sides[j]);
+        neighbor[number(sides[j])] = number(sides[i]);
       }
-    }
-  }
+  };
+  for_each_shared_side(points, SparseCheck(context), join, triangles);
   return neighbor;
 }
 

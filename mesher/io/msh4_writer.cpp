@@ -2,7 +2,6 @@
 /// reference manual, "MSH file format".
 
 #include <algorithm>
-#include <limits>
 
 #include "mesher/io/msh_parts.hpp"
 #include "mesher/io/segment_sides.hpp"
@@ -44,17 +43,14 @@ void claim_nodes(const OutputMesh& mesh, Entities& entities, std::vector<char>& 
 void write_entity(const OutputMesh& mesh, const Entities& entities, std::size_t index,
                   std::span<const int> physical, TextWriter& out) {
   const CadGroup& group = entities.elements[index];
-  Vector3 low = Vector3::Constant(std::numeric_limits<double>::max()), high = -low;
+  Eigen::AlignedBox3d box;
   for (const int member : group.members)
-    for (const int node : element_nodes(mesh, entities.dimension, member)) {
-      low = low.cwiseMin(mesh.position(node));
-      high = high.cwiseMax(mesh.position(node));
-    }
+    for (const int node : element_nodes(mesh, entities.dimension, member)) box.extend(mesh.position(node));
   out << entities.tags[index] << ' ';
-  write_msh_point(low, out);
+  write_msh_point(box.min(), out);
   if (entities.dimension > 0) {
     out << ' ';
-    write_msh_point(high, out);
+    write_msh_point(box.max(), out);
   }
   out << ' ' << physical.size();
   for (const int number : physical) out << ' ' << number;

@@ -22,6 +22,7 @@
 #include "mesher/io/picture_scene.hpp"
 #include "mesher/io/size_picture.hpp"
 #include "mesher/io/x_display.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
@@ -94,16 +95,8 @@ vtkNew<vtkActor> surface_actor(const ShellMesh& mesh, const std::vector<double>&
 /// The two corner nodes of each element side; sides that elements share appear once.
 std::vector<std::array<int, 2>> unique_sides(const ShellMesh& mesh) {
   std::vector<std::array<int, 2>> sides;
-  const auto add = [&](const auto& nodes) {
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const int a = nodes[i], b = nodes[(i + 1) % nodes.size()];
-      sides.push_back({std::min(a, b), std::max(a, b)});
-    }
-  };
-  for (const auto& quad : mesh.quads) add(quad);
-  for (const auto& triangle : mesh.triangles) add(triangle);
-  std::sort(sides.begin(), sides.end());
-  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  const auto add = [&](int low, int high, std::span<const Side>) { sides.push_back({low, high}); };
+  for_each_shared_side(mesh.points.size(), no_check, add, mesh.quads, mesh.triangles);
   return sides;
 }
 

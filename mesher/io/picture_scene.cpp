@@ -13,8 +13,6 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
-#include <limits>
-
 namespace quadrille {
 
 namespace {
@@ -102,31 +100,25 @@ vtkNew<vtkScalarBarActor> color_bar(vtkScalarsToColors* colors, const BarTexts& 
 }
 
 View make_view(const std::vector<Vector3>& points) {
-  Vector3 low = points.front(), high = low;
-  for (const Vector3& point : points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  const Vector3 extent = high - low;
+  Eigen::AlignedBox3d box;
+  for (const Vector3& point : points) box.extend(point);
+  const Vector3 extent = box.diagonal();
   int flat = 0;
   extent.minCoeff(&flat);
-  View view{0.5 * (low + high), {1, -1.2, 0.9}, {0, 0, 1}, 0, 0};
+  View view{box.center(), {1, -1.2, 0.9}, {0, 0, 1}, 0, 0};
   if (extent[flat] < 1e-6 * extent.norm()) {
     view.from = flat == 1 ? Vector3(0, -1, 0) : Vector3::Unit(flat);
     if (flat == 2) view.up = {0, 1, 0};
   }
   view.from.normalize();
   const Vector3 right = view.up.cross(view.from).normalized(), above = view.from.cross(right);
-  Vector2 least = Vector2::Constant(std::numeric_limits<double>::max()), most = -least;
-  for (const Vector3& point : points) {
-    const Vector2 place((point - view.center).dot(right), (point - view.center).dot(above));
-    least = least.cwiseMin(place);
-    most = most.cwiseMax(place);
-  }
-  const Vector2 middle = 0.5 * (least + most);
+  Eigen::AlignedBox2d seen;
+  for (const Vector3& point : points)
+    seen.extend(Vector2((point - view.center).dot(right), (point - view.center).dot(above)));
+  const Vector2 middle = seen.center();
   view.center += middle.x() * right + middle.y() * above;
-  view.half_width = 0.5 * (most - least).x();
-  view.half_height = 0.5 * (most - least).y();
+  view.half_width = 0.5 * seen.diagonal().x();
+  view.half_height = 0.5 * seen.diagonal().y();
   return view;
 }
 

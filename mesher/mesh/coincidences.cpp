@@ -22,12 +22,9 @@ namespace quadrille {
 namespace {
 
 double tolerance_of(const ShellMesh& mesh) {
-  Vector3 low = mesh.points.front(), high = low;
-  for (const Vector3& p : mesh.points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  double tolerance = 1e-7 * (high - low).norm();
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : mesh.points) box.extend(p);
+  double tolerance = 1e-7 * box.diagonal().norm();
   std::vector<double> lengths;
   for (const ShellMesh::Segment& segment : mesh.segments)
     lengths.push_back((mesh.points[segment.nodes[1]] - mesh.points[segment.nodes[0]]).norm());

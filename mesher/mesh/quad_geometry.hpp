@@ -2,10 +2,13 @@
 /// The shape measure of a quad that clean-up and smoothing share. Not part of the public interface.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "geometry/base/vector.hpp"
+#include "mesher/mesh/quality.hpp"
 
 namespace quadrille {
 
@@ -13,6 +16,21 @@ namespace quadrille {
 constexpr double no_length = 1e-9;
 /// A scaled Jacobian up to this is only rounding error: three corners lie in a line.
 constexpr double no_jacobian = 1e-9;
+
+/// q of a quad of indices into points.
+inline double quad_q(std::span<const Vector3> points, const std::array<int, 4>& quad) {
+  return quad_q(points[quad[0]], points[quad[1]], points[quad[2]], points[quad[3]]);
+}
+
+/// Scaled Jacobian of a quad of indices into points.
+inline double quad_scaled_jacobian(std::span<const Vector3> points, const std::array<int, 4>& quad) {
+  return quad_scaled_jacobian(points[quad[0]], points[quad[1]], points[quad[2]], points[quad[3]]);
+}
+
+/// A vector as long as the area of a quad and normal to it. Indices into points.
+inline Vector3 quad_area_vector(std::span<const Vector3> points, const std::array<int, 4>& quad) {
+  return 0.5 * (points[quad[2]] - points[quad[0]]).cross(points[quad[3]] - points[quad[1]]);
+}
 
 /// Scaled Jacobian of the quad a, b, c, d; negative also when the quad is folded against the surface normal.
 /// For convex quads q = (2 / pi) asin(scaled Jacobian). Both rank quads in the same order, and this one needs

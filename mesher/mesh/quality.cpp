@@ -15,6 +15,7 @@
 
 #include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/second_order.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 namespace {
@@ -84,33 +85,6 @@ Corners measure(const std::array<const Vector3*, 4>& p) {
   corners.longest = *std::max_element(frame.lengths.begin(), frame.lengths.end());
   corners.shortest = *std::min_element(frame.lengths.begin(), frame.lengths.end());
   return corners;
-}
-
-/// A side of one element, by its lower and higher node.
-struct ElementSide {
-  int low, high;
-};
-
-/// All sides of all elements, sorted. A side with k elements is listed k times.
-std::vector<ElementSide> sorted_sides(const ShellMesh& mesh) {
-  const auto each_side = [&](auto&& visit) {
-    for (const auto& quad : mesh.quads)
-      for (int j = 0; j < 4; ++j) visit(quad[j], quad[(j + 1) & 3]);
-    for (const auto& triangle : mesh.triangles)
-      for (int j = 0; j < 3; ++j) visit(triangle[j], triangle[(j + 1) % 3]);
-  };
-  // Counting sort by the lower node. Then the few sides of each node are sorted by the higher node.
-  std::vector<std::size_t> first(mesh.points.size() + 1, 0);
-  each_side([&](int a, int b) { ++first[std::min(a, b) + 1]; });
-  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
-  std::vector<ElementSide> sides(first.back());
-  std::vector<std::size_t> place(first.begin(), first.end() - 1);
-  each_side([&](int a, int b) { sides[place[std::min(a, b)]++] = {std::min(a, b), std::max(a, b)}; });
-  for (std::size_t i = 0; i + 1 < first.size(); ++i)
-    std::sort(sides.begin() + static_cast<std::ptrdiff_t>(first[i]),
-              sides.begin() + static_cast<std::ptrdiff_t>(first[i + 1]),
-              [](const ElementSide& a, const ElementSide& b) { return a.high < b.high; });
-  return sides;
 }
 
 /// Marks the nodes that elements of two faces share.
@@ -191,19 +165,17 @@ void measure_elements(const ShellMesh& mesh, QualitySummary& summary) {
 }
 
 void measure_sides(const ShellMesh& mesh, QualitySummary& summary) {
-  const std::vector<ElementSide> sides = sorted_sides(mesh);
   std::vector<int> valence(mesh.points.size(), 0);
   std::vector<char> border(mesh.points.size(), 0);
   std::vector<double> lengths;
-  lengths.reserve(sides.size() / 2 + 1);
-  for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
-    while (j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high) ++j;
-    const auto [low, high] = sides[i];
+  lengths.reserve(2 * mesh.quads.size() + 2 * mesh.triangles.size());
+  const auto measure_side = [&](int low, int high, std::span<const Side> sides) {
     lengths.push_back((mesh.points[low] - mesh.points[high]).norm());
     ++valence[low];
     ++valence[high];
-    if (j - i != 2) border[low] = border[high] = 1;
-  }
+    if (sides.size() != 2) border[low] = border[high] = 1;
+  };
+  for_each_shared_side(mesh.points.size(), no_check, measure_side, mesh.quads, mesh.triangles);
   mark_shared_nodes(mesh, border);
   int interior = 0, irregular = 0;
   for (std::size_t i = 0; i < valence.size(); ++i) {
@@ -256,9 +228,7 @@ QualitySummary quality(const ShellMesh& mesh) {
 std::vector<double> quad_qualities(const ShellMesh& mesh) {
   std::vector<double> result;
   result.reserve(mesh.quads.size());
-  for (const auto& quad : mesh.quads)
-    result.push_back(
-        quad_q(mesh.points[quad[0]], mesh.points[quad[1]], mesh.points[quad[2]], mesh.points[quad[3]]));
+  for (const auto& quad : mesh.quads) result.push_back(quad_q(mesh.points, quad));
   return result;
 }
 

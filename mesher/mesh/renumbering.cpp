@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "geometry/base/rows.hpp"
+
 namespace quadrille {
 
 namespace {
@@ -38,21 +40,16 @@ std::vector<int> along_curve(const std::vector<Vector3>& points,
   const double extent = (high - low).maxCoeff();
   const double scale = extent > 0 ? (cells - 1e-6) / extent : 0;
   std::vector<std::uint32_t> keys(elements.size());
-  std::vector<int> start(cells * cells * cells + 1, 0);
   for (std::size_t t = 0; t < keys.size(); ++t) {
     check();
     const Vector3 at = scale * (points[elements[t][0]] - low);
     const auto bits = [&](int k) { return spread(static_cast<std::uint32_t>(at[k])); };
     keys[t] = bits(0) | bits(1) << 1 | bits(2) << 2;
-    ++start[keys[t] + 1];
   }
-  for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
-  std::vector<int> order(keys.size());
-  for (std::size_t t = 0; t < keys.size(); ++t) {
-    check();
-    order[start[keys[t]]++] = static_cast<int>(t);
-  }
-  return order;
+  Rows<> rows(cells * cells * cells, [&](auto&& add) {
+    for (std::size_t t = 0; t < keys.size(); ++t) add(static_cast<int>(keys[t]), static_cast<int>(t));
+  });
+  return rows.take_items();
 }
 
 }  // namespace

@@ -33,34 +33,22 @@ void check_indices(const TriangleMesh& mesh) {
 }
 
 void check_sides(const TriangleMesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
-    for (int i = 0; i < 3; ++i) sides.push_back(make_side(t, i));
-  }
   const auto from = [&](Side s) { return mesh.triangles[triangle_of(s)][index_of(s)]; };
   const auto to = [&](Side s) { return mesh.triangles[triangle_of(s)][next_index(index_of(s))]; };
-  const auto key = [&](Side s) {
-    return std::make_tuple(std::min(from(s), to(s)), std::max(from(s), to(s)),
-                           mesh.tags.empty() ? 0 : mesh.tags[triangle_of(s)]);
-  };
-  std::sort(sides.begin(), sides.end(), [&](Side a, Side b) {
-    return std::tuple_cat(key(a), std::tie(a)) < std::tuple_cat(key(b), std::tie(b));
-  });
   const auto fail = [](Side side, const std::string& what) {
     throw failure(fmt::format("triangle {}", triangle_of(side)),
                   fmt::format("triangle {} {}", triangle_of(side), what));
   };
-  for (std::size_t k = 1; k < sides.size(); ++k) {
-    const Side side = sides[k], twin = sides[k - 1];
-    if (key(side) != key(twin)) continue;
-    if (k > 1 && key(side) == key(sides[k - 2]))
-      fail(side, fmt::format("is the third on the side {}-{}", from(side), to(side)));
-    if (from(side) == from(twin)) {
+  for_each_side_of_tag(mesh, [&](std::span<const Side> sides) {
+    if (sides.size() < 2) return;
+    const Side side = sides[1];
+    if (from(side) == from(sides[0])) {
       fail(side, fmt::format("runs along its side {}-{} the same way as triangle {}", from(side), to(side),
-                             triangle_of(twin)));
+                             triangle_of(sides[0])));
     }
-  }
+    if (sides.size() > 2)
+      fail(sides[2], fmt::format("is the third on the side {}-{}", from(sides[2]), to(sides[2])));
+  });
 }
 
 SideRows::SideRows(const TriangleMesh& mesh)

@@ -8,20 +8,12 @@
 #include <vector>
 
 #include "mesher/mesh/mesh_types.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
-/// A side of a triangle as 4 * triangle + i, i = 0, 1, 2: from corner i to the next corner. -1 = none.
-using Side = std::int32_t;
-
-inline Side make_side(int triangle, int i) {
-  return 4 * triangle + i;
-}
 inline int triangle_of(Side side) {
-  return side >> 2;
-}
-inline int index_of(Side side) {
-  return side & 3;
+  return element_of(side);
 }
 inline int next_index(int i) {
   return i == 2 ? 0 : i + 1;
@@ -36,6 +28,22 @@ inline Side next_side(Side side) {
 }
 inline Side previous_side(Side side) {
   return make_side(triangle_of(side), previous_index(index_of(side)));
+}
+
+/// Calls visit(sides) once for each two points and tag that sides have in common: all of these, ascending.
+template <class Visit>
+void for_each_side_of_tag(const TriangleMesh& mesh, Visit&& visit) {
+  const auto tag_of = [&](Side side) { return mesh.tags.empty() ? 0 : mesh.tags[triangle_of(side)]; };
+  std::vector<Side> by_tag;
+  const auto split = [&](int, int, std::span<const Side> sides) {
+    by_tag.assign(sides.begin(), sides.end());
+    std::stable_sort(by_tag.begin(), by_tag.end(), [&](Side a, Side b) { return tag_of(a) < tag_of(b); });
+    for (auto at = by_tag.begin(), end = at; at != by_tag.end(); at = end) {
+      while (end != by_tag.end() && tag_of(*end) == tag_of(*at)) ++end;
+      visit(std::span<const Side>(at, end));
+    }
+  };
+  for_each_shared_side(mesh.points.size(), no_check, split, mesh.triangles);
 }
 
 /// Throws Error (failure) for indices out of range or repeated, naming the triangle, or a wrong count of

@@ -31,55 +31,11 @@ int to(const TriangleMesh& mesh, Side side) {
 int across(const TriangleMesh& mesh, Side side) {
   return mesh.triangles[triangle_of(side)][previous_index(index_of(side))];
 }
-int tag_of(const TriangleMesh& mesh, Side side) {
-  return mesh.tags.empty() ? 0 : mesh.tags[triangle_of(side)];
-}
-
-/// Visits the sides in groups. The sides of a group have the same two points and the same tag.
-/// \param visit takes each group as a span of sides.
-template <class Visit>
-void each_side_group(const TriangleMesh& mesh, Visit&& visit) {
-  struct Entry {
-    int to, tag;
-    Side side;
-    bool operator<(const Entry& other) const {
-      return std::tie(to, tag, side) < std::tie(other.to, other.tag, other.side);
-    }
-  };
-  std::vector<int> start(mesh.points.size() + 1, 0);
-  for (const auto& [a, b, c] : mesh.triangles) {
-    ++start[std::min(a, b)];
-    ++start[std::min(b, c)];
-    ++start[std::min(c, a)];
-  }
-  int sum = 0;
-  for (int& s : start) sum += std::exchange(s, sum);
-  std::vector<Entry> entries(sum);
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      const Side side = make_side(t, i);
-      const int a = from(mesh, side), b = to(mesh, side);
-      entries[start[std::min(a, b)]++] = {std::max(a, b), tag_of(mesh, side), side};
-    }
-  }
-  std::vector<Side> group;
-  int begin = 0;  // each start has moved to the end of its row
-  for (const int end : start) {
-    std::sort(entries.begin() + begin, entries.begin() + end);
-    for (int k = begin; k < end; ++k) {
-      group.push_back(entries[k].side);
-      if (k + 1 < end && entries[k + 1].to == entries[k].to && entries[k + 1].tag == entries[k].tag) continue;
-      visit(std::span<const Side>(group));
-      group.clear();
-    }
-    begin = end;
-  }
-}
 
 /// The neighbor across each side that exactly two triangles of a tag share, whatever their orientation.
 Twins neighbors(const TriangleMesh& mesh) {
   Twins twins(mesh.triangles.size(), {-1, -1, -1});
-  each_side_group(mesh, [&](std::span<const Side> group) {
+  for_each_side_of_tag(mesh, [&](std::span<const Side> group) {
     for (std::size_t i = 0; i < group.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         if (across(mesh, group[i]) == across(mesh, group[j]))

@@ -204,21 +204,16 @@ std::vector<Side> sides_by_cost(const CostedColoring& coloring, SparseCheck& che
   const auto bucket = [](float cost) {
     return cost < 0.F ? 0 : cost * 256 < buckets ? static_cast<int>(cost * 256) : buckets - 1;
   };
-  const auto for_each_inner_side = [&](auto&& visit) {
+  Rows<Side> rows(buckets, [&](auto&& add) {
     for (int t = 0; t < coloring.size(); ++t) {
       check();
       for (int i = 0; i < 3; ++i) {
         const Side side = make_side(t, i);
-        if (coloring.twin(side) > side) visit(side, bucket(coloring.cost_of(side)));
+        if (coloring.twin(side) > side) add(bucket(coloring.cost_of(side)), side);
       }
     }
-  };
-  std::array<int, buckets + 1> start{};
-  for_each_inner_side([&](Side, int b) { ++start[b + 1]; });
-  for (int b = 0; b < buckets; ++b) start[b + 1] += start[b];
-  std::vector<Side> order(start[buckets]);
-  for_each_inner_side([&](Side s, int b) { order[start[b]++] = s; });
-  return order;
+  });
+  return rows.take_items();
 }
 
 }  // namespace

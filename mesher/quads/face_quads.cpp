@@ -70,9 +70,8 @@ void mend_folded(FaceQuads& quads, const MeshSurface& surface, ExecutionContext&
 }  // namespace
 
 bool is_folded(const QuadMesh& mesh) {
-  const auto& p = mesh.points;
   return std::any_of(mesh.quads.begin(), mesh.quads.end(), [&](const std::array<int, 4>& q) {
-    return quad_scaled_jacobian(p[q[0]], p[q[1]], p[q[2]], p[q[3]]) <= no_jacobian;
+    return quad_scaled_jacobian(mesh.points, q) <= no_jacobian;
   });
 }
 

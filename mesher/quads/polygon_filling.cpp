@@ -237,27 +237,27 @@ class Coarsening {
       result.places.push_back(fine_.places[i]);
     }
     // For each fine quad: the center, and the coarse corner with the middles of the sides before and after.
-    struct Side {
+    struct Quarter {
       int center, before, corner, after;
     };
-    std::vector<Side> sides;
+    std::vector<Quarter> quarters;
     for (const Quad& quad : fine_.quads)
       for (int k = 0; k < 4; ++k)
         if (kinds_[quad[k]] == Kind::center)
-          sides.push_back({quad[k], quad[(k + 1) & 3], quad[(k + 2) & 3], quad[(k + 3) & 3]});
-    std::stable_sort(sides.begin(), sides.end(),
-                     [](const Side& a, const Side& b) { return a.center < b.center; });
-    if (sides.size() % 4 != 0) return std::nullopt;
-    for (std::size_t first = 0; first < sides.size(); first += 4) {
-      if (sides[first].center != sides[first + 3].center) return std::nullopt;
+          quarters.push_back({quad[k], quad[(k + 1) & 3], quad[(k + 2) & 3], quad[(k + 3) & 3]});
+    std::stable_sort(quarters.begin(), quarters.end(),
+                     [](const Quarter& a, const Quarter& b) { return a.center < b.center; });
+    if (quarters.size() % 4 != 0) return std::nullopt;
+    for (std::size_t first = 0; first < quarters.size(); first += 4) {
+      if (quarters[first].center != quarters[first + 3].center) return std::nullopt;
       Quad quad{};
-      int at = sides[first].before;
+      int at = quarters[first].before;
       for (int& corner : quad) {
         std::size_t i = first;
-        while (i < first + 4 && sides[i].before != at) ++i;
+        while (i < first + 4 && quarters[i].before != at) ++i;
         if (i == first + 4) return std::nullopt;
-        corner = number[sides[i].corner];
-        at = sides[i].after;
+        corner = number[quarters[i].corner];
+        at = quarters[i].after;
       }
       result.quads.push_back(quad);
     }

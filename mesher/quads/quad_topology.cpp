@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "mesher/mesh/sides.hpp"
+
 namespace quadrille {
 namespace {
 
@@ -33,36 +35,16 @@ QuadTopology::QuadTopology(std::vector<Quad> quads, const std::vector<int>& tags
 void QuadTopology::link(const ExecutionContext& context) {
   SparseCheck check(context);
   twins_.assign(4 * quads_.size(), boundary);
-  // Sides in rows by their lower node. A search in the few sides of a row finds those with the same ends.
-  std::vector<int> first(sides_.size() + 1, 0);
-  const int count = 4 * size();
-  const auto low = [&](int side) { return std::min(origin(side), end(side)); };
-  for (int side = 0; side < count; ++side) {
-    check();
-    ++first[low(side) + 1];
-  }
-  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
-  std::vector<int> rows(count), place(first.begin(), first.end() - 1);
-  for (int side = 0; side < count; ++side) {
-    check();
-    rows[place[low(side)]++] = side;
-  }
-  for (std::size_t node = 0; node + 1 < first.size(); ++node)
-    for (int i = first[node]; i < first[node + 1]; ++i) {
-      check();
-      int same = 0, opposite = -1, opposites = 0;
-      for (int j = first[node]; j < first[node + 1]; ++j) {
-        if (origin(rows[j]) == origin(rows[i]) && end(rows[j]) == end(rows[i])) ++same;
-        if (origin(rows[j]) == end(rows[i]) && end(rows[j]) == origin(rows[i])) {
-          opposite = rows[j];
-          ++opposites;
-        }
-      }
-      if (same == 1 && opposites == 1 && tag(opposite >> 2) == tag(rows[i] >> 2)) twins_[rows[i]] = opposite;
-    }
+  const auto join = [&](int, int, std::span<const int> same) {
+    if (same.size() != 2 || origin(same[0]) == origin(same[1])) return;
+    if (tag(same[0] >> 2) != tag(same[1] >> 2)) return;
+    twins_[same[0]] = same[1];
+    twins_[same[1]] = same[0];
+  };
+  for_each_shared_side(sides_.size(), check, join, quads_);
   uses_.assign(sides_.size(), 0);
   openings_.assign(sides_.size(), 0);
-  for (int side = 0; side < count; ++side) {
+  for (int side = 0; side < 4 * size(); ++side) {
     check();
     sides_[origin(side)] = side;
     ++uses_[origin(side)];

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/mesh/sides.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/improve.hpp"
 #include "mesher/quads/tangent_plan.hpp"
@@ -54,7 +55,7 @@ class Smoother {
     for (const auto& triangle : surface_mesh.mesh.triangles)
       for (const int node : triangle) free_[node] = 0;
     context_.check();
-    link_corners();
+    corners_ = corners_by_node(n, quads_, SparseCheck(context_, 512));
     context_.check();
     find_sharp_turns();
     quality_.resize(quads_.size());
@@ -146,20 +147,6 @@ class Smoother {
     if (i % 256 == 0) context_.check();
   }
 
-  /// Lists the corners around each node, in compressed rows: 4 * quad + corner.
-  void link_corners() {
-    first_.assign(points_.size() + 1, 0);
-    for (const auto& quad : quads_)
-      for (const int node : quad) ++first_[node + 1];
-    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-    corners_.resize(first_.back());
-    std::vector<int> place(first_.begin(), first_.end() - 1);
-    for (int i = 0; i < static_cast<int>(quads_.size()); ++i) {
-      check(i);
-      for (int j = 0; j < 4; ++j) corners_[place[quads_[i][j]]++] = 4 * i + j;
-    }
-  }
-
   /// Marks nodes where the surface turns far from one node to the next, as around a tube of four coarse
   /// quads. There, averages in tangent planes would pull a node further to the side to which it leans.
   void find_sharp_turns() {
@@ -180,16 +167,16 @@ class Smoother {
 
   double least_round(int node) const {
     double least = 1;
-    for (int i = first_[node]; i < first_[node + 1]; ++i) least = std::min(least, quality_[corners_[i] >> 2]);
+    for (const Side corner : corners_[node]) least = std::min(least, quality_[element_of(corner)]);
     return least;
   }
 
   /// Least scaled Jacobian around the node if it were at `p`.
   double least_at(int node, const Vector3& p, const Vector3& normal) const {
     double least = 1;
-    for (int i = first_[node]; i < first_[node + 1]; ++i) {
-      const auto& q = quads_[corners_[i] >> 2];
-      const int j = corners_[i] & 3;
+    for (const Side corner : corners_[node]) {
+      const auto& q = quads_[element_of(corner)];
+      const int j = index_of(corner);
       least = std::min(least, folded_scaled_jacobian(p, points_[q[(j + 1) & 3]], points_[q[(j + 2) & 3]],
                                                      points_[q[(j + 3) & 3]], normal));
     }
@@ -201,9 +188,9 @@ class Smoother {
   double tangle_at(int node, const Vector3& p, const Vector3& normal, double size) const {
     double sum = 0;
     const double wanted = 0.02 * size * size;
-    for (int i = first_[node]; i < first_[node + 1]; ++i) {
-      const auto& q = quads_[corners_[i] >> 2];
-      const int j = corners_[i] & 3;
+    for (const Side corner : corners_[node]) {
+      const auto& q = quads_[element_of(corner)];
+      const int j = index_of(corner);
       const Vector3 &b = points_[q[(j + 1) & 3]], &c = points_[q[(j + 2) & 3]], &d = points_[q[(j + 3) & 3]];
       sum += std::min(0.0, (b - p).cross(d - p).dot(normal) - wanted);
       sum += std::min(0.0, (c - b).cross(p - b).dot(normal) - wanted);
@@ -218,36 +205,37 @@ class Smoother {
     const double least = least_at(node, p, normal);
     if (least <= 0) return least;
     double shortest = std::numeric_limits<double>::max(), sum = 0;
-    for (int i = first_[node]; i < first_[node + 1]; ++i) {
-      const double side = (points_[quads_[corners_[i] >> 2][((corners_[i] & 3) + 1) & 3]] - p).squaredNorm();
+    for (const Side corner : corners_[node]) {
+      const double side = (points_[quads_[element_of(corner)][(index_of(corner) + 1) & 3]] - p).squaredNorm();
       shortest = std::min(shortest, side);
       sum += std::sqrt(side);
     }
-    const double share = std::sqrt(shortest) * (first_[node + 1] - first_[node]) / (short_side * sum);
+    const double share =
+        std::sqrt(shortest) * static_cast<double>(corners_[node].size()) / (short_side * sum);
     return least * std::min(1.0, share);
   }
 
   double mean_side(int node) const {
     double sum = 0;
-    for (int i = first_[node]; i < first_[node + 1]; ++i)
-      sum += (points_[quads_[corners_[i] >> 2][((corners_[i] & 3) + 1) & 3]] - points_[node]).norm();
-    return sum / std::max(first_[node + 1] - first_[node], 1);
+    for (const Side corner : corners_[node])
+      sum += (points_[quads_[element_of(corner)][(index_of(corner) + 1) & 3]] - points_[node]).norm();
+    return sum / static_cast<double>(std::max<std::size_t>(corners_[node].size(), 1));
   }
 
   /// The mean of the neighbors, in the tangent plane of the node.
   Vector3 middle_of(int node) const {
     Vector3 sum = Vector3::Zero();
-    for (int i = first_[node]; i < first_[node + 1]; ++i)
-      sum += points_[quads_[corners_[i] >> 2][((corners_[i] & 3) + 1) & 3]];
-    const Vector3 shift = sum / (first_[node + 1] - first_[node]) - points_[node];
+    for (const Side corner : corners_[node])
+      sum += points_[quads_[element_of(corner)][(index_of(corner) + 1) & 3]];
+    const Vector3 shift = sum / static_cast<double>(corners_[node].size()) - points_[node];
     return points_[node] + shift - normals_[node].dot(shift) * normals_[node];
   }
 
   /// \return whether the plan has all quads of the node
   bool draw(int node, TangentPlan& plan) const {
-    for (int i = first_[node]; i < first_[node + 1]; ++i) {
-      const auto& q = quads_[corners_[i] >> 2];
-      const int j = corners_[i] & 3;
+    for (const Side corner : corners_[node]) {
+      const auto& q = quads_[element_of(corner)];
+      const int j = index_of(corner);
       if (!plan.add(points_[q[(j + 1) & 3]], points_[q[(j + 2) & 3]], points_[q[(j + 3) & 3]])) return false;
     }
     return true;
@@ -255,10 +243,10 @@ class Smoother {
 
   /// \return whether the patch has all quads of the node
   bool draw(int node, const Vector3& u, const Vector3& v, CriteriaPatch& patch) const {
-    for (int i = first_[node]; i < first_[node + 1]; ++i) {
-      const auto& q = quads_[corners_[i] >> 2];
+    for (const Side corner : corners_[node]) {
+      const auto& q = quads_[element_of(corner)];
       const FlatQuad flat(points_[q[0]], points_[q[1]], points_[q[2]], points_[q[3]], normals_[node], u, v);
-      if (!patch.add(flat, corners_[i] & 3)) return false;
+      if (!patch.add(flat, index_of(corner))) return false;
     }
     return true;
   }
@@ -304,7 +292,7 @@ class Smoother {
     points_[node] = place;
     parameters_[node] = uv;
     normals_[node] = normal;
-    for (int i = 0; i < plan.count(); ++i) quality_[corners_[first_[node] + i] >> 2] = plan.quality(i);
+    for (int i = 0; i < plan.count(); ++i) quality_[element_of(corners_[node][i])] = plan.quality(i);
     return true;
   }
 
@@ -316,13 +304,12 @@ class Smoother {
   }
 
   void measure_round(int node) {
-    for (int i = first_[node]; i < first_[node + 1]; ++i)
-      quality_[corners_[i] >> 2] = measure(corners_[i] >> 2);
+    for (const Side corner : corners_[node]) quality_[element_of(corner)] = measure(element_of(corner));
   }
 
   void activate(int node, std::vector<char>& active) const {
-    for (int i = first_[node]; i < first_[node + 1]; ++i)
-      for (const int other : quads_[corners_[i] >> 2]) active[other] = 1;
+    for (const Side corner : corners_[node])
+      for (const int other : quads_[element_of(corner)]) active[other] = 1;
   }
 
   /// Compass search in the tangent plane for the place where the worst element around the node is best.
@@ -389,9 +376,9 @@ class Smoother {
       areas.push_back(
           {gradient.dot(u) / scale, gradient.dot(v) / scale, (c - b).cross(a - b).dot(normal) / scale});
     };
-    for (int i = first_[node]; i < first_[node + 1]; ++i) {
-      const auto& q = quads_[corners_[i] >> 2];
-      const int j = corners_[i] & 3;
+    for (const Side corner : corners_[node]) {
+      const auto& q = quads_[element_of(corner)];
+      const int j = index_of(corner);
       const Vector3 &b = points_[q[(j + 1) & 3]], &c = points_[q[(j + 2) & 3]], &d = points_[q[(j + 3) & 3]];
       add(d, origin, b, normal.cross(b - d));
       add(origin, b, c, normal.cross(c - b));
@@ -478,8 +465,8 @@ class Smoother {
     for (int ring = 0; ring < rings; ++ring) {
       const std::size_t count = nodes.size();
       for (std::size_t i = 0; i < count; ++i)
-        for (int k = first_[nodes[i]]; k < first_[nodes[i] + 1]; ++k)
-          for (const int other : quads_[corners_[k] >> 2]) nodes.push_back(other);
+        for (const Side corner : corners_[nodes[i]])
+          for (const int other : quads_[element_of(corner)]) nodes.push_back(other);
       std::sort(nodes.begin(), nodes.end());
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     }
@@ -525,7 +512,7 @@ class Smoother {
   const MeshSurface& surface_;
   const ExecutionContext& context_;
   std::vector<char> free_, active_, next_active_, turns_sharply_;
-  std::vector<int> first_, corners_;
+  Rows<Side> corners_;
   std::vector<double> quality_;  ///< scaled Jacobian of each quad
 };
 

@@ -34,10 +34,7 @@ class SpaceUnfolding {
   }
 
  private:
-  double shape(int quad) const {
-    const auto& [a, b, c, d] = quads_[quad];
-    return quad_scaled_jacobian(points_[a], points_[b], points_[c], points_[d]);
-  }
+  double shape(int quad) const { return quad_scaled_jacobian(points_, quads_[quad]); }
 
   double worst(const std::vector<int>& quads) const {
     double least = 1;

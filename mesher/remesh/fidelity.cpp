@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "geometry/base/side_key.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
@@ -47,14 +47,10 @@ double volume_of(const TriangleMesh& mesh) {
 }
 
 bool is_closed(const TriangleMesh& mesh) {
-  std::vector<std::uint64_t> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (const auto& t : mesh.triangles)
-    for (int i = 0; i < 3; ++i) sides.push_back(side_key(t[i], t[(i + 1) % 3]));
-  std::sort(sides.begin(), sides.end());
-  for (std::size_t k = 0; k < sides.size(); k += 2)
-    if (k + 1 == sides.size() || sides[k] != sides[k + 1]) return false;
-  return true;
+  bool closed = true;
+  const auto look = [&](int, int, std::span<const Side> sides) { closed &= sides.size() % 2 == 0; };
+  for_each_shared_side(mesh.points.size(), no_check, look, mesh.triangles);
+  return closed;
 }
 
 void raise(RemeshFidelity::Distance& largest, double length, const Vector3& at, int face) {

@@ -23,7 +23,7 @@
 #include "geometry/cad/parallel_ids.hpp"
 #include "geometry/sizing/element_count.hpp"
 #include "geometry/sizing/sizing_options.hpp"
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/side_twins.hpp"
 #include "mesher/mesh/surface_cut.hpp"
 #include "mesher/quads/face_quads.hpp"
@@ -56,25 +56,20 @@ void check(const RemeshOptions& options) {
 
 /// Throws Error (failure) if more than two triangles share a side, or if no two triangles share one.
 void check_manifold(const TriangleMesh& mesh) {
-  std::vector<std::uint64_t> keys;
-  keys.reserve(3 * mesh.triangles.size());
-  for (const auto& t : mesh.triangles)
-    for (int i = 0; i < 3; ++i) keys.push_back(side_key(t[i], t[next_index(i)]));
-  std::sort(keys.begin(), keys.end());
-  if (mesh.triangles.size() > 2 && std::adjacent_find(keys.begin(), keys.end()) == keys.end())
+  bool any_shared = false;
+  const auto look = [&](int a, int b, std::span<const Side> sides) {
+    any_shared |= sides.size() > 1;
+    if (sides.size() > 2)
+      throw failure("", fmt::format("{} triangles meet at the side from {} to {}, where a surface has two at "
+                                    "most: split the surface there",
+                                    sides.size(), place_text(mesh.points[a]), place_text(mesh.points[b])));
+  };
+  for_each_shared_side(mesh.points.size(), no_check, look, mesh.triangles);
+  if (mesh.triangles.size() > 2 && !any_shared)
     throw failure(
         "", fmt::format("none of the {} triangles shares a side with another: `merge` makes one of nodes "
                         "that lie close together",
                         mesh.triangles.size()));
-  for (std::size_t k = 0; k + 2 < keys.size(); ++k) {
-    if (keys[k] != keys[k + 2]) continue;
-    const auto count = std::count(keys.begin() + static_cast<long>(k), keys.end(), keys[k]);
-    const Vector3 &a = mesh.points[keys[k] >> 32], &b = mesh.points[keys[k] & 0xffffffff];
-    throw failure("",
-                  fmt::format("{} triangles meet at the side from {} to {}, where a surface has two at most: "
-                              "split the surface there",
-                              count, place_text(a), place_text(b)));
-  }
 }
 
 /// The surface to be meshed, in one or more pieces.
@@ -298,7 +293,7 @@ class Remesher : public ShellGeometry {
   bool is_spoiled(const std::vector<Vector3>& p, const std::array<int, 4>& quad) const {
     for (int k = 0; k < 4; ++k)
       if ((p[quad[(k + 1) % 4]] - p[quad[k]]).norm() < least_side_) return true;
-    return quad_scaled_jacobian(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]) <= 0;
+    return quad_scaled_jacobian(p, quad) <= 0;
   }
 
   /// A node of each quad that is spoiled or lies on another quad.
@@ -607,11 +602,9 @@ class Remesher : public ShellGeometry {
       faces[number].q_min = 1;
     }
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-      const auto& [a, b, c, d] = mesh.quads[q];
-      const auto& p = mesh.points;
       ShellMesh::Face& face = faces[mesh.quad_faces[q]];
       ++face.quads;
-      face.q_min = std::min(face.q_min, quad_q(p[a], p[b], p[c], p[d]));
+      face.q_min = std::min(face.q_min, quad_q(mesh.points, mesh.quads[q]));
     }
     for (auto& [number, face] : faces) mesh.faces.push_back(face);
   }

@@ -20,16 +20,11 @@
 #include "geometry/cad/parallel_ids.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "mesher/mesh/joined_faces.hpp"
+#include "mesher/mesh/quad_geometry.hpp"
 
 namespace quadrille {
 
 namespace {
-
-Vector3 area_vector(const ShellMesh& mesh, std::size_t quad) {
-  const auto [a, b, c, d] = mesh.quads[quad];
-  const auto& p = mesh.points;
-  return 0.5 * (p[c] - p[a]).cross(p[d] - p[b]);
-}
 
 /// Estimates the area that faces lose because elements are flat and have straight sides, from the angles by
 /// which elements and curves turn. Uses the ratio of a circular arc to its chord, to second order.
@@ -60,12 +55,12 @@ class FlatLoss {
   double loss_of(std::size_t quad) {
     double loss = 0;
     double turning[2] = {0, 0};  // along sides 0 and 2, along sides 1 and 3
-    const Vector3 normal = area_vector(mesh_, quad);
+    const Vector3 normal = quad_area_vector(mesh_.points, mesh_.quads[quad]);
     for (int k = 0; k < 4; ++k) {
       for (const std::size_t other : sides_[key(quad, k)]) {
         if (other == quad || mesh_.quad_faces[other] != mesh_.quad_faces[quad]) continue;
         double& across = turning[(k + 1) % 2];
-        across = std::max(across, angle_between(normal, area_vector(mesh_, other)));
+        across = std::max(across, angle_between(normal, quad_area_vector(mesh_.points, mesh_.quads[other])));
       }
       const auto edge = edges_.find(key(quad, k));
       if (edge == edges_.end()) continue;
@@ -111,7 +106,7 @@ std::vector<std::string> area_differences(const CadModel& model, const ShellMesh
   const CadShape& shape = model.shape();
   IdVector<FaceId, double> areas(shape.faces.size());
   for (std::size_t i = 0; i < mesh.quads.size(); ++i)
-    areas[FaceId::from_number(mesh.quad_faces[i])] += area_vector(mesh, i).norm();
+    areas[FaceId::from_number(mesh.quad_faces[i])] += quad_area_vector(mesh.points, mesh.quads[i]).norm();
   const JoinedFaces joined(mesh);
   IdVector<FaceId, double> integrals(areas.size());
   for_each_id(areas, [&](FaceId face) {

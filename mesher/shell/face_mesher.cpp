@@ -216,10 +216,9 @@ class FaceMesher {
     for (auto& quad : result.quads) {
       check();
       if (shape_.faces[face_].reversed) std::swap(quad[1], quad[3]);
-      const auto& p = result.points;
-      if (quad_scaled_jacobian(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]) <= no_jacobian)
+      if (quad_scaled_jacobian(result.points, quad) <= no_jacobian)
         inverted.push_back(static_cast<int>(&quad - result.quads.data()));
-      result.q_min = std::min(result.q_min, quad_q(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]));
+      result.q_min = std::min(result.q_min, quad_q(result.points, quad));
     }
     if (!inverted.empty()) throw inverted_problem(shape_, face_, chart_, nodes_, result, inverted);
     if (const auto side = wrong_boundary_side(chart_.boundary, result.nodes, result.quads)) {

@@ -24,10 +24,9 @@ namespace quadrille {
 namespace {
 
 bool is_valid(const FaceMesh& mesh, double reach) {
-  const auto& p = mesh.points;
   return std::all_of(mesh.off.begin(), mesh.off.end(), [&](double off) { return off <= reach; }) &&
          std::all_of(mesh.quads.begin(), mesh.quads.end(), [&](const std::array<int, 4>& q) {
-           return quad_scaled_jacobian(p[q[0]], p[q[1]], p[q[2]], p[q[3]]) > no_jacobian;
+           return quad_scaled_jacobian(mesh.points, q) > no_jacobian;
          });
 }
 
@@ -135,8 +134,7 @@ class LoopMesher {
     mesh_.q_min = 1;
     for (auto& quad : mesh_.quads) {
       if (face_.reversed) std::swap(quad[1], quad[3]);
-      const auto& p = mesh_.points;
-      mesh_.q_min = std::min(mesh_.q_min, quad_q(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]));
+      mesh_.q_min = std::min(mesh_.q_min, quad_q(mesh_.points, quad));
     }
     for (std::size_t i = mesh_.nodes.size(); i < mesh_.points.size(); ++i)
       mesh_.off[i] = (surface_.project(mesh_.uv[i], mesh_.points[i]).point - mesh_.points[i]).norm();

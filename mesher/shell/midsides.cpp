@@ -10,6 +10,7 @@
 #include "geometry/base/side_key.hpp"
 #include "geometry/cad/parallel_ids.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
@@ -82,16 +83,11 @@ class MidsidePlacement {
     const FaceMesh& face = *meshed_.faces[id];
     const auto surface = meshed_.surface(id);
     SparseCheck check(context_, 256);
-    // Sides in rows by their lower end. The first free entry ends a row.
-    struct Side {
-      int high = -1, midside = -1;
+    std::vector<Side> first(4 * face.quads.size());  // for each side: the first one between the same nodes
+    const auto note_first = [&](int, int, std::span<const Side> sides) {
+      for (const Side side : sides) first[side] = sides.front();
     };
-    std::vector<int> rows(face.points.size() + 1, 0);
-    for (const auto& quad : face.quads) {
-      for (int k = 0; k < 4; ++k) ++rows[std::min(quad[k], quad[(k + 1) % 4]) + 1];
-    }
-    for (std::size_t i = 1; i < rows.size(); ++i) rows[i] += rows[i - 1];
-    std::vector<Side> sides(rows.back());
+    for_each_shared_side(face.points.size(), no_check, note_first, face.quads);
     FaceMidsides result;
     result.of_quads.reserve(face.quads.size());
     result.points.reserve(2 * face.quads.size());
@@ -115,8 +111,8 @@ class MidsidePlacement {
       check();
       std::array<int, 4>& of_quad = result.of_quads.emplace_back();
       for (int k = 0; k < 4; ++k) {
-        const int a = quad[k], b = quad[(k + 1) % 4], high = std::max(a, b);
-        if (high < fixed) {
+        const int a = quad[k], b = quad[(k + 1) % 4];
+        if (std::max(a, b) < fixed) {
           const std::uint64_t key =
               side_key(numbering_.nodes[face.nodes[a]], numbering_.nodes[face.nodes[b]]);
           const auto on_edge = middles_.find(key);
@@ -124,10 +120,9 @@ class MidsidePlacement {
           if (of_quad[k] >= 0) result.chords.emplace_back(of_quad[k], key);
           continue;
         }
-        auto side = sides.begin() + rows[std::min(a, b)];
-        while (side->high >= 0 && side->high != high) ++side;
-        if (side->high < 0) *side = {high, place(a, b)};
-        of_quad[k] = side->midside;
+        const Side side = make_side(static_cast<int>(result.of_quads.size()) - 1, k);
+        of_quad[k] = first[side] == side ? place(a, b)
+                                         : result.of_quads[element_of(first[side])][index_of(first[side])];
       }
     }
     return result;

@@ -13,7 +13,9 @@
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/grid_rows.hpp"
+#include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/sides.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/mending.hpp"
 #include "mesher/shell/edge_suppression.hpp"
@@ -61,7 +63,7 @@ struct FaceState {
   FaceMesh* mesh = nullptr;
   const CadFace* cad_face = nullptr;
   std::shared_ptr<const MeshSurface> surface;  // made on first use
-  std::vector<int> first, corners;             // 4 * quad + corner around each point, in compressed rows
+  Rows<Side> corners;                          // around each point
   std::vector<double> objective, least_sine;   // (quads) the objective is weighted
   std::vector<double> weight;                  // (quads) of the objective
   std::vector<char> active;                    // (points) 1 = to be visited
@@ -221,21 +223,11 @@ class NodeSliding {
 
   void prepare(FaceState& face) {
     const FaceMesh& mesh = *face.mesh;
-    SparseCheck check(context_);
-    face.first.assign(mesh.points.size() + 1, 0);
-    for (const auto& quad : mesh.quads)
-      for (const int node : quad) ++face.first[node + 1];
-    for (std::size_t i = 1; i < face.first.size(); ++i) face.first[i] += face.first[i - 1];
-    face.corners.resize(face.first.back());
-    std::vector<int> place(face.first.begin(), face.first.end() - 1);
+    face.corners = corners_by_node(mesh.points.size(), mesh.quads, SparseCheck(context_, 2048));
     face.objective.resize(mesh.quads.size());
     face.least_sine.resize(mesh.quads.size());
     face.active.assign(mesh.points.size(), 1);
     face.slid.resize(mesh.nodes.size(), 0);
-    for (int quad = 0; quad < static_cast<int>(mesh.quads.size()); ++quad) {
-      check();
-      for (int k = 0; k < 4; ++k) face.corners[place[mesh.quads[quad][k]]++] = 4 * quad + k;
-    }
     weigh(face);
   }
 
@@ -243,8 +235,8 @@ class NodeSliding {
   static void weigh(FaceState& face) {
     face.weight.assign(face.mesh->quads.size(), 1);
     for (std::size_t i = 0; i < face.mesh->nodes.size(); ++i) {
-      if (face.first[i + 1] - face.first[i] != 1) continue;
-      const int quad = face.corners[face.first[i]] >> 2, k = face.corners[face.first[i]] & 3;
+      if (face.corners[i].size() != 1) continue;
+      const int quad = element_of(face.corners[i][0]), k = index_of(face.corners[i][0]);
       const Vector3& here = face.corner(quad, k);
       const Vector3 next = face.corner(quad, k + 1) - here, previous = face.corner(quad, k + 3) - here;
       if (next.dot(previous) > sharp_cosine * next.norm() * previous.norm()) face.weight[quad] = sharp_weight;
@@ -267,22 +259,15 @@ class NodeSliding {
     for (std::size_t i = 0; i < poor.size(); ++i) face.active[i] &= poor[i];
   }
 
-  /// Finds the points that each boundary node has in the faces, in compressed rows.
+  /// Finds the points that each boundary node has in the faces.
   void link_boundary() {
-    first_instance_.assign(nodes_.points.size() + 1, 0);
-    const auto each = [&](auto&& visit) {
+    instances_ = Rows<Instance>(nodes_.points.size(), [&](auto&& add) {
       for (const FaceId face : states_.ids()) {
         if (states_[face].mesh == nullptr) continue;
         const auto& of_face = states_[face].mesh->nodes;
-        for (std::size_t k = 0; k < of_face.size(); ++k)
-          visit(of_face[k], Instance{face, static_cast<int>(k)});
+        for (std::size_t k = 0; k < of_face.size(); ++k) add(of_face[k], Instance{face, static_cast<int>(k)});
       }
-    };
-    each([&](int node, const Instance&) { ++first_instance_[node + 1]; });
-    for (std::size_t i = 1; i < first_instance_.size(); ++i) first_instance_[i] += first_instance_[i - 1];
-    instances_.resize(first_instance_.back());
-    std::vector<int> place(first_instance_.begin(), first_instance_.end() - 1);
-    each([&](int node, const Instance& instance) { instances_[place[node]++] = instance; });
+    });
   }
 
   /// Finds the slidable nodes: those inside a single edge, unless its spacing is prescribed.
@@ -300,8 +285,8 @@ class NodeSliding {
 
   void gather(FaceId face, int point, Round& round) {
     const FaceState& state = states_[face];
-    for (int i = state.first[point]; i < state.first[point + 1]; ++i) {
-      const int quad = state.corners[i] >> 2, corner = state.corners[i] & 3;
+    for (const Side side : state.corners[point]) {
+      const int quad = element_of(side), corner = index_of(side);
       round.uses.push_back({face, quad, corner});
       round.objective += state.objective[quad];
       round.worst_objective = std::max(round.worst_objective, state.objective[quad]);
@@ -404,8 +389,8 @@ class NodeSliding {
 
   bool take_active(int node) {
     bool any = false;
-    for (int i = first_instance_[node]; i < first_instance_[node + 1]; ++i) {
-      char& active = states_[instances_[i].face].active[instances_[i].point];
+    for (const Instance& instance : instances_[node]) {
+      char& active = states_[instance.face].active[instance.point];
       any |= active != 0;
       active = 0;
     }
@@ -426,8 +411,7 @@ class NodeSliding {
     const int node = edge.nodes[k];
     auto& [round, trial] = buffers;
     round.clear();
-    for (int i = first_instance_[node]; i < first_instance_[node + 1]; ++i)
-      gather(instances_[i].face, instances_[i].point, round);
+    for (const Instance& instance : instances_[node]) gather(instance.face, instance.point, round);
     if (round.uses.empty() || round.worst_objective <= aim_.poor) return false;
     measure_sides(round);
     if (round.is_fine()) return false;
@@ -448,10 +432,10 @@ class NodeSliding {
       const double moved = (trial.point - nodes_.points[node]).norm();
       edge.parameters[k] = to;
       nodes_.points[node] = trial.point;
-      for (int i = first_instance_[node]; i < first_instance_[node + 1]; ++i) {
-        FaceState& state = states_[instances_[i].face];
-        state.mesh->points[instances_[i].point] = trial.point;
-        state.slid[instances_[i].point] = 1;
+      for (const Instance& instance : instances_[node]) {
+        FaceState& state = states_[instance.face];
+        state.mesh->points[instance.point] = trial.point;
+        state.slid[instance.point] = 1;
       }
       store(round, trial, moved > still_share * round.mean);
       return true;
@@ -577,10 +561,8 @@ class NodeSliding {
     result.normals = mesh.normals;
     if (!result.normals.empty()) return result;
     result.normals.assign(mesh.points.size(), Vector3::Zero());
-    const auto& p = mesh.points;
     for (const auto& quad : result.mesh.quads) {
-      const auto& [a, b, c, d] = quad;
-      const Vector3 normal = (p[c] - p[a]).cross(p[d] - p[b]).normalized();
+      const Vector3 normal = quad_area_vector(mesh.points, quad).normalized();
       for (const int node : quad) result.normals[node] += normal;
     }
     for (Vector3& normal : result.normals) normal.normalize();
@@ -597,10 +579,9 @@ class NodeSliding {
       if (face.slid[i]) face.get_surface().nearest(mesh.uv[i], mesh.points[i]);
     mesh.q_min = 1;
     SparseCheck check(context_);
-    for (const auto& [a, b, c, d] : mesh.quads) {
+    for (const auto& quad : mesh.quads) {
       check();
-      const auto& p = mesh.points;
-      mesh.q_min = std::min(mesh.q_min, quad_q(p[a], p[b], p[c], p[d]));
+      mesh.q_min = std::min(mesh.q_min, quad_q(mesh.points, quad));
     }
   }
 
@@ -610,8 +591,7 @@ class NodeSliding {
   Aim aim_ = toward_limits;
   IdVector<FaceId, FaceState> states_;
   const EdgeParameters& sampled_;  // before sliding
-  std::vector<int> first_instance_;
-  std::vector<Instance> instances_;
+  Rows<Instance> instances_;
   std::vector<char> slidable_;  // (boundary nodes) 1 = may slide along its edge
 };
 

@@ -11,6 +11,7 @@
 
 #include "geometry/cad/parallel_ids.hpp"
 #include "mesher/mesh/second_order.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
@@ -115,19 +116,10 @@ class Sliding {
 class Straightening {
  public:
   Straightening(ShellMesh& mesh, std::size_t first_inner, const ExecutionContext& context)
-      : mesh_(mesh), first_inner_(static_cast<int>(first_inner)), check_(context, 256) {
-    // The elements of each midside node, in rows.
-    first_user_.assign(mesh.points.size() + 1, 0);
-    for (const auto& midsides : mesh.midsides) {
-      for (const int node : midsides) ++first_user_[node + 1];
-    }
-    for (std::size_t i = 1; i < first_user_.size(); ++i) first_user_[i] += first_user_[i - 1];
-    users_.resize(first_user_.back());
-    std::vector<std::size_t> place(first_user_.begin(), first_user_.end() - 1);
-    for (std::size_t quad = 0; quad < mesh.midsides.size(); ++quad) {
-      for (const int node : mesh.midsides[quad]) users_[place[node]++] = quad;
-    }
-  }
+      : mesh_(mesh),
+        first_inner_(static_cast<int>(first_inner)),
+        check_(context, 256),
+        users_(corners_by_node(mesh.points.size(), mesh.midsides)) {}
 
   /// Ends, because each round raises shares, and their number is bounded by the number of sides.
   void run(std::vector<std::size_t> folded) {
@@ -144,7 +136,7 @@ class Straightening {
     relax();
   }
 
-  struct Side {
+  struct Straightened {
     std::size_t quad = 0;   ///< one of its elements
     Vector3 place, middle;  ///< the node's first place, on the geometry; middle of the straight side
     double length = 0;      ///< length of the straight side
@@ -152,12 +144,14 @@ class Straightening {
   };
 
   /// The sides of all elements that were straightened, by midside node.
-  const std::map<int, Side>& sides() const { return sides_; }
+  const std::map<int, Straightened>& sides() const { return sides_; }
 
  private:
   static constexpr int whole = 8;
 
-  Side& side_of(std::size_t quad, int k) {
+  static std::size_t quad_of(Side side) { return static_cast<std::size_t>(element_of(side)); }
+
+  Straightened& side_of(std::size_t quad, int k) {
     const int node = mesh_.midsides[quad][k];
     const auto& corners = mesh_.quads[quad];
     const auto [entry, fresh] = sides_.try_emplace(node);
@@ -171,7 +165,7 @@ class Straightening {
     return entry->second;
   }
 
-  void set(int node, Side& side, int share) {
+  void set(int node, Straightened& side, int share) {
     side.share = share;
     const double part = static_cast<double>(share) / whole;
     mesh_.points[node] =
@@ -200,9 +194,8 @@ class Straightening {
         if (jacobian_bound_of(mesh_, quad) < bound) continue;
         for (int k = 0; k < 4; ++k) {
           if (sides_.at(nodes[k]).share == before[k]) continue;
-          for (std::size_t i = first_user_[nodes[k]]; i < first_user_[nodes[k] + 1]; ++i) {
-            if (users_[i] != quad) touched.push_back(users_[i]);
-          }
+          for (const Side user : users_[nodes[k]])
+            if (quad_of(user) != quad) touched.push_back(quad_of(user));
         }
         return;
       }
@@ -215,11 +208,12 @@ class Straightening {
       check_();
       const int share = side.share;
       std::vector<double> least;
-      for (std::size_t i = first_user_[node]; i < first_user_[node + 1]; ++i)
-        least.push_back(std::min(wanted(users_[i]), jacobian_bound_of(mesh_, users_[i])));
+      const std::span<const Side> users = users_[node];
+      for (const Side user : users)
+        least.push_back(std::min(wanted(quad_of(user)), jacobian_bound_of(mesh_, quad_of(user))));
       const auto holds = [&] {
         for (std::size_t i = 0; i < least.size(); ++i) {
-          if (jacobian_bound_of(mesh_, users_[first_user_[node] + i]) < least[i]) return false;
+          if (jacobian_bound_of(mesh_, quad_of(users[i])) < least[i]) return false;
         }
         return true;
       };
@@ -233,8 +227,8 @@ class Straightening {
   ShellMesh& mesh_;
   int first_inner_;
   SparseCheck check_;
-  std::vector<std::size_t> first_user_, users_;
-  std::map<int, Side> sides_;
+  Rows<Side> users_;  // the sides of each midside node
+  std::map<int, Straightened> sides_;
 };
 
 class Unfolding {

@@ -15,8 +15,9 @@
 #include "geometry/base/place_text.hpp"
 #include "geometry/base/side_key.hpp"
 #include "mesher/mesh/joined_faces.hpp"
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/second_order.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 namespace {
@@ -51,19 +52,16 @@ struct Elements {
     if (i < quads.size()) return quads[i];
     return triangles[i - quads.size()];
   }
+  int start(Side side) const { return nodes(element_of(side))[index_of(side)]; }
+  /// Calls `visit` as for_each_shared_side() does.
+  template <typename Visit>
+  void for_each_side(Visit&& visit) const {
+    for_each_shared_side(points.size(), no_check, visit, quads, triangles);
+  }
   std::string name(int element) const {
     const auto i = static_cast<std::size_t>(element);
     return i < quads.size() ? fmt::format("quad {}", i) : fmt::format("triangle {}", i - quads.size());
   }
-};
-
-/// A side of one element.
-struct ElementSide {
-  int low, high;
-  int element;
-  bool forward;  ///< the element runs along it from low to high
-
-  bool same_place(const ElementSide& other) const { return low == other.low && high == other.high; }
 };
 
 bool check_indices(const Elements& elements, Findings& findings) {
@@ -97,41 +95,13 @@ std::vector<char> used_points(const Elements& elements) {
   return used;
 }
 
-std::vector<ElementSide> sorted_sides(const Elements& elements) {
-  std::vector<ElementSide> sides;
-  sides.reserve(elements.quads.size() * 4 + elements.triangles.size() * 3);
-  for (int e = 0; e < elements.count(); ++e) {
-    const auto nodes = elements.nodes(e);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const int a = nodes[i], b = nodes[(i + 1) % nodes.size()];
-      sides.push_back({std::min(a, b), std::max(a, b), e, a < b});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const ElementSide& a, const ElementSide& b) {
-    if (a.low != b.low) return a.low < b.low;
-    if (a.high != b.high) return a.high < b.high;
-    return a.element < b.element;
-  });
-  return sides;
-}
-
-/// Calls `visit` with each group of sides that have the same two points.
-template <typename Visit>
-void each_side(const std::vector<ElementSide>& sides, Visit&& visit) {
-  for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
-    while (j < sides.size() && sides[j].same_place(sides[i])) ++j;
-    visit(std::span<const ElementSide>(sides.data() + i, j - i));
-  }
-}
-
 void check_manifold(const Elements& elements, Findings& findings) {
-  each_side(sorted_sides(elements), [&](std::span<const ElementSide> group) {
-    const ElementSide& side = group[0];
-    if (group.size() > 2)
-      findings.add("the side between points {} and {} has {} elements", side.low, side.high, group.size());
-    else if (group.size() == 2 && group[0].forward == group[1].forward)
+  elements.for_each_side([&](int low, int high, std::span<const Side> sides) {
+    if (sides.size() > 2)
+      findings.add("the side between points {} and {} has {} elements", low, high, sides.size());
+    else if (sides.size() == 2 && elements.start(sides[0]) == elements.start(sides[1]))
       findings.add("{} and {} run the side between points {} and {} in the same direction",
-                   elements.name(group[0].element), elements.name(group[1].element), side.low, side.high);
+                   elements.name(element_of(sides[0])), elements.name(element_of(sides[1])), low, high);
   });
 }
 
@@ -146,9 +116,7 @@ void check_areas(const Elements& elements, Findings& findings) {
 
 void check_convex(const Elements& elements, Findings& findings) {
   for (std::size_t i = 0; i < elements.quads.size(); ++i) {
-    const auto& q = elements.quads[i];
-    const double sj = quad_scaled_jacobian(elements.points[q[0]], elements.points[q[1]],
-                                           elements.points[q[2]], elements.points[q[3]]);
+    const double sj = quad_scaled_jacobian(elements.points, elements.quads[i]);
     if (!(sj > 0)) findings.add("quad {} is not convex: its scaled Jacobian is {}", i, number_text(sj));
   }
 }
@@ -214,12 +182,9 @@ class CoincidenceSearch {
 
 void check_coincident(std::span<const Vector3> points, Findings& findings) {
   if (points.empty()) return;
-  Vector3 low = points[0], high = points[0];
-  for (const Vector3& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const double diagonal = (high - low).norm();
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : points) box.extend(p);
+  const double diagonal = box.diagonal().norm();
   if (!(diagonal > 0)) {
     if (points.size() > 1) findings.add("all {} points coincide", points.size());
     return;
@@ -253,26 +218,26 @@ SegmentIndex index_segments(const ShellMesh& mesh, Findings& findings) {
 void check_shell_sides(const ShellMesh& mesh, const Elements& elements, bool closed, Findings& findings) {
   const SegmentIndex segments = index_segments(mesh, findings);
   const JoinedFaces joined(mesh);
-  const auto face = [&](const ElementSide& side) { return joined.first(mesh.quad_faces[side.element]); };
+  const auto face = [&](Side side) { return joined.first(mesh.quad_faces[element_of(side)]); };
   std::vector<char> met(mesh.segments.size(), 0);
-  each_side(sorted_sides(elements), [&](std::span<const ElementSide> group) {
-    const ElementSide& side = group[0];
-    const auto segment = segments.find(side_key(side.low, side.high));
+  elements.for_each_side([&](int low, int high, std::span<const Side> sides) {
+    const auto segment = segments.find(side_key(low, high));
     if (segment != segments.end()) met[segment->second] = 1;
-    if (closed && group.size() < 2)
-      findings.add("the side between nodes {} and {} of quad {} is open", side.low, side.high, side.element);
+    if (closed && sides.size() < 2)
+      findings.add("the side between nodes {} and {} of quad {} is open", low, high, element_of(sides[0]));
     // Meshes from files of other programs may have no segments. Then it is unknown which sides lie on edges.
     if (segment == segments.end() && !mesh.segments.empty()) {
-      if (group.size() != 2)
-        findings.add("the side between nodes {} and {} lies on no CAD edge and has {} elements", side.low,
-                     side.high, group.size());
-      else if (face(group[0]) != face(group[1]))
-        findings.add("the side between nodes {} and {} lies on no CAD edge, but parts faces {} and {}",
-                     side.low, side.high, face(group[0]), face(group[1]));
+      if (sides.size() != 2)
+        findings.add("the side between nodes {} and {} lies on no CAD edge and has {} elements", low, high,
+                     sides.size());
+      else if (face(sides[0]) != face(sides[1]))
+        findings.add("the side between nodes {} and {} lies on no CAD edge, but parts faces {} and {}", low,
+                     high, face(sides[0]), face(sides[1]));
     }
-    if (group.size() == 2 && face(group[0]) == face(group[1]) && group[0].forward == group[1].forward)
+    if (sides.size() == 2 && face(sides[0]) == face(sides[1]) &&
+        elements.start(sides[0]) == elements.start(sides[1]))
       findings.add("quads {} and {} of face {} run the side between nodes {} and {} in the same direction",
-                   group[0].element, group[1].element, face(group[0]), side.low, side.high);
+                   element_of(sides[0]), element_of(sides[1]), face(sides[0]), low, high);
   });
   for (std::size_t i = 0; i < met.size(); ++i)
     if (!met[i]) findings.add("segment {} is not a side of any quad", i);

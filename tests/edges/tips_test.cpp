@@ -51,7 +51,7 @@ TEST(Tips, AreFoundWhereTwoEdgesStayCloserThanTheWidth) {
   EXPECT_EQ(tips[0].face.number(), 1);
   const CadShape& shape = model.shape();
   const double share = 0.625 / 10;  // of the wedge
-  for (const Tip::Side& side : {tips[0].before, tips[0].after}) {
+  for (const Tip::Flank& side : {tips[0].before, tips[0].after}) {
     const CadEdge& edge = shape.edges[side.edge];
     const double from_tip = side.at_end ? edge.last - side.parameter : side.parameter - edge.first;
     EXPECT_NEAR(from_tip / (edge.last - edge.first), share, 0.1 * share);
