@@ -496,8 +496,16 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>{} hat kein {}</translation>
     </message>
     <message>
-        <source>Quads cross {} smooth edges, which get no group; Keep names edges that stay</source>
-        <translation>Vierecke überqueren {} glatte Kanten, die keine Gruppe bekommen; Keep nennt Kanten, die bleiben</translation>
+        <source>Shortest side</source>
+        <translation>Kürzeste Seite</translation>
+    </message>
+    <message>
+        <source>Smooth edges that quads cross, and that get no group: {}; Keep names edges that stay</source>
+        <translation>Glatte Kanten, die Vierecke überqueren und die keine Gruppe bekommen: {}; Keep nennt Kanten, die bleiben</translation>
+    </message>
+    <message>
+        <source>Edges and faces that force sides under half the minimum size: {}</source>
+        <translation>Kanten und Flächen, die Seiten unter der Hälfte der kleinsten Größe erzwingen: {}</translation>
     </message>
 </context>
 <context>
@@ -755,12 +763,20 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Fläche</translation>
     </message>
     <message>
-        <source>Also mesh features far below the minimum size instead of letting them go, and let no quad cross a smooth edge</source>
-        <translation>Auch Formelemente weit unter der kleinsten Größe vernetzen, statt sie wegzulassen, und keine Vierecke über glatte Kanten</translation>
-    </message>
-    <message>
         <source>Faces and edges that keep nodes of their own, whatever their size and shape, such as Edge7,Face3; empty = none</source>
         <translation>Flächen und Kanten, die eigene Knoten behalten, wie groß und geformt sie auch sind, etwa Edge7,Face3; leer = keine</translation>
+    </message>
+    <message>
+        <source>Also mesh features below the reach instead of letting them go, and let no quad cross a smooth edge</source>
+        <translation>Auch Formelemente unterhalb der Reichweite vernetzen, statt sie wegzulassen, und kein Viereck eine glatte Kante überqueren lassen</translation>
+    </message>
+    <message>
+        <source>Let go edges that are shorter and faces that are narrower than this length, where that does no harm; 0 = half the minimum size</source>
+        <translation>Kanten, die kürzer, und Flächen, die schmaler als diese Länge sind, weglassen, wo es nicht schadet; 0 = die Hälfte der kleinsten Größe</translation>
+    </message>
+    <message>
+        <source>half the minimum size</source>
+        <translation>die Hälfte der kleinsten Größe</translation>
     </message>
 </context>
 <context>

@@ -496,8 +496,16 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>{} n'a pas de {}</translation>
     </message>
     <message>
-        <source>Quads cross {} smooth edges, which get no group; Keep names edges that stay</source>
-        <translation>Des quadrangles traversent {} arêtes lisses, qui n'ont pas de groupe ; Keep nomme les arêtes qui restent</translation>
+        <source>Shortest side</source>
+        <translation>Côté le plus court</translation>
+    </message>
+    <message>
+        <source>Smooth edges that quads cross, and that get no group: {}; Keep names edges that stay</source>
+        <translation>Arêtes lisses que des quadrangles traversent et qui n&apos;ont pas de groupe : {} ; Keep nomme celles qui restent</translation>
+    </message>
+    <message>
+        <source>Edges and faces that force sides under half the minimum size: {}</source>
+        <translation>Arêtes et faces qui imposent des côtés de moins de la moitié de la taille minimale : {}</translation>
     </message>
 </context>
 <context>
@@ -755,12 +763,20 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>surface</translation>
     </message>
     <message>
-        <source>Also mesh features far below the minimum size instead of letting them go, and let no quad cross a smooth edge</source>
-        <translation>Mailler aussi les détails bien plus petits que la taille minimale au lieu de les omettre, et ne laisser aucun quadrangle traverser une arête lisse</translation>
-    </message>
-    <message>
         <source>Faces and edges that keep nodes of their own, whatever their size and shape, such as Edge7,Face3; empty = none</source>
         <translation>Faces et arêtes qui gardent leurs propres nœuds, quelles que soient leur taille et leur forme, par exemple Edge7,Face3 ; vide = aucune</translation>
+    </message>
+    <message>
+        <source>Also mesh features below the reach instead of letting them go, and let no quad cross a smooth edge</source>
+        <translation>Mailler aussi les détails plus petits que la portée au lieu de les omettre, et ne laisser aucun quadrangle traverser une arête lisse</translation>
+    </message>
+    <message>
+        <source>Let go edges that are shorter and faces that are narrower than this length, where that does no harm; 0 = half the minimum size</source>
+        <translation>Omettre les arêtes plus courtes et les faces plus étroites que cette longueur, là où cela ne nuit pas ; 0 = la moitié de la taille minimale</translation>
+    </message>
+    <message>
+        <source>half the minimum size</source>
+        <translation>la moitié de la taille minimale</translation>
     </message>
 </context>
 <context>

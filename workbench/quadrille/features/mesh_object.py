@@ -264,6 +264,8 @@ RESULT_PROPERTIES = (
     ("App::PropertyFloat", "LargestAspect", "Result", "Largest ratio of longest to shortest edge of a quad"),
     ("App::PropertyFloat", "IrregularPercent", "Result", "Inner nodes with more or fewer than four quads, percent"),
     ("App::PropertyFloat", "OutsidePercent", "Result", "Quads outside the limits of industry, percent"),
+    ("App::PropertyStringList", "CrossedEdges", "Result", "Smooth edges that quads cross, with their faces"),
+    ("App::PropertyStringList", "ShortSides", "Result", "Edges and faces that force sides under half the least size, and why"),
     ("App::PropertyFloat", "LeastSize", "Result", "Least size of the mesh by its sizes, mm; sides under half of it count as outside"),
     ("App::PropertyFloat", "Seconds", "Result", "Seconds that the mesher took, all threads together"),
     ("App::PropertyFloatList", "MeshedShape", "Hidden", "Measures of the part when it was meshed"),
@@ -433,4 +435,6 @@ def store_quality(mesh, fem_mesh, report: Dict) -> None:
     mesh.OutsidePercent = criteria.get("failing_percent", 0.0)
     shortest = criteria.get("by_criterion", {}).get("min_length", {}).get("limit")
     mesh.LeastSize = 2 * shortest if shortest else 0.0
+    mesh.CrossedEdges = [f"{edge['name']} ({', '.join(dict.fromkeys(edge['faces']))})" for edge in report.get("suppressed_edges", ())]
+    mesh.ShortSides = [f"{found['name']}: {found['quads']}, {found['why']}" for found in report.get("short_sides", ())]
     mesh.Seconds = sum(report.get("seconds", {}).values())

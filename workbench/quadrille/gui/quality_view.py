@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shows the quality of a mesh: table, histogram, criteria, colors in the 3-D view, and a list of the worst elements."""
 
-from typing import Dict, Optional, Sequence
+from typing import Optional
 
 import FreeCADGui
 from PySide import QtCore, QtGui
@@ -49,7 +49,9 @@ class QualityWidget(QtGui.QWidget):
         self.crossed = QtGui.QLabel()
         self.crossed.setObjectName("QuadrilleCrossed")
         self.crossed.setWordWrap(True)
-        self.crossed.hide()
+        self.short = QtGui.QLabel()
+        self.short.setObjectName("QuadrilleShort")
+        self.short.setWordWrap(True)
         self.table = _table("QuadrilleQualityTable", 2)
         self.table.horizontalHeader().setVisible(False)
         self.criteria = _table("QuadrilleCriteria", 4)
@@ -82,6 +84,7 @@ class QualityWidget(QtGui.QWidget):
         by.addWidget(self.measure, 1)
         layout.addWidget(self.status)
         layout.addWidget(self.crossed)
+        layout.addWidget(self.short)
         layout.addWidget(self.table)
         layout.addWidget(self.histogram)
         layout.addWidget(self.criteria)
@@ -95,7 +98,6 @@ class QualityWidget(QtGui.QWidget):
         """Fills the table at once and the rest a moment later. Hides the widget if there is no mesh."""
         self._measured = None
         self._timer.stop()
-        self.crossed.hide()
         self.worst.clear()
         self.criteria.setRowCount(0)
         self.setVisible(self.mesh.FemMesh.FaceCount > 0)
@@ -127,21 +129,22 @@ class QualityWidget(QtGui.QWidget):
             (translate("Quadrille", "Mesher's time"), f"{digits(round(mesh.Seconds, 2))} s"),
         ))
         self.show_status(mesh.Status)
+        self._list_forced()
 
     def show_status(self, status: str) -> None:
         """Shows a status, one of those that the property Status has."""
         self.status.setText(translate("QuadrilleStatus", status))
 
-    def show_crossed(self, edges: Sequence[Dict]) -> None:
-        """Tells which smooth edges quads cross.
-
-        Args:
-            edges: the names of each and of its faces, as in the mesher's report.
-        """
-        self.crossed.setText(translate("Quadrille", "Quads cross {} smooth edges, which get no group; Keep names edges that stay")
-                             .format(len(edges)))
-        self.crossed.setToolTip("\n".join(f"{edge['name']} ({', '.join(dict.fromkeys(edge['faces']))})" for edge in edges))
-        self.crossed.setVisible(bool(edges))
+    def _list_forced(self) -> None:
+        """Tells which smooth edges quads cross, and what forces short sides."""
+        for label, entries, text in (
+                (self.crossed, self.mesh.CrossedEdges,
+                 translate("Quadrille", "Smooth edges that quads cross, and that get no group: {}; Keep names edges that stay")),
+                (self.short, self.mesh.ShortSides,
+                 translate("Quadrille", "Edges and faces that force sides under half the minimum size: {}"))):
+            label.setText(text.format(len(entries)))
+            label.setToolTip("\n".join(entries))
+            label.setVisible(bool(entries))
 
     def fill_elements(self) -> None:
         """Measures each element, for the histogram, the criteria and the worst ones."""

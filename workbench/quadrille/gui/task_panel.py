@@ -457,7 +457,6 @@ class MeshPanel:
         if self.mesh.Shape is not None:  # None if it was deleted while the mesher worked
             self.mesh.Shape.ViewObject.hide()
         self.quality.refresh()
-        self.quality.show_crossed(report.get("suppressed_edges", ()))
         if preferences.color_after_meshing():
             self.quality.color.setChecked(True)
 
