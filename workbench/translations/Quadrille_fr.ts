@@ -497,7 +497,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>Shortest side</source>
-        <translation>Côté le plus court</translation>
+        <translation>Côté minimal</translation>
     </message>
     <message>
         <source>Smooth edges that quads cross, and that get no group: {}; Keep names edges that stay</source>

@@ -159,8 +159,8 @@ class QualityWidget(QtGui.QWidget):
         for name, (ideal, limit) in measured.limits.items():
             values = measured.criteria[name]
             worst = values.max() if limit > ideal else values.min()
-            rows.append((translate("Quadrille", MEASURES[name]), digits(limit), f"{int(measured.fails(name).sum())}",
-                         digits(worst)))
+            told = f"{limit:.2g}" if name == "min_length" else f"{limit:g}"
+            rows.append((translate("Quadrille", MEASURES[name]), told, f"{int(measured.fails(name).sum())}", digits(worst)))
         _fill(self.criteria, rows)
         self._list_worst()
 
