@@ -275,6 +275,17 @@ TEST(PlaneMesh, MembranesHaveSectionsOfTheirOwn) {
   const std::string text = test::file_text(folder / "a.inp");
   EXPECT_NE(text.find("*ELEMENT, TYPE=M3D8R, ELSET=Face1\n"), std::string::npos);
   EXPECT_NE(text.find("*MEMBRANE SECTION, ELSET=Thickness2, MATERIAL=Material\n2\n"), std::string::npos);
+  ShellMesh::VaryingThickness varying;
+  varying.face = 1;
+  varying.thinnest = 1;
+  varying.thickest = 3;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    varying.nodes.push_back(static_cast<int>(i));
+    varying.thicknesses.push_back(1 + mesh.points[i].y() * 2 / 5);
+  }
+  mesh.varying_thicknesses = {varying};
+  EXPECT_EQ(refusal([&] { write_mesh(mesh, folder / "a.inp", with(InpElement::m3d8r)); }),
+            "`element` M3D8R cannot have a thickness that varies, as that of Face1 does: choose a shell");
 }
 
 }  // namespace
