@@ -335,6 +335,7 @@ void check_names(const Setting& setting, const std::vector<int>& numbers, std::s
 template <class Value>
 std::vector<int> keys(const std::map<int, Value>& sizes) {
   std::vector<int> numbers;
+  numbers.reserve(sizes.size());
   for (const auto& [number, size] : sizes) numbers.push_back(number);
   return numbers;
 }

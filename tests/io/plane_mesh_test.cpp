@@ -142,9 +142,7 @@ Answer solve(ShellMesh mesh, InpElement element, const std::string& supports, co
   std::istringstream result(test::file_text(folder / "job.frd"));
   std::string text, block;
   Answer answer;
-  const auto number = [&](int i) {
-    return std::stod(text.substr(static_cast<std::size_t>(13 + 12 * i), 12));
-  };
+  const auto number = [&](std::size_t i) { return std::stod(text.substr(13 + 12 * i, 12)); };
   while (std::getline(result, text)) {
     if (text.starts_with(" -4")) block = text.substr(5, 4);
     if (!text.starts_with(" -1") || block.empty() || std::stoi(text.substr(3, 10)) != node) continue;
