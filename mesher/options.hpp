@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/sizing/sizing_options.hpp"
+#include "mesher/mesh/inp_element.hpp"
 #include "mesher/pairing/recombine_options.hpp"
 #include "mesher/quads/improve_options.hpp"
 
@@ -37,9 +38,10 @@ struct GroupKinds {
 struct WriteOptions {
   MshVersion msh_version = MshVersion::v2_2;  ///< version of .msh files
   GroupKinds groups;                          ///< groups that are written
-  int quad_nodes = 8;  ///< nodes of a second-order quad: 8, or 9 with one in the middle
-  std::string title;   ///< for formats with a comment or title line; control characters are written as '?'
-  int threads = 0;     ///< threads that format .msh, .inp, .unv, .bdf and .vtk as text; 0 = all cores
+  int quad_nodes = 8;                      ///< nodes of a second-order quad: 8, or 9 with one in the middle
+  InpElement element = InpElement::shell;  ///< type of the quads in .inp files
+  std::string title;  ///< for formats with a comment or title line; control characters are written as '?'
+  int threads = 0;    ///< threads that format .msh, .inp, .unv, .bdf and .vtk as text; 0 = all cores
 };
 
 class SizingField;

@@ -300,6 +300,10 @@ std::vector<Setting> make_table() {
       {"nodes", "nodes", none, none, write, none, 8, 9, false, none,
        "nodes of second-order quads in files: 8, or 9 with one in the middle (.msh, .med, .vtu and .vtk)",
        [](Settings& v) -> int& { return v.write.quad_nodes; }},
+      {"element", "element", none, none, write, none, 0, 0, false, none,
+       "type of the quads in .inp files; shell: S4, at second order S8R; for plane and axisymmetric elements "
+       "(CPS, CPE, CAX) a plane mesh is turned into the plane z = 0",
+       [](Settings& v) -> InpElement& { return v.write.element; }},
       {"groups", "groups", none, none, write, none, 0, 0, false, none,
        "groups to write, such as faces,edges; lines and points are written only with their groups",
        [](Settings& v) -> GroupKinds& { return v.write.groups; }},
@@ -332,6 +336,7 @@ void check_names(const Setting& setting, const std::vector<int>& numbers, std::s
 template <class Value>
 std::vector<int> keys(const std::map<int, Value>& sizes) {
   std::vector<int> numbers;
+  numbers.reserve(sizes.size());
   for (const auto& [number, size] : sizes) numbers.push_back(number);
   return numbers;
 }
@@ -339,8 +344,8 @@ std::vector<int> keys(const std::map<int, Value>& sizes) {
 }  // namespace
 
 std::string_view Setting::kind() const {
-  constexpr std::string_view kinds[] = {"number", "count",  "flag",  "choice", "file",    "names",
-                                        "sizes",  "choice", "words", "choice", "entries", "text"};
+  constexpr std::string_view kinds[] = {"number", "count", "flag",   "choice",  "file", "names", "sizes",
+                                        "choice", "words", "choice", "entries", "text", "choice"};
   return kinds[place.index()];
 }
 
@@ -352,6 +357,7 @@ std::vector<std::string_view> Setting::choices() const {
   if (std::holds_alternative<Strategy& (*)(Settings&)>(place)) take_from(strategies);
   if (std::holds_alternative<MshVersion& (*)(Settings&)>(place)) take_from(msh_versions);
   if (std::holds_alternative<Gradation& (*)(Settings&)>(place)) take_from(gradations);
+  if (std::holds_alternative<InpElement& (*)(Settings&)>(place)) take_from(inp_elements);
   if (std::holds_alternative<GroupKinds& (*)(Settings&)>(place)) {
     take_from(group_kinds);
     words.push_back(no_groups);
@@ -369,6 +375,7 @@ SettingValue Setting::value(const Settings& settings) const {
           [&](Strategy& (*at)(Settings&)) { return word_for(strategies, at(from)); },
           [&](MshVersion& (*at)(Settings&)) { return word_for(msh_versions, at(from)); },
           [&](Gradation& (*at)(Settings&)) { return word_for(gradations, at(from)); },
+          [&](InpElement& (*at)(Settings&)) { return word_for(inp_elements, at(from)); },
           [&](GroupKinds& (*at)(Settings&)) -> SettingValue { return words_of(at(from)); },
           [&](const EntryList& list) -> SettingValue { return list.get(from.mesh.sizing); },
           [&](const Text& text) -> SettingValue { return text.get(from.mesh.sizing); },
@@ -421,6 +428,7 @@ void assign(Settings& settings, const Setting& setting, const SettingValue& valu
           [&](Strategy& (*at)(Settings&)) { at(settings) = chosen(setting, strategies, value); },
           [&](MshVersion& (*at)(Settings&)) { at(settings) = chosen(setting, msh_versions, value); },
           [&](Gradation& (*at)(Settings&)) { at(settings) = chosen(setting, gradations, value); },
+          [&](InpElement& (*at)(Settings&)) { at(settings) = chosen(setting, inp_elements, value); },
           [&](GroupKinds& (*at)(Settings&)) { at(settings) = kinds_of(setting, value); },
           [&](const Setting::EntryList& list) {
             in_name_of(setting, [&] { list.set(settings.mesh.sizing, as<Names>(setting, value)); });

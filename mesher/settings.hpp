@@ -47,12 +47,13 @@ struct QUADRILLE_API Setting {
     std::string (*get)(const SizingOptions&);         ///< in the form that set() takes
   };
   /// Where the value is kept. The type tells what the setting takes: a number, a whole number, yes or no, one
-  /// word of `choices` (Strategy, MshVersion, Gradation), a file, faces, sizes on faces, edges and vertices,
-  /// several words of `choices` (GroupKinds), entries, a text.
-  using Place = std::variant<
-      double& (*)(Settings&), int& (*)(Settings&), bool& (*)(Settings&), Strategy& (*)(Settings&),
-      std::filesystem::path& (*)(Settings&), std::vector<int>& (*)(Settings&), SizingOptions& (*)(Settings&),
-      MshVersion& (*)(Settings&), GroupKinds& (*)(Settings&), Gradation& (*)(Settings&), EntryList, Text>;
+  /// word of `choices` (Strategy, MshVersion, Gradation, InpElement), a file, faces, sizes on faces, edges
+  /// and vertices, several words of `choices` (GroupKinds), entries, a text.
+  using Place = std::variant<double& (*)(Settings&), int& (*)(Settings&), bool& (*)(Settings&),
+                             Strategy& (*)(Settings&), std::filesystem::path& (*)(Settings&),
+                             std::vector<int>& (*)(Settings&), SizingOptions& (*)(Settings&),
+                             MshVersion& (*)(Settings&), GroupKinds& (*)(Settings&),
+                             Gradation& (*)(Settings&), EntryList, Text, InpElement& (*)(Settings&)>;
 
   std::string_view name;                        ///< in Python; library messages quote it in backquotes
   std::string_view option;                      ///< of the command, without the two hyphens

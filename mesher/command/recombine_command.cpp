@@ -112,7 +112,7 @@ void add_recombine_command(CLI::App& app) {
   add_surface_options(*command, arguments->feature_angle, arguments->merge,
                       "their common side is kept as an edge; 0 = none");
   command->add_option("--report", arguments->report, "write counts, quality and times as JSON");
-  add_settings(*command, arguments->options, {"threads", "msh_version", "groups"});
+  add_settings(*command, arguments->options, {"threads", "msh_version", "element", "groups"});
   command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");
   command->callback([arguments] { run(*arguments); });
 }

@@ -134,8 +134,9 @@ void add_remesh_command(CLI::App& app) {
                    "mesh file: .msh, .inp, .unv, .med, .vtu, .vtk or .bdf; may be given more than once")
       ->required()
       ->allow_extra_args(false);
-  add_settings(*command, *arguments,
-               {"size", "order", "force", "time_limit", "threads", "msh_version", "nodes", "groups"});
+  add_settings(
+      *command, *arguments,
+      {"size", "order", "force", "time_limit", "threads", "msh_version", "nodes", "element", "groups"});
   command->get_option("--size")->required()->description("length of elements, in mm");
   add_surface_options(*command, arguments->feature_angle, arguments->merge,
                       "they are of two faces; 0 = shape makes no faces");

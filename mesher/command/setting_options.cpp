@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_ending.hpp"
 #include "mesher/io/io.hpp"
 
 namespace quadrille::command {
@@ -114,9 +115,19 @@ void add_settings(CLI::App& command, GivenSettings& target, const std::set<std::
   }
 }
 
+namespace {
+
+bool is_inp(const std::filesystem::path& path) {
+  return lower_ending(path) == ".inp";
+}
+
+}  // namespace
+
 int order_of(const GivenSettings& given, const std::vector<std::filesystem::path>& outputs) {
   if (given.given.count("order") > 0) return given.settings.mesh.order;
   if (given.settings.write.quad_nodes == 9) return 2;
+  const int of_element = quadrille::order_of(given.settings.write.element);
+  if (of_element != 0 && std::any_of(outputs.begin(), outputs.end(), is_inp)) return of_element;
   return std::any_of(outputs.begin(), outputs.end(), is_solver_format) ? 2 : 1;
 }
 
@@ -124,7 +135,10 @@ void check_formats(const GivenSettings& given, const std::vector<std::filesystem
   const int quad_nodes = given.settings.write.quad_nodes;
   if (quad_nodes == 9 && order_of(given, outputs) == 1)
     throw usage_error("nodes", "`nodes` 9 is for quads of second order: leave out `order` 1");
-  for (const std::filesystem::path& output : outputs) check_format(output, quad_nodes);
+  for (const std::filesystem::path& output : outputs) {
+    check_format(output, quad_nodes);
+    if (is_inp(output)) check_element(given.settings.write.element, order_of(given, outputs));
+  }
 }
 
 std::string with_options(std::string sentence) {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/error.hpp"
 #include "mesher/io/segment_sides.hpp"
 #include "mesher/io/writers.hpp"
 
@@ -25,9 +26,23 @@ void write_list(const std::vector<int>& numbers, TextWriter& out) {
   }
 }
 
-const char* element_type(const OutputMesh& mesh, bool quad) {
-  if (!quad) return "S3";
-  return mesh.order() == 2 ? "S8R" : "S4";
+std::string_view element_type(const OutputMesh& mesh, InpElement element, bool quad) {
+  if (!quad) {
+    switch (family_of(element)) {
+      case InpFamily::shell:
+        return "S3";
+      case InpFamily::plane_stress:
+        return "CPS3";
+      case InpFamily::plane_strain:
+        return "CPE3";
+      case InpFamily::axisymmetric:
+        return "CAX3";
+      case InpFamily::membrane:
+        return "M3D3";
+    }
+  }
+  if (element == InpElement::shell) return mesh.order() == 2 ? "S8R" : "S4";
+  return name_of(element);
 }
 
 /// Names of sets for Abaqus and CalculiX, which ignore case and tell sets of one kind apart only by their
@@ -74,11 +89,11 @@ class SetNames {
 };
 
 /// Writes the quads, or the triangles, of one face. \param set name of their set; empty = none.
-void write_elements(const OutputMesh& mesh, const CadGroup& group, bool quads, const std::string& set,
-                    TextWriter& out) {
+void write_elements(const OutputMesh& mesh, InpElement element, const CadGroup& group, bool quads,
+                    const std::string& set, TextWriter& out) {
   const auto is_wanted = [&](int shell) { return mesh.is_quad(shell) == quads; };
   if (std::none_of(group.members.begin(), group.members.end(), is_wanted)) return;
-  out << "*ELEMENT, TYPE=" << element_type(mesh, quads);
+  out << "*ELEMENT, TYPE=" << element_type(mesh, element, quads);
   if (!set.empty()) out << ", ELSET=" << set;
   out << '\n';
   write_in_order(group.members.size(), out, [&](std::size_t i, TextWriter& to) {
@@ -91,7 +106,7 @@ void write_elements(const OutputMesh& mesh, const CadGroup& group, bool quads, c
 }
 
 /// Writes the elements, with the sets that consist of one face; then the other sets.
-void write_element_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& out) {
+void write_element_sets(const OutputMesh& mesh, InpElement type, const SetNames& names, TextWriter& out) {
   const std::vector<NamedGroup>& groups = mesh.groups(2);
   std::vector<char> written(groups.size(), 0);
   for (const CadGroup& face : mesh.faces()) {
@@ -101,8 +116,8 @@ void write_element_sets(const OutputMesh& mesh, const SetNames& names, TextWrite
       set = names.of(2, i);
       written[i] = 1;
     }
-    write_elements(mesh, face, true, set, out);
-    write_elements(mesh, face, false, set, out);
+    write_elements(mesh, type, face, true, set, out);
+    write_elements(mesh, type, face, false, set, out);
   }
   out << "*ELSET, ELSET=Eall, GENERATE\n1, " << mesh.shell_count() << ", 1\n";
   for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -116,8 +131,9 @@ void write_element_sets(const OutputMesh& mesh, const SetNames& names, TextWrite
 
 /// Writes sets of the elements whose first side lies on an edge, whose second side does, and so on: the load
 /// EDNOR1 is for Edge7_Side1. If several elements share a segment, only the first is in a set, so that a
-/// load on all four sets is applied once.
-void write_side_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& out) {
+/// load on all four sets is applied once. Sides of plane and axisymmetric elements can be loaded by pressure,
+/// so these also get a surface for each edge.
+void write_side_sets(const OutputMesh& mesh, InpElement type, const SetNames& names, TextWriter& out) {
   std::vector<std::array<int, 4>> elements(mesh.segment_count(), {0, 0, 0, 0});  // from 1; 0 = none
   int last = -1;
   for (const SegmentSide& side : segment_sides(mesh)) {
@@ -127,15 +143,20 @@ void write_side_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& 
   const std::vector<NamedGroup>& groups = mesh.groups(1);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const std::vector<int> segments = mesh.members(1, groups[i]);
+    std::string surface;
     for (int side = 0; side < 4; ++side) {
       std::vector<int> set;
       for (const int segment : segments)
         if (elements[segment][side] > 0) set.push_back(elements[segment][side]);
       if (set.empty()) continue;
       std::sort(set.begin(), set.end());
-      out << "*ELSET, ELSET=" << names.of(1, i) << "_Side" << side + 1 << '\n';
+      const std::string name = fmt::format("{}_Side{}", names.of(1, i), side + 1);
+      out << "*ELSET, ELSET=" << name << '\n';
       write_list(set, out);
+      surface += fmt::format("{}, S{}\n", name, side + 1);
     }
+    if (lies_in_plane(type) && !surface.empty())
+      out << "*SURFACE, NAME=Surface_" << names.of(1, i) << ", TYPE=ELEMENT\n" << surface;
   }
 }
 
@@ -157,9 +178,28 @@ void write_surfaces(const OutputMesh& mesh, const SetNames& names, TextWriter& o
   }
 }
 
+/// The card of an element's section. CalculiX 2.20 takes the thickness of plane elements by *SOLID SECTION,
+/// which for axisymmetric ones has none.
+const char* section_card(InpFamily family) {
+  if (family == InpFamily::shell) return "*SHELL SECTION";
+  return family == InpFamily::membrane ? "*MEMBRANE SECTION" : "*SOLID SECTION";
+}
+
+/// CalculiX 2.20 stops at *MEMBRANE SECTION with NODAL THICKNESS.
+void check_membrane(const OutputMesh& mesh, InpElement element) {
+  if (family_of(element) != InpFamily::membrane) return;
+  for (const ThicknessGroup& group : mesh.thicknesses())
+    if (group.varies)
+      throw usage_error("element", fmt::format("`element` {} cannot have a thickness that varies, as that of "
+                                               "Face{} does: choose a shell",
+                                               name_of(element), group.faces.front()));
+}
+
 /// Writes a set and a section for each thickness; varying thicknesses are given at the nodes. Who includes
 /// the file must define the material before.
-void write_sections(const OutputMesh& mesh, TextWriter& out) {
+void write_sections(const OutputMesh& mesh, InpElement type, TextWriter& out) {
+  const InpFamily family = family_of(type);
+  const bool is_thick = family != InpFamily::axisymmetric;
   for (const ThicknessGroup& group : mesh.thicknesses()) {
     out << "*ELSET, ELSET=" << group.name << '\n';
     if (mesh.groups(2).empty()) {  // no sets of faces were asked for
@@ -170,9 +210,11 @@ void write_sections(const OutputMesh& mesh, TextWriter& out) {
     } else {
       for (const int face : group.faces) out << "Face" << face << '\n';
     }
-    out << "*SHELL SECTION, ELSET=" << group.name << ", MATERIAL=Material"
-        << (group.varies ? ", NODAL THICKNESS\n" : "\n") << group.thickness << '\n';
+    out << section_card(family) << ", ELSET=" << group.name << ", MATERIAL=Material"
+        << (group.varies && is_thick ? ", NODAL THICKNESS\n" : "\n");
+    if (is_thick) out << group.thickness << '\n';
   }
+  if (!is_thick) return;
   const auto nodes = mesh.node_thicknesses();
   if (!nodes.empty()) out << "*NODAL THICKNESS\n";
   for (const auto& [node, thickness] : nodes) out << node << ", " << fmt::format("{:.6g}\n", thickness);
@@ -180,10 +222,13 @@ void write_sections(const OutputMesh& mesh, TextWriter& out) {
 
 }  // namespace
 
-void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out) {
+void write_inp(const OutputMesh& mesh, const WriteOptions& options, const std::string& comment,
+               TextWriter& out) {
+  check_membrane(mesh, options.element);
   // A title that starts with an asterisk would be read as a keyword.
   const bool like_card = options.title.find_first_not_of(' ') == options.title.find('*');
   out << "*HEADING\n" << (like_card ? "Title: " : "") << options.title << '\n';
+  if (!comment.empty()) out << "** " << comment << '\n';
   out << "*NODE, NSET=Nall\n";
   write_in_order(mesh.nodes().size(), out, [&](std::size_t i, TextWriter& to) {
     to << i + 1;
@@ -194,11 +239,12 @@ void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& 
     to << '\n';
   });
   const SetNames names(mesh);
-  write_element_sets(mesh, names, out);
+  write_element_sets(mesh, options.element, names, out);
   write_node_sets(mesh, names, out);
-  write_side_sets(mesh, names, out);
-  write_surfaces(mesh, names, out);
-  write_sections(mesh, out);
+  write_side_sets(mesh, options.element, names, out);
+  // Of plane and axisymmetric elements the sides are loaded.
+  if (!lies_in_plane(options.element)) write_surfaces(mesh, names, out);
+  write_sections(mesh, options.element, out);
 }
 
 }  // namespace quadrille

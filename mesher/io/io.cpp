@@ -15,6 +15,7 @@
 #include "geometry/base/printable.hpp"
 #include "geometry/base/threads.hpp"
 #include "mesher/io/modules.hpp"
+#include "mesher/io/plane_mesh.hpp"
 #include "mesher/io/readers.hpp"
 #include "mesher/io/writers.hpp"
 #include "mesher/mesh/quality.hpp"
@@ -25,9 +26,7 @@ namespace {
 
 void write_text(const OutputMesh& mesh, const std::string& ending, const WriteOptions& options,
                 const std::vector<double>& qualities, TextWriter& out) {
-  if (ending == ".inp")
-    write_inp(mesh, options, out);
-  else if (ending == ".unv")
+  if (ending == ".unv")
     write_unv(mesh, out);
   else if (ending == ".bdf")
     write_bdf(mesh, options, out);
@@ -37,6 +36,17 @@ void write_text(const OutputMesh& mesh, const std::string& ending, const WriteOp
     write_msh4(mesh, out);
   else
     write_msh2(mesh, out);
+}
+
+/// \param output the mesh as it lies in the model.
+void write_inp_text(const ShellMesh& mesh, const OutputMesh& output, const std::string& name,
+                    const WriteOptions& options, TextWriter& out) {
+  if (!lies_in_plane(options.element)) {
+    write_inp(output, options, "", out);
+  } else {
+    const PlaneMesh plane = in_plane(mesh, options.element, name);
+    write_inp(OutputMesh(plane.mesh, options.groups), options, plane.turn, out);
+  }
 }
 
 void write_format(const ShellMesh& mesh, const std::filesystem::path& path, WriteOptions options,
@@ -53,7 +63,12 @@ void write_format(const ShellMesh& mesh, const std::filesystem::path& path, Writ
     file.write(vtu_file(output, qualities));
   } else {
     TextWriter out(file);
-    on_threads(options.threads, [&] { write_text(output, ending, options, qualities, out); });
+    on_threads(options.threads, [&] {
+      if (ending == ".inp")
+        write_inp_text(mesh, output, path.string(), options, out);
+      else
+        write_text(output, ending, options, qualities, out);
+    });
     out.flush();
   }
 }
@@ -105,10 +120,17 @@ void check_format(const std::filesystem::path& path, int quad_nodes) {
                     path.string(), name, longest_name));
 }
 
+void check_element(InpElement element, int order) {
+  if (order_of(element) != 0 && order_of(element) != order)
+    throw usage_error("element", fmt::format("`element` {} needs order {}, not {}", name_of(element),
+                                             order_of(element), order));
+}
+
 void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path, const WriteOptions& options) {
   if (mesh.order == 1 && options.quad_nodes == 9)
     throw usage_error("nodes", "`nodes` 9 is for meshes of second order, and this one is of first");
   check_format(path, mesh.order == 1 ? 4 : options.quad_nodes);
+  if (lower_ending(path) == ".inp") check_element(options.element, mesh.order);
   AtomicFile file(path);
   write_format(mesh, path, options, file);
   file.commit();

@@ -18,8 +18,10 @@ namespace quadrille {
 /// (legacy): the quads with their CAD faces, the segments on CAD edges and the corners on CAD vertices as
 /// groups named as in FreeCAD (Face3, Edge7, Vertex2), as far as options.groups asks for them. Numbering is
 /// dense from 1. The file appears whole or not at all. docs/formats.md describes what each format contains.
-/// Throws Error: usage as check_format() does or for nine-node quads of a first-order mesh, failure when the
-/// file cannot be written.
+/// Plane and axisymmetric elements (options.element) turn the mesh in an .inp file into the plane z = 0.
+/// Throws Error: usage as check_format() and check_element() do, for nine-node quads of a first-order mesh,
+/// for a mesh that is not plane where options.element needs one, or that has negative radii where the element
+/// is axisymmetric; failure when the file cannot be written.
 QUADRILLE_API void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path,
                               const WriteOptions& options = {});
 
@@ -27,6 +29,9 @@ QUADRILLE_API void write_mesh(const ShellMesh& mesh, const std::filesystem::path
 /// .inp, .unv and .bdf files, for .med files whose name without the ending has more than 64 bytes.
 /// \param quad_nodes 4, 8 or 9.
 QUADRILLE_API void check_format(const std::filesystem::path& path, int quad_nodes);
+
+/// Throws Error (usage) if .inp files cannot have this element type for a mesh of this order.
+QUADRILLE_API void check_element(InpElement element, int order);
 
 /// True if write_mesh knows the file's ending.
 QUADRILLE_API bool is_mesh_format(const std::filesystem::path& path);

@@ -11,7 +11,9 @@ namespace quadrille {
 
 void write_msh2(const OutputMesh& mesh, TextWriter& out);  ///< Gmsh .msh 2.2, ASCII
 void write_msh4(const OutputMesh& mesh, TextWriter& out);  ///< Gmsh .msh 4.1, ASCII
-void write_inp(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out);
+/// Abaqus/CalculiX .inp. \param comment a line for readers of the file; empty = none.
+void write_inp(const OutputMesh& mesh, const WriteOptions& options, const std::string& comment,
+               TextWriter& out);
 void write_unv(const OutputMesh& mesh, TextWriter& out);
 void write_bdf(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out);
 /// Legacy .vtk as text, with only the shell elements as cells. \param qualities (quads) q of each quad.

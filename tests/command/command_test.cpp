@@ -303,6 +303,22 @@ TEST(Command, ShowsSizes) {
   EXPECT_EQ(stdout_of(folder, "quality s.VTU").exit_code, 0);
 }
 
+TEST(Command, MeshesWithTheOrderOfTheElement) {
+  const TemporaryFolder folder;
+  for (const std::string type : {"CPS4", "CPE8R", "CAX8", "M3D4R"}) {
+    EXPECT_EQ(stderr_of(folder, "mesh " + box + " --faces Face1 -o a.inp --quiet --element " + type).out, "");
+    EXPECT_PRED2(contains, test::file_text(folder / "a.inp"), "TYPE=" + type + ",");
+  }
+  const auto refused = [&](const std::string& options, const std::string& sentence) {
+    const auto result = stderr_of(folder, "mesh " + box + " -o b.inp --quiet " + options);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_PRED2(contains, result.out, sentence);
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.inp"));
+  };
+  refused("--element CPS8 --order 1", "--element CPS8 needs order 2, not 1");
+  refused("--element CPS8", "b.inp: --element CPS8 needs a mesh in one plane, and Face");
+}
+
 TEST(Command, MeshesTheBox) {
   const TemporaryFolder folder;
   const auto result = stdout_of(

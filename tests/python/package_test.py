@@ -218,10 +218,14 @@ class PackageTest(unittest.TestCase):
             self.assertIn('"Face1"', text)
             self.assertNotIn('"Edge1"', text)
             self.assertIn(f"\n{len(mesh.points) + len(mesh.quads)}\n", text)
-            for wrong in ({"groups": ["sides"]}, {"groups": "faces"}, {"nodes": 7}, {"msh_version": "3"}):
+            for wrong in ({"groups": ["sides"]}, {"groups": "faces"}, {"nodes": 7}, {"msh_version": "3"}, {"element": "S9"}):
                 with self.assertRaises(quadrille.Error) as caught:
                     mesh.write(path, **wrong)
                 self.assertEqual(caught.exception.kind, "usage")
+            with self.assertRaisesRegex(quadrille.Error, "element CPS4 needs order 1, not 2"):
+                mesh.write(Path(folder) / "a.inp", element="CPS4")
+            mesh.write(Path(folder) / "a.inp", element="M3D8R")
+            self.assertIn("TYPE=M3D8R", (Path(folder) / "a.inp").read_text())
             with self.assertRaises(TypeError):
                 mesh.write(path, size=2)
 

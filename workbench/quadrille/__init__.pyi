@@ -57,6 +57,7 @@ class Mesh:
         title: str = "",
         msh_version: Optional[str] = None,
         nodes: Optional[int] = None,
+        element: Optional[str] = None,
         groups: Optional[Sequence[str]] = None,
     ) -> None: ...
     def picture(self, path: _Path, *, width: int = 1600, height: int = 1200) -> None: ...

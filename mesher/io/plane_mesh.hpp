@@ -1,0 +1,26 @@
+#pragma once
+/// Meshes for plane and axisymmetric elements, which solvers take only in the plane z = 0. Internal.
+
+#include <string>
+
+#include "mesher/mesh/inp_element.hpp"
+#include "mesher/mesh/mesh_types.hpp"
+
+namespace quadrille {
+
+/// A mesh in the plane z = 0, and how it came there.
+struct PlaneMesh {
+  ShellMesh mesh;    ///< all z are 0; elements are counter-clockwise
+  std::string turn;  ///< which point of the model (x, y) is; empty if no node has moved
+};
+
+/// Turns a plane mesh into the plane z = 0, about the origin, and then shifts it along z. x of the result
+/// runs along the model's x as far as the plane lets it (along y in the plane y-z), y along z where the plane
+/// is upright. Elements that are clockwise then are turned around; those with equal corners as they are. For
+/// axisymmetric elements x is the radius, y the axis. O(n).
+/// \param name of the file, for messages. All nodes must exist and be finite.
+/// Throws Error (usage, subject "element") if the mesh is not plane, or for axisymmetric elements if a node
+/// has a negative radius, each by more than 1e-5 of the mesh's diagonal.
+PlaneMesh in_plane(const ShellMesh& mesh, InpElement element, const std::string& name);
+
+}  // namespace quadrille
