@@ -15,7 +15,7 @@ set(PUBLIC_HEADERS
   geometry/base/vector.hpp geometry/cad/cad_model.hpp geometry/cad/ids.hpp geometry/midsurface/midsurface.hpp
   geometry/sizing/element_count.hpp geometry/sizing/sizing_field.hpp geometry/sizing/sizing_options.hpp
   mesher/estimate.hpp mesher/io/io.hpp mesher/io/limits_reader.hpp mesher/io/midsurface_writer.hpp
-  mesher/mesh/criteria.hpp mesher/mesh/mesh_types.hpp mesher/mesh/quality.hpp mesher/options.hpp
+  mesher/mesh/criteria.hpp mesher/mesh/inp_element.hpp mesher/mesh/mesh_types.hpp mesher/mesh/quality.hpp mesher/options.hpp
   mesher/pairing/recombine.hpp mesher/pairing/recombine_options.hpp mesher/quadrille.hpp
   mesher/quads/improve_options.hpp mesher/remesh/remesh.hpp mesher/settings.hpp mesher/shell/from_triangles.hpp
   mesher/shell/validate.hpp mesher/size_map.hpp)

@@ -15,6 +15,7 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/boundary.hpp"
+#include "mesher/edges/hole_filling.hpp"
 #include "mesher/settings.hpp"
 
 namespace quadrille {
@@ -79,8 +80,9 @@ QuadEstimate::QuadEstimate(const CadModel& model, ExecutionContext& context)
 
 double QuadEstimate::quads(const MeshOptions& options) {
   check({options, {}}, model_);
-  const CadShape& shape = model_.shape();
-  const FaceFlags used = faces_used(model_, options);
+  const FilledModel filled = fill_holes(model_, options);
+  const CadShape& shape = filled.model.shape();
+  const FaceFlags used = filled.left(faces_used(model_, options));
   try {
     return on_threads(context_.threads(), [&] {
       const SettledBoundary boundary = settle_boundary(model_, options, context_);

@@ -25,6 +25,7 @@
 #include "mesher/boundary.hpp"
 #include "mesher/edges/edge_sampling.hpp"
 #include "mesher/edges/grid_rows.hpp"
+#include "mesher/edges/hole_filling.hpp"
 #include "mesher/edges/let_go.hpp"
 #include "mesher/faces/boundary_crossings.hpp"
 #include "mesher/quadrille.hpp"
@@ -51,13 +52,15 @@ class Job {
   /// \param divides divide edges where slivers ask for it: edges and vertices are then not those of the model
   Job(const CadModel& model, const MeshOptions& options, ExecutionContext& context, bool divides = true)
       : vertices_(model.vertex_count()),
-        model_(divides ? divided(model, options) : model),
+        filled_(fill_holes(model, options)),
+        model_(divides ? divided(filled_.model, filled_.left(faces_used(model, options)), options)
+                       : filled_.model),
         shape_(model_.shape()),
         options_(options),
         limits_(size_limits(model, options.sizing)),
         context_(context),
         plan_(shape_),
-        used_(faces_used(model, options)),
+        used_(filled_.left(faces_used(model, options))),
         to_tips_(shape_.faces.size()),
         meshes_(shape_.faces.size()),
         problems_(shape_.faces.size()),
@@ -114,6 +117,7 @@ class Job {
     result.faces = statuses();
     result.let_go = list_let_go();
     result.kept = list_kept();
+    result.filled_holes = filled_.holes;
     for (const EdgeId id : suppressed_) {
       constexpr int pieces = 32;
       const CadEdge& edge = shape_.edges[id];
@@ -131,7 +135,7 @@ class Job {
   }
 
   SmallFeatures small_features() const {
-    SmallFeatures result{list_let_go(), {}, list_kept()};
+    SmallFeatures result{list_let_go(), {}, list_kept(), filled_.holes};
     for (const FaceId face : asked_.ids())
       if (asked_[face] && plan_.tiny.merged_faces[face]) result.faces.push_back(face.number());
     return result;
@@ -141,10 +145,10 @@ class Job {
 
  private:
   /// The model with edges divided at slivers, unless users divide edges: what they name stays as it is.
-  static CadModel divided(const CadModel& model, const MeshOptions& options) {
+  static CadModel divided(const CadModel& model, const FaceFlags& used, const MeshOptions& options) {
     if (!options.sizing.spacings.empty() || !options.sizing.layers.edges.empty()) return model;
     const double reach = reach_of_let_go(size_limits(model, options.sizing), options);
-    const auto shape = divided_at_slivers(model.shape(), faces_used(model, options), reach);
+    const auto shape = divided_at_slivers(model.shape(), used, reach);
     return shape ? CadModel(shape) : model;
   }
 
@@ -297,6 +301,7 @@ class Job {
   void leave_out_tiny() {
     TinyFeatures& tiny = plan_.tiny;
     tiny = let_go_.find(options_.merge_tiny);
+    for (const FaceId face : filled_.gone.ids()) tiny.merged_faces[face] |= filled_.gone[face];
     for (const FaceId face : used_.ids()) {
       used_[face] = asked_[face] && !tiny.merged_faces[face];
       if (!used_[face]) problems_[face].reset();
@@ -611,8 +616,10 @@ class Job {
                                    status.note.empty() ? "" : "; ");
       if (plan_.tiny.merged_faces[face]) {
         status.status = FaceStatus::merged;
-        status.note = "tiny: its place is taken by an edge or a node of its neighbors";
+        status.note = filled_.gone[face] ? "in a filled hole"
+                                         : "tiny: its place is taken by an edge or a node of its neighbors";
       }
+      status.filled_area = filled_.areas[face];
       if (meshes_[face] && meshes_[face]->quads.empty()) {
         status.status = FaceStatus::merged;
         status.note = "crossed: its place is taken by quads whose centers lie on its neighbors";
@@ -626,6 +633,7 @@ class Job {
   }
 
   int vertices_;  // of the model; the others divide edges
+  FilledModel filled_;
   const CadModel model_;
   const CadShape& shape_;
   const MeshOptions& options_;

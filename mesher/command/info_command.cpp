@@ -73,6 +73,9 @@ std::string features(const CadModel& model, const MeshOptions& options, Executio
         fmt::format("{:<12} {} becomes {}, at most {} mm away\n", "goes", name(feature.kind, feature.number),
                     name(feature.to_kind, feature.to), number_text(feature.distance));
   for (const int face : found.faces) text += fmt::format("{:<12} Face{}\n", "goes", face);
+  for (const auto& hole : found.holes)
+    text += fmt::format("{:<12} {} of diameter {} in Face{} at {}\n", "goes", hole.boss ? "boss" : "hole",
+                        number_text(hole.diameter), hole.in.front(), place_text(hole.center));
   for (const auto& feature : found.kept)
     text += fmt::format("{:<12} {}{}: {}\n", "stays", feature.dimension == 2 ? "Face" : "Edge",
                         feature.number, feature.why);
@@ -86,8 +89,9 @@ void add_info_command(CLI::App& app) {
   auto input = std::make_shared<std::filesystem::path>();
   auto limits = std::make_shared<GivenSettings>();
   command->add_option("IN", *input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
-  add_settings(*command, *limits,
-               {"imprint", "sew", "read_time_limit", "time_limit", "size", "size_min", "reach", "keep"});
+  add_settings(
+      *command, *limits,
+      {"imprint", "sew", "read_time_limit", "time_limit", "size", "size_min", "reach", "keep", "fill_holes"});
   auto with_features = std::make_shared<bool>(false);
   command
       ->add_flag("--features", *with_features,

@@ -185,6 +185,9 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
                "it, --keep-features all\n",
                result.suppressed_edges.size(), edge, edge);
   }
+  if (!result.filled_holes.empty())
+    fmt::print(stderr, "note: {} holes, pockets and bosses are left out; the report (--report) lists them\n",
+               result.filled_holes.size());
   tell_short_sides(result);
   if (meshed.middle) print(middle_table(*meshed.middle));
   print(quality_table(measured.elements.quality));

@@ -107,10 +107,14 @@ json off_geometry_to_json(const ShellMesh& mesh) {
 
 json suppressed_to_json(const ShellMesh& mesh) {
   json edges = json::array();
-  for (const ShellMesh::SuppressedEdge& edge : mesh.suppressed_edges)
+  for (const ShellMesh::SuppressedEdge& edge : mesh.suppressed_edges) {
+    json line = json::array();
+    for (const Vector3& point : edge.line) line.push_back({point.x(), point.y(), point.z()});
     edges.push_back(
         {{"name", "Edge" + std::to_string(edge.edge)},
-         {"faces", {"Face" + std::to_string(edge.faces[0]), "Face" + std::to_string(edge.faces[1])}}});
+         {"faces", {"Face" + std::to_string(edge.faces[0]), "Face" + std::to_string(edge.faces[1])}},
+         {"line", line}});
+  }
   return edges;
 }
 
@@ -124,6 +128,22 @@ json let_go_to_json(const ShellMesh& mesh) {
                         {"to", name(feature.to_kind, feature.to)},
                         {"distance", feature.distance}});
   return features;
+}
+
+json filled_holes_to_json(const ShellMesh& mesh) {
+  const auto names = [](const std::vector<int>& faces) {
+    json result = json::array();
+    for (const int face : faces) result.push_back("Face" + std::to_string(face));
+    return result;
+  };
+  json holes = json::array();
+  for (const ShellMesh::FilledHole& hole : mesh.filled_holes)
+    holes.push_back({{"kind", hole.boss ? "boss" : "hole"},
+                     {"center", {hole.center.x(), hole.center.y(), hole.center.z()}},
+                     {"diameter", hole.diameter},
+                     {"in", names(hole.in)},
+                     {"faces", names(hole.faces)}});
+  return holes;
 }
 
 json short_sides_to_json(const ShellMesh& mesh) {
@@ -169,6 +189,7 @@ json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const Exec
           {"off_geometry", off_geometry_to_json(mesh)},
           {"let_go", let_go_to_json(mesh)},
           {"kept", kept_to_json(mesh)},
+          {"filled_holes", filled_holes_to_json(mesh)},
           {"suppressed_edges", suppressed_to_json(mesh)},
           {"short_sides", short_sides_to_json(mesh)},
           {"warnings", warnings},

@@ -73,6 +73,7 @@ struct ShellMesh {
     int quads = 0;                ///< number of quads
     double q_min = 0;             ///< lowest q of the quads
     double seconds = 0;           ///< time that meshing took
+    double filled_area = 0;       ///< area of the filled holes in it (filled_holes), millimeters^2
     int off_geometry = 0;         ///< number of its nodes in ShellMesh::off_geometry
     double off_geometry_max = 0;  ///< largest distance of those nodes
   };
@@ -107,6 +108,16 @@ struct ShellMesh {
     friend bool operator<(const SuppressedEdge& a, const SuppressedEdge& b) {
       return std::pair(a.edge, a.faces) < std::pair(b.edge, b.faces);
     }
+  };
+
+  /// A hole, a pocket or a boss that was left out: the faces that it lies in are meshed as if it was not
+  /// there.
+  struct FilledHole {
+    Vector3 center{0, 0, 0};  ///< center of its mouth
+    double diameter = 0;      ///< largest distance of two points of its mouth, millimeters
+    bool boss = false;        ///< it stands out of the face
+    std::vector<int> in;      ///< the faces that it lies in, from 1: one, or two where it goes through
+    std::vector<int> faces;   ///< the faces that were left out, from 1, ascending; none in a sheet
   };
 
   /// A CAD edge or face below the least size that is meshed all the same.
@@ -156,6 +167,7 @@ struct ShellMesh {
   std::vector<OffGeometry> off_geometry;      ///< ascending by node; usually empty
   std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; for faces see Face::status
   std::vector<Kept> kept;                     ///< faces, then edges, ascending
+  std::vector<FilledHole> filled_holes;       ///< ascending by the first face they lie in
   std::vector<SuppressedEdge> suppressed_edges;  ///< ascending
   std::vector<ShortSides> short_sides;           ///< those that most quads have first
   std::vector<Face> faces;                       ///< one entry per CAD face; empty in meshes read from files

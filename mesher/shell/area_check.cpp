@@ -127,6 +127,8 @@ std::vector<std::string> area_differences(const CadModel& model, const ShellMesh
     areas[first(face)] += std::exchange(areas[face], 0);
     integrals[first(face)] += std::exchange(integrals[face], 0);
   }
+  for (const ShellMesh::Face& face : mesh.faces)
+    integrals[first(FaceId::from_number(face.face))] += face.filled_area;
   const auto difference = [&](FaceId face) { return std::abs(areas[face] - integrals[face]); };
   FaceFlags differ(areas.size());
   for (const FaceId face : areas.ids())

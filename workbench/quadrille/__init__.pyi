@@ -131,6 +131,7 @@ def mesh(
     partial: Optional[bool] = None,
     strict: Optional[bool] = None,
     reach: Optional[float] = None,
+    fill_holes: Optional[float] = None,
     keep_features: Optional[bool] = None,
     keep: Optional[_Entries] = None,
     force: Optional[bool] = None,

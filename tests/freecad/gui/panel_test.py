@@ -231,9 +231,12 @@ class PanelTest(GuiCase):
         self.assertIn("get no group: 1;", crossed.text())
         self.assertEqual(crossed.toolTip(), "Edge2 (Face1)")
         self.assertNotIn("cross", find("QuadrilleLog").toPlainText())
+        mesh = next(obj for obj in self.document.Objects if obj.isDerivedFrom("Fem::FemMeshObjectPython"))
+        self.assertTrue(overlays.is_shown(mesh, overlays.CROSSED))
         picture("crossed")
         close_panel()
-        self.edit(next(obj for obj in self.document.Objects if obj.isDerivedFrom("Fem::FemMeshObjectPython")))
+        self.assertFalse(overlays.is_shown(mesh, overlays.CROSSED))
+        self.edit(mesh)
         crossed = find("QuadrilleCrossed")
         self.assertTrue(crossed.isVisible())  # still told when the panel opens again
         find("QuadrilleMore").setChecked(True)

@@ -14,7 +14,7 @@ from . import translate
 #: Larger numbers of arrows only blacken the view: larger meshes show some of their normals.
 MOST_ARROWS = 3000
 QUALITY, NORMALS, ELEMENT, STALE = "QuadrilleQuality", "QuadrilleNormals", "QuadrilleElement", "QuadrilleStale"
-FREE = "QuadrilleFree"
+FREE, CROSSED = "QuadrilleFree", "QuadrilleCrossedEdges"
 #: The scene nodes shown, by the names of document and mesh object, and by kind.
 _shown: Dict[tuple, object] = {}
 #: The display modes that meshes had before they were colored.
@@ -179,6 +179,24 @@ def show_free(mesh, measured: quality.ElementQuality) -> None:
     if len(doubles):
         nodes += [_coordinates(doubles), coin.SoPointSet()]
     _show(mesh, FREE, _group(*nodes))
+
+
+def show_crossed(mesh) -> None:
+    """Dots the smooth edges that quads cross."""
+    from pivy import coin
+
+    hide(mesh, CROSSED)
+    edges = len(mesh.CrossedEdges)
+    if not edges or len(mesh.CrossedLines) % edges:
+        return
+    points = np.array([tuple(point) for point in mesh.CrossedLines])
+    light, color = _plain_color((0.9, 0.0, 0.6))
+    style = coin.SoDrawStyle()
+    style.lineWidth = 3
+    style.linePattern = 0x0F0F
+    lines = coin.SoLineSet()
+    lines.numVertices.setValues(0, edges, [len(points) // edges] * edges)
+    _add(mesh, CROSSED, _group(light, color, style, _coordinates(points), lines))
 
 
 def hide_normals(mesh) -> None:

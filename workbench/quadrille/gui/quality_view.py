@@ -46,12 +46,7 @@ class QualityWidget(QtGui.QWidget):
         self.status = QtGui.QLabel()
         self.status.setObjectName("QuadrilleStatus")
         self.status.setWordWrap(True)
-        self.crossed = QtGui.QLabel()
-        self.crossed.setObjectName("QuadrilleCrossed")
-        self.crossed.setWordWrap(True)
-        self.short = QtGui.QLabel()
-        self.short.setObjectName("QuadrilleShort")
-        self.short.setWordWrap(True)
+        self.crossed, self.filled, self.short = (_note(name) for name in ("QuadrilleCrossed", "QuadrilleFilled", "QuadrilleShort"))
         self.table = _table("QuadrilleQualityTable", 2)
         self.table.horizontalHeader().setVisible(False)
         self.criteria = _table("QuadrilleCriteria", 4)
@@ -83,8 +78,8 @@ class QualityWidget(QtGui.QWidget):
         by.addWidget(self.color)
         by.addWidget(self.measure, 1)
         layout.addWidget(self.status)
-        layout.addWidget(self.crossed)
-        layout.addWidget(self.short)
+        for note in (self.crossed, self.filled, self.short):
+            layout.addWidget(note)
         layout.addWidget(self.table)
         layout.addWidget(self.histogram)
         layout.addWidget(self.criteria)
@@ -139,12 +134,15 @@ class QualityWidget(QtGui.QWidget):
         """Tells which smooth edges quads cross, and what forces short sides."""
         for label, entries, text in (
                 (self.crossed, self.mesh.CrossedEdges,
-                 translate("Quadrille", "Smooth edges that quads cross, and that get no group: {}; Keep names edges that stay")),
+                 translate("Quadrille", "Smooth edges that quads cross, dotted in the view, and that get no group: {}; Keep names edges that stay")),
+                (self.filled, self.mesh.FilledHoles, translate("Quadrille", "Holes, pockets and bosses that are left out: {}")),
                 (self.short, self.mesh.ShortSides,
                  translate("Quadrille", "Edges and faces that force sides under half the minimum size: {}"))):
             label.setText(text.format(len(entries)))
             label.setToolTip("\n".join(entries))
             label.setVisible(bool(entries))
+        if self.mesh.ViewObject is not None:
+            overlays.show_crossed(self.mesh)
 
     def fill_elements(self) -> None:
         """Measures each element, for the histogram, the criteria and the worst ones."""
@@ -205,10 +203,17 @@ class QualityWidget(QtGui.QWidget):
         self._timer.stop()
         try:
             if self.mesh.ViewObject is not None:
-                for kind in (overlays.QUALITY, overlays.ELEMENT, overlays.FREE):
+                for kind in (overlays.QUALITY, overlays.ELEMENT, overlays.FREE, overlays.CROSSED):
                     overlays.hide(self.mesh, kind)
         except ReferenceError:  # the object or its document was deleted
             pass
+
+
+def _note(name: str):
+    label = QtGui.QLabel()
+    label.setObjectName(name)
+    label.setWordWrap(True)
+    return label
 
 
 def _table(name: str, columns: int):

@@ -1,0 +1,353 @@
+/// Leaves out small holes: finds the loops inside faces, and the faces that such loops alone connect with the
+/// rest.
+
+#include "mesher/edges/hole_filling.hpp"
+
+#include <BRepGProp.hxx>
+#include <BRep_Builder.hxx>
+#include <GProp_GProps.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_MapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Iterator.hxx>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include "geometry/cad/cad_shape.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+#include "mesher/boundary.hpp"
+#include "mesher/edges/tiny_features.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// A loop inside a face, around a hole or a boss.
+struct Loop {
+  FaceId host;
+  std::size_t wire = 0;  // of the host
+  Vector3 center{0, 0, 0};
+  Vector3 axis{0, 0, 0};  // unit normal of the loop, out of the part
+  double diameter = 0;
+};
+
+/// Faces that loops alone connect with the rest; none = the loops are free edges.
+struct Hole {
+  std::vector<std::size_t> loops;
+  std::vector<FaceId> faces;
+  bool boss = false;
+};
+
+class HoleFinder {
+ public:
+  HoleFinder(const CadShape& shape, const FaceFlags& used, const MeshOptions& options)
+      : shape_(shape),
+        used_(used),
+        sizing_(options.sizing),
+        diameter_(options.fill_holes),
+        loop_of_(shape.edges.size(), none) {
+    for (const FaceId face : used.ids())
+      if (used[face]) find_loops(face);
+  }
+
+  const Loop& loop(std::size_t index) const { return loops_[index]; }
+
+  std::vector<Hole> find() const {
+    std::vector<Hole> result;
+    std::set<FaceId> taken;
+    for (std::size_t i = 0; i < loops_.size(); ++i) {
+      const auto hole = hole_at(i);
+      if (!hole || (!hole->faces.empty() && taken.contains(hole->faces.front()))) continue;
+      // A hole in a hole: first the inner one, then the other in the next pass.
+      taken.insert(hole->faces.begin(), hole->faces.end());
+      result.push_back(*hole);
+    }
+    std::erase_if(result, [&](const Hole& hole) {
+      return std::any_of(hole.loops.begin(), hole.loops.end(),
+                         [&](std::size_t i) { return taken.contains(loops_[i].host); });
+    });
+    return result;
+  }
+
+ private:
+  static constexpr int none = -1;
+  static constexpr int samples = 12;
+  static constexpr std::size_t most_faces = 64;  // of a hole
+
+  void find_loops(FaceId face) {
+    const CadFace& host = shape_.faces[face];
+    if (host.wires.size() < 2) return;
+    std::vector<Loop> found;
+    for (std::size_t i = 0; i < host.wires.size(); ++i) {
+      Loop loop{face, i};
+      if (is_inner(host.wires[i]) && measure(host, host.wires[i], loop)) found.push_back(loop);
+    }
+    if (found.size() == host.wires.size()) return;  // which one is the outer loop?
+    for (const Loop& loop : found) {
+      for (const Coedge& coedge : host.wires[loop.wire].coedges)
+        loop_of_[coedge.edge] = static_cast<int>(loops_.size());
+      loops_.push_back(loop);
+    }
+  }
+
+  /// Whether the loop closes in the parameter plane and the face lies outside of it.
+  bool is_inner(const CadWire& wire) const {
+    if (!wire.ordered) return false;
+    std::vector<Vector2> points;
+    Vector2 end{0, 0};
+    for (const Coedge& coedge : wire.coedges) {
+      const CadEdge& edge = shape_.edges[coedge.edge];
+      if (coedge.internal || edge.degenerate || coedge.parametric_curve.IsNull()) return false;
+      for (int i = 0; i <= samples; ++i) {
+        const double share = static_cast<double>(coedge.forward ? i : samples - i) / samples;
+        points.push_back(parametric_point(coedge, edge.first + share * (edge.last - edge.first)));
+      }
+    }
+    Eigen::AlignedBox2d box;
+    double area = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vector2 &a = points[i], &b = points[(i + 1) % points.size()];
+      box.extend(a);
+      area += 0.5 * (a.x() * b.y() - a.y() * b.x());
+    }
+    constexpr double closed = 0.01;  // of its extent: a loop around a tube ends a period away
+    return area < 0 && (points.front() - points.back()).norm() < closed * box.diagonal().norm();
+  }
+
+  /// \return false if the loop is larger than the holes to fill, or if something that stays lies on it.
+  bool measure(const CadFace& host, const CadWire& wire, Loop& loop) const {
+    std::vector<Vector3> points;
+    double length = 0;
+    for (const Coedge& coedge : wire.coedges) {
+      const CadEdge& edge = shape_.edges[coedge.edge];
+      if (stays(edge)) return false;
+      length += edge.length;
+      std::vector<Vector3> along = points_along(edge, samples);
+      if (!coedge.forward) std::reverse(along.begin(), along.end());
+      points.insert(points.end(), along.begin(), along.end() - 1);
+    }
+    if (length > 2 * std::numbers::pi * diameter_) return false;  // of any outline
+    for (const Vector3& a : points) {
+      for (const Vector3& b : points) loop.diameter = std::max(loop.diameter, (a - b).norm());
+    }
+    if (loop.diameter > diameter_ * (1 + 1e-6)) return false;
+    loop.center =
+        std::accumulate(points.begin(), points.end(), Vector3(0, 0, 0)) / static_cast<double>(points.size());
+    const Vector3 area = vector_area(points);
+    // The wire runs the other way around than one that encloses the face.
+    loop.axis = (host.reversed ? 1 : -1) * area.normalized();
+    return area.norm() > 0;
+  }
+
+  /// Whether users name the edge or one of its vertices.
+  bool stays(const CadEdge& edge) const {
+    return sizing_.edge_sizes.contains(edge.number) || sizing_.layers.edges.contains(edge.number) ||
+           sizing_.spacings.contains(edge.number) || sizing_.kept_edges.contains(edge.number) ||
+           sizing_.vertex_sizes.contains(edge.first_vertex.number()) ||
+           sizing_.vertex_sizes.contains(edge.last_vertex.number());
+  }
+
+  bool stays(FaceId face) const {
+    const auto& wires = shape_.faces[face].wires;
+    return sizing_.face_sizes.contains(face.number()) || sizing_.kept_faces.contains(face.number()) ||
+           std::any_of(wires.begin(), wires.end(), [&](const CadWire& wire) {
+             return std::any_of(wire.coedges.begin(), wire.coedges.end(),
+                                [&](const Coedge& c) { return stays(shape_.edges[c.edge]); });
+           });
+  }
+
+  /// The faces on the other side of a loop, as far as loops let them go on. Nothing if they are no hole to be
+  /// filled.
+  std::optional<Hole> hole_at(std::size_t first) const {
+    Hole hole;
+    std::set<std::size_t> loops{first};
+    std::set<FaceId> faces;
+    std::vector<FaceId> next;
+    const auto reach = [&](EdgeId edge, FaceId from) {
+      for (const FaceId face : shape_.edges[edge].faces)
+        if (face != from && used_[face] && faces.insert(face).second) next.push_back(face);
+    };
+    const Loop& mouth = loops_[first];
+    for (const Coedge& coedge : shape_.faces[mouth.host].wires[mouth.wire].coedges)
+      reach(coedge.edge, mouth.host);
+    while (!next.empty()) {
+      const FaceId face = next.back();
+      next.pop_back();
+      if (face == mouth.host || stays(face) || faces.size() > most_faces) return std::nullopt;
+      for (const CadWire& wire : shape_.faces[face].wires) {
+        for (const Coedge& coedge : wire.coedges) {
+          const int loop = loop_of_[coedge.edge];
+          if (loop == none) reach(coedge.edge, face);
+          if (loop != none) loops.insert(loop);
+        }
+      }
+    }
+    if (loops.size() > 2) return std::nullopt;
+    for (const std::size_t loop : loops) {
+      if (faces.contains(loops_[loop].host)) return std::nullopt;
+    }
+    hole.loops.assign(loops.begin(), loops.end());
+    hole.faces.assign(faces.begin(), faces.end());
+    return hole.faces.empty() || is_hole_or_boss(hole) ? std::optional(hole) : std::nullopt;
+  }
+
+  /// Whether the faces lie close to an axis, and behind their loops; in front of one they are a boss.
+  bool is_hole_or_boss(Hole& hole) const {
+    const Loop& mouth = loops_[hole.loops.front()];
+    const Loop& other = loops_[hole.loops.back()];
+    const bool goes_through = hole.loops.size() == 2;
+    const Vector3 axis = goes_through ? (other.center - mouth.center).normalized() : mouth.axis;
+    if (!axis.allFinite()) return false;
+    Vector3 middle{0, 0, 0};
+    double height = 0;
+    int count = 0;
+    for (const FaceId face : hole.faces) {
+      for (const CadWire& wire : shape_.faces[face].wires) {
+        for (const Coedge& coedge : wire.coedges) {
+          for (const Vector3& point : points_along(shape_.edges[coedge.edge], samples)) {
+            const Vector3 from = point - mouth.center;
+            if (from.cross(axis).norm() > diameter_) return false;
+            height = std::max(height, from.dot(mouth.axis));
+            middle += point;
+            ++count;
+          }
+        }
+      }
+    }
+    middle /= count;
+    constexpr double flat = 1e-3;  // of the diameter: an outline that parts a face in two
+    const double before = (middle - mouth.center).dot(mouth.axis) / mouth.diameter;
+    const double behind = (middle - other.center).dot(other.axis) / other.diameter;
+    hole.boss = !goes_through && before > flat;
+    return hole.boss ? height <= diameter_ : std::max(before, behind) < -flat;
+  }
+
+  const CadShape& shape_;
+  const FaceFlags& used_;
+  const SizingOptions& sizing_;
+  double diameter_;
+  std::vector<Loop> loops_;
+  IdVector<EdgeId, int> loop_of_;  // index of the loop that an edge is on
+};
+
+/// Makes a shape in which holes are missing.
+class Filler {
+ public:
+  explicit Filler(const CadShape& shape)
+      : shape_(std::make_shared<CadShape>(shape)), gone_(shape.faces.size()), areas_(shape.faces.size()) {}
+
+  void fill(const HoleFinder& finder, const std::vector<Hole>& holes) {
+    std::map<FaceId, std::set<std::size_t>> wires;  // to be left out, by host
+    for (const Hole& hole : holes) {
+      ShellMesh::FilledHole filled;
+      const Loop& mouth = finder.loop(hole.loops.front());
+      filled.center = mouth.center;
+      filled.boss = hole.boss;
+      for (const std::size_t i : hole.loops) {
+        const Loop& loop = finder.loop(i);
+        filled.in.push_back(loop.host.number());
+        filled.diameter = std::max(filled.diameter, loop.diameter);
+        wires[loop.host].insert(loop.wire);
+      }
+      for (const FaceId face : hole.faces) leave_out(face, filled);
+      std::sort(filled.in.begin(), filled.in.end());
+      std::sort(filled.faces.begin(), filled.faces.end());
+      holes_.push_back(std::move(filled));
+    }
+    for (const auto& [host, which] : wires) close(host, which);
+  }
+
+  FilledModel result() {
+    std::stable_sort(holes_.begin(), holes_.end(), [](const auto& a, const auto& b) { return a.in < b.in; });
+    return {CadModel(shape_), std::move(gone_), std::move(holes_), std::move(areas_)};
+  }
+
+  const CadShape& shape() const { return *shape_; }
+  const FaceFlags& gone() const { return gone_; }
+
+ private:
+  /// A hole that was filled in the face before goes with it.
+  void leave_out(FaceId face, ShellMesh::FilledHole& with) {
+    gone_[face] = 1;
+    with.faces.push_back(face.number());
+    for (auto& inner : holes_) {
+      if (std::erase(inner.in, face.number()) > 0 && inner.in.empty())
+        with.faces.insert(with.faces.end(), inner.faces.begin(), inner.faces.end());
+    }
+    std::erase_if(holes_, [](const auto& inner) { return inner.in.empty(); });
+    areas_[face] = 0;
+    for (const CadWire& wire : shape_->faces[face].wires) release(wire);
+  }
+
+  /// No face uses these edges any more.
+  void release(const CadWire& wire) {
+    for (const Coedge& coedge : wire.coedges) shape_->edges[coedge.edge].faces.clear();
+  }
+
+  void close(FaceId host, const std::set<std::size_t>& which) {
+    CadFace& face = shape_->faces[host];
+    std::vector<CadWire> left;
+    TopTools_MapOfShape gone;
+    for (std::size_t i = 0; i < face.wires.size(); ++i) {
+      if (!which.contains(i)) {
+        left.push_back(face.wires[i]);
+        continue;
+      }
+      release(face.wires[i]);
+      for (const Coedge& coedge : face.wires[i].coedges) gone.Add(coedge.source);
+    }
+    face.wires = std::move(left);
+    const TopoDS_Face before = face.face;
+    face.face = TopoDS::Face(before.EmptyCopied());
+    for (TopoDS_Iterator wire(before); wire.More(); wire.Next()) {
+      const TopExp_Explorer edge(wire.Value(), TopAbs_EDGE);
+      if (!edge.More() || !gone.Contains(edge.Current())) BRep_Builder().Add(face.face, wire.Value());
+    }
+    areas_[host] += area_of(face.face) - area_of(before);
+  }
+
+  static double area_of(const TopoDS_Face& face) {
+    try {
+      GProp_GProps properties;
+      BRepGProp::SurfaceProperties(face, properties);
+      return std::abs(properties.Mass());
+    } catch (const Standard_Failure&) {
+      return 0;  // nothing to compare with: the area of the face is not checked either
+    }
+  }
+
+  std::shared_ptr<CadShape> shape_;
+  FaceFlags gone_;
+  std::vector<ShellMesh::FilledHole> holes_;
+  IdVector<FaceId, double> areas_;
+};
+
+}  // namespace
+
+FilledModel fill_holes(const CadModel& model, const MeshOptions& options) {
+  constexpr int most_passes = 8;  // holes inside holes
+  const CadShape& shape = model.shape();
+  if (!(options.fill_holes > 0))
+    return {model, FaceFlags(shape.faces.size()), {}, IdVector<FaceId, double>(shape.faces.size())};
+  Filler filler(shape);
+  FaceFlags used = faces_used(model, options);
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const HoleFinder finder(filler.shape(), used, options);
+    const std::vector<Hole> holes = finder.find();
+    if (holes.empty()) break;
+    filler.fill(finder, holes);
+    for (const FaceId face : used.ids())
+      if (filler.gone()[face]) used[face] = 0;
+  }
+  return filler.result();
+}
+
+}  // namespace quadrille
