@@ -119,13 +119,13 @@ class BoundaryWalker {
     const VertexId end = i == 0 ? cad.first_vertex : i == edge.segments() ? cad.last_vertex : VertexId();
     if (!edge.borrows() && !end.exists()) return uv;
     // A node that stands for features which were let go is not where the edge's own curve is.
-    constexpr double tolerances = 10, closer = 0.5;
-    double tolerance = tolerances * std::max(face_.tolerance, cad.tolerance);
+    constexpr double tolerances = 10;
+    double tolerance = edge.borrows() ? 0 : tolerances * std::max(face_.tolerance, cad.tolerance);
     if (end.exists()) tolerance = std::max(tolerance, 2 * shape_.vertex_tolerances[end]);
     if (!((curve.point(edge.parameters[i]) - node).norm() > tolerance)) return uv;
     Vector2 moved = uv;
     const double distance = (surface_.point(uv) - node).norm();
-    return (surface_.project(moved, node).point - node).norm() < closer * distance ? moved : uv;
+    return (surface_.project(moved, node).point - node).norm() < distance ? moved : uv;
   }
 
   Run walk_edge(const Coedge& coedge) {

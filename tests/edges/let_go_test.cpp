@@ -16,6 +16,7 @@
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <Bnd_Box.hxx>
 #include <GC_MakeArcOfCircle.hxx>
+#include <ShapeFix_ShapeTolerance.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Vec.hxx>
 
@@ -152,6 +153,25 @@ TEST(LetGo, ClosesTheFaceUnderARib) {
 }
 
 /// A sliver with nothing beside it is the whole part.
+/// Both sides of the groove get the same nodes, however far off their own curves the tolerances allow.
+TEST(LetGo, ClosesAGrooveBetweenTwoHoles) {
+  constexpr double width = 0.05;
+  TopoDS_Shape part = BRepPrimAPI_MakeBox(40, 30, 10).Shape();
+  for (const double x : {12.0, 28.0})
+    part = BRepAlgoAPI_Cut(part, BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(x, 15, -1), gp::DZ()), 3, 12).Shape())
+               .Shape();
+  const gp_Pnt low(12, 15, 10 - width), high(28, 15 + width, 11);
+  part = BRepAlgoAPI_Cut(part, BRepPrimAPI_MakeBox(low, high).Shape()).Shape();
+  for (const double tolerance : {1e-7, 0.1 * width}) {
+    ShapeFix_ShapeTolerance().SetTolerance(part, tolerance);
+    const ShellMesh mesh = mesh_of(CadModel(std::make_shared<CadShape>(part, "grooved")), 1.2, false);
+    EXPECT_EQ(validate(mesh, true), std::vector<std::string>{});
+    EXPECT_EQ(merged_faces(mesh), 3);
+    EXPECT_TRUE(mesh.kept.empty());
+    EXPECT_EQ(check_criteria(mesh).failing, 0);
+  }
+}
+
 TEST(LetGo, KeepsAFaceThatStandsAlone) {
   BRepBuilderAPI_MakePolygon wire(gp_Pnt(0, 0, 0), gp_Pnt(60, 0, 0), gp_Pnt(60, 0.1, 0), gp_Pnt(0, 0.1, 0),
                                   true);
