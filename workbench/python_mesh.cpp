@@ -188,7 +188,8 @@ std::vector<ShellMesh::Group> groups_in(const py::handle& list) {
   return result;
 }
 
-/// What pickle stores: the constructor's arguments, face statuses, thicknesses, groups, and solid faces.
+/// What pickle stores: the constructor's arguments, face statuses, thicknesses, groups, solid faces, and the
+/// least size.
 py::tuple state_of(const py::object& self) {
   py::list varying;
   for (const ShellMesh::VaryingThickness& entry : mesh_of(self).mesh.varying_thicknesses)
@@ -198,23 +199,25 @@ py::tuple state_of(const py::object& self) {
   for (const ShellMesh::Face& face : mesh_of(self).mesh.faces)
     faces.append(py::make_tuple(face.face, static_cast<int>(face.status), face.note, face.work, face.share,
                                 face.attempts, face.quads, face.q_min, face.seconds, face.off_geometry,
-                                face.off_geometry_max));
+                                face.off_geometry_max, face.filled_area));
   return py::make_tuple(self.attr("points"), self.attr("quads"), self.attr("triangles"),
                         self.attr("face_ids"), self.attr("triangle_face_ids"), self.attr("segments"),
                         self.attr("corners"), faces, mesh_of(self).mesh.thicknesses,
-                        list_of(mesh_of(self).mesh.groups), varying, list_of(mesh_of(self).mesh.solid_faces));
+                        list_of(mesh_of(self).mesh.groups), varying, list_of(mesh_of(self).mesh.solid_faces),
+                        mesh_of(self).mesh.size_min);
 }
 
 PythonMesh from_state(const py::tuple& state) {
   PythonMesh result = mesh_of_arrays(state[0], state[1], state[2], state[3], state[4], state[5], state[6]);
   for (const py::handle entry : state[7]) {
-    using Kept =
-        std::tuple<int, int, std::string, std::int64_t, std::int64_t, int, int, double, double, int, double>;
-    const auto [number, status, note, work, share, attempts, quads, q_min, seconds, off, off_max] =
+    using Kept = std::tuple<int, int, std::string, std::int64_t, std::int64_t, int, int, double, double, int,
+                            double, double>;
+    const auto [number, status, note, work, share, attempts, quads, q_min, seconds, off, off_max, filled] =
         entry.cast<Kept>();
     result.mesh.faces.push_back({number, static_cast<FaceStatus>(status), note, work, share, attempts, quads,
-                                 q_min, seconds, off, off_max});
+                                 q_min, seconds, off, off_max, filled});
   }
+  result.mesh.size_min = state[12].cast<double>();
   result.mesh.thicknesses = state[8].cast<std::vector<double>>();
   result.mesh.groups = groups_in(state[9]);
   result.mesh.solid_faces = groups_in(state[11]);

@@ -73,9 +73,9 @@ struct ShellMesh {
     int quads = 0;                ///< number of quads
     double q_min = 0;             ///< lowest q of the quads
     double seconds = 0;           ///< time that meshing took
-    double filled_area = 0;       ///< area of the filled holes in it (filled_holes), millimeters^2
     int off_geometry = 0;         ///< number of its nodes in ShellMesh::off_geometry
     double off_geometry_max = 0;  ///< largest distance of those nodes
+    double filled_area = 0;       ///< area of the filled holes in it (filled_holes), millimeters^2
   };
   /// A node that lies off the geometry because elements would be inverted or fold with it there: a midside
   /// node, or any node of a face that has no valid mesh on its surface.

@@ -83,6 +83,7 @@ class ArraysTest(unittest.TestCase):
             again = pickle.loads(pickle.dumps(mesh))
             self.same(mesh, again)
             self.assertEqual(mesh.faces, again.faces)
+            self.assertEqual(mesh.quality()["criteria"], again.quality()["criteria"])
 
     def test_read_mesh(self):
         mesh = quadrille.mesh(self.model, size=8, order=2)
