@@ -211,7 +211,8 @@ void sort_unique(std::vector<int>& numbers) {
 }
 
 void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
-                const TopTools_IndexedMapOfShape& edge_numbers, MidSurface& result) {
+                const TopTools_IndexedMapOfShape& edge_numbers, const ExecutionContext& context,
+                MidSurface& result) {
   double thinnest = skin.size();
   for (const Wall& wall : walls) thinnest = std::min(thinnest, wall.thickness);
   const double tolerance = 1e-3 * thinnest;
@@ -227,6 +228,7 @@ void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vec
   }
   RimCheck check(skin, walls);
   for (int i = 1; i <= around.Extent(); ++i) {
+    context.check();
     const TopoDS_Edge& edge = TopoDS::Edge(around.FindKey(i));
     if (around(i).Extent() > 1 || BRep_Tool::Degenerated(edge)) continue;
     const TopoDS_Face& face = TopoDS::Face(around(i).First());
@@ -354,10 +356,12 @@ double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std
 }
 
 std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::vector<Wall>& walls,
-                                                  const std::vector<JoinedFace>& faces) {
+                                                  const std::vector<JoinedFace>& faces,
+                                                  const ExecutionContext& context) {
   constexpr double most_off = 0.05;
   std::vector<std::size_t> result;
   for (std::size_t i = 0; i < faces.size(); ++i) {
+    context.check();
     if (faces[i].step) continue;
     std::vector<double> told;  // over what the rays tell
     for (const FaceSample& sample : sample_face(faces[i].face, 16)) {

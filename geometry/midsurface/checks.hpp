@@ -18,7 +18,8 @@ void sort_unique(std::vector<int>& numbers);
 /// Records the solid's faces that they lie on, and the faces that belong to no wall. \param faces of one
 /// solid. \param edge_numbers of the result.
 void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
-                const TopTools_IndexedMapOfShape& edge_numbers, MidSurface& result);
+                const TopTools_IndexedMapOfShape& edge_numbers, const ExecutionContext& context,
+                MidSurface& result);
 
 /// The volume that area times thickness counts twice where more than two middle surfaces meet. Corners of two
 /// walls count once: what is counted twice on their inside is missing on their outside. It makes up for
@@ -30,6 +31,7 @@ double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std
 /// Indices of the faces whose thickness differs by more than a twentieth from what rays through the solid
 /// tell on most of them.
 std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::vector<Wall>& walls,
-                                                  const std::vector<JoinedFace>& faces);
+                                                  const std::vector<JoinedFace>& faces,
+                                                  const ExecutionContext& context);
 
 }  // namespace quadrille

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "geometry/midsurface/checks.hpp"
+#include "geometry/midsurface/fusing.hpp"
 #include "geometry/midsurface/joining.hpp"
 #include "geometry/midsurface/widths.hpp"
 
@@ -133,7 +134,7 @@ void thicken(const std::vector<std::size_t>& strips, double volume, int fillet,
 }  // namespace
 
 FilletVolumes add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
-                          std::vector<JoinedFace>& faces) {
+                          const ExecutionContext& context, std::vector<JoinedFace>& faces) {
   constexpr double worth_it = 0.01;
   std::map<int, std::vector<FilletBorder>> fillets = find_fillet_borders(skin, walls);
   FilletVolumes beside;
@@ -157,7 +158,7 @@ FilletVolumes add_fillets(const Skin& skin, const std::vector<Wall>& walls, doub
   for (const auto& [fillet, borders] : fillets) {
     for (const FilletBorder& border : borders) fuse.AddArgument(border.fence);
   }
-  fuse.Perform();
+  perform(fuse, context);
   if (fuse.HasErrors()) return beside;  // the faces stay as they are
   std::vector<char> strips;
   std::vector<JoinedFace> cut = cut_faces(fuse, skin, walls, faces, strips);

@@ -228,12 +228,15 @@ std::array<ParameterRange, 2> common_range(const Skin& skin, const std::array<st
   return ranges;
 }
 
-/// Extends a surface straight by the margin at the ends that are not closed.
-Handle(Geom_BSplineSurface) run_on(const Handle(Geom_BSplineSurface) & surface, double margin) {
+/// Extends a surface straight by the margin at the ends that are neither closed nor kept.
+Handle(Geom_BSplineSurface)
+    run_on(const Handle(Geom_BSplineSurface) & surface, double margin, const std::array<bool, 4>& kept) {
   Handle(Geom_BoundedSurface) result(surface);
   for (const bool in_u : {true, false}) {
     if (in_u ? surface->IsUClosed() : surface->IsVClosed()) continue;
-    for (const bool after : {false, true}) GeomLib::ExtendSurfByLength(result, margin, 1, in_u, after);
+    for (const int after : {0, 1}) {
+      if (!kept[(in_u ? 0 : 2) + after]) GeomLib::ExtendSurfByLength(result, margin, 1, in_u, after == 1);
+    }
   }
   return Handle(Geom_BSplineSurface)::DownCast(result);
 }
@@ -241,13 +244,13 @@ Handle(Geom_BSplineSurface) run_on(const Handle(Geom_BSplineSurface) & surface, 
 }  // namespace
 
 std::optional<FittedMiddle> fit_middle(const Skin& skin, const std::array<std::vector<int>, 2>& sides,
-                                       double tolerance, double margin) {
+                                       double tolerance, double margin, const std::array<bool, 4>& kept) {
   const auto ranges = common_range(skin, sides);
   if (!(ranges[0].length() > 0) || !(ranges[1].length() > 0)) return std::nullopt;
   MiddlePoints points(skin, sides);
   auto result = fit(points, ranges, tolerance);
   if (!result) return std::nullopt;
-  result->surface = run_on(result->surface, margin);
+  result->surface = run_on(result->surface, margin, kept);
   if (result->surface.IsNull()) return std::nullopt;
   return result;
 }

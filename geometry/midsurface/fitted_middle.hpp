@@ -23,9 +23,9 @@ struct FittedMiddle {
 /// times the tolerance if refinement gains little; at most to 128 spans per direction, where it may miss
 /// both. The surface is then extended straight past its bounds. \param sides indices into Skin::faces(); the
 /// faces of the first side lie on one surface. \param tolerance a length. \param margin length of the
-/// extension. \return nothing if the sides do not face each other over the whole grid. Time: about five
-/// projections per point.
+/// extension. \param kept the ends (low u, high u, low v, high v) that are not extended. \return nothing if
+/// the sides do not face each other over the whole grid. Time: about five projections per point.
 std::optional<FittedMiddle> fit_middle(const Skin& skin, const std::array<std::vector<int>, 2>& sides,
-                                       double tolerance, double margin);
+                                       double tolerance, double margin, const std::array<bool, 4>& kept = {});
 
 }  // namespace quadrille

@@ -310,6 +310,12 @@ class Outlook {
     for (const auto& [to, across] : seen) gaps.push_back({from, to, straight, across, across.area / area});
   }
 
+  /// Whether a gap is the crevice beside a contact: one of its faces is curved and tangent to the other at
+  /// its edge. So the outside of a bend leaves the plate on which the bent sheet lies.
+  bool is_crevice(const Gap& gap) const {
+    return leaves_contact(gap.from, gap.to) || leaves_contact(gap.to, gap.from);
+  }
+
   /// The direction in which to extend a flat face, or the curved end of a straight part, such as a tube that
   /// was cut to fit around another.
   std::optional<gp_Dir> straight_on(const FaceOf& from, const std::vector<FaceSample>& samples) const {
@@ -391,6 +397,22 @@ class Outlook {
     return result;
   }
 
+  /// Whether a curved face is tangent to the other one at an edge.
+  bool leaves_contact(const FaceOf& rounded, const FaceOf& other) const {
+    if (is_flat(face(rounded))) return false;
+    const double near = 1e-6 * solids_[rounded.solid].size();
+    for (TopExp_Explorer it(face(rounded).face(), TopAbs_EDGE); it.More(); it.Next()) {
+      if (BRep_Tool::Degenerated(TopoDS::Edge(it.Current()))) continue;
+      const BRepAdaptor_Curve curve(TopoDS::Edge(it.Current()));
+      const gp_Pnt at = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+      const gp_Pnt2d uv = face(other).closest(at);
+      if (face(other).point(uv).Distance(at) > near) continue;
+      const auto own = face(rounded).outward(face(rounded).closest(at)), opposite = face(other).outward(uv);
+      if (own && opposite && own->Dot(*opposite) < -0.9999) return true;
+    }
+    return false;
+  }
+
   /// Calls `tell` with each edge of a face and the number of the neighbor there.
   template <class Tell>
   void for_each_neighbor(const FaceOf& of, const Tell& tell) const {
@@ -454,6 +476,7 @@ std::vector<Gap> find_gaps(const std::deque<Skin>& solids, const Outlook& outloo
     for (int face = 0; face < static_cast<int>(solids[solid].faces().size()); ++face)
       outlook.add_gaps({solid, face}, gaps);
   }
+  std::erase_if(gaps, [&](const Gap& gap) { return outlook.is_crevice(gap); });
   std::stable_sort(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.share > b.share; });
   std::set<std::pair<FaceOf, FaceOf>> closed;
   std::erase_if(gaps, [&](const Gap& gap) { return !closed.insert(std::minmax(gap.from, gap.to)).second; });

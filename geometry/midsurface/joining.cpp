@@ -21,6 +21,7 @@
 #include <utility>
 
 #include "geometry/base/error.hpp"
+#include "geometry/midsurface/fusing.hpp"
 #include "geometry/midsurface/widths.hpp"
 
 namespace quadrille {
@@ -81,12 +82,13 @@ struct Images {
 };
 
 Images cut_pieces(const BOPAlgo_Builder& fuse, const Skin& skin, const std::vector<Wall>& walls,
-                  const std::vector<std::vector<TopoDS_Face>>& pieces) {
+                  const std::vector<std::vector<TopoDS_Face>>& pieces, const ExecutionContext& context) {
   constexpr double least_share = 0.25;
   Images result;
   for (std::size_t wall = 0; wall < walls.size(); ++wall) {
     for (const TopoDS_Face& piece : pieces[wall]) {
       for (const TopoDS_Shape& image : images(fuse, piece)) {
+        context.check();
         const TopoDS_Face& face = TopoDS::Face(image);
         triangulate_middle(face, walls[wall].thickness);
         const Coverage coverage = coverage_of(face, walls[wall], skin);
@@ -290,7 +292,7 @@ void merge_wall(int wall, const Skin& skin, const std::vector<Wall>& walls,
 }
 
 std::vector<JoinedFace> merged_faces(const Skin& skin, const std::vector<Wall>& walls,
-                                     const std::vector<JoinedFace>& faces) {
+                                     const std::vector<JoinedFace>& faces, const ExecutionContext& context) {
   const EdgeUses uses(faces);
   TopTools_MapOfShape kept_edges;
   for (int i = 0; i < uses.count(); ++i) {
@@ -302,6 +304,7 @@ std::vector<JoinedFace> merged_faces(const Skin& skin, const std::vector<Wall>& 
   }
   std::vector<JoinedFace> result;
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
+    context.check();
     merge_wall(wall, skin, walls, faces, kept_edges, result);
   }
   for (const JoinedFace& face : faces) {
@@ -367,7 +370,8 @@ std::vector<int> connected_parts(const std::vector<JoinedFace>& faces) {
 
 std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& walls,
                                    const std::vector<WallEnd>& ends,
-                                   const std::vector<std::vector<TopoDS_Face>>& pieces, double tolerance) {
+                                   const std::vector<std::vector<TopoDS_Face>>& pieces, double tolerance,
+                                   const ExecutionContext& context) {
   BOPAlgo_Builder fuse;
   fuse.SetNonDestructive(Standard_True);
   fuse.SetUseOBB(Standard_True);
@@ -382,15 +386,15 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
     if (!wall.fitted) continue;
     fuse.SetFuzzyValue(std::max({fuse.FuzzyValue(), 4 * wall.off, tolerance * wall.thickness}));
   }
-  if (fuse.Arguments().Extent() > 1) fuse.Perform();
+  if (fuse.Arguments().Extent() > 1) perform(fuse, context);
   if (fuse.HasErrors()) throw failure("", "the middle surfaces could not be joined where they meet");
-  Images cut = cut_pieces(fuse, skin, walls, pieces);
+  Images cut = cut_pieces(fuse, skin, walls, pieces, context);
   take_back(cut);
   std::vector<JoinedFace> faces = std::move(cut.between);
   add_steps(fuse, walls, ends, faces);
   add_bridges(skin, walls, cut.hung_over, faces);
   drop_traces(faces);
-  faces = merged_faces(skin, walls, faces);
+  faces = merged_faces(skin, walls, faces, context);
   orient_alike(faces);
   return faces;
 }

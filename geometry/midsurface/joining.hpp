@@ -26,7 +26,8 @@ struct JoinedFace {
 /// the thickness. Throws Error (failure) if OpenCASCADE cannot intersect them.
 std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& walls,
                                    const std::vector<WallEnd>& ends,
-                                   const std::vector<std::vector<TopoDS_Face>>& pieces, double tolerance);
+                                   const std::vector<std::vector<TopoDS_Face>>& pieces, double tolerance,
+                                   const ExecutionContext& context);
 
 /// The parts into which a fuse has cut one of its arguments; the argument itself if it was not cut.
 TopTools_ListOfShape images(const BOPAlgo_Builder& fuse, const TopoDS_Shape& face);
@@ -46,7 +47,7 @@ using FilletVolumes = std::map<std::set<int>, double>;
 /// walls meet makes up for the fillets there, and for nothing else. \param volume of the solid. \return the
 /// material of fillets that no thickness contains.
 FilletVolumes add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
-                          std::vector<JoinedFace>& faces);
+                          const ExecutionContext& context, std::vector<JoinedFace>& faces);
 
 /// For each face, the number of the connected part that it belongs to, from 0.
 std::vector<int> connected_parts(const std::vector<JoinedFace>& faces);

@@ -52,6 +52,7 @@ namespace {
 
 /// The middle surface of one solid.
 struct SolidMiddle {
+  std::string name;  ///< of the solid, in sentences
   std::vector<JoinedFace> faces;
   std::vector<Wall> walls;
   FilletVolumes fillets;  ///< what no thickness contains
@@ -115,6 +116,7 @@ std::vector<int> width_groups(const std::vector<Wall>& walls, const std::vector<
   for (const WallEnd& end : ends) together.union_set(end.wall, end.next);
   std::map<int, int> first;  // wall of each face
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
+    for (const int next : walls[wall].goes_on) together.union_set(wall, next);
     for (const int face : both_sides(walls[wall]))
       together.union_set(first.try_emplace(face, wall).first->second, wall);
   }
@@ -280,27 +282,28 @@ void check_fits(const Skin& skin, const std::string& name, const MidSurfaceOptio
   }
 }
 
-/// \param told called with the fraction that is done. \return no faces if the solid is not thin.
-SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const MidSurfaceOptions& options,
-                            const ExecutionContext& context, const std::function<void(double)>& told) {
-  SolidMiddle result;
+/// \param told called with the fraction that is done. \param result with the solid's name. It gets no faces
+/// if the solid is not thin.
+void make_middle(const Skin& skin, const MidSurfaceOptions& options, const ExecutionContext& context,
+                 const std::function<void(double)>& told, SolidMiddle& result) {
+  const std::string& name = result.name;
   result.volume = volume_of(skin.solid());
   const std::vector<int> surfaces = surface_numbers(skin);
   result.walls = find_walls(skin, surfaces, options.tolerance, context);
-  if (result.walls.empty()) return result;
-  const std::vector<WallEnd> ends = find_wall_ends(skin, result.walls, surfaces);
+  if (result.walls.empty()) return;
+  const std::vector<WallEnd> ends = find_wall_ends(skin, result.walls, surfaces, context);
   constexpr std::size_t most_blended = 4;
   std::set<int> blended = blended_walls(result.walls, ends);
   if (blended.size() <= most_blended) blended.clear();
   if (!blended.empty()) tell(cannot_join(name, skin, result.walls, blended), name, options, result.problems);
-  std::vector<WallEnd> fences = find_rim_ends(skin, result.walls, surfaces);
+  std::vector<WallEnd> fences = find_rim_ends(skin, result.walls, surfaces, context);
   fences.insert(fences.end(), ends.begin(), ends.end());
   std::vector<std::vector<TopoDS_Face>> pieces(result.walls.size());
   for (std::size_t wall = 0; wall < pieces.size(); ++wall) {
     told(0.5 + 0.4 * static_cast<double>(wall) / static_cast<double>(pieces.size()));
     if (blended.count(static_cast<int>(wall)) != 0) continue;
     try {
-      pieces[wall] = wall_pieces(skin, result.walls, static_cast<int>(wall), fences);
+      pieces[wall] = wall_pieces(skin, result.walls, static_cast<int>(wall), fences, context);
     } catch (const Standard_Failure&) {  // its text names no place, and tells users nothing
       tell(fmt::format("{}: the wall between {} cannot be cut out of its middle surface; heal or simplify "
                        "these faces",
@@ -309,11 +312,26 @@ SolidMiddle middle_of_solid(const Skin& skin, const std::string& name, const Mid
     }
   }
   told(0.9);
-  result.faces = join_walls(skin, result.walls, ends, pieces, options.tolerance);
-  result.fillets = add_fillets(skin, result.walls, result.volume, result.faces);
+  result.faces = join_walls(skin, result.walls, ends, pieces, options.tolerance, context);
+  result.fillets = add_fillets(skin, result.walls, result.volume, context, result.faces);
   drop_thick(skin, name, ends, options, result);
   check_fits(skin, name, options, result);
-  return result;
+}
+
+/// Runs work on one solid; where OpenCASCADE fails, tells that of the solid. \param done in words, "made".
+/// \return whether it succeeded.
+bool attempt(const MidSurfaceOptions& options, std::string_view done, SolidMiddle& solid,
+             const std::function<void()>& work) {
+  try {
+    work();
+    return true;
+  } catch (const Standard_Failure&) {  // its text tells users nothing
+    tell(fmt::format("{}: its middle surface cannot be {}, as OpenCASCADE fails at its geometry; check and "
+                     "heal its faces",
+                     solid.name, done),
+         solid.name, options, solid.problems, "the rest");
+    return false;
+  }
 }
 
 /// A compound with a shell for each connected part; with single faces if more than two of them share an edge.
@@ -393,55 +411,117 @@ std::string stray_sentence(const MidSurface& result, const std::string& name) {
       one ? "ends" : "end", fmt::join(places, ", "));
 }
 
-/// One sentence for each check that failed.
-std::vector<std::string> find_problems(MidSurface& result, const std::string& name) {
+/// The parts into which the middle surface of a solid falls, by faces of the solid.
+std::string parts_sentence(const SolidMiddle& middle, const Skin& skin) {
+  const std::vector<int> part = connected_parts(middle.faces);
+  std::vector<std::vector<int>> faces(1 + *std::max_element(part.begin(), part.end()));
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    for (const int face : middle.faces[i].coverage.faces)
+      faces[part[i]].push_back(skin.faces()[face].number());
+  }
+  constexpr std::size_t most = 4;
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < std::min(most, faces.size()); ++i) {
+    sort_unique(faces[i]);
+    parts.push_back(face_names(faces[i]));
+  }
+  if (faces.size() > most) parts.push_back(fmt::format("and {} more", faces.size() - most));
+  return fmt::format("{}: the middle surface falls into {} parts where the solid is one: between {}",
+                     middle.name, faces.size(), fmt::join(parts, "; "));
+}
+
+/// One sentence for each check of a solid that failed.
+std::vector<std::string> find_problems(const SolidMiddle& middle, const Skin& skin, MidSurface& checked) {
   std::vector<std::string> problems;
-  check_volume(name, result, problems);
-  if (result.parts != result.solids) {
-    problems.push_back(
-        fmt::format("{}: the middle surface falls into {} parts where the model has {} solid{}", name,
-                    result.parts, result.solids, result.solids == 1 ? "" : "s"));
-  }
-  if (!result.stray_edges.empty()) {
-    problems.push_back(stray_sentence(result, name));
-  }
+  check_volume(middle.name, checked, problems);
+  if (checked.parts != 1) problems.push_back(parts_sentence(middle, skin));
+  if (!checked.stray_edges.empty()) problems.push_back(stray_sentence(checked, middle.name));
   return problems;
 }
 
-void describe_faces(const std::vector<SolidMiddle>& middles, const std::deque<Skin>& skins,
-                    MidSurface& result) {
+/// Numbers of the faces and edges of the result.
+struct Numbers {
+  TopTools_IndexedMapOfShape faces, edges;
+};
+
+MiddleFace description_of(const JoinedFace& joined, const Wall& wall, const Skin& skin) {
+  MiddleFace face;
+  face.thinnest = joined.coverage.thinnest;
+  face.thickest = joined.coverage.thickest;
+  face.thickness = joined.coverage.mean;
+  face.area = area_of(joined.face);
+  face.step = joined.step;
+  face.fitted = wall.fitted && !joined.step;
+  if (face.fitted) face.off = wall.off;
+  for (const int index : joined.coverage.faces) face.solid_faces.push_back(skin.faces()[index].number());
+  sort_unique(face.solid_faces);  // joining cuts faces, whose parts have one number
+  return face;
+}
+
+/// The checks of one solid's middle, and its figures. Writes the descriptions of its faces to `result`.
+MidSurface check_solid(const SolidMiddle& middle, int solid, const Skin& skin, const Numbers& numbers,
+                       const ExecutionContext& context, MidSurface& result) {
+  MidSurface checked{result.model};
+  for (const JoinedFace& joined : middle.faces) {
+    context.check();
+    triangulate_middle(joined.face, middle.walls[joined.wall].thickness);  // for samples
+    MiddleFace& face = result.faces.at(numbers.faces.FindIndex(joined.face) - 1);
+    face = description_of(joined, middle.walls[joined.wall], skin);
+    face.solid = solid;
+    if (!face.step) checked.shell_volume += face.area * face.thickness;
+  }
+  const std::vector<int> part = connected_parts(middle.faces);
+  checked.parts = 1 + *std::max_element(part.begin(), part.end());
+  checked.volume = middle.volume;
+  check_rims(skin, middle.walls, middle.faces, numbers.edges, context, checked);
+  checked.counted_twice = counted_twice(skin, middle.walls, middle.faces, middle.fillets);
+  for (const std::size_t i : faces_of_wrong_thickness(skin, middle.walls, middle.faces, context))
+    checked.uneven.push_back(numbers.faces.FindIndex(middle.faces[i].face));
+  sort_unique(checked.unpaired);
+  return checked;
+}
+
+template <class T>
+void append(std::vector<T>& list, const std::vector<T>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+/// Adds the checks of one solid to those of all.
+void add_checked(const MidSurface& checked, MidSurface& result) {
+  result.volume += checked.volume;
+  result.shell_volume += checked.shell_volume;
+  result.counted_twice += checked.counted_twice;
+  result.solids += 1;
+  result.parts += checked.parts;
+  result.free_edges += checked.free_edges;
+  append(result.rims, checked.rims);
+  append(result.stray_edges, checked.stray_edges);
+  append(result.stray_faces, checked.stray_faces);
+  append(result.unpaired, checked.unpaired);
+  append(result.uneven, checked.uneven);
+  append(result.warnings, checked.warnings);
+}
+
+/// Describes the faces and checks them, solid by solid.
+void check_solids(std::vector<SolidMiddle>& middles, const std::deque<Skin>& skins,
+                  const MidSurfaceOptions& options, ExecutionContext& context, MidSurface& result) {
   const auto& shape = result.model.shape().shape;
-  TopTools_IndexedMapOfShape numbers, edge_numbers;
-  TopExp::MapShapes(shape, TopAbs_FACE, numbers);
-  TopExp::MapShapes(shape, TopAbs_EDGE, edge_numbers);
-  result.faces.resize(numbers.Extent());
+  Numbers numbers;
+  TopExp::MapShapes(shape, TopAbs_FACE, numbers.faces);
+  TopExp::MapShapes(shape, TopAbs_EDGE, numbers.edges);
+  result.faces.resize(numbers.faces.Extent());
   for (std::size_t solid = 0; solid < middles.size(); ++solid) {
-    const SolidMiddle& middle = middles[solid];
-    if (middle.faces.empty()) continue;  // not thin
-    for (const JoinedFace& joined : middle.faces) {
-      triangulate_middle(joined.face, middle.walls[joined.wall].thickness);  // for samples
-      const Coverage& coverage = joined.coverage;
-      MiddleFace& face = result.faces.at(numbers.FindIndex(joined.face) - 1);
-      face.thinnest = coverage.thinnest;
-      face.thickest = coverage.thickest;
-      face.thickness = coverage.mean;
-      face.area = area_of(joined.face);
-      face.solid = static_cast<int>(solid) + 1;
-      face.step = joined.step;
-      face.fitted = middle.walls[joined.wall].fitted && !joined.step;
-      if (face.fitted) face.off = middle.walls[joined.wall].off;
-      for (const int index : coverage.faces) {
-        face.solid_faces.push_back(skins[solid].faces()[index].number());
-      }
-      sort_unique(face.solid_faces);  // joining cuts faces, whose parts have one number
-      if (!face.step) result.shell_volume += face.area * face.thickness;
-    }
-    result.volume += middle.volume;
-    const auto number = [&](std::size_t i) { return numbers.FindIndex(middle.faces[i].face); };
-    check_rims(skins[solid], middle.walls, middle.faces, edge_numbers, result);
-    result.counted_twice += counted_twice(skins[solid], middle.walls, middle.faces, middle.fillets);
-    for (const std::size_t i : faces_of_wrong_thickness(skins[solid], middle.walls, middle.faces))
-      result.uneven.push_back(number(i));
+    context.check();
+    SolidMiddle& middle = middles[solid];
+    const auto check = [&] {
+      MidSurface checked =
+          check_solid(middle, static_cast<int>(solid) + 1, skins[solid], numbers, context, result);
+      for (const std::string& problem : find_problems(middle, skins[solid], checked))
+        tell(problem, middle.name, options, middle.problems, "it all the same");
+      add_checked(checked, result);
+    };
+    if (!middle.faces.empty()) attempt(options, "checked", middle, check);
+    append(result.problems, middle.problems);
   }
   BRepTools::Clean(shape);  // removes the triangles used for sampling
   std::sort(result.rims.begin(), result.rims.end(),
@@ -494,41 +574,49 @@ std::shared_ptr<const ThicknessSource> thickness_source(const std::vector<SolidM
   return source;
 }
 
-MidSurface make(const CadModel& model, const MidSurfaceOptions& options, ExecutionContext& context) {
-  const std::string& name = model.shape().name;
-  const TopoDS_Shape shape = with_plain_faces(BRepBuilderAPI_Copy(model.shape().shape).Shape());
-  const auto kept_skins = std::make_shared<const std::deque<Skin>>(skins_of(shape, options.join));
-  const std::deque<Skin>& skins = *kept_skins;
-  if (skins.empty())
-    throw failure(name, fmt::format("{} has no solid; a middle surface is made of solids", name));
-  std::vector<SolidMiddle> middles;
-  std::vector<JoinedFace> all;
-  std::vector<std::string> left_out;
+/// The middle surface of each solid. \param name of the model.
+std::vector<SolidMiddle> make_middles(const std::deque<Skin>& skins, const std::string& name,
+                                      const MidSurfaceOptions& options, ExecutionContext& context) {
+  std::vector<SolidMiddle> result;
   for (const Skin& skin : skins) {
-    const auto told = [&, done = static_cast<double>(middles.size())](double fraction) {
+    const auto told = [&, done = static_cast<double>(result.size())](double fraction) {
       context.report(Stage::midsurface, (done + fraction) / static_cast<double>(skins.size()));
     };
     told(0);
-    const std::string one = skins.size() == 1 ? name
-                                              : fmt::format("{}: solid {} ({})", name, middles.size() + 1,
-                                                            face_names(numbers_of(skin)));
-    middles.push_back(middle_of_solid(skin, name, options, context, told));
-    if (middles.back().faces.empty()) left_out.push_back(not_thin_sentence(one, options));
-    all.insert(all.end(), middles.back().faces.begin(), middles.back().faces.end());
+    SolidMiddle middle;
+    middle.name = skins.size() == 1 ? name
+                                    : fmt::format("{}: solid {} ({})", name, result.size() + 1,
+                                                  face_names(numbers_of(skin)));
+    if (!attempt(options, "made", middle, [&] { make_middle(skin, options, context, told, middle); }))
+      middle.faces.clear();
+    result.push_back(std::move(middle));
   }
-  if (all.empty()) throw failure(name, not_thin_sentence(name, options));
+  return result;
+}
+
+MidSurface make(const CadModel& model, const MidSurfaceOptions& options, ExecutionContext& context) {
+  const std::string& name = model.shape().name;
+  const TopoDS_Shape shape = with_plain_faces(BRepBuilderAPI_Copy(model.shape().shape).Shape());
+  const auto skins = std::make_shared<const std::deque<Skin>>(skins_of(shape, options.join));
+  if (skins->empty())
+    throw failure(name, fmt::format("{} has no solid; a middle surface is made of solids", name));
+  std::vector<SolidMiddle> middles = make_middles(*skins, name, options, context);
+  std::vector<JoinedFace> all;
+  std::vector<std::string> problems;
+  for (const SolidMiddle& middle : middles) {
+    append(all, middle.faces);
+    append(problems, middle.problems);
+  }
+  if (all.empty())
+    throw failure(name, problems.empty() ? not_thin_sentence(name, options) : problems.front());
   MidSurface result{CadModel(std::make_shared<CadShape>(assemble(all), name + " (middle surface)"))};
-  result.solids = static_cast<int>(skins.size() - left_out.size());
-  const std::vector<int> part = connected_parts(all);
-  result.parts = 1 + *std::max_element(part.begin(), part.end());
-  describe_faces(middles, skins, result);
-  const auto thickness = thickness_source(middles, kept_skins, result);
+  check_solids(middles, *skins, options, context, result);
+  for (const SolidMiddle& middle : middles) {
+    if (middle.faces.empty() && middle.problems.empty())
+      result.warnings.push_back("left out: " + not_thin_sentence(middle.name, options));
+  }
+  const auto thickness = thickness_source(middles, skins, result);
   result.thickness_at = [thickness](int face, const Vector3& point) { return thickness->at(face, point); };
-  for (const std::string& solid : left_out) tell(solid, name, options, result.problems, "the others");
-  for (const SolidMiddle& middle : middles)
-    result.problems.insert(result.problems.end(), middle.problems.begin(), middle.problems.end());
-  for (const std::string& problem : find_problems(result, name))
-    tell(problem, name, options, result.problems, "it all the same");
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
@@ -25,6 +26,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gp_Ax3.hxx>
 #include <gp_Circ.hxx>
@@ -228,6 +230,9 @@ struct NextWall {
 
 constexpr double close_by = 0.05;       // over the thickness
 constexpr double at_one_vertex = 1e-4;  // over the thickness
+// Depths over the thickness at which a next wall is searched for. Half way down first: what begins there
+// continues the wall itself. Where two sheets lie on each other, the thinner one does not reach that depth.
+constexpr std::array<double, 4> searched_depths{0.5, 0.85, 0.15, 0.95};
 
 /// Whether a wall begins behind a point of an edge, at the distance and depth of `next`.
 bool begins_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, double at,
@@ -236,33 +241,58 @@ bool begins_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, dou
   return runs_through(wall, skin, beyond, edge.outward(at));
 }
 
-NextWall next_wall(const Skin& skin, const std::vector<Wall>& walls, int wall, const FaceEdge& edge) {
+/// The walls that begin close by at several depths, as where a sheet leaves the one it lies on; otherwise the
+/// first one farther away. Empty if there is none.
+std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& walls, int wall,
+                                 const FaceEdge& edge) {
   const double t = walls[wall].thickness;
   const bool corner = edge.in_corner();
-  // Half way down first: what begins there continues the wall itself. Where two sheets lie on each other, the
-  // thinner one does not reach that depth.
-  for (const double depth : {0.5, 0.85, 0.15}) {
+  std::vector<NextWall> result;
+  const auto is_known = [&](int other) {
+    return std::any_of(result.begin(), result.end(),
+                       [&](const NextWall& known) { return known.wall == other; });
+  };
+  for (const double depth : searched_depths) {
     for (const double away : {close_by, 0.3, 0.6, 1.0}) {
-      if (corner && away > close_by)
+      if ((corner || !result.empty()) && away > close_by)
         break;  // what is found farther away is behind a wall, not behind a riser
       for (const double share : {0.5, 0.25, 0.75}) {
         const double at = edge.first() + share * (edge.last() - edge.first());
         for (int other = 0; other < static_cast<int>(walls.size()); ++other) {
           const NextWall next{other, away * t, depth * t, at};
-          if (other != wall && begins_behind(skin, walls[other], edge, at, next)) return next;
+          if (other == wall || is_known(other) || !begins_behind(skin, walls[other], edge, at, next))
+            continue;
+          result.push_back(next);
+          if (away > close_by) return result;
         }
       }
     }
   }
-  return {};
+  return result;
+}
+
+/// The same at any of the depths that are searched: the floor behind an edge may lean. \param t thickness of
+/// the edge's wall.
+bool begins_anywhere_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, double at,
+                            const NextWall& next, double t) {
+  if (begins_behind(skin, wall, edge, at, next)) return true;
+  return std::any_of(searched_depths.begin(), searched_depths.end(), [&](double depth) {
+    return begins_behind(skin, wall, edge, at, {next.wall, next.away, depth * t, at});
+  });
 }
 
 /// The depth of a wall's middle below the edge at a parameter, a little before the edge (`step` negative) or
-/// behind it. \param guess of the depth, which is returned if the wall is not there.
-double depth_at(const Skin& skin, const Wall& wall, const FaceEdge& edge, double at, double step,
+/// behind it. \param t thickness of the edge's wall. \param guess of the depth, which is returned if the wall
+/// is at none of the depths that are searched.
+double depth_at(const Skin& skin, const Wall& wall, const FaceEdge& edge, double at, double step, double t,
                 double guess) {
   const gp_Pnt start = edge.curve().Value(at).Translated(step * edge.away(at));
+  const auto is_in = [&](double depth) {
+    return position_in(wall, skin, start.Translated(-depth * gp_Vec(edge.outward(at)))).has_value();
+  };
   double depth = guess;
+  for (std::size_t i = 0; i < searched_depths.size() && !is_in(depth); ++i) depth = searched_depths[i] * t;
+  if (!is_in(depth)) return guess;
   for (int i = 0; i < 4; ++i) {  // if the sides are not parallel their middle lies a little aside
     const gp_Pnt point = start.Translated(-depth * gp_Vec(edge.outward(at)));
     const auto position = position_in(wall, skin, point);
@@ -280,9 +310,10 @@ double thickest_of(const std::vector<Wall>& walls) {
 }
 
 /// Whether the middles of two walls meet in a corner at the edge, as at a sharp fold. Such walls are extended
-/// to where their middles intersect, and no fence separates them.
+/// to where their middles intersect, and no fence separates them. Where the thickness changes at the fold,
+/// they intersect between the edges of its two sides, so in neither wall.
 bool meet_in_corner(const Skin& skin, const std::vector<Wall>& walls, int wall, const NextWall& next,
-                    const FaceEdge& edge) {
+                    const FaceEdge& edge, Material& material) {
   const double t = std::min(walls[wall].thickness, walls[next.wall].thickness);
   const gp_Pnt start = edge.curve().Value(next.at);
   const gp_Vec away = edge.away(next.at), down = gp_Vec(edge.outward(next.at)).Reversed();
@@ -303,15 +334,22 @@ bool meet_in_corner(const Skin& skin, const std::vector<Wall>& walls, int wall, 
   const auto is_plane = [](const Wall& of) {
     return GeomAdaptor_Surface(of.middle).GetType() == GeomAbs_Plane;
   };
-  const double least_turn = is_plane(walls[wall]) && is_plane(walls[next.wall]) ? 1e-3 : 0.05;  // radians
-  // The other side of a fold ends before this one, or after it.
+  const bool planes = is_plane(walls[wall]) && is_plane(walls[next.wall]);
+  const double least_turn = planes ? 1e-3 : 0.05;  // radians
+  // The other side of a fold ends before this one, or after it; far from it if the thickness changes there.
   const double own_thickness = walls[wall].thickness;
-  auto own = line_of(walls[wall], -close_by * own_thickness, 0.5 * own_thickness);
-  if (!own) own = line_of(walls[wall], -0.5 * own_thickness, 0.5 * own_thickness);
+  std::optional<Line> own;
+  for (const double before : {close_by, 0.5, 1.0, 2.0, 4.0, 8.0}) {
+    if (own || (before > 0.5 && !planes)) break;
+    own = line_of(walls[wall], -before * own_thickness, 0.5 * own_thickness);
+  }
   const auto other = line_of(walls[next.wall], next.away, next.depth);
   if (!own || !other || std::abs(std::atan(own->slope) - std::atan(other->slope)) < least_turn) return false;
   const double meet = (other->depth - own->depth) / (own->slope - other->slope);  // distance from the edge
-  return std::abs(meet) < 0.5 * t;
+  if (std::abs(meet) < 0.5 * t) return true;
+  const gp_Pnt corner = start.Translated(meet * away + (own->depth + own->slope * meet) * down);
+  return planes && std::abs(meet) < 8 * own_thickness && material.holds(corner) &&
+         !position_in(walls[wall], skin, corner) && !position_in(walls[next.wall], skin, corner);
 }
 
 WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, const NextWall& next,
@@ -322,8 +360,8 @@ WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, con
   double high = skin.size(), low = 0;  // the depths between which both middles lie all along the edge
   for (const double share : {0.5, 0.1, 0.9}) {
     const double at = edge.first() + share * (edge.last() - edge.first());
-    const double own = depth_at(skin, walls[wall], edge, at, -1e-3 * t, 0.5 * t);
-    const double other = depth_at(skin, walls[next.wall], edge, at, step_over, next.depth);
+    const double own = depth_at(skin, walls[wall], edge, at, -1e-3 * t, t, 0.5 * t);
+    const double other = depth_at(skin, walls[next.wall], edge, at, step_over, t, next.depth);
     if (share == 0.5) step = std::abs(own - other) > 1e-2 * t;
     high = std::min({high, own, other});
     low = std::max({low, own, other});
@@ -336,14 +374,15 @@ WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, con
   return {wall, next.wall, face_between(moved(edge, high, longer), moved(edge, low, longer)), step};
 }
 
-/// The stretches of an edge behind which a wall begins. If a bar lies across another one, a stretch is only
-/// as long as the other bar is wide. What stands on the wall there does not interrupt a stretch.
+/// The stretches of an edge of a wall of that thickness behind which another wall begins. If a bar lies
+/// across another one, a stretch is only as long as the other bar is wide. What stands on the wall there does
+/// not interrupt a stretch.
 std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const FaceEdge& edge,
-                                      const NextWall& next, Material& material) {
+                                      const NextWall& next, double thickness, Material& material) {
   constexpr int count = 32;
   const double first = edge.first(), length = edge.last() - first;
   const auto at = [&](double i) { return first + length * (i + 0.5) / count; };
-  const auto begins = [&](double t) { return begins_behind(skin, wall, edge, t, next); };
+  const auto begins = [&](double t) { return begins_anywhere_behind(skin, wall, edge, t, next, thickness); };
   const auto is_material = [&](double t) {
     return material.holds(edge.inside(t, next.depth).Translated(next.away * edge.away(t)));
   };
@@ -551,14 +590,19 @@ class RimEnds {
     return false;
   }
 
-  /// A rectangle across the wall, from the vertex in the direction in which the rim would continue. It
+  /// A parallelogram across the wall, from the vertex in the direction in which the rim would continue. It
   /// contains the edge that leads from the vertex to the other side. If the side leans, a rectangle along its
-  /// normal would miss that edge, and with it the end of the rim.
+  /// normal would miss that edge, and with it the end of the rim; if the whole wall leans, it would miss
+  /// where the rim continues.
   TopoDS_Face fence(const EdgeEnd& end, const gp_Vec& away, double length, double t) const {
     const gp_Pnt vertex = end.edge->curve().Value(end.at);
     const gp_Dir across = edges_.leaving(vertex, end.edge->outward(end.at).Reversed(), at_one_vertex * t);
-    const gp_Ax3 frame(vertex.Translated(0.2 * t * gp_Vec(across)), across.Crossed(gp_Dir(away)), across);
-    return BRepBuilderAPI_MakeFace(gp_Pln(frame), 0, 0.6 * t, 0, length).Face();
+    const double wide = t / std::max(0.5, -across.Dot(end.edge->outward(end.at)));
+    const gp_Vec aside = 0.6 * wide * gp_Vec(across), onward = length * away;
+    const gp_Pnt start = vertex.Translated(0.2 * wide * gp_Vec(across));
+    BRepBuilderAPI_MakePolygon border(start, start.Translated(aside), start.Translated(aside + onward),
+                                            start.Translated(onward), Standard_True);
+    return BRepBuilderAPI_MakeFace(border.Wire(), Standard_True).Face();
   }
 
   const Skin& skin_;
@@ -603,37 +647,23 @@ void move_between(TopoDS_Face& fence, const FaceEdge& edge, double thickness) {
   fence = TopoDS::Face(BRepBuilderAPI_Transform(fence, half, Standard_True).Shape());
 }
 
+/// Whether the middles of two walls share bounds.
+bool goes_on_into(const Wall& wall, int next) {
+  return std::find(wall.goes_on.begin(), wall.goes_on.end(), next) != wall.goes_on.end();
+}
+
 /// Finds where walls end and others begin.
 class WallEnds {
  public:
-  WallEnds(const Skin& skin, const std::vector<Wall>& walls)
-      : skin_(skin), walls_(walls), material_(skin), middles_(walls.size()) {}
+  WallEnds(const Skin& skin, const std::vector<Wall>& walls) : skin_(skin), walls_(walls), material_(skin) {}
 
   const std::vector<WallEnd>& found() const { return ends_; }
 
   /// Looks behind an edge of a wall's side and adds the ends found there.
   void add(int wall, int side, const FaceEdge& edge) {
-    const double t = walls_[wall].thickness;
-    const NextWall next = next_wall(skin_, walls_, wall, edge);
-    if (next.wall < 0) return;
-    const bool riser = next.away > close_by * t;
-    if (riser && !stands_on(walls_, wall, next.wall)) return;
-    if (meet_in_corner(skin_, walls_, wall, next, edge)) return;
-    if (stands_already(wall, next.wall, side, edge)) return;
-    const gp_Pnt middle = edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * t);
-    if (is_near(middle, 0.01 * t, middles_[wall])) return;
-    const WallEnd end = make_end(skin_, walls_, wall, next, edge);
-    if (!end.step) {
-      push(end, riser, side);
-    } else if (stands_on(walls_, wall, next.wall)) {
-      for (const FaceEdge& part : stretches_along(skin_, walls_[next.wall], edge, next, material_)) {
-        WallEnd stretch = make_end(skin_, walls_, wall, next, part);
-        if (part.last() - part.first() > 0.999999 * (edge.last() - edge.first()))
-          stretch.riser = skin_.index_of(edge.beside().face());
-        push(stretch, true, between);
-      }
-    } else {
-      thinner_.push_back({wall, next, edge});
+    for (const NextWall& next : next_walls(skin_, walls_, wall, edge)) {
+      // Only at a step there may be others above or below the next wall.
+      if (!add(wall, side, edge, next)) return;
     }
   }
 
@@ -663,13 +693,40 @@ class WallEnds {
     for (const Thinner& thinner : thinner_) {
       if (ends_at_fence(thinner)) continue;
       const Wall& next = walls_[thinner.next.wall];
-      for (const FaceEdge& part : stretches_along(skin_, next, thinner.edge, thinner.next, material_))
+      for (const FaceEdge& part : stretches_along(skin_, next, thinner.edge, thinner.next,
+                                                  walls_[thinner.wall].thickness, material_))
         push(make_end(skin_, walls_, thinner.wall, thinner.next, part), false, between);
     }
   }
 
  private:
   static constexpr int between = -1;
+
+  /// Adds the ends at an edge behind which the next wall begins. \return whether the edge is at a step.
+  bool add(int wall, int side, const FaceEdge& edge, const NextWall& next) {
+    const double t = walls_[wall].thickness;
+    if (goes_on_into(walls_[wall], next.wall)) return false;
+    const bool riser = next.away > close_by * t;
+    if (riser && !stands_on(walls_, wall, next.wall)) return false;
+    if (meet_in_corner(skin_, walls_, wall, next, edge, material_)) return false;
+    if (stands_already(wall, next.wall, side, edge)) return false;
+    const gp_Pnt middle = edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * t);
+    if (is_near(middle, 0.01 * t, middles_[{wall, next.wall}])) return false;
+    const WallEnd end = make_end(skin_, walls_, wall, next, edge);
+    if (!end.step) {
+      push(end, riser, side);
+    } else if (stands_on(walls_, wall, next.wall)) {
+      for (const FaceEdge& part : stretches_along(skin_, walls_[next.wall], edge, next, t, material_)) {
+        WallEnd stretch = make_end(skin_, walls_, wall, next, part);
+        if (part.last() - part.first() > 0.999999 * (edge.last() - edge.first()))
+          stretch.riser = skin_.index_of(edge.beside().face());
+        push(stretch, true, between);
+      }
+    } else {
+      thinner_.push_back({wall, next, edge});
+    }
+    return end.step;
+  }
 
   /// An edge at which a thinner wall ends at a step.
   struct Thinner {
@@ -687,7 +744,7 @@ class WallEnds {
       const FaceEdge& edge = thinner.edge;
       const double at = edge.first() + share * (edge.last() - edge.first());
       const gp_Pnt middle =
-          edge.inside(at, depth_at(skin_, walls_[thinner.wall], edge, at, -1e-3 * t, 0.5 * t));
+          edge.inside(at, depth_at(skin_, walls_[thinner.wall], edge, at, -1e-3 * t, t, 0.5 * t));
       const bool stands = std::any_of(ends_.begin(), ends_.end(), [&](const WallEnd& end) {
         if (end.wall != thinner.wall || end.next != thinner.next.wall || !end.step) return false;
         const auto way = way_from(end.fence, middle);
@@ -727,7 +784,8 @@ class WallEnds {
   const Skin& skin_;
   const std::vector<Wall>& walls_;
   Material material_;
-  std::vector<std::vector<gp_Pnt>> middles_;  ///< for each wall, points on its middle at edges with fences
+  /// For each wall and the next one, points on its middle at edges with fences.
+  std::map<std::pair<int, int>, std::vector<gp_Pnt>> middles_;
   std::vector<WallEnd> ends_;
   std::vector<int> sides_;  ///< see push()
   std::vector<Thinner> thinner_;
@@ -801,14 +859,17 @@ std::map<int, std::vector<FilletBorder>> find_fillet_borders(const Skin& skin,
 }
 
 std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,
-                                    const std::vector<int>& surfaces) {
+                                    const std::vector<int>& surfaces, const ExecutionContext& context) {
   const Borders borders(skin, surfaces);
   WallEnds ends(skin, walls);
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
     for (int side = 0; side < 2; ++side) {
       for (const int index : walls[wall].sides[side]) {
         const SkinFace& face = skin.faces()[index];
-        for (const FaceEdge& edge : borders.of_face(face)) ends.add(wall, side, edge);
+        for (const FaceEdge& edge : borders.of_face(face)) {
+          context.check();
+          ends.add(wall, side, edge);
+        }
       }
     }
   }
@@ -818,13 +879,14 @@ std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& w
 }
 
 std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& walls,
-                                   const std::vector<int>& surfaces) {
+                                   const std::vector<int>& surfaces, const ExecutionContext& context) {
   const Borders borders(skin, surfaces);
   RimEnds rims(skin, walls);
   std::vector<WallEnd> ends;
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
     std::vector<gp_Pnt> centers;
     for (const int index : both_sides(walls[wall])) {
+      context.check();
       const SkinFace& face = skin.faces()[index];
       rims.add(wall, walls[wall].thickness, borders.of_face(face), centers, ends);
     }

@@ -21,6 +21,7 @@
 #include <gp_Cone.hxx>
 #include <set>
 
+#include "geometry/midsurface/fusing.hpp"
 #include "geometry/midsurface/parameter_range.hpp"
 #include "geometry/midsurface/widths.hpp"
 
@@ -108,9 +109,9 @@ TopoDS_Face middle_patch(const Skin& skin, const std::vector<Wall>& walls, int w
 }
 
 /// The faces that need not cut a wall's middle: the wall's own sides, which it cannot meet, and the sides of
-/// walls that continue behind its fences. It meets the latter only beyond the fences and nearly tangent,
-/// where OpenCASCADE takes long and may lose everything. Nor need the risers behind fences at steps: a
-/// riser's lower edge, and the side where it ends, may lie in the middle.
+/// walls that continue at its bounds or behind its fences. It meets the latter only beyond the fences and
+/// nearly tangent, where OpenCASCADE takes long and may lose everything. Nor need the risers behind fences at
+/// steps: a riser's lower edge, and the side where it ends, may lie in the middle.
 std::set<int> left_out(const std::vector<Wall>& walls, int wall, const std::vector<WallEnd>& ends) {
   std::set<int> result;
   const auto leave_out = [&](int other) {
@@ -118,6 +119,7 @@ std::set<int> left_out(const std::vector<Wall>& walls, int wall, const std::vect
     result.insert(sides.begin(), sides.end());
   };
   leave_out(wall);
+  for (const int next : walls[wall].goes_on) leave_out(next);
   for (const WallEnd& end : ends) {
     if (end.wall == wall && (!end.step || end.riser >= 0)) leave_out(end.next);
     if (end.wall == wall && end.riser >= 0) result.insert(end.riser);
@@ -204,14 +206,15 @@ Coverage coverage_past_sides(const TopoDS_Face& face, const Wall& wall, const Sk
 namespace {
 
 /// The pieces into which others cut a face; the face if they do not meet it, none if OpenCASCADE fails.
-std::vector<TopoDS_Face> cut_by(const TopoDS_Face& face, const std::vector<TopoDS_Shape>& others) {
+std::vector<TopoDS_Face> cut_by(const TopoDS_Face& face, const std::vector<TopoDS_Shape>& others,
+                                const ExecutionContext& context) {
   if (others.empty()) return {face};
   BOPAlgo_Builder cutter;
   cutter.SetNonDestructive(Standard_True);
   cutter.SetUseOBB(Standard_True);
   cutter.AddArgument(face);
   for (const TopoDS_Shape& other : others) cutter.AddArgument(other);
-  cutter.Perform();
+  perform(cutter, context);
   if (cutter.HasErrors()) return {};
   if (!cutter.Images().IsBound(face)) return {face};
   std::vector<TopoDS_Face> result;
@@ -221,10 +224,11 @@ std::vector<TopoDS_Face> cut_by(const TopoDS_Face& face, const std::vector<TopoD
 
 /// The pieces that lie, at least in part, between the sides of the wall.
 std::vector<TopoDS_Face> between_sides(const std::vector<TopoDS_Face>& pieces, const Wall& wall,
-                                       const Skin& skin) {
+                                       const Skin& skin, const ExecutionContext& context) {
   constexpr double least_share = 0.02;
   std::vector<TopoDS_Face> result;
   for (const TopoDS_Face& piece : pieces) {
+    context.check();
     triangulate_middle(piece, wall.thickness);
     if (coverage_of(piece, wall, skin).share > least_share) result.push_back(piece);
   }
@@ -234,7 +238,7 @@ std::vector<TopoDS_Face> between_sides(const std::vector<TopoDS_Face>& pieces, c
 }  // namespace
 
 std::vector<TopoDS_Face> wall_pieces(const Skin& skin, const std::vector<Wall>& walls, int wall,
-                                     const std::vector<WallEnd>& ends) {
+                                     const std::vector<WallEnd>& ends, const ExecutionContext& context) {
   std::vector<TopoDS_Shape> fences;
   for (const WallEnd& end : ends) {
     if (end.wall == wall) fences.push_back(end.fence);
@@ -242,9 +246,10 @@ std::vector<TopoDS_Face> wall_pieces(const Skin& skin, const std::vector<Wall>& 
   // The fences first, which the surface meets at clear angles. The parts then meet little of the skin.
   std::vector<TopoDS_Face> result;
   const std::set<int> never_met = left_out(walls, wall, ends);
-  for (const TopoDS_Face& part : cut_by(middle_patch(skin, walls, wall), fences)) {
-    const auto pieces = cut_by(part, near_faces(skin, never_met, part));
-    for (const TopoDS_Face& piece : between_sides(pieces, walls[wall], skin)) result.push_back(piece);
+  for (const TopoDS_Face& part : cut_by(middle_patch(skin, walls, wall), fences, context)) {
+    const auto pieces = cut_by(part, near_faces(skin, never_met, part), context);
+    for (const TopoDS_Face& piece : between_sides(pieces, walls[wall], skin, context))
+      result.push_back(piece);
   }
   return result;
 }

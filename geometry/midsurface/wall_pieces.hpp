@@ -44,13 +44,13 @@ Coverage coverage_past_sides(const TopoDS_Face& face, const Wall& wall, const Sk
 
 /// All ends of all walls. A step has two ends; the fence of only one of them joins the walls.
 std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,
-                                    const std::vector<int>& surfaces);
+                                    const std::vector<int>& surfaces, const ExecutionContext& context);
 
 /// Fences where a wall runs into others but its rim stops at their skin, as at a rib's end on a plate. They
 /// extend the rim, so that the middle does not spread inside the other wall. WallEnd::next is the wall
 /// itself.
 std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& walls,
-                                   const std::vector<int>& surfaces);
+                                   const std::vector<int>& surfaces, const ExecutionContext& context);
 
 /// The border between a wall's side and a fillet: a strip that fills a corner between walls. It may be round
 /// and tangent to the walls, or flat or slightly curved and at an obtuse angle to them, as a weld is.
@@ -70,6 +70,6 @@ std::map<int, std::vector<FilletBorder>> find_fillet_borders(const Skin& skin,
 /// Where the wall runs into others the surface continues to the end of the material. Pieces that lie nowhere
 /// between the sides are left out. Empty if OpenCASCADE fails; the checks of the result report that.
 std::vector<TopoDS_Face> wall_pieces(const Skin& skin, const std::vector<Wall>& walls, int wall,
-                                     const std::vector<WallEnd>& ends);
+                                     const std::vector<WallEnd>& ends, const ExecutionContext& context);
 
 }  // namespace quadrille

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "geometry/midsurface/fitted_middle.hpp"
+#include "geometry/midsurface/matched_sides.hpp"
 #include "geometry/midsurface/middle_geometry.hpp"
 
 namespace quadrille {
@@ -267,6 +268,73 @@ std::vector<Wall> group_pairs(const Skin& skin, std::vector<SurfacePair> pairs, 
   return walls;
 }
 
+/// The pairs of two faces that face each other more than any other face.
+std::vector<std::array<int, 2>> mutual_pairs(const std::vector<SurfacePair>& pairs) {
+  std::map<int, std::size_t> best;  // by surface
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (const int surface : pairs[i].surfaces) {
+      const auto [entry, is_new] = best.try_emplace(surface, i);
+      if (!is_new && pairs[i].area() > pairs[entry->second].area()) entry->second = i;
+    }
+  }
+  std::vector<std::array<int, 2>> result;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const bool mutual = best[pairs[i].surfaces[0]] == i && best[pairs[i].surfaces[1]] == i;
+    if (mutual && pairs[i].faces[0].size() == 1 && pairs[i].faces[1].size() == 1)
+      result.push_back({pairs[i].faces[0].front(), pairs[i].faces[1].front()});
+  }
+  return result;
+}
+
+/// The wall at an index of `chains`, with a fitted middle.
+std::optional<Wall> chained_wall(const Skin& skin, const std::vector<MatchedSides>& chains, std::size_t index,
+                                 double thickness, double tolerance, double margin) {
+  const MatchedSides& own = chains[index];
+  Wall wall;
+  wall.sides = {std::vector<int>{own.faces[0]}, std::vector<int>{own.faces[1]}};
+  wall.thickness = thickness;
+  auto sides = wall.sides;
+  // Past the end of the second side the next wall's goes on.
+  for (const std::size_t next : own.next) add_once(sides[1], chains[next].faces[1]);
+  const auto middle = fit_middle(skin, sides, tolerance * thickness, margin, own.shared);
+  if (!middle) return std::nullopt;
+  wall.middle = middle->surface;
+  wall.fitted = wall.ends = true;
+  wall.off = middle->off;
+  return wall;
+}
+
+/// Moves the pairs in chains of free-form walls that go on into each other from `pairs` to `walls`. A pair of
+/// faces from different walls of a chain is no wall. \param margin see fit_middle().
+void move_chains(const Skin& skin, const std::vector<int>& surfaces, double tolerance, double margin,
+                 const ExecutionContext& context, std::vector<SurfacePair>& pairs, std::vector<Wall>& walls) {
+  const std::vector<MatchedSides> chains = matched_sides(skin, mutual_pairs(pairs));
+  std::map<std::pair<int, int>, double> thickness;  // by surfaces
+  for (const SurfacePair& pair : pairs)
+    thickness[std::minmax(pair.surfaces[0], pair.surfaces[1])] = pair.thickness_area / pair.area();
+  std::set<int> chained;   // surfaces
+  std::vector<int> index;  // of each wall of the chains in `walls`; -1 = it cannot be fitted
+  const std::size_t first = walls.size();
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    context.check();
+    const auto [a, b] = std::minmax(surfaces[chains[i].faces[0]], surfaces[chains[i].faces[1]]);
+    chained.insert({a, b});
+    const auto wall = chained_wall(skin, chains, i, thickness.at({a, b}), tolerance, margin);
+    index.push_back(wall ? static_cast<int>(walls.size()) : -1);
+    if (wall) walls.push_back(*wall);
+  }
+  for (std::size_t i = 0, wall = first; i < chains.size(); ++i) {
+    if (index[i] < 0) continue;
+    for (const std::size_t next : chains[i].next) {
+      if (index[next] >= 0) walls[wall].goes_on.push_back(index[next]);
+    }
+    ++wall;
+  }
+  std::erase_if(pairs, [&](const SurfacePair& pair) {
+    return chained.count(pair.surfaces[0]) != 0 && chained.count(pair.surfaces[1]) != 0;
+  });
+}
+
 }  // namespace
 
 std::vector<int> surface_numbers(const Skin& skin) {
@@ -301,6 +369,7 @@ std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
     pair.middle = middle.surface;
   }
   std::erase_if(pairs, [](const SurfacePair& pair) { return !pair.middle.IsNull(); });
+  move_chains(skin, surfaces, tolerance, 3 * thickest, context, pairs, walls);
   for (Wall& wall : group_pairs(skin, std::move(pairs), touching_surfaces(skin, surfaces))) {
     context.check();
     if (is_filleted_corner(skin, wall)) continue;

@@ -21,6 +21,7 @@ struct Wall {
   bool fitted = false;          ///< the middle is not exact
   bool ends = false;            ///< the middle is a B-spline, which is bounded
   double off = 0;               ///< largest distance of a fitted middle from the true one
+  std::vector<int> goes_on{};   ///< indices of the walls with which the middle shares bounds, without a fence
 };
 
 /// The two sides of a wall as seen from a point between them.
@@ -37,7 +38,8 @@ std::vector<int> surface_numbers(const Skin& skin);
 /// Finds the walls. Two faces are paired if a ray from one through the material meets the other nearly at a
 /// right angle, and nothing else is nearer to the point half way. Pairs without an exact middle that have one
 /// surface in common become one wall with a fitted middle. An example is a bend whose two radii do not share
-/// a center, together with the flat parts that one of them reaches over. \param surfaces of
+/// a center, together with the flat parts that one of them reaches over. Free-form walls that go on into each
+/// other smoothly, side by side, become a wall each, whose middles end at common bounds. \param surfaces of
 /// surface_numbers(). \param tolerance of fitted middles, over the thickness. Time: about ten rays for each
 /// of about 24 points per face.
 std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces, double tolerance,

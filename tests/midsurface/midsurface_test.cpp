@@ -12,12 +12,14 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepGProp.hxx>
 #include <BRepOffsetAPI_MakeThickSolid.hxx>
+#include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepOffset_MakeOffset.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
@@ -30,6 +32,7 @@
 #include <GeomAPI_PointsToBSpline.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
+#include <Geom_BezierCurve.hxx>
 #include <IntCurvesFace_ShapeIntersector.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <TColgp_Array1OfPnt.hxx>
@@ -201,21 +204,17 @@ TEST(MidSurface, NamesTheSolidThatIsNotThin) {
   builder.MakeCompound(both);
   builder.Add(both, BRepPrimAPI_MakeBox(200, 150, 3).Shape());
   builder.Add(both, BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(50, 50, 10), gp::DZ()), 5, 30).Shape());
-  try {
-    middle_of(both);
-    FAIL() << "the pin is not thin";
-  } catch (const Error& error) {
-    const std::string told = error.what();
-    EXPECT_NE(told.find("solid 2 (Face7, Face8, Face9) is not a thin solid"), std::string::npos) << told;
-    EXPECT_NE(told.find("`partial` gives the others"), std::string::npos) << told;
+  for (const bool partial : {false, true}) {
+    const MidSurface middle = middle_of(both, partial);
+    EXPECT_TRUE(middle.problems.empty());
+    EXPECT_EQ(middle.solids, 1);
+    ASSERT_EQ(middle.faces.size(), 1U);
+    EXPECT_EQ(middle.faces[0].solid_faces, (std::vector<int>{5, 6}));
+    EXPECT_NEAR(middle.volume, 200 * 150 * 3, 1e-3);
+    ASSERT_EQ(middle.warnings.size(), 1U);
+    EXPECT_NE(middle.warnings[0].find("solid 2 (Face7, Face8, Face9) is not a thin solid"), std::string::npos)
+        << middle.warnings[0];
   }
-  const MidSurface middle = middle_of(both, true);
-  EXPECT_EQ(middle.solids, 1);
-  ASSERT_EQ(middle.faces.size(), 1U);
-  EXPECT_EQ(middle.faces[0].solid_faces, (std::vector<int>{5, 6}));
-  EXPECT_NEAR(middle.volume, 200 * 150 * 3, 1e-3);
-  ASSERT_EQ(middle.problems.size(), 1U);
-  EXPECT_NE(middle.problems[0].find("solid 2"), std::string::npos);
 }
 
 TEST(MidSurface, NamesTheFacesWithoutAPartner) {
@@ -580,6 +579,58 @@ TEST(MidSurface, OfACorrugatedSheet) {
   EXPECT_EQ(middle.faces.size(), 4U * waves - 1);
 }
 
+/// Expects one connected part without problems, whose area times thickness is the volume.
+void expect_right(const MidSurface& middle) {
+  EXPECT_TRUE(middle.problems.empty());
+  EXPECT_TRUE(middle.warnings.empty());
+  EXPECT_TRUE(middle.stray_edges.empty());
+  EXPECT_EQ(middle.parts, middle.solids);
+  EXPECT_NEAR((middle.shell_volume - middle.counted_twice) / middle.volume, 1, 0.01);
+}
+
+/// A tube from a rounded square to a smaller one, between whose flat parts and corners there is no edge in
+/// the surface: eight free-form walls.
+TopoDS_Shape transition_duct(double thickness) {
+  const auto loft = [](double low, double high) {
+    BRepOffsetAPI_ThruSections result(Standard_True, Standard_False, 1e-6);
+    for (const double z : {0.0, 40.0, 100.0}) {
+      const double half = z == 0 ? low : high, bulge = z == 40 ? 3 : 0, corner = 10;
+      BRepBuilderAPI_MakeWire wire;
+      for (int i = 0; i < 4; ++i) {
+        gp_Trsf turn;
+        turn.SetRotation(gp::OZ(), 0.5 * M_PI * i);
+        const auto at = [&](double x, double y) { return gp_Pnt(x, y, z).Transformed(turn); };
+        const double r = half + bulge, flat = half - corner;
+        TColgp_Array1OfPnt side(1, 4), round(1, 4);
+        // Tangents along the flat part end those of the corner.
+        side(1) = at(-flat, -r);
+        side(2) = at(-flat / 3, -r);
+        side(3) = at(flat / 3, -r);
+        side(4) = at(flat, -r);
+        round(1) = at(flat, -r);
+        round(2) = at(flat + 0.6 * (r - flat), -r);
+        round(3) = at(r, -flat - 0.6 * (r - flat));
+        round(4) = at(r, -flat);
+        wire.Add(BRepBuilderAPI_MakeEdge(new Geom_BezierCurve(side)).Edge());
+        wire.Add(BRepBuilderAPI_MakeEdge(new Geom_BezierCurve(round)).Edge());
+      }
+      result.AddWire(wire.Wire());
+    }
+    result.Build();
+    return result.Shape();
+  };
+  return BRepAlgoAPI_Cut(loft(40, 30), loft(40 - thickness, 30 - thickness)).Shape();
+}
+
+/// Walls that go on into each other are joined, whatever their number.
+TEST(MidSurface, JoinsTheFreeFormWallsOfADuct) {
+  const TopoDS_Shape duct = transition_duct(2);
+  const MidSurface middle = middle_of(duct);
+  expect_right(middle);
+  EXPECT_EQ(middle.faces.size(), 8U);
+  EXPECT_EQ(free_loops(middle.model), 2);
+}
+
 TEST(MidSurface, NamesTheFreeFormWallsThatItCannotJoin) {
   try {
     middle_of(blended_housing());
@@ -595,9 +646,9 @@ TEST(MidSurface, NamesTheFreeFormWallsThatItCannotJoin) {
   EXPECT_NE(middle.problems[0].find("free-form walls"), std::string::npos);
 }
 
-/// A sheet of 5 mm with a pocket whose floor leans.
-TopoDS_Shape leaning_pocket() {
-  BRepBuilderAPI_MakePolygon section(gp_Pnt(20, 20, 2.6), gp_Pnt(140, 20, 3.5), gp_Pnt(140, 20, 9),
+/// A sheet of 5 mm with a pocket whose floor leans. \param low, high heights of the floor at its ends.
+TopoDS_Shape leaning_pocket(double low, double high) {
+  BRepBuilderAPI_MakePolygon section(gp_Pnt(20, 20, low), gp_Pnt(140, 20, high), gp_Pnt(140, 20, 9),
                                      gp_Pnt(20, 20, 9), Standard_True);
   const TopoDS_Shape pocket =
       BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(section.Wire()).Face(), gp_Vec(0, 60, 0)).Shape();
@@ -675,15 +726,6 @@ TEST(MidSurface, RefusesFreeEdgesThatAreNotAtARim) {
   for (const std::vector<int>& faces : middle.stray_faces) EXPECT_EQ(faces.size(), 2U);
 }
 
-/// Expects one connected part without problems, whose area times thickness is the volume.
-void expect_right(const MidSurface& middle) {
-  EXPECT_TRUE(middle.problems.empty());
-  EXPECT_TRUE(middle.warnings.empty());
-  EXPECT_TRUE(middle.stray_edges.empty());
-  EXPECT_EQ(middle.parts, middle.solids);
-  EXPECT_NEAR((middle.shell_volume - middle.counted_twice) / middle.volume, 1, 0.01);
-}
-
 double area_of_steps(const MidSurface& middle) {
   return std::accumulate(
       middle.faces.begin(), middle.faces.end(), 0.0,
@@ -692,9 +734,12 @@ double area_of_steps(const MidSurface& middle) {
 
 /// The floor is not parallel to the sheet, so that its own normal leans to the step.
 TEST(MidSurface, JoinsALeaningFloorToItsStep) {
-  const MidSurface middle = middle_of(leaning_pocket());
-  expect_right(middle);
-  EXPECT_EQ(free_loops(middle.model), 1);
+  for (const auto& [low, high] : {std::pair(2.6, 3.5), std::pair(1.5, 3.6), std::pair(0.8, 4.0)}) {
+    SCOPED_TRACE(high);
+    const MidSurface middle = middle_of(leaning_pocket(low, high));
+    expect_right(middle);
+    EXPECT_EQ(free_loops(middle.model), 1);
+  }
 }
 
 /// The rib's middle ends where the rib does, also where the fillets beside it hide its corner.
@@ -754,6 +799,52 @@ TEST(MidSurface, JoinsSharpFoldsInAnEdge) {
     EXPECT_EQ(middle.faces.size(), 2U) << degrees;
     EXPECT_NEAR(area_of(middle), 80 * 100, 1e-5) << degrees;
     EXPECT_EQ(area_of_steps(middle), 0) << degrees;
+  }
+}
+
+/// A sheet that is folded sharply where its thickness changes.
+TopoDS_Shape fold_of_two_thicknesses(double degrees, double first, double second) {
+  const double turn = degrees * M_PI / 180, c = std::cos(turn), s = std::sin(turn);
+  const double upper = (c * first - second) / s;  // where the upper sides meet
+  return profile({{{-50, 0},
+                   {0, 0},
+                   {50 * c, 50 * s},
+                   {50 * c - second * s, 50 * s + second * c},
+                   {upper, first},
+                   {-50, first}}},
+                 80);
+}
+
+/// The middles intersect far from the edge, but in no wall.
+TEST(MidSurface, JoinsFoldsOfTwoThicknessesInAnEdge) {
+  for (const double degrees : {7.0, 10.0, 20.0, 45.0}) {
+    for (const double second : {2.2, 2.5, 3.0}) {
+      SCOPED_TRACE(fmt::format("{} degrees, {} mm", degrees, second));
+      const MidSurface middle = middle_of(fold_of_two_thicknesses(degrees, 2, second));
+      expect_right(middle);
+      EXPECT_EQ(middle.faces.size(), 2U);
+      EXPECT_NEAR(middle.shell_volume / middle.volume, 1, 1e-3);
+    }
+  }
+}
+
+/// A plate with a rib that leans, and ends free.
+TopoDS_Shape leaning_rib(double degrees) {
+  const double turn = degrees * M_PI / 180, wide = 3 / std::cos(turn), aside = 30 * std::tan(turn);
+  BRepBuilderAPI_MakePolygon foot(gp_Pnt(20, 40, 0), gp_Pnt(20, 40 + wide, 0),
+                                  gp_Pnt(20, 40 + wide + aside, 30), gp_Pnt(20, 40 + aside, 30),
+                                  Standard_True);
+  const TopoDS_Shape rib =
+      BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(foot.Wire()).Face(), gp_Vec(80, 0, 0)).Shape();
+  return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(120, 80, 3).Shape(), rib).Shape();
+}
+
+TEST(MidSurface, EndsLeaningRibsAtTheirRims) {
+  for (const double degrees : {10.0, 20.0, 40.0}) {
+    SCOPED_TRACE(degrees);
+    const MidSurface middle = middle_of(leaning_rib(degrees));
+    expect_right(middle);
+    EXPECT_NEAR(area_of(middle), 120 * 80 + 80 * 28.5 / std::cos(degrees * M_PI / 180), 1e-6);
   }
 }
 

@@ -1,0 +1,156 @@
+/// Walks along chains of free-form walls, across the smooth edges that both sides have in common.
+
+#include "geometry/midsurface/matched_sides.hpp"
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom2d_Curve.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace quadrille {
+
+namespace {
+
+/// Whether two faces go on into each other at an edge: their normals differ little all along it.
+bool is_smooth(const SkinFace& a, const SkinFace& b, const TopoDS_Edge& edge) {
+  const double most_turn = std::cos(5 * M_PI / 180);
+  const BRepAdaptor_Curve curve(edge);
+  const auto turns = [&](double share) {
+    const gp_Pnt at = curve.Value((1 - share) * curve.FirstParameter() + share * curve.LastParameter());
+    const auto first = a.outward(a.closest(at)), second = b.outward(b.closest(at));
+    return !first || !second || first->Dot(*second) < most_turn;
+  };
+  return !turns(0.1) && !turns(0.5) && !turns(0.9);
+}
+
+/// The smooth edges that two faces have in common.
+std::vector<TopoDS_Edge> smooth_edges(const SkinFace& a, const SkinFace& b) {
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(b.face(), TopAbs_EDGE, edges);
+  std::vector<TopoDS_Edge> result;
+  for (TopExp_Explorer it(a.face(), TopAbs_EDGE); it.More(); it.Next()) {
+    const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
+    if (edges.Contains(edge) && !BRep_Tool::Degenerated(edge) && is_smooth(a, b, edge))
+      result.push_back(edge);
+  }
+  return result;
+}
+
+/// The end of a face's parameters along which all of an edge lies: 0 low u, 1 high u, 2 low v, 3 high v.
+std::optional<int> end_along(const TopoDS_Face& face, const TopoDS_Edge& edge) {
+  constexpr double near = 1e-5;  // over the range
+  std::array<double, 4> bounds{};
+  BRepTools::UVBounds(face, bounds[0], bounds[1], bounds[2], bounds[3]);
+  double first = 0, last = 0;
+  const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
+  if (curve.IsNull()) return std::nullopt;
+  for (int end = 0; end < 4; ++end) {
+    const int across = end / 2;
+    const double range = bounds[2 * across + 1] - bounds[2 * across];
+    const double along = bounds[3 - 2 * across] - bounds[2 - 2 * across];
+    const auto off = [&](double share) {
+      const gp_Pnt2d uv = curve->Value((1 - share) * first + share * last);
+      return std::abs(uv.Coord(across + 1) - bounds[end]) > near * range;
+    };
+    const double length =
+        std::abs(curve->Value(first).Coord(2 - across) - curve->Value(last).Coord(2 - across));
+    if (!off(0) && !off(0.3) && !off(0.5) && !off(0.8) && !off(1) && length > (1 - near) * along) return end;
+  }
+  return std::nullopt;
+}
+
+struct Chain {
+  std::vector<MatchedSides> walls;
+  std::vector<std::size_t> pairs;  ///< the index of each wall's pair
+};
+
+/// Walks along chains of pairs.
+class Walk {
+ public:
+  Walk(const Skin& skin, const std::vector<std::array<int, 2>>& pairs)
+      : skin_(skin), pairs_(pairs), done_(pairs.size(), false) {}
+
+  bool done(std::size_t pair) const { return done_[pair]; }
+  void finish(const Chain& chain) {
+    for (const std::size_t pair : chain.pairs) done_[pair] = true;
+  }
+
+  /// The chain that contains a pair, of those that are not done. \param side of that pair that becomes the
+  /// first one.
+  Chain from(std::size_t start, int side) const {
+    Chain chain;
+    add(start, side, chain);
+    for (std::size_t at = 0; at < chain.walls.size(); ++at) {
+      for (std::size_t other = 0; other < pairs_.size(); ++other) {
+        if (other != chain.pairs[at] && !done_[other]) go_on(at, other, chain);
+      }
+    }
+    return chain;
+  }
+
+ private:
+  void add(std::size_t pair, int first, Chain& chain) const {
+    chain.pairs.push_back(pair);
+    chain.walls.push_back({{pairs_[pair][first], pairs_[pair][1 - first]}, {}, {}});
+  }
+
+  /// Adds the other pair to the chain if a wall of the chain goes on into it.
+  void go_on(std::size_t at, std::size_t other, Chain& chain) const {
+    const auto known = std::find(chain.pairs.begin(), chain.pairs.end(), other);
+    const auto index = static_cast<std::size_t>(known - chain.pairs.begin());
+    for (const int first : {0, 1}) {
+      const std::array<int, 2> faces{pairs_[other][first], pairs_[other][1 - first]};
+      if (known != chain.pairs.end() && chain.walls[index].faces != faces) continue;
+      const std::vector<int> ends = ends_between(chain.walls[at].faces, faces);
+      if (ends.empty()) continue;
+      if (known == chain.pairs.end()) add(other, first, chain);
+      for (const int end : ends) chain.walls[at].shared[end] = true;
+      chain.walls[at].next.push_back(index);
+      return;
+    }
+  }
+
+  /// The ends of the parameters of the first side of one wall at which it goes on into another one.
+  std::vector<int> ends_between(const std::array<int, 2>& from, const std::array<int, 2>& to) const {
+    const auto face = [&](int index) -> const SkinFace& { return skin_.faces()[index]; };
+    std::vector<int> result;
+    for (const TopoDS_Edge& edge : smooth_edges(face(from[0]), face(to[0]))) {
+      const auto own = end_along(face(from[0]).face(), edge), other = end_along(face(to[0]).face(), edge);
+      if (own && other) result.push_back(*own);
+    }
+    if (result.empty() || smooth_edges(face(from[1]), face(to[1])).empty()) return {};
+    return result;
+  }
+
+  const Skin& skin_;
+  const std::vector<std::array<int, 2>>& pairs_;
+  std::vector<bool> done_;
+};
+
+}  // namespace
+
+std::vector<MatchedSides> matched_sides(const Skin& skin, const std::vector<std::array<int, 2>>& pairs) {
+  std::vector<MatchedSides> result;
+  Walk walk(skin, pairs);
+  for (std::size_t start = 0; start < pairs.size(); ++start) {
+    if (walk.done(start)) continue;
+    Chain chain = walk.from(start, 0);
+    if (Chain other = walk.from(start, 1); other.walls.size() > chain.walls.size()) chain = std::move(other);
+    if (chain.walls.size() < 2) continue;
+    walk.finish(chain);
+    for (MatchedSides& wall : chain.walls) {
+      for (std::size_t& next : wall.next) next += result.size();
+    }
+    result.insert(result.end(), chain.walls.begin(), chain.walls.end());
+  }
+  return result;
+}
+
+}  // namespace quadrille
