@@ -27,6 +27,7 @@
 #include "mesher/edges/grid_rows.hpp"
 #include "mesher/edges/hole_filling.hpp"
 #include "mesher/edges/let_go.hpp"
+#include "mesher/edges/placed_nodes.hpp"
 #include "mesher/faces/boundary_crossings.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/settings.hpp"
@@ -53,21 +54,23 @@ class Job {
   Job(const CadModel& model, const MeshOptions& options, ExecutionContext& context, bool divides = true)
       : vertices_(model.vertex_count()),
         filled_(fill_holes(model, options)),
-        model_(divides ? divided(filled_.model, filled_.left(faces_used(model, options)), options)
+        used_(filled_.left(faces_used(model, options))),
+        limits_(size_limits(model, options.sizing)),
+        placed_(divides ? place_nodes(filled_.model.shape(), used_, options.sizing, limits_.largest)
+                        : PlacedNodes()),
+        model_(divides ? divided(placed_.shape ? CadModel(placed_.shape) : filled_.model, used_, options)
                        : filled_.model),
         shape_(model_.shape()),
         options_(options),
-        limits_(size_limits(model, options.sizing)),
         context_(context),
         plan_(shape_),
-        used_(filled_.left(faces_used(model, options))),
         to_tips_(shape_.faces.size()),
         meshes_(shape_.faces.size()),
         problems_(shape_.faces.size()),
         problems_before_(shape_.faces.size()),
         records_(shape_.faces.size()),
         asked_(used_),
-        let_go_(shape_, asked_, reach_of_let_go(limits_, options), edges_that_stay()) {
+        let_go_(shape_, asked_, reach_of_let_go(limits_, options), edges_that_stay(), placed_vertices()) {
     if (options_.strategy == Strategy::subdivide) plan_.subdivided.assign(shape_.faces.size(), 1);
     plan_.prescribed = prescribed_edges(shape_, options.sizing, limits_.largest);
     leave_out_tiny();
@@ -128,7 +131,7 @@ class Job {
     std::sort(result.suppressed_edges.begin(), result.suppressed_edges.end());
     result.suppressed_edges.erase(std::unique(result.suppressed_edges.begin(), result.suppressed_edges.end()),
                                   result.suppressed_edges.end());
-    std::erase_if(result.corners, [&](const auto& corner) { return corner.vertex > vertices_; });
+    name_placed_nodes(result);
     if (options_.sizing.spacings.empty()) result.size_min = limits_.least;
     result.short_sides = short_sides(shape_, result);
     return result;
@@ -175,11 +178,46 @@ class Job {
     EdgeFlags result(shape_.edges.size(), options_.keep_features ? 1 : 0);
     for (const EdgeId id : result.ids()) {
       const CadEdge& edge = shape_.edges[id];
-      result[id] |= is_kept(edge) || sizing.edge_sizes.contains(edge.number) ||
+      result[id] |= is_kept(edge) || ends_at_placed(edge) || sizing.edge_sizes.contains(edge.number) ||
                     sizing.layers.edges.contains(edge.number) || sizing.spacings.contains(edge.number) ||
                     uncrossed.contains(edge.number);
     }
     return result;
+  }
+
+  bool ends_at_placed(const CadEdge& edge) const {
+    return std::any_of(placed_.nodes.begin(), placed_.nodes.end(), [&](const PlacedNode& node) {
+      return node.vertex == edge.first_vertex || node.vertex == edge.last_vertex;
+    });
+  }
+
+  std::vector<VertexId> placed_vertices() const {
+    std::vector<VertexId> result;
+    for (const PlacedNode& node : placed_.nodes) result.push_back(node.vertex);
+    return result;
+  }
+
+  /// Lists the nodes at the places that users chose, and drops the corners at other vertices that are not the
+  /// model's. Throws Error (failure) for a place where the mesh has no node, unless its faces are left out.
+  void name_placed_nodes(ShellMesh& mesh) const {
+    std::map<int, int> nodes;  // by vertex number
+    for (const ShellMesh::Corner& corner : mesh.corners) nodes[corner.vertex] = corner.node;
+    std::set<int> added;
+    for (const auto& [name, vertex] : placed_.nodes) {
+      const auto found = nodes.find(vertex.number());
+      const bool is_there = found != nodes.end() && mesh.points[found->second] == shape_.vertices[vertex];
+      if (!is_there && !options_.partial)
+        throw failure("nodes_at",
+                      fmt::format("`nodes_at` {} at {} got no node, since the mesh leaves out what is "
+                                  "small around it: use `keep_features`, or a smaller size there",
+                                  name, place_text(shape_.vertices[vertex])));
+      const bool is_added = vertex.number() > vertices_;
+      mesh.placed_nodes.push_back({name, is_there ? vertex.number() : 0, is_added});
+      if (is_there && is_added) added.insert(vertex.number());
+    }
+    std::erase_if(mesh.corners, [&](const auto& corner) {
+      return corner.vertex > vertices_ && !added.contains(corner.vertex);
+    });
   }
 
   /// 1 = the edge must not become a point.
@@ -632,17 +670,18 @@ class Job {
     return result;
   }
 
-  int vertices_;  // of the model; the others divide edges
+  int vertices_;  // of the model; the others divide edges or are placed inside faces
   FilledModel filled_;
+  FaceFlags used_;
+  SizeLimits limits_;
+  PlacedNodes placed_;
   const CadModel model_;
   const CadShape& shape_;
   const MeshOptions& options_;
-  SizeLimits limits_;
   ExecutionContext& context_;
   SamplingPlan plan_;
   std::vector<EdgeId> suppressed_;
   EdgeTables tables_;
-  FaceFlags used_;
   FaceFlags to_tips_;  ///< 1 = does not end before its tips
   GridRows rows_;
   int chart_rounds_ = 0;

@@ -279,6 +279,11 @@ std::vector<Setting> make_table() {
       {"keep", "keep", "Keep", none, mesh, none, 0, 0, false, "none",
        "faces and edges that keep nodes of their own, whatever their size and shape, such as Edge7,Face3",
        Setting::EntryList{set_kept, kept_of}},
+      {"nodes_at", "node", "NodesAt", none, mesh, none, 0, 0, false, "none",
+       "a place on a face, edge or vertex that gets a node and a group of that node, x,y,z or Name=x,y,z in "
+       "mm; "
+       "without a name the groups are Node1, Node2, ...",
+       Setting::EntryList{set_nodes, nodes_of}},
       {"rings", "rings", "Rings", "Rings", mesh, none, 0, 100, false, none,
        "rings of quads around each hole without corners, if there is room for them; 0 = none",
        [](Settings& v) -> int& { return v.mesh.rings; }},

@@ -2,10 +2,13 @@
 
 #include "mesher/size_entries.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <regex>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -249,6 +252,37 @@ Entries layers_of(const SizingOptions& sizing) {
   add("Face", sizing.layers.faces);
   add("Edge", sizing.layers.edges);
   add("Vertex", sizing.layers.vertices);
+  return entries;
+}
+
+void set_nodes(SizingOptions& sizing, const Entries& entries) {
+  static const std::regex form("[A-Za-z][A-Za-z0-9_-]{0,59}"),
+      taken("(Face|Edge|Vertex|SolidFace|Thickness)[0-9].*", std::regex::icase);
+  std::set<std::string> names;
+  std::vector<NodePlace> nodes;
+  for (const std::string& entry : entries) {
+    const std::size_t equals = entry.find('=');
+    const std::string name = equals == std::string::npos ? "" : entry.substr(0, equals);
+    const std::string_view place =
+        std::string_view(entry).substr(equals == std::string::npos ? 0 : equals + 1);
+    const std::vector<double> at = numbers(place);
+    if (at.size() != 3) refuse("places such as 10,0,2.5 or Tip=10,0,2.5", entry);
+    if (equals != std::string::npos && (!std::regex_match(name, form) || std::regex_match(name, taken)))
+      refuse("names of letters, digits, _ and - that no other group may have", name);
+    std::string low = name;
+    std::transform(low.begin(), low.end(), low.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (!name.empty() && !names.insert(low).second)  // CalculiX does not tell large letters from small ones
+      throw std::invalid_argument(fmt::format("names {} twice", name));
+    nodes.push_back({name, Vector3(at[0], at[1], at[2])});
+  }
+  sizing.nodes = std::move(nodes);
+}
+
+Entries nodes_of(const SizingOptions& sizing) {
+  Entries entries;
+  for (const auto& [name, point] : sizing.nodes)
+    entries.push_back(
+        fmt::format("{}{}{},{},{}", name, name.empty() ? "" : "=", point.x(), point.y(), point.z()));
   return entries;
 }
 

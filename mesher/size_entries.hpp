@@ -33,6 +33,10 @@ Entries bias_both_of(const SizingOptions& sizing);
 void set_layers(SizingOptions& sizing, const Entries& entries);
 Entries layers_of(const SizingOptions& sizing);
 
+/// "x,y,z" or "Name=x,y,z". Names are letters, digits, '_' and '-', and none is a group's name already.
+void set_nodes(SizingOptions& sizing, const Entries& entries);
+Entries nodes_of(const SizingOptions& sizing);
+
 /// "0.05" (mm) or "2%" (of the size).
 void set_chord_error(SizingOptions& sizing, const std::string& text);
 std::string chord_error_of(const SizingOptions& sizing);

@@ -100,21 +100,27 @@ std::string face_name(const Setting& setting, const py::handle& face) {
 }
 
 /// Entries as texts. They are given as texts, or as a dict that maps names to one or more numbers:
-/// {"Edge4": 20}, {"Edge4": (0.1, 1.2, 6)}.
+/// {"Edge4": 20}, {"Edge4": (0.1, 1.2, 6)}. Those of numbers alone may be tuples in a list: [(1, 2, 3)].
 std::vector<std::string> entries(const Setting& setting, const py::handle& value) {
   if (py::isinstance<py::str>(value) || !py::isinstance<py::iterable>(value))
     throw wrong_type(setting, value);
-  if (!py::isinstance<py::dict>(value)) return value.cast<std::vector<std::string>>();
   std::vector<std::string> texts;
-  for (const auto& [name, own] : value.cast<py::dict>()) {
-    std::vector<double> numbers;
+  const auto numbers = [&](const py::handle& own) {
+    std::vector<double> found;
     if (py::isinstance<py::iterable>(own)) {
-      for (const py::handle part : own.cast<py::iterable>()) numbers.push_back(number(setting, part));
+      for (const py::handle part : own.cast<py::iterable>()) found.push_back(number(setting, part));
     } else {
-      numbers.push_back(number(setting, own));
+      found.push_back(number(setting, own));
     }
-    texts.push_back(fmt::format("{}={}", name.cast<std::string>(), fmt::join(numbers, ",")));
+    return fmt::format("{}", fmt::join(found, ","));
+  };
+  if (py::isinstance<py::dict>(value)) {
+    for (const auto& [name, own] : value.cast<py::dict>())
+      texts.push_back(fmt::format("{}={}", name.cast<std::string>(), numbers(own)));
+    return texts;
   }
+  for (const py::handle entry : value.cast<py::iterable>())
+    texts.push_back(py::isinstance<py::str>(entry) ? entry.cast<std::string>() : numbers(entry));
   return texts;
 }
 

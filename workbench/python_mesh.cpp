@@ -188,13 +188,16 @@ std::vector<ShellMesh::Group> groups_in(const py::handle& list) {
   return result;
 }
 
-/// What pickle stores: the constructor's arguments, face statuses, thicknesses, groups, solid faces, and the
-/// least size.
+/// What pickle stores: the constructor's arguments, face statuses, thicknesses, groups, solid faces, placed
+/// nodes, and the least size.
 py::tuple state_of(const py::object& self) {
   py::list varying;
   for (const ShellMesh::VaryingThickness& entry : mesh_of(self).mesh.varying_thicknesses)
     varying.append(
         py::make_tuple(entry.face, entry.thinnest, entry.thickest, entry.nodes, entry.thicknesses));
+  py::list placed;
+  for (const ShellMesh::PlacedNode& node : mesh_of(self).mesh.placed_nodes)
+    placed.append(py::make_tuple(node.name, node.vertex, node.added));
   py::list faces;
   for (const ShellMesh::Face& face : mesh_of(self).mesh.faces)
     faces.append(py::make_tuple(face.face, static_cast<int>(face.status), face.note, face.work, face.share,
@@ -204,7 +207,7 @@ py::tuple state_of(const py::object& self) {
                         self.attr("face_ids"), self.attr("triangle_face_ids"), self.attr("segments"),
                         self.attr("corners"), faces, mesh_of(self).mesh.thicknesses,
                         list_of(mesh_of(self).mesh.groups), varying, list_of(mesh_of(self).mesh.solid_faces),
-                        mesh_of(self).mesh.size_min);
+                        placed, mesh_of(self).mesh.size_min);
 }
 
 PythonMesh from_state(const py::tuple& state) {
@@ -217,10 +220,14 @@ PythonMesh from_state(const py::tuple& state) {
     result.mesh.faces.push_back({number, static_cast<FaceStatus>(status), note, work, share, attempts, quads,
                                  q_min, seconds, off, off_max, filled});
   }
-  result.mesh.size_min = state[12].cast<double>();
+  result.mesh.size_min = state[13].cast<double>();
   result.mesh.thicknesses = state[8].cast<std::vector<double>>();
   result.mesh.groups = groups_in(state[9]);
   result.mesh.solid_faces = groups_in(state[11]);
+  for (const py::handle entry : state[12]) {
+    auto [name, vertex, added] = entry.cast<std::tuple<std::string, int, bool>>();
+    result.mesh.placed_nodes.push_back({std::move(name), vertex, added});
+  }
   for (const py::handle entry : state[10]) {
     auto [face, thinnest, thickest, nodes, thicknesses] =
         entry.cast<std::tuple<int, double, double, std::vector<int>, std::vector<double>>>();

@@ -112,6 +112,8 @@ def main():
             error = found.error
             print(f"{number + 1:5d} {quads:6d} {100 * error:8.2f} {largest_stress(mesh, analysis):19.4g}", flush=True)
             if error <= arguments.error:
+                for warning in found.warnings:
+                    print(f"warning: {warning}")
                 break
     if arguments.save:
         document.saveAs(str(Path(arguments.save).absolute()))

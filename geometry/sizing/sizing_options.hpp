@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "geometry/base/vector.hpp"
@@ -67,6 +68,12 @@ struct SizeLayers {
   double last() const;  ///< size where the layers end
 };
 
+/// A place that gets a node.
+struct NodePlace {
+  std::string name;        ///< of the node's group; empty = Node1, Node2, ...
+  Vector3 point{0, 0, 0};  ///< where, in millimeters
+};
+
 /// CAD faces, edges and vertices by number.
 template <class Value>
 struct ByElement {
@@ -100,6 +107,7 @@ struct SizingOptions {
   std::map<int, EdgeSpacing> spacings;       ///< CAD edge -> its division, whatever else is asked for
   std::set<int> kept_faces;                  ///< CAD faces whose edges are kept too
   std::set<int> kept_edges;                  ///< CAD edges that are not let go, and that no quad crosses
+  std::vector<NodePlace> nodes;              ///< places on the model that get nodes
   std::filesystem::path size_field;          ///< external .vdb grid that caps the size; empty = none
   double size_field_scale = 1;               ///< factor on the sizes in it
   double size_field_unit = 1;                ///< millimeters per unit of length in it (positions and sizes)

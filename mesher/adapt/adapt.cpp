@@ -86,6 +86,23 @@ class SizePlan {
     double least = std::numeric_limits<double>::infinity(), largest = 0;  ///< smallest and largest size
   };
 
+  /// The present sizes.
+  Draft present() const {
+    std::vector<SizePoint> points;
+    for (std::size_t node = 0; node < at_points_.size(); ++node)
+      if (at_points_[node] > 0) points.push_back({mesh_.points[node], at_points_[node]});
+    Draft draft{mean_sizes(points, options_.growth, context_)};
+    SizeCascade::Lookup size_at(draft.field);
+    for (const SizePoint& at : points) {
+      const double size = size_at(at.point);
+      draft.least = std::min(draft.least, size);
+      draft.largest = std::max(draft.largest, size);
+    }
+    draft.count = static_cast<double>(now_.size());
+    draft.error = estimate_.relative();
+    return draft;
+  }
+
   /// Finds the sizes that reach the wanted count or error. Growth and the limit on changes alter the sizes,
   /// so each draft is judged by the sizes in its field.
   Draft find() const {
@@ -194,10 +211,14 @@ AdaptResult adapt(const ShellMesh& mesh, const std::filesystem::path& solution,
     throw failure(name, fmt::format("{} has no stresses: all displacements are zero", name));
   const auto stresses = shell_stresses(mesh, result, options.poisson, name);
   const ErrorEstimate estimate = estimate_error(mesh, stresses, options.poisson);
-  const SizePlan::Draft draft = SizePlan(mesh, estimate, options, context).find();
+  const bool is_met = options.count == 0 && estimate.relative() <= options.error;
+  const SizePlan plan(mesh, estimate, options, context);
+  const SizePlan::Draft draft = is_met ? plan.present() : plan.find();
   write_cascade(draft.field, sizes);
-  return {estimate.relative(), static_cast<int>(mesh.quads.size()), draft.count, draft.error, draft.least,
-          draft.largest};
+  const std::vector<StressPeak> peaks = stress_peaks(mesh, stresses);
+  return {estimate.relative(), is_met,      static_cast<int>(mesh.quads.size()),
+          draft.count,         draft.error, draft.least,
+          draft.largest,       peaks,       changes_of_peaks(options.before, peaks)};
 }
 
 }  // namespace quadrille

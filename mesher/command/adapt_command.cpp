@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -15,14 +17,83 @@ namespace quadrille::command {
 namespace {
 
 struct AdaptArguments {
-  std::filesystem::path mesh, result, output, report;
+  std::filesystem::path mesh, result, output, report, before;
   AdaptOptions options;
   bool quiet = false, end_with_input = false;
 };
 
+nlohmann::ordered_json json_of(const std::vector<StressPeak>& peaks) {
+  nlohmann::ordered_json result = nlohmann::ordered_json::array();
+  for (const StressPeak& peak : peaks)
+    result.push_back({{"at", {peak.at.x(), peak.at.y(), peak.at.z()}},
+                      {"stress", peak.stress},
+                      {"size", peak.size},
+                      {"sharp_corner", peak.sharp_corner}});
+  return result;
+}
+
+/// The peaks in the report on the mesh before. Throws Error (failure) if it is none.
+std::vector<StressPeak> peaks_in(const std::filesystem::path& report) {
+  std::vector<StressPeak> peaks;
+  try {
+    std::ifstream file(report);
+    const auto told = nlohmann::json::parse(file);
+    for (const auto& peak : told.at("peaks")) {
+      const auto at = peak.at("at").get<std::array<double, 3>>();
+      peaks.push_back(
+          {Vector3(at[0], at[1], at[2]), peak.at("stress"), peak.at("size"), peak.at("sharp_corner")});
+    }
+  } catch (const nlohmann::json::exception&) {
+    throw failure(report.string(), fmt::format("{} is no report of `adapt`", report.string()));
+  }
+  return peaks;
+}
+
+/// What is not settled though the error is small enough, one sentence each.
+std::vector<std::string> warnings_on(const AdaptResult& result) {
+  std::vector<std::string> warnings;
+  for (const PeakChange& change : result.changes)
+    if (result.is_met) warnings.push_back(change.sentence());
+  return warnings;
+}
+
+nlohmann::ordered_json report_on(const AdaptResult& result) {
+  nlohmann::ordered_json changes = nlohmann::ordered_json::array();
+  for (const PeakChange& change : result.changes)
+    changes.push_back({{"at", {change.peak.at.x(), change.peak.at.y(), change.peak.at.z()}},
+                       {"change", change.change},
+                       {"singular", change.is_singular()}});
+  return {{"error", result.error},
+          {"met", result.is_met},
+          {"quads", result.quads},
+          {"quads_wanted", result.quads_wanted},
+          {"error_wanted", result.error_wanted},
+          {"size_min", result.least},
+          {"size_max", result.largest},
+          {"peaks", json_of(result.peaks)},
+          {"changes", changes},
+          {"warnings", warnings_on(result)}};
+}
+
+void tell(const AdaptResult& result, const AdaptArguments& arguments) {
+  for (const std::string& warning : warnings_on(result)) fmt::print(stderr, "warning: {}\n", warning);
+  print(fmt::format("error        {:.3g} % of the energy norm, with {} quads\n", 100 * result.error,
+                    result.quads));
+  if (result.is_met)
+    return print(
+        fmt::format("wanted       {:.3g} %: the target is met, and the mesh may stay; {} has its sizes\n",
+                    100 * arguments.options.error, arguments.output.string()));
+  print(
+      fmt::format("wanted       {:.3g} %, with about {:.0f} quads of {:.3g} to {:.3g} mm\n"
+                  "mesh with    --size {:.3g} --size-min {:.3g} --size-field {}\n",
+                  100 * result.error_wanted, result.quads_wanted, result.least, result.largest,
+                  result.largest, result.least, arguments.output.string()));
+}
+
 void run(const AdaptArguments& arguments) {
   require_readable(arguments.mesh);
   require_readable(arguments.result);
+  if (!arguments.before.empty()) require_readable(arguments.before);
   require_ending(arguments.output, ".vdb", "-o");
   if (!arguments.report.empty()) require_writable(arguments.report);
   require_different_files({{"MESH", arguments.mesh},
@@ -33,24 +104,12 @@ void run(const AdaptArguments& arguments) {
   ExecutionContext context;
   const CancelOnSignal cancel(context);
   if (arguments.end_with_input) end_with_input();
+  AdaptOptions options = arguments.options;
+  if (!arguments.before.empty()) options.before = peaks_in(arguments.before);
   const AdaptResult result =
-      adapt(read_mesh(arguments.mesh), arguments.result, arguments.output, arguments.options, context);
-  if (!arguments.report.empty()) {
-    const nlohmann::ordered_json report{{"error", result.error},
-                                        {"quads", result.quads},
-                                        {"quads_wanted", result.quads_wanted},
-                                        {"error_wanted", result.error_wanted},
-                                        {"size_min", result.least},
-                                        {"size_max", result.largest}};
-    write_file(arguments.report, report.dump(2) + "\n");
-  }
-  if (arguments.quiet) return;
-  print(
-      fmt::format("error        {:.3g} % of the energy norm, with {} quads\n"
-                  "wanted       {:.3g} %, with about {:.0f} quads of {:.3g} to {:.3g} mm\n"
-                  "mesh with    --size {:.3g} --size-min {:.3g} --size-field {}\n",
-                  100 * result.error, result.quads, 100 * result.error_wanted, result.quads_wanted,
-                  result.least, result.largest, result.largest, result.least, arguments.output.string()));
+      adapt(read_mesh(arguments.mesh), arguments.result, arguments.output, options, context);
+  if (!arguments.report.empty()) write_file(arguments.report, report_on(result).dump(2) + "\n");
+  if (!arguments.quiet) tell(result, arguments);
 }
 
 }  // namespace
@@ -74,7 +133,10 @@ void add_adapt_command(CLI::App& app) {
   command->add_option("--size-max", options.size_max, "no size above this, in mm");
   command->add_option("--growth", options.growth, "how fast the size may change (default 0.3)");
   command->add_option("--poisson", options.poisson, "Poisson's ratio (default 0.3)");
-  command->add_option("--report", arguments->report, "write error, counts and sizes as JSON");
+  command->add_option("--report", arguments->report,
+                      "write error, counts, sizes and peaks of stress as JSON");
+  command->add_option("--before", arguments->before,
+                      "report on the mesh before: warn of peaks of stress that have changed since");
   command->add_flag("--end-with-input", arguments->end_with_input,
                     "end the work when standard input closes, for programs that start this one");
   command->add_flag("--quiet", arguments->quiet, "print nothing");

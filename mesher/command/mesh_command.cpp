@@ -57,11 +57,15 @@ std::optional<MidSurface> middle_of(const CadModel& model, const MeshArguments& 
   return midsurface(model, options, context);
 }
 
-/// Prints one line for each face that --partial leaves out.
+/// Prints one line for each face, and each node of --node, that --partial leaves out.
 void list_left_out(const ShellMesh& mesh) {
   for (const ShellMesh::Face& face : mesh.faces) {
     if (face.status == FaceStatus::failed)
       fmt::print(stderr, "quadrille: left out: Face{}: {}\n", face.face, face.note);
+  }
+  for (const ShellMesh::PlacedNode& node : mesh.placed_nodes) {
+    if (node.vertex == 0)
+      fmt::print(stderr, "quadrille: left out: {}: the mesh has no node there\n", node.name);
   }
 }
 

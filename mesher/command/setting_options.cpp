@@ -59,7 +59,9 @@ void add_setting(CLI::App& command, const Setting& setting, GivenSettings& targe
 /// Whether an argument is a value of a list, by its form: it may be a file too.
 bool is_value_of(const Setting& setting, const std::string& argument) {
   static const std::regex names("Face[0-9]+(,Face[0-9]+)*");
-  static const std::regex entries("((Face|Edge|Vertex)[0-9]+=|(box|sphere|cylinder|halfspace):).*");
+  static const std::regex entries(
+      "((Face|Edge|Vertex)[0-9]+=|(box|sphere|cylinder|halfspace):).*|([A-Za-z][A-Za-z0-9_-]*=)?[-+0-9.eE]+"
+      "(,[-+0-9.eE]+){2}");
   const std::string_view kind = setting.kind();
   if (kind == "names") return std::regex_match(argument, names);
   if (kind == "sizes" || kind == "entries") return std::regex_match(argument, entries);

@@ -139,7 +139,8 @@ class HarmFinder {
 
 }  // namespace
 
-LetGo::LetGo(const CadShape& shape, const FaceFlags& used, double reach, const EdgeFlags& fine)
+LetGo::LetGo(const CadShape& shape, const FaceFlags& used, double reach, const EdgeFlags& wanted_fine,
+             const std::vector<VertexId>& held)
     : shape_(shape),
       used_(used),
       reach_(reach),
@@ -147,6 +148,8 @@ LetGo::LetGo(const CadShape& shape, const FaceFlags& used, double reach, const E
       edges_(shape.edges.size()),
       kept_faces_(shape.faces.size()) {
   if (!(reach > 0)) return;
+  EdgeFlags fine = wanted_fine;
+  hold(held, fine);
   for (const FaceId face : kept_faces_.ids()) {
     const auto& wires = shape.faces[face].wires;
     kept_faces_[face] = std::all_of(wires.begin(), wires.end(), [&](const CadWire& wire) {
@@ -156,6 +159,23 @@ LetGo::LetGo(const CadShape& shape, const FaceFlags& used, double reach, const E
   }
   choose(fine);
   while (keep_harmed()) {
+  }
+}
+
+/// Keeps the edges that end at the vertices, and the faces that would become edges there.
+void LetGo::hold(const std::vector<VertexId>& held, EdgeFlags& fine) {
+  EdgeFlags ends(shape_.edges.size());
+  for (const EdgeId id : ends.ids()) {
+    const CadEdge& edge = shape_.edges[id];
+    ends[id] = std::any_of(held.begin(), held.end(), [&](VertexId vertex) {
+      return edge.first_vertex == vertex || edge.last_vertex == vertex;
+    });
+    fine[id] |= ends[id];
+  }
+  for (const Sliver& sliver : slivers_) {
+    for (const CadWire& wire : shape_.faces[sliver.face].wires)
+      for (const Coedge& coedge : wire.coedges)
+        if (ends[coedge.edge]) keep_face(sliver.face, "a node is placed at its boundary");
   }
 }
 

@@ -17,7 +17,10 @@ class LetGo {
  public:
   /// \param used 1 = the face is meshed. \param reach model units; 0 = nothing is let go.
   /// \param fine 1 = must not become a point; nor does a face become an edge if all its edges are so.
-  LetGo(const CadShape& shape, const FaceFlags& used, double reach, const EdgeFlags& fine);
+  /// \param held vertices that share their nodes with no other: edges that end there and faces around them
+  /// stay.
+  LetGo(const CadShape& shape, const FaceFlags& used, double reach, const EdgeFlags& fine,
+        const std::vector<VertexId>& held = {});
 
   /// What is left out of the mesh if edges() become points; see find_tiny_features().
   TinyFeatures find(double length) const;
@@ -35,6 +38,7 @@ class LetGo {
   const std::map<FaceId, std::string>& kept_faces() const { return reasons_; }
 
  private:
+  void hold(const std::vector<VertexId>& held, EdgeFlags& fine);
   void choose(const EdgeFlags& fine);
   bool keep_harmed();
   void keep_face(FaceId face, const std::string& why);

@@ -3,8 +3,6 @@
 
 #include "mesher/edges/slivers.hpp"
 
-#include <GCPnts_AbscissaPoint.hxx>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +12,7 @@
 #include "geometry/base/nearest_on_segment.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
+#include "mesher/edges/edge_division.hpp"
 #include "mesher/edges/tiny_features.hpp"
 
 namespace quadrille {
@@ -340,66 +339,25 @@ class SliverFinder {
   std::vector<LongEdge> edges_;  // of the face that is looked at
 };
 
-/// Divides edges of a copy of a shape.
-class Divider {
- public:
-  explicit Divider(const CadShape& shape) : shape_(std::make_shared<CadShape>(shape)) {}
-
-  void divide(std::vector<Cut> cuts, double nearest) {
-    std::stable_sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
-      return a.edge != b.edge ? a.edge < b.edge : a.parameter < b.parameter;
-    });
-    for (std::size_t i = 0; i < cuts.size();) {
-      std::vector<Cut> of_edge;
-      const EdgeId edge = cuts[i].edge;
-      for (; i < cuts.size() && cuts[i].edge == edge; ++i) {
-        if (of_edge.empty() || (cuts[i].point - of_edge.back().point).norm() > nearest)
-          of_edge.push_back(cuts[i]);
-      }
-      divide(edge, of_edge);
+/// A copy of the shape with edges divided. Of cuts no farther apart than `nearest`, the first counts.
+std::shared_ptr<const CadShape> divided(const CadShape& shape, std::vector<Cut> cuts, double nearest) {
+  auto result = std::make_shared<CadShape>(shape);
+  std::stable_sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
+    return a.edge != b.edge ? a.edge < b.edge : a.parameter < b.parameter;
+  });
+  for (std::size_t i = 0; i < cuts.size();) {
+    std::vector<double> parameters;
+    Vector3 last = Vector3::Zero();
+    const EdgeId edge = cuts[i].edge;
+    for (; i < cuts.size() && cuts[i].edge == edge; ++i) {
+      if (!parameters.empty() && (cuts[i].point - last).norm() <= nearest) continue;
+      parameters.push_back(cuts[i].parameter);
+      last = cuts[i].point;
     }
+    divide_edge(*result, edge, parameters);
   }
-
-  std::shared_ptr<const CadShape> result() const { return shape_; }
-
- private:
-  void divide(EdgeId id, const std::vector<Cut>& cuts) {
-    std::vector<EdgeId> pieces{id};
-    for (const Cut& cut : cuts) {
-      CadEdge rest = shape_->edges[pieces.back()];
-      const EdgeCurve curve(rest);
-      const VertexId vertex = shape_->vertices.push_back(curve.point(cut.parameter));
-      shape_->vertex_tolerances.push_back(rest.tolerance);
-      CadEdge& before = shape_->edges[pieces.back()];
-      before.last = rest.first = cut.parameter;
-      before.last_vertex = rest.first_vertex = vertex;
-      measure(before);
-      measure(rest);
-      pieces.push_back(shape_->edges.push_back(rest));
-    }
-    for (CadFace& face : shape_->faces) {
-      for (CadWire& wire : face.wires) replace(wire, id, pieces);
-    }
-  }
-
-  static void measure(CadEdge& edge) {
-    edge.length = GCPnts_AbscissaPoint::Length(BRepAdaptor_Curve(edge.edge), edge.first, edge.last);
-  }
-
-  static void replace(CadWire& wire, EdgeId id, const std::vector<EdgeId>& pieces) {
-    for (std::size_t i = 0; i < wire.coedges.size(); ++i) {
-      if (wire.coedges[i].edge != id) continue;
-      std::vector<Coedge> parts(pieces.size(), wire.coedges[i]);
-      for (std::size_t k = 0; k < pieces.size(); ++k) parts[k].edge = pieces[k];
-      if (!parts.front().forward) std::reverse(parts.begin(), parts.end());
-      wire.coedges.erase(wire.coedges.begin() + static_cast<long>(i));
-      wire.coedges.insert(wire.coedges.begin() + static_cast<long>(i), parts.begin(), parts.end());
-      i += pieces.size() - 1;
-    }
-  }
-
-  std::shared_ptr<CadShape> shape_;
-};
+  return result;
+}
 
 }  // namespace
 
@@ -431,9 +389,7 @@ std::shared_ptr<const CadShape> divided_at_slivers(const CadShape& shape, const 
       all.insert(all.end(), cuts.begin(), cuts.end());
     }
     if (all.empty()) break;
-    Divider divider(now);
-    divider.divide(std::move(all), width);
-    result = divider.result();
+    result = divided(now, std::move(all), width);
   }
   return result;
 }

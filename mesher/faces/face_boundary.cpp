@@ -44,7 +44,7 @@ class BoundaryWalker {
     join_touching();
     for (const InnerVertex& inner : face_.inner_vertices) {
       const int node = nodes_.vertex_nodes[inner.vertex];
-      add_point(surface_.is_view() ? surface_.seen_at(nodes_.points[node]) : inner.uv, node);
+      add_point(surface_.is_view() ? surface_.seen_at(nodes_.points[node]) : enclosed(inner.uv), node);
     }
     return std::move(boundary_);
   }
@@ -63,6 +63,24 @@ class BoundaryWalker {
     boundary_.nodes.push_back(node);
     boundary_.angles.push_back(0);
     return boundary_.size() - 1;
+  }
+
+  /// A place inside the face, moved by whole periods into what the wires enclose.
+  Vector2 enclosed(const Vector2& uv) const {
+    const TrimmedDomain domain = enclosed_domain(boundary_);
+    const Vector2 middle = 0.5 * (domain.low() + domain.high());
+    for (const int i : {0, -1, 1}) {
+      for (const int k : {0, -1, 1}) {
+        if ((i != 0 && !surface_.u_periodic()) || (k != 0 && !surface_.v_periodic())) continue;
+        Vector2 moved = uv;
+        if (surface_.u_periodic())
+          moved.x() += surface_.u_period() * (i + std::round((middle.x() - uv.x()) / surface_.u_period()));
+        if (surface_.v_periodic())
+          moved.y() += surface_.v_period() * (k + std::round((middle.y() - uv.y()) / surface_.v_period()));
+        if (domain.inside(moved)) return moved;
+      }
+    }
+    return uv;
   }
 
   /// First gives each coedge its own end points, then joins consecutive coedges.

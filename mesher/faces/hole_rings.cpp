@@ -27,12 +27,12 @@ double distance(const Vector3& p, const Vector3& a, const Vector3& b) {
   return (a + nearest_share(a, b, p) * (b - a) - p).norm();
 }
 
-/// The segments of all loops, sorted along an axis.
+/// The segments of all loops, and the vertices inside the face, sorted along an axis.
 class Segments {
  public:
   struct Segment {
     Vector3 a, b;
-    int loop;
+    int loop;  // -1: a vertex inside the face
   };
 
   explicit Segments(std::vector<Segment> segments) : segments_(std::move(segments)) {
@@ -144,6 +144,10 @@ class RingPlacer {
       for (std::size_t k = 0; k < nodes.size(); ++k)
         segments.push_back({nodes[k].point, nodes[(k + 1) % nodes.size()].point, static_cast<int>(i)});
     }
+    std::vector<char> on_loop(boundary_.points.size(), 0);
+    for (const auto& segment : boundary_.segments) on_loop[segment.a] = on_loop[segment.b] = 1;
+    for (std::size_t i = 0; i < on_loop.size(); ++i)
+      if (!on_loop[i]) segments.push_back({boundary_.points[i], boundary_.points[i], -1});
     return segments;
   }
 
@@ -185,7 +189,7 @@ class RingPlacer {
         if (own &&
             (0.5 * (other.a + other.b) - p).dot(outward) < 0.5 * (0.5 * (other.a + other.b) - p).norm())
           return;
-        const bool ringed = is_hole(loops_[other.loop]);
+        const bool ringed = other.loop >= 0 && is_hole(loops_[other.loop]);
         widths[i] =
             std::min(widths[i], distance(p, other.a, other.b) / ((ringed ? 2 : 1) * count + rows_beside));
       });

@@ -47,12 +47,12 @@ PhysicalNumbers::PhysicalNumbers(const OutputMesh& mesh, bool several) {
     for (const NamedGroup& group : mesh.groups(dimension)) last = std::max(last, group.number);
   for (const int dimension : {2, 1, 0}) {
     for (const NamedGroup& group : mesh.groups(dimension)) {
-      if (group.of_solid && !several) {
+      if (group.is_extra && !several) {
         numbers_[dimension].push_back(0);
         continue;
       }
       int number = group.number;
-      if (!mesh.groups_were_read() && !group.of_solid) number = first[dimension] + group.entities.front();
+      if (!mesh.groups_were_read() && !group.is_extra) number = first[dimension] + group.entities.front();
       if (number == 0) number = ++last;
       numbers_[dimension].push_back(number);
       for (const int entity : group.entities) of_entities_[dimension][entity].push_back(number);

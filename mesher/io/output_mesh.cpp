@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "geometry/base/error.hpp"
 
@@ -61,9 +62,15 @@ void OutputMesh::name_groups(int dimension) {
   if (!wanted[dimension]) return;
   std::vector<NamedGroup>& named = named_[dimension];
   if (!groups_were_read()) {
+    std::set<int> added;  // placed nodes' vertices, which are none of the model's
+    for (const ShellMesh::PlacedNode& node : mesh_.placed_nodes)
+      if (dimension == 0 && node.added) added.insert(node.vertex);
     for (const CadGroup& entity : entities(dimension))
-      if (entity.number > 0)
+      if (entity.number > 0 && !added.contains(entity.number))
         named.push_back({kind_names[dimension] + std::to_string(entity.number), true, 0, {entity.number}});
+    for (const ShellMesh::PlacedNode& node : mesh_.placed_nodes)
+      if (dimension == 0 && node.vertex > 0)
+        named.push_back({node.name, true, 0, {node.vertex}, added.erase(node.vertex) == 0});
     for (const ShellMesh::Group& group : mesh_.solid_faces)
       if (group.dimension == dimension) named.push_back({group.name, true, 0, group.entities, true});
     return;

@@ -33,7 +33,7 @@ struct NamedGroup {
   bool has_name = true;       ///< false: the name is made from the number, PhysicalSurface7
   int number = 0;             ///< number in the file that was read; 0 = none
   std::vector<int> entities;  ///< CAD numbers, ascending
-  bool of_solid = false;      ///< part of the middle surface that belongs to one face of the solid
+  bool is_extra = false;      ///< its entities have groups of their own too
 };
 
 /// The faces with the same thickness, or the same range of thicknesses, to the digits in the name.

@@ -118,6 +118,22 @@ json suppressed_to_json(const ShellMesh& mesh) {
   return edges;
 }
 
+/// The nodes of --node: name and place; none for those that are left out.
+json placed_to_json(const ShellMesh& mesh) {
+  json result = json::array();
+  for (const ShellMesh::PlacedNode& node : mesh.placed_nodes) {
+    const auto corner = std::find_if(mesh.corners.begin(), mesh.corners.end(),
+                                     [&](const auto& other) { return other.vertex == node.vertex; });
+    json at;
+    if (corner != mesh.corners.end()) {
+      const Vector3& p = mesh.points[corner->node];
+      at = {p.x(), p.y(), p.z()};
+    }
+    result.push_back({{"name", node.name}, {"at", at}});
+  }
+  return result;
+}
+
 json let_go_to_json(const ShellMesh& mesh) {
   const auto name = [](ShellMesh::LetGo::Kind kind, int number) {
     return (kind == ShellMesh::LetGo::Kind::edge ? "Edge" : "Vertex") + std::to_string(number);
@@ -191,6 +207,7 @@ json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const Exec
           {"kept", kept_to_json(mesh)},
           {"filled_holes", filled_holes_to_json(mesh)},
           {"suppressed_edges", suppressed_to_json(mesh)},
+          {"placed_nodes", placed_to_json(mesh)},
           {"short_sides", short_sides_to_json(mesh)},
           {"warnings", warnings},
           {"versions",

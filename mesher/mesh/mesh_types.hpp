@@ -144,6 +144,13 @@ struct ShellMesh {
     std::vector<int> entities;  ///< the faces, edges or vertices in the group, ascending
   };
 
+  /// A node at a place that the user chose.
+  struct PlacedNode {
+    std::string name;    ///< of its group
+    int vertex = 0;      ///< its corner's vertex; 0 = not in the mesh, since its faces were left out
+    bool added = false;  ///< the vertex is none of the CAD model's: its number follows theirs
+  };
+
   /// The thickness of the shell on a CAD face where it varies over the face.
   struct VaryingThickness {
     int face = 0;                     ///< CAD face, from 1
@@ -163,7 +170,8 @@ struct ShellMesh {
   std::vector<std::array<int, 3>> triangles;  ///< empty except in meshes read from files of other programs
   std::vector<int> triangle_faces;            ///< CAD face of each triangle, from 1
   std::vector<Segment> segments;              ///< the sides on CAD edges, each once
-  std::vector<Corner> corners;                ///< the nodes on CAD vertices
+  std::vector<Corner> corners;                ///< the nodes on CAD vertices and those of placed_nodes
+  std::vector<PlacedNode> placed_nodes;       ///< in the order in which they were asked for
   std::vector<OffGeometry> off_geometry;      ///< ascending by node; usually empty
   std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; for faces see Face::status
   std::vector<Kept> kept;                     ///< faces, then edges, ascending

@@ -108,6 +108,21 @@ class AdaptTest(unittest.TestCase):
         near = sum((point - Vector(20, 20, 0)).Length < 4 for point in nodes.values())
         self.assertGreater(near, len(nodes) / 16)
 
+    def test_a_singular_corner_is_told(self):
+        """When the error is small enough: until then, all stresses change."""
+        mesh, analysis = self.plate()
+        for _ in range(6):
+            self.solve(analysis)
+            found = adaption.adapt(mesh, error=0.05)
+            if found.met:
+                break
+            self.assertEqual(found.warnings, [])
+        self.assertTrue(found.met)
+        corner = [warning for warning in found.warnings if "(20, 20, 0)" in warning]
+        self.assertEqual(len(corner), 1, found.warnings)
+        self.assertIn("singular", corner[0])
+        self.assertEqual(found.quads_wanted, found.quads)
+
     def test_bending_counts(self):
         """A cantilever: without its bending there would be no error at all."""
         mesh, analysis = self.plate(outline=((0, 0), (40, 0), (40, 10), (0, 10), (0, 0)), size=5, across=True)

@@ -63,6 +63,18 @@ class PackageTest(unittest.TestCase):
                 deck = (Path(folder) / "thin.inp").read_text()
                 self.assertEqual(("*SHELL SECTION" in deck, "ELSET=SolidFace" in deck), (sections, sections))
 
+    def test_nodes_at_places(self):
+        model = quadrille.read(MODELS / "plate_with_holes.brep")
+        tip = (29.875, 70.0, 0.0)
+        for given, name in (({"Tip": tip}, "Tip"), ([tip], "Node1"), (["29.875,70,0"], "Node1"), ({"Tip": np.array(tip)}, "Tip")):
+            mesh = pickle.loads(pickle.dumps(quadrille.mesh(model, size=5, nodes_at=given)))
+            self.assertLess(np.linalg.norm(mesh.points - tip, axis=1).min(), 1e-9)
+            with tempfile.TemporaryDirectory() as folder:
+                mesh.write(Path(folder) / "mesh.inp")
+                self.assertIn(f"*NSET, NSET={name}\n", (Path(folder) / "mesh.inp").read_text())
+        with self.assertRaisesRegex(quadrille.Error, "nodes_at Node1 at .* lies 3 mm from Face1"):
+            quadrille.mesh(model, size=5, nodes_at=[(29.875, 60, 3)])
+
     def test_signals_are_heard_while_it_works(self):
         """Ctrl-C is one; before, it waited for the end."""
         heard = []

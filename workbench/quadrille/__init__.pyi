@@ -11,6 +11,7 @@ __version__: str
 
 _Path = Union[str, PathLike[str]]
 _Entries = Union[Sequence[str], Mapping[str, Union[float, Sequence[float]]]]  # ["Edge4=20"] or {"Edge4": 20}
+_Nodes = Union[Sequence[Union[str, Sequence[float]]], Mapping[str, Sequence[float]]]  # [(1, 2, 3)] or {"Tip": (1, 2, 3)}
 _Progress = Callable[[str, float], Optional[bool]]
 _Limits = Union[str, PathLike[str], None]
 
@@ -134,6 +135,7 @@ def mesh(
     fill_holes: Optional[float] = None,
     keep_features: Optional[bool] = None,
     keep: Optional[_Entries] = None,
+    nodes_at: Optional[_Nodes] = None,
     force: Optional[bool] = None,
     time_limit: Optional[float] = None,
     threads: Optional[int] = None,

@@ -507,6 +507,18 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <source>Edges and faces that force sides under half the minimum size: {}</source>
         <translation>Kanten und Flächen, die Seiten unter der Hälfte der kleinsten Größe erzwingen: {}</translation>
     </message>
+    <message>
+        <source>Nodes at selected points</source>
+        <translation>Knoten an gewählten Punkten</translation>
+    </message>
+    <message>
+        <source>Put a node, with a group of its own, at each selected vertex or point object</source>
+        <translation>Setzt an jede gewählte Ecke und jedes gewählte Punktobjekt einen Knoten mit eigener Gruppe</translation>
+    </message>
+    <message>
+        <source>Select vertices or points in the 3-D view or the tree first.</source>
+        <translation>Wählen Sie zuerst Ecken oder Punkte in der 3D-Ansicht oder im Baum.</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>
@@ -777,6 +789,10 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>half the minimum size</source>
         <translation>die Hälfte der kleinsten Größe</translation>
+    </message>
+    <message>
+        <source>A place on a face, edge or vertex that gets a node and a group of that node, x,y,z or Name=x,y,z in mm; without a name the groups are Node1, Node2, ...; empty = none</source>
+        <translation>Ein Ort auf einer Fläche, Kante oder Ecke, der einen Knoten und eine Gruppe mit diesem Knoten bekommt, x,y,z oder Name=x,y,z in mm; ohne Namen heißen die Gruppen Node1, Node2, ...; leer = keiner</translation>
     </message>
 </context>
 <context>

@@ -501,11 +501,23 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>Smooth edges that quads cross, and that get no group: {}; Keep names edges that stay</source>
-        <translation>Arêtes lisses que des quadrangles traversent et qui n&apos;ont pas de groupe : {} ; Keep nomme celles qui restent</translation>
+        <translation>Arêtes lisses que des quadrangles traversent et qui n'ont pas de groupe : {} ; Keep nomme celles qui restent</translation>
     </message>
     <message>
         <source>Edges and faces that force sides under half the minimum size: {}</source>
         <translation>Arêtes et faces qui imposent des côtés de moins de la moitié de la taille minimale : {}</translation>
+    </message>
+    <message>
+        <source>Nodes at selected points</source>
+        <translation>Nœuds aux points sélectionnés</translation>
+    </message>
+    <message>
+        <source>Put a node, with a group of its own, at each selected vertex or point object</source>
+        <translation>Place un nœud, avec son propre groupe, à chaque sommet ou objet point sélectionné</translation>
+    </message>
+    <message>
+        <source>Select vertices or points in the 3-D view or the tree first.</source>
+        <translation>Sélectionnez d'abord des sommets ou des points dans la vue 3D ou dans l'arborescence.</translation>
     </message>
 </context>
 <context>
@@ -777,6 +789,10 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>half the minimum size</source>
         <translation>la moitié de la taille minimale</translation>
+    </message>
+    <message>
+        <source>A place on a face, edge or vertex that gets a node and a group of that node, x,y,z or Name=x,y,z in mm; without a name the groups are Node1, Node2, ...; empty = none</source>
+        <translation>Un endroit sur une face, une arête ou un sommet qui reçoit un nœud et un groupe de ce nœud, x,y,z ou Nom=x,y,z en mm ; sans nom, les groupes s'appellent Node1, Node2, ... ; vide = aucun</translation>
     </message>
 </context>
 <context>

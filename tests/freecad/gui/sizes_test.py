@@ -154,6 +154,31 @@ class SizesTest(GuiCase):
                   if fem_mesh.getGroupElementType(i) == "Edge"}
         self.assertEqual((counts["Edge2"], counts["Edge4"]), (13, 13))
 
+    def test_nodes_at_selected_points(self):
+        box = self.box()
+        point = self.document.addObject("Part::Vertex", "Load")
+        size = box.Shape.BoundBox
+        point.X, point.Y, point.Z = size.XMin + 3.3, size.YMin + 4.1, size.ZMax
+        self.document.recompute()
+        mesh = self.open_panel(box)
+        find("QuadrilleSize").setProperty("rawValue", 2.0)
+        with Boxes() as boxes:
+            find("QuadrillePlace").click()  # nothing is selected
+        self.assertIn("Select vertices or points", boxes.texts[0])
+        FreeCADGui.Selection.addSelection(self.document.Name, box.Name, "Vertex2")
+        FreeCADGui.Selection.addSelection(self.document.Name, point.Name)
+        find("QuadrillePlace").click()
+        with Boxes() as boxes:
+            self.press_mesh()
+        self.assertEqual(boxes.texts, [])
+        close_panel()
+        self.assertEqual([entry.split("=")[0] for entry in mesh.NodesAt], ["Node1", "Load"])
+        fem_mesh = mesh.FemMesh
+        groups = {fem_mesh.getGroupName(i): fem_mesh.getGroupElements(i) for i in fem_mesh.Groups}
+        for name, wanted in (("Node1", box.Shape.getElement("Vertex2").Point), ("Load", point.Shape.Vertexes[0].Point)):
+            node, = groups[name]
+            self.assertLess((fem_mesh.getNodeById(node) - wanted).Length, 1e-9)
+
     def test_errors_are_a_sentence(self):
         self.open_and_show(self.box())
         type_into("QuadrilleSize", "5 kg")

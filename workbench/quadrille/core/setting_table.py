@@ -65,10 +65,18 @@ def face_name(face: Union[int, str, SupportsIndex]) -> str:
 
 
 def entry_texts(value: Any) -> List[str]:
-    """Entries as texts for the command. They are given as texts, or as a dict that maps names to one or more numbers."""
-    if not isinstance(value, dict):
-        return list(value)
-    return [f"{name}={','.join(map(str, own)) if isinstance(own, (list, tuple)) else own}" for name, own in value.items()]
+    """Entries as texts for the command. They are given as texts or sequences of numbers, or as a dict that maps names to one or
+    more numbers."""
+    if isinstance(value, dict):
+        return [f"{name}={_joined(own)}" for name, own in value.items()]
+    return [_joined(entry) for entry in value]
+
+
+def _joined(entry: Any) -> str:
+    """One number or text, or several numbers, as the command takes them."""
+    if isinstance(entry, str) or not hasattr(entry, "__iter__"):
+        return str(entry)
+    return ",".join(str(float(number)) if isinstance(number, float) else str(number) for number in entry)
 
 
 def _text(kind: str, value: Any) -> str:

@@ -8,7 +8,7 @@ is the part. So a Body stays the part when features are added to it. A container
 if nothing inside was picked. A pick on a mesh stands for what the mesh has there, see on_mesh()."""
 
 import re
-from typing import Iterable, List, Sequence, Tuple
+from typing import Dict, Iterable, List, Sequence, Tuple
 
 import FreeCAD
 import numpy as np
@@ -69,6 +69,36 @@ def elements_of(part, picks: Iterable[Pick]) -> List[str]:
         if name not in names:
             names.append(name)
     return names
+
+
+def points_of(part, picks: Iterable[Pick]) -> Dict[str, Tuple[float, float, float]]:
+    """The places of picked vertices, of the part or of other objects, and of picked objects that are points, such as Part's points
+    and datum points, in the coordinates of the part's shape. By name: that of the point object, else Node1, Node2, ..."""
+    found: Dict[str, Tuple[float, float, float]] = {}
+    for pick in picks:
+        obj, element = along(pick)[-1], pick[1].split(".")[-1]
+        shape = getattr(obj, "Shape", None)
+        if part in along(pick) or _is_mesh_of(part, obj):
+            names = [name for name in elements_of(part, [pick]) if name.startswith("Vertex")]
+            points = [part.Shape.getElement(name).Point for name in names]
+        elif element.startswith("Vertex"):
+            points = [_moved(shape.getElement(element).Point, obj, part)]
+        else:
+            points = [_moved(vertex.Point, obj, part) for vertex in getattr(shape, "Vertexes", ())]
+            if len(points) != 1 or shape.Edges:
+                continue
+        for point in points:
+            number = next(number for number in range(1, len(found) + 2) if f"Node{number}" not in found)
+            found[f"Node{number}" if element or part in along(pick) else obj.Name] = tuple(point)
+    return found
+
+
+def _moved(point, obj, part):
+    """A point of an object's shape in the coordinates of the part's shape, which may lie in another container."""
+    def placed(of):
+        container = of.getParentGeoFeatureGroup()
+        return container.getGlobalPlacement() if container is not None else FreeCAD.Placement()
+    return placed(part).inverse().multVec(placed(obj).multVec(point))
 
 
 def references_on(part, picks: Sequence[Pick]) -> List[Tuple]:

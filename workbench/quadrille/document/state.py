@@ -20,6 +20,8 @@ SURFACE_TYPE = "Fem::FemMeshQuadrilleSurface"
 #: Two properties for sizes that follow results, see adaption.py: the file with the sizes, which the document stores, and
 #: whether to use it. The second is needed since FreeCAD cannot empty the first.
 ADAPTED, FOLLOWS = "AdaptedSizes", "FollowResults"
+#: Property with the peaks of stress on the mesh that was adapted last, as the command reports them.
+PEAKS = "StressPeaks"
 
 # The values of the property Status.
 UP_TO_DATE = "up to date"

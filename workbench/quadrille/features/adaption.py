@@ -8,6 +8,7 @@ adapt() takes the result in the mesh's analysis and puts a new mesh into the sam
 materials refer to the part, so they stay valid. Then solve again. The solver must give results at the surfaces of the shell (its
 property BeamShellResultOutput3D). Runs inside FreeCAD."""
 
+import json
 import os
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
@@ -33,6 +34,9 @@ class Estimate(NamedTuple):
     quads_wanted: float  #: approximate number of quads in the next mesh
     size_min: float  #: smallest size in the next mesh, mm
     size_max: float  #: largest size in the next mesh, mm
+    met: bool  #: the error is not above the wanted one; the other values are then those of the present mesh
+    warnings: List[str]  #: if it is met: where a peak of stress has changed since the mesh before, under the same loads
+    peaks: List[Dict[str, Any]]  #: places and sizes of the highest stresses, as the command reports them
 
 
 class _Round(NamedTuple):
@@ -72,6 +76,8 @@ def adapt(mesh, error: float = 0.05, count: Optional[float] = None, result=None,
         if done.job is None:
             FreeCAD.Console.PrintMessage(f"{mesh.Label}: the estimated error is {100 * done.estimate.error:.3g} %, below the "
                                          "target: the mesh stays\n")
+            for warning in done.estimate.warnings:
+                FreeCAD.Console.PrintWarning(f"{mesh.Label}: {warning}\n")
             return done.estimate
         for name, value in done.properties.items():
             setattr(mesh, name, value)
@@ -108,11 +114,11 @@ def _prepare(mesh, error, count, result, progress, command) -> _Round:
         present, sizes = state.wanted_of(mesh), os.path.join(folder.name, _SIZES)
         new = {"Size": found.size_max, "SizeMin": found.size_min, ADAPTED: sizes, FOLLOWS: True}
         wanted = present._replace(values={**present.values, **new})
-        if count is None and found.error <= error:
+        if count is None and found.met:
             return _Round(found, folder, new, None)
         job = core.start(mesh, command, wanted=wanted)
         job.wait(progress)
-        return _Round(found, folder, new, job)
+        return _Round(found, folder, {**new, state.PEAKS: json.dumps({"peaks": found.peaks})}, job)
     except BaseException:
         folder.cleanup()
         raise
@@ -129,6 +135,11 @@ def _estimate(mesh, result, aim: List[str], folder: str, progress: Optional[Prog
     result = result or last_result(mesh, analysis)
     _write_bricks(displaced, _bricks_of(result, analysis))
     _write_shells(solved, mesh.FemMesh)
+    before = getattr(mesh, state.PEAKS, "")
+    if before:
+        aim = [*aim, "--before", os.path.join(folder, "before.json")]
+        with open(aim[-1], "w", encoding="utf-8") as file:
+            file.write(before)
     job = CommandJob(["adapt", solved, displaced, "-o", sizes, *aim, "--poisson", repr(_poisson(analysis)),
                       "--growth", repr(mesh.Growth)], find_mesher(command))
     try:
@@ -136,7 +147,7 @@ def _estimate(mesh, result, aim: List[str], folder: str, progress: Optional[Prog
     except Error as error:
         sentence = in_own_words(str(error)).replace(displaced, result.Label).replace(solved, mesh.Label)
         raise Error(sentence, error.kind, result.Name) from error
-    return Estimate(told["error"], told["quads"], told["quads_wanted"], told["size_min"], told["size_max"])
+    return Estimate(**{name: told[name] for name in Estimate._fields})
 
 
 def last_result(mesh, analysis):

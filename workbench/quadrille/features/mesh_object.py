@@ -305,6 +305,7 @@ class MeshFeature:
             (links.PROPERTY, "FlippedFaces", "Mesh", "Faces whose shell normals are turned over"),
             ("App::PropertyBool", state.FOLLOWS, "Mesh", "Sizes follow results, as the last round of adapting found them"),
             ("App::PropertyFileIncluded", state.ADAPTED, "Hidden", "Sizes of the last round of adapting"),
+            ("App::PropertyString", state.PEAKS, "Hidden", "Peaks of stress on the mesh before the last round of adapting"),
             ("App::PropertyLinkList", "MeshRegionList", "Mesh", "FEM mesh regions: sizes on faces, edges, vertices"),
             ("App::PropertyLinkList", "MeshGroupList", "Mesh", "FEM mesh groups to make"),
             *RESULT_PROPERTIES,

@@ -391,6 +391,7 @@ class AdaptCommand(_Command):
         if mesh.MeshToken == token:
             self._word = translate("Quadrille", "{}: the estimated error is {} %, below the target: the mesh stays.").format(
                 mesh.Label, error)
+            self._word = "\n\n".join((self._word, *estimate.warnings))
         else:
             self._word = translate("Quadrille", "{}: the estimated error was {} %; now there are {} quads: solve again.").format(
                 mesh.Label, error, mesh.QuadCount)

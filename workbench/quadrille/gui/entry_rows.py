@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The part of the panel with sizes that are entries in list properties: sizes in space, layers, numbers of segments and their
-bias. Each row shows where an entry applies, and its numbers, which are edited in place. Numbers of segments on edges are added
-here, other new entries in the property editor."""
+bias, places of nodes. Each row shows where an entry applies, and its numbers, which are edited in place. Numbers of segments on
+edges and places of nodes are added here, other new entries in the property editor."""
 
 from typing import Any, Callable, Dict, List, NamedTuple, Sequence
 
@@ -22,7 +22,7 @@ class _Row(NamedTuple):
     """One entry as it is shown."""
 
     property: str
-    place: str  #: the text before the equals sign; empty for NAMES
+    place: str  #: the text before the equals sign; empty for NAMES and for nodes without a name
     box: Any  #: the field with the text after it, or with the names
 
     def entries(self) -> List[str]:
@@ -30,16 +30,21 @@ class _Row(NamedTuple):
         text = self.box.text().strip()
         if self.property == NAMES:
             return [name.strip() for name in text.split(",") if name.strip()]
-        return [f"{self.place}={text}"]
+        return [f"{self.place}={text}" if self.place else text]
 
 
 class EntryRows(RowList):
     """A row for each entry."""
 
-    def __init__(self, divide: Callable[[], None], changed: Callable[[], None]) -> None:
-        """divide: called to add numbers for the selected edges, with add()."""
+    def __init__(self, divide: Callable[[], None], place: Callable[[], None], changed: Callable[[], None]) -> None:
+        """divide, place: called to add numbers for the selected edges, and nodes at the selected points, with add()."""
         super().__init__(translate("Quadrille", "Divide selected edges"),
                          translate("Quadrille", "Set the number of elements on the selected edges"), "QuadrilleDivide", divide, changed)
+        self.place = QtGui.QPushButton(translate("Quadrille", "Nodes at selected points"))
+        self.place.setObjectName("QuadrillePlace")
+        self.place.setToolTip(translate("Quadrille", "Put a node, with a group of its own, at each selected vertex or point object"))
+        self.place.clicked.connect(lambda *_: place())
+        self.layout().addWidget(self.place)
 
     def values(self) -> Dict[str, List[str]]:
         """The entries shown, by property. Raises Error if one has no number."""

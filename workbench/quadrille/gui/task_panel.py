@@ -98,7 +98,7 @@ class MeshPanel:
         self.refinements_error, self.entries_error = FieldError("Refinements"), FieldError("Entries")
         self.follows = QtGui.QCheckBox(translate("Quadrille", "Follow results"))
         self.follows.setObjectName("QuadrilleFollows")
-        self.entries = EntryRows(self._divide_selection, lambda: self._changed(*ENTRIES))
+        self.entries = EntryRows(self._divide_selection, self._place_nodes, lambda: self._changed(*ENTRIES))
         self.preview = SizePreview(self.mesh, self._wanted, self._show_count)
         self.mesh_button = _button("QuadrilleMesh", translate("Quadrille", "Mesh"), "")
         self.mesh_button.setIcon(drawn_icon("quadrille_mesh"))
@@ -376,6 +376,23 @@ class MeshPanel:
         if usual is not None:
             shape = self.mesh.Shape.Shape
             self.entries.add("Segments", {name: f"{max(1, round(shape.getElement(name).Length / usual))}" for name in names})
+
+    def _place_nodes(self) -> None:
+        part = state.part_of(self.mesh)
+        try:
+            points = picks.points_of(part, mesh_clicks.picked(self.mesh.Document))
+        except Error as error:
+            tell(str(error))
+            return
+        if not points:
+            tell(translate("Quadrille", "Select vertices or points in the 3-D view or the tree first."))
+            return
+        taken = {entry.split("=")[0] for entry in self.entries.values()["NodesAt"]}
+        named: Dict[str, str] = {}
+        for name, point in points.items():
+            free = name if name not in taken else next(f"Node{k}" for k in range(1, 10 ** 6) if f"Node{k}" not in {*taken, *points, *named})
+            named[free] = ",".join(f"{value:.15g}" for value in point)
+        self.entries.add("NodesAt", named)
 
     def _usual_size(self) -> float:
         """The size where no other is asked for. Raises Error if it cannot be read."""
