@@ -500,10 +500,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Kürzeste Seite</translation>
     </message>
     <message>
-        <source>Smooth edges that quads cross, and that get no group: {}; Keep names edges that stay</source>
-        <translation>Glatte Kanten, die Vierecke überqueren und die keine Gruppe bekommen: {}; Keep nennt Kanten, die bleiben</translation>
-    </message>
-    <message>
         <source>Edges and faces that force sides under half the minimum size: {}</source>
         <translation>Kanten und Flächen, die Seiten unter der Hälfte der kleinsten Größe erzwingen: {}</translation>
     </message>
@@ -518,6 +514,30 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>Select vertices or points in the 3-D view or the tree first.</source>
         <translation>Wählen Sie zuerst Ecken oder Punkte in der 3D-Ansicht oder im Baum.</translation>
+    </message>
+    <message>
+        <source>Refine here</source>
+        <translation>Hier verfeinern</translation>
+    </message>
+    <message>
+        <source>Half the size of the element, on its whole face</source>
+        <translation>Halbe Größe des Elements, auf seiner ganzen Fläche</translation>
+    </message>
+    <message>
+        <source>Element {} on {}: q {}, aspect {}, angles {} to {} degrees</source>
+        <translation>Element {} auf {}: q {}, Seitenverhältnis {}, Winkel {} bis {} Grad</translation>
+    </message>
+    <message>
+        <source>forced by {}</source>
+        <translation>erzwungen von {}</translation>
+    </message>
+    <message>
+        <source>Smooth edges that quads cross, dotted in the view, and that get no group: {}; Keep names edges that stay</source>
+        <translation>Glatte Kanten, die Vierecke kreuzen, in der Ansicht gepunktet und ohne Gruppe: {}; Behalten nennt Kanten, die bleiben</translation>
+    </message>
+    <message>
+        <source>Holes, pockets and bosses that are left out: {}</source>
+        <translation>Löcher, Taschen und Zapfen, die weggelassen sind: {}</translation>
     </message>
 </context>
 <context>
@@ -794,6 +814,14 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <source>A place on a face, edge or vertex that gets a node and a group of that node, x,y,z or Name=x,y,z in mm; without a name the groups are Node1, Node2, ...; empty = none</source>
         <translation>Ein Ort auf einer Fläche, Kante oder Ecke, der einen Knoten und eine Gruppe mit diesem Knoten bekommt, x,y,z oder Name=x,y,z in mm; ohne Namen heißen die Gruppen Node1, Node2, ...; leer = keiner</translation>
     </message>
+    <message>
+        <source>Fill holes</source>
+        <translation>Löcher füllen</translation>
+    </message>
+    <message>
+        <source>Leave out holes, pockets and bosses that are no wider than this length; 0 = all are meshed</source>
+        <translation>Löcher, Taschen und Zapfen weglassen, die nicht breiter sind als diese Länge; 0 = alle werden vernetzt</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleStatus</name>
@@ -832,6 +860,10 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>the part and the settings have changed: mesh again</source>
         <translation>Teil und Einstellungen haben sich geändert: neu vernetzen</translation>
+    </message>
+    <message>
+        <source>StressPeaks</source>
+        <translation>StressPeaks</translation>
     </message>
 </context>
 <context>

@@ -500,10 +500,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Côté minimal</translation>
     </message>
     <message>
-        <source>Smooth edges that quads cross, and that get no group: {}; Keep names edges that stay</source>
-        <translation>Arêtes lisses que des quadrangles traversent et qui n'ont pas de groupe : {} ; Keep nomme celles qui restent</translation>
-    </message>
-    <message>
         <source>Edges and faces that force sides under half the minimum size: {}</source>
         <translation>Arêtes et faces qui imposent des côtés de moins de la moitié de la taille minimale : {}</translation>
     </message>
@@ -518,6 +514,30 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>Select vertices or points in the 3-D view or the tree first.</source>
         <translation>Sélectionnez d'abord des sommets ou des points dans la vue 3D ou dans l'arborescence.</translation>
+    </message>
+    <message>
+        <source>Refine here</source>
+        <translation>Affiner ici</translation>
+    </message>
+    <message>
+        <source>Half the size of the element, on its whole face</source>
+        <translation>La moitié de la taille de l'élément, sur toute sa face</translation>
+    </message>
+    <message>
+        <source>Element {} on {}: q {}, aspect {}, angles {} to {} degrees</source>
+        <translation>Élément {} sur {} : q {}, allongement {}, angles de {} à {} degrés</translation>
+    </message>
+    <message>
+        <source>forced by {}</source>
+        <translation>imposé par {}</translation>
+    </message>
+    <message>
+        <source>Smooth edges that quads cross, dotted in the view, and that get no group: {}; Keep names edges that stay</source>
+        <translation>Arêtes lisses que des quadrangles traversent, en pointillé dans la vue et sans groupe : {} ; Garder nomme les arêtes qui restent</translation>
+    </message>
+    <message>
+        <source>Holes, pockets and bosses that are left out: {}</source>
+        <translation>Trous, poches et bossages laissés de côté : {}</translation>
     </message>
 </context>
 <context>
@@ -794,6 +814,14 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <source>A place on a face, edge or vertex that gets a node and a group of that node, x,y,z or Name=x,y,z in mm; without a name the groups are Node1, Node2, ...; empty = none</source>
         <translation>Un endroit sur une face, une arête ou un sommet qui reçoit un nœud et un groupe de ce nœud, x,y,z ou Nom=x,y,z en mm ; sans nom, les groupes s'appellent Node1, Node2, ... ; vide = aucun</translation>
     </message>
+    <message>
+        <source>Fill holes</source>
+        <translation>Boucher les trous</translation>
+    </message>
+    <message>
+        <source>Leave out holes, pockets and bosses that are no wider than this length; 0 = all are meshed</source>
+        <translation>Laisser de côté les trous, poches et bossages qui ne sont pas plus larges que cette longueur ; 0 = tous sont maillés</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleStatus</name>
@@ -832,6 +860,10 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>the part and the settings have changed: mesh again</source>
         <translation>la pièce et les réglages ont changé : maillez à nouveau</translation>
+    </message>
+    <message>
+        <source>StressPeaks</source>
+        <translation>StressPeaks</translation>
     </message>
 </context>
 <context>

@@ -81,13 +81,17 @@ def click_at(point):
     canvas = view.graphicsView().viewport()
     across, up = view.getPointOnScreen(point)
     ratio = canvas.devicePixelRatioF()
-    at = QtCore.QPointF(across / ratio, canvas.height() - 1 - up / ratio)
+    click(canvas, QtCore.QPointF(across / ratio, canvas.height() - 1 - up / ratio))
+
+
+def click(widget, at):
+    """Clicks with the mouse on a point of a widget."""
     for kind, button, buttons in ((QtCore.QEvent.MouseMove, QtCore.Qt.NoButton, QtCore.Qt.NoButton),
                                   (QtCore.QEvent.MouseButtonPress, QtCore.Qt.LeftButton, QtCore.Qt.LeftButton),
                                   (QtCore.QEvent.MouseButtonRelease, QtCore.Qt.LeftButton, QtCore.Qt.NoButton)):
-        place = QtCore.QPointF(canvas.mapToGlobal(at.toPoint()))
+        place = QtCore.QPointF(widget.mapToGlobal(at.toPoint()))
         event = QtGui.QMouseEvent(kind, at, place, button, buttons, QtCore.Qt.NoModifier)
-        QtCore.QCoreApplication.sendEvent(canvas, event)
+        QtCore.QCoreApplication.sendEvent(widget, event)
         process(0.1)
 
 

@@ -13,12 +13,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import FreeCAD
 import FreeCADGui
+import numpy as np
 import Part
 from PySide import QtCore, QtGui
 
 import quadrille.freecad
 from case import MODELS, GuiCase, picture, run, type_into
-from driver import Boxes, close_panel, find, process, trigger, turn_wheel, wait_for, window
+from driver import Boxes, click, click_at, close_panel, find, process, trigger, turn_wheel, wait_for, window
 from quadrille.core import command, quality
 from quadrille.core.setting_table import SETTINGS
 from quadrille.document import links, shapes, state
@@ -645,7 +646,7 @@ class PanelTest(GuiCase):
         measure = find("QuadrilleMeasure")
         measure.setCurrentIndex(measure.findData("warp"))
         worst = int(measured.ids[measured.criteria["warp"].argmax()])
-        self.assertTrue(find("QuadrilleWorst").item(0).text().startswith(f"{worst}:"))
+        self.assertTrue(find("QuadrilleWorst").item(0).text().startswith(f"{worst}, Face"))
         self.assertTrue(overlays.is_shown(mesh, overlays.QUALITY))
         find("QuadrilleFree").setChecked(True)
         self.assertTrue(overlays.is_shown(mesh, overlays.FREE))
@@ -653,6 +654,42 @@ class PanelTest(GuiCase):
         close_panel()
         self.assertFalse(overlays.is_shown(mesh, overlays.FREE))
         self.assertFalse(overlays.is_shown(mesh, overlays.QUALITY))
+
+    def test_an_element_is_told_and_refined(self):
+        part = self.document.addObject("Part::Feature", "Wedge")
+        part.Shape = Part.makeWedge(0, 0, 0, 0, 0, 20, 6, 20, 0, 20)  # two corners of 17 degrees
+        self.show()
+        mesh = quadrille.freecad.mesh_object(part, size=3, order=1)
+        self.edit(mesh)
+        worst, told = find("QuadrilleWorst"), find("QuadrilleElement")
+        wait_for(worst.count, what="the worst elements")
+        self.assertFalse(told.isVisible())
+        self.assertRegex(worst.item(0).text(), r"^\d+, Face\d+: q 0\.\d+, forced by Vertex\d+$")
+        worst.setCurrentRow(0)
+        self.assertRegex(told.text(), r"^Element \d+ on Face\d+: q 0\.\d+, aspect .*, angles .* degrees; forced by Vertex\d+$")
+        view = FreeCADGui.getDocument(self.document.Name).ActiveView
+        view.viewIsometric()
+        view.fitAll()
+        measured = quality.measure(mesh.FemMesh, mesh.LeastSize)
+        facing = measured.normals @ np.array([1, -1, 1])
+        candidates = np.flatnonzero(facing > facing.max() - 1e-6)
+        index = int(candidates[candidates.size // 2])
+        click_at(FreeCAD.Vector(*measured.centers[index]))
+        self.assertTrue(told.text().startswith(f"Element {measured.ids[index]} on Face"), told.text())
+        self.assertNotIn("forced", told.text())
+        picture("element")
+        face = told.text().split()[3].rstrip(":")
+        find("QuadrilleRefineHere").click()
+        self.assertEqual(find("QuadrilleRefined0").text(), face)
+        row = list(quality.CRITERIA).index("angle_min")
+        table = find("QuadrilleCriteria")
+        click(table.viewport(), QtCore.QPointF(table.visualItemRect(table.item(row, 0)).center()))
+        self.assertEqual(find("QuadrilleMeasure").currentData(), "angle_min")
+        self.assertTrue(overlays.is_shown(mesh, overlays.QUALITY))
+        close_panel()
+        self.assertEqual(len(mesh.MeshRegionList), 1)
+        view.viewFront()
+        click_at(FreeCAD.Vector(*measured.centers[index]))  # nobody listens any more
 
     def test_the_histogram_needs_no_other_library(self):
         """Importing matplotlib blocks the window for seconds."""

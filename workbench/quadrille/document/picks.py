@@ -140,25 +140,11 @@ def on_mesh(mesh, point: Sequence[float]) -> str:
     if mesh.Status in (state.PART_CHANGED, state.BOTH_CHANGED, state.PART_GONE, state.LOST, state.OTHER_MEANS):
         raise Error(f"{mesh.Label}: {mesh.Status}; its faces, edges and vertices can be picked on the part alone until then", "usage",
                     mesh.Name)
-    fem_mesh = mesh.FemMesh
-    ids, sizes, flat = faces_of(fem_mesh)
-    if not ids.size:
+    element, quad, ends, at = _nearest(mesh, point)
+    if not element:
         return ""
-    container = mesh.getParentGeoFeatureGroup()
-    placed = container.getGlobalPlacement() if container is not None else FreeCAD.Placement()
-    at = np.array(tuple(placed.inverse().multVec(FreeCAD.Vector(*point))))
-    numbers, places = nodes_of(fem_mesh)
-    points = np.zeros((numbers.max() + 1, 3))
-    points[numbers] = places
-    nodes = flat[(np.cumsum(sizes) - sizes)[:, None] + np.arange(4)]  # the corners of the quads
-    corners = points[nodes]
-    centers = corners.mean(axis=1)
-    reach = np.linalg.norm(centers - at, axis=1) - np.linalg.norm(corners - centers[:, None], axis=2).max(axis=1)
-    near = np.argsort(reach, kind="stable")[:_CANDIDATES]
-    element = near[np.argmin([_distance_to_quad(corners[index], at) for index in near])]
-    quad, ends = corners[element], nodes[element]
     unit = float(np.linalg.norm(np.roll(quad, -1, axis=0) - quad, axis=1).mean())
-    part_groups = groups.PartGroups(fem_mesh)
+    part_groups = groups.PartGroups(mesh.FemMesh)
     to_corners = np.linalg.norm(quad - at, axis=1)
     if to_corners.min() < _NEAR_VERTEX * unit:
         name = part_groups.vertex_at(int(ends[to_corners.argmin()]))
@@ -169,7 +155,34 @@ def on_mesh(mesh, point: Sequence[float]) -> str:
             name = part_groups.edge_along(int(ends[first]), int(ends[last]))
             if name:
                 return name
-    return part_groups.face_of(int(ids[element]))
+    return part_groups.face_of(element)
+
+
+def element_at(mesh, point: Sequence[float]) -> int:
+    """The id of the quad that a mesh has at a point, in global coordinates; 0 if it has none."""
+    return _nearest(mesh, point)[0]
+
+
+def _nearest(mesh, point: Sequence[float]) -> Tuple[int, np.ndarray, np.ndarray, np.ndarray]:
+    """The id of the quad nearest to a point in global coordinates, its corners and their nodes, and the point in the coordinates of
+    the mesh. The id is 0 if there are no quads."""
+    fem_mesh = mesh.FemMesh
+    ids, sizes, flat = faces_of(fem_mesh)
+    container = mesh.getParentGeoFeatureGroup()
+    placed = container.getGlobalPlacement() if container is not None else FreeCAD.Placement()
+    at = np.array(tuple(placed.inverse().multVec(FreeCAD.Vector(*point))))
+    if not ids.size:
+        return 0, np.zeros((0, 3)), np.zeros(0, int), at
+    numbers, places = nodes_of(fem_mesh)
+    points = np.zeros((numbers.max() + 1, 3))
+    points[numbers] = places
+    nodes = flat[(np.cumsum(sizes) - sizes)[:, None] + np.arange(4)]  # the corners of the quads
+    corners = points[nodes]
+    centers = corners.mean(axis=1)
+    reach = np.linalg.norm(centers - at, axis=1) - np.linalg.norm(corners - centers[:, None], axis=2).max(axis=1)
+    near = np.argsort(reach, kind="stable")[:_CANDIDATES]
+    element = near[np.argmin([_distance_to_quad(corners[index], at) for index in near])]
+    return int(ids[element]), corners[element], nodes[element], at
 
 
 def _distance_to_quad(quad: np.ndarray, at: np.ndarray) -> float:

@@ -4,7 +4,7 @@
 FreeCAD tells observers where a click was even if it selects the whole mesh, as at the second click on it; the selection itself
 does not."""
 
-from typing import Dict, List, Optional, Sequence, Tuple
+from typing import Callable, Dict, List, Optional, Sequence, Tuple
 
 import FreeCADGui
 
@@ -13,6 +13,8 @@ from ..document.state import is_quad_mesh
 
 #: Where selected objects were clicked, by the names of document and object as FreeCAD tells them.
 _clicks: Dict[Tuple[str, str], List[Sequence[float]]] = {}
+#: Called with the names of document and object, and with the point, at each click that selects something.
+listeners: List[Callable[[str, str, Sequence[float]], None]] = []
 
 
 class _Observer:
@@ -22,6 +24,8 @@ class _Observer:
         """FreeCAD calls this when something is selected; scripts and the tree give no point."""
         if any(point):
             _clicks.setdefault((document, obj), []).append(tuple(point))
+            for listener in tuple(listeners):
+                listener(document, obj, point)
 
     def removeSelection(self, document: str, obj: str, _path: str) -> None:
         """FreeCAD calls this when something is no longer selected."""

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shows the quality of a mesh: table, histogram, criteria, colors in the 3-D view, and a list of the worst elements."""
 
-from typing import Optional
+from typing import Callable, Optional
 
 import FreeCADGui
 from PySide import QtCore, QtGui
 
 from ..core import quality
 from ..core.units import digits
-from . import QT_TRANSLATE_NOOP, drawn_icon, overlays, standard_buttons, translate
+from . import QT_TRANSLATE_NOOP, do, drawn_icon, links_text, overlays, path_of, standard_buttons, transaction, translate
+from .element_view import ElementView
 from .histogram import Histogram
 from .wheel import calm
 
@@ -35,8 +36,9 @@ MEASURES = {
 class QualityWidget(QtGui.QWidget):
     """The quality of one mesh object. The first table shows the mesher's numbers; the rest is measured here."""
 
-    def __init__(self, mesh, parent=None) -> None:
-        super().__init__(parent)
+    def __init__(self, mesh, refine: Callable[[str, float], None]) -> None:
+        """refine: called with a face and a size where the user wants that face finer."""
+        super().__init__()
         self.mesh = mesh
         self._measured: Optional[quality.ElementQuality] = None
         self._timer = QtCore.QTimer(self)
@@ -72,6 +74,8 @@ class QualityWidget(QtGui.QWidget):
         self.worst.setObjectName("QuadrilleWorst")
         self.worst.setMaximumHeight(120)
         self.worst.currentRowChanged.connect(self._show_element)
+        self.element = ElementView(mesh, self.measured, refine)
+        self.criteria.cellClicked.connect(self._show_criterion)
         layout = QtGui.QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         by = QtGui.QHBoxLayout()
@@ -87,6 +91,7 @@ class QualityWidget(QtGui.QWidget):
         layout.addWidget(self.free)
         layout.addWidget(QtGui.QLabel(translate("Quadrille", "Worst elements (click on one)")))
         layout.addWidget(self.worst)
+        layout.addWidget(self.element)
         self.refresh()
 
     def refresh(self) -> None:
@@ -94,6 +99,7 @@ class QualityWidget(QtGui.QWidget):
         self._measured = None
         self._timer.stop()
         self.worst.clear()
+        self.element.forget()
         self.criteria.setRowCount(0)
         self.setVisible(self.mesh.FemMesh.FaceCount > 0)
         if not self.mesh.FemMesh.FaceCount:
@@ -134,7 +140,8 @@ class QualityWidget(QtGui.QWidget):
         """Tells which smooth edges quads cross, and what forces short sides."""
         for label, entries, text in (
                 (self.crossed, self.mesh.CrossedEdges,
-                 translate("Quadrille", "Smooth edges that quads cross, dotted in the view, and that get no group: {}; Keep names edges that stay")),
+                 translate("Quadrille",
+                           "Smooth edges that quads cross, dotted in the view, and that get no group: {}; Keep names edges that stay")),
                 (self.filled, self.mesh.FilledHoles, translate("Quadrille", "Holes, pockets and bosses that are left out: {}")),
                 (self.short, self.mesh.ShortSides,
                  translate("Quadrille", "Edges and faces that force sides under half the minimum size: {}"))):
@@ -168,7 +175,9 @@ class QualityWidget(QtGui.QWidget):
         self.worst.blockSignals(True)
         self.worst.clear()
         for index in measured.worst(WORST, measure):
-            self.worst.addItem(f"{measured.ids[index]}: {translate('Quadrille', MEASURES[measure])} {digits(values[index])}")
+            forced = self.element.forced_by(index)
+            text = f"{measured.ids[index]}, {self.element.face_of(index)}: {translate('Quadrille', MEASURES[measure])} {digits(values[index])}"
+            self.worst.addItem(f"{text}, {translate('Quadrille', 'forced by {}').format(forced)}" if forced else text)
         self.worst.blockSignals(False)
 
     def _another_measure(self, _index: int) -> None:
@@ -197,10 +206,17 @@ class QualityWidget(QtGui.QWidget):
             return
         worst = self.measured().worst(WORST, self.measure.itemData(self.measure.currentIndex()))
         show_element(self.mesh, self.measured(), int(worst[row]))
+        self.element.show_element(int(worst[row]))
+
+    def _show_criterion(self, row: int, _column: int = 0) -> None:
+        """Lists and colors the elements by the criterion that was clicked."""
+        self.measure.setCurrentIndex(self.measure.findData(list(self.measured().limits)[row]))
+        self.color.setChecked(True)
 
     def release(self) -> None:
         """Removes colors and highlights from the view, and stops measuring."""
         self._timer.stop()
+        self.element.release()
         try:
             if self.mesh.ViewObject is not None:
                 for kind in (overlays.QUALITY, overlays.ELEMENT, overlays.FREE, overlays.CROSSED):
@@ -264,12 +280,20 @@ class QualityPanel:
     """The task panel of the command Mesh quality."""
 
     def __init__(self, mesh) -> None:
-        self.quality = QualityWidget(mesh)
+        self.quality = QualityWidget(mesh, self._refine)
+        self._mesh = mesh
         self.form = self.quality
         calm(self.form)
         self.form.setWindowTitle(translate("Quadrille", "Quality of {}").format(mesh.Label))
         self.form.setWindowIcon(drawn_icon("quadrille_quality"))
         self.quality.color.setChecked(True)
+
+    def _refine(self, face: str, size: float) -> None:
+        """Adds a refinement, which the next meshing follows."""
+        with transaction(self._mesh.Document, "Refine quad mesh"):
+            do("import quadrille.freecad")
+            do(f"quadrille.freecad.refine({path_of(self._mesh)}, {links_text([(self._mesh.Shape, (face,))])}, {float(digits(size))!r})")
+            self._mesh.Document.recompute()
 
     def getStandardButtons(self):
         """Only Close."""

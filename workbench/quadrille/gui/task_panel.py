@@ -114,7 +114,7 @@ class MeshPanel:
         self.log.setReadOnly(True)
         self.log.setMaximumHeight(80)
         self.log.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
-        self.quality = QualityWidget(self.mesh)
+        self.quality = QualityWidget(self.mesh, self._refine_face)
         self._lay_out()
         self.suggest.clicked.connect(self._suggest)
         self.take_selection.clicked.connect(self._take_selection)
@@ -369,6 +369,9 @@ class MeshPanel:
         usual = self._told(self._usual_size)
         if usual is not None:
             self.refinements.add(links.link(self.mesh.Shape, names), float(digits(usual / 2)))
+
+    def _refine_face(self, face: str, size: float) -> None:
+        self.refinements.add(links.link(self.mesh.Shape, [face]), float(digits(size)))
 
     def _divide_selection(self) -> None:
         names = self._picked("Edge")

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One element of a mesh, clicked in the 3-D view or chosen from a list: its face, its measures, and what forces its shape."""
+
+from typing import Callable, Optional
+
+import numpy as np
+from PySide import QtGui
+
+from ..core import quality
+from ..core.units import digits
+from ..document import groups, picks
+from . import mesh_clicks, overlays, translate
+
+
+class ElementView(QtGui.QWidget):
+    """Tells of an element, and offers to refine there. Follows clicks on the mesh until release() is called."""
+
+    def __init__(self, mesh, measured: Callable[[], quality.ElementQuality], refine: Callable[[str, float], None]) -> None:
+        super().__init__()
+        self._mesh, self._measured = mesh, measured
+        self._face, self._size = "", 0.0
+        self._groups: Optional[groups.PartGroups] = None
+        self.text = QtGui.QLabel()
+        self.text.setObjectName("QuadrilleElement")
+        self.text.setWordWrap(True)
+        self.refine = QtGui.QPushButton(translate("Quadrille", "Refine here"))
+        self.refine.setObjectName("QuadrilleRefineHere")
+        self.refine.setToolTip(translate("Quadrille", "Half the size of the element, on its whole face"))
+        self.refine.clicked.connect(lambda *_: refine(self._face, self._size))
+        layout = QtGui.QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.text)
+        layout.addWidget(self.refine)
+        self.forget()
+        mesh_clicks.listeners.append(self._clicked)
+
+    def forget(self) -> None:
+        """Tells of no element, as when the mesh has changed."""
+        self._groups = None
+        self.setVisible(False)
+
+    def release(self) -> None:
+        """Ends following clicks."""
+        if self._clicked in mesh_clicks.listeners:
+            mesh_clicks.listeners.remove(self._clicked)
+
+    def face_of(self, index: int) -> str:
+        """The face that an element lies on, by its index in the measures."""
+        return self._part_groups().face_of(int(self._measured().ids[index]))
+
+    def forced_by(self, index: int) -> str:
+        """The vertex, edge or face of the part that forces the shape of an element; empty if there is none."""
+        measured, part_groups = self._measured(), self._part_groups()
+        nodes = [int(node) for node in measured.nodes[index]]
+        corner = int(np.argmin(_angles(measured.corners[index])))
+        vertex = part_groups.vertex_at(nodes[corner])
+        if measured.criteria["angle_min"][index] < measured.limits["angle_min"][1] and vertex:
+            if all(part_groups.edge_along(nodes[corner], nodes[(corner + step) % 4]) for step in (1, 3)):
+                return vertex
+        if measured.fails("min_length")[index]:
+            forcing = {entry.split(":")[0] for entry in self._mesh.ShortSides}
+            face = self.face_of(index)
+            if face in forcing:
+                return face
+            for start in range(4):
+                edge = part_groups.edge_along(nodes[start], nodes[(start + 1) % 4])
+                if edge in forcing:
+                    return edge
+        return ""
+
+    def show_element(self, index: int) -> None:
+        """Tells of an element, by its index in the measures."""
+        measured = self._measured()
+        self._face, self._size = self.face_of(index), 0.5 * float(measured.lengths[index])
+        criteria = measured.criteria
+        text = translate("Quadrille", "Element {} on {}: q {}, aspect {}, angles {} to {} degrees").format(
+            measured.ids[index], self._face or "?", digits(round(float(measured.q[index]), 3)), digits(float(measured.aspect[index])),
+            digits(round(float(criteria["angle_min"][index]), 1)), digits(round(float(criteria["angle_max"][index]), 1)))
+        forced = self.forced_by(index)
+        if forced:
+            text += "; " + translate("Quadrille", "forced by {}").format(forced)
+        self.text.setText(text)
+        self.refine.setVisible(bool(self._face))
+        self.setVisible(True)
+
+    def _part_groups(self) -> groups.PartGroups:
+        if self._groups is None:
+            self._groups = groups.PartGroups(self._mesh.FemMesh)
+        return self._groups
+
+    def _clicked(self, document: str, name: str, point) -> None:
+        try:
+            if (document, name) != (self._mesh.Document.Name, self._mesh.Name) or not self._mesh.FemMesh.FaceCount:
+                return
+        except ReferenceError:  # the object or its document was deleted
+            self.release()
+            return
+        found = np.flatnonzero(self._measured().ids == picks.element_at(self._mesh, point))
+        if found.size:
+            overlays.frame_element(self._mesh, self._measured(), int(found[0]))
+            self.show_element(int(found[0]))
+
+
+def _angles(corners: np.ndarray) -> np.ndarray:
+    """The angles at the corners of a quad, (4, 3), in radians."""
+    out, back = np.roll(corners, -1, axis=0) - corners, np.roll(corners, 1, axis=0) - corners
+    lengths = np.linalg.norm(out, axis=1) * np.linalg.norm(back, axis=1)
+    return np.arccos(np.clip((out * back).sum(axis=1) / np.maximum(lengths, 1e-300), -1, 1))
