@@ -80,7 +80,8 @@ QuadEstimate::QuadEstimate(const CadModel& model, ExecutionContext& context)
 
 double QuadEstimate::quads(const MeshOptions& options) {
   check({options, {}}, model_);
-  const FilledModel filled = fill_holes(model_, options);
+  const FilledModel filled =
+      fill_holes(model_, faces_used(model_, options), options.sizing, options.fill_holes);
   const CadShape& shape = filled.model.shape();
   const FaceFlags used = filled.left(faces_used(model_, options));
   try {

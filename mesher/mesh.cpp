@@ -35,8 +35,8 @@
 #include "mesher/shell/face_mesher.hpp"
 #include "mesher/shell/last_resort.hpp"
 #include "mesher/shell/node_sliding.hpp"
+#include "mesher/shell/poor_quads.hpp"
 #include "mesher/shell/remedies.hpp"
-#include "mesher/shell/short_sides.hpp"
 
 namespace quadrille {
 
@@ -53,7 +53,7 @@ class Job {
   /// \param divides divide edges where slivers ask for it: edges and vertices are then not those of the model
   Job(const CadModel& model, const MeshOptions& options, ExecutionContext& context, bool divides = true)
       : vertices_(model.vertex_count()),
-        filled_(fill_holes(model, options)),
+        filled_(fill_holes(model, faces_used(model, options), options.sizing, options.fill_holes)),
         used_(filled_.left(faces_used(model, options))),
         limits_(size_limits(model, options.sizing)),
         placed_(divides ? place_nodes(filled_.model.shape(), used_, options.sizing, limits_.largest)
@@ -133,7 +133,7 @@ class Job {
                                   result.suppressed_edges.end());
     name_placed_nodes(result);
     if (options_.sizing.spacings.empty()) result.size_min = limits_.least;
-    result.short_sides = short_sides(shape_, result);
+    result.poor_quads = poor_quads(shape_, result);
     return result;
   }
 

@@ -44,7 +44,7 @@ std::vector<StressPeak> peaks_in(const std::filesystem::path& report) {
           {Vector3(at[0], at[1], at[2]), peak.at("stress"), peak.at("size"), peak.at("sharp_corner")});
     }
   } catch (const nlohmann::json::exception&) {
-    throw failure(report.string(), fmt::format("{} is no report of `adapt`", report.string()));
+    throw failure(report.string(), fmt::format("{} is no report of quadrille adapt", report.string()));
   }
   return peaks;
 }

@@ -87,16 +87,23 @@ struct Measured {
   Coincidences coincidences;
   Contacts contacts;
   std::vector<int> bad_skins;  ///< faces, see faces_with_bad_skins()
+  std::optional<Volumes> volumes;
 };
 
 /// Measures in a thread of its own while the files are written, if more than one thread may be used.
-std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& model, int threads) {
+std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& model, bool with_volumes,
+                                       int threads) {
   const auto policy =
       std::launch::deferred | (usable_threads(threads) > 1 ? std::launch::async : std::launch::deferred);
-  return std::async(policy, [&mesh, &model, threads] {
+  return std::async(policy, [&mesh, &model, with_volumes, threads] {
     return on_threads(threads, [&] {
-      Measured measured{
-          measure(mesh), area_differences(model, mesh), coincidences(mesh), {}, faces_with_bad_skins(mesh)};
+      Measured measured{measure(mesh),
+                        area_differences(model, mesh),
+                        coincidences(mesh),
+                        {},
+                        faces_with_bad_skins(mesh),
+                        {}};
+      if (with_volumes) measured.volumes = volumes(model, mesh);
       // Parts that touch may have no node in common.
       if (measured.coincidences.nodes == 0) measured.contacts = contacts(model.shape());
       return measured;
@@ -146,15 +153,15 @@ struct Meshed {
 };
 
 /// Adds a note on sides below half the least size, with what forces most of them.
-void tell_short_sides(const ShellMesh& mesh) {
-  if (mesh.short_sides.empty()) return;
+void tell_poor_quads(const ShellMesh& mesh) {
+  if (mesh.poor_quads.empty()) return;
   int quads = 0;
-  for (const auto& found : mesh.short_sides) quads += found.quads;
-  const auto& most = mesh.short_sides.front();
-  fmt::print(stderr,
-             "note: {} quads have a side shorter than half the minimum size, most of them at {}{} ({}): {}; "
-             "--report lists all\n",
-             quads, most.dimension == 2 ? "Face" : "Edge", most.number, most.quads, most.why);
+  for (const auto& found : mesh.poor_quads) quads += found.quads;
+  const auto& most = mesh.poor_quads.front();
+  fmt::print(
+      stderr,
+      "note: {} quads are outside the usual limits, most of them at {}{} ({}): {}; --report lists all\n",
+      quads, most.dimension == 2 ? "Face" : "Edge", most.number, most.quads, most.why);
 }
 
 /// Writes the report, the warnings to stderr and the tables to stdout, as far as they are wanted.
@@ -175,6 +182,8 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
     if (meshed.sizes) report["sizes"] = meshed.sizes->json();
     if (meshed.middle) report["middle_surface"] = midsurface_json(*meshed.middle);
     if (meshed.middle) report["skins"] = {{"turned_over", names("Face", measured.bad_skins)}};
+    if (measured.volumes)
+      report["volume"] = {{"cad", measured.volumes->cad}, {"mesh", measured.volumes->mesh}};
     report["coincident"] = coincident_to_json(measured);
     if (!meshed.model.pieces().empty()) report["imprinted"] = imprinted_to_json(meshed.model);
     write_report(report, arguments.report);
@@ -192,7 +201,7 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
   if (!result.filled_holes.empty())
     fmt::print(stderr, "note: {} holes, pockets and bosses are left out; the report (--report) lists them\n",
                result.filled_holes.size());
-  tell_short_sides(result);
+  tell_poor_quads(result);
   if (meshed.middle) print(middle_table(*meshed.middle));
   print(quality_table(measured.elements.quality));
 }
@@ -233,7 +242,7 @@ void run(const MeshArguments& arguments) {
   context.check();
   std::future<Measured> measured;
   if (!arguments.quiet || !arguments.report.empty())
-    measured = start_to_measure(result, model, settings.threads);
+    measured = start_to_measure(result, model, !arguments.report.empty(), settings.threads);
   write_outputs(result, {arguments.input, arguments.outputs, arguments.picture}, arguments.settings, context,
                 cancel);
   list_left_out(result);

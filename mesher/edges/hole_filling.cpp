@@ -23,7 +23,6 @@
 
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/surfaces/face_surface.hpp"
-#include "mesher/boundary.hpp"
 #include "mesher/edges/tiny_features.hpp"
 
 namespace quadrille {
@@ -48,12 +47,8 @@ struct Hole {
 
 class HoleFinder {
  public:
-  HoleFinder(const CadShape& shape, const FaceFlags& used, const MeshOptions& options)
-      : shape_(shape),
-        used_(used),
-        sizing_(options.sizing),
-        diameter_(options.fill_holes),
-        loop_of_(shape.edges.size(), none) {
+  HoleFinder(const CadShape& shape, const FaceFlags& used, const SizingOptions& sizing, double diameter)
+      : shape_(shape), used_(used), sizing_(sizing), diameter_(diameter), loop_of_(shape.edges.size(), none) {
     for (const FaceId face : used.ids())
       if (used[face]) find_loops(face);
   }
@@ -332,20 +327,21 @@ class Filler {
 
 }  // namespace
 
-FilledModel fill_holes(const CadModel& model, const MeshOptions& options) {
+FilledModel fill_holes(const CadModel& model, const FaceFlags& used, const SizingOptions& sizing,
+                       double diameter) {
   constexpr int most_passes = 8;  // holes inside holes
   const CadShape& shape = model.shape();
-  if (!(options.fill_holes > 0))
+  if (!(diameter > 0))
     return {model, FaceFlags(shape.faces.size()), {}, IdVector<FaceId, double>(shape.faces.size())};
   Filler filler(shape);
-  FaceFlags used = faces_used(model, options);
+  FaceFlags left = used;
   for (int pass = 0; pass < most_passes; ++pass) {
-    const HoleFinder finder(filler.shape(), used, options);
+    const HoleFinder finder(filler.shape(), left, sizing, diameter);
     const std::vector<Hole> holes = finder.find();
     if (holes.empty()) break;
     filler.fill(finder, holes);
-    for (const FaceId face : used.ids())
-      if (filler.gone()[face]) used[face] = 0;
+    for (const FaceId face : left.ids())
+      if (filler.gone()[face]) left[face] = 0;
   }
   return filler.result();
 }

@@ -6,12 +6,12 @@
 
 #include "geometry/cad/cad_model.hpp"
 #include "geometry/cad/ids.hpp"
+#include "geometry/sizing/sizing_options.hpp"
 #include "mesher/mesh/mesh_types.hpp"
-#include "mesher/options.hpp"
 
 namespace quadrille {
 
-/// A model without the holes that MeshOptions::fill_holes asks to fill. Faces, edges and vertices keep their
+/// A model without the holes that are filled. Faces, edges and vertices keep their
 /// numbers.
 struct FilledModel {
   CadModel model;                            ///< what is left out has no edges that any face uses
@@ -27,10 +27,11 @@ struct FilledModel {
 };
 
 /// Fills each hole that is a loop of its own inside one face, or one at each of its two ends, if no point of
-/// the loop is farther than options.fill_holes from another and no point of the hole farther from its axis. A
-/// boss goes the same way if it is no higher than that. What the options name stays: edges, vertices and
+/// the loop is farther than `diameter` from another and no point of the hole farther from its axis. A
+/// boss goes the same way if it is no higher than that. What the sizes name stays: edges, vertices and
 /// faces with sizes, layers, segments, or kept. The model itself where there is nothing to fill. Complexity:
 /// linear in edges, for each hole inside a hole again.
-FilledModel fill_holes(const CadModel& model, const MeshOptions& options);
+FilledModel fill_holes(const CadModel& model, const FaceFlags& used, const SizingOptions& sizing,
+                       double diameter);
 
 }  // namespace quadrille

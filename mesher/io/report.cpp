@@ -162,9 +162,9 @@ json filled_holes_to_json(const ShellMesh& mesh) {
   return holes;
 }
 
-json short_sides_to_json(const ShellMesh& mesh) {
+json poor_quads_to_json(const ShellMesh& mesh) {
   json entities = json::array();
-  for (const ShellMesh::ShortSides& found : mesh.short_sides)
+  for (const ShellMesh::PoorQuads& found : mesh.poor_quads)
     entities.push_back({{"name", (found.dimension == 2 ? "Face" : "Edge") + std::to_string(found.number)},
                         {"quads", found.quads},
                         {"shortest", found.shortest},
@@ -208,7 +208,7 @@ json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const Exec
           {"filled_holes", filled_holes_to_json(mesh)},
           {"suppressed_edges", suppressed_to_json(mesh)},
           {"placed_nodes", placed_to_json(mesh)},
-          {"short_sides", short_sides_to_json(mesh)},
+          {"poor_quads", poor_quads_to_json(mesh)},
           {"warnings", warnings},
           {"versions",
            {{"quadrille", QUADRILLE_VERSION},

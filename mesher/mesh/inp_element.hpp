@@ -59,6 +59,7 @@ inline int order_of(InpElement element) {
   return name_of(element).find('8') == std::string_view::npos ? 1 : 2;
 }
 
+/// The kind of analysis that a type of elements is for.
 inline InpFamily family_of(InpElement element) {
   const std::string_view name = name_of(element);
   if (name.starts_with("CPS")) return InpFamily::plane_stress;

@@ -127,13 +127,13 @@ struct ShellMesh {
     std::string why;    ///< what the mesh would get without it
   };
 
-  /// The quads with a side shorter than half the least size that one CAD edge or face forces.
-  struct ShortSides {
+  /// The quads outside the usual limits that one CAD edge, or one reason on a CAD face, forces.
+  struct PoorQuads {
     int dimension = 2;    ///< 1: edge, 2: face
     int number = 0;       ///< its number, from 1
     int quads = 0;        ///< number of quads
     double shortest = 0;  ///< shortest side of these, millimeters
-    std::string why;      ///< what is small there
+    std::string why;      ///< what is small or sharp there
   };
 
   /// A set of entities that has a name or a number of its own in the file that the mesh was read from.
@@ -177,7 +177,7 @@ struct ShellMesh {
   std::vector<Kept> kept;                     ///< faces, then edges, ascending
   std::vector<FilledHole> filled_holes;       ///< ascending by the first face they lie in
   std::vector<SuppressedEdge> suppressed_edges;  ///< ascending
-  std::vector<ShortSides> short_sides;           ///< those that most quads have first
+  std::vector<PoorQuads> poor_quads;             ///< those that most quads have first
   std::vector<Face> faces;                       ///< one entry per CAD face; empty in meshes read from files
   /// The groups in a file that the mesh was read from, in file order. Groups may overlap: entities are made
   /// small enough that each group is a set of whole entities. If this is empty, written files get one group

@@ -21,6 +21,7 @@
 #include "geometry/surfaces/edge_curve.hpp"
 #include "mesher/mesh/joined_faces.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
@@ -145,6 +146,39 @@ std::vector<std::string> area_differences(const CadModel& model, const ShellMesh
         "size is too coarse for its shape, or the file or the integral wrong",
         face.number(), joined.contains(face.number()) ? " with the faces that share quads with it" : "",
         number_text(areas[face], integrals[face]), number_text(integrals[face], areas[face])));
+  }
+  return result;
+}
+
+std::optional<Volumes> volumes(const CadModel& model, const ShellMesh& mesh) {
+  const auto is_left_out = [](const ShellMesh::Face& face) {
+    return face.status == FaceStatus::failed || face.status == FaceStatus::skipped;
+  };
+  if (model.solid_count() == 0 || std::any_of(mesh.faces.begin(), mesh.faces.end(), is_left_out)) return {};
+  bool closed = true;
+  const auto start = [&](Side side) { return mesh.quads[element_of(side)][index_of(side)]; };
+  for_each_shared_side(
+      mesh.points.size(), no_check,
+      [&](int, int, std::span<const Side> sides) {
+        closed = closed && sides.size() == 2 && start(sides[0]) != start(sides[1]);
+      },
+      mesh.quads);
+  if (!closed) return {};
+  Volumes result;
+  const Vector3 middle =
+      0.5 * (model.box_min() + model.box_max());  // far from the origin digits would be lost
+  for (const auto& quad : mesh.quads) {
+    const auto& [a, b, c, d] = quad;
+    const Vector3 center = 0.25 * (mesh.points[a] + mesh.points[b] + mesh.points[c] + mesh.points[d]);
+    result.mesh += quad_area_vector(mesh.points, quad).dot(center - middle) / 3;
+  }
+  try {
+    constexpr double accuracy = 1e-4;
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(model.shape().shape, properties, accuracy, true);
+    result.cad = properties.Mass();
+  } catch (const Standard_Failure&) {
+    return {};
   }
   return result;
 }

@@ -48,10 +48,14 @@ CadModel model_of(const TopoDS_Shape& shape) {
   return CadModel(std::make_shared<CadShape>(shape, "part"));
 }
 
+FilledModel without_holes(const TopoDS_Shape& shape, double diameter, const SizingOptions& sizing = {}) {
+  const CadModel model = model_of(shape);
+  return fill_holes(model, FaceFlags(model.face_count(), 1), sizing, diameter);
+}
+
 std::vector<ShellMesh::FilledHole> filled(const TopoDS_Shape& shape, double diameter,
-                                          MeshOptions options = {}) {
-  options.fill_holes = diameter;
-  return fill_holes(model_of(shape), options).holes;
+                                          const SizingOptions& sizing = {}) {
+  return without_holes(shape, diameter, sizing).holes;
 }
 
 ShellMesh meshed(const CadModel& model, double diameter, int order = 1) {
@@ -104,7 +108,8 @@ TEST(HoleFilling, FillsAllKindsOfHoles) {
   EXPECT_EQ(filled(without(box(), BRepPrimAPI_MakeSphere(gp_Pnt(10, 10, 10), 2).Shape()), 4).size(), 1U)
       << "dimple";
   const TopoDS_Shape tube = without(cylinder(0, 0, 0, 20, 30), cylinder(0, 0, -1, 18, 40));
-  const TopoDS_Shape radial = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, 15), gp::DX().Reversed()), 3, 30).Shape();
+  const TopoDS_Shape radial =
+      BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, 15), gp::DX().Reversed()), 3, 30).Shape();
   const auto in_tube = filled(without(tube, radial), 7);
   ASSERT_EQ(in_tube.size(), 1U);
   EXPECT_EQ(in_tube[0].in.size(), 2U);
@@ -116,11 +121,7 @@ TEST(HoleFilling, AHoleInAHoleGoesWithIt) {
   ASSERT_EQ(inner.size(), 1U);
   EXPECT_EQ(inner[0].faces.size(), 1U);
   ASSERT_EQ(both.size(), 2U) << "the small hole still lies in the lower face";
-  const FilledModel result = [&] {
-    MeshOptions options;
-    options.fill_holes = 8;
-    return fill_holes(model_of(part), options);
-  }();
+  const FilledModel result = without_holes(part, 8);
   EXPECT_EQ(std::accumulate(result.gone.begin(), result.gone.end(), 0), 3);
   const ShellMesh mesh = meshed(model_of(part), 8);
   EXPECT_EQ(validate(mesh), std::vector<std::string>{});
@@ -151,16 +152,16 @@ TEST(HoleFilling, LeavesWhatUsersName) {
   const TopoDS_Shape part = without(box(), cylinder(10, 15, -1, 2, 20));
   const auto hole = filled(part, 4).at(0);
   const CadModel model = model_of(part);
-  std::vector<MeshOptions> all(5);
-  all[0].sizing.kept_faces = {hole.faces[0]};
-  all[1].sizing.face_sizes = {{hole.faces[0], 1.0}};
+  std::vector<SizingOptions> all(5);
+  all[0].kept_faces = {hole.faces[0]};
+  all[1].face_sizes = {{hole.faces[0], 1.0}};
   for (const CadEdge& edge : model.shape().edges) {
     if (!edge.closed() || edge.faces.size() != 2 || edge.faces[0] == edge.faces[1]) continue;
-    all[2].sizing.edge_sizes[edge.number] = 1;
-    all[3].sizing.kept_edges.insert(edge.number);
-    all[4].sizing.vertex_sizes[edge.first_vertex.number()] = 1;
+    all[2].edge_sizes[edge.number] = 1;
+    all[3].kept_edges.insert(edge.number);
+    all[4].vertex_sizes[edge.first_vertex.number()] = 1;
   }
-  for (const MeshOptions& options : all) EXPECT_TRUE(filled(part, 4, options).empty());
+  for (const SizingOptions& sizing : all) EXPECT_TRUE(filled(part, 4, sizing).empty());
 }
 
 }  // namespace

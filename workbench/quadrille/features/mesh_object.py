@@ -267,7 +267,7 @@ RESULT_PROPERTIES = (
     ("App::PropertyStringList", "FilledHoles", "Result", "Holes, pockets and bosses that are left out, with the faces they lie in"),
     ("App::PropertyStringList", "CrossedEdges", "Result", "Smooth edges that quads cross, with their faces"),
     ("App::PropertyVectorList", "CrossedLines", "Result", "Points along each of these edges, as many on each"),
-    ("App::PropertyStringList", "ShortSides", "Result", "Edges and faces that force sides under half the least size, and why"),
+    ("App::PropertyStringList", "PoorQuads", "Result", "Edges and faces whose quads are outside the limits of industry, and why"),
     ("App::PropertyFloat", "LeastSize", "Result", "Least size of the mesh by its sizes, mm; sides under half of it count as outside"),
     ("App::PropertyFloat", "Seconds", "Result", "Seconds that the mesher took, all threads together"),
     ("App::PropertyFloatList", "MeshedShape", "Hidden", "Measures of the part when it was meshed"),
@@ -441,5 +441,5 @@ def store_quality(mesh, fem_mesh, report: Dict) -> None:
     mesh.CrossedEdges = [f"{edge['name']} ({', '.join(dict.fromkeys(edge['faces']))})" for edge in report.get("suppressed_edges", ())]
     mesh.CrossedLines = [FreeCAD.Vector(*point) for edge in report.get("suppressed_edges", ()) for point in edge["line"]]
     mesh.FilledHoles = [f"{hole['kind']} {hole['diameter']:.4g} ({', '.join(hole['in'])})" for hole in report.get("filled_holes", ())]
-    mesh.ShortSides = [f"{found['name']}: {found['quads']}, {found['why']}" for found in report.get("short_sides", ())]
+    mesh.PoorQuads = [f"{found['name']}: {found['quads']}, {found['why']}" for found in report.get("poor_quads", ())]
     mesh.Seconds = sum(report.get("seconds", {}).values())

@@ -57,16 +57,20 @@ class ElementView(QtGui.QWidget):
         if measured.criteria["angle_min"][index] < measured.limits["angle_min"][1] and vertex:
             if all(part_groups.edge_along(nodes[corner], nodes[(corner + step) % 4]) for step in (1, 3)):
                 return vertex
-        if measured.fails("min_length")[index]:
-            forcing = {entry.split(":")[0] for entry in self._mesh.ShortSides}
-            face = self.face_of(index)
-            if face in forcing:
-                return face
+        if any(measured.fails(name)[index] for name in measured.limits if name != "warp"):
+            forcing = {name for name, why in self._poor() if not why.startswith("nothing")}
             for start in range(4):
-                edge = part_groups.edge_along(nodes[start], nodes[(start + 1) % 4])
+                edge = part_groups.edge_along(nodes[start], nodes[(start + 1) % 4]) if forcing else ""
                 if edge in forcing:
                     return edge
+            face = self.face_of(index)
+            if any(name == face and why.startswith("Edge") for name, why in self._poor()):
+                return face
         return ""
+
+    def _poor(self):
+        """The edges and faces whose quads are outside the limits, and why."""
+        return [(entry.split(":")[0], entry.partition(", ")[2]) for entry in self._mesh.PoorQuads]
 
     def show_element(self, index: int) -> None:
         """Tells of an element, by its index in the measures."""

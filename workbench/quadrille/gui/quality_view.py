@@ -143,8 +143,8 @@ class QualityWidget(QtGui.QWidget):
                  translate("Quadrille",
                            "Smooth edges that quads cross, dotted in the view, and that get no group: {}; Keep names edges that stay")),
                 (self.filled, self.mesh.FilledHoles, translate("Quadrille", "Holes, pockets and bosses that are left out: {}")),
-                (self.short, self.mesh.ShortSides,
-                 translate("Quadrille", "Edges and faces that force sides under half the minimum size: {}"))):
+                (self.short, self.mesh.PoorQuads,
+                 translate("Quadrille", "Edges and faces whose quads are outside the limits: {}"))):
             label.setText(text.format(len(entries)))
             label.setToolTip("\n".join(entries))
             label.setVisible(bool(entries))

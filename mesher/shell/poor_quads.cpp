@@ -1,0 +1,213 @@
+/// Tells edges shorter than the least size, sharp corners, narrow faces and places where nothing forces poor
+/// quads from each other.
+
+#include "mesher/shell/poor_quads.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "geometry/base/side_key.hpp"
+#include "geometry/base/vector.hpp"
+#include "mesher/mesh/criteria.hpp"
+
+namespace quadrille {
+
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+constexpr double sharp = 40;  // degrees: no quad in such a corner keeps within the usual limits
+
+class Finder {
+ public:
+  Finder(const CadShape& shape, const ShellMesh& mesh) : shape_(shape), mesh_(mesh) {}
+
+  std::vector<ShellMesh::PoorQuads> run() {
+    find_poor_quads();
+    if (poor_.empty()) return {};
+    index_segments();
+    index_faces();
+    for (const PoorQuad& poor : poor_) add(poor);
+    std::vector<ShellMesh::PoorQuads> result;
+    for (auto& [place, found] : found_) {
+      found.why = reason(place, found);
+      result.push_back(std::move(found));
+    }
+    std::stable_sort(result.begin(), result.end(),
+                     [](const auto& a, const auto& b) { return a.quads > b.quads; });
+    return result;
+  }
+
+ private:
+  struct PoorQuad {
+    int quad, side;  // its shortest
+  };
+  enum class Reason { short_edge, corner, narrow, none };
+  /// What forces quads: an edge, or a face and why; of a corner the node.
+  using Place = std::tuple<int, int, Reason, int>;  // dimension, number
+  /// The edges at the ends of a row across a face, and how far they are apart.
+  struct Row {
+    double width = 0;
+    std::array<int, 2> edges{};
+  };
+
+  double length(int quad, int k) const {
+    const auto& corners = mesh_.quads[quad];
+    return (mesh_.points[corners[k & 3]] - mesh_.points[corners[(k + 1) & 3]]).norm();
+  }
+
+  void find_poor_quads() {
+    const CriteriaLimits limits = limits_of(mesh_);
+    const auto& x = mesh_.points;
+    for (int quad = 0; quad < static_cast<int>(mesh_.quads.size()); ++quad) {
+      const auto& [a, b, c, d] = mesh_.quads[quad];
+      const CriteriaValues values = measure_criteria(x[a], x[b], x[c], x[d]);
+      bool fails = false;
+      for (std::size_t i = 0; i < criterion_count; ++i) {
+        const auto criterion = static_cast<Criterion>(i);
+        fails |= criterion != Criterion::warp && limits.fails(criterion, values[i]);
+      }
+      if (!fails) continue;
+      int shortest = 0;
+      for (int k = 1; k < 4; ++k)
+        if (length(quad, k) < length(quad, shortest)) shortest = k;
+      poor_.push_back({quad, shortest});
+      faces_.try_emplace(mesh_.quad_faces[quad]);
+    }
+  }
+
+  void index_segments() {
+    for (const ShellMesh::Segment& segment : mesh_.segments)
+      edge_of_.try_emplace(side_key(segment.nodes[0], segment.nodes[1]), segment.edge);
+    for (const CadEdge& edge : shape_.edges) {
+      double& length = length_of_[edge.number];  // pieces add up
+      length += edge.length;
+    }
+    for (const auto& corner : mesh_.corners) vertex_at_.emplace(corner.node, corner.vertex);
+  }
+
+  /// The quads at each side of the faces with poor quads, and the angles of these faces at vertices.
+  void index_faces() {
+    const auto& x = mesh_.points;
+    for (int quad = 0; quad < static_cast<int>(mesh_.quads.size()); ++quad) {
+      const auto face = faces_.find(mesh_.quad_faces[quad]);
+      if (face == faces_.end()) continue;
+      const auto& corners = mesh_.quads[quad];
+      for (int k = 0; k < 4; ++k) {
+        auto& uses = quads_at_.try_emplace(side(quad, k), std::array{-1, -1}).first->second;
+        uses[uses[0] < 0 ? 0 : 1] = quad;
+        const int at = corners[k], next = corners[(k + 1) & 3], before = corners[(k + 3) & 3];
+        if (vertex_at_.contains(at))
+          face->second[at] += degrees * angle_between(x[next] - x[at], x[before] - x[at]);
+      }
+    }
+  }
+
+  void add(const PoorQuad& poor) {
+    const double length = this->length(poor.quad, poor.side);
+    const auto& corners = mesh_.quads[poor.quad];
+    const int face = mesh_.quad_faces[poor.quad];
+    for (const int k : {poor.side, (poor.side + 2) & 3}) {
+      const auto edge = edge_of_.find(side_key(corners[k], corners[(k + 1) & 3]));
+      if (edge != edge_of_.end() && length_of_[edge->second] < mesh_.size_min)
+        return count({1, edge->second, Reason::short_edge, 0}, length);
+    }
+    const auto& angles = faces_[face];
+    for (const int node : corners) {
+      const auto angle = angles.find(node);
+      if (angle != angles.end() && angle->second < sharp)
+        return count({2, face, Reason::corner, node}, length);
+    }
+    const auto row = row_of(poor.quad, poor.side);
+    if (!row || row->width >= mesh_.size_min) return count({2, face, Reason::none, 0}, length);
+    count({2, face, Reason::narrow, 0}, length);
+    const auto narrowest = narrowest_.try_emplace(face, *row).first;
+    if (row->width < narrowest->second.width) narrowest->second = *row;
+  }
+
+  void count(const Place& place, double length) {
+    ShellMesh::PoorQuads& found = found_[place];
+    found.shortest = found.quads == 0 ? length : std::min(found.shortest, length);
+    found.dimension = std::get<0>(place);
+    found.number = std::get<1>(place);
+    ++found.quads;
+  }
+
+  std::uint64_t side(int quad, int k) const {
+    return side_key(mesh_.quads[quad][k & 3], mesh_.quads[quad][(k + 1) & 3]);
+  }
+
+  /// The rows that a short side is one of, from edge to edge of the face.
+  std::optional<Row> row_of(int quad, int shortest) const {
+    Row result{length(quad, shortest), {}};
+    for (const int direction : {1, 3}) {
+      constexpr int most = 8;  // rows: more are no strip
+      int at = quad, k = (shortest + direction) & 3;
+      int& end = result.edges[direction / 2];
+      for (int row = 0; row < most && end == 0; ++row) {
+        const std::uint64_t key = side(at, k);
+        if (const auto edge = edge_of_.find(key); edge != edge_of_.end()) {
+          end = edge->second;
+          break;
+        }
+        const auto& uses = quads_at_.at(key);
+        at = uses[0] == at ? uses[1] : uses[0];
+        if (at < 0) return std::nullopt;
+        for (k = 0; side(at, k) != key;) ++k;
+        result.width += length(at, k + 1);
+        k = (k + 2) & 3;
+      }
+      if (end == 0) return std::nullopt;
+    }
+    return result;
+  }
+
+  std::string reason(const Place& place, const ShellMesh::PoorQuads& found) const {
+    switch (std::get<Reason>(place)) {
+      case Reason::short_edge:
+        return fmt::format("it is {:.3g} long", length_of_.at(found.number));
+      case Reason::corner: {
+        const int node = std::get<3>(place);
+        return fmt::format("its sides meet at {:.0f} degrees at Vertex{}", faces_.at(found.number).at(node),
+                           vertex_at_.at(node));
+      }
+      case Reason::narrow: {
+        const auto& [width, edges] = narrowest_.at(found.number);
+        const auto [one, other] = edges;
+        return one == other
+                   ? fmt::format("Edge{} comes within {:.3g} of itself", one, width)
+                   : fmt::format("Edge{} and Edge{} come within {:.3g} of each other", one, other, width);
+      }
+      case Reason::none:
+        break;
+    }
+    return "nothing there is so small or sharp: rows of quads end there, or pass on from a neighbor";
+  }
+
+  const CadShape& shape_;
+  const ShellMesh& mesh_;
+  std::vector<PoorQuad> poor_;
+  std::unordered_map<int, std::unordered_map<int, double>>
+      faces_;                                       // with poor quads: their angles at nodes of vertices
+  std::unordered_map<std::uint64_t, int> edge_of_;  // by side_key()
+  std::map<int, double> length_of_;                 // edges, by number
+  std::unordered_map<int, int> vertex_at_;          // by node
+  std::unordered_map<std::uint64_t, std::array<int, 2>> quads_at_;  // -1 = none
+  std::map<Place, ShellMesh::PoorQuads> found_;
+  std::map<int, Row> narrowest_;  // by face
+};
+
+}  // namespace
+
+std::vector<ShellMesh::PoorQuads> poor_quads(const CadShape& shape, const ShellMesh& mesh) {
+  return Finder(shape, mesh).run();
+}
+
+}  // namespace quadrille
