@@ -4,15 +4,18 @@
 #include "geometry/base/whole_number.hpp"
 
 #include <BRepBndLib.hxx>
-#include <BRepClass_FaceClassifier.hxx>
 #include <BRepGProp.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <ElSLib.hxx>
 #include <GProp_GProps.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
 #include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -71,23 +74,26 @@ void add_centers(const Triangle& triangle, double area, int n, const BRepAdaptor
   }
 }
 
-/// Points inside a face on a grid of its parameters that is refined until there are enough.
+/// Points inside a face, evenly spread over its parameters but in no rows, in which holes may lie too; more
+/// and more until there are enough.
 std::vector<FaceSample> grid_samples(const TopoDS_Face& face, int at_least) {
   constexpr int most = 256;
   const BRepAdaptor_Surface surface(face, Standard_True);
-  BRepTopAdaptor_FClass2d inside(face, Precision::PConfusion());
+  const InsideTest inside(face);
   const double u = surface.FirstUParameter(), v = surface.FirstVParameter();
   std::vector<FaceSample> result;
   for (int n = 16; n <= most && std::ssize(result) < at_least; n *= 2) {
     result.clear();
     const double du = (surface.LastUParameter() - u) / n, dv = (surface.LastVParameter() - v) / n;
     for (int i = 0; i < n * n; ++i) {
-      const gp_Pnt2d uv(u + (i % n + 0.5) * du, v + (i / n + 0.5) * dv);
-      if (inside.Perform(uv) != TopAbs_IN) continue;
+      const double along_u = 0.5 + 0.7548776662466927 * i, along_v = 0.5 + 0.5698402909980532 * i;
+      const gp_Pnt2d uv(u + n * du * (along_u - std::floor(along_u)),
+                        v + n * dv * (along_v - std::floor(along_v)));
+      if (inside.at(uv, Precision::PConfusion()) != TopAbs_IN) continue;
       gp_Pnt at;
-      gp_Vec along_u, along_v;
-      surface.D1(uv.X(), uv.Y(), at, along_u, along_v);
-      result.push_back({uv, at, along_u.Crossed(along_v).Magnitude() * std::abs(du * dv)});
+      gp_Vec by_u, by_v;
+      surface.D1(uv.X(), uv.Y(), at, by_u, by_v);
+      result.push_back({uv, at, by_u.Crossed(by_v).Magnitude() * std::abs(du * dv)});
     }
   }
   return result;
@@ -96,6 +102,7 @@ std::vector<FaceSample> grid_samples(const TopoDS_Face& face, int at_least) {
 }  // namespace
 
 std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least) {
+  if (has_many_holes(face)) return grid_samples(face, at_least);
   const std::vector<Triangle> triangles = triangles_of(face);
   double area = 0;
   for (const Triangle& triangle : triangles) area += triangle.area;
@@ -122,7 +129,12 @@ std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least) {
 }
 
 void triangulate(const TopoDS_Shape& shape, double deflection, double angle) {
-  BRepMesh_IncrementalMesh(shape, deflection, Standard_False, angle, Standard_False);
+  TopoDS_Compound faces;
+  const BRep_Builder builder;
+  builder.MakeCompound(faces);
+  for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next())
+    if (!has_many_holes(TopoDS::Face(it.Current()))) builder.Add(faces, it.Current());
+  BRepMesh_IncrementalMesh(faces, deflection, Standard_False, angle, Standard_False);
 }
 
 SkinFace::SkinFace(const TopoDS_Face& face, int number)
@@ -130,7 +142,7 @@ SkinFace::SkinFace(const TopoDS_Face& face, int number)
       number_(number),
       adaptor_(std::make_shared<BRepAdaptor_Surface>(face, Standard_False)),
       inverse_(std::make_shared<ShapeAnalysis_Surface>(BRep_Tool::Surface(face))),
-      inside_(std::make_shared<BRepTopAdaptor_FClass2d>(face, Precision::PConfusion())) {
+      inside_(std::make_shared<InsideTest>(face)) {
   GProp_GProps properties;
   BRepGProp::SurfaceProperties(face, properties);
   area_ = std::abs(properties.Mass());
@@ -150,22 +162,23 @@ gp_Pnt2d SkinFace::closest(const gp_Pnt& point) const {
   return inverse_->ValueOfUV(point, Precision::Confusion());
 }
 
-std::optional<gp_Pnt> SkinFace::foot(const gp_Pnt& from) const {
-  const gp_Pnt2d uv = closest(from);
-  TopAbs_State state = inside_->Perform(uv, Standard_True);
-  if (state == TopAbs_ON) {
-    // OpenCASCADE takes the boundary for a polygon, and what is as near to it as the polygon is off for a
-    // point on it. For a face with curved sides that may be a hundredth of its size.
-    const double near = 1e-6 * std::sqrt(box_.SquareExtent());
-    BRepClass_FaceClassifier exact;
-    exact.Perform(face_, uv, std::max(adaptor_->UResolution(near), adaptor_->VResolution(near)));
-    state = exact.State();
-  }
-  if (state != TopAbs_IN && state != TopAbs_ON) return std::nullopt;
-  return point(uv);
+bool SkinFace::holds(const gp_Pnt2d& uv) const {
+  const double near = 1e-6 * std::sqrt(box_.SquareExtent());
+  const TopAbs_State state =
+      inside_->at(uv, std::max(adaptor_->UResolution(near), adaptor_->VResolution(near)));
+  return state == TopAbs_IN || state == TopAbs_ON;
 }
 
-RayFace::RayFace(const SkinFace& face, double near) : surface_(face.surface()), near_(near) {
+std::optional<gp_Pnt> SkinFace::foot(const gp_Pnt& from) const {
+  const gp_Pnt2d uv = closest(from);
+  return holds(uv) ? std::optional(point(uv)) : std::nullopt;
+}
+
+RayFace::RayFace(const SkinFace& face, double near) : face_(face), surface_(face.surface()), near_(near) {
+  if (has_many_holes(face.face())) {
+    plane_ = surface_.Plane();
+    return;
+  }
   for (const auto& [points, uv, area] : triangles_of(face.face())) {
     const gp_Vec ab(points[0], points[1]), ac(points[0], points[2]);
     triangles_.push_back({points[0], ab, ac, uv});
@@ -203,6 +216,18 @@ void RayFace::add_boxes(std::size_t first, std::size_t last) {
 }
 
 std::vector<RayFace::Hit> RayFace::hits(const gp_Lin& line) const {
+  if (plane_) {
+    const double slope = line.Direction().Dot(plane_->Axis().Direction());
+    if (std::abs(slope) < 1e-9) return {};
+    const gp_Vec to(line.Location(), plane_->Location());
+    const double along = to.Dot(gp_Vec(plane_->Axis().Direction())) / slope;
+    Hit hit{{}, along};
+    double u = 0, v = 0;
+    ElSLib::Parameters(*plane_, line.Location().Translated(along * gp_Vec(line.Direction())), u, v);
+    hit.uv = {u, v};
+    if (!face_.holds(hit.uv)) return {};
+    return {hit};
+  }
   const auto meets = [&](const Box& box) {
     double first = -std::numeric_limits<double>::infinity(), last = -first;
     for (int axis = 1; axis <= 3; ++axis) {

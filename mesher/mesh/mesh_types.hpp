@@ -157,6 +157,7 @@ struct ShellMesh {
   std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; for faces see Face::status
   std::vector<Kept> kept;                     ///< faces, then edges, ascending
   std::vector<SuppressedEdge> suppressed_edges;  ///< ascending
+  std::vector<int> marked_edges;                 ///< CAD edges, from 1, that pictures draw in red
   std::vector<ShortSides> short_sides;           ///< those that most quads have first
   std::vector<Face> faces;                       ///< one entry per CAD face; empty in meshes read from files
   /// The groups in a file that the mesh was read from, in file order. Groups may overlap: entities are made
