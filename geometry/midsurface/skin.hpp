@@ -18,6 +18,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/midsurface/box_tree.hpp"
 #include "geometry/midsurface/inside_test.hpp"
 
 namespace quadrille {
@@ -90,15 +91,7 @@ class RayFace {
     gp_Pnt corner;
     gp_Vec ab, ac;  ///< the sides that start at the corner
     std::array<gp_Pnt2d, 3> uv;
-    gp_XYZ center() const { return corner.XYZ() + (ab.XYZ() + ac.XYZ()) / 3; }
   };
-  /// A box around some triangles; its first half follows it in the list, unless it is a leaf.
-  struct Box {
-    gp_XYZ low, high;
-    std::size_t first = 0, last = 0;  ///< of the triangles
-    std::size_t second_half = 0;      ///< index of its box; 0 = a leaf
-  };
-  void add_boxes(std::size_t first, std::size_t last);
   std::optional<Hit> hit(const gp_Lin& line, const Flat& flat) const;
   /// The point of the surface on the line, starting from a guess.
   std::optional<Hit> polished(const gp_Lin& line, gp_Pnt2d uv, double along) const;
@@ -107,7 +100,7 @@ class RayFace {
   const BRepAdaptor_Surface& surface_;
   std::optional<gp_Pln> plane_;  ///< of a face with many holes
   std::vector<Flat> triangles_;
-  std::vector<Box> boxes_;  ///< a tree, the root first
+  std::optional<BoxTree> boxes_;  ///< of the triangles
   double near_;
 };
 
@@ -136,19 +129,18 @@ class Skin {
 
   /// The first face that a ray meets.
   std::optional<Hit> first_hit(const gp_Pnt& from, const gp_Dir& direction) const;
+  /// Whether the point lies in the material, by rays.
+  bool in_material(const gp_Pnt& point) const;
   /// Whether a face lies within the distance `reach` of the point, along the direction or opposite to it.
   bool meets_face(const gp_Pnt& from, const gp_Dir& direction, double reach) const;
 
  private:
-  /// The faces whose boxes a line meets between two parameters.
-  std::vector<int> faces_along(const gp_Lin& line, double from, double to) const;
-
   TopoDS_Solid solid_;
   TopTools_IndexedMapOfShape map_;
   std::vector<SkinFace> faces_;
   double size_ = 0;
-  std::vector<RayFace> rays_;                   ///< one for each face
-  std::vector<std::array<gp_Pnt, 2>> corners_;  ///< for each face: lowest and highest corner of its box
+  std::vector<RayFace> rays_;     ///< one for each face
+  std::optional<BoxTree> boxes_;  ///< of the faces
 };
 
 }  // namespace quadrille
