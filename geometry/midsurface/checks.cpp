@@ -146,7 +146,8 @@ class RimCheck {
   /// does not lie on the side of another wall.
   bool closes(const Fan& fan, int own) const {
     const double step = 0.02 * walls_[own].thickness;
-    if (skin_.in_material(fan.point.Translated(step * fan.away))) return false;
+    const gp_Pnt behind = fan.point.Translated(step * fan.away);
+    if (skin_.in_material(behind) && skin_.faces_at(behind, 1e-3 * step).empty()) return false;
     for (int wall = 0; wall < static_cast<int>(walls_.size()); ++wall) {
       if (wall != own && on_side(walls_[wall], fan)) return false;
     }

@@ -129,7 +129,7 @@ class Skin {
 
   /// The first face that a ray meets.
   std::optional<Hit> first_hit(const gp_Pnt& from, const gp_Dir& direction) const;
-  /// Whether the point lies in the material, by rays.
+  /// Whether the point lies in the material, by rays; of a point on the skin it is not known.
   bool in_material(const gp_Pnt& point) const;
   /// Whether a face lies within the distance `reach` of the point, along the direction or opposite to it.
   bool meets_face(const gp_Pnt& from, const gp_Dir& direction, double reach) const;

@@ -241,8 +241,8 @@ bool begins_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, dou
   return runs_through(wall, skin, beyond, edge.outward(at));
 }
 
-/// The walls that begin close by at several depths, as where a sheet leaves the one it lies on; otherwise the
-/// first one farther away. Empty if there is none.
+/// The walls that begin close by at several depths, at one place, as where a sheet leaves the one it lies on;
+/// otherwise the first one farther away. Empty if there is none.
 std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& walls, int wall,
                                  const FaceEdge& edge) {
   const double t = walls[wall].thickness;
@@ -262,6 +262,7 @@ std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& wall
           const NextWall next{other, away * t, depth * t, at};
           if (other == wall || is_known(other) || !begins_behind(skin, walls[other], edge, at, next))
             continue;
+          if (!result.empty() && result.front().at != at) continue;  // beside it, not above or below
           result.push_back(next);
           if (away > close_by) return result;
         }
