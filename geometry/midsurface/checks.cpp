@@ -5,7 +5,6 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
-#include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
@@ -141,15 +140,14 @@ std::vector<int> nearest_faces(const Skin& skin, const gp_Pnt& point) {
 /// Looks whether a wall ends where its middle has a free edge.
 class RimCheck {
  public:
-  RimCheck(const Skin& skin, const std::vector<Wall>& walls)
-      : skin_(skin), walls_(walls), classifier_(skin.solid()) {}
+  RimCheck(const Skin& skin, const std::vector<Wall>& walls) : skin_(skin), walls_(walls) {}
 
   /// Whether the skin closes the wall `own` at a point of the skin: no material is behind the point, and it
   /// does not lie on the side of another wall.
-  bool closes(const Fan& fan, int own) {
+  bool closes(const Fan& fan, int own) const {
     const double step = 0.02 * walls_[own].thickness;
-    classifier_.Perform(fan.point.Translated(step * fan.away), 1e-3 * step);
-    if (classifier_.State() == TopAbs_IN) return false;
+    const gp_Pnt behind = fan.point.Translated(step * fan.away);
+    if (skin_.in_material(behind) && skin_.faces_at(behind, 1e-3 * step).empty()) return false;
     for (int wall = 0; wall < static_cast<int>(walls_.size()); ++wall) {
       if (wall != own && on_side(walls_[wall], fan)) return false;
     }
@@ -200,7 +198,6 @@ class RimCheck {
 
   const Skin& skin_;
   const std::vector<Wall>& walls_;
-  BRepClass3d_SolidClassifier classifier_;
 };
 
 }  // namespace
@@ -226,7 +223,7 @@ void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vec
     TopExp::MapShapesAndAncestors(face.face, TopAbs_EDGE, TopAbs_FACE, around);
     wall_of.Bind(face.face, face.wall);
   }
-  RimCheck check(skin, walls);
+  const RimCheck check(skin, walls);
   for (int i = 1; i <= around.Extent(); ++i) {
     context.check();
     const TopoDS_Edge& edge = TopoDS::Edge(around.FindKey(i));

@@ -12,6 +12,7 @@
 #include <TColgp_Array2OfPnt.hxx>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -21,10 +22,10 @@ namespace quadrille {
 
 namespace {
 
-/// The faces of the opposite side, with the bounds of their parameters.
-class Opposite {
+/// The faces of a side, with the bounds of their parameters.
+class SideFaces {
  public:
-  Opposite(const Skin& skin, const std::vector<int>& faces) {
+  SideFaces(const Skin& skin, const std::vector<int>& faces) {
     for (const int index : faces) {
       Part part{&skin.faces()[index]};
       BRepTools::UVBounds(part.face->face(), part.low[0], part.high[0], part.low[1], part.high[1]);
@@ -112,12 +113,74 @@ class GridLine {
   int spans_;
 };
 
+/// How much the direction in which middle points are searched is tilted from the normal of the first side.
+/// Where that side and the face beside it meet at an angle, the middles of both shall end at the same points,
+/// on the plane that bisects the angle. From there the tilt fades toward the other end.
+class Tilt {
+ public:
+  Tilt(const Skin& skin, const SkinFace& base, const std::array<ParameterRange, 2>& ranges,
+       const std::array<int, 4>& beside)
+      : skin_(skin), base_(base), ranges_(ranges), beside_(beside) {}
+
+  /// The vector to add to the outward unit normal.
+  gp_Vec at(const gp_Pnt2d& uv) {
+    const double y = (uv.Y() - ranges_[1].low) / ranges_[1].length();
+    gp_Vec result = between_ends_of_u(uv.X(), uv.Y());
+    // What the ends of v want, beyond what those of u give there.
+    const std::array<double, 2> bounds{ranges_[1].low, ranges_[1].high}, weights{1 - y, y};
+    for (int end = 0; end < 2; ++end) {
+      if (beside_[2 + end] >= 0)
+        result += weights[end] * (at_end(2 + end, uv.X()) - between_ends_of_u(uv.X(), bounds[end]));
+    }
+    return result;
+  }
+
+ private:
+  gp_Vec between_ends_of_u(double u, double v) {
+    const double x = (u - ranges_[0].low) / ranges_[0].length();
+    return (1 - x) * at_end(0, v) + x * at_end(1, v);
+  }
+
+  /// Half the difference of the normals beside and on this face. \param along the other parameter.
+  gp_Vec at_end(int end, double along) {
+    if (beside_[end] < 0) return {};
+    const auto [entry, is_new] = known_.try_emplace({end, along});
+    if (!is_new) return entry->second;
+    const ParameterRange& range = ranges_[end / 2];
+    const double bound = end % 2 == 0 ? range.low : range.high;
+    const gp_Pnt2d uv = end < 2 ? gp_Pnt2d(bound, along) : gp_Pnt2d(along, bound);
+    const SkinFace& other = skin_.faces()[beside_[end]];
+    const auto own = base_.outward(uv), next = other.outward(other.closest(base_.point(uv)));
+    if (own && next) entry->second = 0.5 * (gp_Vec(*next) - gp_Vec(*own));
+    return entry->second;
+  }
+
+  const Skin& skin_;
+  const SkinFace& base_;
+  std::array<ParameterRange, 2> ranges_;
+  std::array<int, 4> beside_;
+  std::map<std::pair<int, double>, gp_Vec> known_;
+};
+
+/// The first side, and the faces beside it.
+std::vector<int> with_beside(const std::vector<int>& side, const std::array<int, 4>& beside) {
+  std::vector<int> result{side.front()};
+  std::copy_if(beside.begin(), beside.end(), std::back_inserter(result), [](int face) { return face >= 0; });
+  return result;
+}
+
 class MiddlePoints {
  public:
-  MiddlePoints(const Skin& skin, const std::array<std::vector<int>, 2>& sides)
-      : base_(skin.faces()[sides[0].front()]), across_(skin, sides[1]), size_(skin.size()) {}
+  MiddlePoints(const Skin& skin, const std::array<std::vector<int>, 2>& sides,
+               const std::array<ParameterRange, 2>& ranges, const std::array<int, 4>& beside)
+      : base_(skin.faces()[sides[0].front()]),
+        own_(skin, with_beside(sides[0], beside)),
+        across_(skin, sides[1]),
+        tilt_(skin, base_, ranges, beside),
+        size_(skin.size()) {}
 
-  /// The point on the normal at (u, v) of the first side that is equally far from the other side.
+  /// The point on the normal at (u, v) of the first side, or on the tilted normal, that is equally far from
+  /// the other side.
   std::optional<gp_Pnt> at(double u, double v) {
     const auto [entry, is_new] = known_.try_emplace({u, v});
     if (is_new) entry->second = find({u, v});
@@ -125,27 +188,32 @@ class MiddlePoints {
   }
 
  private:
-  std::optional<gp_Pnt> find(const gp_Pnt2d& uv) const {
+  std::optional<gp_Pnt> find(const gp_Pnt2d& uv) {
     const auto outward = base_.outward(uv);
     if (!outward) return std::nullopt;
+    const gp_Vec tilt = tilt_.at(uv);
+    const bool tilted = tilt.Magnitude() > 1e-4;
     const gp_Pnt foot = base_.point(uv);
-    const gp_Vec inward(outward->Reversed());
+    const gp_Vec inward(gp_Dir(tilted ? tilt + gp_Vec(*outward) : gp_Vec(*outward)).Reversed());
     double depth = 0;
     for (int step = 0; step < 40; ++step) {  // Newton iteration on a nearly linear function
       const gp_Pnt point = foot.Translated(depth * inward);
       const gp_Vec from_other(across_.nearest(point), point);
-      const double distance = from_other.Magnitude();
-      if (std::abs(distance - depth) < 1e-10 * size_) return point;
-      const double slope = distance > 0 ? from_other.Dot(inward) / distance - 1 : -1;
+      const gp_Vec from_own = tilted ? gp_Vec(own_.nearest(point), point) : depth * inward;
+      const double distance = from_other.Magnitude(), own = from_own.Magnitude();
+      if (std::abs(distance - own) < 1e-10 * size_) return point;
+      const double own_slope = own > 1e-9 * size_ ? from_own.Dot(inward) / own : 1;
+      const double slope = (distance > 0 ? from_other.Dot(inward) / distance : 0) - own_slope;
       if (slope > -0.5) return std::nullopt;
-      depth -= (distance - depth) / slope;
+      depth -= (distance - own) / slope;
       if (depth < 0 || depth > size_) return std::nullopt;
     }
     return std::nullopt;
   }
 
   const SkinFace& base_;
-  Opposite across_;
+  SideFaces own_, across_;
+  Tilt tilt_;
   double size_;
   std::map<std::pair<double, double>, std::optional<gp_Pnt>> known_;
 };
@@ -228,14 +296,16 @@ std::array<ParameterRange, 2> common_range(const Skin& skin, const std::array<st
   return ranges;
 }
 
-/// Extends a surface straight by the margin at the ends that are neither closed nor kept.
+/// Extends a surface straight by the margin at the ends that are neither closed nor shared with the middle
+/// beside.
 Handle(Geom_BSplineSurface)
-    run_on(const Handle(Geom_BSplineSurface) & surface, double margin, const std::array<bool, 4>& kept) {
+    run_on(const Handle(Geom_BSplineSurface) & surface, double margin, const std::array<int, 4>& beside) {
   Handle(Geom_BoundedSurface) result(surface);
   for (const bool in_u : {true, false}) {
     if (in_u ? surface->IsUClosed() : surface->IsVClosed()) continue;
     for (const int after : {0, 1}) {
-      if (!kept[(in_u ? 0 : 2) + after]) GeomLib::ExtendSurfByLength(result, margin, 1, in_u, after == 1);
+      if (beside[(in_u ? 0 : 2) + after] < 0)
+        GeomLib::ExtendSurfByLength(result, margin, 1, in_u, after == 1);
     }
   }
   return Handle(Geom_BSplineSurface)::DownCast(result);
@@ -244,13 +314,13 @@ Handle(Geom_BSplineSurface)
 }  // namespace
 
 std::optional<FittedMiddle> fit_middle(const Skin& skin, const std::array<std::vector<int>, 2>& sides,
-                                       double tolerance, double margin, const std::array<bool, 4>& kept) {
+                                       double tolerance, double margin, const std::array<int, 4>& beside) {
   const auto ranges = common_range(skin, sides);
   if (!(ranges[0].length() > 0) || !(ranges[1].length() > 0)) return std::nullopt;
-  MiddlePoints points(skin, sides);
+  MiddlePoints points(skin, sides, ranges, beside);
   auto result = fit(points, ranges, tolerance);
   if (!result) return std::nullopt;
-  result->surface = run_on(result->surface, margin, kept);
+  result->surface = run_on(result->surface, margin, beside);
   if (result->surface.IsNull()) return std::nullopt;
   return result;
 }

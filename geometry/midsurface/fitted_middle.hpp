@@ -23,9 +23,12 @@ struct FittedMiddle {
 /// times the tolerance if refinement gains little; at most to 128 spans per direction, where it may miss
 /// both. The surface is then extended straight past its bounds. \param sides indices into Skin::faces(); the
 /// faces of the first side lie on one surface. \param tolerance a length. \param margin length of the
-/// extension. \param kept the ends (low u, high u, low v, high v) that are not extended. \return nothing if
+/// extension. \param beside for the ends (low u, high u, low v, high v) of the
+/// first side's parameters, the face of the wall with which the middle shares that end, which is not
+/// extended; -1 = none. \return nothing if
 /// the sides do not face each other over the whole grid. Time: about five projections per point.
 std::optional<FittedMiddle> fit_middle(const Skin& skin, const std::array<std::vector<int>, 2>& sides,
-                                       double tolerance, double margin, const std::array<bool, 4>& kept = {});
+                                       double tolerance, double margin,
+                                       const std::array<int, 4>& beside = {-1, -1, -1, -1});
 
 }  // namespace quadrille

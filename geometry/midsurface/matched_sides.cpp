@@ -1,4 +1,4 @@
-/// Walks along chains of free-form walls, across the smooth edges that both sides have in common.
+/// Walks along chains of free-form walls, across the edges that both sides have in common.
 
 #include "geometry/midsurface/matched_sides.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 
 /// Whether two faces go on into each other at an edge: their normals differ little all along it.
 bool is_smooth(const SkinFace& a, const SkinFace& b, const TopoDS_Edge& edge) {
-  const double most_turn = std::cos(5 * M_PI / 180);
+  const double most_turn = std::cos(20 * M_PI / 180);
   const BRepAdaptor_Curve curve(edge);
   const auto turns = [&](double share) {
     const gp_Pnt at = curve.Value((1 - share) * curve.FirstParameter() + share * curve.LastParameter());
@@ -98,7 +98,7 @@ class Walk {
  private:
   void add(std::size_t pair, int first, Chain& chain) const {
     chain.pairs.push_back(pair);
-    chain.walls.push_back({{pairs_[pair][first], pairs_[pair][1 - first]}, {}, {}});
+    chain.walls.push_back({{pairs_[pair][first], pairs_[pair][1 - first]}, {-1, -1, -1, -1}, {}});
   }
 
   /// Adds the other pair to the chain if a wall of the chain goes on into it.
@@ -111,7 +111,7 @@ class Walk {
       const std::vector<int> ends = ends_between(chain.walls[at].faces, faces);
       if (ends.empty()) continue;
       if (known == chain.pairs.end()) add(other, first, chain);
-      for (const int end : ends) chain.walls[at].shared[end] = true;
+      for (const int end : ends) chain.walls[at].beside[end] = faces[0];
       chain.walls[at].next.push_back(index);
       return;
     }

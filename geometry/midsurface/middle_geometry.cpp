@@ -148,6 +148,24 @@ bool on_one_surface(const SkinFace& a, const SkinFace& b, double size) {
   return a.surface().GetType() == b.surface().GetType() && same_surfaces(a, b, size) && same_outside(a, b);
 }
 
+double distance_from_carrier(const SkinFace& face, const gp_Pnt& point) {
+  const BRepAdaptor_Surface& surface = face.surface();
+  switch (surface.GetType()) {
+    case GeomAbs_Plane:
+      return surface.Plane().Distance(point);
+    case GeomAbs_Cylinder:
+      return gp_Lin(surface.Cylinder().Axis()).Distance(point);
+    case GeomAbs_Cone:
+      return surface.Cone().Apex().Distance(point);
+    case GeomAbs_Sphere:
+      return surface.Sphere().Location().Distance(point);
+    case GeomAbs_Torus:
+      return surface.Torus().Location().Distance(point);
+    default:
+      return 0;
+  }
+}
+
 Handle(Geom_Surface) middle_surface(const SkinFace& a, const SkinFace& b, double size) {
   const BRepAdaptor_Surface &s = a.surface(), &t = b.surface();
   const auto torus = torus_of(s, size), other = torus_of(t, size);

@@ -7,6 +7,7 @@
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepGProp.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
@@ -63,7 +64,7 @@ struct SolidMiddle {
 /// The volume between the triangles of a solid's faces. \param deflection largest distance from the faces.
 double volume_of_triangles(const TopoDS_Shape& solid, double deflection) {
   const TopoDS_Shape copy = BRepBuilderAPI_Copy(solid, Standard_True, Standard_False).Shape();
-  triangulate(copy, deflection);
+  BRepMesh_IncrementalMesh(copy, deflection, Standard_False, 0.4, Standard_False);
   double six_times = 0;
   for (TopExp_Explorer it(copy, TopAbs_FACE); it.More(); it.Next()) {
     TopLoc_Location place;

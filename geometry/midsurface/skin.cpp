@@ -4,15 +4,18 @@
 #include "geometry/base/whole_number.hpp"
 
 #include <BRepBndLib.hxx>
-#include <BRepClass_FaceClassifier.hxx>
 #include <BRepGProp.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <ElSLib.hxx>
 #include <GProp_GProps.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
 #include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -71,23 +74,26 @@ void add_centers(const Triangle& triangle, double area, int n, const BRepAdaptor
   }
 }
 
-/// Points inside a face on a grid of its parameters that is refined until there are enough.
+/// Points inside a face, evenly spread over its parameters but in no rows, in which holes may lie too; more
+/// and more until there are enough.
 std::vector<FaceSample> grid_samples(const TopoDS_Face& face, int at_least) {
   constexpr int most = 256;
   const BRepAdaptor_Surface surface(face, Standard_True);
-  BRepTopAdaptor_FClass2d inside(face, Precision::PConfusion());
+  const InsideTest inside(face);
   const double u = surface.FirstUParameter(), v = surface.FirstVParameter();
   std::vector<FaceSample> result;
   for (int n = 16; n <= most && std::ssize(result) < at_least; n *= 2) {
     result.clear();
     const double du = (surface.LastUParameter() - u) / n, dv = (surface.LastVParameter() - v) / n;
     for (int i = 0; i < n * n; ++i) {
-      const gp_Pnt2d uv(u + (i % n + 0.5) * du, v + (i / n + 0.5) * dv);
-      if (inside.Perform(uv) != TopAbs_IN) continue;
+      const double along_u = 0.5 + 0.7548776662466927 * i, along_v = 0.5 + 0.5698402909980532 * i;
+      const gp_Pnt2d uv(u + n * du * (along_u - std::floor(along_u)),
+                        v + n * dv * (along_v - std::floor(along_v)));
+      if (inside.at(uv, Precision::PConfusion()) != TopAbs_IN) continue;
       gp_Pnt at;
-      gp_Vec along_u, along_v;
-      surface.D1(uv.X(), uv.Y(), at, along_u, along_v);
-      result.push_back({uv, at, along_u.Crossed(along_v).Magnitude() * std::abs(du * dv)});
+      gp_Vec by_u, by_v;
+      surface.D1(uv.X(), uv.Y(), at, by_u, by_v);
+      result.push_back({uv, at, by_u.Crossed(by_v).Magnitude() * std::abs(du * dv)});
     }
   }
   return result;
@@ -96,6 +102,7 @@ std::vector<FaceSample> grid_samples(const TopoDS_Face& face, int at_least) {
 }  // namespace
 
 std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least) {
+  if (has_many_holes(face)) return grid_samples(face, at_least);
   const std::vector<Triangle> triangles = triangles_of(face);
   double area = 0;
   for (const Triangle& triangle : triangles) area += triangle.area;
@@ -122,7 +129,12 @@ std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least) {
 }
 
 void triangulate(const TopoDS_Shape& shape, double deflection, double angle) {
-  BRepMesh_IncrementalMesh(shape, deflection, Standard_False, angle, Standard_False);
+  TopoDS_Compound faces;
+  const BRep_Builder builder;
+  builder.MakeCompound(faces);
+  for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next())
+    if (!has_many_holes(TopoDS::Face(it.Current()))) builder.Add(faces, it.Current());
+  BRepMesh_IncrementalMesh(faces, deflection, Standard_False, angle, Standard_False);
 }
 
 SkinFace::SkinFace(const TopoDS_Face& face, int number)
@@ -130,7 +142,7 @@ SkinFace::SkinFace(const TopoDS_Face& face, int number)
       number_(number),
       adaptor_(std::make_shared<BRepAdaptor_Surface>(face, Standard_False)),
       inverse_(std::make_shared<ShapeAnalysis_Surface>(BRep_Tool::Surface(face))),
-      inside_(std::make_shared<BRepTopAdaptor_FClass2d>(face, Precision::PConfusion())) {
+      inside_(std::make_shared<InsideTest>(face)) {
   GProp_GProps properties;
   BRepGProp::SurfaceProperties(face, properties);
   area_ = std::abs(properties.Mass());
@@ -150,35 +162,30 @@ gp_Pnt2d SkinFace::closest(const gp_Pnt& point) const {
   return inverse_->ValueOfUV(point, Precision::Confusion());
 }
 
-std::optional<gp_Pnt> SkinFace::foot(const gp_Pnt& from) const {
-  const gp_Pnt2d uv = closest(from);
-  TopAbs_State state = inside_->Perform(uv, Standard_True);
-  if (state == TopAbs_ON) {
-    // OpenCASCADE takes the boundary for a polygon, and what is as near to it as the polygon is off for a
-    // point on it. For a face with curved sides that may be a hundredth of its size.
-    const double near = 1e-6 * std::sqrt(box_.SquareExtent());
-    BRepClass_FaceClassifier exact;
-    exact.Perform(face_, uv, std::max(adaptor_->UResolution(near), adaptor_->VResolution(near)));
-    state = exact.State();
-  }
-  if (state != TopAbs_IN && state != TopAbs_ON) return std::nullopt;
-  return point(uv);
+bool SkinFace::holds(const gp_Pnt2d& uv) const {
+  const double near = 1e-6 * std::sqrt(box_.SquareExtent());
+  const TopAbs_State state =
+      inside_->at(uv, std::max(adaptor_->UResolution(near), adaptor_->VResolution(near)));
+  return state == TopAbs_IN || state == TopAbs_ON;
 }
 
-RayFace::RayFace(const SkinFace& face, double near) : surface_(face.surface()), near_(near) {
+std::optional<gp_Pnt> SkinFace::foot(const gp_Pnt& from) const {
+  const gp_Pnt2d uv = closest(from);
+  return holds(uv) ? std::optional(point(uv)) : std::nullopt;
+}
+
+RayFace::RayFace(const SkinFace& face, double near) : face_(face), surface_(face.surface()), near_(near) {
+  if (has_many_holes(face.face())) {
+    plane_ = surface_.Plane();
+    return;
+  }
   for (const auto& [points, uv, area] : triangles_of(face.face())) {
     const gp_Vec ab(points[0], points[1]), ac(points[0], points[2]);
     triangles_.push_back({points[0], ab, ac, uv});
   }
-  if (!triangles_.empty()) add_boxes(0, triangles_.size());
-}
-
-void RayFace::add_boxes(std::size_t first, std::size_t last) {
-  constexpr std::size_t leaf = 8;
-  const std::size_t index = boxes_.size();
-  Box box{triangles_[first].corner.XYZ(), triangles_[first].corner.XYZ(), first, last};
-  for (std::size_t i = first; i < last; ++i) {
-    const Flat& flat = triangles_[i];
+  std::vector<AxisBox> boxes;
+  for (const Flat& flat : triangles_) {
+    AxisBox box{flat.corner.XYZ(), flat.corner.XYZ()};
     for (const gp_Vec& way : {gp_Vec(), flat.ab, flat.ac}) {
       const gp_Pnt corner = flat.corner.Translated(way);
       for (int axis = 1; axis <= 3; ++axis) {
@@ -186,53 +193,28 @@ void RayFace::add_boxes(std::size_t first, std::size_t last) {
         box.high.SetCoord(axis, std::max(box.high.Coord(axis), corner.Coord(axis) + near_));
       }
     }
+    boxes.push_back(box);
   }
-  boxes_.push_back(box);
-  if (last - first <= leaf) return;
-  const gp_XYZ size = box.high - box.low;
-  int longest = 1;
-  for (const int axis : {2, 3}) longest = size.Coord(axis) > size.Coord(longest) ? axis : longest;
-  const std::size_t half = (first + last) / 2;
-  const auto at = [&](std::size_t i) { return triangles_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(first), at(half), at(last), [&](const Flat& a, const Flat& b) {
-    return a.center().Coord(longest) < b.center().Coord(longest);
-  });
-  add_boxes(first, half);
-  boxes_[index].second_half = boxes_.size();
-  add_boxes(half, last);
+  boxes_.emplace(std::move(boxes));
 }
 
 std::vector<RayFace::Hit> RayFace::hits(const gp_Lin& line) const {
-  const auto meets = [&](const Box& box) {
-    double first = -std::numeric_limits<double>::infinity(), last = -first;
-    for (int axis = 1; axis <= 3; ++axis) {
-      const double start = line.Location().Coord(axis), along = line.Direction().Coord(axis);
-      const double low = box.low.Coord(axis) - start, high = box.high.Coord(axis) - start;
-      if (std::abs(along) < 1e-12) {  // a face is shorter than 1e12 times the width of its box
-        if (low > 0 || high < 0) return false;
-        continue;
-      }
-      first = std::max(first, std::min(low / along, high / along));
-      last = std::min(last, std::max(low / along, high / along));
-    }
-    return first <= last;
-  };
+  if (plane_) {
+    const double slope = line.Direction().Dot(plane_->Axis().Direction());
+    if (std::abs(slope) < 1e-9) return {};
+    const gp_Vec to(line.Location(), plane_->Location());
+    const double along = to.Dot(gp_Vec(plane_->Axis().Direction())) / slope;
+    Hit hit{{}, along};
+    double u = 0, v = 0;
+    ElSLib::Parameters(*plane_, line.Location().Translated(along * gp_Vec(line.Direction())), u, v);
+    hit.uv = {u, v};
+    if (!face_.holds(hit.uv)) return {};
+    return {hit};
+  }
+  constexpr double infinite = std::numeric_limits<double>::infinity();
   std::vector<Hit> result;
-  std::vector<std::size_t> open;
-  if (!boxes_.empty()) open.push_back(0);
-  while (!open.empty()) {
-    const std::size_t index = open.back();
-    open.pop_back();
-    const Box& box = boxes_[index];
-    if (!meets(box)) continue;
-    if (box.second_half > 0) {
-      open.push_back(box.second_half);
-      open.push_back(index + 1);
-      continue;
-    }
-    for (std::size_t i = box.first; i < box.last; ++i) {
-      if (const auto found = hit(line, triangles_[i])) result.push_back(*found);
-    }
+  for (const std::size_t i : boxes_->met(line, -infinite, infinite)) {
+    if (const auto found = hit(line, triangles_[i])) result.push_back(*found);
   }
   return result;
 }
@@ -279,33 +261,12 @@ Skin::Skin(const TopoDS_Solid& solid, const TopTools_DataMapOfShapeInteger& numb
   Bnd_Box box;
   for (const SkinFace& face : faces_) box.Add(face.box());
   size_ = std::sqrt(box.SquareExtent());
+  std::vector<AxisBox> boxes;
   for (const SkinFace& face : faces_) {
     rays_.emplace_back(face, 1e-8 * size_);
-    corners_.push_back({face.box().CornerMin(), face.box().CornerMax()});
+    boxes.push_back({face.box().CornerMin().XYZ(), face.box().CornerMax().XYZ()});
   }
-}
-
-std::vector<int> Skin::faces_along(const gp_Lin& line, double from, double to) const {
-  const gp_Pnt a(line.Location().XYZ() + from * line.Direction().XYZ());
-  const gp_Pnt b(line.Location().XYZ() + to * line.Direction().XYZ());
-  std::vector<int> result;
-  for (std::size_t i = 0; i < faces_.size(); ++i) {
-    const auto& [low, high] = corners_[i];
-    double first = 0, last = 1;
-    for (int axis = 1; axis <= 3; ++axis) {
-      const double start = a.Coord(axis), change = b.Coord(axis) - start;
-      double enter = (low.Coord(axis) - start) / change, leave = (high.Coord(axis) - start) / change;
-      if (std::abs(change) < 1e-12 * size_) {
-        const bool within = start >= low.Coord(axis) && start <= high.Coord(axis);
-        enter = within ? 0 : 2;
-        leave = within ? 1 : -1;
-      }
-      first = std::max(first, std::min(enter, leave));
-      last = std::min(last, std::max(enter, leave));
-    }
-    if (first <= last) result.push_back(static_cast<int>(i));
-  }
-  return result;
+  boxes_.emplace(std::move(boxes));
 }
 
 std::vector<int> Skin::faces_at(const gp_Pnt& point, double tolerance) const {
@@ -322,18 +283,31 @@ std::vector<int> Skin::faces_at(const gp_Pnt& point, double tolerance) const {
 std::optional<Skin::Hit> Skin::first_hit(const gp_Pnt& from, const gp_Dir& direction) const {
   const gp_Lin line(from, direction);
   Hit best;
-  for (const int face : faces_along(line, 1e-6 * size_, size_)) {
+  for (const std::size_t face : boxes_->met(line, 1e-6 * size_, size_)) {
     for (const RayFace::Hit& hit : rays_[face].hits(line)) {
       if (hit.along < 1e-6 * size_ || (best.face >= 0 && hit.along >= best.distance)) continue;
-      best = {face, hit.uv, faces_[face].point(hit.uv), hit.along};
+      best = {static_cast<int>(face), hit.uv, faces_[face].point(hit.uv), hit.along};
     }
   }
   return best.face < 0 ? std::nullopt : std::optional(best);
 }
 
+bool Skin::in_material(const gp_Pnt& point) const {
+  constexpr double grazing = 0.05;  // cosine between ray and normal below which another ray is tried
+  bool result = false;
+  for (const gp_Dir& along :
+       {gp_Dir(0.31, 0.52, 0.79), gp_Dir(-0.73, 0.41, -0.55), gp_Dir(0.59, -0.76, 0.27)}) {
+    const auto hit = first_hit(point, along);
+    const auto outward = hit ? faces_[hit->face].outward(hit->uv) : std::nullopt;
+    result = outward && outward->Dot(along) > 0;
+    if (!hit || (outward && std::abs(outward->Dot(along)) > grazing)) break;
+  }
+  return result;
+}
+
 bool Skin::meets_face(const gp_Pnt& from, const gp_Dir& direction, double reach) const {
   const gp_Lin line(from, direction);
-  for (const int face : faces_along(line, -reach, reach)) {
+  for (const std::size_t face : boxes_->met(line, -reach, reach)) {
     for (const RayFace::Hit& hit : rays_[face].hits(line)) {
       if (std::abs(hit.along) < reach) return true;
     }

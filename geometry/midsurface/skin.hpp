@@ -3,7 +3,6 @@
 /// material. Internal.
 
 #include <BRepAdaptor_Surface.hxx>
-#include <BRepTopAdaptor_FClass2d.hxx>
 #include <Bnd_Box.hxx>
 #include <ShapeAnalysis_Surface.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
@@ -13,10 +12,14 @@
 #include <array>
 #include <gp_Dir.hxx>
 #include <gp_Lin.hxx>
+#include <gp_Pln.hxx>
 #include <gp_Pnt.hxx>
 #include <memory>
 #include <optional>
 #include <vector>
+
+#include "geometry/midsurface/box_tree.hpp"
+#include "geometry/midsurface/inside_test.hpp"
 
 namespace quadrille {
 
@@ -28,11 +31,12 @@ struct FaceSample {
 };
 
 /// Points inside a face, about `at_least` or more, spread over the triangulation that the face must carry;
-/// over its parameters if the triangles do not have its area.
+/// over its parameters if the triangles do not have its area, or if the face has many holes.
 std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least);
 
-/// Triangulates the faces of a shape for sampling. \param deflection largest distance from the shape. \param
-/// angle radians between neighboring triangles of a curved face, and between parts of its edges.
+/// Triangulates the faces of a shape for sampling and rays, but not those with many holes. \param deflection
+/// largest distance from the shape. \param angle radians between neighboring triangles of a curved face, and
+/// between parts of its edges.
 void triangulate(const TopoDS_Shape& shape, double deflection, double angle = 0.4);
 
 /// One face of a solid. Evaluation uses internal caches: threads must not share an object.
@@ -52,6 +56,8 @@ class SkinFace {
   gp_Pnt point(const gp_Pnt2d& uv) const { return adaptor_->Value(uv.X(), uv.Y()); }
   /// The closest point of the surface, if it lies in the face.
   std::optional<gp_Pnt> foot(const gp_Pnt& point) const;
+  /// Whether parameters lie in the face or on its border.
+  bool holds(const gp_Pnt2d& uv) const;
   const Bnd_Box& box() const { return box_; }
 
   std::vector<FaceSample> samples(int at_least) const { return sample_face(face_, at_least); }
@@ -63,18 +69,19 @@ class SkinFace {
   Bnd_Box box_;
   std::shared_ptr<BRepAdaptor_Surface> adaptor_;
   std::shared_ptr<ShapeAnalysis_Surface> inverse_;
-  std::shared_ptr<BRepTopAdaptor_FClass2d> inside_;
+  std::shared_ptr<InsideTest> inside_;
 };
 
-/// Intersects lines with a face: with its triangles first, then with its exact surface. On tori and B-splines
-/// this is about a hundred times faster than OpenCASCADE.
+/// Intersects lines with a face: with its triangles first, then with its exact surface; a plane with many
+/// holes has no triangles. On tori and B-splines this is about a hundred times faster than OpenCASCADE.
 class RayFace {
  public:
   struct Hit {
     gp_Pnt2d uv;
     double along = 0;  ///< parameter on the line
   };
-  /// \param face with triangles. \param near points closer to a line than this lie on it.
+  /// \param face with triangles unless it has many holes; it must outlive this. \param near points closer to
+  /// a line than this lie on it.
   RayFace(const SkinFace& face, double near);
   /// Time: logarithmic in the triangles.
   std::vector<Hit> hits(const gp_Lin& line) const;
@@ -84,22 +91,16 @@ class RayFace {
     gp_Pnt corner;
     gp_Vec ab, ac;  ///< the sides that start at the corner
     std::array<gp_Pnt2d, 3> uv;
-    gp_XYZ center() const { return corner.XYZ() + (ab.XYZ() + ac.XYZ()) / 3; }
   };
-  /// A box around some triangles; its first half follows it in the list, unless it is a leaf.
-  struct Box {
-    gp_XYZ low, high;
-    std::size_t first = 0, last = 0;  ///< of the triangles
-    std::size_t second_half = 0;      ///< index of its box; 0 = a leaf
-  };
-  void add_boxes(std::size_t first, std::size_t last);
   std::optional<Hit> hit(const gp_Lin& line, const Flat& flat) const;
   /// The point of the surface on the line, starting from a guess.
   std::optional<Hit> polished(const gp_Lin& line, gp_Pnt2d uv, double along) const;
 
+  const SkinFace& face_;
   const BRepAdaptor_Surface& surface_;
+  std::optional<gp_Pln> plane_;  ///< of a face with many holes
   std::vector<Flat> triangles_;
-  std::vector<Box> boxes_;  ///< a tree, the root first
+  std::optional<BoxTree> boxes_;  ///< of the triangles
   double near_;
 };
 
@@ -128,19 +129,18 @@ class Skin {
 
   /// The first face that a ray meets.
   std::optional<Hit> first_hit(const gp_Pnt& from, const gp_Dir& direction) const;
+  /// Whether the point lies in the material, by rays; of a point on the skin it is not known.
+  bool in_material(const gp_Pnt& point) const;
   /// Whether a face lies within the distance `reach` of the point, along the direction or opposite to it.
   bool meets_face(const gp_Pnt& from, const gp_Dir& direction, double reach) const;
 
  private:
-  /// The faces whose boxes a line meets between two parameters.
-  std::vector<int> faces_along(const gp_Lin& line, double from, double to) const;
-
   TopoDS_Solid solid_;
   TopTools_IndexedMapOfShape map_;
   std::vector<SkinFace> faces_;
   double size_ = 0;
-  std::vector<RayFace> rays_;                   ///< one for each face
-  std::vector<std::array<gp_Pnt, 2>> corners_;  ///< for each face: lowest and highest corner of its box
+  std::vector<RayFace> rays_;     ///< one for each face
+  std::optional<BoxTree> boxes_;  ///< of the faces
 };
 
 }  // namespace quadrille

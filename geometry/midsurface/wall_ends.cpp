@@ -241,8 +241,8 @@ bool begins_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, dou
   return runs_through(wall, skin, beyond, edge.outward(at));
 }
 
-/// The walls that begin close by at several depths, as where a sheet leaves the one it lies on; otherwise the
-/// first one farther away. Empty if there is none.
+/// The walls that begin close by at several depths, at one place, as where a sheet leaves the one it lies on;
+/// otherwise the first one farther away. Empty if there is none.
 std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& walls, int wall,
                                  const FaceEdge& edge) {
   const double t = walls[wall].thickness;
@@ -262,6 +262,7 @@ std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& wall
           const NextWall next{other, away * t, depth * t, at};
           if (other == wall || is_known(other) || !begins_behind(skin, walls[other], edge, at, next))
             continue;
+          if (!result.empty() && result.front().at != at) continue;  // beside it, not above or below
           result.push_back(next);
           if (away > close_by) return result;
         }
@@ -352,8 +353,10 @@ bool meet_in_corner(const Skin& skin, const std::vector<Wall>& walls, int wall, 
          !position_in(walls[wall], skin, corner) && !position_in(walls[next.wall], skin, corner);
 }
 
+/// \param beside all walls that begin at the edge. At a step the fence reaches from the first to the last of
+/// their middles: fences that lie on each other in part would cut each other.
 WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, const NextWall& next,
-                 const FaceEdge& edge) {
+                 const FaceEdge& edge, const std::vector<NextWall>& beside) {
   const double t = walls[wall].thickness;
   const double step_over = next.away > close_by * t ? next.away : 1e-3 * t;
   bool step = false;
@@ -366,6 +369,11 @@ WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, con
     high = std::min({high, own, other});
     low = std::max({low, own, other});
     if (!step) break;
+    for (const NextWall& also : beside) {
+      const double depth = depth_at(skin, walls[also.wall], edge, at, step_over, t, also.depth);
+      high = std::min(high, depth);
+      low = std::max(low, depth);
+    }
   }
   high -= 0.1 * t;
   low += 0.1 * t;
@@ -601,7 +609,7 @@ class RimEnds {
     const gp_Vec aside = 0.6 * wide * gp_Vec(across), onward = length * away;
     const gp_Pnt start = vertex.Translated(0.2 * wide * gp_Vec(across));
     BRepBuilderAPI_MakePolygon border(start, start.Translated(aside), start.Translated(aside + onward),
-                                            start.Translated(onward), Standard_True);
+                                      start.Translated(onward), Standard_True);
     return BRepBuilderAPI_MakeFace(border.Wire(), Standard_True).Face();
   }
 
@@ -661,9 +669,10 @@ class WallEnds {
 
   /// Looks behind an edge of a wall's side and adds the ends found there.
   void add(int wall, int side, const FaceEdge& edge) {
-    for (const NextWall& next : next_walls(skin_, walls_, wall, edge)) {
+    const std::vector<NextWall> nexts = next_walls(skin_, walls_, wall, edge);
+    for (const NextWall& next : nexts) {
       // Only at a step there may be others above or below the next wall.
-      if (!add(wall, side, edge, next)) return;
+      if (!add(wall, side, edge, next, nexts)) return;
     }
   }
 
@@ -695,15 +704,17 @@ class WallEnds {
       const Wall& next = walls_[thinner.next.wall];
       for (const FaceEdge& part : stretches_along(skin_, next, thinner.edge, thinner.next,
                                                   walls_[thinner.wall].thickness, material_))
-        push(make_end(skin_, walls_, thinner.wall, thinner.next, part), false, between);
+        push(make_end(skin_, walls_, thinner.wall, thinner.next, part, {}), false, between);
     }
   }
 
  private:
   static constexpr int between = -1;
 
-  /// Adds the ends at an edge behind which the next wall begins. \return whether the edge is at a step.
-  bool add(int wall, int side, const FaceEdge& edge, const NextWall& next) {
+  /// Adds the ends at an edge behind which the next wall begins. \param beside all walls that begin there.
+  /// \return whether the edge is at a step.
+  bool add(int wall, int side, const FaceEdge& edge, const NextWall& next,
+           const std::vector<NextWall>& beside) {
     const double t = walls_[wall].thickness;
     if (goes_on_into(walls_[wall], next.wall)) return false;
     const bool riser = next.away > close_by * t;
@@ -712,12 +723,12 @@ class WallEnds {
     if (stands_already(wall, next.wall, side, edge)) return false;
     const gp_Pnt middle = edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * t);
     if (is_near(middle, 0.01 * t, middles_[{wall, next.wall}])) return false;
-    const WallEnd end = make_end(skin_, walls_, wall, next, edge);
+    const WallEnd end = make_end(skin_, walls_, wall, next, edge, {});
     if (!end.step) {
       push(end, riser, side);
     } else if (stands_on(walls_, wall, next.wall)) {
       for (const FaceEdge& part : stretches_along(skin_, walls_[next.wall], edge, next, t, material_)) {
-        WallEnd stretch = make_end(skin_, walls_, wall, next, part);
+        WallEnd stretch = make_end(skin_, walls_, wall, next, part, beside);
         if (part.last() - part.first() > 0.999999 * (edge.last() - edge.first()))
           stretch.riser = skin_.index_of(edge.beside().face());
         push(stretch, true, between);

@@ -296,7 +296,7 @@ std::optional<Wall> chained_wall(const Skin& skin, const std::vector<MatchedSide
   auto sides = wall.sides;
   // Past the end of the second side the next wall's goes on.
   for (const std::size_t next : own.next) add_once(sides[1], chains[next].faces[1]);
-  const auto middle = fit_middle(skin, sides, tolerance * thickness, margin, own.shared);
+  const auto middle = fit_middle(skin, sides, tolerance * thickness, margin, own.beside);
   if (!middle) return std::nullopt;
   wall.middle = middle->surface;
   wall.fitted = wall.ends = true;
@@ -339,14 +339,19 @@ void move_chains(const Skin& skin, const std::vector<int>& surfaces, double tole
 
 std::vector<int> surface_numbers(const Skin& skin) {
   const auto& faces = skin.faces();
+  const double near = 1e-4 * skin.size();
+  // From here the axes of a grid of holes have different distances.
+  const gp_Pnt aside = faces.front().box().CornerMin().Translated(skin.size() * gp_Vec(0.123, 0.457, 0.789));
+  std::multimap<double, int> firsts;  // by distance from `aside`: the first face on each surface
   std::vector<int> result(faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i) {
+    const double distance = distance_from_carrier(faces[i], aside);
     result[i] = static_cast<int>(i);
-    for (std::size_t j = 0; j < i; ++j) {
-      if (result[j] != static_cast<int>(j) || !on_one_surface(faces[i], faces[j], skin.size())) continue;
-      result[i] = static_cast<int>(j);
-      break;
+    for (auto it = firsts.lower_bound(distance - near); it != firsts.upper_bound(distance + near); ++it) {
+      if (it->second < result[i] && on_one_surface(faces[i], faces[it->second], skin.size()))
+        result[i] = it->second;
     }
+    if (result[i] == static_cast<int>(i)) firsts.emplace(distance, result[i]);
   }
   return result;
 }

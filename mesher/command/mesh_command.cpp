@@ -47,6 +47,24 @@ CadModel read_model(const MeshArguments& arguments, ExecutionContext& context) {
   return joined(arguments.settings, CadModel::read(arguments.input));
 }
 
+/// Draws a middle surface that was refused, as far as it can be made and meshed, with the edges marked that
+/// end inside the material. \return whether there is a picture.
+bool draw_refused(const CadModel& model, MidSurfaceOptions options, const MeshArguments& arguments,
+                  ExecutionContext& context) {
+  options.partial = true;
+  MeshOptions meshing = arguments.settings.mesh;
+  meshing.partial = true;
+  try {
+    const MidSurface middle = midsurface(model, options, context);
+    ShellMesh result = mesh(middle, meshing, context);
+    result.marked_edges = middle.stray_edges;
+    draw_apart(arguments.picture, context, [&] { write_picture(result, arguments.picture); });
+    return true;
+  } catch (const Error&) {  // the refusal tells more
+    return false;
+  }
+}
+
 /// The middle surface of the model's solids with --thin; else empty.
 std::optional<MidSurface> middle_of(const CadModel& model, const MeshArguments& arguments,
                                     ExecutionContext& context) {
@@ -54,7 +72,16 @@ std::optional<MidSurface> middle_of(const CadModel& model, const MeshArguments& 
   MidSurfaceOptions options;
   options.partial = arguments.settings.mesh.partial;
   options.join = arguments.join;
-  return midsurface(model, options, context);
+  try {
+    return midsurface(model, options, context);
+  } catch (const Error& refusal) {
+    if (arguments.picture.empty() || refusal.kind() != Error::Kind::failure ||
+        refusal.subject() == ExecutionContext::time_subject ||
+        !draw_refused(model, options, arguments, context))
+      throw;
+    throw failure(refusal.subject(), fmt::format("{}; {} shows it, with edges inside the material in red",
+                                                 refusal.what(), arguments.picture.string()));
+  }
 }
 
 /// Prints one line for each face, and each node of --node, that --partial leaves out.

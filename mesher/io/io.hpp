@@ -53,7 +53,8 @@ QUADRILLE_API ShellMesh read_mesh(const std::filesystem::path& path,
 /// counts of nodes, quads and triangles, and the criteria.
 QUADRILLE_API std::string quality_json(const ShellMesh& mesh, const CriteriaLimits& limits = {});
 
-/// Draws the mesh as a PNG: quads colored by q, their sides, and a color bar. Works without a screen.
+/// Draws the mesh as a PNG: quads colored by q, their sides, marked edges in red, and a color bar. Works
+/// without a screen.
 /// Throws Error (failure) when the picture cannot be drawn.
 QUADRILLE_API void write_picture(const ShellMesh& mesh, const std::filesystem::path& path, int width = 1600,
                                  int height = 1200);

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <set>
 
 #include "mesher/io/module_export.hpp"
 #include "mesher/io/modules.hpp"
@@ -134,11 +135,16 @@ void add_actors(const ShellMesh& mesh, const std::vector<double>& qualities, dou
   const auto sides = unique_sides(mesh);
   // Sides closer than a few pixels would paint the picture black.
   const double opacity = std::clamp(median_length(mesh, sides) / (12 * pixel * line_width), 0.04, 0.85);
-  std::vector<std::array<int, 2>> features;
-  for (const ShellMesh::Segment& segment : mesh.segments) features.push_back(segment.nodes);
+  std::vector<std::array<int, 2>> features, marked;
+  const std::set<int> to_mark(mesh.marked_edges.begin(), mesh.marked_edges.end());
+  for (const ShellMesh::Segment& segment : mesh.segments)
+    (to_mark.count(segment.edge) != 0 ? marked : features).push_back(segment.nodes);
   renderer->AddActor(surface_actor(mesh, qualities, points, colors));
   renderer->AddActor(line_actor(sides, points, line_width, opacity));
   renderer->AddActor(line_actor(features, points, 2.4 * line_width, 1));
+  const vtkNew<vtkActor> marks = line_actor(marked, points, 6 * line_width, 1);
+  marks->GetProperty()->SetColor(0.9, 0, 0.1);
+  renderer->AddActor(marks);
   if (!mesh.suppressed_edges.empty())
     renderer->AddActor(suppressed_actor(mesh, 8 * line_width * pixel, 2.4 * line_width));
 }

@@ -178,6 +178,7 @@ struct ShellMesh {
   std::vector<FilledHole> filled_holes;       ///< ascending by the first face they lie in
   std::vector<SuppressedEdge> suppressed_edges;  ///< ascending
   std::vector<PoorQuads> poor_quads;             ///< those that most quads have first
+  std::vector<int> marked_edges;                 ///< CAD edges, from 1, that pictures draw in red
   std::vector<Face> faces;                       ///< one entry per CAD face; empty in meshes read from files
   /// The groups in a file that the mesh was read from, in file order. Groups may overlap: entities are made
   /// small enough that each group is a set of whole entities. If this is empty, written files get one group

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepTools.hxx>
 #include <algorithm>
 #include <cmath>
@@ -23,7 +25,7 @@ namespace {
 using test::TemporaryFolder;
 
 /// A folder with thin.brep (a sheet of 3 and 2 mm), taper.brep (one of 4 to 2 mm), frame.brep (three profiles
-/// that touch), block.brep and both.brep (a plate on a block).
+/// that touch), block.brep, both.brep (a plate on a block) and wide_foot.brep (walls that cannot be joined).
 class MidsurfaceCommand : public testing::Test {
  protected:
   void SetUp() override {
@@ -34,6 +36,11 @@ class MidsurfaceCommand : public testing::Test {
     write(welded_frame(), "frame.brep");
     write(thick_block(), "block.brep");
     write(plate_on_block(), "both.brep");
+    // The plate ends inside the foot of a wall that is wider than it.
+    write(BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(100, 60, 3).Shape(),
+                           BRepPrimAPI_MakeBox(gp_Pnt(97, 50, 0), 5, 20, 30).Shape())
+              .Shape(),
+          "wide_foot.brep");
   }
 
   /// Runs `quadrille` with these arguments; gives the exit code and what it says on stderr.
@@ -191,6 +198,19 @@ TEST_F(MidsurfaceCommand, MeshTellsAllThatIsKnownOfTheMiddleSurface) {
   EXPECT_PRED2(contains, table, "% without what counts twice where walls meet); 1 part of 1 solid, ");
   EXPECT_PRED2(contains, table, "neither side nor rim of a wall: Face");
   EXPECT_EQ(quadrille_prints("mesh both.brep --thin --partial --size 10 -o m.inp").rfind(table, 0), 0U);
+}
+
+/// What is refused can be seen: nothing else is written.
+TEST_F(MidsurfaceCommand, DrawsWhatItRefuses) {
+  const auto result = quadrille_says("mesh wide_foot.brep --thin --size 5 -o m.inp --picture m.png --quiet");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_PRED2(contains, result.out, "inside the material between Face");
+  EXPECT_PRED2(contains, result.out, "m.png shows it, with edges inside the material in red");
+  EXPECT_TRUE(exists("m.png"));
+  EXPECT_FALSE(exists("m.inp"));
+  const auto block = quadrille_says("mesh block.brep --thin --size 5 -o m.inp --picture b.png --quiet");
+  EXPECT_EQ(block.exit_code, 1);
+  EXPECT_FALSE(exists("b.png"));
 }
 
 TEST_F(MidsurfaceCommand, EndsWithItsTimeLimit) {
