@@ -158,21 +158,22 @@ class CylinderModes:
             edges.append(edge)
         return joined([edge.extrude(Vector(0, 0, side * self.length / 2)) for edge in edges for side in (-1, 1)])
 
-    def exact(self):
-        """The frequencies in Hz by Sanders' theory (Leissa, Vibration of Shells, NASA SP-288, 1973). With m half waves along and
-        n waves around, u = U cos(ax) cos(ny), v = V sin(ax) sin(ny), w = W sin(ax) cos(ny): energies are quadratic in
-        (U, V, W)."""
+    def stiffness(self, m, n):
+        """The stiffness (3, 3) against u = U cos(ax) cos(ny), v = V sin(ax) sin(ny), w = W sin(ax) cos(ny), m half waves along and
+        n waves around, over the area; and a."""
         r, nu = self.radius, self.poisson
-        plane = np.array([[1, nu, 0], [nu, 1, 0], [0, 0, (1 - nu) / 2]]) / (1 - nu * nu)
-        found = []
-        for m in (1, 2, 3):
-            for n in range(1, 12):
-                a = m * math.pi / self.length
-                strain = np.array([[-a, 0, 0], [0, n / r, 1 / r], [-n / r, a, 0]])
-                bend = np.array([[0, 0, a * a], [0, n / r**2, n * n / r**2],
-                                 [n / (2 * r * r), 1.5 * a / r, 2 * a * n / r]])
-                stiffness = strain.T @ plane @ strain + self.thickness**2 / 12 * bend.T @ plane @ bend
-                found.append(math.sqrt(np.linalg.eigvalsh(stiffness)[0] * self.young / self.density) / (2 * math.pi))
+        plane = np.array([[1, nu, 0], [nu, 1, 0], [0, 0, (1 - nu) / 2]]) * self.young * self.thickness / (1 - nu * nu)
+        a = m * math.pi / self.length
+        strain = np.array([[-a, 0, 0], [0, n / r, 1 / r], [-n / r, a, 0]])
+        bend = np.array([[0, 0, a * a], [0, n / r**2, n * n / r**2], [n / (2 * r * r), 1.5 * a / r, 2 * a * n / r]])
+        return strain.T @ plane @ strain + self.thickness**2 / 12 * bend.T @ plane @ bend, a
+
+    def exact(self):
+        """The frequencies in Hz by Sanders' theory (Leissa, Vibration of Shells, NASA SP-288, 1973): energies are quadratic in
+        (U, V, W)."""
+        mass = self.density * self.thickness
+        found = [math.sqrt(np.linalg.eigvalsh(self.stiffness(m, n)[0])[0] / mass) / (2 * math.pi)
+                 for m in (1, 2, 3) for n in range(1, 12)]
         return np.repeat(sorted(found)[:4], 2)  # each occurs twice, rotated by a quarter wave
 
     def answer(self, mesh):
