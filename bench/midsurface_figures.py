@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Measures middle surfaces: the tables of docs/midsurface.md.
 
-    bench/midsurface_figures.py [--build BUILD] [--beams [NAME...] [--check] | --bracket]
+    bench/midsurface_figures.py [--build BUILD] [--beams [NAME...] [--check] | --bracket | --solids FILE... [--fine SHARE]]
 
 Without options: for each thin test model, area times thickness over volume, the number of parts, edges inside the
 material, CPU seconds. With --beams: cantilevers, meshed by Quadrille with S8R on the middle surface, against C3D20R of
 the same solid: deflection under an even load on the section at the tip, and the first bending frequency, both by
 CalculiX (ccx on the PATH). With --bracket: the sample part, examples/freecad/sheet_bracket.step, as C3D20R, the
-reference for its shell.
+reference for its shell. With --solids: CAD files of thin solids, clamped at the low end of their longest axis and loaded
+at the other, S8R against C3D10 of Gmsh whose size is the thinnest wall times SHARE.
 """
 
 import argparse
@@ -26,7 +27,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "examples" / "freecad"))
 
-from known_answers.solver import displacements, quad_shape, stresses  # noqa: E402
+from known_answers.solver import displacements, factors, quad_shape, stresses  # noqa: E402
 
 FORCE, YOUNG, DENSITY = 100.0, 210000.0, 7.85e-9
 BEAMS = ("i_beam_with_fillets", "h_beam", "ipe_200", "t_beam_with_fillets", "box_beam_with_fillets", "box_beam_rounded_outside",
@@ -65,22 +66,23 @@ def thicknesses_of(text):
     return result
 
 
-def shell_mesh(folder, build, name):
+def shell_mesh(folder, build, model, size=8, axis=2):
     """Meshes the middle surface. Returns the nodes, the text, the number of elements and the load shares of the tip's nodes."""
-    run(build / "quadrille", "mesh", folder / f"cantilever_{name}.brep", "--thin", "--order", 2, "--size", 8, "--quiet",
-        "-o", folder / "shell.inp", folder=folder)
+    run(build / "quadrille", "mesh", model, "--thin", "--order", 2, "--size", size, "--quiet", "-o", folder / "shell.inp", folder=folder)
     text = (folder / "shell.inp").read_text()
     nodes, quads, thicknesses = nodes_of(text), quads_of(text), thicknesses_of(text)
-    far = max(point[2] for point in nodes.values())
+    varying = "".join(re.findall(r"^\*NODAL THICKNESS\n((?:\d.*\n)+)", text, re.MULTILINE))
+    varying = {int(node): float(thickness) for node, thickness in (line.split(",") for line in varying.splitlines())}
+    far = max(point[axis] for point in nodes.values())
     shares = {}
     for quad, face in quads:
         for k in range(4):
             side = (quad[k], quad[4 + k], quad[(k + 1) % 4])
-            if any(abs(nodes[node][2] - far) > 1e-6 for node in side):
+            if any(abs(nodes[node][axis] - far) > 1e-6 for node in side):
                 continue
-            force = math.dist(nodes[side[0]], nodes[side[2]]) * thicknesses[face]
+            length = math.dist(nodes[side[0]], nodes[side[2]])
             for node, share in zip(side, (1 / 6, 4 / 6, 1 / 6)):
-                shares[node] = shares.get(node, 0) + share * force
+                shares[node] = shares.get(node, 0) + share * length * varying.get(node, thicknesses[face])
     return nodes, text.split("\n", 2)[2], len(quads), shares
 
 
@@ -125,23 +127,23 @@ def solid_mesh(folder, build, name, length):
     return nodes, text, len(lines), shares
 
 
-def solve(folder, name, mesh):
-    """The displacement of the tip along y under an even load on its section, and the first bending frequency (Hz)."""
+def solve(folder, name, mesh, axis=2, push=1):
+    """The displacement of the tip along an axis under an even load on its section, and CalculiX's table of frequencies."""
     nodes, text, _, shares = mesh
-    held = [number for number, point in nodes.items() if abs(point[2]) < 1e-6]
+    root = min(point[axis] for point in nodes.values())
+    held = [number for number, point in nodes.items() if abs(point[axis] - root) < 1e-6]
     whole = sum(shares.values())
     head = [MATERIAL, text, "*NSET, NSET=Held"] + [f"{number}," for number in held]
-    head += [f"*BOUNDARY\nHeld, 1, {3 if 'C3D20R' in text else 6}\n*STEP"]
-    bend = ["*STATIC\n*CLOAD"] + [f"{node}, 2, {FORCE * share / whole!r}" for node, share in shares.items()]
+    head += [f"*BOUNDARY\nHeld, 1, {3 if 'C3D' in text else 6}\n*STEP"]
+    bend = ["*STATIC\n*CLOAD"] + [f"{node}, {push + 1}, {FORCE * share / whole!r}" for node, share in shares.items()]
     bend += ["*NODE PRINT, NSET=Nall\nU\n*END STEP\n"]
     (folder / f"{name}_bend.inp").write_text("\n".join(head + bend))
     (folder / f"{name}_swing.inp").write_text("\n".join([*head, "*FREQUENCY\n8\n*END STEP\n"]))
     run("ccx", f"{name}_bend", folder=folder)
     run("ccx", f"{name}_swing", folder=folder)
-    table = re.findall(r"^\s+(\d+)\s+\S+\s+(\S+)\s+\S+$", (folder / f"{name}_bend.dat").read_text(), re.MULTILINE)
-    moves = {int(node): float(y) for node, y in table}
-    tip = sum(moves[node] * share for node, share in shares.items()) / whole
-    return tip, first_bending((folder / f"{name}_swing.dat").read_text())
+    moves = displacements((folder / f"{name}_bend.dat").read_text(), max(nodes))
+    tip = sum(moves[node - 1, push] * share for node, share in shares.items()) / whole
+    return tip, (folder / f"{name}_swing.dat").read_text()
 
 
 def first_bending(text):
@@ -161,14 +163,59 @@ def beams(folder, build, names):
     print("| cantilever | S8R | C3D20R | tip, shell (mm) | tip, solid (mm) | off by | first bending, shell (Hz) | solid (Hz) | off by |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     for name in names or BEAMS:
-        shell = shell_mesh(folder, build, name)
+        shell = shell_mesh(folder, build, folder / f"cantilever_{name}.brep")
         solid = solid_mesh(folder, build, name, max(point[2] for point in shell[0].values()))
-        (tip, mode), (solid_tip, solid_mode) = (solve(folder, kind, mesh) for kind, mesh in (("shell", shell), ("solid", solid)))
+        (tip, table), (solid_tip, solid_table) = (solve(folder, kind, mesh) for kind, mesh in (("shell", shell), ("solid", solid)))
+        mode, solid_mode = first_bending(table), first_bending(solid_table)
         print(f"| {name} | {shell[2]} | {solid[2]} | {tip:.5g} | {solid_tip:.5g} | {100 * (tip / solid_tip - 1):+.2f} % | "
               f"{mode:.5g} | {solid_mode:.5g} | {100 * (mode / solid_mode - 1):+.2f} % |", flush=True)
         if abs(tip / solid_tip - 1) > 0.02 or abs(mode / solid_mode - 1) > 0.03:
             off.append(name)
     return off
+
+
+def tetrahedra(folder, model, size, axis):
+    """A mesh of C3D10 by Gmsh, as shell_mesh returns it."""
+    run("gmsh", "-3", "-order", 2, "-clmin", size, "-clmax", size, model, "-o", folder / "tetrahedra.inp", folder=folder)
+    blocks = re.split(r"^\*", (folder / "tetrahedra.inp").read_text(), flags=re.MULTILINE)
+
+    def rows(start):
+        """The numbers of all lines in the blocks that begin so."""
+        return [line.split(",") for block in blocks if block.startswith(start) for line in block.splitlines()[1:]]
+
+    elements = [list(map(int, row)) for row in rows("ELEMENT, type=C3D10")]
+    used = {node for element in elements for node in element[1:]}
+    nodes = {int(row[0]): tuple(map(float, row[1:])) for row in rows("NODE") if int(row[0]) in used}
+    far = max(point[axis] for point in nodes.values())
+    shares = {}
+    for _, *triangle in (list(map(int, row)) for row in rows("ELEMENT, type=CPS6")):
+        if all(abs(nodes[node][axis] - far) < 1e-6 for node in triangle):
+            a, b, c = (np.array(nodes[node]) for node in triangle[:3])
+            for node in triangle[3:]:  # an even load on a triangle of second order acts on its midside nodes alone
+                shares[node] = shares.get(node, 0) + np.linalg.norm(np.cross(b - a, c - a)) / 6
+    text = "*NODE, NSET=Nall\n" + "\n".join(f"{n}, {p[0]!r}, {p[1]!r}, {p[2]!r}" for n, p in nodes.items())
+    text += "\n*ELEMENT, TYPE=C3D10, ELSET=Eall\n" + "\n".join(", ".join(map(str, element)) for element in elements)
+    return nodes, text + "\n*SOLID SECTION, ELSET=Eall, MATERIAL=Material", len(elements), shares
+
+
+def solids(folder, build, models, fine):
+    """Prints the table of thin solids: tips along both axes across the longest one, and the lowest frequency."""
+    print("| solid | S8R | C3D10 | load along | tip, shell (mm) | tip, solid (mm) | off by | first frequency, shell (Hz) | solid (Hz) | off by |")
+    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |")
+    for model in models:
+        box = re.search(r"^box +\((.*)\) to \((.*)\)", subprocess.run([build / "quadrille", "info", model], capture_output=True, text=True,
+                                                                        check=True).stdout, re.MULTILINE)
+        low, high = (np.array(side.split(","), float) for side in box.groups())
+        axis = int((high - low).argmax())
+        shell = shell_mesh(folder, build, model.absolute(), np.linalg.norm(high - low) / 60, axis)
+        thinnest = min(thicknesses_of(shell[1]).values())
+        solid = tetrahedra(folder, model.absolute(), thinnest * fine, axis)
+        for push in sorted({0, 1, 2} - {axis}):
+            (tip, table), (solid_tip, solid_table) = (solve(folder, kind, mesh, axis, push) for kind, mesh in
+                                                      (("shell", shell), ("solid", solid)))
+            mode, solid_mode = factors(table, 3)[0], factors(solid_table, 3)[0]
+            print(f"| {model.stem} | {shell[2]} | {solid[2]} | {'xyz'[push]} | {tip:.5g} | {solid_tip:.5g} | {100 * (tip / solid_tip - 1):+.2f} % "
+                  f"| {mode:.5g} | {solid_mode:.5g} | {100 * (mode / solid_mode - 1):+.2f} % |", flush=True)
 
 
 def bracket_mesh(folder, build, size, layers):
@@ -255,15 +302,20 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build")
     parser.add_argument("--beams", nargs="*", metavar="NAME", choices=BEAMS)
     parser.add_argument("--bracket", action="store_true")
+    parser.add_argument("--solids", nargs="+", type=pathlib.Path, metavar="FILE")
+    parser.add_argument("--fine", type=float, default=1, metavar="SHARE", help="size of the tetrahedra over the thinnest wall")
     parser.add_argument("--check", action="store_true", help="exit code 1 where a beam is off by more than was asked for")
     arguments = parser.parse_args()
-    if (arguments.beams is not None or arguments.bracket) and shutil.which("ccx") is None:
+    if (arguments.beams is not None or arguments.bracket or arguments.solids) and shutil.which("ccx") is None:
         print("NOT TESTED: ccx is not installed")
         return
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         if arguments.bracket:
             bracket(folder, arguments.build)
+            return
+        if arguments.solids:
+            solids(folder, arguments.build.absolute(), arguments.solids, arguments.fine)
             return
         run(arguments.build / "tests" / "write_models", folder, folder=folder)
         if arguments.beams is None:
