@@ -200,7 +200,8 @@ def tetrahedra(folder, model, size, axis):
 
 def solids(folder, build, models, fine):
     """Prints the table of thin solids: tips along both axes across the longest one, and the lowest frequency."""
-    print("| solid | S8R | C3D10 | load along | tip, shell (mm) | tip, solid (mm) | off by | first frequency, shell (Hz) | solid (Hz) | off by |")
+    print("| solid | S8R | C3D10 | load along | tip, shell (mm) | tip, solid (mm) | off by "
+          "| first frequency, shell (Hz) | solid (Hz) | off by |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     for model in models:
         box = re.search(r"^box +\((.*)\) to \((.*)\)", subprocess.run([build / "quadrille", "info", model], capture_output=True, text=True,
@@ -214,8 +215,8 @@ def solids(folder, build, models, fine):
             (tip, table), (solid_tip, solid_table) = (solve(folder, kind, mesh, axis, push) for kind, mesh in
                                                       (("shell", shell), ("solid", solid)))
             mode, solid_mode = factors(table, 3)[0], factors(solid_table, 3)[0]
-            print(f"| {model.stem} | {shell[2]} | {solid[2]} | {'xyz'[push]} | {tip:.5g} | {solid_tip:.5g} | {100 * (tip / solid_tip - 1):+.2f} % "
-                  f"| {mode:.5g} | {solid_mode:.5g} | {100 * (mode / solid_mode - 1):+.2f} % |", flush=True)
+            print(f"| {model.stem} | {shell[2]} | {solid[2]} | {'xyz'[push]} | {tip:.5g} | {solid_tip:.5g} "
+                  f"| {100 * (tip / solid_tip - 1):+.2f} % | {mode:.5g} | {solid_mode:.5g} | {100 * (mode / solid_mode - 1):+.2f} % |", flush=True)
 
 
 def bracket_mesh(folder, build, size, layers):
