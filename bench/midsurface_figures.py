@@ -204,16 +204,16 @@ def solids(folder, build, models, fine):
           "| first frequency, shell (Hz) | solid (Hz) | off by |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     for model in models:
-        box = re.search(r"^box +\((.*)\) to \((.*)\)", subprocess.run([build / "quadrille", "info", model], capture_output=True, text=True,
-                                                                        check=True).stdout, re.MULTILINE)
+        told = subprocess.run([build / "quadrille", "info", model], capture_output=True, text=True, check=True).stdout
+        box = re.search(r"^box +\((.*)\) to \((.*)\)", told, re.MULTILINE)
         low, high = (np.array(side.split(","), float) for side in box.groups())
         axis = int((high - low).argmax())
         shell = shell_mesh(folder, build, model.absolute(), np.linalg.norm(high - low) / 60, axis)
         thinnest = min(thicknesses_of(shell[1]).values())
         solid = tetrahedra(folder, model.absolute(), thinnest * fine, axis)
         for push in sorted({0, 1, 2} - {axis}):
-            (tip, table), (solid_tip, solid_table) = (solve(folder, kind, mesh, axis, push) for kind, mesh in
-                                                      (("shell", shell), ("solid", solid)))
+            found = [solve(folder, kind, mesh, axis, push) for kind, mesh in (("shell", shell), ("solid", solid))]
+            (tip, table), (solid_tip, solid_table) = found
             mode, solid_mode = factors(table, 3)[0], factors(solid_table, 3)[0]
             print(f"| {model.stem} | {shell[2]} | {solid[2]} | {'xyz'[push]} | {tip:.5g} | {solid_tip:.5g} "
                   f"| {100 * (tip / solid_tip - 1):+.2f} % | {mode:.5g} | {solid_mode:.5g} | {100 * (mode / solid_mode - 1):+.2f} % |", flush=True)
