@@ -216,7 +216,8 @@ def solids(folder, build, models, fine):
             (tip, table), (solid_tip, solid_table) = found
             mode, solid_mode = factors(table, 3)[0], factors(solid_table, 3)[0]
             print(f"| {model.stem} | {shell[2]} | {solid[2]} | {'xyz'[push]} | {tip:.5g} | {solid_tip:.5g} "
-                  f"| {100 * (tip / solid_tip - 1):+.2f} % | {mode:.5g} | {solid_mode:.5g} | {100 * (mode / solid_mode - 1):+.2f} % |", flush=True)
+                  f"| {100 * (tip / solid_tip - 1):+.2f} % | {mode:.5g} | {solid_mode:.5g} "
+                  f"| {100 * (mode / solid_mode - 1):+.2f} % |", flush=True)
 
 
 def bracket_mesh(folder, build, size, layers):
