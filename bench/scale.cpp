@@ -141,10 +141,7 @@ void compare(const std::filesystem::path& path, double many, double few, int rep
              (large.read + large.mesh + large.write) / (two.read + two.mesh + two.write));
 }
 
-}  // namespace
-}  // namespace quadrille
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Time and memory a quad, large against small and two threads against one");
   std::string model = QUADRILLE_SOURCE_DIR "/../shared/corpus/U_Joint_2.stp";
   double many = 1e6, few = 2e4;
@@ -154,11 +151,18 @@ int main(int argc, char** argv) {
   app.add_option("--few", few, "quads of the small mesh, about (default 20 thousand)");
   app.add_option("--repeats", repeats, "runs of each, the fastest counts (default 3)");
   CLI11_PARSE(app, argc, argv);
+  compare(model, many, few, repeats);
+  return 0;
+}
+
+}  // namespace
+}  // namespace quadrille
+
+int main(int argc, char** argv) {
   try {
-    quadrille::compare(model, many, few, repeats);
-  } catch (const quadrille::Error& error) {
-    fmt::print(stderr, "scale: {}\n", error.what());
+    return quadrille::run(argc, argv);
+  } catch (const std::exception& problem) {
+    fmt::print(stderr, "scale: {}\n", problem.what());
     return 1;
   }
-  return 0;
 }

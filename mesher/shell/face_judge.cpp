@@ -65,12 +65,12 @@ bool FaceJudge::replaces_grid(const FaceMesh& other, const FaceMesh& grid) const
 }
 
 bool FaceJudge::is_doubtful(const FaceMesh& cut) {
-  if (cut.quads.size() > thresholds.few) return wastes_quads(cut, thresholds.too_many);
-  return badness(cut) >= thresholds.poor * static_cast<double>(cut.quads.size());
+  cut_wasteful_ = cut.quads.size() > thresholds.few && wastes_quads(cut, thresholds.too_many);
+  return cut_wasteful_ || badness(cut) >= thresholds.poor * static_cast<double>(cut.quads.size());
 }
 
 bool FaceJudge::replaces_cut(const FaceMesh& direct, const FaceMesh& cut) const {
-  return cut.quads.size() > thresholds.few || badness(direct) < thresholds.better * badness(cut);
+  return cut_wasteful_ || badness(direct) < thresholds.better * badness(cut);
 }
 
 /// Whether there are more than `most` times the quads that the sizes ask for, plus half of the boundary

@@ -53,6 +53,7 @@ class FaceJudge {
   const ExecutionContext& context_;
   double outside_ = 0;  // of the grid, as far as it counts
   bool wasteful_ = false, stepped_ = false;
+  bool cut_wasteful_ = false;  // of the quads cut in four
 };
 
 }  // namespace quadrille

@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "geometry/cad/cad_shape.hpp"
 #include "mesher/quadrille.hpp"
 #include "tests/support/sample_models.hpp"
 #include "tests/support/sheet.hpp"

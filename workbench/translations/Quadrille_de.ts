@@ -500,10 +500,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Kürzeste Seite</translation>
     </message>
     <message>
-        <source>Edges and faces that force sides under half the minimum size: {}</source>
-        <translation>Kanten und Flächen, die Seiten unter der Hälfte der kleinsten Größe erzwingen: {}</translation>
-    </message>
-    <message>
         <source>Nodes at selected points</source>
         <translation>Knoten an gewählten Punkten</translation>
     </message>
@@ -538,6 +534,42 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>Holes, pockets and bosses that are left out: {}</source>
         <translation>Löcher, Taschen und Zapfen, die weggelassen sind: {}</translation>
+    </message>
+    <message>
+        <source>the mesh is in no analysis: drag it into one in the tree</source>
+        <translation>das Netz liegt in keiner Analyse: im Baum in eine ziehen</translation>
+    </message>
+    <message>
+        <source>its analysis is not the active one: double-click it</source>
+        <translation>seine Analyse ist nicht die aktive: doppelklicken</translation>
+    </message>
+    <message>
+        <source>the analysis has no material</source>
+        <translation>die Analyse hat kein Material</translation>
+    </message>
+    <message>
+        <source>the analysis has no shell thickness (Model &gt; Element geometry)</source>
+        <translation>die Analyse hat keine Schalendicke (Modell &gt; Elementgeometrie)</translation>
+    </message>
+    <message>
+        <source>the mesh is in pieces that share no nodes: Imprint or Sew joins parts that touch</source>
+        <translation>das Netz hat Teile ohne gemeinsame Knoten: Verschneiden oder Nähen verbindet, was sich berührt</translation>
+    </message>
+    <message>
+        <source>stresses come from the middle of the shell alone: Stresses at the surfaces</source>
+        <translation>Spannungen kommen nur aus der Mitte der Schale: Spannungen an der Oberfläche</translation>
+    </message>
+    <message>
+        <source>Edges and faces whose quads are outside the limits: {}</source>
+        <translation>Kanten und Flächen mit Vierecken außerhalb der Grenzen: {}</translation>
+    </message>
+    <message>
+        <source>Missing before solving: {}</source>
+        <translation>Vor dem Lösen fehlt: {}</translation>
+    </message>
+    <message>
+        <source>Nothing is missing before solving</source>
+        <translation>Vor dem Lösen fehlt nichts</translation>
     </message>
 </context>
 <context>

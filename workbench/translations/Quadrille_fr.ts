@@ -500,10 +500,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Côté minimal</translation>
     </message>
     <message>
-        <source>Edges and faces that force sides under half the minimum size: {}</source>
-        <translation>Arêtes et faces qui imposent des côtés de moins de la moitié de la taille minimale : {}</translation>
-    </message>
-    <message>
         <source>Nodes at selected points</source>
         <translation>Nœuds aux points sélectionnés</translation>
     </message>
@@ -538,6 +534,42 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>Holes, pockets and bosses that are left out: {}</source>
         <translation>Trous, poches et bossages laissés de côté : {}</translation>
+    </message>
+    <message>
+        <source>the mesh is in no analysis: drag it into one in the tree</source>
+        <translation>le maillage n'est dans aucune analyse : le glisser dans une analyse de l'arborescence</translation>
+    </message>
+    <message>
+        <source>its analysis is not the active one: double-click it</source>
+        <translation>son analyse n'est pas l'analyse active : double-cliquer dessus</translation>
+    </message>
+    <message>
+        <source>the analysis has no material</source>
+        <translation>l'analyse n'a pas de matériau</translation>
+    </message>
+    <message>
+        <source>the analysis has no shell thickness (Model &gt; Element geometry)</source>
+        <translation>l'analyse n'a pas d'épaisseur de coque (Modèle &gt; Géométrie d'élément)</translation>
+    </message>
+    <message>
+        <source>the mesh is in pieces that share no nodes: Imprint or Sew joins parts that touch</source>
+        <translation>le maillage est en morceaux sans nœud commun : Imprimer ou Coudre relie ce qui se touche</translation>
+    </message>
+    <message>
+        <source>stresses come from the middle of the shell alone: Stresses at the surfaces</source>
+        <translation>les contraintes viennent du seul milieu de la coque : Contraintes en surface</translation>
+    </message>
+    <message>
+        <source>Edges and faces whose quads are outside the limits: {}</source>
+        <translation>Arêtes et faces dont des quadrangles sont hors limites : {}</translation>
+    </message>
+    <message>
+        <source>Missing before solving: {}</source>
+        <translation>Il manque avant le calcul : {}</translation>
+    </message>
+    <message>
+        <source>Nothing is missing before solving</source>
+        <translation>Rien ne manque avant le calcul</translation>
     </message>
 </context>
 <context>

@@ -691,6 +691,35 @@ class PanelTest(GuiCase):
         view.viewFront()
         click_at(FreeCAD.Vector(*measured.centers[index]))  # nobody listens any more
 
+    def test_what_is_missing_before_solving(self):
+        import FemGui
+        import ObjectsFem
+        mesh = quadrille.freecad.mesh_object(self.box(), size=3)
+
+        def told():
+            self.edit(mesh)
+            wait_for(find("QuadrilleWorst").count, what="the worst elements")
+            text = find("QuadrilleReady").text() if find("QuadrilleReady").isVisible() else ""
+            close_panel()
+            return text
+
+        self.assertEqual(told(), "")  # no analysis in the document
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        self.assertIn("the mesh is in no analysis", told())
+        analysis.addObject(mesh)
+        FemGui.setActiveAnalysis(analysis)
+        text = told()
+        self.assertRegex(text, "^Missing before solving: .*no material.*no shell thickness")
+        self.assertNotIn("pieces", text)
+        make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
+        solver = make_solver(self.document)
+        for obj in (ObjectsFem.makeMaterialSolid(self.document), ObjectsFem.makeElementGeometry2D(self.document, 2), solver):
+            analysis.addObject(obj)
+        solver.BeamShellResultOutput3D = False
+        self.assertRegex(told(), "^Missing before solving: stresses come from the middle")
+        solver.BeamShellResultOutput3D = True
+        self.assertEqual(told(), "Nothing is missing before solving")
+
     def test_the_histogram_needs_no_other_library(self):
         """Importing matplotlib blocks the window for seconds."""
         self.open_panel(self.box())

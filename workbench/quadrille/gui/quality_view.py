@@ -3,16 +3,27 @@
 
 from typing import Callable, Optional
 
+import FemGui
 import FreeCADGui
 from PySide import QtCore, QtGui
 
 from ..core import quality
 from ..core.units import digits
+from ..solvers import checklist
 from . import QT_TRANSLATE_NOOP, do, drawn_icon, links_text, overlays, path_of, standard_buttons, transaction, translate
 from .element_view import ElementView
 from .histogram import Histogram
 from .wheel import calm
 
+#: What is missing before a mesh can be solved, by the names of the checks.
+MISSING = {
+    "analysis": QT_TRANSLATE_NOOP("Quadrille", "the mesh is in no analysis: drag it into one in the tree"),
+    "active": QT_TRANSLATE_NOOP("Quadrille", "its analysis is not the active one: double-click it"),
+    "material": QT_TRANSLATE_NOOP("Quadrille", "the analysis has no material"),
+    "thickness": QT_TRANSLATE_NOOP("Quadrille", "the analysis has no shell thickness (Model > Element geometry)"),
+    "pieces": QT_TRANSLATE_NOOP("Quadrille", "the mesh is in pieces that share no nodes: Imprint or Sew joins parts that touch"),
+    "surfaces": QT_TRANSLATE_NOOP("Quadrille", "stresses come from the middle of the shell alone: Stresses at the surfaces"),
+}
 WORST = 20
 BINS = 20
 #: Delay before the elements are measured for histogram, criteria and worst elements, so that the mesh is drawn first.
@@ -48,7 +59,8 @@ class QualityWidget(QtGui.QWidget):
         self.status = QtGui.QLabel()
         self.status.setObjectName("QuadrilleStatus")
         self.status.setWordWrap(True)
-        self.crossed, self.filled, self.short = (_note(name) for name in ("QuadrilleCrossed", "QuadrilleFilled", "QuadrilleShort"))
+        self.crossed, self.filled, self.poor, self.ready = (
+            _note(name) for name in ("QuadrilleCrossed", "QuadrilleFilled", "QuadrillePoor", "QuadrilleReady"))
         self.table = _table("QuadrilleQualityTable", 2)
         self.table.horizontalHeader().setVisible(False)
         self.criteria = _table("QuadrilleCriteria", 4)
@@ -82,7 +94,7 @@ class QualityWidget(QtGui.QWidget):
         by.addWidget(self.color)
         by.addWidget(self.measure, 1)
         layout.addWidget(self.status)
-        for note in (self.crossed, self.filled, self.short):
+        for note in (self.crossed, self.filled, self.poor, self.ready):
             layout.addWidget(note)
         layout.addWidget(self.table)
         layout.addWidget(self.histogram)
@@ -101,6 +113,7 @@ class QualityWidget(QtGui.QWidget):
         self.worst.clear()
         self.element.forget()
         self.criteria.setRowCount(0)
+        self.ready.setVisible(False)
         self.setVisible(self.mesh.FemMesh.FaceCount > 0)
         if not self.mesh.FemMesh.FaceCount:
             return
@@ -143,7 +156,7 @@ class QualityWidget(QtGui.QWidget):
                  translate("Quadrille",
                            "Smooth edges that quads cross, dotted in the view, and that get no group: {}; Keep names edges that stay")),
                 (self.filled, self.mesh.FilledHoles, translate("Quadrille", "Holes, pockets and bosses that are left out: {}")),
-                (self.short, self.mesh.PoorQuads,
+                (self.poor, self.mesh.PoorQuads,
                  translate("Quadrille", "Edges and faces whose quads are outside the limits: {}"))):
             label.setText(text.format(len(entries)))
             label.setToolTip("\n".join(entries))
@@ -167,7 +180,18 @@ class QualityWidget(QtGui.QWidget):
             told = f"{limit:.2g}" if name == "min_length" else f"{limit:g}"
             rows.append((translate("Quadrille", MEASURES[name]), told, f"{int(measured.fails(name).sum())}", digits(worst)))
         _fill(self.criteria, rows)
+        self._tell_what_is_missing()
         self._list_worst()
+
+    def _tell_what_is_missing(self) -> None:
+        """Tells what a document with an analysis lacks before this mesh can be solved."""
+        self.ready.setVisible(any(obj.isDerivedFrom("Fem::FemAnalysis") for obj in self.mesh.Document.Objects))
+        if not self.ready.isVisibleTo(self):
+            return
+        missing = [translate("Quadrille", MISSING[check.name]) for check in checklist.checks(self.mesh, FemGui.getActiveAnalysis())
+                   if not check.passed]
+        self.ready.setText(translate("Quadrille", "Missing before solving: {}").format("; ".join(missing)) if missing
+                           else translate("Quadrille", "Nothing is missing before solving"))
 
     def _list_worst(self) -> None:
         measured, measure = self.measured(), self.measure.itemData(self.measure.currentIndex())
