@@ -100,7 +100,8 @@ std::string face_name(const Setting& setting, const py::handle& face) {
 }
 
 /// Entries as texts. They are given as texts, or as a dict that maps names to one or more numbers:
-/// {"Edge4": 20}, {"Edge4": (0.1, 1.2, 6)}, or to another name. Those of numbers alone may be tuples in a list,
+/// {"Edge4": 20}, {"Edge4": (0.1, 1.2, 6)}, or to another name. Those of numbers alone may be tuples in a
+/// list,
 /// [(1, 2, 3)], and so may pairs of names: [("Face3", "Face7")].
 std::vector<std::string> entries(const Setting& setting, const py::handle& value) {
   if (py::isinstance<py::str>(value) || !py::isinstance<py::iterable>(value))
