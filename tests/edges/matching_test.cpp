@@ -14,7 +14,10 @@
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <GC_MakeArcOfCircle.hxx>
 #include <GeomAPI_PointsToBSpline.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Geom_TrimmedCurve.hxx>
 #include <TColgp_Array1OfPnt.hxx>
+#include <TopoDS.hxx>
 #include <algorithm>
 #include <functional>
 #include <set>
@@ -293,7 +296,9 @@ TEST(Matching, FilesTellThePairs) {
     section >> word >> links >> dimension >> to >> from >> word;
     for (int i = 0; i < 16; ++i) {
       section >> value;
-      if (i == 3) EXPECT_NEAR(value, 60, 1e-9);
+      if (i == 3) {
+        EXPECT_NEAR(value, 60, 1e-9);
+      }
     }
     section >> nodes;
     EXPECT_EQ(links, 1);
