@@ -2,6 +2,7 @@
 
 #include "mesher/edges/matching.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <BRepAlgoAPI_Cut.hxx>
@@ -277,8 +278,7 @@ TEST(Matching, FilesTellThePairs) {
   const CadModel model = drilled_box();
   const int left = face_at(model, lies_at(0, 0)), right = face_at(model, lies_at(0, 60));
   const ShellMesh mesh = mesh_with(model, {faces(left, right)});
-  const auto folder = std::filesystem::temp_directory_path() / "quadrille_matching_test";
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder folder;
   write_mesh(mesh, folder / "box.inp", {});
   const std::string inp = test::file_text(folder / "box.inp");
   EXPECT_NE(inp.find("NSET=Match1_a"), std::string::npos);
@@ -307,7 +307,64 @@ TEST(Matching, FilesTellThePairs) {
     EXPECT_EQ(from, left);
     EXPECT_EQ(nodes, mesh.matches[0].nodes.size());
   }
-  std::filesystem::remove_all(folder);
+}
+
+/// A ring under inner pressure moves as Lame says: here a twelfth of it, whose sides are linked.
+TEST(Matching, ALinkedSectorMovesAsTheWholeRing) {
+  if (!test::has_program("ccx")) GTEST_SKIP() << "NOT TESTED: ccx is not installed";
+  constexpr double young = 210000, poisson = 0.3, inner = 20, outer = 60, pressure = 100;
+  const CadModel model = model_of(sector_face(pi / 6, 0.15), "sheet");
+  const auto arc = [&](double radius) {
+    return edge_at(model, [=](const Vector3& p) { return std::abs(p.norm() - radius) < 1e-6; });
+  };
+  MeshOptions options;
+  options.order = 2;
+  options.sizing.size = 2;
+  const ShellMesh mesh = mesh_with(
+      model, {{1, edge_at(model, lies_at_angle(0, 0.15)), edge_at(model, lies_at_angle(pi / 6, 0.15))}},
+      options);
+  const auto& match = mesh.matches.at(0);
+  std::string equations;
+  const Eigen::Matrix3d turn = match.motion.rotation();
+  for (const auto& [a, b] : match.nodes)
+    for (const int k : {0, 1})
+      equations += fmt::format("*EQUATION\n3\n{}, {}, 1, {}, 1, {}, {}, 2, {}\n", b + 1, k + 1, a + 1,
+                               -turn(k, 0), a + 1, -turn(k, 1));
+  const std::set<int> bore = nodes_on(mesh, 1, arc(inner));
+  const int held = *std::find_if(bore.begin(), bore.end(), [&](int node) {
+    return std::none_of(match.nodes.begin(), match.nodes.end(),
+                        [&](const auto& pair) { return pair[0] == node || pair[1] == node; });
+  });
+  const Vector3& at = mesh.points[held];  // does not go round
+  equations += fmt::format("*EQUATION\n2\n{0}, 2, {1}, {0}, 1, {2}\n", held + 1, at.x(), -at.y());
+  const test::TemporaryFolder folder;
+  WriteOptions write;
+  write.element = InpElement::cpe8;
+  write_mesh(mesh, folder / "mesh.inp", write);
+  test::write_text(folder / "job.inp",
+                   fmt::format("*INCLUDE, INPUT=mesh.inp\n*MATERIAL, NAME=Material\n*ELASTIC\n{}, {}\n"
+                               "*SOLID SECTION, ELSET=Eall, MATERIAL=Material\n{}*STEP\n*STATIC\n*DSLOAD\n"
+                               "Surface_Edge{}, P, {}\n*NODE FILE, OUTPUT=2D\nU\n*END STEP\n",
+                               young, poisson, equations, arc(inner), pressure));
+  const auto solved = test::run("cd " + folder.path().string() + " && timeout 120 ccx job 2>&1");
+  ASSERT_EQ(solved.out.find("ERROR"), std::string::npos) << solved.out;
+  std::istringstream result(test::file_text(folder / "job.frd"));
+  std::string text;
+  bool moves = false;
+  int looked_at = 0;
+  constexpr double expected = (1 + poisson) * pressure * inner * inner /
+                              (young * (outer * outer - inner * inner)) *
+                              ((1 - 2 * poisson) * inner + outer * outer / inner);
+  while (std::getline(result, text)) {
+    if (text.starts_with(" -4")) moves = text.substr(5, 4) == "DISP";
+    if (!moves || !text.starts_with(" -1")) continue;
+    const int node = std::stoi(text.substr(3, 10)) - 1;
+    if (!bore.contains(node)) continue;
+    ++looked_at;
+    const Vector3 moved(std::stod(text.substr(13, 12)), std::stod(text.substr(25, 12)), 0);
+    EXPECT_LT((moved - expected * mesh.points[node].normalized()).norm(), 0.01 * expected);
+  }
+  EXPECT_EQ(looked_at, static_cast<int>(bore.size()));
 }
 
 }  // namespace
