@@ -27,6 +27,7 @@
 #include "mesher/edges/grid_rows.hpp"
 #include "mesher/edges/hole_filling.hpp"
 #include "mesher/edges/let_go.hpp"
+#include "mesher/edges/matching.hpp"
 #include "mesher/edges/placed_nodes.hpp"
 #include "mesher/faces/boundary_crossings.hpp"
 #include "mesher/quadrille.hpp"
@@ -34,6 +35,7 @@
 #include "mesher/shell/assembly.hpp"
 #include "mesher/shell/face_mesher.hpp"
 #include "mesher/shell/last_resort.hpp"
+#include "mesher/shell/matched_faces.hpp"
 #include "mesher/shell/node_sliding.hpp"
 #include "mesher/shell/poor_quads.hpp"
 #include "mesher/shell/remedies.hpp"
@@ -52,8 +54,9 @@ class Job {
  public:
   /// \param divides divide edges where slivers ask for it: edges and vertices are then not those of the model
   Job(const CadModel& model, const MeshOptions& options, ExecutionContext& context, bool divides = true)
-      : vertices_(model.vertex_count()),
-        filled_(fill_holes(model, faces_used(model, options), options.sizing, options.fill_holes)),
+      : options_(with_matches_kept(options)),
+        vertices_(model.vertex_count()),
+        filled_(fill_holes(model, faces_used(model, options), options_.sizing, options.fill_holes)),
         used_(filled_.left(faces_used(model, options))),
         limits_(size_limits(model, options.sizing)),
         placed_(divides ? place_nodes(filled_.model.shape(), used_, options.sizing, limits_.largest)
@@ -61,7 +64,7 @@ class Job {
         model_(divides ? divided(placed_.shape ? CadModel(placed_.shape) : filled_.model, used_, options)
                        : filled_.model),
         shape_(model_.shape()),
-        options_(options),
+        matches_(find_matches(shape_, options.sizing.matches, used_)),
         context_(context),
         plan_(shape_),
         to_tips_(shape_.faces.size()),
@@ -70,8 +73,9 @@ class Job {
         problems_before_(shape_.faces.size()),
         records_(shape_.faces.size()),
         asked_(used_),
-        let_go_(shape_, asked_, reach_of_let_go(limits_, options), edges_that_stay(), placed_vertices()) {
+        let_go_(shape_, asked_, reach_of_let_go(limits_, options), edges_that_stay(), held_vertices()) {
     if (options_.strategy == Strategy::subdivide) plan_.subdivided.assign(shape_.faces.size(), 1);
+    plan_.matched = matches_.edges;
     plan_.prescribed = prescribed_edges(shape_, options.sizing, limits_.largest);
     leave_out_tiny();
     find_rows();
@@ -107,6 +111,7 @@ class Job {
       });
     }
     advise_on_tiny_faces();
+    note_failed_partners();
     const bool none =
         std::none_of(meshes_.begin(), meshes_.end(), [](const auto& m) { return m.has_value(); });
     if (!options_.partial || none) throw_first_problem();
@@ -114,9 +119,12 @@ class Job {
       throw failure("size_min",
                     "all faces are far smaller than the minimum size: reduce it, or use `keep_features`");
     slide();
+    copy_faces(shape_, matches_, nodes_, meshes_);
     // The faces meshed so far are delivered, even past the time limit.
     if (options_.partial) context_.lift_time_limit();
-    ShellMesh result = assemble(CadGeometry(shape_), nodes_, meshes_, options_.order, context_);
+    ShellNumbering numbering;
+    ShellMesh result = assemble(CadGeometry(shape_), nodes_, meshes_, options_.order, context_, &numbering);
+    list_matches(matches_, nodes_, numbering, result);
     result.faces = statuses();
     result.let_go = list_let_go();
     result.kept = list_kept();
@@ -147,9 +155,19 @@ class Job {
   std::set<int> uncrossed;  ///< numbers of edges that no quad may cross
 
  private:
-  /// The model with edges divided at slivers, unless users divide edges: what they name stays as it is.
+  /// Options by which matched faces and edges keep nodes of their own.
+  static MeshOptions with_matches_kept(MeshOptions options) {
+    SizingOptions& sizing = options.sizing;
+    for (const MatchedPair& pair : sizing.matches)
+      (pair.dimension == 2 ? sizing.kept_faces : sizing.kept_edges).insert({pair.first, pair.second});
+    return options;
+  }
+
+  /// The model with edges divided at slivers, unless users divide or match edges: what they name stays as it
+  /// is.
   static CadModel divided(const CadModel& model, const FaceFlags& used, const MeshOptions& options) {
-    if (!options.sizing.spacings.empty() || !options.sizing.layers.edges.empty()) return model;
+    const SizingOptions& sizing = options.sizing;
+    if (!sizing.spacings.empty() || !sizing.layers.edges.empty() || !sizing.matches.empty()) return model;
     const double reach = reach_of_let_go(size_limits(model, options.sizing), options);
     const auto shape = divided_at_slivers(model.shape(), used, reach);
     return shape ? CadModel(shape) : model;
@@ -191,8 +209,17 @@ class Job {
     });
   }
 
-  std::vector<VertexId> placed_vertices() const {
-    std::vector<VertexId> result;
+  /// Whether an edge of the face has the same nodes as another one.
+  bool touches_match(FaceId face) const {
+    for (const CadWire& wire : shape_.faces[face].wires)
+      for (const Coedge& coedge : wire.coedges)
+        if (matches_.matched_edges[coedge.edge]) return true;
+    return false;
+  }
+
+  /// The vertices that share their nodes with no other.
+  std::vector<VertexId> held_vertices() const {
+    std::vector<VertexId> result = matches_.vertices(shape_);
     for (const PlacedNode& node : placed_.nodes) result.push_back(node.vertex);
     return result;
   }
@@ -345,7 +372,8 @@ class Job {
       if (!used_[face]) problems_[face].reset();
     }
     FaceFlags may_end = used_;
-    for (const FaceId face : may_end.ids()) may_end[face] = used_[face] && !to_tips_[face];
+    for (const FaceId face : may_end.ids())
+      may_end[face] = used_[face] && !to_tips_[face] && !touches_match(face);
     plan_.tips = find_tips(shape_, may_end, tiny, reach_of_let_go(limits_, options_));
   }
 
@@ -468,7 +496,7 @@ class Job {
     if (is_limited()) std::reverse(order.begin(), order.end());
     std::atomic<int> started{0}, done{0};
     const auto work_on = [&](FaceId face) {
-      if (!used_[face] || meshes_[face] || records_[face].given_up) return;
+      if (!used_[face] || meshes_[face] || records_[face].given_up || matches_.copied_faces[face]) return;
       try {
         work(face);
         problems_[face].reset();
@@ -579,6 +607,15 @@ class Job {
     }
   }
 
+  /// A face has no mesh if the one whose mesh it was to get has none.
+  void note_failed_partners() {
+    for (const MatchedFace& face : matches_.faces)
+      if (problems_[face.from])
+        problems_[face.to].emplace(problems_[face.from]->cause(), face.to,
+                                   fmt::format("Face{} was to get the mesh of another face: {}",
+                                               face.to.number(), problems_[face.from]->what()));
+  }
+
   void throw_first_problem() const {
     for (const auto& problem : problems_) {
       if (problem) throw *problem;
@@ -670,6 +707,7 @@ class Job {
     return result;
   }
 
+  const MeshOptions options_;
   int vertices_;  // of the model; the others divide edges or are placed inside faces
   FilledModel filled_;
   FaceFlags used_;
@@ -677,7 +715,7 @@ class Job {
   PlacedNodes placed_;
   const CadModel model_;
   const CadShape& shape_;
-  const MeshOptions& options_;
+  Matches matches_;
   ExecutionContext& context_;
   SamplingPlan plan_;
   std::vector<EdgeId> suppressed_;

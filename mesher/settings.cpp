@@ -279,6 +279,10 @@ std::vector<Setting> make_table() {
       {"keep", "keep", "Keep", none, mesh, none, 0, 0, false, "none",
        "faces and edges that keep nodes of their own, whatever their size and shape, such as Edge7,Face3",
        Setting::EntryList{set_kept, kept_of}},
+      {"match", "match", "Match", none, mesh, none, 0, 0, false, "none",
+       "pairs of faces or edges that get the same nodes, moved by a translation or a rotation, such as "
+       "Face3=Face7,Edge2=Edge9",
+       Setting::EntryList{set_matches, matches_of}},
       {"nodes_at", "node", "NodesAt", none, mesh, none, 0, 0, false, "none",
        "a place on a face, edge or vertex that gets a node and a group of that node, x,y,z or Name=x,y,z in "
        "mm; "
@@ -513,6 +517,20 @@ Settings with_pieces(const Settings& settings, const CadModel& model) {
   };
   pieces_named(sizing.kept_faces, "Face", model.pieces());
   pieces_named(sizing.kept_edges, "Edge", model.edge_pieces());
+  for (MatchedPair& pair : sizing.matches) {
+    const bool faces_match = pair.dimension == 2;
+    for (int* number : {&pair.first, &pair.second}) {
+      const char* kind = faces_match ? "Face" : "Edge";
+      const std::vector<int> pieces =
+          pieces_of(entry("match"), kind, *number, faces_match ? model.pieces() : model.edge_pieces());
+      if (pieces.size() != 1)
+        throw refused(entry("match"),
+                      fmt::format("names {}{}, which `imprint` cuts or drops: import the cut model "
+                                  "and name its pieces",
+                                  kind, *number));
+      *number = pieces.front();
+    }
+  }
   const auto finer = [](const SizeLayers& one, const SizeLayers& other) { return one.first < other.first; };
   rename(entry("layers"), "Face", model.pieces(), sizing.layers.faces, finer);
   rename(entry("layers"), "Edge", model.edge_pieces(), sizing.layers.edges, finer);
@@ -556,6 +574,9 @@ void check(const Settings& settings, const CadModel& model) {
               model.face_count());
   check_names(entry("keep"), {sizing.kept_edges.begin(), sizing.kept_edges.end()}, "Edge",
               model.edge_count());
+  for (const MatchedPair& pair : sizing.matches)
+    check_names(entry("match"), {pair.first, pair.second}, pair.dimension == 2 ? "Face" : "Edge",
+                pair.dimension == 2 ? model.face_count() : model.edge_count());
   check_names(entry("layers"), keys(sizing.layers.faces), "Face", model.face_count());
   check_names(entry("layers"), keys(sizing.layers.edges), "Edge", model.edge_count());
   check_names(entry("layers"), keys(sizing.layers.vertices), "Vertex", model.vertex_count());

@@ -188,6 +188,32 @@ Entries kept_of(const SizingOptions& sizing) {
   return entries;
 }
 
+void set_matches(SizingOptions& sizing, const Entries& entries) {
+  std::vector<MatchedPair> matches;
+  for (const std::string& entry : entries) {
+    for (const std::string_view text : split(entry)) {
+      const std::size_t equals = std::min(text.find('='), text.size());
+      const std::string_view first = text.substr(0, equals),
+                             second = text.substr(std::min(equals + 1, text.size()));
+      MatchedPair pair{2, number_of(first, "Face"), number_of(second, "Face")};
+      if (pair.first == 0) pair = {1, number_of(first, "Edge"), number_of(second, "Edge")};
+      if (pair.first == 0 || pair.second == 0 || pair.first == pair.second)
+        refuse("pairs of faces or edges such as Face3=Face7,Edge2=Edge9", entry);
+      matches.push_back(pair);
+    }
+  }
+  sizing.matches = std::move(matches);
+}
+
+Entries matches_of(const SizingOptions& sizing) {
+  Entries entries;
+  for (const MatchedPair& pair : sizing.matches) {
+    const char* kind = pair.dimension == 2 ? "Face" : "Edge";
+    entries.push_back(fmt::format("{0}{1}={0}{2}", kind, pair.first, pair.second));
+  }
+  return entries;
+}
+
 void set_segments(SizingOptions& sizing, const Entries& entries) {
   for (auto& [edge, spacing] : sizing.spacings) spacing.segments = 0;
   take_edges(entries, "whole numbers from 1 to a million such as Edge4=20", [&](int edge, double value) {
@@ -257,7 +283,7 @@ Entries layers_of(const SizingOptions& sizing) {
 
 void set_nodes(SizingOptions& sizing, const Entries& entries) {
   static const std::regex form("[A-Za-z][A-Za-z0-9_-]{0,59}"),
-      taken("(Face|Edge|Vertex|SolidFace|Thickness)[0-9].*", std::regex::icase);
+      taken("(Face|Edge|Vertex|SolidFace|Thickness|Match)[0-9].*", std::regex::icase);
   std::set<std::string> names;
   std::vector<NodePlace> nodes;
   for (const std::string& entry : entries) {

@@ -162,15 +162,18 @@ class CountChooser {
     chords_ = Chords(effective_);
     fixed_ = wishes_.fixed;
     fixed_.resize(effective_.size());
-    for (const EdgeId edge : effective_.ids()) {
-      const EdgeId same = tiny_.edges[edge];
-      if (same == edge) continue;
-      if (!tie({same, true}, {edge, !tiny_.reversed_edges[edge]}, std::numeric_limits<double>::infinity()))
+    const auto unite = [&](const SideEdge& a, const SideEdge& b) {
+      if (!tie(a, b, std::numeric_limits<double>::infinity()))
         throw usage_error("segments",
                           fmt::format("`segments` gives different numbers to Edge{} and Edge{}, which "
                                       "have the same nodes",
-                                      shape_.edges[same].number, shape_.edges[edge].number));
+                                      shape_.edges[a.edge].number, shape_.edges[b.edge].number));
+    };
+    for (const EdgeId edge : effective_.ids()) {
+      const EdgeId same = tiny_.edges[edge];
+      if (same != edge) unite({same, true}, {edge, !tiny_.reversed_edges[edge]});
     }
+    for (const auto& [a, b] : wishes_.tied) unite(a, b);
     for (const FaceId face : sides_.ids()) {
       const auto& facing = sides_[face].facing;
       if (is_waiting_[face]) continue;

@@ -1,6 +1,7 @@
 #pragma once
 /// Chooses the number of segments of each edge. Internal.
 
+#include <utility>
 #include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
@@ -12,7 +13,8 @@ namespace quadrille {
 
 /// What the counts of the edges of the faces used should be.
 struct CountWishes {
-  int stride = 1;                        ///< see BoundaryNodes::stride
+  std::vector<std::pair<SideEdge, SideEdge>> tied;  ///< edges that have one count, whatever they want
+  int stride = 1;                                   ///< see BoundaryNodes::stride
   IdVector<EdgeId, double> wanted;       ///< segments by the sizing field, in the mesh that is recombined
   IdVector<EdgeId, int> least;           ///< least number in the mesh that is recombined; 0 = edge not used
   IdVector<EdgeId, int> least_of_grids;  ///< least number in the final mesh if only grids use the chord

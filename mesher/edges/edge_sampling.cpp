@@ -124,6 +124,7 @@ class EdgeSampler {
 
   BoundaryNodes run() {
     tabulate_edges();
+    wish_alike();
     const FaceOutlines found = find_face_sides(shape_, used_, plan_.tiny, wishes_.wanted);
     result_.sides = found;
     EdgeCounts chosen = choose_counts(shape_, wishes_, plan_.tiny, result_.sides);
@@ -141,9 +142,11 @@ class EdgeSampler {
     for (const EdgeId i : shape_.edges.ids()) {
       if (counts_[i] > 0) place_nodes(i, check);
     }
+    copy_nodes();
     align_narrow_faces(shape_, used_, find_split_strips(shape_, used_, wishes_.wanted), result_);
     align_gaps(shape_, used_, plan_.unaligned, result_);
     end_faces_at_tips(shape_, plan_.tips, plan_.tiny, result_);
+    copy_nodes();
     borrow_nodes();
     return std::move(result_);
   }
@@ -204,6 +207,59 @@ class EdgeSampler {
             stride * least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride));
       }
     }
+  }
+
+  /// Edges with the same nodes take over each other's wishes, the larger ones.
+  void wish_alike() {
+    const auto take = [&](EdgeId to, EdgeId from) {
+      const auto raise = [&](auto& values) { values[to] = std::max(values[to], values[from]); };
+      if (wishes_.fixed[to] != 0 && wishes_.fixed[from] != 0) return;  // choose_counts() compares them
+      raise(wishes_.least);
+      raise(wishes_.least_of_grids);
+      raise(wishes_.wanted);
+      raise(wishes_.fixed);
+      raise(wishes_.even);
+    };
+    for (auto copy = plan_.matched.rbegin(); copy != plan_.matched.rend(); ++copy) take(copy->from, copy->to);
+    for (const MatchedEdge& copy : plan_.matched) {
+      take(copy.to, copy.from);
+      wishes_.tied.push_back({{copy.from, true}, {copy.to, !copy.reversed}});
+      result_.edges[copy.from].matched = result_.edges[copy.to].matched = result_.edges[copy.to].copied =
+          true;
+    }
+  }
+
+  /// Moves the nodes of matched edges to where those of their partners are, moved.
+  void copy_nodes() {
+    for (const MatchedEdge& copy : plan_.matched) {
+      const BoundaryNodes::Edge& from = result_.edges[copy.from];
+      BoundaryNodes::Edge& to = result_.edges[copy.to];
+      if (from.segments() != to.segments())
+        throw failure("match",
+                      fmt::format("`match` cannot give Edge{} the nodes of Edge{}, since one of them is "
+                                  "left out: use `keep_features`, or a smaller `merge_tiny`",
+                                  shape_.edges[copy.to].number, shape_.edges[copy.from].number));
+      const EdgeCurve curve(shape_.edges[copy.to]);
+      for (int k = 1; k < to.segments(); ++k) {
+        const Vector3& source = result_.points[from.nodes[copy.reversed ? from.segments() - k : k]];
+        Vector3& point = result_.points[to.nodes[k]];
+        point = copy.motion(source);
+        to.parameters[k] = parameter_at(curve, shape_.edges[copy.to], to.parameters[k], point);
+      }
+    }
+  }
+
+  /// The parameter of a point on a curve, searched from another one by Newton's method.
+  static double parameter_at(const EdgeCurve& curve, const CadEdge& edge, double t, const Vector3& point) {
+    constexpr int most_steps = 30;
+    for (int i = 0; i < most_steps; ++i) {
+      const Vector3 along = curve.derivative(t);
+      const double step = along.dot(point - curve.point(t)) / std::max(along.squaredNorm(), 1e-300);
+      const double next = std::clamp(t + step, edge.first, edge.last);
+      if (std::abs(next - t) <= 1e-14 * (edge.last - edge.first)) break;
+      t = next;
+    }
+    return t;
   }
 
   CountTable table_of(EdgeId id) {

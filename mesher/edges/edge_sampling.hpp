@@ -15,6 +15,7 @@
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/edges/count_table.hpp"
 #include "mesher/edges/face_sides.hpp"
+#include "mesher/edges/matching.hpp"
 #include "mesher/edges/tiny_features.hpp"
 #include "mesher/edges/tips.hpp"
 
@@ -30,6 +31,8 @@ struct BoundaryNodes {
     std::array<int, 2> borrowed{0, 0};
     bool divided = false;  ///< users prescribe the number of segments on its chord
     bool kept = false;     ///< users prescribe the spacing of its chord: the nodes stay in place
+    bool matched = false;  ///< its nodes are those of another edge, moved, or the other way round
+    bool copied = false;   ///< its nodes are those of another edge, moved
     int segments() const { return static_cast<int>(nodes.size()) - 1; }
     bool borrows() const { return borrowed[0] + borrowed[1] > 0; }
     bool borrows(int segment) const { return segment < borrowed[0] || segment >= segments() - borrowed[1]; }
@@ -87,6 +90,8 @@ struct SamplingPlan {
   TinyFeatures tiny;
   std::vector<Tip> tips;       ///< at which faces end early
   PrescribedEdges prescribed;  ///< user divisions; may be empty
+  /// Edges whose nodes are copied to others, in this order; plan.tiny must leave them and their vertices.
+  std::vector<MatchedEdge> matched;
 };
 
 /// The tables of edges by the sizing field alone, as far as they are known.

@@ -123,7 +123,7 @@ class GapNodes {
     ties.resize(own.segments() / own.stride + 1);
     for (std::size_t k = 0; k < ties.size(); ++k) ties[k].parameter = own.parameters[k * own.stride];
     ties.front().settled = ties.back().settled = true;
-    for (Tie& tie : ties) tie.settled |= own.kept || own.borrows();
+    for (Tie& tie : ties) tie.settled |= own.kept || own.copied || own.borrows();
     return ties;
   }
 

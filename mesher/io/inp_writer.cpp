@@ -170,6 +170,21 @@ void write_node_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& 
     }
 }
 
+/// Writes two sets for each pair of faces or edges with the same nodes: node i of one is the partner of node
+/// i of the other. Abaqus sorts sets without UNSORTED.
+void write_matches(const OutputMesh& mesh, TextWriter& out) {
+  int number = 0;
+  for (const ShellMesh::Match& match : mesh.matches()) {
+    ++number;
+    for (const int side : {0, 1}) {
+      std::vector<int> nodes;
+      for (const auto& pair : match.nodes) nodes.push_back(mesh.number(pair[side]));
+      out << fmt::format("*NSET, NSET=Match{}_{}, UNSORTED\n", number, side == 0 ? 'a' : 'b');
+      write_list(nodes, out);
+    }
+  }
+}
+
 /// Writes a surface for each set of elements. SPOS is the side to which the element normals point.
 void write_surfaces(const OutputMesh& mesh, const SetNames& names, TextWriter& out) {
   for (std::size_t i = 0; i < mesh.groups(2).size(); ++i) {
@@ -241,6 +256,7 @@ void write_inp(const OutputMesh& mesh, const WriteOptions& options, const std::s
   const SetNames names(mesh);
   write_element_sets(mesh, options.element, names, out);
   write_node_sets(mesh, names, out);
+  write_matches(mesh, out);
   write_side_sets(mesh, options.element, names, out);
   // Of plane and axisymmetric elements the sides are loaded.
   if (!lies_in_plane(options.element)) write_surfaces(mesh, names, out);

@@ -142,6 +142,7 @@ void write_msh4(const OutputMesh& mesh, TextWriter& out) {
   out << "$EndEntities\n";
   write_node_blocks(mesh, all, out);
   write_element_blocks(mesh, all, out);
+  write_periodic(mesh, true, out);
 }
 
 }  // namespace quadrille

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace quadrille {
 
 namespace {
@@ -93,6 +95,25 @@ void write_physical_names(const OutputMesh& mesh, const PhysicalNumbers& physica
     out << dimension << ' ' << number << " \"" << name << "\"\n";
   });
   out << "$EndPhysicalNames\n";
+}
+
+void write_periodic(const OutputMesh& mesh, bool version4, TextWriter& out) {
+  std::vector<ShellMesh::Match> matches = mesh.matches();
+  // Without groups of edges the file has no edges.
+  std::erase_if(matches,
+                [&](const auto& match) { return match.dimension == 1 && mesh.segment_count() == 0; });
+  if (matches.empty()) return;
+  out << "$Periodic\n" << matches.size() << '\n';
+  for (const ShellMesh::Match& match : matches) {
+    out << match.dimension << ' ' << match.entities[1] << ' ' << match.entities[0] << '\n';
+    const Eigen::Matrix4d matrix = match.motion.matrix();
+    out << (version4 ? "16" : "Affine");
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 4; ++column) out << fmt::format(" {}", matrix(row, column));
+    out << '\n' << match.nodes.size() << '\n';
+    for (const auto& [from, to] : match.nodes) out << mesh.number(to) << ' ' << mesh.number(from) << '\n';
+  }
+  out << "$EndPeriodic\n";
 }
 
 void write_msh_nodes(const OutputMesh& mesh, const ElementNodes& element, TextWriter& out) {

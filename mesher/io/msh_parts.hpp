@@ -41,6 +41,10 @@ class PhysicalNumbers {
 /// Writes the section $PhysicalNames: Face3, Edge7, Vertex2. Writes nothing if there are no names.
 void write_physical_names(const OutputMesh& mesh, const PhysicalNumbers& physical, TextWriter& out);
 
+/// Writes the section $Periodic: the second of two matched faces or edges first, then the one that is moved
+/// there. Writes nothing if there are none. \param version4 for version 4.1 of the format
+void write_periodic(const OutputMesh& mesh, bool version4, TextWriter& out);
+
 /// Writes the numbers of an element's nodes and the end of the line.
 void write_msh_nodes(const OutputMesh& mesh, const ElementNodes& element, TextWriter& out);
 

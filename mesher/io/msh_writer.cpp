@@ -68,6 +68,7 @@ void write_msh2(const OutputMesh& mesh, TextWriter& out) {
     before += kind.size();
   }
   out << "$EndElements\n";
+  write_periodic(mesh, false, out);
 }
 
 }  // namespace quadrille

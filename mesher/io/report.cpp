@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/process_usage.hpp"
@@ -134,6 +135,28 @@ json placed_to_json(const ShellMesh& mesh) {
   return result;
 }
 
+/// The motion of each pair, and its nodes by their numbers in mesh files.
+json matches_to_json(const ShellMesh& mesh) {
+  const auto list = [](const Vector3& v) { return json{v.x(), v.y(), v.z()}; };
+  json matches = json::array();
+  for (const ShellMesh::Match& match : mesh.matches) {
+    const RigidMotion& motion = match.motion;
+    const std::string kind = match.dimension == 2 ? "Face" : "Edge";
+    json nodes = json::array();
+    for (const auto& [a, b] : match.nodes) nodes.push_back({a + 1, b + 1});
+    json moved{{"translation", list(motion.translation)}};
+    if (motion.angle != 0)
+      moved.update({{"center", list(motion.center)},
+                    {"axis", list(motion.axis)},
+                    {"degrees", motion.angle * 180 / std::numbers::pi}});
+    matches.push_back({{"from", kind + std::to_string(match.entities[0])},
+                       {"to", kind + std::to_string(match.entities[1])},
+                       {"motion", moved},
+                       {"nodes", nodes}});
+  }
+  return matches;
+}
+
 json let_go_to_json(const ShellMesh& mesh) {
   const auto name = [](ShellMesh::LetGo::Kind kind, int number) {
     return (kind == ShellMesh::LetGo::Kind::edge ? "Edge" : "Vertex") + std::to_string(number);
@@ -208,6 +231,7 @@ json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const Exec
           {"filled_holes", filled_holes_to_json(mesh)},
           {"suppressed_edges", suppressed_to_json(mesh)},
           {"placed_nodes", placed_to_json(mesh)},
+          {"matches", matches_to_json(mesh)},
           {"poor_quads", poor_quads_to_json(mesh)},
           {"warnings", warnings},
           {"versions",

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/base/rigid_motion.hpp"
 #include "geometry/base/vector.hpp"
 
 namespace quadrille {
@@ -151,6 +152,14 @@ struct ShellMesh {
     bool added = false;  ///< the vertex is none of the CAD model's: its number follows theirs
   };
 
+  /// Two CAD faces, or two edges, that have the same nodes.
+  struct Match {
+    int dimension = 2;                      ///< 2: faces, 1: edges
+    std::array<int, 2> entities{};          ///< their numbers, from 1
+    RigidMotion motion;                     ///< takes the first to the second
+    std::vector<std::array<int, 2>> nodes;  ///< node of the first, and the one of the second where it goes
+  };
+
   /// The thickness of the shell on a CAD face where it varies over the face.
   struct VaryingThickness {
     int face = 0;                     ///< CAD face, from 1
@@ -172,6 +181,7 @@ struct ShellMesh {
   std::vector<Segment> segments;              ///< the sides on CAD edges, each once
   std::vector<Corner> corners;                ///< the nodes on CAD vertices and those of placed_nodes
   std::vector<PlacedNode> placed_nodes;       ///< in the order in which they were asked for
+  std::vector<Match> matches;                 ///< in the order in which they were asked for
   std::vector<OffGeometry> off_geometry;      ///< ascending by node; usually empty
   std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; for faces see Face::status
   std::vector<Kept> kept;                     ///< faces, then edges, ascending

@@ -145,7 +145,7 @@ class Joining {
   bool is_eligible(EdgeId id) const {
     const CadEdge& cad = shape_.edges[id];
     const BoundaryNodes::Edge& edge = nodes_.edges[id];
-    if (kept_[id] || edge.kept || edge.divided || edge.segments() < 1) return false;
+    if (kept_[id] || edge.kept || edge.matched || edge.divided || edge.segments() < 1) return false;
     if (cad.faces.size() != 2 || cad.degenerate) return false;
     for (const FaceId face : cad.faces)
       if (!faces_[face] || !faces_[face]->off.empty()) return false;

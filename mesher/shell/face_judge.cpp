@@ -1,5 +1,5 @@
 /// Measures the share of quads outside the usual limits, the number of quads beside what the sizes ask for,
-/// and the shapes of few quads.
+/// and their shapes.
 
 #include "mesher/shell/face_judge.hpp"
 
@@ -65,12 +65,11 @@ bool FaceJudge::replaces_grid(const FaceMesh& other, const FaceMesh& grid) const
 }
 
 bool FaceJudge::is_doubtful(const FaceMesh& cut) {
-  cut_wasteful_ = cut.quads.size() > thresholds.few && wastes_quads(cut, thresholds.too_many);
-  return cut_wasteful_ || badness(cut) >= thresholds.poor * static_cast<double>(cut.quads.size());
+  return badness(cut) >= thresholds.poor * static_cast<double>(cut.quads.size());
 }
 
 bool FaceJudge::replaces_cut(const FaceMesh& direct, const FaceMesh& cut) const {
-  return cut_wasteful_ || badness(direct) < thresholds.better * badness(cut);
+  return badness(direct) < thresholds.better * badness(cut);
 }
 
 /// Whether there are more than `most` times the quads that the sizes ask for, plus half of the boundary

@@ -274,7 +274,7 @@ class NodeSliding {
   void find_slidable() {
     std::vector<char> uses = nodes_.edges_at_nodes();
     for (const auto& edge : nodes_.edges) {
-      if (!edge.kept) continue;
+      if (!edge.kept && !edge.matched) continue;
       for (const int node : edge.nodes) uses[node] = 2;
     }
     slidable_.resize(uses.size());

@@ -854,6 +854,10 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <source>Leave out holes, pockets and bosses that are no wider than this length; 0 = all are meshed</source>
         <translation>Löcher, Taschen und Zapfen weglassen, die nicht breiter sind als diese Länge; 0 = alle werden vernetzt</translation>
     </message>
+    <message>
+        <source>Pairs of faces or edges that get the same nodes, moved by a translation or a rotation, such as Face3=Face7,Edge2=Edge9; empty = none</source>
+        <translation>Paare von Flächen oder Kanten, die die gleichen Knoten erhalten, verschoben oder gedreht, etwa Face3=Face7,Edge2=Edge9; leer = keine</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleStatus</name>

@@ -854,6 +854,10 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <source>Leave out holes, pockets and bosses that are no wider than this length; 0 = all are meshed</source>
         <translation>Laisser de côté les trous, poches et bossages qui ne sont pas plus larges que cette longueur ; 0 = tous sont maillés</translation>
     </message>
+    <message>
+        <source>Pairs of faces or edges that get the same nodes, moved by a translation or a rotation, such as Face3=Face7,Edge2=Edge9; empty = none</source>
+        <translation>Paires de faces ou d’arêtes qui reçoivent les mêmes nœuds, par une translation ou une rotation, comme Face3=Face7,Edge2=Edge9 ; vide = aucune</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleStatus</name>
