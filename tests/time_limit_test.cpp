@@ -90,6 +90,15 @@ std::vector<Work> all_work() {
                       mesh(middle, options_for(middle.model, 30), context);
                     },
                     {"midsurface", "size", "sample", "mesh", "slide", "assemble"}});
+  for (const JoinedModel& of : joined_models()) {
+    if (of.name != "frame_with_gaps" && of.name != "tube_in_sleeve") continue;  // flat and curved gaps
+    const CadModel apart(std::make_shared<CadShape>(of.make(), of.name));
+    MidSurfaceOptions joining;
+    joining.join = true;
+    result.push_back({fmt::format("middle surface of the solids {}", of.name),
+                      [=](ExecutionContext& context) { midsurface(apart, joining, context); },
+                      {"midsurface"}});
+  }
   const auto triangles = std::make_shared<ShellMesh>(triangles_of(bracket));
   result.push_back({"recombine",
                     [=](ExecutionContext& context) {

@@ -3,9 +3,7 @@
 #include "geometry/midsurface/fusing.hpp"
 
 #include <Message_ProgressIndicator.hxx>
-#include <Message_ProgressRange.hxx>
-
-#include "geometry/base/error.hpp"
+#include <exception>
 
 namespace quadrille {
 
@@ -15,27 +13,40 @@ class AskContext : public Message_ProgressIndicator {
  public:
   explicit AskContext(const ExecutionContext& context) : context_(context) {}
 
+  /// After the first break OpenCASCADE asks again in each of its nested loops: the answer stays the same.
   Standard_Boolean UserBreak() override {
+    if (ended_) return Standard_True;
     try {
       context_.check();
-    } catch (const Error&) {  // thrown again by perform(), outside of OpenCASCADE
-      return Standard_True;
+    } catch (...) {  // no other exception may pass through OpenCASCADE; thrown again by throw_end()
+      ended_ = std::current_exception();
     }
-    return Standard_False;
+    return ended_ ? Standard_True : Standard_False;
+  }
+
+  void throw_end() const {
+    if (ended_) std::rethrow_exception(ended_);
+    context_.check();
   }
 
  private:
   void Show(const Message_ProgressScope&, const Standard_Boolean) override {}
 
   const ExecutionContext& context_;
+  std::exception_ptr ended_;
 };
 
 }  // namespace
 
-void perform(BOPAlgo_Builder& fuse, const ExecutionContext& context) {
+void under_limit(const ExecutionContext& context,
+                 const std::function<void(const Message_ProgressRange&)>& work) {
   const Handle(AskContext) progress = new AskContext(context);
-  fuse.Perform(progress->Start());
-  context.check();
+  work(progress->Start());
+  progress->throw_end();
+}
+
+void perform(BOPAlgo_Builder& fuse, const ExecutionContext& context) {
+  under_limit(context, [&](const Message_ProgressRange& range) { fuse.Perform(range); });
 }
 
 }  // namespace quadrille

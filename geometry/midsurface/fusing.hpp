@@ -1,14 +1,20 @@
 #pragma once
-/// OpenCASCADE's general fuse under a time limit. Internal.
+/// OpenCASCADE's long work under a time limit. Internal.
 
 #include <BOPAlgo_Builder.hxx>
+#include <Message_ProgressRange.hxx>
+#include <functional>
 
 #include "geometry/base/execution_context.hpp"
 
 namespace quadrille {
 
-/// Performs the fuse, which must have its arguments and options. Throws Error when the context is cancelled
-/// or its time is over, soon after that.
+/// Runs work that takes a progress range of OpenCASCADE. Throws Error when the context is cancelled or its
+/// time is over, soon after that.
+void under_limit(const ExecutionContext& context,
+                 const std::function<void(const Message_ProgressRange&)>& work);
+
+/// Performs the fuse, which must have its arguments and options, under_limit().
 void perform(BOPAlgo_Builder& fuse, const ExecutionContext& context);
 
 }  // namespace quadrille

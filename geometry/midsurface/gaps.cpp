@@ -35,6 +35,7 @@
 #include <set>
 #include <utility>
 
+#include "geometry/midsurface/fusing.hpp"
 #include "geometry/midsurface/widths.hpp"
 
 namespace quadrille {
@@ -174,8 +175,19 @@ std::optional<gp_Ax3> frame_of(const BRepAdaptor_Surface& surface) {
   }
 }
 
+/// Makes the common part of two shapes.
+void intersect(const TopoDS_Shape& a, const TopoDS_Shape& b, const ExecutionContext& context,
+               BRepAlgoAPI_Common& common) {
+  TopTools_ListOfShape first, second;
+  first.Append(a);
+  second.Append(b);
+  common.SetArguments(first);
+  common.SetTools(second);
+  under_limit(context, [&](const Message_ProgressRange& range) { common.Build(range); });
+}
+
 /// Cuts a face in two, so that no edge of the halves is closed. Empty if its surface has no local axes.
-std::list<BRepAlgoAPI_Common> halves(const SkinFace& face) {
+std::list<BRepAlgoAPI_Common> halves(const SkinFace& face, const ExecutionContext& context) {
   std::list<BRepAlgoAPI_Common> result;  // a list, since its elements must not be copied
   const auto frame = frame_of(face.surface());
   if (!frame) return result;
@@ -186,7 +198,8 @@ std::list<BRepAlgoAPI_Common> halves(const SkinFace& face) {
     const gp_Vec away = side * gp_Vec(frame->XDirection());
     const gp_Pnt corner = frame->Location().Translated(-reach * (axis + axis.Crossed(away)));
     const gp_Ax2 place(corner, frame->Direction(), away);
-    result.emplace_back(face.face(), BRepPrimAPI_MakeBox(place, reach, 2 * reach, 2 * reach).Solid());
+    const TopoDS_Shape box = BRepPrimAPI_MakeBox(place, reach, 2 * reach, 2 * reach).Solid();
+    intersect(face.face(), box, context, result.emplace_back());
     if (result.back().HasErrors()) return {};
   }
   return result;
@@ -258,7 +271,8 @@ TopoDS_Face ruled_face(const TopoDS_Edge& a, const TopoDS_Edge& b) {
 /// The solid between two distances along a face's normals. \param numbers by edge, for the sides; other sides
 /// and the two ends get `own`. Null if the face has a pole or its parts cannot be sewn to a closed solid.
 DrawnFace thick_face(const TopoDS_Face& face, double from, double to,
-                     const TopTools_DataMapOfShapeInteger& numbers, int own) {
+                     const TopTools_DataMapOfShapeInteger& numbers, int own,
+                     const ExecutionContext& context) {
   const OffsetFace start(face, from), end(face, to);
   std::vector<std::pair<TopoDS_Shape, int>> parts{{start.face(), own}, {end.face(), own}};
   for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
@@ -269,7 +283,7 @@ DrawnFace thick_face(const TopoDS_Face& face, double from, double to,
   }
   BRepBuilderAPI_Sewing sewing(1e-5 * std::abs(to - from));
   for (const auto& [part, number] : parts) sewing.Add(part);
-  sewing.Perform();
+  under_limit(context, [&](const Message_ProgressRange& range) { sewing.Perform(range); });
   if (sewing.SewedShape().ShapeType() != TopAbs_SHELL) return {};
   TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(sewing.SewedShape()));
   if (!BRepLib::OrientClosedSolid(solid)) return {};
@@ -281,7 +295,8 @@ DrawnFace thick_face(const TopoDS_Face& face, double from, double to,
 /// Looks from the faces of each solid toward the other solids.
 class Outlook {
  public:
-  explicit Outlook(const std::deque<Skin>& solids) : solids_(solids) {
+  Outlook(const std::deque<Skin>& solids, const ExecutionContext& context)
+      : solids_(solids), context_(context) {
     for (const Skin& skin : solids) {
       widths_.emplace_back();
       for (const SkinFace& face : skin.faces()) widths_.back().push_back(width_of(face.face()));
@@ -294,6 +309,7 @@ class Outlook {
 
   /// Adds the gaps in front of a face that are narrow enough.
   void add_gaps(const FaceOf& from, std::vector<Gap>& gaps) const {
+    context_.check();
     const std::vector<int> others = solids_near(from);
     const auto samples = others.empty() ? std::vector<FaceSample>() : face(from).samples(24);
     if (samples.empty()) return;
@@ -381,7 +397,7 @@ class Outlook {
   /// drawn() along the normals.
   std::vector<DrawnFace> thickened(const FaceOf& of, double depth, double length) const {
     std::vector<DrawnFace> result;
-    for (BRepAlgoAPI_Common& half : halves(face(of))) {
+    for (BRepAlgoAPI_Common& half : halves(face(of), context_)) {
       TopTools_DataMapOfShapeInteger numbers;
       for_each_neighbor(of, [&](const TopoDS_Edge& edge, int number) {
         TopTools_ListOfShape parts = half.Modified(edge);
@@ -389,8 +405,8 @@ class Outlook {
         for (const TopoDS_Shape& part : parts) numbers.Bind(part, number);
       });
       for (TopExp_Explorer it(half.Shape(), TopAbs_FACE); it.More(); it.Next()) {
-        result.push_back(
-            thick_face(TopoDS::Face(it.Current()), -depth, length - depth, numbers, face(of).number()));
+        result.push_back(thick_face(TopoDS::Face(it.Current()), -depth, length - depth, numbers,
+                                    face(of).number(), context_));
         if (result.back().solid.IsNull()) return {};
       }
     }
@@ -465,6 +481,7 @@ class Outlook {
   }
 
   const std::deque<Skin>& solids_;
+  const ExecutionContext& context_;
   std::vector<std::vector<double>> widths_;  ///< for each solid, the widths of its faces
   std::vector<Neighbors> neighbors_;
 };
@@ -491,8 +508,10 @@ void add(const DrawnFace& prism, GapFillers& fillers) {
 }
 
 /// Adds the common part of two solids.
-void add_common(const DrawnFace& a, const DrawnFace& b, GapFillers& fillers) {
-  BRepAlgoAPI_Common common(a.solid, b.solid);
+void add_common(const DrawnFace& a, const DrawnFace& b, const ExecutionContext& context,
+                GapFillers& fillers) {
+  BRepAlgoAPI_Common common;
+  intersect(a.solid, b.solid, context, common);
   if (common.HasErrors()) return;  // reported later as parts that are not connected
   for (TopExp_Explorer it(common.Shape(), TopAbs_SOLID); it.More(); it.Next())
     fillers.solids.push_back(it.Current());
@@ -509,13 +528,14 @@ void add_common(const DrawnFace& a, const DrawnFace& b, GapFillers& fillers) {
 
 }  // namespace
 
-GapFillers fill_gaps(const std::deque<Skin>& solids) {
+GapFillers fill_gaps(const std::deque<Skin>& solids, const ExecutionContext& context) {
   constexpr double into = 0.25;  // over the thickness; surfaces that only touch are harder to fuse
   constexpr double all = 0.999;
-  const Outlook outlook(solids);
+  const Outlook outlook(solids, context);
   GapFillers result;
   std::set<std::pair<int, FaceOf>> moved;
   for (const Gap& gap : find_gaps(solids, outlook)) {
+    context.check();
     const double depth = into * gap.across.thickness, length = gap.across.widest + depth;
     const bool flat = is_flat(outlook.face(gap.from));
     std::vector<DrawnFace> parts;
@@ -528,7 +548,7 @@ GapFillers fill_gaps(const std::deque<Skin>& solids) {
     } else if (outlook.goes_on(gap.to)) {
       const auto back = flat ? std::optional(gap.along->Reversed()) : std::nullopt;
       for (const DrawnFace& other : outlook.drawn(gap.to, back, depth, 2 * length)) {
-        for (const DrawnFace& part : parts) add_common(part, other, result);
+        for (const DrawnFace& part : parts) add_common(part, other, context, result);
       }
     }
   }

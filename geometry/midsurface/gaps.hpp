@@ -6,6 +6,7 @@
 #include <deque>
 #include <vector>
 
+#include "geometry/base/execution_context.hpp"
 #include "geometry/midsurface/skin.hpp"
 
 namespace quadrille {
@@ -22,7 +23,7 @@ struct GapFillers {
 /// curved ends of straight parts, such as a tube cut to fit around another. Other curved faces are extended
 /// along their normals, except spheres around a pole and free-form faces. A gap is closed if it is not wider
 /// than the thinner wall. Solids that touch need no filler. Time: a ray for each of about 24 points of every
-/// face near another solid.
-GapFillers fill_gaps(const std::deque<Skin>& solids);
+/// face near another solid. Looks at the context's time limit.
+GapFillers fill_gaps(const std::deque<Skin>& solids, const ExecutionContext& context);
 
 }  // namespace quadrille

@@ -6,6 +6,7 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <Precision.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
@@ -368,26 +369,44 @@ std::vector<int> connected_parts(const std::vector<JoinedFace>& faces) {
   return part;
 }
 
-std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& walls,
-                                   const std::vector<WallEnd>& ends,
-                                   const std::vector<std::vector<TopoDS_Face>>& pieces, double tolerance,
-                                   const ExecutionContext& context) {
-  BOPAlgo_Builder fuse;
+namespace {
+
+/// Cuts all pieces, and the fences that join steps, at each other. \param fuzzy distance within which shapes
+/// count as touching. \return whether OpenCASCADE succeeded.
+bool fuse_pieces(const std::vector<Wall>& walls, const std::vector<WallEnd>& ends,
+                 const std::vector<std::vector<TopoDS_Face>>& pieces, double fuzzy,
+                 const ExecutionContext& context, BOPAlgo_Builder& fuse) {
+  fuse.Clear();
   fuse.SetNonDestructive(Standard_True);
   fuse.SetUseOBB(Standard_True);
+  fuse.SetFuzzyValue(fuzzy);
   for (const auto& of_wall : pieces) {
     if (!of_wall.empty()) fuse.AddArgument(compound_of(of_wall));
   }
   for (const WallEnd& end : ends) {
     if (joins_step(end, walls)) fuse.AddArgument(end.fence);
   }
+  if (fuse.Arguments().Extent() > 1) perform(fuse, context);
+  return !fuse.HasErrors();
+}
+
+}  // namespace
+
+std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& walls,
+                                   const std::vector<WallEnd>& ends,
+                                   const std::vector<std::vector<TopoDS_Face>>& pieces, double tolerance,
+                                   const ExecutionContext& context) {
+  double fuzzy = Precision::Confusion();
   for (const Wall& wall : walls) {
     // The ends of two fitted surfaces are apart by the errors of both. Allow at least what fitting aims at.
-    if (!wall.fitted) continue;
-    fuse.SetFuzzyValue(std::max({fuse.FuzzyValue(), 4 * wall.off, tolerance * wall.thickness}));
+    if (wall.fitted) fuzzy = std::max({fuzzy, 4 * wall.off, tolerance * wall.thickness});
   }
-  if (fuse.Arguments().Extent() > 1) perform(fuse, context);
-  if (fuse.HasErrors()) throw failure("", "the middle surfaces could not be joined where they meet");
+  BOPAlgo_Builder fuse;
+  bool fused = false;
+  // Where surfaces are nearly tangent OpenCASCADE may fail at one tolerance and succeed at the next.
+  for (int attempt = 0; attempt < 3 && !fused; ++attempt, fuzzy *= 2)
+    fused = fuse_pieces(walls, ends, pieces, fuzzy, context, fuse);
+  if (!fused) throw failure("", "the middle surfaces could not be joined where they meet");
   Images cut = cut_pieces(fuse, skin, walls, pieces, context);
   take_back(cut);
   std::vector<JoinedFace> faces = std::move(cut.between);

@@ -596,9 +596,10 @@ std::vector<SolidMiddle> make_middles(const std::deque<Skin>& skins, const std::
 }
 
 MidSurface make(const CadModel& model, const MidSurfaceOptions& options, ExecutionContext& context) {
+  context.report(Stage::midsurface, 0);
   const std::string& name = model.shape().name;
   const TopoDS_Shape shape = with_plain_faces(BRepBuilderAPI_Copy(model.shape().shape).Shape());
-  const auto skins = std::make_shared<const std::deque<Skin>>(skins_of(shape, options.join));
+  const auto skins = std::make_shared<const std::deque<Skin>>(skins_of(shape, options.join, context));
   if (skins->empty())
     throw failure(name, fmt::format("{} has no solid; a middle surface is made of solids", name));
   std::vector<SolidMiddle> middles = make_middles(*skins, name, options, context);

@@ -141,7 +141,7 @@ SkinFace::SkinFace(const TopoDS_Face& face, int number)
     : face_(face),
       number_(number),
       adaptor_(std::make_shared<BRepAdaptor_Surface>(face, Standard_False)),
-      inverse_(std::make_shared<ShapeAnalysis_Surface>(BRep_Tool::Surface(face))),
+      inverse_(std::make_shared<ClosestPoint>(face)),
       inside_(std::make_shared<InsideTest>(face)) {
   GProp_GProps properties;
   BRepGProp::SurfaceProperties(face, properties);
@@ -159,7 +159,7 @@ std::optional<gp_Dir> SkinFace::outward(const gp_Pnt2d& uv) const {
 }
 
 gp_Pnt2d SkinFace::closest(const gp_Pnt& point) const {
-  return inverse_->ValueOfUV(point, Precision::Confusion());
+  return (*inverse_)(point);
 }
 
 bool SkinFace::holds(const gp_Pnt2d& uv) const {

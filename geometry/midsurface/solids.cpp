@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "geometry/base/error.hpp"
+#include "geometry/midsurface/fusing.hpp"
 #include "geometry/midsurface/gaps.hpp"
 
 namespace quadrille {
@@ -44,9 +45,10 @@ Solids solids_of(const TopoDS_Shape& shape) {
   return result;
 }
 
-std::deque<Skin> skins_of(const Solids& solids) {
+std::deque<Skin> skins_of(const Solids& solids, const ExecutionContext& context) {
   std::deque<Skin> result;
   for (int i = 1; i <= solids.solids.Extent(); ++i) {
+    context.check();
     const TopoDS_Solid solid = right_way_out(solids.solids(i));
     Bnd_Box box;
     BRepBndLib::Add(solid, box, Standard_False);
@@ -57,10 +59,11 @@ std::deque<Skin> skins_of(const Solids& solids) {
 }
 
 /// Points in the material, one behind each face.
-std::vector<gp_Pnt> points_inside(const std::deque<Skin>& skins) {
+std::vector<gp_Pnt> points_inside(const std::deque<Skin>& skins, const ExecutionContext& context) {
   std::vector<gp_Pnt> result;
   for (const Skin& skin : skins) {
     for (const SkinFace& face : skin.faces()) {
+      context.check();
       for (const FaceSample& sample : face.samples(1)) {
         const auto outward = face.outward(sample.uv);
         const auto hit = outward ? skin.first_hit(sample.point, outward->Reversed()) : std::nullopt;
@@ -74,10 +77,11 @@ std::vector<gp_Pnt> points_inside(const std::deque<Skin>& skins) {
 }
 
 /// Whether the solids contain all points. OpenCASCADE may lose solids where surfaces are nearly tangent.
-bool hold(const Solids& solids, std::vector<gp_Pnt> points) {
+bool hold(const Solids& solids, std::vector<gp_Pnt> points, const ExecutionContext& context) {
   for (int i = 1; i <= solids.solids.Extent(); ++i) {
     BRepClass3d_SolidClassifier classifier(solids.solids(i));
     std::erase_if(points, [&](const gp_Pnt& point) {
+      context.check();
       classifier.Perform(point, Precision::Confusion());
       return classifier.State() != TopAbs_OUT;
     });
@@ -86,21 +90,21 @@ bool hold(const Solids& solids, std::vector<gp_Pnt> points) {
 }
 
 /// Adds the solids that fill the gaps.
-void close_gaps(const std::deque<Skin>& skins, Solids& solids) {
-  const GapFillers fillers = fill_gaps(skins);
+void close_gaps(const std::deque<Skin>& skins, const ExecutionContext& context, Solids& solids) {
+  const GapFillers fillers = fill_gaps(skins, context);
   for (const TopoDS_Shape& filler : fillers.solids) solids.solids.Add(right_way_out(filler));
   for (TopTools_DataMapOfShapeInteger::Iterator it(fillers.numbers); it.More(); it.Next())
     solids.numbers.Bind(it.Key(), it.Value());
 }
 
-Solids fused(const Solids& apart) {
+Solids fused(const Solids& apart, const ExecutionContext& context) {
   TopTools_ListOfShape first, others;
   for (int i = 1; i <= apart.solids.Extent(); ++i) (i == 1 ? first : others).Append(apart.solids(i));
   BRepAlgoAPI_Fuse fuse;
   fuse.SetArguments(first);
   fuse.SetTools(others);
   fuse.SetNonDestructive(Standard_True);
-  fuse.Build();
+  under_limit(context, [&](const Message_ProgressRange& range) { fuse.Build(range); });
   if (fuse.HasErrors()) throw failure("", "the solids cannot be joined to one");
   Solids result;
   TopExp::MapShapes(fuse.Shape(), TopAbs_SOLID, result.solids);
@@ -118,14 +122,15 @@ Solids fused(const Solids& apart) {
 
 }  // namespace
 
-std::deque<Skin> skins_of(const TopoDS_Shape& shape, bool join) {
+std::deque<Skin> skins_of(const TopoDS_Shape& shape, bool join, const ExecutionContext& context) {
   Solids solids = solids_of(shape);
-  std::deque<Skin> skins = skins_of(solids);
+  std::deque<Skin> skins = skins_of(solids, context);
   if (!join || skins.size() < 2) return skins;
-  close_gaps(skins, solids);
-  const Solids whole = fused(solids);
-  if (!hold(whole, points_inside(skins))) throw failure("", "the solids cannot be joined to one");
-  return skins_of(whole);
+  close_gaps(skins, context, solids);
+  const Solids whole = fused(solids, context);
+  if (!hold(whole, points_inside(skins, context), context))
+    throw failure("", "the solids cannot be joined to one");
+  return skins_of(whole, context);
 }
 
 }  // namespace quadrille

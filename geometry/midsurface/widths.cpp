@@ -20,8 +20,9 @@ double length_of(const TopoDS_Edge& edge) {
 
 double area_of(const TopoDS_Face& face) {
   GProp_GProps properties;
-  // B-splines are integrated span by span. Adaptive integration takes seconds and is no better.
-  if (BRepAdaptor_Surface(face, Standard_False).GetType() >= GeomAbs_BezierSurface)
+  // B-splines are integrated span by span, planes exactly. Adaptive integration is slow and no better there.
+  const GeomAbs_SurfaceType type = BRepAdaptor_Surface(face, Standard_False).GetType();
+  if (type == GeomAbs_Plane || type >= GeomAbs_BezierSurface)
     BRepGProp::SurfaceProperties(face, properties);
   else
     BRepGProp::SurfaceProperties(face, properties, 1e-6);
