@@ -65,11 +65,12 @@ bool FaceJudge::replaces_grid(const FaceMesh& other, const FaceMesh& grid) const
 }
 
 bool FaceJudge::is_doubtful(const FaceMesh& cut) {
-  return badness(cut) >= thresholds.poor * static_cast<double>(cut.quads.size());
+  cut_wastes_ = wastes_quads(cut, thresholds.too_many);
+  return cut_wastes_ || badness(cut) >= thresholds.poor * static_cast<double>(cut.quads.size());
 }
 
 bool FaceJudge::replaces_cut(const FaceMesh& direct, const FaceMesh& cut) const {
-  return badness(direct) < thresholds.better * badness(cut);
+  return cut_wastes_ || badness(direct) < thresholds.better * badness(cut);
 }
 
 /// Whether there are more than `most` times the quads that the sizes ask for, plus half of the boundary

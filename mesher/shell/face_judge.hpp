@@ -21,9 +21,9 @@ struct FaceThresholds {
   /// A grid with this many times the quads that the sizes ask for is wasteful. Another mesh needs fewer than
   /// `fewer` of its quads, of which at most `most_outside` lie outside the limits.
   double wasteful = 1.75, fewer = 0.8, most_outside = 0.05;
-  /// Quads cut in four are replaced by quads of the final size if their mean badness exceeds `poor` and falls
-  /// by the factor `better`.
-  double poor = 0.1, better = 0.6;
+  /// Quads cut in four are replaced by quads of the final size if there are this many times those that the
+  /// sizes ask for, or if their mean badness exceeds `poor` and falls by the factor `better`.
+  double too_many = 1.4, poor = 0.1, better = 0.6;
 };
 
 /// Judges meshes of one face.
@@ -51,6 +51,7 @@ class FaceJudge {
   const ExecutionContext& context_;
   double outside_ = 0;  // of the grid, as far as it counts
   bool wasteful_ = false, stepped_ = false;
+  bool cut_wastes_ = false;  // of the quads cut in four
 };
 
 }  // namespace quadrille

@@ -68,7 +68,7 @@ TEST(SizeFidelity, FineEdgesDoNotMakeWholeGridsFine) {
   // Here more than a twentieth of the free quads lie outside the limits before nodes slide, and none after.
   for (int edge = 1; edge <= 12; ++edge) options.sizing.edge_sizes[edge] = 0.75;
   const ShellMesh coarser = quadrille::mesh(box, options, context);
-  EXPECT_GT(found.within_percent, 90);  // grids have 80
+  EXPECT_GT(found.within_percent, 85);  // grids have 80
   EXPECT_EQ(check_criteria(coarser).failing_but_warp, 0);
   // Where users ask for the division itself, rows go through.
   options.sizing.edge_sizes.clear();
