@@ -48,9 +48,9 @@ CadModel read_model(const MeshArguments& arguments, ExecutionContext& context) {
 }
 
 /// Draws a middle surface that was refused, as far as it can be made and meshed, with the edges marked that
-/// end inside the material. \return whether there is a picture.
-bool draw_refused(const CadModel& model, MidSurfaceOptions options, const MeshArguments& arguments,
-                  ExecutionContext& context) {
+/// end inside the material. \return what the picture shows, in words; empty = there is none.
+std::string draw_refused(const CadModel& model, MidSurfaceOptions options, const MeshArguments& arguments,
+                         ExecutionContext& context) {
   options.partial = true;
   MeshOptions meshing = arguments.settings.mesh;
   meshing.partial = true;
@@ -59,9 +59,11 @@ bool draw_refused(const CadModel& model, MidSurfaceOptions options, const MeshAr
     ShellMesh result = mesh(middle, meshing, context);
     result.marked_edges = middle.stray_edges;
     draw_apart(arguments.picture, context, [&] { write_picture(result, arguments.picture); });
-    return true;
-  } catch (const Error&) {  // the refusal tells more
-    return false;
+    return fmt::format("{} shows it{}", arguments.picture.string(),
+                       middle.stray_edges.empty() ? "" : ", with edges inside the material in red");
+  } catch (const Error& error) {
+    if (error.kind() == Error::Kind::cancelled) throw;
+    return "";  // the refusal tells more
   }
 }
 
@@ -76,11 +78,11 @@ std::optional<MidSurface> middle_of(const CadModel& model, const MeshArguments& 
     return midsurface(model, options, context);
   } catch (const Error& refusal) {
     if (arguments.picture.empty() || refusal.kind() != Error::Kind::failure ||
-        refusal.subject() == ExecutionContext::time_subject ||
-        !draw_refused(model, options, arguments, context))
+        refusal.subject() == ExecutionContext::time_subject)
       throw;
-    throw failure(refusal.subject(), fmt::format("{}; {} shows it, with edges inside the material in red",
-                                                 refusal.what(), arguments.picture.string()));
+    const std::string shown = draw_refused(model, options, arguments, context);
+    if (shown.empty()) throw;
+    throw failure(refusal.subject(), fmt::format("{}; {}", refusal.what(), shown));
   }
 }
 

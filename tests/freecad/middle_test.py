@@ -136,6 +136,17 @@ class MiddleTest(unittest.TestCase):
         self.document.recompute()
         self.assertEqual(self.thicknesses(surface), [(4, ("Face1", "Face2"))])
 
+    def test_what_is_known_of_it_is_told(self):
+        stud = Part.makeCylinder(5, 5, Vector(20, 4, 50), Vector(0, 1, 0))
+        surface = middle.make_middle(self.part(angle(4).fuse(stud).removeSplitter()))
+        self.assertEqual((surface.Parts, surface.Solids, surface.FreeEdges), (1, 1, 6))
+        self.assertAlmostEqual(sum(surface.Areas), surface.Shape.Area, 6)
+        held = sum(area * thickness for area, thickness in zip(surface.Areas, surface.Thicknesses))
+        self.assertAlmostEqual(surface.AreaTimesThickness, held, 6)
+        self.assertAlmostEqual(surface.VolumeShare, held / surface.Source.Shape.Volume, 6)
+        self.assertAlmostEqual(surface.VolumeShareOnce, surface.VolumeShare, 6)  # two walls count no corner twice
+        self.assertEqual(len(surface.LeftOut), 2)  # the stud's side and end
+
     def test_parts_that_touch_are_joined(self):
         post = Part.makeBox(40, 40, 200).cut(Part.makeBox(34, 34, 202, Vector(3, 3, -1)))
         arm = Part.makeBox(160, 30, 30, Vector(40, 5, 85)).cut(Part.makeBox(162, 26, 26, Vector(39, 7, 87)))

@@ -303,7 +303,12 @@ def _store(obj, result: _Result) -> None:
     obj.Thickest = [face["thickness_max"] for face in faces]
     obj.Between = [_names(face["solid_faces"]) for face in faces]
     obj.Rims = [f"{rim['name']}:{_names(rim['solid_faces'])}" for rim in result.told["rims"]]
-    obj.VolumeShare = result.told["area_times_thickness"] / max(result.told["volume"], 1e-300)
+    volume, held = max(result.told["volume"], 1e-300), result.told["area_times_thickness"]
+    obj.Areas = [face["area"] for face in faces]
+    obj.AreaTimesThickness, obj.VolumeShare = held, held / volume
+    obj.VolumeShareOnce = (held - result.told["counted_twice"]) / volume
+    obj.Parts, obj.Solids, obj.FreeEdges = (result.told[name] for name in ("parts", "solids", "free_edges"))
+    obj.LeftOut = [f"Face{number}" for number in result.told["unpaired_solid_faces"]]
     obj.Problems = result.told["problems"]
     for sentence in obj.Problems:
         FreeCAD.Console.PrintWarning(f"{obj.Label}: {sentence}\n")
@@ -336,8 +341,15 @@ class MiddleSurface:
             ("App::PropertyFloatList", "Thickest", "Result", "Largest thickness of each face, mm"),
             ("App::PropertyStringList", "Between", "Result", "The faces of the part that each face lies between"),
             ("App::PropertyStringList", "Rims", "Result", "The faces of the part that free edges lie on"),
+            ("App::PropertyFloatList", "Areas", "Result", "Area of each face, mm2"),
+            ("App::PropertyFloat", "AreaTimesThickness", "Result", "Sum of area times thickness, mm3"),
             ("App::PropertyFloat", "VolumeShare", "Result", "Sum of area times thickness over the volume of the part"),
-            ("App::PropertyStringList", "Problems", "Result", "The parts of the solid that have no middle surface"),
+            ("App::PropertyFloat", "VolumeShareOnce", "Result", "The same without what counts twice where walls meet"),
+            ("App::PropertyInteger", "Parts", "Result", "Number of connected parts of the surface"),
+            ("App::PropertyInteger", "Solids", "Result", "Number of solids that have a middle surface"),
+            ("App::PropertyInteger", "FreeEdges", "Result", "Number of free edges"),
+            ("App::PropertyStringList", "LeftOut", "Result", "The faces of the part that are neither side nor rim of a wall"),
+            ("App::PropertyStringList", "Problems", "Result", "What is left out, imprecise or wrong, a sentence each"),
         ):
             if name not in obj.PropertiesList:
                 obj.addProperty(kind, name, group, text)
