@@ -660,6 +660,7 @@ class PanelTest(GuiCase):
         part.Shape = Part.makeWedge(0, 0, 0, 0, 0, 20, 6, 20, 0, 20)  # two corners of 17 degrees
         self.show()
         mesh = quadrille.freecad.mesh_object(part, size=3, order=1)
+        part.ViewObject.Visibility = False  # as after Mesh
         self.edit(mesh)
         worst, told = find("QuadrilleWorst"), find("QuadrilleElement")
         wait_for(worst.count, what="the worst elements")
@@ -670,6 +671,7 @@ class PanelTest(GuiCase):
         view = FreeCADGui.getDocument(self.document.Name).ActiveView
         view.viewIsometric()
         view.fitAll()
+        process(0.5)
         measured = quality.measure(mesh.FemMesh, mesh.LeastSize)
         facing = measured.normals @ np.array([1, -1, 1])
         candidates = np.flatnonzero(facing > facing.max() - 1e-6)
@@ -680,7 +682,7 @@ class PanelTest(GuiCase):
         picture("element")
         face = told.text().split()[3].rstrip(":")
         find("QuadrilleRefineHere").click()
-        self.assertEqual(find("QuadrilleRefined0").text(), face)
+        self.assertEqual(find("QuadrilleRefinedName0").text(), face)
         row = list(quality.CRITERIA).index("angle_min")
         table = find("QuadrilleCriteria")
         click(table.viewport(), QtCore.QPointF(table.visualItemRect(table.item(row, 0)).center()))
