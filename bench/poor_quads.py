@@ -44,12 +44,14 @@ def cause_of(why: str) -> str:
 
 
 def faces_with_poor_quads(report: Dict, mesh, least: float, worst: Dict[str, Worst], part: str) -> None:
-    """Keeps, for each cause, the face where it forces more quads than on any before."""
+    """Keeps, for each cause, the face, or the quads at an edge, where it forces more quads than anywhere before."""
     for entry in report["poor_quads"]:
         cause, number = cause_of(entry["why"]), int(re.sub(r"\D", "", entry["name"]))
-        if not entry["name"].startswith("Face") or entry["quads"] <= worst[cause].quads:
+        if entry["quads"] <= worst[cause].quads:
             continue
-        quads = mesh.quads[mesh.face_ids == number][:, :4]
+        on_edge = np.unique(mesh.segments[mesh.segments[:, -1] == number][:, :2])
+        faces = [number] if entry["name"].startswith("Face") else mesh.face_ids[np.isin(mesh.quads[:, :4], on_edge).any(axis=1)]
+        quads = mesh.quads[np.isin(mesh.face_ids, faces)][:, :4]
         measured = measure_quads(np.arange(len(quads)), quads, mesh.points[quads], least)
         poor = np.any([measured.fails(name) for name in measured.limits if name != "warp"], axis=0)
         worst[cause] = Worst(entry["quads"], part, mesh.points[quads], poor)
@@ -65,7 +67,7 @@ def draw(axes, cause: str, worst: Worst) -> None:
     center = poor[len(poor) // 2].mean(axis=0)
     normals = np.cross(poor[:, 2] - poor[:, 0], poor[:, 3] - poor[:, 1])
     across, up = np.linalg.svd(normals[len(poor) // 2][None])[2][1:]
-    half = 12 * float(np.median(np.linalg.norm(worst.corners[:, 1] - worst.corners[:, 0], axis=1)))
+    half = 8 * float(np.median(np.linalg.norm(worst.corners[:, 1] - worst.corners[:, 0], axis=1)))
     for quad, is_poor in zip(worst.corners, worst.poor):
         flat = (quad - center) @ np.stack([across, up], axis=1)
         if np.abs(flat).max() < 3 * half:
