@@ -129,6 +129,7 @@ std::vector<int> nearest_faces(const Skin& skin, const gp_Pnt& point) {
     least = std::min(least, distance.Value());
   }
   std::vector<std::pair<double, int>> order;
+  order.reserve(distances.size());
   for (const auto& [number, distance] : distances) order.emplace_back(distance, number);
   std::sort(order.begin(), order.end());
   std::vector<int> result;
@@ -285,7 +286,7 @@ double common_section(double angle, double first, double second) {
 }  // namespace
 
 double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
-                     FilletVolumes fillets) {
+                     FilletVolumes fillets) {  // NOLINT(performance-unnecessary-value-param): counted down
   struct Use {
     const JoinedFace* face;
     TopoDS_Edge edge;

@@ -82,6 +82,7 @@ class GridLine {
     std::vector<double> result;
     const auto shares =
         spans_ == 1 ? std::vector<double>{0.1, 0.25, 0.5, 0.75, 0.9} : std::vector<double>{0.5};
+    result.reserve(shares.size());
     for (const double share : shares) result.push_back((1 - share) * value(i) + share * value(i + 1));
     return result;
   }

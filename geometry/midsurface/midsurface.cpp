@@ -64,7 +64,7 @@ struct SolidMiddle {
 /// The volume between the triangles of a solid's faces. \param deflection largest distance from the faces.
 double volume_of_triangles(const TopoDS_Shape& solid, double deflection) {
   const TopoDS_Shape copy = BRepBuilderAPI_Copy(solid, Standard_True, Standard_False).Shape();
-  BRepMesh_IncrementalMesh(copy, deflection, Standard_False, 0.4, Standard_False);
+  const BRepMesh_IncrementalMesh triangulated(copy, deflection, Standard_False, 0.4, Standard_False);
   double six_times = 0;
   for (TopExp_Explorer it(copy, TopAbs_FACE); it.More(); it.Next()) {
     TopLoc_Location place;
@@ -394,6 +394,7 @@ std::string stray_sentence(const MidSurface& result, const std::string& name) {
   std::vector<std::string> places;
   for (const std::vector<int>& faces : result.stray_faces) {
     std::vector<std::string> names;
+    names.reserve(faces.size());
     for (const int face : faces) names.push_back(fmt::format("Face{}", face));
     const std::string place =
         (names.size() > 1 ? "between " : "at ") + fmt::format("{}", fmt::join(names, " and "));

@@ -21,7 +21,7 @@ namespace quadrille {
 namespace {
 
 /// Solids, and the numbers of their faces.
-struct Solids {
+struct Solids {  // NOLINT(bugprone-exception-escape): OpenCASCADE's maps do not say noexcept
   TopTools_IndexedMapOfShape solids;
   TopTools_DataMapOfShapeInteger numbers;
 };

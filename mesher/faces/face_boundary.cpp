@@ -132,7 +132,7 @@ class BoundaryWalker {
                    int i) const {
     const Vector3& node = nodes_.points[edge.nodes[i]];
     if (surface_.is_view()) return surface_.seen_at(node);
-    const Vector2 uv = parametric_point(coedge, edge.parameters[i]);
+    Vector2 uv = parametric_point(coedge, edge.parameters[i]);
     const CadEdge& cad = shape_.edges[coedge.edge];
     const VertexId end = i == 0 ? cad.first_vertex : i == edge.segments() ? cad.last_vertex : VertexId();
     if (!edge.borrows() && !end.exists()) return uv;
