@@ -65,7 +65,7 @@ bool FaceJudge::replaces_grid(const FaceMesh& other, const FaceMesh& grid) const
 }
 
 bool FaceJudge::is_doubtful(const FaceMesh& cut) {
-  cut_wastes_ = wastes_quads(cut, thresholds.too_many);
+  cut_wastes_ = cut.quads.size() > thresholds.few && wastes_quads(cut, thresholds.too_many);
   return cut_wastes_ || badness(cut) >= thresholds.poor * static_cast<double>(cut.quads.size());
 }
 

@@ -21,8 +21,10 @@ struct FaceThresholds {
   /// A grid with this many times the quads that the sizes ask for is wasteful. Another mesh needs fewer than
   /// `fewer` of its quads, of which at most `most_outside` lie outside the limits.
   double wasteful = 1.75, fewer = 0.8, most_outside = 0.05;
-  /// Quads cut in four are replaced by quads of the final size if there are this many times those that the
-  /// sizes ask for, or if their mean badness exceeds `poor` and falls by the factor `better`.
+  /// Quads cut in four are replaced by quads of the final size if there are more than `few` and this many
+  /// times those that the sizes ask for, or if their mean badness exceeds `poor` and falls by the factor
+  /// `better`.
+  std::size_t few = 200;
   double too_many = 1.4, poor = 0.1, better = 0.6;
 };
 
