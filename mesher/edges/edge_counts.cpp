@@ -17,6 +17,7 @@
 #include "geometry/base/whole_number.hpp"
 #include "mesher/edges/count_balance.hpp"
 #include "mesher/edges/parity.hpp"
+#include "mesher/edges/single_segments.hpp"
 
 namespace quadrille {
 
@@ -467,7 +468,9 @@ class CountChooser {
 
 EdgeCounts choose_counts(const CadShape& shape, const CountWishes& wishes, const TinyFeatures& tiny,
                          FaceOutlines& sides) {
-  return CountChooser(shape, wishes, tiny, sides).run();
+  EdgeCounts result = CountChooser(shape, wishes, tiny, sides).run();
+  choose_single_segments(shape, wishes, sides, result);
+  return result;
 }
 
 }  // namespace quadrille

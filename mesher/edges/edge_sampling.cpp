@@ -189,8 +189,13 @@ class EdgeSampler {
           least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], result_.stride);
       // What a face needs to be meshed at all does not give way to the wishes of opposite edges.
       if (is_finer) wishes_.least[i] = std::max(wishes_.least[i], static_cast<int>(wanted));
-      // Between grids, one segment may do for a straight edge. Curves keep their shape there as elsewhere.
-      wishes_.least_of_grids[i] = turning > 1e-3 || is_finer ? result_.stride * wishes_.least[i] : 1;
+      // Between grids, one segment may do for a straight edge, and for a short arc of up to a quarter turn.
+      // Other curves keep their shape there as elsewhere.
+      constexpr double straight = 1e-3, quarter_turn = 1.6;
+      const bool is_curve = turning > straight && (result_.stride * wanted > 1 || turning > quarter_turn);
+      const bool may_coincide = shared_ends[i] != 0 || inner[i] != 0;
+      wishes_.least_of_grids[i] =
+          is_curve || is_finer || may_coincide ? result_.stride * wishes_.least[i] : 1;
       if (turning > least_arc) {
         // The number that the sizes ask for on an arc is a least one: the stresses there depend on it.
         constexpr double nearly = 0.25;

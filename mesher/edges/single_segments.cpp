@@ -1,0 +1,95 @@
+/// One segment for short edges, where all faces stay even: a T-join over the chords that could have one.
+
+#include "mesher/edges/single_segments.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "mesher/edges/parity.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// The largest number of segments by the sizing field at which one is better than two.
+constexpr double most_wanted = 1;
+
+class SingleSegments {
+ public:
+  SingleSegments(const CadShape& shape, const CountWishes& wishes, const FaceOutlines& sides,
+                 EdgeCounts& chosen)
+      : shape_(shape), wishes_(wishes), sides_(sides), chosen_(chosen), single_(wishes.wanted.size(), 0) {}
+
+  void run() {
+    for (const EdgeId edge : single_.ids()) single_[chord(edge)] |= chosen_.counts[edge] == 2;
+    for (const EdgeId edge : single_.ids())
+      if (chosen_.counts[edge] > 0) single_[chord(edge)] &= may_be_single(edge);
+    for (const FaceSides& sides : sides_) keep_sums(sides);
+    keep_faces_even();
+    for (const EdgeId edge : single_.ids())
+      if (is_single(edge)) chosen_.counts[edge] = 1;
+  }
+
+ private:
+  EdgeId chord(EdgeId edge) const { return chosen_.chords.of(edge); }
+
+  bool is_single(EdgeId edge) const { return chosen_.counts[edge] > 0 && single_[chord(edge)] != 0; }
+
+  bool may_be_single(EdgeId edge) const {
+    return wishes_.least_of_grids[edge] <= 1 && wishes_.fixed[edge] == 0 && wishes_.even[edge] == 0 &&
+           wishes_.wanted[edge] * wishes_.stride <= most_wanted;
+  }
+
+  /// Chords on which sums over sides of several edges depend keep their segments, and those of faces that are
+  /// filled in blocks.
+  void keep_sums(const FaceSides& sides) {
+    using enum FaceSides::Outline;
+    const bool has_blocks = sides.outline == holed || sides.outline == stepped || sides.outline == odd;
+    for (const FacingPair& pair : sides.facing) {
+      std::map<EdgeId, int> sums;
+      for (const SideEdge& edge : pair.first) ++sums[chord(edge.edge)];
+      for (const SideEdge& edge : pair.second) --sums[chord(edge.edge)];
+      for (const auto& [id, sum] : sums)
+        if (sum != 0 || has_blocks) single_[id] = 0;
+    }
+    if (sides.outline != odd) return;
+    for (const EdgeId edge : sides.rest) single_[chord(edge)] = 0;
+  }
+
+  void keep_faces_even() {
+    IdVector<EdgeId, ParityEdge> edges(single_.size());
+    FaceFlags odd(shape_.faces.size(), 0);
+    for (const FaceId face : shape_.faces.ids()) {
+      std::map<EdgeId, int> uses;  // of chords by the face
+      for (const CadWire& wire : shape_.faces[face].wires)
+        for (const Coedge& coedge : wire.coedges)
+          if (is_single(coedge.edge)) ++uses[chord(coedge.edge)];
+      for (const auto& [id, count] : uses) {
+        if (count % 2 == 0) continue;
+        edges[id].faces.push_back(face);
+        odd[face] ^= 1;
+      }
+    }
+    for (const EdgeId edge : edges.ids())
+      if (is_single(edge)) edges[chord(edge)].cost += 1;
+    std::vector<FaceId> left;
+    const EdgeFlags keep = make_even(edges, odd, left);
+    for (const EdgeId edge : keep.ids())
+      if (keep[edge]) single_[edge] = 0;
+  }
+
+  const CadShape& shape_;
+  const CountWishes& wishes_;
+  const FaceOutlines& sides_;
+  EdgeCounts& chosen_;
+  EdgeFlags single_;  // (chords) 1 = gets one segment
+};
+
+}  // namespace
+
+void choose_single_segments(const CadShape& shape, const CountWishes& wishes, const FaceOutlines& sides,
+                            EdgeCounts& chosen) {
+  if (wishes.stride == 2) SingleSegments(shape, wishes, sides, chosen).run();
+}
+
+}  // namespace quadrille
