@@ -286,7 +286,7 @@ double common_section(double angle, double first, double second) {
 }  // namespace
 
 double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
-                     FilletVolumes fillets) {  // NOLINT(performance-unnecessary-value-param): counted down
+                     Fillets fillets) {  // NOLINT(performance-unnecessary-value-param): counted down
   struct Use {
     const JoinedFace* face;
     TopoDS_Edge edge;
@@ -303,7 +303,7 @@ double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std
       uses[index - 1].push_back({&face, edge});
     }
   }
-  FilletVolumes twice;  // by the walls that meet
+  std::map<std::set<int>, double> twice;  // by the walls that meet
   for (const std::vector<Use>& around : uses) {
     std::size_t meet = 0;
     for (const Use& use : around) meet += use.edge.Orientation() == TopAbs_INTERNAL ? 2 : 1;
@@ -342,14 +342,15 @@ double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std
   }
   double result = 0;
   for (auto& [meeting, volume] : twice) {
-    for (auto& [corner, held] : fillets) {
+    for (auto& [corner, held] : fillets.beside) {
       if (!std::includes(meeting.begin(), meeting.end(), corner.begin(), corner.end())) continue;
-      const double made_up = std::clamp(volume, 0.0, held);
+      const double made_up = std::max(0.0, std::min(volume, held));
       volume -= made_up;
       held -= made_up;
     }
     result += volume;
   }
+  for (const auto& [corner, held] : fillets.beside) result += std::max(0.0, -held);
   return result;
 }
 

@@ -23,10 +23,9 @@ void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vec
 
 /// The volume that area times thickness counts twice where more than two middle surfaces meet. Corners of two
 /// walls count once: what is counted twice on their inside is missing on their outside. It makes up for
-/// fillets between the same walls, as far as these hold so much. \param fillets of which no thickness
-/// contains the material. Linear in the edges.
+/// fillets between the same walls, as far as no thickness contains these. Linear in the edges.
 double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
-                     FilletVolumes fillets);
+                     Fillets fillets);
 
 /// Indices of the faces whose thickness differs by more than a twentieth from what rays through the solid
 /// tell on most of them.

@@ -1,5 +1,8 @@
 /// Adds the material of fillets, which lies beside the corners of middle surfaces, to the thickness of strips
-/// along these corners.
+/// along these corners. How the thickness is distributed over a strip hardly matters for the stiffness, but
+/// how much it is: material in a corner keeps both walls from bending and twisting, and as thickness of
+/// either it does less. So the thinner wall gets more than there is, within a bound that is told as counted
+/// twice. Closed sections resist twisting by their walls' areas, and get what there is.
 
 #include <BOPAlgo_Builder.hxx>
 #include <TopExp.hxx>
@@ -118,26 +121,80 @@ std::vector<std::size_t> strips_at(const BOPAlgo_Builder& fuse, const FilletBord
   return result;
 }
 
-/// Distributes a volume over the strips as additional thickness.
-void thicken(const std::vector<std::size_t>& strips, double volume, int fillet,
-             std::vector<JoinedFace>& faces) {
-  double area = 0;
-  for (const std::size_t i : strips) area += area_of(faces[i].face);
-  for (const std::size_t i : strips) {
-    Coverage& coverage = faces[i].coverage;
-    for (double* of : {&coverage.mean, &coverage.thinnest, &coverage.thickest, &coverage.added})
-      *of += volume / area;
-    coverage.faces.insert(fillet);
+/// (pairs of walls) that share an edge.
+std::set<std::pair<int, int>> neighbors_of(const std::vector<JoinedFace>& faces) {
+  TopTools_IndexedMapOfShape edges;
+  std::vector<std::set<int>> walls;
+  for (const JoinedFace& face : faces) {
+    for (TopExp_Explorer it(face.face, TopAbs_EDGE); it.More(); it.Next()) {
+      const int edge = edges.Add(it.Current());
+      walls.resize(edges.Extent());
+      walls[edge - 1].insert(face.wall);
+    }
   }
+  std::set<std::pair<int, int>> result;
+  for (const std::set<int>& around : walls) {
+    for (const int from : around) {
+      for (const int to : around) {
+        if (from != to) result.emplace(from, to);
+      }
+    }
+  }
+  return result;
+}
+
+/// Whether the walls of a corner hang together elsewhere too, as those of a closed section do.
+bool is_closed(const std::set<int>& corner, const std::set<std::pair<int, int>>& neighbors) {
+  std::vector<int> reached = {*corner.begin()};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const int from = reached[i];
+    for (auto it = neighbors.lower_bound({from, -1}); it != neighbors.end() && it->first == from; ++it) {
+      const int to = it->second;
+      if (corner.count(from) != 0 && corner.count(to) != 0) continue;
+      if (corner.count(to) != 0 && to != reached.front()) return true;
+      if (std::find(reached.begin(), reached.end(), to) == reached.end()) reached.push_back(to);
+    }
+  }
+  return false;
+}
+
+/// Where a fillet ends at a wall.
+struct Place {
+  double thickness = 0;             ///< of the wall
+  std::vector<std::size_t> strips;  ///< indices of faces
+};
+
+/// Distributes volumes as additional thickness: `once` over the strips of all places, `again` over those of
+/// the thinnest walls. \return what was added.
+double thicken(const std::vector<Place>& places, double once, double again, int fillet,
+               std::vector<JoinedFace>& faces) {
+  if (places.empty()) return 0;
+  double thinnest = places.front().thickness;
+  for (const Place& place : places) thinnest = std::min(thinnest, place.thickness);
+  const auto thin = [&](const Place& place) { return place.thickness < 1.001 * thinnest; };
+  const auto thin_places = static_cast<double>(std::count_if(places.begin(), places.end(), thin));
+  for (const Place& place : places) {
+    const double volume = once / static_cast<double>(places.size()) + (thin(place) ? again / thin_places : 0);
+    double area = 0;
+    for (const std::size_t i : place.strips) area += area_of(faces[i].face);
+    for (const std::size_t i : place.strips) {
+      Coverage& coverage = faces[i].coverage;
+      for (double* of : {&coverage.mean, &coverage.thinnest, &coverage.thickest, &coverage.added})
+        *of += volume / area;
+      coverage.faces.insert(fillet);
+    }
+  }
+  return once + again;
 }
 
 }  // namespace
 
-FilletVolumes add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
-                          const ExecutionContext& context, std::vector<JoinedFace>& faces) {
-  constexpr double worth_it = 0.01;
+Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
+                    const ExecutionContext& context, std::vector<JoinedFace>& faces) {
+  constexpr double worth_it = 0.01, most_twice = 0.02, most_off = 0.75;
   std::map<int, std::vector<FilletBorder>> fillets = find_fillet_borders(skin, walls);
-  FilletVolumes beside;
+  Fillets result;
+  auto& beside = result.beside;
   double held = 0;
   for (auto it = fillets.begin(); it != fillets.end();) {
     const double each = volume_of(skin.faces()[it->first], walls, it->second);
@@ -148,9 +205,9 @@ FilletVolumes add_fillets(const Skin& skin, const std::vector<Wall>& walls, doub
     it = each > 0 ? std::next(it) : fillets.erase(it);
   }
   const auto missing = [&](const std::vector<JoinedFace>& from) {
-    return volume - shell_volume(from) + counted_twice(skin, walls, from, beside);
+    return volume - shell_volume(from) + counted_twice(skin, walls, from, result);
   };
-  if (held < 0.5 * worth_it * volume || missing(faces) < worth_it * volume) return beside;
+  if (held < 0.5 * worth_it * volume || missing(faces) < worth_it * volume) return result;
   BOPAlgo_Builder fuse;
   fuse.SetNonDestructive(Standard_True);
   fuse.SetUseOBB(Standard_True);
@@ -159,27 +216,30 @@ FilletVolumes add_fillets(const Skin& skin, const std::vector<Wall>& walls, doub
     for (const FilletBorder& border : borders) fuse.AddArgument(border.fence);
   }
   perform(fuse, context);
-  if (fuse.HasErrors()) return beside;  // the faces stay as they are
+  if (fuse.HasErrors()) return result;  // the faces stay as they are
   std::vector<char> strips;
   std::vector<JoinedFace> cut = cut_faces(fuse, skin, walls, faces, strips);
   // Of a wall that tapers, the strips alone may hold more or less than they did as parts of it.
   const double share = std::clamp(missing(cut) / held, 0.0, 1.0);
+  const double again = std::min(share, most_twice * volume / held);
+  const std::set<std::pair<int, int>> neighbors = neighbors_of(cut);
   for (const auto& [fillet, borders] : fillets) {
     // A border that ends inside a wall cuts nothing off, and has no strips.
-    std::vector<std::vector<std::size_t>> places;
+    std::vector<Place> places;
     for (const FilletBorder& border : borders) {
-      std::vector<std::size_t> place = strips_at(fuse, border, cut, strips);
-      if (!place.empty()) places.push_back(std::move(place));
+      Place place{walls[border.wall].thickness, strips_at(fuse, border, cut, strips)};
+      if (!place.strips.empty()) places.push_back(std::move(place));
     }
-    if (places.empty()) continue;
-    const double added = share * volume_of(skin.faces()[fillet], walls, borders);
-    for (const auto& place : places) thicken(place, added / static_cast<double>(places.size()), fillet, cut);
-    beside[walls_of(borders)] -= added;
+    const double whole = volume_of(skin.faces()[fillet], walls, borders);
+    const std::set<int> corner = walls_of(borders);
+    const double more = is_closed(corner, neighbors) ? 0 : again * whole;
+    if (more > 0 && again < most_off * share) result.soft.insert(fillet);
+    beside[corner] -= thicken(places, share * whole, more, fillet, cut);
   }
   drop_traces(cut);
   orient_alike(cut);
   faces = std::move(cut);
-  return beside;
+  return result;
 }
 
 }  // namespace quadrille

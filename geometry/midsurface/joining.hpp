@@ -38,16 +38,22 @@ void drop_traces(std::vector<JoinedFace>& faces);
 /// Reverses faces so that the two faces of an edge show the same side, as far as that is possible.
 void orient_alike(std::vector<JoinedFace>& faces);
 
-/// The volume of fillets by the walls, as indices, of their corners.
-using FilletVolumes = std::map<std::set<int>, double>;
+/// What is known of the fillets in corners.
+struct Fillets {
+  /// Their volume that no thickness contains, by the walls, as indices, of their corners; negative where
+  /// thicknesses contain it twice.
+  std::map<std::set<int>, double> beside{};
+  std::set<int> soft{};  ///< indices of those that stiffen their walls clearly more than the thickness does
+};
 
 /// Adds the material of fillets in corners, as thickness, to the strips of the walls between the fillet and
-/// the corner. The faces are cut where the fillets begin. Does nothing unless the middle surfaces lack more
-/// than a hundredth of the volume and the fillets hold at least half of that. What is counted twice where
-/// walls meet makes up for the fillets there, and for nothing else. \param volume of the solid. \return the
-/// material of fillets that no thickness contains.
-FilletVolumes add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
-                          const ExecutionContext& context, std::vector<JoinedFace>& faces);
+/// the corner; in open sections to those of the thinner wall once more, up to 2 % of the volume. The faces
+/// are cut where the fillets begin. Does nothing unless the middle surfaces lack more than a hundredth of the
+/// volume and the fillets hold at least half of that. What is counted twice where walls meet makes up for the
+/// fillets there, and for nothing else. \param volume of the solid. \return the material of fillets that no
+/// thickness contains.
+Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
+                    const ExecutionContext& context, std::vector<JoinedFace>& faces);
 
 /// For each face, the number of the connected part that it belongs to, from 0.
 std::vector<int> connected_parts(const std::vector<JoinedFace>& faces);

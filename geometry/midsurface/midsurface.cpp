@@ -56,7 +56,7 @@ struct SolidMiddle {
   std::string name;  ///< of the solid, in sentences
   std::vector<JoinedFace> faces;
   std::vector<Wall> walls;
-  FilletVolumes fillets;  ///< what no thickness contains
+  Fillets fillets;
   double volume = 0;
   std::vector<std::string> problems;  ///< what was left out or is imprecise, and why
 };
@@ -432,10 +432,23 @@ std::string parts_sentence(const SolidMiddle& middle, const Skin& skin) {
                      middle.name, faces.size(), fmt::join(parts, "; "));
 }
 
+/// The sentence for fillets whose material a shell cannot have where it is.
+std::string soft_fillets_sentence(const SolidMiddle& middle, const Skin& skin) {
+  std::vector<int> numbers;
+  for (const int fillet : middle.fillets.soft) numbers.push_back(skin.faces()[fillet].number());
+  sort_unique(numbers);
+  return fmt::format(
+      "{}: the large fillets or welds at {} stiffen the walls there more than their material does as "
+      "thickness of "
+      "the shell: it may be too soft, by a tenth or more, where it is twisted or bent across them",
+      middle.name, face_names(numbers));
+}
+
 /// One sentence for each check of a solid that failed.
 std::vector<std::string> find_problems(const SolidMiddle& middle, const Skin& skin, MidSurface& checked) {
   std::vector<std::string> problems;
   check_volume(middle.name, checked, problems);
+  if (!middle.fillets.soft.empty()) checked.warnings.push_back(soft_fillets_sentence(middle, skin));
   if (checked.parts != 1) problems.push_back(parts_sentence(middle, skin));
   if (!checked.stray_edges.empty()) problems.push_back(stray_sentence(checked, middle.name));
   return problems;
