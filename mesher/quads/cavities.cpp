@@ -23,7 +23,7 @@ constexpr int max_growths = 8;   ///< how often a patch may grow
 constexpr int max_search = 600;  ///< quads looked at for the nearest irregular node
 /// The same two limits for patches that choose the nodes to which they grow.
 constexpr int few_growths = 4, near_search = 100;
-constexpr int max_rounds = 2;  ///< passes over all nodes
+constexpr int max_rounds = 1;
 /// To preserve sizes: least and most quads of a filling as a share of the patch's, and the share of the
 /// face's quads that may be gained or lost in all.
 constexpr double least_share = 0.7, most_share = 1.35, most_drift = 0.08;
