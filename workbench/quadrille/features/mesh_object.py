@@ -20,7 +20,7 @@ from ..core.units import millimeters
 from ..document import groups, links, old_documents, shapes, state, undo
 from ..document.regions import refine
 from ..document.state import UP_TO_DATE, Wanted, complaint, shape_of
-from ..solvers import results, wrappers
+from ..solvers import element_types, results, wrappers
 from . import views
 
 
@@ -252,7 +252,9 @@ def export(mesh, path: Union[str, Path]) -> None:
 #: The properties of every mesh object besides its settings: type, name, group and description.
 RESULT_PROPERTIES = (
     ("App::PropertyEnumeration", "Status", "Result", "Whether the mesh is that of the part and the settings"),
-    ("App::PropertyBool", "ReducedShells", "Solve", "Second-order quads are written for CalculiX as S8R, not S8"),
+    ("App::PropertyEnumeration", "Element", "Solve", "Type of the elements for CalculiX. Plane stress (CPS), plane strain (CPE) and "
+     "rotational symmetry about the y axis (CAX) need a part in the plane z = 0; M3D are membranes"),
+    ("App::PropertyBool", "ReducedShells", "Solve", "Second-order shells are written for CalculiX as S8R, not S8"),
     ("App::PropertyFloat", "ShellOffset", "Solve", "Where the middle of the shell lies, in thicknesses from the mesh along "
      "its normals: 0.5 = the mesh is the bottom surface, -0.5 = the top (CalculiX)"),
     ("App::PropertyInteger", "QuadCount", "Result", "Number of quads"),
@@ -274,6 +276,14 @@ RESULT_PROPERTIES = (
     ("App::PropertyString", "MeshedSettings", "Hidden", "Settings that the mesh was made with"),
     ("App::PropertyString", "MeshToken", "Hidden", "Name of the mesh, for undo"),
 )
+
+
+def set_default(obj, name: str) -> None:
+    """Gives a property that was just added the values that it can have, and its default."""
+    if name == "Element":
+        obj.Element = [element_types.SHELL, *element_types.OTHERS]
+    elif name == "ReducedShells":
+        obj.ReducedShells = True
 
 
 class MeshFeature:
@@ -314,8 +324,7 @@ class MeshFeature:
         ):
             if name not in obj.PropertiesList:
                 obj.addProperty(kind, name, group, text)
-                if name == "ReducedShells":
-                    obj.ReducedShells = True
+                set_default(obj, name)
         state.name_statuses(obj)
         self._set_editor_modes(obj)
 
