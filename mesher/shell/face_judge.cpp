@@ -48,7 +48,18 @@ double badness(const FaceMesh& mesh) {
   return sum;
 }
 
+/// Whether there are more than `most` times the quads that the sizes ask for, plus half of the boundary
+/// segments. Rows that are fine for one edge also run through areas that want larger quads.
+bool is_wasteful(double quads, double wanted, double border, double most) {
+  return quads > most * wanted + 0.5 * border;
+}
+
 }  // namespace
+
+double FaceJudge::expected(double in_grid, double others, double wanted, double border) {
+  const bool wasteful = is_wasteful(in_grid, wanted, border, thresholds.wasteful);
+  return wasteful && others < thresholds.fewer * in_grid ? others : in_grid;
+}
 
 bool FaceJudge::is_doubtful(const FaceMesh& grid, bool stepped, bool divided) {
   stepped_ = stepped;
@@ -73,8 +84,6 @@ bool FaceJudge::replaces_cut(const FaceMesh& direct, const FaceMesh& cut) const 
   return cut_wastes_ || badness(direct) < thresholds.better * badness(cut);
 }
 
-/// Whether there are more than `most` times the quads that the sizes ask for, plus half of the boundary
-/// segments. Rows that are fine for one edge also run through areas that want larger quads.
 bool FaceJudge::wastes_quads(const FaceMesh& mesh, double most) {
   double wanted = 0;
   SparseCheck check(context_);
@@ -84,8 +93,8 @@ bool FaceJudge::wastes_quads(const FaceMesh& mesh, double most) {
     const double size = size_at_(0.25 * (p[a] + p[b] + p[c] + p[d]));
     wanted += 0.5 * (p[c] - p[a]).cross(p[d] - p[b]).norm() / (size * size);
   }
-  return static_cast<double>(mesh.quads.size()) >
-         most * wanted + 0.5 * static_cast<double>(mesh.nodes.size());
+  return is_wasteful(static_cast<double>(mesh.quads.size()), wanted, static_cast<double>(mesh.nodes.size()),
+                     most);
 }
 
 }  // namespace quadrille

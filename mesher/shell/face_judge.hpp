@@ -40,6 +40,10 @@ class FaceJudge {
   /// Whether another mesh is to replace the grid that is_doubtful() saw last.
   bool replaces_grid(const FaceMesh& other, const FaceMesh& grid) const;
 
+  /// How many quads a face gets, a grid or others, before either is made. \param wanted number that the sizes
+  /// ask for \param border segments on its boundary
+  static double expected(double in_grid, double others, double wanted, double border);
+
   /// Whether a mesh of quads cut in four is to be compared with one of quads of the final size.
   bool is_doubtful(const FaceMesh& cut);
   /// Whether quads of the final size are better than quads cut in four.
