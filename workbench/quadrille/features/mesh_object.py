@@ -22,6 +22,7 @@ from ..document.regions import refine
 from ..document.state import UP_TO_DATE, Wanted, complaint, shape_of
 from ..solvers import element_types, results, wrappers
 from . import views
+from .sizes import CountJob
 
 
 def mesh_object(
@@ -87,9 +88,14 @@ def check_part(doc_object, analysis=None) -> None:
     check_analysis(analysis)
 
 
-def suggested_size(doc_object, quads: int = 5000, elements_per_circle: float = 12) -> float:
-    """The size that gives a document object about this many quads, rounded to two digits."""
-    return shapes.estimate_of(shape_of(doc_object)).suggested(quads, elements_per_circle)
+def suggested_size(doc_object, quads: int = 5000, elements_per_circle: float = 12, **settings) -> float:
+    """The size in mm that gives a document object about this many quads, rounded to three digits.
+
+    Args:
+        settings: other settings of the mesh, by name.
+    """
+    wanted = _in_millimeters(MeshSettings(elements_per_circle=elements_per_circle, **settings))
+    return CountJob(shape_of(doc_object), wanted, wanted=quads).start().wait().size
 
 
 def defaults() -> Dict[str, object]:
