@@ -18,8 +18,8 @@
 #include "mesher/boundary.hpp"
 #include "mesher/edges/grid_rows.hpp"
 #include "mesher/edges/hole_filling.hpp"
+#include "mesher/faces/grid_waste.hpp"
 #include "mesher/settings.hpp"
-#include "mesher/shell/face_judge.hpp"
 
 namespace quadrille {
 
@@ -96,11 +96,25 @@ FaceDemand demand_of(FaceId id, const CadFace& face, const std::vector<FaceSampl
   return result;
 }
 
+/// The quads of rows along closed loops of a face. Blocks in corners are not counted.
+double quads_of_rows(const CadShape& shape, FaceId face, const BoundaryNodes& nodes,
+                     const ByElement<SizeLayers>& layers) {
+  double count = 0;
+  if (!has_row_loop(shape, face, nodes.sides[face], layers)) return count;
+  for (const CadWire& wire : shape.faces[face].wires) {
+    for (const Coedge& coedge : wire.coedges) {
+      const auto own = layers.edges.find(shape.edges[coedge.edge].number);
+      if (own != layers.edges.end()) count += own->second.count * nodes.edges[coedge.edge].segments();
+    }
+  }
+  return count;
+}
+
 double expected_quads(const FaceDemand& demand, double in_grid, bool keeps_grid) {
   // The narrowest strip has two rows of quads, with ends of two sides each.
   const double others = std::max({4.0, demand.border - 4.0, demand.quads});
   if (!(in_grid > 0)) return others;
-  return keeps_grid ? in_grid : FaceJudge::expected(in_grid, others, demand.wanted, demand.border);
+  return keeps_grid ? in_grid : expected_with_grid(in_grid, others, demand.wanted, demand.border);
 }
 
 }  // namespace
@@ -137,7 +151,8 @@ std::vector<double> QuadEstimate::quads_by_face(const MeshOptions& options) {
       const BoundaryNodes& nodes = boundary.nodes;
       SizingField::Sampler size_at(boundary.field, id);
       const bool keeps_grid = has_kept_edge(face, nodes) || has_divided_edge(face, nodes);
-      counts[id.index()] =
+      counts[id.index()] = quads_of_rows(shape, id, nodes, options.sizing.layers);
+      counts[id.index()] +=
           expected_quads(demand_of(id, face, samples_[id], size_at, options.sizing.growth, nodes),
                          grid_quads(face, nodes.sides[id], nodes), keeps_grid);
     }

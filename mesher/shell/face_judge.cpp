@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "mesher/faces/grid_waste.hpp"
 #include "mesher/mesh/criteria.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 
@@ -48,23 +49,12 @@ double badness(const FaceMesh& mesh) {
   return sum;
 }
 
-/// Whether there are more than `most` times the quads that the sizes ask for, plus half of the boundary
-/// segments. Rows that are fine for one edge also run through areas that want larger quads.
-bool is_wasteful(double quads, double wanted, double border, double most) {
-  return quads > most * wanted + 0.5 * border;
-}
-
 }  // namespace
-
-double FaceJudge::expected(double in_grid, double others, double wanted, double border) {
-  const bool wasteful = is_wasteful(in_grid, wanted, border, thresholds.wasteful);
-  return wasteful && others < thresholds.fewer * in_grid ? others : in_grid;
-}
 
 bool FaceJudge::is_doubtful(const FaceMesh& grid, bool stepped, bool divided) {
   stepped_ = stepped;
   outside_ = stepped || has_rows(grid) ? share_outside(grid) : 0;
-  wasteful_ = !divided && wastes_quads(grid, thresholds.wasteful);
+  wasteful_ = !divided && wastes_quads(grid, GridWaste::wasteful);
   return wasteful_ || outside_ > (stepped ? thresholds.outside_of_steps : thresholds.outside_of_grid);
 }
 
@@ -72,7 +62,7 @@ bool FaceJudge::replaces_grid(const FaceMesh& other, const FaceMesh& grid) const
   const double left = share_outside(other);
   const double share = static_cast<double>(other.quads.size()) / static_cast<double>(grid.quads.size());
   if ((stepped_ ? thresholds.gain_of_steps : thresholds.gain) * left < outside_) return true;
-  return wasteful_ && share < thresholds.fewer && left <= std::max(outside_, thresholds.most_outside / share);
+  return wasteful_ && share < GridWaste::fewer && left <= std::max(outside_, thresholds.most_outside / share);
 }
 
 bool FaceJudge::is_doubtful(const FaceMesh& cut) {
