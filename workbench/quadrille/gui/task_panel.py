@@ -6,7 +6,7 @@ document with the mesh, or by OK, each as one undo step. Cancel undoes all of it
 """
 
 import time
-from typing import Callable, Dict, Optional
+from typing import Any, Callable, Dict, Optional
 
 import FreeCAD
 import FreeCADGui
@@ -352,6 +352,8 @@ class MeshPanel:
         self.estimate.setText(translate("Quadrille", "about {} quads").format(_rounded(round(count))))
 
     def _suggest(self) -> None:
+        if self._told(lambda: state.part_of(self.mesh)) is None:
+            return
         self._suggests = True
         self._update_estimate()
 
@@ -415,7 +417,7 @@ class MeshPanel:
         return self.settings["Size"].value() or default_size(state.part_of(self.mesh).Shape.BoundBox.DiagonalLength)
 
     @staticmethod
-    def _told(find: Callable[[], float]) -> Optional[float]:
+    def _told(find: Callable[[], Any]) -> Any:
         """What a function finds. None, with a message box, if it raises Error."""
         try:
             return find()
