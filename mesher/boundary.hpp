@@ -12,6 +12,8 @@ namespace quadrille {
 struct SettledBoundary {
   SizingField field;
   BoundaryNodes nodes;
+  FaceFlags
+      meshed;  ///< 0 = the face is not asked for, or so small that its place is taken by an edge or node
 };
 
 /// 1 = the options have this face meshed.

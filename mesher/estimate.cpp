@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include <fmt/format.h>
@@ -15,7 +16,9 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/boundary.hpp"
+#include "mesher/edges/grid_rows.hpp"
 #include "mesher/edges/hole_filling.hpp"
+#include "mesher/faces/grid_waste.hpp"
 #include "mesher/settings.hpp"
 
 namespace quadrille {
@@ -39,35 +42,79 @@ double grid_quads(const CadFace& face, const FaceSides& sides, const BoundaryNod
   return is_grid ? static_cast<double>(counts[0]) * counts[1] : 0;
 }
 
-/// The number of quads of a face that is not a grid. \param inside integral of 1 / size^2 over the face.
-double free_quads(const CadFace& face, double area, double inside, double growth,
-                  const BoundaryNodes& nodes) {
-  int border = 0;
-  double length = 0;
+/// What the sizes and the segments on its edges ask for on a face.
+struct FaceDemand {
+  double wanted = 0;  ///< integral of 1 / size^2
+  double quads = 0;   ///< the same with quads that grow from the segments
+  int border = 0;     ///< segments
+};
+
+/// Further quads for each length of a border where quads grow inward from `side` to `size` in place of having
+/// that size everywhere: the integral of 1 / (side + growth x)^2 - 1 / size^2. \param depth of the face
+double in_margin(double side, double size, double growth, double depth) {
+  if (!(side < size)) return 0;
+  constexpr double fastest = 0.2;  // measured: from a fine border quads grow no faster, whatever is allowed
+  growth = std::min(growth, fastest);
+  const double reach = std::min(depth, (size - side) / growth);
+  return reach / (side * (side + growth * reach)) - reach / (size * size);
+}
+
+FaceDemand demand_of(FaceId id, const CadFace& face, const std::vector<FaceSample>& samples,
+                     SizingField::Sampler& size_at, double growth, const BoundaryNodes& nodes) {
+  FaceDemand result;
+  double area = 0, length = 0, coarse = 0;
+  for (const FaceSample& sample : samples) {
+    const double size = size_at(sample.point);
+    area += sample.area;
+    result.wanted += sample.area / (size * size);
+    coarse = std::max(coarse, size);
+  }
   const auto for_each_segment = [&](const auto& act) {
     for (const CadWire& wire : face.wires) {
       for (const Coedge& coedge : wire.coedges) {
         const auto& at = nodes.edges[coedge.edge].nodes;
-        for (std::size_t i = 1; i < at.size(); ++i)
-          act((nodes.points[at[i]] - nodes.points[at[i - 1]]).norm());
+        const auto [first, last] = nodes.unused_by(id, coedge.edge);  // the face ends before its tips
+        for (std::size_t i = 1 + first; i + last < at.size(); ++i)
+          act(nodes.points[at[i - 1]], nodes.points[at[i]]);
       }
     }
   };
-  for_each_segment([&](double side) {
-    ++border;
-    length += side;
+  for_each_segment([&](const Vector3& a, const Vector3& b) {
+    ++result.border;
+    length += (b - a).norm();
   });
-  // Quads grow inward from short sides at the border up to the wanted size. Within that depth, at most the
-  // depth of the face, integrate side / (side + growth x)^2 in place of side / size^2.
-  const double depth = length > 0 ? area / length : 0, size = std::sqrt(area / inside);
-  double shorter = 0;
-  for_each_segment([&](double side) {
-    if (!(side < size)) return;
-    const double reach = std::min(depth, (size - side) / growth);
-    shorter += reach / (side + growth * reach) - reach * side / (size * size);
+  // Two bounds from below. The samples miss margins that are narrower than the distance between them; the
+  // other knows nothing but margins. The first takes what the sizes at the border are for known.
+  const double depth = length > 0 ? area / length : 0;
+  double sampled = result.wanted, with_margins = coarse > 0 ? area / (coarse * coarse) : 0;
+  for_each_segment([&](const Vector3& a, const Vector3& b) {
+    const double side = (b - a).norm(), size = size_at(0.5 * (a + b));
+    sampled += side * in_margin(side, size, growth, depth);
+    with_margins += side * in_margin(std::min(side, size), coarse, growth, depth);
   });
+  result.quads = std::max(sampled, with_margins);
+  return result;
+}
+
+/// The quads of rows along closed loops of a face. Blocks in corners are not counted.
+double quads_of_rows(const CadShape& shape, FaceId face, const BoundaryNodes& nodes,
+                     const ByElement<SizeLayers>& layers) {
+  double count = 0;
+  if (!has_row_loop(shape, face, nodes.sides[face], layers)) return count;
+  for (const CadWire& wire : shape.faces[face].wires) {
+    for (const Coedge& coedge : wire.coedges) {
+      const auto own = layers.edges.find(shape.edges[coedge.edge].number);
+      if (own != layers.edges.end()) count += own->second.count * nodes.edges[coedge.edge].segments();
+    }
+  }
+  return count;
+}
+
+double expected_quads(const FaceDemand& demand, double in_grid, bool keeps_grid) {
   // The narrowest strip has two rows of quads, with ends of two sides each.
-  return std::max({4.0, border - 4.0, inside + shorter});
+  const double others = std::max({4.0, demand.border - 4.0, demand.quads});
+  if (!(in_grid > 0)) return others;
+  return keeps_grid ? in_grid : expected_with_grid(in_grid, others, demand.wanted, demand.border);
 }
 
 }  // namespace
@@ -80,36 +127,40 @@ QuadEstimate::QuadEstimate(const CadModel& model, ExecutionContext& context)
 
 double QuadEstimate::quads(const MeshOptions& options) {
   check({options, {}}, model_);
-  const FilledModel filled =
-      fill_holes(model_, faces_used(model_, options), options.sizing, options.fill_holes);
-  const CadShape& shape = filled.model.shape();
-  const FaceFlags used = filled.left(faces_used(model_, options));
   try {
-    return on_threads(context_.threads(), [&] {
-      const SettledBoundary boundary = settle_boundary(model_, options, context_);
-      double count = 0;
-      for (const FaceId face : shape.faces.ids()) {
-        if (!used[face]) continue;
-        SizingField::Sampler size_at(boundary.field, face);
-        const double in_grid = grid_quads(shape.faces[face], boundary.nodes.sides[face], boundary.nodes);
-        double area = 0, inside = 0;
-        for (const FaceSample& sample : samples_[face]) {
-          area += sample.area;
-          inside += sample.area / std::pow(size_at(sample.point), 2);
-        }
-        count += in_grid > 0
-                     ? in_grid
-                     : free_quads(shape.faces[face], area, inside, options.sizing.growth, boundary.nodes);
-      }
-      return count;
-    });
+    const std::vector<double> counts = quads_by_face(options);
+    return std::accumulate(counts.begin(), counts.end(), 0.0);
   } catch (const Error& error) {
     if (error.kind() != Error::Kind::usage) throw;
     return std::numeric_limits<double>::infinity();
   }
 }
 
-QuadEstimate::Suggestion QuadEstimate::size_for(double quads) {
+std::vector<double> QuadEstimate::quads_by_face(const MeshOptions& options) {
+  check({options, {}}, model_);
+  const FilledModel filled =
+      fill_holes(model_, faces_used(model_, options), options.sizing, options.fill_holes);
+  const CadShape& shape = filled.model.shape();
+  const FaceFlags used = filled.left(faces_used(model_, options));
+  return on_threads(context_.threads(), [&] {
+    const SettledBoundary boundary = settle_boundary(model_, options, context_);
+    std::vector<double> counts(shape.faces.size(), 0);
+    for (const FaceId id : shape.faces.ids()) {
+      if (!used[id] || !boundary.meshed[id]) continue;
+      const CadFace& face = shape.faces[id];
+      const BoundaryNodes& nodes = boundary.nodes;
+      SizingField::Sampler size_at(boundary.field, id);
+      const bool keeps_grid = has_kept_edge(face, nodes) || has_divided_edge(face, nodes);
+      counts[id.index()] = quads_of_rows(shape, id, nodes, options.sizing.layers);
+      counts[id.index()] +=
+          expected_quads(demand_of(id, face, samples_[id], size_at, options.sizing.growth, nodes),
+                         grid_quads(face, nodes.sides[id], nodes), keeps_grid);
+    }
+    return counts;
+  });
+}
+
+QuadEstimate::Suggestion QuadEstimate::size_for(double quads, MeshOptions options) {
   constexpr int most_steps = 12;
   constexpr double close = 1.05;   // well within the error of the estimate
   constexpr double narrow = 1.02;  // ratio of sizes between which the count jumps
@@ -143,7 +194,6 @@ QuadEstimate::Suggestion QuadEstimate::size_for(double quads) {
     } else if (coarse.size > 0) {
       size = std::min(size, coarse.size * coarse.quads / quads);
     }
-    MeshOptions options;
     options.sizing.size = rounded(size);
     if (tried_.contains(options.sizing.size)) return best;
     tried_[options.sizing.size] = this->quads(options);

@@ -95,9 +95,9 @@ class Job {
   }
 
   /// Samples the edges until no remedy is left for a face boundary that crosses itself or is crowded.
-  BoundaryNodes boundary(const SizingField& field) {
+  SettledBoundary boundary(SizingField field) {
     settle(field, false);
-    return std::move(nodes_);
+    return {std::move(field), std::move(nodes_), used_};
   }
 
   ShellMesh run(const SizingField& field) {
@@ -772,9 +772,7 @@ SizingField wanted_sizes(const CadModel& model, const MeshOptions& options, Exec
 SettledBoundary settle_boundary(const CadModel& model, const MeshOptions& options,
                                 ExecutionContext& context) {
   Job job(model, options, context, false);
-  SizingField field = job.build_field();
-  BoundaryNodes nodes = job.boundary(field);
-  return {std::move(field), std::move(nodes)};
+  return job.boundary(job.build_field());
 }
 
 namespace {

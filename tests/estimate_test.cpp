@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "geometry/base/execution_context.hpp"
 #include "mesher/quadrille.hpp"
@@ -29,7 +31,24 @@ TEST(QuadEstimate, IsCloseToTheMesh) {
     MeshOptions options;
     options.sizing.size = found.size;
     EXPECT_EQ(estimate.quads(options), found.quads);
-    EXPECT_LT(factor(static_cast<double>(mesh(model, options, context).quads.size()), found.quads), 1.5);
+    // The wing's grid is wasteful, and no other mesh turns out to be better.
+    const double allowed = sample.name == "wing" ? 1.4 : 1.25;
+    EXPECT_LT(factor(static_cast<double>(mesh(model, options, context).quads.size()), found.quads), allowed);
+  }
+}
+
+/// A wasteful grid is replaced, and so is its count; margins are counted where sizes across gaps are fine.
+TEST(QuadEstimate, IsCloseToTheMeshAcrossGaps) {
+  for (const SampleModel& sample : sample_models()) {
+    SCOPED_TRACE(sample.name);
+    const CadModel model = CadModel::read(sample.path());
+    ExecutionContext context(1);
+    MeshOptions options;
+    options.sizing.proximity = 3;
+    const std::vector<double> by_face = QuadEstimate(model, context).quads_by_face(options);
+    ASSERT_EQ(by_face.size(), static_cast<std::size_t>(model.face_count()));
+    const double sum = std::accumulate(by_face.begin(), by_face.end(), 0.0);
+    EXPECT_LT(factor(static_cast<double>(mesh(model, options, context).quads.size()), sum), 1.25);
   }
 }
 

@@ -6,13 +6,16 @@
 #include <bit>
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_ending.hpp"
 #include "geometry/base/threads.hpp"
+#include "geometry/sizing/sizing_field.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/setting_options.hpp"
 #include "mesher/quadrille.hpp"
@@ -27,6 +30,8 @@ struct SizesArguments : GivenSettings {
   std::filesystem::path input, picture, write_size_field, report;
   std::vector<std::filesystem::path> outputs;
   bool quiet = false, end_with_input = false;
+  bool count_only = false;
+  double wanted_quads = 0;  // 0 = the size is given
 };
 
 void check_files(const SizesArguments& arguments) {
@@ -123,6 +128,28 @@ void write_outputs(const SizeMap& map, const SizesArguments& arguments, Executio
     draw_apart(arguments.picture, context, [&] { write_size_picture(map, arguments.picture); });
 }
 
+/// Counts the quads that each face would get, at the size that gives the wanted number if there is one.
+void count(const CadModel& model, MeshOptions options, const SizesArguments& arguments,
+           ExecutionContext& context) {
+  QuadEstimate estimate(model, context);
+  if (arguments.wanted_quads > 0)
+    options.sizing.size = estimate.size_for(arguments.wanted_quads, options).size;
+  const std::vector<double> counts = estimate.quads_by_face(options);
+  const double sum = std::accumulate(counts.begin(), counts.end(), 0.0);
+  if (!arguments.report.empty()) {
+    json by_face = json::object();
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (counts[i] > 0) by_face[fmt::format("Face{}", i + 1)] = std::round(counts[i]);
+    }
+    const double size = size_limits(model, options.sizing).largest;
+    write_file(arguments.report,
+               json{{"size", size}, {"quads", sum}, {"quads_by_face", by_face}}.dump(2) + "\n");
+  }
+  if (arguments.quiet) return;
+  if (arguments.wanted_quads > 0) print(fmt::format("size         {:g}\n", options.sizing.size));
+  print(fmt::format("quads        about {:.0f}\n", sum));
+}
+
 void run(const SizesArguments& arguments) {
   check_files(arguments);
   Settings settings = arguments.settings;
@@ -142,6 +169,7 @@ void run(const SizesArguments& arguments) {
   settings = with_pieces(settings, model);
   check(settings, model);
   MeshOptions options = settings.mesh;
+  if (arguments.count_only) return count(model, options, arguments, context);
   options.write_size_field = arguments.write_size_field;
   const SizeMap map = size_map(model, options, context);
   write_outputs(map, arguments, context, cancel);
@@ -174,8 +202,19 @@ void add_sizes_command(CLI::App& app) {
   command->add_option("--write-size-field", arguments->write_size_field,
                       "write the sizes as OpenVDB grids (.vdb)");
   command->add_option("--report", arguments->report, "write what each source asks for as JSON");
+  auto* count_only = command->add_flag("--count-only", arguments->count_only,
+                                       "only tell the expected number of quads, and in the report by face");
+  for (const auto* output : {"--output", "--picture", "--write-size-field"})
+    count_only->excludes(command->get_option(output));
   add_settings(*command, *arguments, settings_of_meshing());
   command->get_option("--elements-per-diagonal")->excludes("--size");
+  command
+      ->add_option("--wanted-quads", arguments->wanted_quads,
+                   "with --count-only: find the size that gives about this many quads")
+      ->needs("--count-only")
+      ->excludes("--size")
+      ->excludes("--elements-per-diagonal")
+      ->check(CLI::PositiveNumber);
   command->add_flag("--end-with-input", arguments->end_with_input,
                     "end the work when standard input closes, for programs that start this one");
   command->add_flag("--quiet", arguments->quiet, "no progress, no table");

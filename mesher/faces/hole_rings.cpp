@@ -1,11 +1,16 @@
 /// Offsets the hole's loop on the surface line by line, while there is room and segments keep their length.
+/// Rows of given heights fit or do not.
 
 #include "mesher/faces/hole_rings.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 #include "geometry/base/nearest_on_segment.hpp"
+#include "mesher/faces/loop_rows.hpp"
 
 namespace quadrille {
 
@@ -67,24 +72,20 @@ class RingPlacer {
   RingPlacer(const FaceBoundary& boundary, const FaceSurface& surface, const TrimmedDomain& domain)
       : boundary_(boundary), surface_(surface), domain_(domain) {}
 
-  HoleRings run(int rings) {
+  HoleRings run(int rings, const std::function<std::vector<double>(EdgeId)>& heights) {
     find_loops();
-    if (loops_.size() < 2 || std::none_of(loops_.begin(), loops_.end(), is_hole)) return {};
+    for (Loop& loop : loops_) find_heights(loop, heights);
+    const bool any_rows = std::any_of(loops_.begin(), loops_.end(), has_rows);
+    if (!any_rows && (loops_.size() < 2 || std::none_of(loops_.begin(), loops_.end(), is_hole))) return {};
     const Segments segments(all_segments());
     for (std::size_t i = 0; i < loops_.size(); ++i) {
-      const Loop& loop = loops_[i];
-      if (!is_hole(loop)) continue;
-      HoleRings::Hole hole;
-      hole.lines.push_back(loop.nodes);
-      for (int count = rings; count > 0 && hole.lines.size() < 2; --count) {
-        const double side = side_of(loop);
-        const std::vector<double> widths =
-            side == 0 ? std::vector<double>{} : find_widths(i, count, side, segments);
-        for (int k = 0; k < count && !widths.empty() && add_line(hole, widths, side); ++k) continue;
-        if (static_cast<int>(hole.lines.size()) < count + 1) hole.lines.resize(1);
+      if (has_rows(loops_[i])) {
+        if (!add_rows(i, segments)) return std::move(result_);
+      } else if (is_hole(loops_[i])) {
+        add_rings(i, rings, segments);
       }
-      if (hole.lines.size() > 1) keep(loop, std::move(hole));
     }
+    place_loops();
     return std::move(result_);
   }
 
@@ -94,7 +95,12 @@ class RingPlacer {
     std::vector<HoleRings::Node> nodes;  // all nodes of the loop in the final mesh
     bool regular = true, smooth = true;
     bool outermost = false;
+    std::vector<double> heights;  // of the rows asked for
+    int hole = -1;                // index of its rings or rows in the result
   };
+  using Line = std::vector<HoleRings::Node>;
+
+  static bool has_rows(const Loop& loop) { return !loop.heights.empty(); }
 
   static bool is_hole(const Loop& loop) {
     return loop.regular && loop.smooth && !loop.outermost && loop.nodes.size() >= fewest_segments;
@@ -126,6 +132,88 @@ class RingPlacer {
       largest = std::max(largest, area);
     }
     if (outermost != nullptr) outermost->outermost = true;
+  }
+
+  /// Notes the heights of rows along a loop, if all its edges ask for the same.
+  void find_heights(Loop& loop, const std::function<std::vector<double>(EdgeId)>& heights) const {
+    if (!loop.regular) return;
+    for (const int i : loop.segments) {
+      std::vector<double> wanted = heights(boundary_.segments[i].edge);
+      if (wanted.empty() || (i != loop.segments.front() && wanted != loop.heights))
+        return loop.heights.clear();
+      loop.heights = std::move(wanted);
+    }
+  }
+
+  /// Adds rows along a loop. \return false if they do not fit.
+  bool add_rows(std::size_t index, const Segments& segments) {
+    Loop& loop = loops_[index];
+    const double side = side_of(loop);
+    auto rows = side == 0 ? std::nullopt : place_rows(loop.nodes, loop.heights, side, surface_, domain_);
+    int misfit = rows ? -1 : 0;
+    for (std::size_t j = 0; rows && j < rows->outer.size() && misfit < 0; ++j) {
+      if (is_too_near(rows->points[rows->outer[j]].point, index, segments)) misfit = static_cast<int>(j);
+    }
+    if (misfit >= 0) {
+      result_.unfit = boundary_.segments[loop.segments.front()].edge;
+      return false;
+    }
+    result_.has_rows = true;
+    keep(loop, std::move(*rows));
+    return true;
+  }
+
+  /// Whether a point at the end of a loop's rows is nearer to a boundary than these are high.
+  bool is_too_near(const Vector3& point, std::size_t index, const Segments& segments) const {
+    constexpr double rounding = 0.9;  // rows are straight, loops are curved
+    const auto& heights = loops_[index].heights;
+    const double own = rounding * std::accumulate(heights.begin(), heights.end(), 0.0);
+    double largest = own;
+    for (const Loop& other : loops_)
+      largest =
+          std::max(largest, std::accumulate(other.heights.begin(), other.heights.end(), heights.back()));
+    bool near = false;
+    segments.near(point, largest, [&](const Segments::Segment& other) {
+      double room = own;
+      if (other.loop != static_cast<int>(index)) {
+        room = heights.back();
+        if (other.loop >= 0) {
+          const auto& theirs = loops_[other.loop].heights;
+          room = std::accumulate(theirs.begin(), theirs.end(), room);
+        }
+      }
+      near = near || distance(point, other.a, other.b) < room;
+    });
+    return near;
+  }
+
+  /// Adds up to `rings` rings around a hole.
+  void add_rings(std::size_t index, int rings, const Segments& segments) {
+    Loop& loop = loops_[index];
+    std::vector<Line> lines{loop.nodes};
+    const double side = side_of(loop);
+    for (int count = rings; count > 0 && lines.size() < 2; --count) {
+      const std::vector<double> widths =
+          side == 0 ? std::vector<double>{} : find_widths(index, count, side, segments);
+      for (int k = 0; k < count && !widths.empty() && add_line(lines, widths, side); ++k) continue;
+      if (static_cast<int>(lines.size()) < count + 1) lines.resize(1);
+    }
+    if (lines.size() > 1) keep(loop, joined(lines));
+  }
+
+  /// The quads between lines of as many nodes each.
+  static HoleRings::Hole joined(const std::vector<Line>& lines) {
+    HoleRings::Hole hole;
+    const int n = static_cast<int>(lines.front().size()), count = static_cast<int>(lines.size());
+    for (const Line& line : lines) hole.points.insert(hole.points.end(), line.begin(), line.end());
+    for (int k = 0; k < n; ++k) hole.outer.push_back((count - 1) * n + k);
+    for (int first = 0; first < (count - 1) * n; first += n) {
+      for (int k = 0; k < n; ++k) {
+        const int next = (k + 1) % n;
+        hole.quads.push_back({first + k, first + next, first + n + next, first + n + k});
+      }
+    }
+    return hole;
   }
 
   static double area_of(const Loop& loop) {
@@ -207,8 +295,8 @@ class RingPlacer {
   }
 
   /// Adds the next line around a hole; false if it would leave the face or make bad quads.
-  bool add_line(HoleRings::Hole& hole, const std::vector<double>& widths, double side) const {
-    const auto& last = hole.lines.back();
+  bool add_line(std::vector<Line>& lines, const std::vector<double>& widths, double side) const {
+    const Line& last = lines.back();
     const std::size_t n = last.size();
     std::vector<HoleRings::Node> line(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -224,34 +312,69 @@ class RingPlacer {
       const double ratio = now.dot(before) / before.squaredNorm();
       if (!(ratio > shortest_segment) || !(ratio < longest_segment)) return false;
     }
-    hole.lines.push_back(std::move(line));
+    lines.push_back(std::move(line));
     return true;
   }
 
-  /// Adds a hole to the result and moves its loop in `inside` to the outermost line.
-  void keep(const Loop& loop, HoleRings::Hole hole) {
-    FaceBoundary& inside = result_.inside;
-    if (result_.holes.empty()) inside = boundary_;
-    hole.first = next_;
-    const auto& line = hole.lines.back();
-    int k = 0;
+  /// Adds a hole to the result.
+  void keep(Loop& loop, HoleRings::Hole hole) {
     for (const int i : loop.segments) {
-      auto& segment = inside.segments[i];
+      const auto& segment = boundary_.segments[i];
       hole.nodes.push_back(boundary_.nodes[segment.a]);
-      inside.nodes[segment.a] = HoleRings::node(next_ + k);
-      inside.uv[segment.a] = line[k].uv;
-      inside.points[segment.a] = line[k].point;
-      inside.angles[segment.a] = M_PI;
-      ++k;
-      if (segment.middle_node < 0) continue;
-      hole.nodes.push_back(segment.middle_node);
-      segment.middle_node = HoleRings::node(next_ + k);
-      segment.middle_uv = line[k].uv;
-      segment.middle_point = line[k].point;
-      ++k;
+      if (segment.middle_node >= 0) hole.nodes.push_back(segment.middle_node);
     }
-    next_ += k;
+    hole.first = next_;
+    next_ += static_cast<int>(hole.outer.size());
+    loop.hole = static_cast<int>(result_.holes.size());
     result_.holes.push_back(std::move(hole));
+  }
+
+  /// Moves the loops with rings or rows to their outermost lines, which may be longer.
+  void place_loops() {
+    if (result_.holes.empty()) return;
+    FaceBoundary& inside = result_.inside;
+    inside = boundary_;
+    inside.segments.clear();
+    for (const Loop& loop : loops_) {
+      if (loop.hole >= 0)
+        place_line(loop, result_.holes[loop.hole]);
+      else
+        for (const int i : loop.segments) inside.segments.push_back(boundary_.segments[i]);
+    }
+  }
+
+  void place_line(const Loop& loop, const HoleRings::Hole& hole) {
+    FaceBoundary& inside = result_.inside;
+    const int count = static_cast<int>(hole.outer.size()), before = static_cast<int>(loop.segments.size());
+    const bool has_middles = boundary_.segments[loop.segments.front()].middle_node >= 0;
+    const int stride = has_middles ? 2 : 1, first_new = inside.size();
+    const auto end = [&](int k) {
+      k %= count / stride;
+      return k < before ? boundary_.segments[loop.segments[k]].a : first_new + k - before;
+    };
+    for (int k = 0; k < count / stride; ++k) {
+      const auto& node = hole.points[hole.outer[stride * k]];
+      FaceBoundary::Segment segment = boundary_.segments[loop.segments[std::min(k, before - 1)]];
+      segment.a = end(k);
+      segment.b = end(k + 1);
+      if (k >= before) {
+        inside.nodes.push_back(-1);
+        inside.uv.emplace_back();
+        inside.points.emplace_back();
+        inside.angles.push_back(0);
+      }
+      inside.nodes[segment.a] = HoleRings::node(hole.first + stride * k);
+      inside.uv[segment.a] = node.uv;
+      inside.points[segment.a] = node.point;
+      inside.angles[segment.a] = loop.heights.empty() ? M_PI : 0;
+      if (has_middles) {
+        const auto& middle = hole.points[hole.outer[stride * k + 1]];
+        segment.middle_node = HoleRings::node(hole.first + stride * k + 1);
+        segment.middle_uv = middle.uv;
+        segment.middle_point = middle.point;
+      }
+      inside.segments.push_back(segment);
+    }
   }
 
   const FaceBoundary& boundary_;
@@ -265,8 +388,8 @@ class RingPlacer {
 }  // namespace
 
 HoleRings place_rings(const FaceBoundary& boundary, const FaceSurface& surface, const TrimmedDomain& domain,
-                      int rings) {
-  return RingPlacer(boundary, surface, domain).run(rings);
+                      int rings, const std::function<std::vector<double>(EdgeId)>& heights) {
+  return RingPlacer(boundary, surface, domain).run(rings, heights);
 }
 
 }  // namespace quadrille

@@ -1,4 +1,4 @@
-/// Numbers the ring lines' nodes after those of the rest, and adds a row of quads between neighboring lines.
+/// Numbers the rings' nodes after those of the rest, and adds their quads.
 
 #include "mesher/quads/ring_quads.hpp"
 
@@ -27,7 +27,7 @@ class RingJoiner {
     }
     for (const auto& hole : rings_.holes) {
       first_on_loop_.push_back(static_cast<int>(whole_.pole.size()));
-      for (const auto& node : hole.lines.front()) add(node, true);
+      for (std::size_t k = 0; k < hole.nodes.size(); ++k) add(hole.points[k], true);
       whole_.nodes.insert(whole_.nodes.end(), hole.nodes.begin(), hole.nodes.end());
     }
     for (int i = 0; i < count; ++i) {
@@ -56,7 +56,7 @@ class RingJoiner {
   /// Finds the point of each node on the outermost lines, by its number in HoleRings.
   void find_outermost() {
     std::size_t nodes = 0;
-    for (const auto& hole : rings_.holes) nodes += hole.nodes.size();
+    for (const auto& hole : rings_.holes) nodes += hole.outer.size();
     outermost_.assign(nodes, -1);
     for (std::size_t i = 0; i < inside_.nodes.size(); ++i) {
       if (inside_.nodes[i] < 0) outermost_[HoleRings::number(inside_.nodes[i])] = renumbered_[i];
@@ -65,31 +65,29 @@ class RingJoiner {
 
   void add_rings(std::size_t index) {
     const HoleRings::Hole& hole = rings_.holes[index];
-    const int n = static_cast<int>(hole.nodes.size()), rings = static_cast<int>(hole.lines.size()) - 1;
-    std::vector<int> line(n), outer(n);
-    for (int k = 0; k < n; ++k) line[k] = first_on_loop_[index] + k;
-    for (int ring = 1; ring <= rings; ++ring) {
-      for (int k = 0; k < n; ++k)
-        outer[k] = ring == rings ? outermost_[hole.first + k] : add(hole.lines[ring][k], false);
-      const bool outer_is_left = is_left(hole.lines[ring - 1], hole.lines[ring]);
-      for (int k = 0; k < n; ++k) {
-        const int next = (k + 1) % n;
-        std::array<int, 4> quad{line[k], line[next], outer[next], outer[k]};
-        if (!outer_is_left) std::swap(quad[1], quad[3]);
-        whole_.surface_mesh.mesh.quads.push_back(quad);
-      }
-      line = outer;
+    std::vector<int> number(hole.points.size(), -1);
+    for (std::size_t k = 0; k < hole.nodes.size(); ++k)
+      number[k] = first_on_loop_[index] + static_cast<int>(k);
+    for (std::size_t j = 0; j < hole.outer.size(); ++j) number[hole.outer[j]] = outermost_[hole.first + j];
+    for (std::size_t i = 0; i < number.size(); ++i)
+      if (number[i] < 0) number[i] = add(hole.points[i], false);
+    const bool clockwise = area_of(hole) < 0;
+    for (auto quad : hole.quads) {
+      for (int& corner : quad) corner = number[corner];
+      if (clockwise) std::swap(quad[1], quad[3]);
+      whole_.surface_mesh.mesh.quads.push_back(quad);
     }
   }
 
-  /// Whether `outer` lies to the left of `line` in the parameter plane.
-  static bool is_left(const std::vector<HoleRings::Node>& line, const std::vector<HoleRings::Node>& outer) {
+  /// The area of all quads in the parameter plane, positive if they are counter-clockwise.
+  static double area_of(const HoleRings::Hole& hole) {
     double sum = 0;
-    for (std::size_t k = 0; k < line.size(); ++k) {
-      const Vector2 along = line[(k + 1) % line.size()].uv - line[k].uv, across = outer[k].uv - line[k].uv;
-      sum += along.x() * across.y() - along.y() * across.x();
+    for (const auto& [a, b, c, d] : hole.quads) {
+      const Vector2 one = hole.points[c].uv - hole.points[a].uv,
+                    other = hole.points[d].uv - hole.points[b].uv;
+      sum += one.x() * other.y() - one.y() * other.x();
     }
-    return sum > 0;
+    return sum;
   }
 
   const FaceQuads& inside_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "mesher/faces/grid_waste.hpp"
 #include "mesher/mesh/criteria.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 
@@ -53,7 +54,7 @@ double badness(const FaceMesh& mesh) {
 bool FaceJudge::is_doubtful(const FaceMesh& grid, bool stepped, bool divided) {
   stepped_ = stepped;
   outside_ = stepped || has_rows(grid) ? share_outside(grid) : 0;
-  wasteful_ = !divided && wastes_quads(grid, thresholds.wasteful);
+  wasteful_ = !divided && wastes_quads(grid, GridWaste::wasteful);
   return wasteful_ || outside_ > (stepped ? thresholds.outside_of_steps : thresholds.outside_of_grid);
 }
 
@@ -61,7 +62,7 @@ bool FaceJudge::replaces_grid(const FaceMesh& other, const FaceMesh& grid) const
   const double left = share_outside(other);
   const double share = static_cast<double>(other.quads.size()) / static_cast<double>(grid.quads.size());
   if ((stepped_ ? thresholds.gain_of_steps : thresholds.gain) * left < outside_) return true;
-  return wasteful_ && share < thresholds.fewer && left <= std::max(outside_, thresholds.most_outside / share);
+  return wasteful_ && share < GridWaste::fewer && left <= std::max(outside_, thresholds.most_outside / share);
 }
 
 bool FaceJudge::is_doubtful(const FaceMesh& cut) {
@@ -73,8 +74,6 @@ bool FaceJudge::replaces_cut(const FaceMesh& direct, const FaceMesh& cut) const 
   return cut_wastes_ || badness(direct) < thresholds.better * badness(cut);
 }
 
-/// Whether there are more than `most` times the quads that the sizes ask for, plus half of the boundary
-/// segments. Rows that are fine for one edge also run through areas that want larger quads.
 bool FaceJudge::wastes_quads(const FaceMesh& mesh, double most) {
   double wanted = 0;
   SparseCheck check(context_);
@@ -84,8 +83,8 @@ bool FaceJudge::wastes_quads(const FaceMesh& mesh, double most) {
     const double size = size_at_(0.25 * (p[a] + p[b] + p[c] + p[d]));
     wanted += 0.5 * (p[c] - p[a]).cross(p[d] - p[b]).norm() / (size * size);
   }
-  return static_cast<double>(mesh.quads.size()) >
-         most * wanted + 0.5 * static_cast<double>(mesh.nodes.size());
+  return is_wasteful(static_cast<double>(mesh.quads.size()), wanted, static_cast<double>(mesh.nodes.size()),
+                     most);
 }
 
 }  // namespace quadrille

@@ -18,9 +18,8 @@ struct FaceThresholds {
   double outside_of_grid = 0.05, outside_of_steps = 0.01;
   /// The share outside the limits in a grid must fall by this factor with another mesh.
   double gain = 2, gain_of_steps = 1;
-  /// A grid with this many times the quads that the sizes ask for is wasteful. Another mesh needs fewer than
-  /// `fewer` of its quads, of which at most `most_outside` lie outside the limits.
-  double wasteful = 1.75, fewer = 0.8, most_outside = 0.05;
+  /// Where a grid is wasteful (GridWaste), the share of quads outside the limits in another mesh.
+  double most_outside = 0.05;
   /// Quads cut in four are replaced by quads of the final size if there are more than `few` and this many
   /// times those that the sizes ask for, or if their mean badness exceeds `poor` and falls by the factor
   /// `better`.

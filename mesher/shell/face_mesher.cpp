@@ -59,7 +59,8 @@ class FaceMesher {
         chart_(chart),
         surface_(*chart.surface),
         size_at_(field, face),
-        judge_(field, face, context) {}
+        judge_(field, face, context),
+        has_rows_(has_row_loop(shape, face, nodes.sides[face], options.sizing.layers)) {}
 
   FaceMesh run() {
     using Layout = Candidate::Layout;
@@ -87,6 +88,7 @@ class FaceMesher {
  private:
   bool is_worth_trying(const Candidate& candidate, const std::optional<FaceMesh>& best) {
     using Layout = Candidate::Layout;
+    if (has_rows_) return candidate.layout == Layout::rings && !best;
     const bool is_last_resort = recipe_.off != FaceRecipe::Off::none;
     if (candidate.layout == Layout::grid) return recipe_.mapped && !is_last_resort;
     if (candidate.direct)
@@ -118,12 +120,27 @@ class FaceMesher {
 
   std::optional<FaceMesh> ringed_mesh(const Candidate& candidate) {
     if (!rings_)
-      rings_ = place_rings(chart_.boundary, surface_, enclosed_domain(chart_.boundary), options_.rings);
+      rings_ = place_rings(chart_.boundary, surface_, enclosed_domain(chart_.boundary), options_.rings,
+                           [this](EdgeId edge) { return heights_along(edge); });
+    if (rings_->unfit.exists())
+      throw usage_error(
+          "layers", fmt::format("the `layers` along Edge{} do not fit into Face{}: ask for fewer or lower "
+                                "ones, or for a smaller size on the edge",
+                                shape_.edges[rings_->unfit].number, face_.number()));
     if (rings_->holes.empty()) return std::nullopt;
     FaceQuads quads = quads_inside(rings_->inside, candidate);
     add_ring_quads(quads, *rings_, surface_);
-    smooth(quads, surface_, options_.improve, context_);
-    return finish(std::move(quads));
+    if (!rings_->has_rows) smooth(quads, surface_, options_.improve, context_);
+    FaceMesh result = finish(std::move(quads));
+    result.rows = rings_->has_rows;
+    return result;
+  }
+
+  /// The heights of the rows asked for along an edge; empty where there are none.
+  std::vector<double> heights_along(EdgeId edge) const {
+    const auto& layers = options_.sizing.layers.edges;
+    const auto own = has_rows_ && edge.exists() ? layers.find(shape_.edges[edge].number) : layers.end();
+    return own == layers.end() ? std::vector<double>() : heights_of(&own->second);
   }
 
   FaceQuads quads_inside(const FaceBoundary& boundary, const Candidate& candidate) {
@@ -256,6 +273,7 @@ class FaceMesher {
   const FaceSurface& surface_;
   SizingField::Sampler size_at_;
   FaceJudge judge_;
+  bool has_rows_;  // along a loop
   std::optional<HoleRings> rings_;
   std::optional<FaceProblem> problem_;                   // of the last candidate that failed
   Candidate::Layout layout_ = Candidate::Layout::plain;  // of the best mesh other than a grid

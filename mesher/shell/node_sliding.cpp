@@ -277,6 +277,10 @@ class NodeSliding {
       if (!edge.kept && !edge.matched) continue;
       for (const int node : edge.nodes) uses[node] = 2;
     }
+    for (const FaceId face : states_.ids()) {
+      if (!states_[face].mesh || !states_[face].mesh->rows) continue;
+      for (const int node : states_[face].mesh->nodes) uses[node] = 2;
+    }
     slidable_.resize(uses.size());
     for (std::size_t i = 0; i < uses.size(); ++i) slidable_[i] = uses[i] == 1;
   }
@@ -445,8 +449,9 @@ class NodeSliding {
 
   // ---- inside faces ----
 
-  /// Whether a face is a grid beside an edge with prescribed spacing, which keeps its rows.
+  /// Whether a face has rows along a loop, or is a grid beside an edge with prescribed spacing.
   bool keeps_rows(FaceId face) const {
+    if (states_[face].mesh->rows) return true;
     if (!states_[face].mesh->grid || !nodes_.sides[face].has_whole_rows()) return false;
     return has_kept_edge(shape_.faces[face], nodes_);
   }
@@ -522,7 +527,7 @@ class NodeSliding {
 
   void mend(FaceState& face) {
     const auto outside = [](double value) { return value > outside_objective; };
-    if (face.mesh->grid || !face.mesh->off.empty() ||
+    if (face.mesh->grid || face.mesh->rows || !face.mesh->off.empty() ||
         std::none_of(face.objective.begin(), face.objective.end(), outside))
       return;
     FaceMesh& mesh = *face.mesh;
@@ -610,7 +615,13 @@ std::vector<EdgeId> slide_nodes(const CadShape& shape, BoundaryNodes& nodes, Fac
     sliding.finish();
   }
   if (!options.clean_up) return {};
-  const std::vector<CompositeFace> composites = join_smooth_faces(shape, kept, nodes, faces, context);
+  EdgeFlags uncrossed = kept;
+  for (const FaceId face : faces.ids()) {
+    if (!faces[face] || !faces[face]->rows) continue;
+    for (const CadWire& wire : shape.faces[face].wires)
+      for (const Coedge& coedge : wire.coedges) uncrossed[coedge.edge] = 1;
+  }
+  const std::vector<CompositeFace> composites = join_smooth_faces(shape, uncrossed, nodes, faces, context);
   {
     NodeSliding sliding(shape, nodes, faces, sampled, context);
     sliding.wake_only(composites);

@@ -147,6 +147,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"mesh IN OUT --proximity-walls -1", 2, "--proximity-walls"},
         Mistake{"sizes IN -o out.msh", 2, ".vtu or .json"}, Mistake{"sizes IN -o none/out.vtu", 2, "none"},
         Mistake{"sizes IN --picture out.jpg", 2, ".png"},
+        Mistake{"sizes IN --count-only -o out.vtu", 2, "--count-only"},
+        Mistake{"sizes IN --wanted-quads 5000", 2, "--count-only"},
+        Mistake{"sizes IN --count-only --wanted-quads 5000 --size 2", 2, "--size"},
         Mistake{"sizes IN --size-on Face7=1", 2, "no Face7"},
         Mistake{"sizes IN -o a.vtu -o a.vtu", 2, "same file"}));
 
@@ -273,6 +276,26 @@ TEST(Command, TakesTheThreadsThatThereAre) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(test::file_text(folder / "a.msh"), test::file_text(folder / "b.msh"));
+}
+
+/// The count by face, at a size that is given or found, with all other settings.
+TEST(Command, CountsQuadsOnly) {
+  const TemporaryFolder folder;
+  const std::string options = "sizes " + box + " --size-on Face1=0.5 --quiet --report r.json --count-only ";
+  const auto report_of = [&](const std::string& more) {
+    EXPECT_EQ(stdout_of(folder, options + more).exit_code, 0);
+    return nlohmann::json::parse(test::file_text(folder / "r.json"));
+  };
+  const auto given = report_of("--size 2");
+  EXPECT_EQ(given["size"], 2);
+  double sum = 0;
+  for (const auto& [face, quads] : given["quads_by_face"].items()) sum += quads.get<double>();
+  EXPECT_NEAR(sum, given["quads"].get<double>(), 3);
+  EXPECT_EQ(given["quads_by_face"].size(), 6U);
+  const double wanted = 1.5 * given["quads"].get<double>();
+  const auto found = report_of(fmt::format("--wanted-quads {:.0f}", wanted));
+  EXPECT_LT(found["size"], 2);
+  EXPECT_NEAR(found["quads"].get<double>() / wanted, 1, 0.15);
 }
 
 /// What sizes tells is what mesh makes: the count, and .vtu files that other readers take.

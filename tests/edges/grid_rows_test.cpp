@@ -125,15 +125,15 @@ TEST(GridRows, BiasKeepsGrids) {
   EXPECT_NEAR(longest / shortest, std::pow(1.2, 23), 1e-3 * std::pow(1.2, 23));
 }
 
-/// Where a face beside the edge is no grid, sizes are as small as layers are high, as before.
+/// Where a face beside the edge is no grid, and the layers do not go all the way round, sizes are as small as layers are high, as before.
 TEST(GridRows, OtherFacesHaveSmallSizes) {
-  const CadModel disc = CadModel::read(sample_model("disc").path());
+  const CadModel plate = CadModel::read(sample_model("plate_with_holes").path());
   MeshOptions options;
-  options.sizing.size = disc.diagonal() / 15;
+  options.sizing.size = plate.diagonal() / 15;
   options.sizing.layers.edges[1] = {options.sizing.size / 5, 1.2, 4};
-  ASSERT_FALSE(disc.shape().edges[edge_id(1)].degenerate);
-  const ShellMesh mesh = mesh_of(disc, options);
-  const double length = disc.shape().edges[edge_id(1)].length;
+  ASSERT_FALSE(plate.shape().edges[edge_id(1)].degenerate);
+  const ShellMesh mesh = mesh_of(plate, options);
+  const double length = plate.shape().edges[edge_id(1)].length;
   const auto on_edge = std::count_if(mesh.segments.begin(), mesh.segments.end(),
                                      [](const ShellMesh::Segment& segment) { return segment.edge == 1; });
   EXPECT_GT(static_cast<double>(on_edge), 0.7 * length / (options.sizing.size / 5));

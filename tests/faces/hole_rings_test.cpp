@@ -266,7 +266,7 @@ HoleRings rings_in_square(double half_width, const Circle& hole, int rings) {
 TEST(HoleRings, LeaveTwoRowsOfEachGap) {
   // The segments are 1.035 long, their rings 0.83 wide where there is room.
   const auto width = [](const HoleRings& rings, int i) {
-    return (rings.holes[0].lines[1][i].point - rings.holes[0].lines[0][i].point).norm();
+    return (rings.holes[0].points[12 + i].point - rings.holes[0].points[i].point).norm();
   };
   const HoleRings roomy = rings_in_square(20, {0, 0, 2}, 1);
   ASSERT_EQ(roomy.holes.size(), 1U);
@@ -276,8 +276,8 @@ TEST(HoleRings, LeaveTwoRowsOfEachGap) {
   EXPECT_NEAR(width(near, 0), 1.7 / 3, 1e-9);
   EXPECT_GT(width(near, 6), 0.7);
   EXPECT_TRUE(rings_in_square(3, {0, 0, 2}, 1).holes.empty());
-  EXPECT_EQ(rings_in_square(20, {0, 0, 2}, 3).holes[0].lines.size(), 4U);
-  EXPECT_EQ(rings_in_square(4, {0, 0, 2}, 3).holes[0].lines.size(), 3U);
+  EXPECT_EQ(rings_in_square(20, {0, 0, 2}, 3).holes[0].points.size(), 48U);
+  EXPECT_EQ(rings_in_square(4, {0, 0, 2}, 3).holes[0].points.size(), 36U);
 }
 
 TEST(HoleRings, KeepTheCountAndTheNumbersOfTheLoop) {
@@ -287,7 +287,7 @@ TEST(HoleRings, KeepTheCountAndTheNumbersOfTheLoop) {
   for (int i = 0; i < 12; ++i) {
     EXPECT_EQ(rings.holes[0].nodes[i], 4 + i);
     EXPECT_EQ(rings.inside.nodes[4 + i], HoleRings::node(i));
-    EXPECT_EQ(rings.inside.points[4 + i], rings.holes[0].lines[2][i].point);
+    EXPECT_EQ(rings.inside.points[4 + i], rings.holes[0].points[24 + i].point);
   }
   for (int i = 0; i < 4; ++i) EXPECT_EQ(rings.inside.nodes[i], i);
 }

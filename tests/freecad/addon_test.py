@@ -24,7 +24,9 @@ from FreeCAD import Vector
 import quadrille
 import quadrille.freecad as core
 from quadrille.core import command, quality
+from quadrille.core.setting_table import MeshSettings
 from quadrille.document import groups, shapes
+from quadrille.features import sizes
 from quadrille.solvers import shell_input, wrappers
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
@@ -553,7 +555,7 @@ class AddonTest(unittest.TestCase):
                 part.Shape = Part.read(str(MODELS / file))
                 size = core.suggested_size(part)
                 mesh = core.mesh_object(part, size=size)
-                self.assertLess(abs(mesh.QuadCount / 5000 - 1), 0.32, mesh.QuadCount)
+                self.assertLess(abs(mesh.QuadCount / 5000 - 1), 0.25, mesh.QuadCount)
 
     def test_estimate_follows_sizes_that_grow_from_small_holes(self):
         plate = Part.makePlane(100, 100)
@@ -563,8 +565,9 @@ class AddonTest(unittest.TestCase):
         part.Shape = plate.cut(Part.makeCompound(holes)).Faces[0]
         mesh = core.mesh_object(part, size=5)
         self.assertGreater(mesh.QuadCount, 3 * 100 * 100 / 5**2)  # most of them are around the holes
-        expected = shapes.SizeEstimate(part.Shape).quads(5)
-        self.assertLess(abs(mesh.QuadCount / expected - 1), 0.25, (mesh.QuadCount, expected))
+        count = sizes.CountJob(part.Shape, MeshSettings(size=5.0)).start().wait()
+        self.assertEqual((count.size, list(count.by_face)), (5, ["Face1"]))
+        self.assertLess(abs(mesh.QuadCount / count.quads - 1), 0.25, (mesh.QuadCount, count.quads))
 
     # Bad use
 

@@ -1,6 +1,8 @@
 """quadrille.freecad.mesh_object in real FreeCAD: meshes, groups, saving, solver objects, errors."""
 
+import math
 import os
+import shutil
 import sys
 import tempfile
 import unittest
@@ -17,6 +19,7 @@ from FreeCAD import Vector
 import quadrille
 import quadrille.freecad
 from quadrille.freecad import mesh_object, remesh
+from quadrille.solvers import element_types
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
 
@@ -260,6 +263,94 @@ class MeshObjectTest(unittest.TestCase):
                 said = " ".join(call.args[0] for call in told.call_args_list)
                 self.assertEqual("S8R" in said, reduced)
                 self.assertEqual("offset 0.5" in said, bool(offset))
+
+    def solved(self, part, mesh, supports, loaded, force):
+        """The displacements by node that CalculiX finds. `supports`: edges, and directions in which they stay; `force`: N and
+        the edge whose direction it has, on the edge `loaded`."""
+        from femtools import ccxtools
+
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
+        solver = analysis.addObject(make_solver(self.document, "Solver"))[0]
+        material = analysis.addObject(ObjectsFem.makeMaterialSolid(self.document, "Steel"))[0]
+        material.Material = {"Name": "Steel", "YoungsModulus": "210000 MPa", "PoissonRatio": "0.3"}
+        analysis.addObject(ObjectsFem.makeElementGeometry2D(self.document, 2.0, "Thickness"))
+        for edge, axes in supports.items():
+            support = analysis.addObject(ObjectsFem.makeConstraintDisplacement(self.document, "Support"))[0]
+            support.References = [(part, edge)]
+            for axis in axes:
+                setattr(support, f"{axis}Fix", True)
+                setattr(support, f"{axis}Free", False)
+        load = analysis.addObject(ObjectsFem.makeConstraintForce(self.document, "Force"))[0]
+        load.References, load.Direction = [(part, loaded)], (part, [force[1]])
+        load.Force = f"{force[0]} N" if FreeCAD.Version()[0] != "0" else float(force[0])
+        analysis.addObject(mesh)
+        self.document.recompute()
+        with tempfile.TemporaryDirectory() as folder:
+            fea = ccxtools.FemToolsCcx(analysis, solver, test_mode=False)
+            fea.update_objects()
+            fea.setup_working_dir(folder, create=True)
+            self.assertFalse(fea.check_prerequisites())
+            fea.write_inp_file()
+            self.assertIn(f"TYPE={mesh.Element},", Path(fea.inp_file_name).read_text())
+            fea.setup_ccx()
+            fea.ccx_run()
+            fea.load_results()
+        result = next(member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject"))
+        self.assertEqual(len(result.NodeNumbers), mesh.FemMesh.NodeCount)
+        return dict(zip(result.NodeNumbers, result.DisplacementVectors))
+
+    @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed")
+    def test_plane_and_membrane_elements_solve(self):
+        """A strip of 40 mm x 10 mm x 2 mm is pulled by 1000 N, whichever way its face looks."""
+        stretch = 1000 * 40 / (210000 * 10 * 2)
+        for element, order, wanted, down in (("CPS8R", 2, stretch, True), ("CPS8", 2, stretch, False),
+                                             ("CPS4", 1, stretch, True), ("CPE8", 2, stretch * (1 - 0.3**2), True),
+                                             ("M3D4", 1, stretch, False), ("S4R", 1, stretch, False)):
+            with self.subTest(element=element):
+                face = Part.makePlane(40, 10)
+                part = self.part(face.reversed() if down else face, "Strip")
+                mesh = mesh_object(part, size=2, order=order)
+                mesh.Element = element
+                supports = {"Edge1": ("x",), "Edge4": ("y",)}
+                if element[:3] not in ("CPS", "CPE"):
+                    supports["Face1"] = ("z",)
+                moves = self.solved(part, mesh, supports, "Edge3", (1000, "Edge2"))
+                self.assertAlmostEqual(max(abs(move.x) for move in moves.values()) / wanted, 1, 3)
+
+    @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed")
+    def test_axisymmetric_elements_solve(self):
+        """A pipe of the radii 10 and 20 mm under pressure inside, by Lame's formula in plane strain."""
+        pressure, inner, outer, height, modulus, ratio = 50.0, 10.0, 20.0, 5.0, 210000.0, 0.3
+        part = self.part(Part.makePlane(outer - inner, height, Vector(inner, 0, 0)), "Pipe")
+        mesh = mesh_object(part, size=1, order=2)
+        mesh.Element = "CAX8R"
+        edges = list(enumerate(part.Shape.Edges, 1))
+        bore = next(i for i, edge in edges if abs(edge.CenterOfMass.x - inner) < 1e-6)
+        ends = {f"Edge{i}": ("y",) for i, edge in edges if abs(edge.CenterOfMass.y - height / 2) > 1}
+        moves = self.solved(part, mesh, ends, f"Edge{bore}",
+                            (pressure * 2 * math.pi * inner * height, next(iter(ends))))
+        k = pressure * inner**2 / (outer**2 - inner**2)
+        wanted = (1 + ratio) / modulus * k * ((1 - 2 * ratio) * inner + outer**2 / inner)
+        nodes = mesh.FemMesh.Nodes
+        found = [move.x for node, move in moves.items() if abs(nodes[node].x - inner) < 1e-6]
+        self.assertTrue(found)
+        for value in found:
+            self.assertAlmostEqual(abs(value) / wanted, 1, 2)
+
+    def test_elements_that_do_not_suit_the_mesh(self):
+        """CalculiX is not run, and a sentence says why."""
+        flat = self.part(Part.makePlane(10, 5, Vector(-2, 0, 0)), "Flat")
+        box = self.part(Part.makeBox(10, 10, 10), "Box")
+        for part, order, element, words in ((flat, 2, "CPS4", "first order"), (flat, 1, "CPE8R", "second order"),
+                                            (flat, 2, "CAX8", "x = -2"), (box, 2, "CPS8", "z = 0, and this one leaves it by 10"),
+                                            (box, 1, "M3D4", ""), (flat, 2, "CPS8", ""), (box, 1, "shell", "")):
+            with self.subTest(element=element, part=part.Label):
+                mesh = mesh_object(part, size=2, order=order)
+                mesh.Element = element
+                said = element_types.problem_of(mesh)
+                self.assertIn(words, said)
+                self.assertEqual(bool(words), bool(said))
 
     def check_error(self, kind, words, *arguments, **options):
         """mesh_object fails with one sentence, and the document stays as it was."""

@@ -21,10 +21,11 @@ import quadrille.freecad
 from case import MODELS, GuiCase, picture, run, type_into
 from driver import Boxes, click, click_at, close_panel, find, process, trigger, turn_wheel, wait_for, window
 from quadrille.core import command, quality
-from quadrille.core.setting_table import SETTINGS
-from quadrille.document import links, shapes, state
+from quadrille.core.setting_table import SETTINGS, MeshSettings
+from quadrille.document import links, state
 from quadrille.document.state import is_quad_mesh
 from quadrille.features import mesh_object as core
+from quadrille.features import sizes
 from quadrille.gui import commands, overlays, preferences
 from quadrille.gui.task_panel import MeshPanel
 
@@ -577,8 +578,8 @@ class PanelTest(GuiCase):
         rows = self.expected_rows()
         self.assertEqual(set(rows), {f"Face{number}" for number in range(1, 7)})
         self.assertEqual(next(iter(rows)), "Face3")  # the finest face is the first row
-        total = shapes.estimate_of(self.document.Box.Shape).quads(2, sizes={"Face3": 0.5})
-        self.assertAlmostEqual(sum(rows.values()), total, delta=len(rows))
+        count = sizes.CountJob(self.document.Box.Shape, MeshSettings(size=2.0, sizes={"Face3": 0.5})).start().wait()
+        self.assertAlmostEqual(sum(rows.values()), count.quads, delta=len(rows))
         picture("by_face")
         FreeCADGui.Selection.clearSelection()
         counts = find("QuadrilleFaceCounts")
@@ -595,6 +596,8 @@ class PanelTest(GuiCase):
 
     def expected_rows(self):
         """The quads to expect that the panel lists, by face."""
+        estimate = find("QuadrilleEstimate")
+        wait_for(lambda: estimate.text() != "...", what="the estimate")
         counts = find("QuadrilleFaceCounts")
         rows = (counts.item(row).text().split(": ") for row in range(counts.count()))
         return {name: int(quads) for name, quads in rows}
@@ -848,7 +851,7 @@ class PanelTest(GuiCase):
         action.trigger()  # the second
         find("QuadrilleSize")
 
-    def test_the_part_is_measured_when_the_panel_is_open(self):
+    def test_quads_are_counted_when_the_panel_is_open(self):
         part = self.bracket()
         self.opened_at_once(part)
         self.assertEqual(find("QuadrilleEstimate").text(), "...")
@@ -857,17 +860,15 @@ class PanelTest(GuiCase):
         self.assertEqual(find("QuadrilleSize").property("rawValue"), 3.25)
         close_panel(CANCEL)
         suggested = quadrille.freecad.suggested_size(part)
-        shapes._last_estimate.clear()
         self.opened_at_once(part)
         self.assertEqual(find("QuadrilleEstimate").text(), "...")
-        self.press_mesh()  # before it is measured
+        self.press_mesh()  # before its size is found
         mesh = next(obj for obj in self.document.Objects if is_quad_mesh(obj))
         self.assertEqual(mesh.Size.Value, suggested)
         close_panel()
 
     def test_four_clicks_and_a_quick_panel(self):
-        """The part, the command, Mesh, OK: four clicks. The panel of a part of 700 faces opens before any face is measured, and
-        each is measured once."""
+        """The part, the command, Mesh, OK: four clicks. The panel of a part of 700 faces opens before its quads are counted."""
         plate = Part.makeBox(400, 400, 10)
         for tools in ([Part.makeCylinder(8, 6, FreeCAD.Vector(20 + 28 * i, 20 + 28 * j, 4)) for i in range(14)
                        for j in range(14)],):
@@ -878,12 +879,10 @@ class PanelTest(GuiCase):
         part.Shape = plate
         self.assertGreater(len(plate.Faces), 700)
         self.show()
-        with mock.patch.object(shapes, "_curvatures", wraps=shapes._curvatures) as measure:
-            self.opened_at_once(part)
-            self.assertEqual(measure.call_count, 0)
-            label = find("QuadrilleEstimate")
-            wait_for(lambda: "about" in label.text(), what="the estimate")
-        self.assertEqual(measure.call_count, len(plate.Faces))
+        self.opened_at_once(part)
+        label = find("QuadrilleEstimate")
+        self.assertEqual(label.text(), "...")
+        wait_for(lambda: "about" in label.text(), what="the estimate")
         close_panel(CANCEL)
 
 

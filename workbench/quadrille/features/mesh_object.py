@@ -20,8 +20,9 @@ from ..core.units import millimeters
 from ..document import groups, links, old_documents, shapes, state, undo
 from ..document.regions import refine
 from ..document.state import UP_TO_DATE, Wanted, complaint, shape_of
-from ..solvers import results, wrappers
+from ..solvers import element_types, results, wrappers
 from . import views
+from .sizes import CountJob
 
 
 def mesh_object(
@@ -87,9 +88,14 @@ def check_part(doc_object, analysis=None) -> None:
     check_analysis(analysis)
 
 
-def suggested_size(doc_object, quads: int = 5000, elements_per_circle: float = 12) -> float:
-    """The size that gives a document object about this many quads, rounded to two digits."""
-    return shapes.estimate_of(shape_of(doc_object)).suggested(quads, elements_per_circle)
+def suggested_size(doc_object, quads: int = 5000, elements_per_circle: float = 12, **settings) -> float:
+    """The size in mm that gives a document object about this many quads, rounded to three digits.
+
+    Args:
+        settings: other settings of the mesh, by name.
+    """
+    wanted = _in_millimeters(MeshSettings(elements_per_circle=elements_per_circle, **settings))
+    return CountJob(shape_of(doc_object), wanted, wanted=quads).start().wait().size
 
 
 def defaults() -> Dict[str, object]:
@@ -252,7 +258,9 @@ def export(mesh, path: Union[str, Path]) -> None:
 #: The properties of every mesh object besides its settings: type, name, group and description.
 RESULT_PROPERTIES = (
     ("App::PropertyEnumeration", "Status", "Result", "Whether the mesh is that of the part and the settings"),
-    ("App::PropertyBool", "ReducedShells", "Solve", "Second-order quads are written for CalculiX as S8R, not S8"),
+    ("App::PropertyEnumeration", "Element", "Solve", "Type of the elements for CalculiX. Plane stress (CPS), plane strain (CPE) and "
+     "rotational symmetry about the y axis (CAX) need a part in the plane z = 0; M3D are membranes"),
+    ("App::PropertyBool", "ReducedShells", "Solve", "Second-order shells are written for CalculiX as S8R, not S8"),
     ("App::PropertyFloat", "ShellOffset", "Solve", "Where the middle of the shell lies, in thicknesses from the mesh along "
      "its normals: 0.5 = the mesh is the bottom surface, -0.5 = the top (CalculiX)"),
     ("App::PropertyInteger", "QuadCount", "Result", "Number of quads"),
@@ -274,6 +282,14 @@ RESULT_PROPERTIES = (
     ("App::PropertyString", "MeshedSettings", "Hidden", "Settings that the mesh was made with"),
     ("App::PropertyString", "MeshToken", "Hidden", "Name of the mesh, for undo"),
 )
+
+
+def set_default(obj, name: str) -> None:
+    """Gives a property that was just added the values that it can have, and its default."""
+    if name == "Element":
+        obj.Element = [element_types.SHELL, *element_types.OTHERS]
+    elif name == "ReducedShells":
+        obj.ReducedShells = True
 
 
 class MeshFeature:
@@ -314,8 +330,7 @@ class MeshFeature:
         ):
             if name not in obj.PropertiesList:
                 obj.addProperty(kind, name, group, text)
-                if name == "ReducedShells":
-                    obj.ReducedShells = True
+                set_default(obj, name)
         state.name_statuses(obj)
         self._set_editor_modes(obj)
 

@@ -38,6 +38,14 @@ class SizeMap(NamedTuple):
     sources: Tuple[Source, ...]  #: the sources that determine the size somewhere
 
 
+class Count(NamedTuple):
+    """How many quads a mesh would have."""
+
+    size: float  #: the size of elements, mm
+    quads: float
+    by_face: Dict[str, float]
+
+
 class SizesJob:
     """One run of `quadrille sizes` on a shape. Call start(), then wait(), or poll() from a timer until it has ended."""
 
@@ -48,9 +56,16 @@ class SizesJob:
         self._output = os.path.join(self._folder.name, "sizes.json")
         shape.exportBrep(model)
         own = MeshSettings(**{name: value for name, value in settings.items() if BY_NAME[name]["use"] != "write"})
-        self._job = CommandJob(["sizes", model, "-o", self._output, *own.arguments()], command)
+        self._job = CommandJob(["sizes", model, *self._asks(), *own.arguments()], command)
 
-    def start(self) -> "SizesJob":
+    def _asks(self) -> Sequence[str]:
+        return ("-o", self._output)
+
+    def _understood(self, _report: Dict):
+        with open(self._output, encoding="utf-8") as file:
+            return _map_of(json.load(file))
+
+    def start(self):
         """Starts the child process."""
         try:
             self._job.start()
@@ -73,8 +88,8 @@ class SizesJob:
         self._job.kill()
         self._folder.cleanup()
 
-    def wait(self) -> SizeMap:
-        """Waits for the end and returns the map."""
+    def wait(self):
+        """Waits for the end and returns the result."""
         try:
             while self.running:
                 self.poll()
@@ -84,16 +99,32 @@ class SizesJob:
             raise
         return self.result()
 
-    def result(self) -> SizeMap:
-        """The map, once the child has ended. Raises Error if it failed."""
+    def result(self):
+        """The SizeMap, once the child has ended. Raises Error if it failed."""
         try:
-            self._job.result()
-            with open(self._output, encoding="utf-8") as file:
-                return _map_of(json.load(file))
+            return self._understood(self._job.result())
         except Error as error:
             raise error_in_own_words(error) from error
         finally:
             self._folder.cleanup()
+
+
+class CountJob(SizesJob):
+    """The same for a Count alone, which takes far less time.
+
+    Args:
+        wanted: find the size that gives about this many quads, in place of that of the settings.
+    """
+
+    def __init__(self, shape, settings: MeshSettings, command: Optional[str] = None, wanted: int = 0) -> None:
+        self._wanted = wanted
+        super().__init__(shape, MeshSettings(**{**settings, "size": None}) if wanted else settings, command)
+
+    def _asks(self) -> Sequence[str]:
+        return ("--count-only", "--wanted-quads", str(self._wanted)) if self._wanted else ("--count-only",)
+
+    def _understood(self, report: Dict) -> Count:
+        return Count(report["size"], report["quads"], report["quads_by_face"])
 
 
 def _map_of(told: Dict) -> SizeMap:

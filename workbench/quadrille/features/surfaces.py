@@ -235,8 +235,7 @@ class SurfaceMesh:
             obj.addProperty(kind, name, group, text)
             if name == "ElementOrder":
                 obj.ElementOrder = list(reversed(ORDERS))
-            elif name == "ReducedShells":
-                obj.ReducedShells = True
+            core.set_default(obj, name)
             if group in ("Result", "Hidden"):
                 obj.setEditorMode(name, 1 if group == "Result" else 2)
         state.name_statuses(obj)

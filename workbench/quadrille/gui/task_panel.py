@@ -6,7 +6,7 @@ document with the mesh, or by OK, each as one undo step. Cancel undoes all of it
 """
 
 import time
-from typing import Callable, Dict, Optional
+from typing import Any, Callable, Dict, Optional
 
 import FreeCAD
 import FreeCADGui
@@ -18,13 +18,14 @@ from ..core.setting_table import default_size
 from ..core.units import digits
 from ..document import groups, links, old_documents, picks, shapes, state
 from ..features import mesh_object as core
+from ..features.sizes import Count
 from ..solvers import results
 from . import do, drawn_icon, links_text, mesh_clicks, path_of, preferences, standard_buttons, tell, translate
+from .counting import FAILURES, Counting
 from .entry_rows import NAMES, EntryRows
 from .entry_rows import PROPERTIES as ENTRIES
 from .face_counts import FaceCounts
 from .field_errors import FieldError, below, unknown_names
-from .measuring import FAILURES, Measuring
 from .mesher_choice import MesherChoice, is_missing
 from .quality_view import QualityWidget
 from .refinement_list import RefinementList
@@ -61,7 +62,10 @@ class MeshPanel:
         self._refused: Dict[str, str] = {}  # what the mesher has said about fields that have not changed since, by property
         self._started = 0.0
         self._part_was_visible = mesh.Shape.ViewObject.Visibility
-        self._measuring = Measuring(mesh, self._measured)
+        self._counting = Counting(self._counted)
+        # A new mesh gets a size, unless the user gives one before it is found.
+        self._suggests = bool(made_by) and not mesh.Size
+        self._mesh_when_suggested = False
         self._build()
         self._load()
         self._timer = QtCore.QTimer()  # without the form as parent: it must outlive a form that FreeCAD deletes
@@ -71,8 +75,8 @@ class MeshPanel:
         FreeCAD.addDocumentObserver(self)
         self._observing = True
         QtCore.QTimer.singleShot(_STAND_BY_MILLISECONDS, self._stand_by)
+        QtCore.QTimer.singleShot(0, self._hint_at_thin)
         self._update_estimate()
-        self._measuring.start()
 
     # Widgets
 
@@ -186,7 +190,6 @@ class MeshPanel:
 
     def _wanted(self) -> state.Wanted:
         """The settings that the panel shows. Raises Error if a field cannot be read."""
-        self._measuring.finish()
         part = state.part_of(self.mesh)
         values = dict(state.wanted_of(self.mesh).values)
         anew = set(self._anew)
@@ -239,24 +242,21 @@ class MeshPanel:
 
     # Estimate
 
-    def _measured(self) -> None:
-        """Called when the part is measured. A new mesh gets a size, unless the user has already given one."""
+    def _hint_at_thin(self) -> None:
+        """Called when the panel is open."""
         try:
-            if self._session.made_by and not self.mesh.Size and not self.settings["Size"].value():
-                size = self._suggestion()
-                do(f"{path_of(self.mesh)}.Size = {size!r}")
-                self.settings["Size"].show(size)
-            hint = thin_hint(state.part_of(self.mesh), self.reject)
-            if hint is not None:
-                self._hint.addWidget(hint)
+            hint = thin_hint(state.part_of(self.mesh), self.reject) if self._observing else None
         except FAILURES:  # the estimate reports it
-            pass
-        self._update_estimate()
+            return
+        if hint is not None:
+            self._hint.addWidget(hint)
 
     def _changed(self, *names: str) -> None:
         """Called when a field has changed, or one of several: what the mesher said about it no longer holds."""
         for name in names:
             self._refused.pop(name, None)
+        if "Size" in names:
+            self._suggests = False
         self._update_estimate()
 
     def _show_errors(self, error: Optional[Exception] = None) -> None:
@@ -299,28 +299,47 @@ class MeshPanel:
     def _update_estimate(self) -> None:
         self._show_errors()
         self._show_minimum()
-        if self._measuring.running:
-            self.estimate.setText("...")
-            return
         self.preview.follow()
         try:
             wanted = self._wanted()
             found = links.follow(self.mesh, wanted.anew)
             settings = state.settings_to_use(self.mesh, wanted, found)
-            shape = state.part_of(self.mesh).Shape
-            estimate = shapes.estimate_of(shape)
-            size = settings.get("size") or default_size(shape.BoundBox.DiagonalLength)
-            counts = estimate.quads_by_face(
-                size, settings.get("size_min"), settings["elements_per_circle"], settings.get("sizes"), settings.get("faces", ()),
-                settings["growth"])
+            shape = state.shape_of(state.part_of(self.mesh))
+            shapes.check_size(shape, (self._usual_size(), *settings.get("sizes", {}).values()))
         except FAILURES as error:
-            self.estimate.setText(str(error))
+            self._counting.release()
+            self._show_count_or(str(error))
             self._show_errors(error)
-            self.by_face.show_counts({})
             return
         self._show_status(wanted, found)
-        self.by_face.show_counts(counts)
-        self._show_count(sum(counts.values()))
+        self.estimate.setText("...")
+        self._counting.ask(shape, settings, preferences.suggested_quads() if self._suggests else 0)
+
+    def _counted(self, count: Optional[Count], problem: Optional[Exception]) -> None:
+        """Called when the quads are counted, or cannot be."""
+        if count is None:
+            self._suggests = False
+            self._show_count_or(str(problem))
+            self._show_errors(problem)
+        else:
+            if self._suggests:
+                self._take_suggestion(count.size)
+            self.by_face.show_counts(count.by_face)
+            self._show_count(count.quads)
+        if self._mesh_when_suggested:
+            self._mesh_when_suggested = False
+            self._start()
+
+    def _take_suggestion(self, size: float) -> None:
+        self._suggests = False
+        if self._session.made_by and not self.mesh.Size:
+            do(f"{path_of(self.mesh)}.Size = {size!r}")
+        self.settings["Size"].show(size)
+        self._show_minimum()
+
+    def _show_count_or(self, problem: str) -> None:
+        self.by_face.show_counts({})
+        self.estimate.setText(problem)
 
     def _show_status(self, wanted: state.Wanted, found) -> None:
         """Says whether the mesh is that of the settings in the panel, which the document may not have yet."""
@@ -333,14 +352,10 @@ class MeshPanel:
         self.estimate.setText(translate("Quadrille", "about {} quads").format(_rounded(round(count))))
 
     def _suggest(self) -> None:
-        try:
-            self.settings["Size"].show(self._suggestion())
-        except FAILURES as error:
-            tell(str(error))
-
-    def _suggestion(self) -> float:
-        per_circle = self.settings["ElementsPerCircle"].value()
-        return shapes.estimate_of(state.part_of(self.mesh).Shape).suggested(preferences.suggested_quads(), per_circle)
+        if self._told(lambda: state.part_of(self.mesh)) is None:
+            return
+        self._suggests = True
+        self._update_estimate()
 
     def _picked(self, *kinds: str) -> list:
         """The names of the selected elements of these kinds on the part. Tells the user if there are none."""
@@ -402,7 +417,7 @@ class MeshPanel:
         return self.settings["Size"].value() or default_size(state.part_of(self.mesh).Shape.BoundBox.DiagonalLength)
 
     @staticmethod
-    def _told(find: Callable[[], float]) -> Optional[float]:
+    def _told(find: Callable[[], Any]) -> Any:
         """What a function finds. None, with a message box, if it raises Error."""
         try:
             return find()
@@ -415,6 +430,11 @@ class MeshPanel:
     def _start(self) -> None:
         if self._job is not None:
             return
+        if self._suggests and self._counting.busy:
+            self._mesh_when_suggested = True
+            self.mesh_button.setEnabled(False)
+            return
+        self.mesh_button.setEnabled(True)
         self.log.clear()
         self._refused.clear()
         self._show_errors()
@@ -507,6 +527,8 @@ class MeshPanel:
     def accept(self) -> bool:
         """Called on OK: keeps mesh and settings, ends the mesher."""
         try:
+            if self._suggests:
+                self._counting.finish()
             # If the part has been deleted meanwhile, there is nothing to set.
             lines = self._commands(self._wanted()) if self.mesh.Shape is not None else []
         except Error as error:
@@ -544,7 +566,7 @@ class MeshPanel:
     def _leave(self) -> None:
         self._timer.stop()
         command.dismiss()
-        self._measuring.release()
+        self._counting.release()
         self.preview.release()
         if self._observing:
             self._observing = False

@@ -7,7 +7,6 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from ..core.errors import Error
-from ..document.shapes import estimate_of
 from ..features.middle import looks_thin
 from . import middle_search, tell, translate
 
@@ -16,7 +15,7 @@ def thin_hint(part, close: Callable[[], object]) -> Optional[QtGui.QLabel]:
     """A label with a link that finds the middle surface, closes the panel and runs the command Middle surface; None if the part does
     not look thin. If there is no middle surface, or the search is cancelled, the panel stays as it is."""
     shape = part.Shape
-    thickness = looks_thin(shape, estimate_of(shape).area)
+    thickness = looks_thin(shape, shape.Area)
     if thickness is None:
         return None
     text = translate(

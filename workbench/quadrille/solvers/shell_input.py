@@ -10,6 +10,7 @@ from typing import Callable, Dict, Optional
 import numpy as np
 
 from ..core import arrays
+from . import element_types
 
 #: Number of lines formatted at once.
 _PIECE = 2000
@@ -98,7 +99,7 @@ def at_once(function):
         if mesh is None or "ReducedShells" not in mesh.PropertiesList:
             return function(ccxwriter)
         own = ccxwriter.femmesh
-        ccxwriter.femmesh = _Written(own, _shells_of_loads(ccxwriter))
+        ccxwriter.femmesh = _Written(own, _shells_of_loads(ccxwriter), element_types.element_of(mesh))
         try:
             return function(ccxwriter)
         finally:
@@ -119,8 +120,8 @@ def _shells_of_loads(ccxwriter) -> Optional[arrays.Shells]:
 class _Written:
     """A FEM mesh that is written fast if possible, otherwise by FreeCAD."""
 
-    def __init__(self, fem_mesh, shells: Optional[arrays.Shells]) -> None:
-        self._fem_mesh, self._shells = fem_mesh, shells
+    def __init__(self, fem_mesh, shells: Optional[arrays.Shells], element: str) -> None:
+        self._fem_mesh, self._shells, self._element = fem_mesh, shells, element
 
     def __getattr__(self, name):
         return getattr(self._fem_mesh, name)
@@ -128,11 +129,14 @@ class _Written:
     def writeABAQUS(self, path, element_param, group_param, *variants, **options) -> None:
         """Replaces FreeCAD's function, which is called for other kinds of elements. FreeCAD 1.0 and later passes options."""
         shells = None
-        if (element_param, group_param) == (1, False) and not variants and options.get("faceVariant", "shell") == "shell":
+        as_shells = not variants and options.get("faceVariant", "shell") == "shell"
+        if (element_param, group_param) == (1, False) and (as_shells or self._element != element_types.SHELL):
             shells = self._shells or arrays.shells_of(self._fem_mesh)
         if shells is None:
             self._fem_mesh.writeABAQUS(path, element_param, group_param, *variants, **options)
             return
+        if element_types.lies_in_plane(self._element):
+            shells = element_types.counter_clockwise(shells)
         with open(path, "w", encoding="ascii", newline="\n") as file:
             file.write(text_of(shells))
 

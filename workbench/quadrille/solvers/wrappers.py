@@ -15,13 +15,12 @@ Meshes without such groups, and mesh objects that are not Quadrille's, give the 
 import functools
 import importlib.util
 import os
-from pathlib import Path
-from typing import Callable, List, Optional, Tuple
+from typing import Callable, List, Optional
 
 import FreeCAD
 
 from ..document import groups
-from . import forces, shell_input
+from . import element_types, forces, shell_input
 from .shell_input import Later
 
 #: Returns why a mesh object's mesh must not be used; empty if it is up to date, and for objects that are not Quadrille's.
@@ -36,7 +35,11 @@ def wrap_solvers(complaint: Complaint) -> None:
     global _complaint
     if _complaint is not None:
         return
-    _complaint = complaint
+
+    def problem(mesh) -> str:
+        return complaint(mesh) or element_types.problem_of(mesh)
+
+    _complaint = problem
     newer = NEWER if importlib.util.find_spec(NEWER[0][0]) is not None else ()
     for module, name, wrapper in (*newer, *WRAPPED):
         _wrap(module, name, wrapper)
@@ -72,7 +75,7 @@ _LOST = {
     "at_once": "large meshes take long to write for CalculiX",
     "from_groups": "forces on faces take long to write for CalculiX",
     "in_one_go": "forces on faces take long to write for CalculiX",
-    "_followed": "the input for CalculiX has S8 and no offset of shells, whatever the mesh object says",
+    "_followed": "the input for CalculiX has S4 or S8 and no offset of shells, whatever the mesh object says",
 }
 
 
@@ -206,7 +209,7 @@ def _when_needed(function):
     return get_femnodes_ele_table
 
 
-# Elements and sections of shells
+# The type of elements, and the sections of shells
 
 
 def _followed(function):
@@ -218,31 +221,13 @@ def _followed(function):
         mesh = getattr(self, "mesh_object", None)
         if name and mesh is not None and "ReducedShells" in mesh.PropertiesList:
             files = {path for path in (getattr(self, "femmesh_file", ""), self.file_name) if path and os.path.isfile(path)}
-            changed = [reduce_and_offset(path, mesh.ReducedShells, mesh.ShellOffset) for path in sorted(files)]
-            blocks, sections = (sum(counts) for counts in zip(*changed))
-            if blocks:
-                FreeCAD.Console.PrintMessage(f"{mesh.Label}: shells are written as S8R, which is better than S8 where they are "
-                                             "thin (its property ReducedShells)\n")
-            if sections:
-                FreeCAD.Console.PrintMessage(f"{mesh.Label}: shells are written with the offset {mesh.ShellOffset:g} (its "
-                                             "property ShellOffset)\n")
+            told = [line for path in sorted(files) for line in
+                    element_types.follow(path, element_types.element_of(mesh), mesh.ReducedShells, mesh.ShellOffset)]
+            for line in dict.fromkeys(told):
+                FreeCAD.Console.PrintMessage(f"{mesh.Label}: {line}\n")
         return name
 
     return write_solver_input
-
-
-def reduce_and_offset(path, reduced: bool, offset: float) -> Tuple[int, int]:
-    """Edits an input file of CalculiX: S8 shells become S8R, and shell sections get an offset, in thicknesses. Returns the number
-    of changed element blocks and of changed sections."""
-    text = Path(path).read_bytes()  # as text this would take ten times as long
-    blocks, sections = text.count(b"TYPE=S8,") if reduced else 0, text.count(b"*SHELL SECTION,") if offset else 0
-    if blocks:
-        text = text.replace(b"TYPE=S8,", b"TYPE=S8R,")
-    if sections:
-        text = text.replace(b"*SHELL SECTION,", f"*SHELL SECTION, OFFSET={offset:g},".encode())
-    if blocks or sections:
-        Path(path).write_bytes(text)
-    return blocks, sections
 
 
 #: Further functions to wrap in FreeCAD 1.1 and later; skipped if the first module does not exist. Same form as WRAPPED.
