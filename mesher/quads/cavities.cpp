@@ -23,7 +23,6 @@ constexpr int max_growths = 8;   ///< how often a patch may grow
 constexpr int max_search = 600;  ///< quads looked at for the nearest irregular node
 /// The same two limits for patches that choose the nodes to which they grow.
 constexpr int few_growths = 4, near_search = 100;
-constexpr int max_rounds = 1;
 /// To preserve sizes: least and most quads of a filling as a share of the patch's, and the share of the
 /// face's quads that may be gained or lost in all.
 constexpr double least_share = 0.7, most_share = 1.35, most_drift = 0.08;
@@ -46,14 +45,10 @@ class Cavities : private EditedMesh {
     const int first_node_count = node_count();
     int filled = 0;
     SparseCheck check(context_, 16);
-    for (int round = 0; round < max_rounds; ++round) {
-      const int before = filled;
-      for (int node = 0; node < node_count(); ++node) {
-        check();
-        if (topology_.side_of(node) >= 0 && topology_.openings(node) < 2 && cost(node) > 0 && mend(node))
-          ++filled;
-      }
-      if (filled == before) break;
+    for (int node = 0; node < node_count(); ++node) {
+      check();
+      if (topology_.side_of(node) >= 0 && topology_.openings(node) < 2 && cost(node) > 0 && mend(node))
+        ++filled;
     }
     if (filled > 0 || node_count() > first_node_count) write_back();
     return filled;
