@@ -21,6 +21,8 @@ def prepare(width=1500, height=940):
     for dock in docks:
         if dock.objectName() in ("Python console", "Report view"):
             dock.hide()
+        elif dock.objectName() == "Combo View":
+            dock.show()  # FreeCAD 0.20 without settings hides it until a panel opens
     # The tree and the task panel: one dock in FreeCAD 0.20, two from 1.0 on.
     left = [dock for dock in docks if dock.objectName() in ("Combo View", "Model", "Tasks") and dock.isVisible()]
     main.resizeDocks(left, [430] * len(left), QtCore.Qt.Horizontal)
@@ -117,12 +119,14 @@ def cancel_bars():
 class Boxes:
     """Answers the modal boxes that come up inside a `with` and keeps their texts; leaves progress bars alone.
 
+    answer: fills in a box that is no message, and returns True where it closed the box too.
     patience: seconds that a box is shown before it is answered."""
 
     def __init__(self, answer=None, patience=0):
         self.texts = []
         self._answer = answer
         self._patience = patience
+        self._answering = False  # true while `answer` lets the window live
         self._shown, self._since = None, 0.0  # the box looked at last, and since when it is there
         self._timer = QtCore.QTimer()
         self._timer.timeout.connect(self._look)
@@ -136,6 +140,8 @@ class Boxes:
         self._timer.stop()
 
     def _look(self):
+        if self._answering:
+            return
         box = QtGui.QApplication.activeModalWidget()
         if box is not self._shown:
             self._shown, self._since = box, time.monotonic()
@@ -145,8 +151,13 @@ class Boxes:
             self.texts.append(box.text())
             box.button(box.standardButtons() and QtGui.QMessageBox.Ok).click()
         elif self._answer is not None:
-            self._answer(box)
-            box.accept()
+            self._answering = True
+            try:
+                closed = self._answer(box)
+            finally:
+                self._answering = False
+            if not closed:
+                box.accept()
         else:
             self.texts.append(f"unexpected {type(box).__name__}")
             box.reject()

@@ -1,8 +1,10 @@
-"""Clicks what docs/tutorial.md says, in its own words: menus, buttons and values are taken from its text.
+"""Clicks what docs/tutorial.md and README.md say, with the mouse on what is visible, and types with the keyboard: menus,
+buttons and values are taken from their text.
 
     scripts/freecad_gui tests/freecad/gui/tutorial_test.py [FOLDER FOR SCREENSHOTS]
 """
 
+import itertools
 import re
 import shutil
 import sys
@@ -13,10 +15,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import FreeCAD
 import FreeCADGui
-from PySide import QtCore, QtGui
+from PySide import QtGui
 
-from case import ROOT, GuiCase, picture, run, type_into
-from driver import Boxes, find, process, wait_for, window
+import hand
+from case import MODELS, ROOT, GuiCase, picture, run
+from driver import Boxes, find, process, wait_for
 from quadrille.document.state import is_quad_mesh
 from quadrille.middle import is_middle, thickness_objects
 
@@ -47,21 +50,12 @@ STEPS, NAMES = read_steps()
 LAST = "test_from_an_empty_freecad_to_stresses"
 
 
-def entry(path):
-    """The action of a menu entry such as 'Mesh > Quad mesh from shape'; None where FreeCAD has none."""
-    actions, found = window().menuBar().actions(), None
-    for word in path.split(" > "):
-        found = next((action for action in actions if action.text().replace("&", "").rstrip(".…") == word), None)
-        if found is None:
-            return None
-        actions = found.menu().actions() if found.menu() is not None else []
-    return found
-
-
 def task_dock():
-    """The dock in which task panels open."""
-    return next(dock for dock in window().findChildren(QtGui.QDockWidget) if dock.isVisible()
-                and dock.findChildren(QtGui.QDialogButtonBox))
+    """The dock of the task panel that is open, or opens now."""
+    def found():
+        return next((dock for dock in hand.seen(QtGui.QDockWidget) if hand.seen(QtGui.QDialogButtonBox, dock)), None)
+    wait_for(found, 30, "a task panel")
+    return found()
 
 
 class TutorialTest(GuiCase):
@@ -74,43 +68,58 @@ class TutorialTest(GuiCase):
     def choose(self, step, number=0):
         """Takes a menu entry that a step names, by the name that this FreeCAD has for it."""
         named = re.findall(r"\*([^*]+ > [^*]+)\*", STEPS[step])[number]
-        action = entry(NAMES.get(named, named))
-        self.assertIsNotNone(action, f"step {step}: there is no menu entry {NAMES.get(named, named)}")
-        wait_for(action.isEnabled, what=named)
-        action.trigger()
-        process(0.5)
+        self.assertTrue(hand.choose_entry(NAMES.get(named, named)), f"step {step}: no menu entry {NAMES.get(named, named)}")
 
     def press(self, step, text):
         """Presses a button that a step names."""
         self.assertIn(f"**{text}**", STEPS[step])
-        text = NAMES.get(text, text)
-        buttons = [button for button in task_dock().findChildren(QtGui.QAbstractButton)
-                   if button.isVisible() and button.text().replace("&", "") == text]
-        self.assertEqual(len(buttons), 1, f"step {step}: {text}: {self.buttons()}")
-        self.assertTrue(buttons[0].isEnabled(), f"step {step}: {text}")
-        buttons[0].click()
+        self.press_button(NAMES.get(text, text))
+
+    def press_button(self, text):
+        """Presses a button of the task panel."""
+        buttons = [button for button in hand.seen(QtGui.QAbstractButton, task_dock())
+                   if button.text().replace("&", "") == text]
+        self.assertEqual(len(buttons), 1, f"{text}: {self.buttons()}")
+        self.assertTrue(buttons[0].isEnabled(), text)
+        hand.click(buttons[0])
         process(0.5)
 
     @staticmethod
     def buttons():
         """What the buttons in view say."""
-        return [button.text() for button in task_dock().findChildren(QtGui.QAbstractButton) if button.isVisible()]
+        return [button.text() for button in hand.seen(QtGui.QAbstractButton, task_dock())]
 
     def click(self, part, *names):
-        """Selects edges or faces, as clicks in the view do."""
-        FreeCADGui.Selection.clearSelection()
+        """Clicks edges or faces in the view, where they show."""
         for name in names:
-            FreeCADGui.Selection.addSelection(part.Document.Name, part.Name, name)
-        process(0.3)
+            self.assertTrue(self.point_at(part, name), f"{part.Name}.{name} cannot be clicked in this view")
+            hand.press()
+
+    @staticmethod
+    def point_at(part, name):
+        """Moves the pointer to an edge or face until FreeCAD highlights it; False where other things cover it everywhere."""
+        element = part.Shape.getElement(name)
+        if name.startswith("Edge"):
+            first, last = element.ParameterRange
+            points = [element.valueAt(first + (last - first) * i / 36) for i in range(1, 36)]
+        else:
+            low_u, high_u, low_v, high_v = element.ParameterRange
+            places = [(low_u + (high_u - low_u) * i / 10, low_v + (high_v - low_v) * j / 10)
+                      for i, j in itertools.product((5, 4, 6, 3, 7, 2, 8, 1, 9), repeat=2)]
+            points = [element.valueAt(*place) for place in places if element.isPartOfDomain(*place)]
+        return any(hand.highlighted(point) == (part.Name, name) for point in points)
+
+    def click_part(self, part):
+        """Clicks on the largest of its faces that show."""
+        faces = sorted(range(1, len(part.Shape.Faces) + 1), key=lambda i: -part.Shape.Faces[i - 1].Area)
+        self.assertTrue(any(self.point_at(part, f"Face{i}") for i in faces), part.Name)
+        hand.press()
 
     def fill_in(self, widgets, text):
-        """Writes into a field of FreeCAD's that can be seen; its name in the one or the other version."""
-        found = [field for field in task_dock().findChildren(QtGui.QWidget)
-                 if field.isVisible() and field.objectName() in widgets]
+        """Types into a field of FreeCAD's that can be seen; its name in the one or the other version."""
+        found = [field for field in hand.seen(QtGui.QWidget, task_dock()) if field.objectName() in widgets]
         self.assertEqual(len(found), 1, widgets)
-        line = found[0] if isinstance(found[0], QtGui.QLineEdit) else found[0].findChild(QtGui.QLineEdit)
-        line.setText(text)
-        process(0.3)
+        hand.write(found[0], text)
 
     def rims(self, part, radius):
         """The names of the circles of a radius."""
@@ -147,8 +156,7 @@ class TutorialTest(GuiCase):
             self.skipTest("CalculiX is not installed")
         part = self.open_the_part()
         solver, surface = self.make_analysis(part)
-        mesh = self.mesh(surface)
-        mesh.ViewObject.hide()
+        self.mesh(surface)
         largest = self.solve(solver)
         named = float(re.search(r"about (\d+) MPa", STEPS[11]).group(1))
         self.assertLess(abs(largest / named - 1), 0.03, (largest, named))
@@ -156,23 +164,32 @@ class TutorialTest(GuiCase):
     def open_the_part(self):
         """Step 1."""
         FreeCAD.closeDocument(self.document.Name)
+        self.document = self.open_file(str(ROOT / self.values(1)[0]), lambda: self.choose(1))
+        self.assertEqual(len(self.document.Objects), 1)
+        self.assertIn("**FEM** workbench", STEPS[1])
+        hand.use_fem()
+        hand.type_text(self.values(1)[1])
+        process(0.5)
+        picture("tutorial_1")
+        return self.document.Objects[0]
+
+    def open_file(self, path, choose):
+        """The document of a file, opened through the boxes that come up."""
         FreeCADGui.activateWorkbench("PartWorkbench")
 
         def answer(box):
             if isinstance(box, QtGui.QFileDialog):
-                # selectFile() waits for the folder to be listed, which may come after the box is accepted.
-                box.findChild(QtGui.QLineEdit, "fileNameEdit").setText(str(ROOT / self.values(1)[0]))
+                hand.write(box.findChild(QtGui.QLineEdit, "fileNameEdit"), path, hand.RETURN)
+            else:
+                hand.click(box.findChild(QtGui.QDialogButtonBox).button(QtGui.QDialogButtonBox.Ok))
+            return True
 
         with Boxes(answer) as boxes:
-            self.choose(1)
+            choose()
             wait_for(lambda: FreeCAD.ActiveDocument is not None and FreeCAD.ActiveDocument.Objects, what="the part")
         self.assertEqual(boxes.texts, [])
-        self.document = FreeCAD.ActiveDocument
-        self.assertEqual(len(self.document.Objects), 1)
-        FreeCADGui.activateWorkbench("FemWorkbench")
-        self.show()
-        picture("tutorial_1")
-        return self.document.Objects[0]
+        process(0.5)
+        return FreeCAD.ActiveDocument
 
     def make_analysis(self, part):
         """Steps 2 to 6; returns the solver and the middle surface."""
@@ -187,8 +204,7 @@ class TutorialTest(GuiCase):
         self.choose_card(re.findall(r"card \*([^*]+)\*", STEPS[3])[0])
         picture("tutorial_3")
         self.press(3, "OK")
-        FreeCADGui.Selection.clearSelection()
-        FreeCADGui.Selection.addSelection(part)
+        self.click_part(part)
         self.choose(4)
         surface, = (obj for obj in self.document.Objects if is_middle(obj))
         self.assertFalse(part.ViewObject.Visibility)
@@ -200,6 +216,7 @@ class TutorialTest(GuiCase):
         holes = self.rims(surface, 4)
         self.assertEqual(len(holes), 4)
         self.click(surface, *holes)
+        self.check_references("Fem::ConstraintFixed", holes)
         picture("tutorial_5")
         self.press(5, "OK")
         self.choose(6)
@@ -209,6 +226,7 @@ class TutorialTest(GuiCase):
         self.press(6, "Add")
         self.click(surface, *self.rims(surface, 2.75))
         self.press(6, "Add")
+        self.check_references("Fem::ConstraintForce", self.rims(surface, 2.75))
         wall = next(f"Face{i}" for i, face in enumerate(surface.Shape.Faces, 1) if face.BoundBox.XLength < 1e-6)
         self.click(surface, wall)
         self.press(6, "Direction")
@@ -216,58 +234,71 @@ class TutorialTest(GuiCase):
         self.press(6, "OK")
         return solvers[0], surface
 
+    def check_references(self, kind, names):
+        """That a constraint has all that was clicked."""
+        constraint, = (obj for obj in self.document.Objects if obj.isDerivedFrom(kind))
+        self.assertEqual(sorted(name for _, found in constraint.References for name in found), sorted(names))
+
     def choose_card(self, card):
         """In the panel for materials: a list in 0.20, a tree behind an arrow in 1.0."""
-        for box in task_dock().findChildren(QtGui.QComboBox):
+        for box in hand.seen(QtGui.QComboBox, task_dock()):
             if box.findText(card) >= 0:
-                box.setCurrentIndex(box.findText(card))
-                box.activated[int].emit(box.currentIndex())
+                hand.choose_in(box, card)
                 return
-        buttons = task_dock().findChildren(QtGui.QPushButton)
-        arrow = next(button for button in buttons if button.isVisible() and not button.text())
-        arrow.click()
+        hand.click(next(button for button in hand.seen(QtGui.QPushButton, task_dock()) if not button.text()))
         process(0.5)
-        tree = next(tree for tree in task_dock().findChildren(QtGui.QTreeView) if tree.isVisible())
-        model = tree.model()
-        found = model.match(model.index(0, 0), QtCore.Qt.DisplayRole, card, 1,
-                            QtCore.Qt.MatchStartsWith | QtCore.Qt.MatchRecursive)
-        self.assertEqual(len(found), 1, card)
-        tree.setCurrentIndex(found[0])
+        tree = hand.seen(QtGui.QTreeView, task_dock())[0]
+        hand.click_in_tree(tree, card)
         process(0.5)
 
     def mesh(self, surface):
         """Steps 7 to 9; returns the mesh object."""
-        FreeCADGui.Selection.clearSelection()
-        FreeCADGui.Selection.addSelection(surface)
+        self.click_part(surface)
         self.choose(7)
         mesh = [obj for obj in self.document.Objects if is_quad_mesh(obj)][-1]
-        type_into("QuadrilleSize", self.values(7)[0])
+        hand.write(find("QuadrilleSize"), self.values(7)[0])
         picture("tutorial_7")
-        find("QuadrilleSurfaces").setChecked(True)
-        self.assertIn(f"*{find('QuadrilleSurfaces').text()}*", STEPS[8])
-        self.press(8, "Mesh")
-        wait_for(lambda: find("QuadrilleMesh").isEnabled(), what="meshing")
+        self.tick(8, "QuadrilleSurfaces")
+        self.press_mesh_of(8)
         before = mesh.QuadCount
-        self.assertIn(f"*{find('QuadrilleColor').text()}*", STEPS[8])
-        find("QuadrilleColor").setChecked(True)
+        worst = find("QuadrilleWorst")
+        hand.click_item(worst, worst.model().index(0, 0))
+        for key in self.values(8):
+            hand.type_text(key)
+        self.tick(8, "QuadrilleColor")
         picture("tutorial_8")
-        find("QuadrilleColor").setChecked(False)
-        bend = next(f"Face{i}" for i, face in enumerate(surface.Shape.Faces, 1) if face.BoundBox.XMax < 6 and face.BoundBox.ZMax < 6)
-        self.click(surface, bend)
-        find("QuadrilleRefinements").setChecked(True)
+        self.tick(8, "QuadrilleColor")
+        bend = next(face for face in surface.Shape.Faces if face.BoundBox.XMax < 6 and face.BoundBox.ZMax < 6)
+        hand.click_model(on_bend(bend))
+        hand.click(find("QuadrilleRefinements"))
         self.press(9, "Refine selection")
-        type_into("QuadrilleRefinedSize0", self.values(9)[0])
-        self.press(9, "Mesh")
-        wait_for(lambda: find("QuadrilleMesh").isEnabled(), what="meshing")
+        hand.write(find("QuadrilleRefinedSize0"), self.values(9)[0])
+        self.press_mesh_of(9)
         self.assertGreater(mesh.QuadCount, before)
+        region, = mesh.MeshRegionList
+        (_, (name,)), = region.References
+        self.assertTrue(surface.Shape.getElement(name).isSame(bend), name)
         picture("tutorial_9")
         self.press(9, "OK")
         return mesh
 
+    def press_mesh_of(self, step):
+        """Presses Mesh and waits for the end."""
+        self.press(step, "Mesh")
+        wait_for(lambda: find("QuadrilleMesh").isEnabled(), what="meshing")
+        process(0.3)
+
+    def tick(self, step, name):
+        """Clicks on a check box of ours that a step names."""
+        box = find(name)
+        self.assertIn(f"*{box.text()}*", STEPS[step])
+        before = box.isChecked()
+        hand.click(box)
+        self.assertNotEqual(box.isChecked(), before)
+
     def solve(self, solver):
         """Steps 10 and 11; returns the largest stress that FreeCAD shows."""
-        FreeCADGui.activeDocument().setEdit(solver.Name)
-        process(0.5)
+        hand.click_object(solver, 2)
         newer = "Apply" in self.buttons()
         for text in ("Apply",) if newer else ("Write .inp File", "Run CalculiX"):
             self.press(10, text)
@@ -283,37 +314,55 @@ class TutorialTest(GuiCase):
         picture("tutorial_10")
         self.press(10, "OK" if newer else "Close")
         result = results()[0]
-        FreeCADGui.activeDocument().setEdit(result.Name)
-        process(0.5)
-        self.choose_stress(re.findall(r"choose \*([^*]+)\*", STEPS[11])[0])
         self.hide_others(result, self.values(11))
+        hand.click_object(result, 2)
+        self.choose_stress(re.findall(r"choose \*([^*]+)\*", STEPS[11])[0])
+        kinds = ("Part::Feature", "Fem::FemMeshObject", "Fem::FemPostObject")
+        seen = [obj for obj in self.document.Objects if obj.ViewObject.Visibility and any(map(obj.isDerivedFrom, kinds))]
+        self.assertEqual(seen, [getattr(result, "Mesh", None) or result], [obj.Name for obj in seen])
         picture("tutorial_11")
         return max(von_mises(result))
 
     def hide_others(self, result, names):
-        """Hides what a step names; then nothing but the result covers the part."""
-        for name in names:
-            other = self.document.getObject(name)
-            if other is not None:
-                other.ViewObject.hide()
-        process(0.3)
-        kinds = ("Part::Feature", "Fem::FemMeshObject", "Fem::FemPostObject")
-        seen = [obj for obj in self.document.Objects if obj.ViewObject.Visibility and any(map(obj.isDerivedFrom, kinds))]
-        self.assertEqual(seen, [getattr(result, "Mesh", None) or result], [obj.Name for obj in seen])
+        """Hides the mesh and what a step names, with the space bar; then nothing but the result covers the part."""
+        for other in [obj for obj in self.document.Objects if is_quad_mesh(obj) or obj.Name in names]:
+            if other.ViewObject.Visibility:
+                hand.click_object(other)
+                hand.type_text(" ")
+                self.assertFalse(other.ViewObject.Visibility, other.Name)
 
     def choose_stress(self, named):
         """In the panel of the result: buttons in 0.20 and 1.0, a list of fields in 1.1."""
-        for box in task_dock().findChildren(QtGui.QComboBox):
-            if box.isVisible() and box.findText(named) >= 0:
-                box.setCurrentIndex(box.findText(named))
-                box.activated[int].emit(box.currentIndex())
-                process(0.5)
+        for box in hand.seen(QtGui.QComboBox, task_dock()):
+            if box.findText(named) >= 0:
+                hand.choose_in(box, named)
                 return
-        buttons = [button for button in task_dock().findChildren(QtGui.QRadioButton)
-                   if button.isVisible() and button.text().lower() == named.lower()]
+        buttons = [button for button in hand.seen(QtGui.QRadioButton, task_dock())
+                   if button.text().lower() == named.lower()]
         self.assertEqual(len(buttons), 1, named)
-        buttons[0].click()
+        hand.click(buttons[0])
         process(0.5)
+
+    def test_the_readme(self):
+        FreeCAD.closeDocument(self.document.Name)
+        text = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split("## In FreeCAD\n")[1].split("\n## ")[0].split())
+        self.document = self.open_file(str(MODELS / "bracket.step"), lambda: hand.choose_entry("File > Open"))
+        part, = self.document.Objects
+        self.assertIn("in the FEM workbench: click the part", text)
+        hand.use_fem()
+        self.click_part(part)
+        self.assertTrue(hand.choose_entry(re.findall(r"\*([^*]+ > [^*]+)\*", text)[0]))
+        self.press_button(re.findall(r"\*\*([^*]+)\*\*", text)[0])
+        wait_for(lambda: find("QuadrilleMesh").isEnabled(), what="meshing")
+        mesh, = (obj for obj in self.document.Objects if is_quad_mesh(obj))
+        self.assertGreater(mesh.QuadCount, 1000)
+        self.press_button("OK")
+
+
+def on_bend(face):
+    """The middle of a curved face, on it."""
+    first_u, last_u, first_v, last_v = face.ParameterRange
+    return face.valueAt((first_u + last_u) / 2, (first_v + last_v) / 2)
 
 
 def von_mises(result):
