@@ -81,11 +81,7 @@ def under_pointer():
 
 def scroll_to(widget, at):
     """Turns the wheel above the scroll area around a widget until a point of it shows. Returns the point on the screen."""
-    area = widget.parentWidget()
-    while area is not None and not isinstance(area, QtGui.QScrollArea):
-        _KEPT.append(area)
-        area = area.parentWidget()
-    _KEPT.append(area)
+    area = next((area for area in reversed(seen(QtGui.QScrollArea)) if area.isAncestorOf(widget)), None)
     for _ in range(100 if area is not None else 0):
         port = area.viewport()
         height = widget.mapTo(port, at).y()
@@ -174,10 +170,10 @@ def write(field, text, leave=TAB):
     process(0.2)
 
 
-def click_in_tree(tree, text, times=1):
+def click_in_tree(tree, text, times=1, match=QtCore.Qt.MatchExactly):
     """Clicks on an item of a tree by its text, after a click on the arrows of the branches that are closed above it."""
     model = tree.model()
-    found = model.match(model.index(0, 0), QtCore.Qt.DisplayRole, text, 1, QtCore.Qt.MatchExactly | QtCore.Qt.MatchRecursive)
+    found = model.match(model.index(0, 0), QtCore.Qt.DisplayRole, text, 1, match | QtCore.Qt.MatchRecursive)
     assert found, text
     branches, branch = [], found[0].parent()
     while branch.isValid():
