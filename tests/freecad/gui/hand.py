@@ -49,12 +49,11 @@ def move(point):
 
 
 def press(button=LEFT, times=1):
-    """Clicks where the pointer is."""
+    """Clicks where the pointer is. All is sent at once, since a busy machine would make two clicks of a double-click."""
     for _ in range(times):
         for down in (1, 0):
-            _TEST.XTestFakeButtonEvent(_DISPLAY, button, down, 0)
-            _sent()
-    process(0.15)
+            _TEST.XTestFakeButtonEvent(_DISPLAY, button, down, 10)
+    _sent(0.2)
 
 
 def key(symbol, *modifiers):
