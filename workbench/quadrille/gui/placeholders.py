@@ -12,10 +12,16 @@ _OPACITY = 0.5
 class _Filter(QtCore.QObject):
     """Takes the color from the field's text, whenever that may have changed."""
 
+    def __init__(self, field) -> None:
+        super().__init__(field)
+        self._after = QtCore.QTimer(self)  # after the style has set its own colors; not after the field has gone
+        self._after.setSingleShot(True)
+        self._after.timeout.connect(self._dim)
+
     def eventFilter(self, field, event) -> bool:
         """Qt calls this before a field gets an event."""
         if event.type() in _EVENTS:
-            QtCore.QTimer.singleShot(0, self._dim)  # after the style has set its own colors
+            self._after.start(0)
         return False
 
     def _dim(self) -> None:
