@@ -24,7 +24,7 @@ packages=(
   freecad python3-matplotlib
 )
 test_packages=(
-  libgtest-dev gmsh
+  libgtest-dev gmsh libxtst6
   # translations of the FreeCAD workbench: lrelease, pylupdate5
   qttools5-dev-tools pyqt5-dev-tools
   # read written files back in the tests; scripts/install_consumers.sh installs the large ones
