@@ -64,15 +64,17 @@ std::vector<TopoDS_Shape> parts_of(const TopoDS_Shape& shape) {
     for (const TopoDS_Shape& piece : pieces_of(part.Current())) parts.Add(piece);
   for (TopExp_Explorer part(shape, TopAbs_FACE, TopAbs_SHELL); part.More(); part.Next())
     parts.Add(part.Current());
-  return {parts.cbegin(), parts.cend()};
+  std::vector<TopoDS_Shape> list;  // one by one: for GCC 16, OpenCASCADE's iterators make no range
+  for (int i = 1; i <= parts.Extent(); ++i) list.push_back(parts(i));
+  return list;
 }
 
 /// What a part of the model became; itself where nothing met it.
 std::vector<TopoDS_Shape> images_of(BOPAlgo_Builder& fuse, const TopoDS_Shape& part) {
-  const TopTools_ListOfShape& images = fuse.Modified(part);
-  if (!images.IsEmpty()) return {images.cbegin(), images.cend()};
-  if (fuse.IsDeleted(part)) return {};
-  return {part};
+  std::vector<TopoDS_Shape> images;
+  for (const TopoDS_Shape& image : fuse.Modified(part)) images.push_back(image);
+  if (images.empty() && !fuse.IsDeleted(part)) images.push_back(part);
+  return images;
 }
 
 std::string reason_of(const BOPAlgo_Builder& fuse) {
