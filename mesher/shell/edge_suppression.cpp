@@ -463,7 +463,8 @@ class Splitting {
   }
 
   void give_back(const CompositeFace& composite, const Division& division) {
-    const auto& [mesh, centers, quads_of, is_shared, node, middles] = division;
+    const FaceMesh& mesh = division.mesh;
+    const std::vector<int>& node = division.node;
     const int fixed = static_cast<int>(mesh.nodes.size());
     std::vector<int> index(mesh.points.size(), -1);  // of points in the face at hand
     for (std::size_t m = 0; m < composite.members.size(); ++m) {
@@ -481,18 +482,18 @@ class Splitting {
         composite.surfaces[m]->nearest(uv, mesh.points[p]);
       };
       for (const bool boundary : {true, false}) {
-        for (const std::size_t q : quads_of[m]) {
+        for (const std::size_t q : division.quads_of[m]) {
           for (const int p : mesh.quads[q])
-            if (index[p] < 0 && (node[p] >= 0) == boundary) add(p, centers[q]);
+            if (index[p] < 0 && (node[p] >= 0) == boundary) add(p, division.centers[q]);
         }
       }
-      for (const std::size_t q : quads_of[m]) {
+      for (const std::size_t q : division.quads_of[m]) {
         auto& [a, b, c, d] = part.quads.emplace_back(mesh.quads[q]);
         for (int* p : {&a, &b, &c, &d}) *p = index[*p];
         part.q_min =
             std::min(part.q_min, quad_q(part.points[a], part.points[b], part.points[c], part.points[d]));
       }
-      for (const std::size_t q : quads_of[m])
+      for (const std::size_t q : division.quads_of[m])
         for (const int p : mesh.quads[q]) index[p] = -1;
       faces_[composite.members[m]] = std::move(part);
     }
