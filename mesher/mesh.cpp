@@ -1,7 +1,5 @@
 /// The facade: model in, mesh out.
 
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 #include <Standard_Failure.hxx>
 
 #include <algorithm>
@@ -19,6 +17,7 @@
 #include "geometry/base/place_text.hpp"
 #include "geometry/base/threads.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/cad/parallel_ids.hpp"
 #include "geometry/sizing/element_count.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/surfaces/stray_edges.hpp"
@@ -494,7 +493,7 @@ class Job {
     std::vector<FaceId> order = longest_first();
     // Small faces first, so that most faces are done when the time is over.
     if (is_limited()) std::reverse(order.begin(), order.end());
-    std::atomic<int> started{0}, done{0};
+    std::atomic<int> done{0};
     const auto work_on = [&](FaceId face) {
       if (!used_[face] || meshes_[face] || records_[face].given_up || matches_.copied_faces[face]) return;
       try {
@@ -526,11 +525,7 @@ class Job {
       in_time([&] { context_.report(stage, done_before + (1 - done_before) * share); });
     };
     in_time([&] { context_.report(stage, done_before); });
-    const auto next = [&] { return started.fetch_add(1, std::memory_order_relaxed); };
-    // Each thread takes the next face. With large faces first, no thread waits long for another at the end.
-    oneapi::tbb::parallel_for(0, oneapi::tbb::this_task_arena::max_concurrency(), [&](int) {
-      for (int i = next(); i < n; i = next()) work_on(order[i]);
-    });
+    for_each_in_order(order, work_on);
   }
 
   /// The faces, sorted by decreasing number of segments on their boundary.

@@ -311,8 +311,9 @@ TEST(Robustness, CountsTheQuadsInGapsBeforeMeshing) {
     const CadModel plate = plate_with_holes(4, 3, gap);
     const auto quads = static_cast<double>(quadrille::mesh(plate, options, context).quads.size());
     const double estimate = QuadEstimate(plate, context).quads(options);
-    // High by three quarters where gaps are a sixtieth of the size.
-    EXPECT_LT(std::max(estimate / quads, quads / estimate), 1.8) << gap << ": " << estimate << ", " << quads;
+    // Twice as many where gaps are a sixtieth of the size: the margins of both sides of a gap overlap.
+    EXPECT_LT(std::max(estimate / quads, quads / estimate), gap < 1 ? 2.1 : 1.5)
+        << gap << ": " << estimate << ", " << quads;
   }
 }
 

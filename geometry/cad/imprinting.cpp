@@ -64,8 +64,7 @@ std::vector<TopoDS_Shape> parts_of(const TopoDS_Shape& shape) {
     for (const TopoDS_Shape& piece : pieces_of(part.Current())) parts.Add(piece);
   for (TopExp_Explorer part(shape, TopAbs_FACE, TopAbs_SHELL); part.More(); part.Next())
     parts.Add(part.Current());
-  std::vector<TopoDS_Shape> list;
-  // Not by iterators: GCC 16 does not take OpenCASCADE's as those of a range.
+  std::vector<TopoDS_Shape> list;  // one by one: for GCC 16, OpenCASCADE's iterators make no range
   for (int i = 1; i <= parts.Extent(); ++i) list.push_back(parts(i));
   return list;
 }

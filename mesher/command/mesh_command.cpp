@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <future>
@@ -126,15 +127,19 @@ std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& mo
       std::launch::deferred | (usable_threads(threads) > 1 ? std::launch::async : std::launch::deferred);
   return std::async(policy, [&mesh, &model, with_volumes, threads] {
     return on_threads(threads, [&] {
-      Measured measured{measure(mesh),
-                        area_differences(model, mesh),
-                        coincidences(mesh),
-                        {},
-                        faces_with_bad_skins(mesh),
-                        {}};
-      if (with_volumes) measured.volumes = volumes(model, mesh);
-      // Parts that touch may have no node in common.
-      if (measured.coincidences.nodes == 0) measured.contacts = contacts(model.shape());
+      Measured measured;
+      oneapi::tbb::parallel_invoke(
+          [&] {
+            measured.coincidences = coincidences(mesh);
+            // Parts that touch may have no node in common.
+            if (measured.coincidences.nodes == 0) measured.contacts = contacts(model.shape());
+          },
+          [&] {
+            if (with_volumes) measured.volumes = volumes(model, mesh);
+          },
+          [&] { measured.area_differences = area_differences(model, mesh); },
+          [&] { measured.elements = measure(mesh); },
+          [&] { measured.bad_skins = faces_with_bad_skins(mesh); });
       return measured;
     });
   });

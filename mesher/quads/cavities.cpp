@@ -44,7 +44,7 @@ class Cavities : private EditedMesh {
   int run() {
     const int first_node_count = node_count();
     int filled = 0;
-    SparseCheck check(context_, 16);
+    SparseCheck check(context_, 8);
     for (int node = 0; node < node_count(); ++node) {
       check();
       if (topology_.side_of(node) >= 0 && topology_.openings(node) < 2 && cost(node) > 0 && mend(node))

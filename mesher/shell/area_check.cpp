@@ -2,12 +2,20 @@
 
 #include "mesher/shell/area_check.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
 #include <BRepGProp.hxx>
+#include <BRepGProp_Domain.hxx>
+#include <BRepGProp_Face.hxx>
+#include <BRepGProp_Vinert.hxx>
+#include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
 #include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -100,6 +108,32 @@ class FlatLoss {
   std::unordered_map<int, std::optional<double>> turnings_;
 };
 
+/// The volume within the closed shells, as BRepGProp::VolumeProperties() integrates it, but on all threads.
+double cad_volume(const CadShape& shape) {
+  std::vector<TopoDS_Face> faces;
+  for (TopExp_Explorer shell(shape.shape, TopAbs_SHELL); shell.More(); shell.Next()) {
+    if (!BRep_Tool::IsClosed(shell.Current())) continue;
+    for (TopExp_Explorer face(shell.Current(), TopAbs_FACE); face.More(); face.Next()) {
+      const TopAbs_Orientation side = face.Current().Orientation();
+      if (side == TopAbs_FORWARD || side == TopAbs_REVERSED) faces.push_back(TopoDS::Face(face.Current()));
+    }
+  }
+  Vector3 middle = Vector3::Zero();
+  for (const Vector3& vertex : shape.vertices) middle += vertex / static_cast<double>(shape.vertices.size());
+  std::vector<double> parts(faces.size());  // between each face and the middle
+  oneapi::tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t i) {
+    constexpr double accuracy = 1e-4;
+    BRepGProp_Face face;
+    face.Load(faces[i]);
+    BRepGProp_Domain domain(faces[i]);
+    BRepGProp_Vinert volume;
+    volume.SetLocation(gp_Pnt(middle.x(), middle.y(), middle.z()));
+    volume.Perform(face, domain, accuracy);
+    parts[i] = volume.Mass();
+  });
+  return std::accumulate(parts.begin(), parts.end(), 0.0);
+}
+
 }  // namespace
 
 std::vector<std::string> area_differences(const CadModel& model, const ShellMesh& mesh) {
@@ -173,10 +207,7 @@ std::optional<Volumes> volumes(const CadModel& model, const ShellMesh& mesh) {
     result.mesh += quad_area_vector(mesh.points, quad).dot(center - middle) / 3;
   }
   try {
-    constexpr double accuracy = 1e-4;
-    GProp_GProps properties;
-    BRepGProp::VolumeProperties(model.shape().shape, properties, accuracy, true);
-    result.cad = properties.Mass();
+    result.cad = cad_volume(model.shape());
   } catch (const Standard_Failure&) {
     return {};
   }

@@ -3,6 +3,8 @@
 
 #include "mesher/shell/edge_suppression.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
@@ -17,6 +19,7 @@
 #include "geometry/base/side_key.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/sides.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/mending.hpp"
 #include "mesher/shell/composite_surface.hpp"
@@ -84,15 +87,18 @@ class Joining {
         edges_at_node_(nodes.edges_at_nodes()) {}
 
   std::vector<CompositeFace> run() {
-    std::vector<CompositeFace> result;
-    for (CompositeFace& composite : find_composites()) {
-      std::optional<FaceMesh> mesh = join(composite);
+    std::vector<CompositeFace> result = find_composites();
+    std::vector<char> is_one(result.size(), 0);
+    oneapi::tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t i) {
       context_.check();
-      if (!mesh) continue;
-      for (const FaceId face : composite.members) faces_[face].reset();
-      faces_[composite.members.front()] = std::move(mesh);
-      result.push_back(std::move(composite));
-    }
+      std::optional<FaceMesh> mesh = join(result[i]);
+      if (!mesh) return;
+      for (const FaceId face : result[i].members) faces_[face].reset();
+      faces_[result[i].members.front()] = std::move(mesh);
+      is_one[i] = 1;
+    });
+    std::size_t next = 0;
+    std::erase_if(result, [&](const CompositeFace&) { return is_one[next++] == 0; });
     return result;
   }
 
@@ -299,21 +305,20 @@ class Joining {
   /// manifold.
   static std::optional<std::vector<char>> boundary_points(const std::vector<std::array<int, 4>>& quads,
                                                           int count) {
-    std::vector<std::uint64_t> keys;
-    keys.reserve(4 * quads.size());
-    for (const auto& quad : quads)
-      for (int k = 0; k < 4; ++k) keys.push_back(DirectedSides::key(quad[k], quad[(k + 1) & 3]));
-    std::sort(keys.begin(), keys.end());
-    if (std::adjacent_find(keys.begin(), keys.end()) != keys.end()) return std::nullopt;
     std::vector<char> starts(count, 0), fixed(count, 0);
-    for (const auto& quad : quads) {
-      for (int k = 0; k < 4; ++k) {
-        const int from = quad[k], to = quad[(k + 1) & 3];
-        if (std::binary_search(keys.begin(), keys.end(), DirectedSides::key(to, from))) continue;
-        if (starts[from]++ > 0) return std::nullopt;
-        fixed[from] = fixed[to] = 1;
+    bool is_manifold = true;
+    const auto start = [&](Side side) { return quads[element_of(side)][index_of(side)]; };
+    const auto look_at = [&](int low, int high, std::span<const Side> sides) {
+      if (low == high && sides.size() == 1) return;
+      if (sides.size() == 1) {
+        is_manifold = is_manifold && starts[start(sides[0])]++ == 0;
+        fixed[low] = fixed[high] = 1;
+      } else {
+        is_manifold = is_manifold && sides.size() == 2 && start(sides[0]) != start(sides[1]);
       }
-    }
+    };
+    for_each_shared_side(count, no_check, look_at, quads);
+    if (!is_manifold) return std::nullopt;
     return fixed;
   }
 
@@ -366,28 +371,102 @@ class Splitting {
   Splitting(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces)
       : shape_(shape), nodes_(nodes), faces_(faces) {}
 
-  void split(const CompositeFace& composite, const FaceMesh& mesh) {
-    const int fixed = static_cast<int>(mesh.nodes.size()), count = static_cast<int>(mesh.points.size());
-    std::vector<Vector2> centers;  // of the quads
-    std::vector<std::vector<std::size_t>> quads_of(composite.members.size());
-    std::vector<int> member(count, -1);
-    std::vector<char> is_shared(count, 0);
+  /// Divides on all threads. New boundary nodes are numbered in between, in the order of the composites.
+  void run(const std::vector<CompositeFace>& composites, const ExecutionContext& context) {
+    std::vector<Division> divisions(composites.size());
+    const auto for_each = [&](auto&& work) {
+      oneapi::tbb::parallel_for(std::size_t{0}, composites.size(), [&](std::size_t i) {
+        context.check();
+        work(composites[i], divisions[i]);
+      });
+    };
+    for_each([&](const CompositeFace& composite, Division& division) {
+      division.mesh = std::move(*faces_[composite.members.front()]);
+      divide(composite, division);
+    });
+    for (std::size_t i = 0; i < composites.size(); ++i) number_nodes(composites[i], divisions[i]);
+    for_each([&](const CompositeFace& composite, Division& division) {
+      find_middles(composite, division);
+      give_back(composite, division);
+    });
+    for (std::size_t i = 0; i < composites.size(); ++i) {
+      find_suppressed(composites[i], divisions[i]);
+      nodes_.middles.insert(divisions[i].middles.begin(), divisions[i].middles.end());
+    }
+  }
+
+  std::vector<EdgeId> suppressed;
+
+ private:
+  using Place = std::array<double, 3>;
+  static Place place_of(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
+
+  /// The mesh of a composite, and which of its quads belong to which face.
+  struct Division {
+    FaceMesh mesh;
+    std::vector<Vector2> centers;                    // of the quads
+    std::vector<std::vector<std::size_t>> quads_of;  // (members)
+    std::vector<char> is_shared;                     // (points) 1 = quads of several members use it
+    std::vector<int> node;                           // (points) see number_nodes()
+    std::unordered_map<std::uint64_t, Vector3> middles;
+  };
+
+  static void divide(const CompositeFace& composite, Division& division) {
+    const FaceMesh& mesh = division.mesh;
+    division.quads_of.resize(composite.members.size());
+    division.is_shared.assign(mesh.points.size(), 0);
+    std::vector<int> member(mesh.points.size(), -1);
     for (const auto& quad : mesh.quads) {
       Vector3 center = Vector3::Zero();
       for (const int p : quad) center += 0.25 * mesh.points[p];
-      Vector2& uv = centers.emplace_back(mesh.uv[quad[0]]);
+      Vector2& uv = division.centers.emplace_back(mesh.uv[quad[0]]);
       composite.surface->approach(uv, center);
       const int m = composite.surface->member(uv);
-      quads_of[m].push_back(centers.size() - 1);
+      division.quads_of[m].push_back(division.centers.size() - 1);
       for (const int p : quad) {
-        is_shared[p] |= member[p] >= 0 && member[p] != m;
+        division.is_shared[p] |= member[p] >= 0 && member[p] != m;
         member[p] = m;
       }
     }
-    const std::vector<int> node = number_nodes(composite, mesh, is_shared);
-    find_suppressed(composite, mesh, node);
-    add_middles(composite, mesh, node);
-    std::vector<int> index(count, -1);  // of points in the face at hand
+  }
+
+  /// (points) the boundary node of each point that is on the boundary, that several faces use, or that lies
+  /// where a node of an edge was; -1 for the others.
+  void number_nodes(const CompositeFace& composite, Division& division) {
+    const FaceMesh& mesh = division.mesh;
+    std::map<Place, int> known;
+    for (const EdgeId id : composite.edges)
+      for (const int node : nodes_.edges[id].nodes) known.emplace(place_of(nodes_.points[node]), node);
+    std::vector<int>& result = division.node;
+    result = mesh.nodes;
+    result.reserve(mesh.points.size());
+    for (int p = static_cast<int>(mesh.nodes.size()); p < static_cast<int>(mesh.points.size()); ++p) {
+      const auto found = known.find(place_of(mesh.points[p]));
+      result.push_back(found != known.end() ? found->second : -1);
+      if (result.back() >= 0 || !division.is_shared[p]) continue;
+      result.back() = static_cast<int>(nodes_.points.size());
+      nodes_.points.push_back(mesh.points[p]);
+    }
+  }
+
+  static void find_middles(const CompositeFace& composite, Division& division) {
+    const FaceMesh& mesh = division.mesh;
+    for (const auto& quad : mesh.quads) {
+      for (int k = 0; k < 4; ++k) {
+        const int p = quad[k], next = quad[(k + 1) & 3], a = division.node[p], b = division.node[next];
+        if (a < 0 || b < 0) continue;
+        Vector2 uv = mesh.uv[p];
+        division.middles.try_emplace(
+            side_key(a, b), composite.surface->nearest(uv, 0.5 * (mesh.points[p] + mesh.points[next])));
+      }
+    }
+  }
+
+  void give_back(const CompositeFace& composite, const Division& division) {
+    const FaceMesh& mesh = division.mesh;
+    const std::vector<int>& node = division.node;
+    const int fixed = static_cast<int>(mesh.nodes.size());
+    std::vector<int> index(mesh.points.size(), -1);  // of points in the face at hand
     for (std::size_t m = 0; m < composite.members.size(); ++m) {
       FaceMesh part;
       part.surface = composite.own_surfaces[m];
@@ -403,63 +482,28 @@ class Splitting {
         composite.surfaces[m]->nearest(uv, mesh.points[p]);
       };
       for (const bool boundary : {true, false}) {
-        for (const std::size_t q : quads_of[m]) {
+        for (const std::size_t q : division.quads_of[m]) {
           for (const int p : mesh.quads[q])
-            if (index[p] < 0 && (node[p] >= 0) == boundary) add(p, centers[q]);
+            if (index[p] < 0 && (node[p] >= 0) == boundary) add(p, division.centers[q]);
         }
       }
-      for (const std::size_t q : quads_of[m]) {
+      for (const std::size_t q : division.quads_of[m]) {
         auto& [a, b, c, d] = part.quads.emplace_back(mesh.quads[q]);
         for (int* p : {&a, &b, &c, &d}) *p = index[*p];
         part.q_min =
             std::min(part.q_min, quad_q(part.points[a], part.points[b], part.points[c], part.points[d]));
       }
-      for (const std::size_t q : quads_of[m])
+      for (const std::size_t q : division.quads_of[m])
         for (const int p : mesh.quads[q]) index[p] = -1;
       faces_[composite.members[m]] = std::move(part);
     }
   }
 
-  std::vector<EdgeId> suppressed;
-
- private:
-  using Place = std::array<double, 3>;
-  static Place place_of(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
-
-  /// (points) the boundary node of each point that is on the boundary, that several faces use, or that lies
-  /// where a node of an edge was; -1 for the others.
-  std::vector<int> number_nodes(const CompositeFace& composite, const FaceMesh& mesh,
-                                const std::vector<char>& is_shared) {
-    std::map<Place, int> known;
-    for (const EdgeId id : composite.edges)
-      for (const int node : nodes_.edges[id].nodes) known.emplace(place_of(nodes_.points[node]), node);
-    std::vector<int> result = mesh.nodes;
-    for (int p = static_cast<int>(mesh.nodes.size()); p < static_cast<int>(mesh.points.size()); ++p) {
-      const auto found = known.find(place_of(mesh.points[p]));
-      result.push_back(found != known.end() ? found->second : -1);
-      if (result.back() >= 0 || !is_shared[p]) continue;
-      result.back() = static_cast<int>(nodes_.points.size());
-      nodes_.points.push_back(mesh.points[p]);
-    }
-    return result;
-  }
-
-  void add_middles(const CompositeFace& composite, const FaceMesh& mesh, const std::vector<int>& node) const {
-    for (const auto& quad : mesh.quads) {
-      for (int k = 0; k < 4; ++k) {
-        const int a = quad[k], b = quad[(k + 1) & 3];
-        if (node[a] < 0 || node[b] < 0) continue;
-        Vector2 uv = mesh.uv[a];
-        nodes_.middles.try_emplace(side_key(node[a], node[b]),
-                                   composite.surface->nearest(uv, 0.5 * (mesh.points[a] + mesh.points[b])));
-      }
-    }
-  }
-
   /// Takes their nodes from the edges that are no longer chains of sides.
-  void find_suppressed(const CompositeFace& composite, const FaceMesh& mesh, const std::vector<int>& node) {
+  void find_suppressed(const CompositeFace& composite, const Division& division) {
+    const std::vector<int>& node = division.node;
     std::vector<std::uint64_t> sides;
-    for (const auto& quad : mesh.quads) {
+    for (const auto& quad : division.mesh.quads) {
       for (int k = 0; k < 4; ++k) {
         const int from = node[quad[k]], to = node[quad[(k + 1) & 3]];
         if (from >= 0 && to >= 0) sides.push_back(side_key(from, to));
@@ -506,11 +550,7 @@ std::vector<CompositeFace> join_smooth_faces(const CadShape& shape, const EdgeFl
 std::vector<EdgeId> split_faces(const CadShape& shape, const std::vector<CompositeFace>& composites,
                                 BoundaryNodes& nodes, FaceMeshes& faces, const ExecutionContext& context) {
   Splitting splitting(shape, nodes, faces);
-  for (const CompositeFace& composite : composites) {
-    context.check();
-    const FaceMesh mesh = std::move(*faces[composite.members.front()]);
-    splitting.split(composite, mesh);
-  }
+  splitting.run(composites, context);
   std::sort(splitting.suppressed.begin(), splitting.suppressed.end());
   return std::move(splitting.suppressed);
 }

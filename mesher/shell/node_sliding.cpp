@@ -122,10 +122,13 @@ class NodeSliding {
       : shape_(shape), nodes_(nodes), context_(context), states_(faces.size()), sampled_(sampled) {
     for (const FaceId face : faces.ids()) {
       if (!faces[face]) continue;
+      largest_first_.push_back(face);
       states_[face].mesh = &*faces[face];
       states_[face].cad_face = &shape.faces[face];
       turn_as_surface(states_[face]);
     }
+    std::stable_sort(largest_first_.begin(), largest_first_.end(),
+                     [&](FaceId a, FaceId b) { return faces[a]->quads.size() > faces[b]->quads.size(); });
     for_each_face([&](FaceId face) { prepare(states_[face]); });
     link_boundary();
     find_slidable();
@@ -214,9 +217,7 @@ class NodeSliding {
 
   template <class Work>
   void for_each_face(Work&& work) {
-    for_each_id(states_, [&](FaceId face) {
-      if (states_[face].mesh != nullptr) work(face);
-    });
+    for_each_in_order(largest_first_, work);
   }
 
   // ---- preparation ----
@@ -595,7 +596,8 @@ class NodeSliding {
   ExecutionContext& context_;
   Aim aim_ = toward_limits;
   IdVector<FaceId, FaceState> states_;
-  const EdgeParameters& sampled_;  // before sliding
+  std::vector<FaceId> largest_first_;  // faces with a mesh
+  const EdgeParameters& sampled_;      // before sliding
   Rows<Instance> instances_;
   std::vector<char> slidable_;  // (boundary nodes) 1 = may slide along its edge
 };

@@ -3,6 +3,9 @@
 
 #include "mesher/shell/poor_quads.hpp"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -17,6 +20,7 @@
 #include "geometry/base/side_key.hpp"
 #include "geometry/base/vector.hpp"
 #include "mesher/mesh/criteria.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
@@ -27,13 +31,15 @@ constexpr double sharp = 40;  // degrees: no quad in such a corner keeps within 
 
 class Finder {
  public:
-  Finder(const CadShape& shape, const ShellMesh& mesh) : shape_(shape), mesh_(mesh) {}
+  Finder(const CadShape& shape, const ShellMesh& mesh)
+      : shape_(shape), mesh_(mesh), limits_(limits_of(mesh)) {}
 
   std::vector<ShellMesh::PoorQuads> run() {
     find_poor_quads();
     if (poor_.empty()) return {};
     index_segments();
-    index_faces();
+    corners_ = corners_by_node(mesh_.points.size(), mesh_.quads);
+    measure_angles();
     for (const PoorQuad& poor : poor_) add(poor);
     std::vector<ShellMesh::PoorQuads> result;
     for (auto& [place, found] : found_) {
@@ -64,23 +70,35 @@ class Finder {
   }
 
   void find_poor_quads() {
-    const CriteriaLimits limits = limits_of(mesh_);
-    const auto& x = mesh_.points;
+    std::vector<signed char> shortest(mesh_.quads.size(), -1);  // of poor quads
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, static_cast<int>(mesh_.quads.size())),
+                              [&](const auto& range) {
+                                for (int quad = range.begin(); quad < range.end(); ++quad)
+                                  if (is_poor(quad)) shortest[quad] = shortest_side(quad);
+                              });
     for (int quad = 0; quad < static_cast<int>(mesh_.quads.size()); ++quad) {
-      const auto& [a, b, c, d] = mesh_.quads[quad];
-      const CriteriaValues values = measure_criteria(x[a], x[b], x[c], x[d]);
-      bool fails = false;
-      for (std::size_t i = 0; i < criterion_count; ++i) {
-        const auto criterion = static_cast<Criterion>(i);
-        fails |= criterion != Criterion::warp && limits.fails(criterion, values[i]);
-      }
-      if (!fails) continue;
-      int shortest = 0;
-      for (int k = 1; k < 4; ++k)
-        if (length(quad, k) < length(quad, shortest)) shortest = k;
-      poor_.push_back({quad, shortest});
+      if (shortest[quad] < 0) continue;
+      poor_.push_back({quad, shortest[quad]});
       faces_.try_emplace(mesh_.quad_faces[quad]);
     }
+  }
+
+  bool is_poor(int quad) const {
+    const auto& x = mesh_.points;
+    const auto& [a, b, c, d] = mesh_.quads[quad];
+    const CriteriaValues values = measure_criteria(x[a], x[b], x[c], x[d]);
+    for (std::size_t i = 0; i < criterion_count; ++i) {
+      const auto criterion = static_cast<Criterion>(i);
+      if (criterion != Criterion::warp && limits_.fails(criterion, values[i])) return true;
+    }
+    return false;
+  }
+
+  signed char shortest_side(int quad) const {
+    signed char result = 0;
+    for (signed char k = 1; k < 4; ++k)
+      if (length(quad, k) < length(quad, result)) result = k;
+    return result;
   }
 
   void index_segments() {
@@ -93,21 +111,30 @@ class Finder {
     for (const auto& corner : mesh_.corners) vertex_at_.emplace(corner.node, corner.vertex);
   }
 
-  /// The quads at each side of the faces with poor quads, and the angles of these faces at vertices.
-  void index_faces() {
+  /// The angles at vertices of the faces with poor quads.
+  void measure_angles() {
     const auto& x = mesh_.points;
-    for (int quad = 0; quad < static_cast<int>(mesh_.quads.size()); ++quad) {
-      const auto face = faces_.find(mesh_.quad_faces[quad]);
-      if (face == faces_.end()) continue;
-      const auto& corners = mesh_.quads[quad];
-      for (int k = 0; k < 4; ++k) {
-        auto& uses = quads_at_.try_emplace(side(quad, k), std::array{-1, -1}).first->second;
-        uses[uses[0] < 0 ? 0 : 1] = quad;
-        const int at = corners[k], next = corners[(k + 1) & 3], before = corners[(k + 3) & 3];
-        if (vertex_at_.contains(at))
-          face->second[at] += degrees * angle_between(x[next] - x[at], x[before] - x[at]);
+    for (const auto& [at, vertex] : vertex_at_) {
+      for (const Side corner : corners_[at]) {
+        const auto face = faces_.find(mesh_.quad_faces[element_of(corner)]);
+        if (face == faces_.end()) continue;
+        const auto& quad = mesh_.quads[element_of(corner)];
+        const int k = index_of(corner);
+        face->second[at] +=
+            degrees * angle_between(x[quad[(k + 1) & 3]] - x[at], x[quad[(k + 3) & 3]] - x[at]);
       }
     }
+  }
+
+  /// The other quad at a side, among those of faces with poor quads; -1 = none.
+  int across(int quad, int k) const {
+    const std::uint64_t key = side(quad, k);
+    for (const Side corner : corners_[mesh_.quads[quad][k]]) {
+      const int other = element_of(corner);
+      const bool is_there = side(other, index_of(corner)) == key || side(other, index_of(corner) + 3) == key;
+      if (other != quad && is_there && faces_.contains(mesh_.quad_faces[other])) return other;
+    }
+    return -1;
   }
 
   void add(const PoorQuad& poor) {
@@ -157,8 +184,7 @@ class Finder {
           end = edge->second;
           break;
         }
-        const auto& uses = quads_at_.at(key);
-        at = uses[0] == at ? uses[1] : uses[0];
+        at = across(at, k);
         if (at < 0) return std::nullopt;
         for (k = 0; side(at, k) != key;) ++k;
         result.width += length(at, k + 1);
@@ -193,13 +219,14 @@ class Finder {
 
   const CadShape& shape_;
   const ShellMesh& mesh_;
+  const CriteriaLimits limits_;
   std::vector<PoorQuad> poor_;
   std::unordered_map<int, std::unordered_map<int, double>>
       faces_;                                       // with poor quads: their angles at nodes of vertices
   std::unordered_map<std::uint64_t, int> edge_of_;  // by side_key()
   std::map<int, double> length_of_;                 // edges, by number
   std::unordered_map<int, int> vertex_at_;          // by node
-  std::unordered_map<std::uint64_t, std::array<int, 2>> quads_at_;  // -1 = none
+  Rows<Side> corners_;                              // of quads, at each node
   std::map<Place, ShellMesh::PoorQuads> found_;
   std::map<int, Row> narrowest_;  // by face
 };

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepGProp.hxx>
+#include <GProp_GProps.hxx>
+
 #include <numbers>
 
 #include "geometry/cad/cad_shape.hpp"
@@ -34,6 +37,9 @@ TEST(AreaCheck, MeasuresTheVolumesOfClosedSamples) {
     ++solids;
     EXPECT_GT(found->cad, 0) << sample.name;
     EXPECT_NEAR(found->mesh / found->cad, 1, 0.02) << sample.name;
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(model.shape().shape, properties, 1e-6, true);
+    EXPECT_NEAR(found->cad / properties.Mass(), 1, 1e-4) << sample.name;
   }
   EXPECT_GT(solids, 3);
 }
