@@ -201,6 +201,7 @@ std::vector<std::string> changes_of_faces(const std::vector<std::vector<int>>& p
     const std::vector<int>& own = pieces[i];
     if (own == std::vector<int>{face} && sources[face] == 1) continue;
     std::vector<std::string> names;
+    names.reserve(own.size());
     for (const int number : own)
       names.push_back(fmt::format("Face{}{}", number, sources[number] > 1 ? " (shared)" : ""));
     changes.push_back(fmt::format("Face{} became {}", face, fmt::join(names, ", ")));

@@ -49,7 +49,8 @@ std::vector<FaceSample> sample_face(const CadShape& shape, const CadFace& face) 
   const Vector2 cell((face.u_max - face.u_min) / steps, (face.v_max - face.v_min) / steps);
   std::vector<FaceSample> samples;
   for (int i = 0; i < steps * steps; ++i) {
-    const Vector2 uv = low + Vector2((i % steps + 0.5) * cell.x(), (i / steps + 0.5) * cell.y());
+    const int column = i % steps, row = i / steps;
+    const Vector2 uv = low + Vector2((column + 0.5) * cell.x(), (row + 0.5) * cell.y());
     if (!domain.inside(uv)) continue;
     const SurfacePoint at = surface.evaluate(uv);
     const double area = at.du.cross(at.dv).norm() * cell.x() * cell.y();
