@@ -18,7 +18,6 @@ namespace quadrille {
 
 namespace {
 
-using Outline = FaceSides::Outline;
 using Line = StepLayout::Line;  // consecutive points
 
 constexpr double least_jacobian = 0.3;  // scaled Jacobian of a cell
@@ -35,27 +34,27 @@ class GridMaker {
       : boundary_(boundary), sides_(sides), surface_(surface), size_at_(size_at), check_(context) {}
 
   std::optional<FaceGrid> run() {
-    if (sides_.outline == Outline::other || !find_loops()) return std::nullopt;
-    switch (sides_.outline) {
-      case Outline::four:
+    if (sides_.kind == GridKind::other || !find_loops()) return std::nullopt;
+    switch (sides_.kind) {
+      case GridKind::four:
         if (!make_four()) return std::nullopt;
         break;
-      case Outline::stepped:
+      case GridKind::stepped:
         if (!make_stepped()) return std::nullopt;
         break;
-      case Outline::ring:
+      case GridKind::ring:
         if (!make_ring()) return std::nullopt;
         break;
-      case Outline::odd:
+      case GridKind::odd:
         if (!make_odd()) return std::nullopt;
         break;
-      case Outline::holed:
+      case GridKind::holed:
         // The grid can be judged only after nodes have been moved.
         if (!make_holed() || !follows_sizes()) return std::nullopt;
         drop_unused();
         turn_to_left();
         return std::move(grid_);
-      case Outline::other:
+      case GridKind::other:
         return std::nullopt;
     }
     if (!is_good() || !follows_sizes()) return std::nullopt;
