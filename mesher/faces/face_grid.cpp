@@ -11,6 +11,7 @@
 
 #include "geometry/base/whole_number.hpp"
 #include "mesher/edges/hole_blocks.hpp"
+#include "mesher/faces/spokes.hpp"
 #include "mesher/faces/step_layout.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
 
@@ -178,44 +179,27 @@ class GridMaker {
     return shares;
   }
 
-  /// Meshes an outline with three or five corners as that many grids around one point. Side i is cut into
-  /// parts of f_i and g_i segments. The line from there to the center has f_{i+1} = g_{i-1} segments.
+  /// Meshes an outline with three or five corners as that many grids around one point.
   bool make_odd() {
     const std::vector<Line> sides = cut_loop();
     const int k = static_cast<int>(sides.size());
     if (loops_.size() != 1 || (k != 3 && k != 5)) return false;
-    std::vector<int> count(k), first(k);
-    for (int i = 0; i < k; ++i) count[i] = static_cast<int>(sides[i].size()) - 1;
-    // count_i = f_i + f_{i+2}: an alternating sum over every second side gives 2 f_i, since k is odd.
-    for (int i = 0; i < k; ++i) {
-      int twice = 0;
-      for (int j = 0, sign = 1; j < k; ++j, sign = -sign) twice += sign * count[(i + 2 * j) % k];
-      if (twice <= 0 || twice % 2 != 0) return false;
-      first[i] = twice / 2;
-    }
-    Vector2 middle(0, 0);
-    std::vector<int> feet;
-    for (int i = 0; i < k; ++i) {
-      feet.push_back(sides[i][first[i]]);
-      middle += grid_.uv[feet.back()] / k;
-    }
-    const int center = add_point(middle);
-    std::vector<Line> spokes;  // lines from the sides to the center
-    for (int i = 0; i < k; ++i) {
-      const int n = first[(i + 1) % k];
-      Line line{feet[i]};
-      for (int j = 1; j < n; ++j) line.push_back(add_between(feet[i], center, static_cast<double>(j) / n));
-      line.push_back(center);
-      spokes.push_back(line);
-    }
-    for (int i = 0; i < k; ++i) {
-      const int before = (i + k - 1) % k;
-      const Line bottom(sides[i].begin(), sides[i].begin() + first[i] + 1);
-      const Line left = turned(Line(sides[before].begin() + first[before], sides[before].end()));
-      if (bottom.size() != spokes[before].size() || left.size() != spokes[i].size()) return false;
-      fill(bottom, spokes[i], spokes[before], left);
-    }
-    return true;
+    const auto middle = [&](const Line& feet) {
+      Vector2 sum(0, 0);
+      for (const int foot : feet) sum += grid_.uv[foot] / k;
+      return add_point(sum);
+    };
+    const auto row = [&](int from, int to, int segments) {
+      Line line{from};
+      for (int j = 1; j < segments; ++j)
+        line.push_back(add_between(from, to, static_cast<double>(j) / segments));
+      line.push_back(to);
+      return line;
+    };
+    return fill_around_point(sides, middle, row,
+                             [&](const Line& bottom, const Line& right, const Line& top, const Line& left) {
+                               fill(bottom, right, turned(top), turned(left));
+                             });
   }
 
   int add_point(const Vector2& uv) {
