@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "geometry/base/whole_number.hpp"
+#include "mesher/edges/count_table.hpp"
 
 namespace quadrille {
 
@@ -78,12 +79,9 @@ class StackedEdge {
     std::vector<double> places{0};
     for (const double height : first_) places.push_back(places.back() + height);
     const int between = segments - layers();
-    int cell = 0;
     for (int k = 1; k < between; ++k) {
-      const double target = counts_.back() * k / between;
-      while (cell + 1 < samples && counts_[cell + 1] < target) ++cell;
-      const double part = (target - counts_[cell]) / (counts_[cell + 1] - counts_[cell]);
-      places.push_back(sum_of(first_) + inner_ * (cell + part) / samples);
+      const auto [cell, part] = place_in(counts_, counts_.back() * k / between);
+      places.push_back(sum_of(first_) + inner_ * (static_cast<double>(cell) + part) / samples);
     }
     places.push_back(length_ - sum_of(last_));
     for (auto height = last_.rbegin(); height != last_.rend(); ++height)

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "geometry/base/whole_number.hpp"
+#include "mesher/edges/count_table.hpp"
 #include "mesher/edges/hole_blocks.hpp"
 #include "mesher/faces/spokes.hpp"
 #include "mesher/faces/step_layout.hpp"
@@ -169,11 +170,9 @@ class GridMaker {
     }
     const int rows = std::max(1, round_to_int(counts.back()));
     std::vector<double> shares{0};
-    int cell = 0;
     for (int k = 1; k < rows; ++k) {
-      const double target = counts.back() * k / rows;
-      while (cell + 1 < samples && counts[cell + 1] < target) ++cell;
-      shares.push_back((cell + (target - counts[cell]) / (counts[cell + 1] - counts[cell])) / samples);
+      const auto [cell, part] = place_in(counts, counts.back() * k / rows);
+      shares.push_back((static_cast<double>(cell) + part) / samples);
     }
     shares.push_back(1);
     return shares;
