@@ -3,7 +3,6 @@
 #include "mesher/estimate.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -16,7 +15,6 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/boundary.hpp"
-#include "mesher/edges/grid_rows.hpp"
 #include "mesher/edges/hole_filling.hpp"
 #include "mesher/faces/grid_waste.hpp"
 #include "mesher/settings.hpp"
@@ -24,23 +22,6 @@
 namespace quadrille {
 
 namespace {
-
-/// The number of quads of a four-sided face whose opposite sides have as many segments; 0 for other faces.
-double grid_quads(const CadFace& face, const FaceSides& sides, const BoundaryNodes& nodes) {
-  if (sides.outline != FaceSides::Outline::four || sides.starts.size() != 4 || face.wires.size() != 1)
-    return 0;
-  const auto& coedges = face.wires.front().coedges;
-  std::array<int, 4> counts{};
-  for (std::size_t side = 0; side < counts.size(); ++side) {
-    std::size_t i = sides.starts[side];
-    do {
-      counts[side] += std::max(0, nodes.edges[coedges[i].edge].segments());
-      i = (i + 1) % coedges.size();
-    } while (static_cast<int>(i) != sides.starts[(side + 1) % counts.size()]);
-  }
-  const bool is_grid = counts[0] == counts[2] && counts[1] == counts[3];
-  return is_grid ? static_cast<double>(counts[0]) * counts[1] : 0;
-}
 
 /// What the sizes and the segments on its edges ask for on a face.
 struct FaceDemand {
@@ -100,7 +81,7 @@ FaceDemand demand_of(FaceId id, const CadFace& face, const std::vector<FaceSampl
 double quads_of_rows(const CadShape& shape, FaceId face, const BoundaryNodes& nodes,
                      const ByElement<SizeLayers>& layers) {
   double count = 0;
-  if (!has_row_loop(shape, face, nodes.sides[face], layers)) return count;
+  if (!nodes.plans[face].has_row_loop) return count;
   for (const CadWire& wire : shape.faces[face].wires) {
     for (const Coedge& coedge : wire.coedges) {
       const auto own = layers.edges.find(shape.edges[coedge.edge].number);
@@ -150,11 +131,11 @@ std::vector<double> QuadEstimate::quads_by_face(const MeshOptions& options) {
       const CadFace& face = shape.faces[id];
       const BoundaryNodes& nodes = boundary.nodes;
       SizingField::Sampler size_at(boundary.field, id);
-      const bool keeps_grid = has_kept_edge(face, nodes) || has_divided_edge(face, nodes);
+      const FacePlan& plan = nodes.plans[id];
       counts[id.index()] = quads_of_rows(shape, id, nodes, options.sizing.layers);
       counts[id.index()] +=
           expected_quads(demand_of(id, face, samples_[id], size_at, options.sizing.growth, nodes),
-                         grid_quads(face, nodes.sides[id], nodes), keeps_grid);
+                         plan.grid_quads, plan.has_kept_edge || plan.has_divided_edge);
     }
     return counts;
   });

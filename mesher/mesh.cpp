@@ -360,6 +360,7 @@ class Job {
     const auto sides = find_face_sides(shape_, used_, plan_.tiny, wanted);
     rows_ = find_grid_rows(shape_, sides, std::move(plan_.prescribed), sizing, limits_.largest);
     plan_.prescribed = rows_.prescribed;
+    plan_.layered_loops = rows_.layered_loops;
   }
 
   void leave_out_tiny() {
@@ -438,7 +439,7 @@ class Job {
   /// Throws FaceProblem if sides of the face are too close. Grids need no room between their sides.
   void widen_gaps(FaceId face, const FaceChart& chart) {
     int& looks = records_[face].looks_at_gaps;
-    if (looks == FaceRecord::most_looks || nodes_.sides[face].is_filled()) return;
+    if (looks == FaceRecord::most_looks || nodes_.plans[face].is_filled) return;
     auto problem = crowding_problem(face, chart.boundary, *chart.surface);
     looks = problem ? looks + 1 : FaceRecord::most_looks;
     if (problem) throw FaceProblem(std::move(*problem));

@@ -75,6 +75,18 @@ class Rooms(unittest.TestCase):
             stem = test.stem.removesuffix("_test")
             self.assertTrue(stem in modules, f"{test} tests no module of that name")
 
+    def test_a_face_is_sorted_once(self):
+        """Its kind is decided in face_sides and known to the maker of grids; the counting of segments asks what follows from it, and
+        all that comes after reads FacePlan."""
+        files = {p.relative_to(ROOT).as_posix(): p.read_text() for top in ("geometry", "mesher") for p in (ROOT / top).rglob("*.?pp")}
+        knowing = {name for name, text in files.items() if re.search(r"\bGridKind\b", text)}
+        self.assertEqual(knowing, {"mesher/edges/face_sides.hpp", "mesher/edges/face_sides.cpp", "mesher/faces/face_grid.cpp"})
+        questions = re.findall(r"  bool (\w+)\(\) const", files["mesher/edges/face_sides.hpp"])
+        self.assertGreater(len(questions), 5)
+        asking = re.compile(rf"[sS]ides_?(?:\[\w+\])?\.(?:{'|'.join(questions)})\(\)")
+        self.assertTrue(asking.search(files["mesher/edges/face_plan.cpp"]))
+        self.assertEqual([name for name, text in files.items() if not name.startswith("mesher/edges/") and asking.search(text)], [])
+
     def test_the_system_is_asked_where_porting_says(self):
         files = {p.relative_to(ROOT).as_posix(): p.read_text() for top in ("geometry", "mesher") for p in (ROOT / top).rglob("*.?pp")}
         asking = {name for name, text in files.items() if SYSTEM.search(text) or PLACE.search(text)}

@@ -9,6 +9,19 @@
 
 namespace quadrille {
 
+/// Where a value lies in an ascending table.
+struct TablePlace {
+  std::size_t interval;  ///< index of the entry before it
+  double share;          ///< of the way to the next entry
+};
+
+inline TablePlace place_in(const std::vector<double>& table, double value) {
+  const auto it = std::lower_bound(table.begin(), table.end(), value);
+  const std::size_t i = std::clamp<std::size_t>(it - table.begin(), 1, table.size() - 1) - 1;
+  const double span = table[i + 1] - table[i];
+  return {i, span > 0 ? std::clamp((value - table[i]) / span, 0.0, 1.0) : 0.5};
+}
+
 /// The wanted number of segments from the edge's start, as a function of the parameter.
 struct CountTable {
   std::vector<double> parameters;
@@ -31,11 +44,8 @@ struct CountTable {
 
  private:
   static double interpolate(const std::vector<double>& from, double at, const std::vector<double>& to) {
-    const auto it = std::lower_bound(from.begin(), from.end(), at);
-    const std::size_t i = std::clamp<std::size_t>(it - from.begin(), 1, from.size() - 1);
-    const double span = from[i] - from[i - 1];
-    const double t = span > 0 ? std::clamp((at - from[i - 1]) / span, 0.0, 1.0) : 0.5;
-    return to[i - 1] + t * (to[i] - to[i - 1]);
+    const auto [i, share] = place_in(from, at);
+    return to[i] + share * (to[i + 1] - to[i]);
   }
 };
 

@@ -37,8 +37,7 @@ class CountChooser {
 
   EdgeCounts run() {
     is_waiting_.resize(sides_.size());
-    for (const FaceId face : sides_.ids())
-      is_waiting_[face] = sides_[face].outline == FaceSides::Outline::stepped;
+    for (const FaceId face : sides_.ids()) is_waiting_[face] = sides_[face].has_steps();
     tie_chords();
     std::vector<FaceId> odd = balance_faces();
     if (odd.empty() && take_steps()) {
@@ -77,15 +76,8 @@ class CountChooser {
 
   /// Reduces a face to a parity condition.
   void drop(FaceId face) {
-    FaceSides& sides = sides_[face];
-    for (const FacingPair& pair : sides.facing) {
-      for (const FaceSide* side : {&pair.first, &pair.second}) {
-        for (const SideEdge& edge : *side) sides.rest.push_back(edge.edge);
-      }
-    }
-    sides.facing.clear();
+    sides_[face].drop_facing();
     is_waiting_[face] = 0;
-    if (sides.outline != FaceSides::Outline::odd) sides.outline = FaceSides::Outline::other;
   }
 
   double sum_of(const FaceSide& side) const {
@@ -262,8 +254,7 @@ class CountChooser {
     is_between_grids_.assign(problem_.variables.size(), 1);
     for (const FaceId face : sides_.ids()) {
       const FaceSides& sides = sides_[face];
-      const bool is_grid =
-          sides.rest.empty() && sides.outline != FaceSides::Outline::other && !is_waiting_[face];
+      const bool is_grid = sides.rest.empty() && sides.is_filled() && !is_waiting_[face];
       for_each_edge(sides, [&](EdgeId edge) { is_between_grids_[chords_.of(edge)] &= is_grid; });
       if (is_waiting_[face]) {
         const int node = add_node(face, BalanceProblem::Rule::even);
@@ -272,12 +263,7 @@ class CountChooser {
       }
       add_facing(face);
       for (const EdgeId edge : sides.rest) is_between_grids_[chords_.of(edge)] = 0;
-      // One more node at the base of a wedge, the end of a strip or on a side of a small triangle would make
-      // elements far shorter than they are wide. Faces with three or five corners need no even number: they
-      // are divided into grids that meet at a point inside.
-      const bool may_be_odd = sides.outline == FaceSides::Outline::odd ||
-                              (!sides.facing.empty() && sides.outline != FaceSides::Outline::holed);
-      if (sides.rest.empty() || (may_be_odd && wishes_.stride == 2)) continue;
+      if (sides.rest.empty() || (sides.may_be_odd() && wishes_.stride == 2)) continue;
       const int node = add_node(face, BalanceProblem::Rule::even);
       for (const EdgeId edge : sides.rest) add_term(edge, node, 1);
     }
@@ -311,7 +297,7 @@ class CountChooser {
 
   std::vector<FaceId> balance_without_steps() {
     for (const FaceId face : sides_.ids()) {
-      if (sides_[face].outline == FaceSides::Outline::stepped) drop(face);
+      if (sides_[face].has_steps()) drop(face);
     }
     start_values();
     return balance_faces();

@@ -14,6 +14,7 @@
 #include "geometry/surfaces/edge_curve.hpp"
 #include "mesher/edges/count_table.hpp"
 #include "mesher/edges/edge_counts.hpp"
+#include "mesher/edges/face_plan.hpp"
 #include "mesher/edges/face_sides.hpp"
 #include "mesher/edges/facing_sides.hpp"
 #include "mesher/edges/gap_nodes.hpp"
@@ -116,8 +117,6 @@ class EdgeSampler {
         n_(shape.edges.size()),
         used_edges_(find_used_edges(shape, used, plan.tiny)) {
     result_.stride = stride;
-    result_.subdivided = plan.subdivided;
-    if (stride == 2) result_.subdivided.assign(shape.faces.size(), 1);
     result_.vertex_nodes.assign(shape.vertices.size(), -1);
     result_.edges.resize(n_);
   }
@@ -126,15 +125,15 @@ class EdgeSampler {
     tabulate_edges();
     wish_alike();
     const FaceOutlines found = find_face_sides(shape_, used_, plan_.tiny, wishes_.wanted);
-    result_.sides = found;
-    EdgeCounts chosen = choose_counts(shape_, wishes_, plan_.tiny, result_.sides);
-    const bool refined = refine_along_strips(shape_, result_.sides, chosen, tables_, wishes_);
-    if (fit_holes_to_grids(shape_, result_.sides, chosen, tables_, wishes_) || refined) {
-      result_.sides = found;
-      chosen = choose_counts(shape_, wishes_, plan_.tiny, result_.sides);
+    FaceOutlines sides = found;
+    EdgeCounts chosen = choose_counts(shape_, wishes_, plan_.tiny, sides);
+    const bool refined = refine_along_strips(shape_, sides, chosen, tables_, wishes_);
+    if (fit_holes_to_grids(shape_, sides, chosen, tables_, wishes_) || refined) {
+      sides = found;
+      chosen = choose_counts(shape_, wishes_, plan_.tiny, sides);
     }
     counts_ = chosen.counts;
-    shares_ = space_chords(shape_, result_.sides, chosen.chords, tables_, counts_, prescribed_shares());
+    shares_ = space_chords(shape_, sides, chosen.chords, tables_, counts_, prescribed_shares());
     keep_spacing(chosen.chords);
     place_vertices();
     context_.check();
@@ -144,10 +143,11 @@ class EdgeSampler {
     }
     copy_nodes();
     align_narrow_faces(shape_, used_, find_split_strips(shape_, used_, wishes_.wanted), result_);
-    align_gaps(shape_, used_, plan_.unaligned, result_);
+    align_gaps(shape_, used_, sides, plan_.unaligned, result_);
     end_faces_at_tips(shape_, plan_.tips, plan_.tiny, result_);
     copy_nodes();
     borrow_nodes();
+    result_.plans = plan_faces(shape_, std::move(sides), plan_, result_);
     return std::move(result_);
   }
 
@@ -409,6 +409,7 @@ SamplingPlan::SamplingPlan(const CadShape& shape)
       bare(shape.edges.size()),
       unaligned(shape.faces.size()),
       subdivided(shape.faces.size()),
+      layered_loops(shape.faces.size()),
       tiny(find_tiny_features(shape, FaceFlags(shape.faces.size(), 1), EdgeFlags(shape.edges.size()), 0)) {}
 
 BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int stride, const FaceFlags& used,

@@ -14,7 +14,7 @@
 #include "geometry/sizing/edge_spacing.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/edges/count_table.hpp"
-#include "mesher/edges/face_sides.hpp"
+#include "mesher/edges/face_plan.hpp"
 #include "mesher/edges/matching.hpp"
 #include "mesher/edges/tiny_features.hpp"
 #include "mesher/edges/tips.hpp"
@@ -43,10 +43,9 @@ struct BoundaryNodes {
   /// Segments at the start and at the end of an edge that a face does not use, since it ends before its tip.
   std::map<std::pair<FaceId, EdgeId>, std::array<int, 2>> unused;
   /// Segments of the final mesh for each segment of the mesh that is recombined: 2 with Strategy::subdivide,
-  /// else 1. The faces in `subdivided` have 2 in any case.
+  /// else 1. Faces may differ (FacePlan).
   int stride = 1;
-  FaceFlags subdivided;  ///< 1 = recombined at twice the size, whatever `stride` is
-  FaceOutlines sides;    ///< with facing sides whose counts match
+  FacePlans plans;
 
   /// The middles, on the surface, of sides between two nodes that quads of several faces share where they
   /// cross a smooth edge; by side_key().
@@ -86,7 +85,8 @@ struct SamplingPlan {
   std::vector<EdgeStretch> finer;
   EdgeFlags bare;        ///< 1 = ignore how the curve turns, it may have loops
   FaceFlags unaligned;   ///< 1 = nodes need not face each other across the face's gaps
-  FaceFlags subdivided;  ///< see BoundaryNodes::subdivided: the face's edges get even numbers
+  FaceFlags subdivided;  ///< 1 = recombined at twice the size in any case: the face's edges get even numbers
+  FaceFlags layered_loops;  ///< see GridRows
   TinyFeatures tiny;
   std::vector<Tip> tips;       ///< at which faces end early
   PrescribedEdges prescribed;  ///< user divisions; may be empty

@@ -41,7 +41,7 @@ class SideFinder {
     if (walks.size() == 1) take_corners(walks[0], sides);
     if (walks.size() == 2) take_ring(walks[0], walks[1], sides);
     if (walks.size() >= 2 && sides.facing.empty()) take_holes(walks, sides);
-    if (sides.outline == FaceSides::Outline::holed) return sides;
+    if (sides.kind == GridKind::holed) return sides;
     if (sides.facing.empty()) take_rest(face, sides);
     return sides;
   }
@@ -126,7 +126,7 @@ class SideFinder {
     if (is_stepped) return take_steps(walk, *corners, sides);
     if (corners->size() > 5) return;
     for (const int corner : *corners) sides.starts.push_back(walk.coedges[corner]);
-    sides.outline = corners->size() == 4 ? FaceSides::Outline::four : FaceSides::Outline::odd;
+    sides.kind = corners->size() == 4 ? GridKind::four : GridKind::odd;
     if (corners->size() != 4) return;
     std::array<FaceSide, 4> four;
     for (int c = 0; c < 4; ++c) four[c] = between(walk, (*corners)[c], (*corners)[(c + 1) % 4]);
@@ -164,7 +164,7 @@ class SideFinder {
       sides = {};
       return;
     }
-    sides.outline = FaceSides::Outline::stepped;
+    sides.kind = GridKind::stepped;
     for (int d = 0; d < 2; ++d) add_treads(treads[d], treads[d + 2], sides);
   }
 
@@ -226,9 +226,9 @@ class SideFinder {
     }
     FaceSides found;
     take_corners(*outer, found);
-    if (found.outline != FaceSides::Outline::four) return;
+    if (found.kind != GridKind::four) return;
     sides = std::move(found);
-    sides.outline = FaceSides::Outline::holed;
+    sides.kind = GridKind::holed;
     sides.outer = static_cast<int>(outer - walks.begin());
     for (auto walk = walks.begin(); walk != walks.end(); ++walk) {
       if (walk == outer) continue;
@@ -256,7 +256,7 @@ class SideFinder {
     std::rotate(one.begin(), one.begin() + static_cast<long>(a), one.end());
     std::rotate(other.begin(), other.begin() + static_cast<long>(b), other.end());
     if (!is_even_ring(one, other)) return;
-    sides.outline = FaceSides::Outline::ring;
+    sides.kind = GridKind::ring;
     add_pairs(one, other, sides);
   }
 
@@ -374,6 +374,16 @@ class SideFinder {
 };
 
 }  // namespace
+
+void FaceSides::drop_facing() {
+  for (const FacingPair& pair : facing) {
+    for (const FaceSide* side : {&pair.first, &pair.second}) {
+      for (const SideEdge& edge : *side) rest.push_back(edge.edge);
+    }
+  }
+  facing.clear();
+  if (!is_star()) drop_grid();
+}
 
 FaceOutlines find_face_sides(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny,
                              const IdVector<EdgeId, double>& wanted) {

@@ -21,17 +21,20 @@ struct FacingPair {
   FaceSide first, second;
 };
 
+/// The outlines that grids fill. Only this module, which decides, and face_grid.cpp, which makes the grids,
+/// look at it; all others read what follows from it, in FaceSides and FacePlan.
+enum class GridKind {
+  other,
+  four,     ///< one loop with four corners
+  odd,      ///< one loop with three or five corners: that many grids around a point
+  stepped,  ///< one loop of right-angled corners to the left and right, as an L, a T or a comb
+  ring,     ///< two loops without corners
+  holed     ///< one loop with four corners, and holes without corners
+};
+
 /// The outline of a face and the conditions that the counts around it must satisfy.
 struct FaceSides {
-  enum class Outline {
-    other,
-    four,     ///< one loop with four corners
-    odd,      ///< one loop with three or five corners
-    stepped,  ///< one loop of right-angled corners to the left and right, as an L, a T or a comb
-    ring,     ///< two loops without corners
-    holed     ///< one loop with four corners, and holes without corners
-  };
-  Outline outline = Outline::other;
+  GridKind kind = GridKind::other;
   /// Pairs of sides whose counts must be equal. In a stepped outline, one side of a pair may join several
   /// sides of the face.
   std::vector<FacingPair> facing;
@@ -45,11 +48,28 @@ struct FaceSides {
 
   /// Whether a grid fills the face from side to side: its nodes face each other, and its sides need no room
   /// between them.
-  bool is_filled() const { return outline != Outline::other && outline != Outline::holed; }
+  bool is_filled() const { return kind != GridKind::other && kind != GridKind::holed; }
   /// Whether the face has four sides, each with one count.
-  bool is_rectangle() const { return outline == Outline::four && facing.size() == 2; }
+  bool is_rectangle() const { return kind == GridKind::four && facing.size() == 2; }
+  /// Whether the face has four sides, which may be cut into parts with counts of their own.
+  bool has_four_sides() const { return kind == GridKind::four; }
   /// Whether rows run along the face from end to end, or all the way around.
-  bool has_whole_rows() const { return outline == Outline::four || outline == Outline::ring; }
+  bool has_whole_rows() const { return kind == GridKind::four || kind == GridKind::ring; }
+  /// Whether its facing sides are counted after those of all other faces, since each joins many chords.
+  bool has_steps() const { return kind == GridKind::stepped; }
+  /// Whether holes take the place of cells of its grid.
+  bool has_holes() const { return kind == GridKind::holed; }
+  /// Whether the counts of `rest` divide the face into grids that meet at a point inside.
+  bool is_star() const { return kind == GridKind::odd; }
+  /// Whether `rest` may have an odd sum where the triangle that then remains is subdivided. One more node at
+  /// the base of a wedge, the end of a strip or on a side of a small triangle would make elements far shorter
+  /// than they are wide; grids that meet at a point need no even number.
+  bool may_be_odd() const { return is_star() || (!facing.empty() && !has_holes()); }
+
+  /// No grid fills the face: it ends before its corners.
+  void drop_grid() { kind = GridKind::other; }
+  /// Reduces the conditions to an even sum over all edges.
+  void drop_facing();
 };
 
 using FaceOutlines = IdVector<FaceId, FaceSides>;

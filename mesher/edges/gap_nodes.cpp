@@ -33,10 +33,9 @@ class GapNodes {
   GapNodes(const CadShape& shape, const FaceFlags& used, BoundaryNodes& nodes)
       : shape_(shape), used_(used), nodes_(nodes), ties_(nodes.edges.size()) {}
 
-  void run(const FaceFlags& unaligned) {
+  void run(const FaceOutlines& sides, const FaceFlags& unaligned) {
     for (const FaceId face : shape_.faces.ids()) {
-      const bool is_filled = nodes_.sides[face].is_filled();
-      if (used_[face] && !unaligned[face] && !is_filled && shape_.faces[face].wires.size() > 1)
+      if (used_[face] && !unaligned[face] && !sides[face].is_filled() && shape_.faces[face].wires.size() > 1)
         find_pairs(face);
     }
     std::stable_sort(pairs_.begin(), pairs_.end(),
@@ -199,9 +198,9 @@ class GapNodes {
 
 }  // namespace
 
-void align_gaps(const CadShape& shape, const FaceFlags& used, const FaceFlags& unaligned,
-                BoundaryNodes& nodes) {
-  GapNodes(shape, used, nodes).run(unaligned);
+void align_gaps(const CadShape& shape, const FaceFlags& used, const FaceOutlines& sides,
+                const FaceFlags& unaligned, BoundaryNodes& nodes) {
+  GapNodes(shape, used, nodes).run(sides, unaligned);
 }
 
 }  // namespace quadrille

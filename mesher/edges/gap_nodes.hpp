@@ -16,7 +16,7 @@ constexpr double widest_gap = 0.7;
 /// sheared beyond use. Skips faces that are grids, unless these have holes. Nodes on edges with a prescribed
 /// spacing stay. \param unaligned 1 = skip the face. Time: O(n log n) in the segments of a face if
 /// few of them are close.
-void align_gaps(const CadShape& shape, const FaceFlags& used, const FaceFlags& unaligned,
-                BoundaryNodes& nodes);
+void align_gaps(const CadShape& shape, const FaceFlags& used, const FaceOutlines& sides,
+                const FaceFlags& unaligned, BoundaryNodes& nodes);
 
 }  // namespace quadrille

@@ -1,7 +1,6 @@
 /// Follows prescribed divisions from edge to opposite edge, and stacks layers at the ends of edges.
 
 #include "mesher/edges/grid_rows.hpp"
-#include "geometry/base/whole_number.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,9 @@
 #include <numeric>
 #include <set>
 #include <utility>
+
+#include "geometry/base/whole_number.hpp"
+#include "mesher/edges/count_table.hpp"
 
 namespace quadrille {
 
@@ -21,16 +23,16 @@ std::vector<double> heights_of(const SizeLayers* layers) {
 
 namespace {
 
-/// The layers that all edges of a wire have; null if they have none, or not the same.
-const SizeLayers* layers_of(const CadShape& shape, const CadWire& wire, const ByElement<SizeLayers>& layers) {
-  const SizeLayers* result = nullptr;
+/// Whether all edges of a wire have the same layers.
+bool is_layered(const CadShape& shape, const CadWire& wire, const ByElement<SizeLayers>& layers) {
+  const SizeLayers* before = nullptr;
   for (const Coedge& coedge : wire.coedges) {
     const auto own = layers.edges.find(shape.edges[coedge.edge].number);
-    if (own == layers.edges.end()) return nullptr;
-    if (result != nullptr && heights_of(result) != heights_of(&own->second)) return nullptr;
-    result = &own->second;
+    if (own == layers.edges.end()) return false;
+    if (before != nullptr && heights_of(before) != heights_of(&own->second)) return false;
+    before = &own->second;
   }
-  return result;
+  return before != nullptr;
 }
 
 /// Largest ratio between the number that a member of a chord wants and the number that it gets, either way.
@@ -77,12 +79,9 @@ class StackedEdge {
     std::vector<double> places{0};
     for (const double height : first_) places.push_back(places.back() + height);
     const int between = segments - layers();
-    int cell = 0;
     for (int k = 1; k < between; ++k) {
-      const double target = counts_.back() * k / between;
-      while (cell + 1 < samples && counts_[cell + 1] < target) ++cell;
-      const double part = (target - counts_[cell]) / (counts_[cell + 1] - counts_[cell]);
-      places.push_back(sum_of(first_) + inner_ * (cell + part) / samples);
+      const auto [cell, part] = place_in(counts_, counts_.back() * k / between);
+      places.push_back(sum_of(first_) + inner_ * (static_cast<double>(cell) + part) / samples);
     }
     places.push_back(length_ - sum_of(last_));
     for (auto height = last_.rbegin(); height != last_.rend(); ++height)
@@ -109,6 +108,7 @@ class RowFinder {
     rows_.prescribed.resize(shape.edges.size());
     rows_.divided.resize(shape.edges.size());
     rows_.layered.resize(shape.edges.size());
+    rows_.layered_loops.resize(shape.faces.size());
   }
 
   GridRows run() {
@@ -172,9 +172,10 @@ class RowFinder {
   /// Marks the edges along which some face has rows of its own.
   void find_row_loops() {
     for (const FaceId face : shape_.faces.ids()) {
-      if (sides_[face].is_rectangle()) continue;
       for (const CadWire& wire : shape_.faces[face].wires) {
-        if (layers_of(shape_, wire, options_.layers) == nullptr) continue;
+        if (!is_layered(shape_, wire, options_.layers)) continue;
+        rows_.layered_loops[face] = 1;
+        if (sides_[face].is_rectangle()) continue;
         for (const Coedge& coedge : wire.coedges) rows_.layered[coedge.edge] = 1;
       }
     }
@@ -262,33 +263,6 @@ class RowFinder {
 GridRows find_grid_rows(const CadShape& shape, const FaceOutlines& sides, PrescribedEdges prescribed,
                         const SizingOptions& options, double size) {
   return RowFinder(shape, sides, std::move(prescribed), options, size).run();
-}
-
-namespace {
-
-bool has_edge(const CadFace& face, const BoundaryNodes& nodes, bool BoundaryNodes::Edge::*is) {
-  return std::any_of(face.wires.begin(), face.wires.end(), [&](const CadWire& wire) {
-    return std::any_of(wire.coedges.begin(), wire.coedges.end(),
-                       [&](const Coedge& coedge) { return nodes.edges[coedge.edge].*is; });
-  });
-}
-
-}  // namespace
-
-bool has_row_loop(const CadShape& shape, FaceId face, const FaceSides& sides,
-                  const ByElement<SizeLayers>& layers) {
-  const auto& wires = shape.faces[face].wires;
-  return !layers.edges.empty() && !sides.is_rectangle() &&
-         std::any_of(wires.begin(), wires.end(),
-                     [&](const CadWire& wire) { return layers_of(shape, wire, layers) != nullptr; });
-}
-
-bool has_kept_edge(const CadFace& face, const BoundaryNodes& nodes) {
-  return has_edge(face, nodes, &BoundaryNodes::Edge::kept);
-}
-
-bool has_divided_edge(const CadFace& face, const BoundaryNodes& nodes) {
-  return has_edge(face, nodes, &BoundaryNodes::Edge::divided);
 }
 
 }  // namespace quadrille

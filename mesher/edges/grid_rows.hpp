@@ -7,7 +7,6 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/edge_spacing.hpp"
 #include "geometry/sizing/sizing_options.hpp"
-#include "mesher/edges/edge_sampling.hpp"
 #include "mesher/edges/face_sides.hpp"
 
 namespace quadrille {
@@ -18,16 +17,12 @@ struct GridRows {
   /// 1 = prescribed, and all faces along its chord are four-sided or rings: rows of flat quads keep
   /// the division, and the sizes around need not follow.
   EdgeFlags divided;
-  EdgeFlags layered;  ///< 1 = its layers become rows, in grids or along a loop
+  EdgeFlags layered;        ///< 1 = its layers become rows, in grids or along a loop
+  FaceFlags layered_loops;  ///< 1 = all edges of one of its wires have the same layers
 };
 
 /// Heights of the rows that layers ask for; empty if null.
 std::vector<double> heights_of(const SizeLayers* layers);
-
-/// Whether a face gets rows along a closed loop: all edges of one of its wires have the same layers, and the
-/// face is no grid whose own rows follow them.
-bool has_row_loop(const CadShape& shape, FaceId face, const FaceSides& sides,
-                  const ByElement<SizeLayers>& layers);
 
 /// Finds the divisions and layers in the options that grids can continue. The layers of an edge become rows
 /// if all its faces are four-sided, and the two sides that run away from it are single edges without a
@@ -37,11 +32,5 @@ bool has_row_loop(const CadShape& shape, FaceId face, const FaceSides& sides,
 /// on edges that options.edge_sizes does not name
 GridRows find_grid_rows(const CadShape& shape, const FaceOutlines& sides, PrescribedEdges prescribed,
                         const SizingOptions& options, double size);
-
-/// Whether users prescribe the spacing of an edge of the face (BoundaryNodes::Edge::kept).
-bool has_kept_edge(const CadFace& face, const BoundaryNodes& nodes);
-
-/// Whether users prescribe the number of segments on an edge of the face (BoundaryNodes::Edge::divided).
-bool has_divided_edge(const CadFace& face, const BoundaryNodes& nodes);
 
 }  // namespace quadrille

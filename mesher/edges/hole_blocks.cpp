@@ -228,7 +228,7 @@ bool fit_holes_to_grids(const CadShape& shape, const FaceOutlines& sides, const 
   const HoleFitter fitter(shape, chosen, tables);
   bool any = false;
   for (const FaceId i : sides.ids()) {
-    if (sides[i].outline != FaceSides::Outline::holed) continue;
+    if (!sides[i].has_holes()) continue;
     const CadFace& face = shape.faces[i];
     const auto fit = fitter.fit(face, sides[i]);
     if (!fit) continue;

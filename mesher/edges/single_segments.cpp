@@ -43,8 +43,7 @@ class SingleSegments {
   /// Chords on which sums over sides of several edges depend keep their segments, and those of faces that are
   /// filled in blocks.
   void keep_sums(const FaceSides& sides) {
-    using enum FaceSides::Outline;
-    const bool has_blocks = sides.outline == holed || sides.outline == stepped || sides.outline == odd;
+    const bool has_blocks = sides.has_holes() || sides.has_steps() || sides.is_star();
     for (const FacingPair& pair : sides.facing) {
       std::map<EdgeId, int> sums;
       for (const SideEdge& edge : pair.first) ++sums[chord(edge.edge)];
@@ -52,7 +51,7 @@ class SingleSegments {
       for (const auto& [id, sum] : sums)
         if (sum != 0 || has_blocks) single_[id] = 0;
     }
-    if (sides.outline != odd) return;
+    if (!sides.is_star()) return;
     for (const EdgeId edge : sides.rest) single_[chord(edge)] = 0;
   }
 

@@ -165,7 +165,6 @@ class TipEnder {
     follower.borrowed[tip.after.at_end ? 1 : 0] = count;
     for (const Tip::Flank* side : {&tip.before, &tip.after})
       nodes_.unused[{tip.face, side->edge}][side->at_end ? 1 : 0] = count;
-    nodes_.sides[tip.face].outline = FaceSides::Outline::other;
   }
 
  private:

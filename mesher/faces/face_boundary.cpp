@@ -22,18 +22,13 @@ constexpr int pole_segments = 6;
 class BoundaryWalker {
  public:
   BoundaryWalker(const CadShape& shape, FaceId id, const CadFace& face, const FaceSurface& surface,
-                 const BoundaryNodes& nodes, int stride)
+                 const BoundaryNodes& nodes)
       : shape_(shape), id_(id), face_(face), surface_(surface), scale_(surface.mean_scale()), nodes_(nodes) {
-    boundary_.stride = stride;
+    boundary_.stride = nodes.plans[id].stride;
   }
 
   FaceBoundary walk() {
     std::vector<int> starts;
-    for (const CadWire& wire : face_.wires) {
-      for (const Coedge& coedge : wire.coedges) {
-        if (nodes_.edges[coedge.edge].segments() % 2 == 1) boundary_.stride = 1;
-      }
-    }
     for (const CadWire& wire : face_.wires) {
       starts.push_back(boundary_.size());
       walk_wire(wire);
@@ -373,8 +368,7 @@ class BoundaryWalker {
 
 FaceBoundary face_boundary(const CadShape& shape, FaceId face, const CadFace& cad_face,
                            const FaceSurface& surface, const BoundaryNodes& nodes) {
-  const int stride = nodes.subdivided[face] != 0 ? 2 : 1;
-  FaceBoundary boundary = BoundaryWalker(shape, face, cad_face, surface, nodes, stride).walk();
+  FaceBoundary boundary = BoundaryWalker(shape, face, cad_face, surface, nodes).walk();
   if (boundary.segments.empty()) {
     const std::string name = fmt::format("Face{}", face.number());
     throw failure(name, fmt::format("{} has no usable boundary in its parameter plane", name));

@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "geometry/base/whole_number.hpp"
+#include "mesher/edges/count_table.hpp"
 #include "mesher/edges/hole_blocks.hpp"
+#include "mesher/faces/spokes.hpp"
 #include "mesher/faces/step_layout.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
 
@@ -18,7 +20,6 @@ namespace quadrille {
 
 namespace {
 
-using Outline = FaceSides::Outline;
 using Line = StepLayout::Line;  // consecutive points
 
 constexpr double least_jacobian = 0.3;  // scaled Jacobian of a cell
@@ -35,27 +36,27 @@ class GridMaker {
       : boundary_(boundary), sides_(sides), surface_(surface), size_at_(size_at), check_(context) {}
 
   std::optional<FaceGrid> run() {
-    if (sides_.outline == Outline::other || !find_loops()) return std::nullopt;
-    switch (sides_.outline) {
-      case Outline::four:
+    if (sides_.kind == GridKind::other || !find_loops()) return std::nullopt;
+    switch (sides_.kind) {
+      case GridKind::four:
         if (!make_four()) return std::nullopt;
         break;
-      case Outline::stepped:
+      case GridKind::stepped:
         if (!make_stepped()) return std::nullopt;
         break;
-      case Outline::ring:
+      case GridKind::ring:
         if (!make_ring()) return std::nullopt;
         break;
-      case Outline::odd:
+      case GridKind::odd:
         if (!make_odd()) return std::nullopt;
         break;
-      case Outline::holed:
+      case GridKind::holed:
         // The grid can be judged only after nodes have been moved.
         if (!make_holed() || !follows_sizes()) return std::nullopt;
         drop_unused();
         turn_to_left();
         return std::move(grid_);
-      case Outline::other:
+      case GridKind::other:
         return std::nullopt;
     }
     if (!is_good() || !follows_sizes()) return std::nullopt;
@@ -169,54 +170,35 @@ class GridMaker {
     }
     const int rows = std::max(1, round_to_int(counts.back()));
     std::vector<double> shares{0};
-    int cell = 0;
     for (int k = 1; k < rows; ++k) {
-      const double target = counts.back() * k / rows;
-      while (cell + 1 < samples && counts[cell + 1] < target) ++cell;
-      shares.push_back((cell + (target - counts[cell]) / (counts[cell + 1] - counts[cell])) / samples);
+      const auto [cell, part] = place_in(counts, counts.back() * k / rows);
+      shares.push_back((static_cast<double>(cell) + part) / samples);
     }
     shares.push_back(1);
     return shares;
   }
 
-  /// Meshes an outline with three or five corners as that many grids around one point. Side i is cut into
-  /// parts of f_i and g_i segments. The line from there to the center has f_{i+1} = g_{i-1} segments.
+  /// Meshes an outline with three or five corners as that many grids around one point.
   bool make_odd() {
     const std::vector<Line> sides = cut_loop();
     const int k = static_cast<int>(sides.size());
     if (loops_.size() != 1 || (k != 3 && k != 5)) return false;
-    std::vector<int> count(k), first(k);
-    for (int i = 0; i < k; ++i) count[i] = static_cast<int>(sides[i].size()) - 1;
-    // count_i = f_i + f_{i+2}: an alternating sum over every second side gives 2 f_i, since k is odd.
-    for (int i = 0; i < k; ++i) {
-      int twice = 0;
-      for (int j = 0, sign = 1; j < k; ++j, sign = -sign) twice += sign * count[(i + 2 * j) % k];
-      if (twice <= 0 || twice % 2 != 0) return false;
-      first[i] = twice / 2;
-    }
-    Vector2 middle(0, 0);
-    std::vector<int> feet;
-    for (int i = 0; i < k; ++i) {
-      feet.push_back(sides[i][first[i]]);
-      middle += grid_.uv[feet.back()] / k;
-    }
-    const int center = add_point(middle);
-    std::vector<Line> spokes;  // lines from the sides to the center
-    for (int i = 0; i < k; ++i) {
-      const int n = first[(i + 1) % k];
-      Line line{feet[i]};
-      for (int j = 1; j < n; ++j) line.push_back(add_between(feet[i], center, static_cast<double>(j) / n));
-      line.push_back(center);
-      spokes.push_back(line);
-    }
-    for (int i = 0; i < k; ++i) {
-      const int before = (i + k - 1) % k;
-      const Line bottom(sides[i].begin(), sides[i].begin() + first[i] + 1);
-      const Line left = turned(Line(sides[before].begin() + first[before], sides[before].end()));
-      if (bottom.size() != spokes[before].size() || left.size() != spokes[i].size()) return false;
-      fill(bottom, spokes[i], spokes[before], left);
-    }
-    return true;
+    const auto middle = [&](const Line& feet) {
+      Vector2 sum(0, 0);
+      for (const int foot : feet) sum += grid_.uv[foot] / k;
+      return add_point(sum);
+    };
+    const auto row = [&](int from, int to, int segments) {
+      Line line{from};
+      for (int j = 1; j < segments; ++j)
+        line.push_back(add_between(from, to, static_cast<double>(j) / segments));
+      line.push_back(to);
+      return line;
+    };
+    return fill_around_point(sides, middle, row,
+                             [&](const Line& bottom, const Line& right, const Line& top, const Line& left) {
+                               fill(bottom, right, turned(top), turned(left));
+                             });
   }
 
   int add_point(const Vector2& uv) {

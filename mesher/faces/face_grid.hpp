@@ -24,9 +24,9 @@ struct FaceGrid {
 };
 
 /// Meshes a face as one grid, as rows between two loops, as three or five grids that meet in a point, or as a
-/// grid with blocks replaced by holes (Outline::holed). With holes, the nodes inside must still be moved, and
-/// quads may be folded until then. \return nothing if the outline allows no grid, or if the grid would fold
-/// or miss the sizing field. Time: linear in the points.
+/// grid with blocks replaced by holes. With holes, the nodes inside must still be moved,
+/// and quads may be folded until then. \return nothing if the outline allows no grid, or if the grid would
+/// fold or miss the sizing field. Time: linear in the points.
 std::optional<FaceGrid> make_grid(const FaceBoundary& boundary, const FaceSides& sides,
                                   const FaceSurface& surface, SizingField::Sampler& size_at,
                                   const ExecutionContext& context = {});

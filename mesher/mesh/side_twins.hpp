@@ -2,6 +2,7 @@
 /// Finds the sides that two triangles of a mesh share. Internal.
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -121,6 +122,35 @@ void join_twins(const TriangleMesh& mesh, Join&& join) {
     }
   }
   if (doubtful || rows.repeated({rows.down.data(), lone})) check_sides(mesh);
+}
+
+/// The side of the other triangle at each side, by triangle and side; -1 = none.
+using Twins = std::vector<std::array<Side, 3>>;
+
+/// Numbers the pieces that triangles form across sides, from 0. \param is_open whether a piece goes on across
+/// a side that has a twin \param pieces out: piece of each triangle. \return their number.
+template <class Open>
+int number_pieces(const Twins& twins, Open&& is_open, std::vector<int>& pieces) {
+  pieces.assign(twins.size(), -1);
+  int count = 0;
+  std::vector<int> waiting;
+  for (int seed = 0; seed < static_cast<int>(twins.size()); ++seed) {
+    if (pieces[seed] >= 0) continue;
+    pieces[seed] = count;
+    waiting.push_back(seed);
+    while (!waiting.empty()) {
+      const int t = waiting.back();
+      waiting.pop_back();
+      for (int i = 0; i < 3; ++i) {
+        const Side twin = twins[t][i];
+        if (twin < 0 || pieces[triangle_of(twin)] >= 0 || !is_open(make_side(t, i))) continue;
+        pieces[triangle_of(twin)] = count;
+        waiting.push_back(triangle_of(twin));
+      }
+    }
+    ++count;
+  }
+  return count;
 }
 
 }  // namespace quadrille

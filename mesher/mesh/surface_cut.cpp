@@ -20,8 +20,6 @@ namespace quadrille {
 
 namespace {
 
-using Twins = std::vector<std::array<Side, 3>>;  // by triangle and side; -1 = none
-
 int from(const TriangleMesh& mesh, Side side) {
   return mesh.triangles[triangle_of(side)][index_of(side)];
 }
@@ -106,29 +104,6 @@ void cut_twins(const TriangleMesh& mesh, double angle, const std::vector<std::ar
       if (folded || listed) twins[t][i] = twins[triangle_of(twin)][index_of(twin)] = -1;
     }
   }
-}
-
-/// Numbers the connected pieces, from 0. \param pieces out: piece of each triangle. \return their number.
-int number_pieces(const Twins& twins, std::vector<int>& pieces) {
-  pieces.assign(twins.size(), -1);
-  int count = 0;
-  std::vector<int> waiting;
-  for (int seed = 0; seed < static_cast<int>(twins.size()); ++seed) {
-    if (pieces[seed] >= 0) continue;
-    pieces[seed] = count;
-    waiting.push_back(seed);
-    while (!waiting.empty()) {
-      const int t = waiting.back();
-      waiting.pop_back();
-      for (const Side twin : twins[t]) {
-        if (twin < 0 || pieces[triangle_of(twin)] >= 0) continue;
-        pieces[triangle_of(twin)] = count;
-        waiting.push_back(triangle_of(twin));
-      }
-    }
-    ++count;
-  }
-  return count;
 }
 
 /// Copies each point for every fan of triangles around it but the first.
@@ -263,7 +238,8 @@ CutSurface cut_surface(const TriangleMesh& mesh, double angle, std::vector<std::
     cut_twins(mesh, angle, sides, twins);
     CutSurface surface{mesh, std::vector<int>(mesh.points.size()), 0};
     std::iota(surface.original.begin(), surface.original.end(), 0);
-    surface.pieces = number_pieces(twins, surface.mesh.tags);
+    surface.pieces = number_pieces(
+        twins, [](Side) { return true; }, surface.mesh.tags);
     PointSplitter(twins, surface).split();
     // A cut along a single side separates no points. It continues along the next side of its triangle.
     const std::size_t count = sides.size();

@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include "mesher/faces/spokes.hpp"
+
 namespace quadrille {
 namespace {
 
@@ -17,30 +19,6 @@ using Chain = std::vector<int>;  ///< the nodes of a side, both ends included
 int segments_of(const Chain& chain) {
   return static_cast<int>(chain.size()) - 1;
 }
-
-/// How a polygon with three or five sides is filled around one irregular node. A row leads from that node to
-/// each side; `before` has the number of segments from the first corner of the side to the row.
-struct Spokes {
-  std::array<int, 5> before{};
-  int least = 0;  ///< least of `before`; below 1 if there is no such filling
-
-  explicit Spokes(std::span<const int> sides) {
-    const int n = static_cast<int>(sides.size());
-    for (int i = 0; i < n; ++i) {
-      int sum = 0;
-      for (int k = 0; k < n; ++k) sum += (k % 2 == 0 ? 1 : -1) * sides[(i + 2 * k) % n];
-      before[i] = sum % 2 == 0 ? sum / 2 : 0;
-    }
-    least = *std::min_element(before.begin(), before.begin() + n);
-  }
-
-  int quads(std::span<const int> sides) const {
-    int sum = 0;
-    for (std::size_t i = 0, last = sides.size() - 1; i < sides.size(); last = i++)
-      sum += before[i] * (sides[last] - before[last]);
-    return sum;
-  }
-};
 
 bool is_grid(std::span<const int> sides) {
   return sides.size() == 4 && sides[0] == sides[2] && sides[1] == sides[3];
@@ -64,22 +42,18 @@ class Filler {
   void fill(const std::vector<Chain>& sides) {
     const int n = static_cast<int>(sides.size());
     if (n == 4) return grid(sides[0], sides[1], sides[2], sides[3]);
-    std::vector<int> lengths;
-    for (const Chain& side : sides) lengths.push_back(segments_of(side));
-    const Spokes spokes(lengths);
-    Vector3 middle = Vector3::Zero();
-    for (int i = 0; i < n; ++i) middle += at(sides[i][spokes.before[i]]) / n;
-    const int center = add(middle);
     ++filling_.irregular;
-    std::vector<Chain> spoke;
-    for (int i = 0; i < n; ++i)
-      spoke.push_back(row(sides[i][spokes.before[i]], center, spokes.before[(i + 1) % n]));
-    for (int i = 0; i < n; ++i) {
-      const int last = (i + n - 1) % n;
-      grid(Chain(sides[i].begin(), sides[i].begin() + spokes.before[i] + 1), spoke[i],
-           Chain(spoke[last].rbegin(), spoke[last].rend()),
-           Chain(sides[last].begin() + spokes.before[last], sides[last].end()));
-    }
+    fill_around_point(
+        sides,
+        [&](const Chain& feet) {
+          Vector3 middle = Vector3::Zero();
+          for (const int foot : feet) middle += at(foot) / n;
+          return add(middle);
+        },
+        [&](int from, int to, int segments) { return row(from, to, segments); },
+        [&](const Chain& south, const Chain& east, const Chain& north, const Chain& west) {
+          grid(south, east, north, west);
+        });
   }
 
   PolygonFilling take() { return std::move(filling_); }

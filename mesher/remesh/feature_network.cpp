@@ -93,25 +93,8 @@ class FeatureFinder {
   }
 
   void number_patches() {
-    network_.patches.assign(twins_.size(), -1);
-    network_.patch_count = 0;
-    std::vector<int> waiting;
-    for (int seed = 0; seed < static_cast<int>(twins_.size()); ++seed) {
-      if (network_.patches[seed] >= 0) continue;
-      network_.patches[seed] = network_.patch_count;
-      waiting.push_back(seed);
-      while (!waiting.empty()) {
-        const int t = waiting.back();
-        waiting.pop_back();
-        for (int i = 0; i < 3; ++i) {
-          const Side other = twins_[t][i];
-          if (other < 0 || marked_[t][i] || network_.patches[triangle_of(other)] >= 0) continue;
-          network_.patches[triangle_of(other)] = network_.patch_count;
-          waiting.push_back(triangle_of(other));
-        }
-      }
-      ++network_.patch_count;
-    }
+    const auto is_open = [&](Side side) { return !marked_[triangle_of(side)][index_of(side)]; };
+    network_.patch_count = number_pieces(twins_, is_open, network_.patches);
   }
 
   void absorb_small_patches() {
@@ -266,7 +249,7 @@ class FeatureFinder {
 
   const TriangleMesh& surface_;
   const FeatureRules& rules_;
-  std::vector<std::array<Side, 3>> twins_;
+  Twins twins_;
   std::vector<Vector3> areas_;
   std::vector<std::array<char, 3>> marked_;
   std::vector<Side> sides_;

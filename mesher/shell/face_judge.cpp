@@ -51,11 +51,11 @@ double badness(const FaceMesh& mesh) {
 
 }  // namespace
 
-bool FaceJudge::is_doubtful(const FaceMesh& grid, bool stepped, bool divided) {
-  stepped_ = stepped;
-  outside_ = stepped || has_rows(grid) ? share_outside(grid) : 0;
-  wasteful_ = !divided && wastes_quads(grid, GridWaste::wasteful);
-  return wasteful_ || outside_ > (stepped ? thresholds.outside_of_steps : thresholds.outside_of_grid);
+bool FaceJudge::is_doubtful(const FaceMesh& grid, const FacePlan& plan) {
+  stepped_ = plan.has_steps;
+  outside_ = stepped_ || has_rows(grid) ? share_outside(grid) : 0;
+  wasteful_ = !plan.has_divided_edge && wastes_quads(grid, GridWaste::wasteful);
+  return wasteful_ || outside_ > (stepped_ ? thresholds.outside_of_steps : thresholds.outside_of_grid);
 }
 
 bool FaceJudge::replaces_grid(const FaceMesh& other, const FaceMesh& grid) const {

@@ -33,9 +33,8 @@ class FaceJudge {
   FaceJudge(const SizingField& field, FaceId face, const ExecutionContext& context)
       : size_at_(field, face), context_(context) {}
 
-  /// Whether other meshes than this grid are worth trying. \param stepped its outline has steps
-  /// \param divided users prescribe the number of its rows
-  bool is_doubtful(const FaceMesh& grid, bool stepped, bool divided);
+  /// Whether other meshes than this grid are worth trying.
+  bool is_doubtful(const FaceMesh& grid, const FacePlan& plan);
   /// Whether another mesh is to replace the grid that is_doubtful() saw last.
   bool replaces_grid(const FaceMesh& other, const FaceMesh& grid) const;
 

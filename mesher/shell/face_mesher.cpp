@@ -60,7 +60,7 @@ class FaceMesher {
         surface_(*chart.surface),
         size_at_(field, face),
         judge_(field, face, context),
-        has_rows_(has_row_loop(shape, face, nodes.sides[face], options.sizing.layers)) {}
+        plan_(nodes.plans[face]) {}
 
   FaceMesh run() {
     using Layout = Candidate::Layout;
@@ -88,7 +88,7 @@ class FaceMesher {
  private:
   bool is_worth_trying(const Candidate& candidate, const std::optional<FaceMesh>& best) {
     using Layout = Candidate::Layout;
-    if (has_rows_) return candidate.layout == Layout::rings && !best;
+    if (plan_.has_row_loop) return candidate.layout == Layout::rings && !best;
     const bool is_last_resort = recipe_.off != FaceRecipe::Off::none;
     if (candidate.layout == Layout::grid) return recipe_.mapped && !is_last_resort;
     if (candidate.direct)
@@ -113,9 +113,7 @@ class FaceMesher {
   }
 
   bool is_doubtful(const FaceMesh& grid) {
-    if (has_kept_edge(shape_.faces[face_], nodes_)) return false;  // flat rows are wanted
-    return judge_.is_doubtful(grid, nodes_.sides[face_].outline == FaceSides::Outline::stepped,
-                              has_divided_edge(shape_.faces[face_], nodes_));
+    return !plan_.has_kept_edge && judge_.is_doubtful(grid, plan_);  // kept: flat rows are wanted
   }
 
   std::optional<FaceMesh> ringed_mesh(const Candidate& candidate) {
@@ -139,7 +137,8 @@ class FaceMesher {
   /// The heights of the rows asked for along an edge; empty where there are none.
   std::vector<double> heights_along(EdgeId edge) const {
     const auto& layers = options_.sizing.layers.edges;
-    const auto own = has_rows_ && edge.exists() ? layers.find(shape_.edges[edge].number) : layers.end();
+    const auto own =
+        plan_.has_row_loop && edge.exists() ? layers.find(shape_.edges[edge].number) : layers.end();
     return own == layers.end() ? std::vector<double>() : heights_of(&own->second);
   }
 
@@ -176,9 +175,11 @@ class FaceMesher {
 
   std::optional<FaceMesh> grid_mesh() {
     const StageTimer timer(context_, Stage::triangulate);
-    auto grid = make_grid(chart_.boundary, nodes_.sides[face_], surface_, size_at_, context_);
+    auto grid = make_grid(chart_.boundary, plan_.sides, surface_, size_at_, context_);
     context_.check();
-    if (!grid || (grid->rings > 0 && grid->rings < options_.rings)) return std::nullopt;
+    if (!grid) return std::nullopt;
+    const bool has_holes = grid->rings > 0;
+    if (has_holes && grid->rings < options_.rings) return std::nullopt;
     FaceQuads quads;
     quads.nodes = std::move(grid->nodes);
     auto& mesh = quads.surface_mesh;
@@ -187,7 +188,7 @@ class FaceMesher {
     mesh.parameters = std::move(grid->uv);
     quads.pole.assign(mesh.parameters.size(), 0);
     context_.check();
-    if (nodes_.sides[face_].outline == FaceSides::Outline::holed && !settle(quads)) return std::nullopt;
+    if (has_holes && !settle(quads)) return std::nullopt;
     FaceMesh result = finish(std::move(quads));
     result.grid = true;
     return result;
@@ -273,7 +274,7 @@ class FaceMesher {
   const FaceSurface& surface_;
   SizingField::Sampler size_at_;
   FaceJudge judge_;
-  bool has_rows_;  // along a loop
+  const FacePlan& plan_;
   std::optional<HoleRings> rings_;
   std::optional<FaceProblem> problem_;                   // of the last candidate that failed
   Candidate::Layout layout_ = Candidate::Layout::plain;  // of the best mesh other than a grid

@@ -12,7 +12,6 @@
 #include "geometry/cad/parallel_ids.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
-#include "mesher/edges/grid_rows.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/sides.hpp"
@@ -452,9 +451,7 @@ class NodeSliding {
 
   /// Whether a face has rows along a loop, or is a grid beside an edge with prescribed spacing.
   bool keeps_rows(FaceId face) const {
-    if (states_[face].mesh->rows) return true;
-    if (!states_[face].mesh->grid || !nodes_.sides[face].has_whole_rows()) return false;
-    return has_kept_edge(shape_.faces[face], nodes_);
+    return states_[face].mesh->rows || (states_[face].mesh->grid && nodes_.plans[face].keeps_rows);
   }
 
   void relax_face(FaceId id) {

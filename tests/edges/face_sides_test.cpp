@@ -29,8 +29,6 @@
 namespace quadrille {
 namespace {
 
-using Outline = FaceSides::Outline;
-
 FaceOutlines outlines_of(const CadModel& model, double size, const FaceFlags& used) {
   const CadShape& shape = model.shape();
   IdVector<EdgeId, double> wanted(shape.edges.size());
@@ -65,33 +63,33 @@ double length_of(const CadShape& shape, const FaceSide& side) {
 
 TEST(FaceSides, KnowsPolygonsByTheirCorners) {
   const FaceSides four = outline_of({{0, 0}, {10, 0}, {10, 6}, {0, 6}});
-  EXPECT_EQ(four.outline, Outline::four);
+  EXPECT_EQ(four.kind, GridKind::four);
   EXPECT_EQ(four.starts.size(), 4U);
   EXPECT_EQ(four.facing.size(), 2U);
   EXPECT_TRUE(four.rest.empty());
   const FaceSides three = outline_of({{0, 0}, {10, 0}, {5, 8}});
-  EXPECT_EQ(three.outline, Outline::odd);
+  EXPECT_EQ(three.kind, GridKind::odd);
   EXPECT_EQ(three.starts.size(), 3U);
   const FaceSides steps = outline_of({{0, 0}, {20, 0}, {20, 8}, {9, 8}, {9, 15}, {0, 15}});
-  EXPECT_EQ(steps.outline, Outline::stepped);
+  EXPECT_EQ(steps.kind, GridKind::stepped);
   EXPECT_EQ(steps.directions, (std::vector<int>{0, 1, 2, 1, 2, 3}));
 }
 
 TEST(FaceSides, KnowsRingsHolesAndRoundFaces) {
   for (const double inner : {6.0, 9.0}) {
     const FaceSides ring = outlines_of(annulus(10, inner, 0), 1)[face_id(1)];
-    EXPECT_EQ(ring.outline, Outline::ring) << inner;
+    EXPECT_EQ(ring.kind, GridKind::ring) << inner;
     ASSERT_EQ(ring.facing.size(), 1U);
     EXPECT_TRUE(ring.rest.empty());
   }
   const FaceSides crooked = outlines_of(annulus(10, 4, 5), 1)[face_id(1)];
-  EXPECT_EQ(crooked.outline, Outline::other);
+  EXPECT_EQ(crooked.kind, GridKind::other);
   EXPECT_EQ(crooked.rest.size(), 2U);
   const FaceSides holed = outlines_of(CadModel::read(sample_model("plate_with_holes").path()), 3)[face_id(1)];
-  EXPECT_EQ(holed.outline, Outline::holed);
+  EXPECT_EQ(holed.kind, GridKind::holed);
   const CadModel disc = CadModel::read(sample_model("disc").path());
   const FaceSides round = outlines_of(disc, 2)[face_id(1)];
-  EXPECT_EQ(round.outline, Outline::other);
+  EXPECT_EQ(round.kind, GridKind::other);
   EXPECT_EQ(round.rest.size(), 1U);
 }
 
@@ -103,7 +101,7 @@ TEST(FaceSides, PairsOppositeSides) {
   const CadShape& shape = model.shape();
   const FaceOutlines sides = outlines_of(model, 1);
   for (const FaceSides& face : sides) {
-    EXPECT_EQ(face.outline, Outline::four);
+    EXPECT_EQ(face.kind, GridKind::four);
     EXPECT_EQ(face.facing.size(), 2U);
     for (const FacingPair& pair : face.facing)
       EXPECT_NEAR(length_of(shape, pair.first), length_of(shape, pair.second), 1e-9);
@@ -149,7 +147,7 @@ TEST(FaceSides, LeavesUnusedFacesOut) {
   used[face_id(3)] = 0;
   const FaceOutlines sides = outlines_of(box, 2, used);
   for (const FaceId face : sides.ids()) {
-    EXPECT_EQ(sides[face].outline, used[face] ? Outline::four : Outline::other);
+    EXPECT_EQ(sides[face].kind, used[face] ? GridKind::four : GridKind::other);
     EXPECT_EQ(sides[face].facing.empty(), !used[face]);
   }
 }

@@ -180,8 +180,9 @@ TEST(Chords, ShareTheirSpacing) {
     return result;
   };
   int pairs = 0;
-  for (const FaceSides& sides : nodes.sides) {
-    EXPECT_EQ(sides.outline, FaceSides::Outline::four);
+  for (const FacePlan& plan : nodes.plans) {
+    const FaceSides& sides = plan.sides;
+    EXPECT_EQ(sides.kind, GridKind::four);
     for (const FacingPair& pair : sides.facing) {
       ASSERT_EQ(pair.first.size(), 1U);
       ASSERT_EQ(pair.second.size(), 1U);

@@ -394,7 +394,7 @@ TEST(EdgeSampling, MakesEveryFaceEvenWithSegmentsOfTheSize) {
         const IdVector<FaceId, int> counts = face_counts(model, nodes);
         for (const FaceId face : counts.ids()) {
           // Only grids go without the stride.
-          const bool is_grid = nodes.sides[face].rest.empty();
+          const bool is_grid = nodes.plans[face].sides.rest.empty();
           EXPECT_EQ(counts[face] % (is_grid ? 2 : 2 * nodes.stride), 0);
           EXPECT_GE(counts[face], 4);
         }

@@ -1,0 +1,63 @@
+/// Puts together what the outline of a face, the counts on its edges and the wishes of users make of it.
+
+#include "mesher/edges/face_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "mesher/edges/edge_sampling.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// The number of quads of a grid between four sides whose opposite ones have as many segments; else 0.
+int count_quads(const CadFace& face, const FaceSides& sides, const BoundaryNodes& nodes) {
+  const auto& coedges = face.wires[sides.outer].coedges;
+  std::array<int, 4> counts{};
+  for (std::size_t side = 0; side < counts.size(); ++side) {
+    std::size_t i = sides.starts[side];
+    do {
+      counts[side] += std::max(0, nodes.edges[coedges[i].edge].segments());
+      i = (i + 1) % coedges.size();
+    } while (static_cast<int>(i) != sides.starts[(side + 1) % counts.size()]);
+  }
+  return counts[0] == counts[2] && counts[1] == counts[3] ? counts[0] * counts[1] : 0;
+}
+
+FacePlan plan_of(const CadFace& face, FaceSides sides, bool subdivided, bool layered_loop,
+                 const BoundaryNodes& nodes) {
+  FacePlan plan;
+  plan.stride = subdivided ? 2 : 1;
+  for (const CadWire& wire : face.wires) {
+    for (const Coedge& coedge : wire.coedges) {
+      const BoundaryNodes::Edge& edge = nodes.edges[coedge.edge];
+      if (edge.segments() % 2 == 1) plan.stride = 1;
+      plan.has_kept_edge |= edge.kept;
+      plan.has_divided_edge |= edge.divided;
+    }
+  }
+  plan.is_filled = sides.is_filled();
+  plan.has_steps = sides.has_steps();
+  plan.has_row_loop = layered_loop && !sides.is_rectangle();
+  plan.keeps_rows = sides.has_whole_rows() && plan.has_kept_edge;
+  if (sides.has_four_sides()) plan.grid_quads = count_quads(face, sides, nodes);
+  plan.sides = std::move(sides);
+  return plan;
+}
+
+}  // namespace
+
+FacePlans plan_faces(const CadShape& shape, FaceOutlines sides, const SamplingPlan& sampling,
+                     const BoundaryNodes& nodes) {
+  for (const auto& [side, counts] : nodes.unused) sides[side.first].drop_grid();  // it ends before a tip
+  FacePlans plans(shape.faces.size());
+  for (const FaceId face : plans.ids())
+    plans[face] = plan_of(shape.faces[face], std::move(sides[face]),
+                          nodes.stride == 2 || sampling.subdivided[face] != 0,
+                          sampling.layered_loops[face] != 0, nodes);
+  return plans;
+}
+
+}  // namespace quadrille
