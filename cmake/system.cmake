@@ -1,21 +1,34 @@
 # What the build asks of the operating system, one function a concern, each with one implementation a system: docs/porting.md
 # tells what others need.
 
-# Where OpenVDB's find module lies: Debian keeps it apart. On Windows it lies among what scripts/windows.sh has built.
-function(quadrille_openvdb_module result)
-  if(WIN32)
-    set(${result} ${CMAKE_PREFIX_PATH}/lib/cmake/OpenVDB PARENT_SCOPE)
-  else()
-    set(${result} /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB PARENT_SCOPE)
-  endif()
-endfunction()
+# scripts/windows.sh builds for Windows on Debian.
+set(WINDOWS_ON_DEBIAN FALSE)
+if(WIN32 AND CMAKE_CROSSCOMPILING)
+  set(WINDOWS_ON_DEBIAN TRUE)
+endif()
 
-# CGAL's headers. On Windows without GMP and MPFR: Boost's numbers are exact too.
+# OpenVDB; Debian keeps its find module apart. Built for Windows it is a static library without Boost's.
+macro(quadrille_find_openvdb)
+  if(WINDOWS_ON_DEBIAN)
+    add_library(OpenVDB::openvdb INTERFACE IMPORTED)
+    target_include_directories(OpenVDB::openvdb SYSTEM INTERFACE ${CMAKE_PREFIX_PATH}/include)
+    target_compile_definitions(OpenVDB::openvdb INTERFACE OPENVDB_STATICLIB)
+    foreach(library openvdb blosc lz4 zstd z)
+      find_library(OPENVDB_${library} NAMES lib${library}.a REQUIRED)
+      target_link_libraries(OpenVDB::openvdb INTERFACE ${OPENVDB_${library}})
+    endforeach()
+    target_link_libraries(OpenVDB::openvdb INTERFACE TBB::tbb)
+  else()
+    list(APPEND CMAKE_MODULE_PATH /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB)
+    find_package(OpenVDB REQUIRED)
+  endif()
+endmacro()
+
+# CGAL's headers. Built for Windows without GMP and MPFR: Boost's numbers are exact too.
 macro(quadrille_find_cgal)
-  if(WIN32)
-    find_path(CGAL_INCLUDE_DIR CGAL/version.h REQUIRED)
+  if(WINDOWS_ON_DEBIAN)
     add_library(CGAL::CGAL INTERFACE IMPORTED)
-    target_include_directories(CGAL::CGAL SYSTEM INTERFACE ${CGAL_INCLUDE_DIR})
+    target_include_directories(CGAL::CGAL SYSTEM INTERFACE ${CMAKE_PREFIX_PATH}/include)
     target_compile_definitions(CGAL::CGAL INTERFACE CGAL_DISABLE_GMP CGAL_HEADER_ONLY)
     target_compile_options(CGAL::CGAL INTERFACE -frounding-math)
   else()
@@ -41,6 +54,7 @@ if(WIN32)
   set(SYSTEM_LIBRARIES psapi shell32)
   # Modules are called as libraries are on other systems.
   set(CMAKE_SHARED_MODULE_PREFIX "")
-  # The same functions as elsewhere: file names of 32 767 letters, no macros min and max.
-  add_compile_definitions(UNICODE _UNICODE NOMINMAX WIN32_LEAN_AND_MEAN _WIN32_WINNT=0x0A00 _USE_MATH_DEFINES)
+  # File names in UTF-16, and no macros in the place of common words.
+  add_compile_definitions(UNICODE _UNICODE NOMINMAX WIN32_LEAN_AND_MEAN _USE_MATH_DEFINES)
+  add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${PROJECT_SOURCE_DIR}/geometry/base/plain_names_windows.hpp>")
 endif()

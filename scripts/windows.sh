@@ -23,7 +23,8 @@ step() {
   local what=$1 start=$SECONDS
   shift
   printf '%s ...' "$what"
-  "$@" >"$cache/log" 2>&1 || { echo " failed:"; tail -n 40 "$cache/log"; exit 1; }
+  "$@" >"$cache/log" 2>&1 &  # beside this shell, where the first error ends it
+  wait $! || { echo " failed:"; tail -n 40 "$cache/log"; exit 1; }
   printf ' %d s\n' $((SECONDS - start))
 }
 
@@ -101,7 +102,7 @@ build_opencascade() {
   local toolkit
   for toolkit in "$cache"/src/occt-*/src/TK*; do
     grep -q join_packages "$toolkit/CMakeLists.txt" ||
-      printf 'include(%s)\njoin_packages(%s)\n' "$PWD/cmake/opencascade_windows.cmake" "${toolkit##*/}" >>"$toolkit/CMakeLists.txt"
+      printf 'include(%s)\njoin_packages(%s)\n' "$PWD/cmake/windows/opencascade.cmake" "${toolkit##*/}" >>"$toolkit/CMakeLists.txt"
   done
   local off=() module
   for module in FoundationClasses ModelingData ModelingAlgorithms Visualization ApplicationFramework DataExchange Draw; do
@@ -125,7 +126,7 @@ build_openvdb() {
 build_quadrille() {
   configure . build-windows -DQUADRILLE_TESTS=OFF -DQUADRILLE_BENCH=OFF -DQUADRILLE_PYTHON=OFF -DQUADRILLE_INSTALL=OFF \
     -DQUADRILLE_VTK=OFF -DQUADRILLE_MED=OFF
-  ninja -C build-windows quadrille
+  ninja -k 0 -C build-windows quadrille
 }
 
 # The libraries that a program needs and that are no part of Windows, and those that they need.
@@ -149,7 +150,7 @@ pack() {
   rm -rf "$stage"
   mkdir -p "$addon/bin/licences"
   cp build-windows/quadrille.exe build-windows/quadrille_*.dll "$addon/bin/"
-  "$target-strip" "$addon"/bin/*
+  "$target-strip" "$addon"/bin/*.exe "$addon"/bin/*.dll
   copy_libraries "$addon/bin"
   git ls-files workbench | grep -vE '[.](cpp|hpp)$' | while read -r file; do
     install -D -m 644 "$file" "$addon/${file#workbench/}"

@@ -24,17 +24,17 @@ namespace quadrille {
 namespace {
 
 /// A handle that is closed at the end.
-class Handle {
+class OwnedHandle {
  public:
-  explicit Handle(HANDLE handle = nullptr) : handle_(handle) {}
-  Handle(Handle&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
-  Handle& operator=(Handle&& other) noexcept {
+  explicit OwnedHandle(HANDLE handle = nullptr) : handle_(handle) {}
+  OwnedHandle(OwnedHandle&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
+  OwnedHandle& operator=(OwnedHandle&& other) noexcept {
     std::swap(handle_, other.handle_);
     return *this;
   }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  ~Handle() { close(); }
+  OwnedHandle(const OwnedHandle&) = delete;
+  OwnedHandle& operator=(const OwnedHandle&) = delete;
+  ~OwnedHandle() { close(); }
   operator HANDLE() const { return handle_; }
   void close() {
     if (handle_ != nullptr && handle_ != INVALID_HANDLE_VALUE) ::CloseHandle(handle_);
@@ -70,8 +70,8 @@ std::wstring command_line(const std::filesystem::path& program, const IsolatedTa
 }
 
 /// All processes in it end when this handle is closed, thus also when this process is killed.
-Handle make_job(std::size_t memory) {
-  Handle job(::CreateJobObjectW(nullptr, nullptr));
+OwnedHandle make_job(std::size_t memory) {
+  OwnedHandle job(::CreateJobObjectW(nullptr, nullptr));
   JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits{};
   limits.BasicLimitInformation.LimitFlags =
       JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE | JOB_OBJECT_LIMIT_DIE_ON_UNHANDLED_EXCEPTION;
@@ -85,7 +85,7 @@ Handle make_job(std::size_t memory) {
 
 /// A child in its job. The destructor ends it.
 struct Child {
-  Handle job, process, heard;
+  OwnedHandle job, process, heard;
 
   Child() = default;
   Child(Child&&) = default;
@@ -106,11 +106,12 @@ Child start(const IsolatedWork& options) {
   HANDLE read_end = nullptr, write_end = nullptr;
   if (!::CreatePipe(&read_end, &write_end, &inherited, 1 << 16)) throw no_process(options.subject);
   Child child;
-  child.heard = Handle(read_end);
-  const Handle told(write_end);
+  child.heard = OwnedHandle(read_end);
+  const OwnedHandle told(write_end);
   ::SetHandleInformation(read_end, HANDLE_FLAG_INHERIT, 0);
-  const Handle nothing(::CreateFileW(L"NUL", GENERIC_READ | GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE,
-                                     &inherited, OPEN_EXISTING, 0, nullptr));
+  const OwnedHandle nothing(::CreateFileW(L"NUL", GENERIC_READ | GENERIC_WRITE,
+                                          FILE_SHARE_READ | FILE_SHARE_WRITE, &inherited, OPEN_EXISTING, 0,
+                                          nullptr));
   STARTUPINFOW startup{};
   startup.cb = sizeof startup;
   startup.dwFlags = STARTF_USESTDHANDLES;
@@ -122,8 +123,8 @@ Child start(const IsolatedWork& options) {
   if (!::CreateProcessW(program.c_str(), line.data(), nullptr, nullptr, TRUE,
                         CREATE_NO_WINDOW | CREATE_SUSPENDED, nullptr, nullptr, &startup, &made))
     throw no_process(options.subject);
-  child.process = Handle(made.hProcess);
-  const Handle thread(made.hThread);
+  child.process = OwnedHandle(made.hProcess);
+  const OwnedHandle thread(made.hThread);
   ::AssignProcessToJobObject(child.job, child.process);
   ::ResumeThread(thread);
   return child;
