@@ -1,10 +1,40 @@
-# What the build asks of the operating system, one function a concern, each with one implementation now: docs/porting.md
+# What the build asks of the operating system, one function a concern, each with one implementation a system: docs/porting.md
 # tells what others need.
 
-# Where OpenVDB's find module lies: Debian keeps it apart.
-function(quadrille_openvdb_module result)
-  set(${result} /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB PARENT_SCOPE)
-endfunction()
+# scripts/windows.sh builds for Windows on Debian.
+set(WINDOWS_ON_DEBIAN FALSE)
+if(WIN32 AND CMAKE_CROSSCOMPILING)
+  set(WINDOWS_ON_DEBIAN TRUE)
+endif()
+
+# OpenVDB; Debian keeps its find module apart. Built for Windows it is a static library without Boost's.
+macro(quadrille_find_openvdb)
+  if(WINDOWS_ON_DEBIAN)
+    add_library(OpenVDB::openvdb INTERFACE IMPORTED)
+    target_include_directories(OpenVDB::openvdb SYSTEM INTERFACE ${CMAKE_PREFIX_PATH}/include)
+    target_compile_definitions(OpenVDB::openvdb INTERFACE OPENVDB_STATICLIB)
+    foreach(library openvdb blosc lz4 zstd z)
+      find_library(OPENVDB_${library} NAMES lib${library}.a REQUIRED)
+      target_link_libraries(OpenVDB::openvdb INTERFACE ${OPENVDB_${library}})
+    endforeach()
+    target_link_libraries(OpenVDB::openvdb INTERFACE TBB::tbb)
+  else()
+    list(APPEND CMAKE_MODULE_PATH /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB)
+    find_package(OpenVDB REQUIRED)
+  endif()
+endmacro()
+
+# CGAL's headers. Built for Windows without GMP and MPFR: Boost's numbers are exact too.
+macro(quadrille_find_cgal)
+  if(WINDOWS_ON_DEBIAN)
+    add_library(CGAL::CGAL INTERFACE IMPORTED)
+    target_include_directories(CGAL::CGAL SYSTEM INTERFACE ${CMAKE_PREFIX_PATH}/include)
+    target_compile_definitions(CGAL::CGAL INTERFACE CGAL_DISABLE_GMP CGAL_HEADER_ONLY)
+    target_compile_options(CGAL::CGAL INTERFACE -frounding-math)
+  else()
+    find_package(CGAL REQUIRED)
+  endif()
+endmacro()
 
 # The target that gives pictures a display, which the picture module links.
 macro(quadrille_find_display result)
@@ -17,3 +47,14 @@ endmacro()
 function(quadrille_default_python result)
   set(${result} /usr/bin/python3 PARENT_SCOPE)
 endfunction()
+
+# Libraries that our code for this system calls.
+set(SYSTEM_LIBRARIES ${CMAKE_DL_LIBS})
+if(WIN32)
+  set(SYSTEM_LIBRARIES psapi shell32)
+  # Modules are called as libraries are on other systems.
+  set(CMAKE_SHARED_MODULE_PREFIX "")
+  # File names in UTF-16, and no macros in the place of common words.
+  add_compile_definitions(UNICODE _UNICODE NOMINMAX WIN32_LEAN_AND_MEAN _USE_MATH_DEFINES)
+  add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${PROJECT_SOURCE_DIR}/geometry/base/plain_names_windows.hpp>")
+endif()

@@ -44,7 +44,7 @@ INCLUDE = re.compile(r'^#include "((?:geometry|mesher)/[^"]+)"', re.MULTILINE)
 
 # Headers that C++ and the libraries do not bring.
 SYSTEM = re.compile(r"^#include <(?:(?:sys|linux|X11|arpa|netinet|mach)/[^>]+|(?:unistd|fcntl|dlfcn|link|elf|poll|spawn|pthread|sched|"
-                    r"signal|csignal|termios|malloc|pwd|windows)(?:\.h)?)>", re.MULTILINE | re.IGNORECASE)
+                    r"signal|csignal|termios|malloc|pwd|windows|psapi|shellapi|io)(?:\.h)?)>", re.MULTILINE | re.IGNORECASE)
 PLACE = re.compile(r"""["'(=](?:/proc/|/dev/|/etc/|/usr/|/sys/)""")
 
 
@@ -94,6 +94,15 @@ class Rooms(unittest.TestCase):
         self.assertEqual(asking - told, set())
         self.assertEqual(told - set(files), set())
         self.assertGreater(len(asking), 5)
+        # No file asks which system it is built for, but the one that marks what a library exports.
+        asks = re.compile(r"^ *#.*(_WIN32|__MINGW|__linux__|__APPLE__)", re.MULTILINE)
+        wrong = {name for name, text in files.items() if asks.search(text)}
+        self.assertEqual(wrong, {"geometry/base/api.hpp"})
+        # What Windows does otherwise lies beside what POSIX does, and under its name.
+        windows = {name for name in files if name.endswith("_windows.cpp")}
+        self.assertGreater(len(windows), 5)
+        self.assertEqual({name for name in windows if name.replace("_windows.cpp", ".cpp") not in files},
+                         {"geometry/base/utf8_names_windows.cpp"})
         builds = [ROOT / "CMakeLists.txt", *(ROOT / "cmake").glob("*.cmake"), *ROOT.glob("*/CMakeLists.txt"),
                   *ROOT.glob("tests/*/CMakeLists.txt")]
         wrong = [str(p.relative_to(ROOT)) for p in builds

@@ -17,24 +17,19 @@
 #include <ext/stdio_filebuf.h>
 #include <fstream>
 #include <istream>
-#include <new>
 #include <ostream>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/isolated_answer.hpp"
 
 namespace quadrille {
 
 namespace {
-
-/// The kind of a child's answer, which it writes at the very end. A child that crashes does not get there.
-enum Answer : char { result = 'R', failure_sentence = 'F', usage_sentence = 'U' };
-constexpr std::string_view end_of_answer = "\nquadrille has answered: ";
 
 class Descriptor {
  public:
@@ -107,29 +102,12 @@ void limit_memory(std::size_t bytes) {
   ::setrlimit(RLIMIT_AS, &limit);
 }
 
-Answer answer(const std::string& subject, const std::function<void(std::ostream&)>& work, std::ostream& out) {
-  try {
-    work(out);
-    return result;
-  } catch (const Error& error) {
-    out << error.what();
-    return error.kind() == Error::Kind::usage ? usage_sentence : failure_sentence;
-  } catch (const std::bad_alloc&) {
-    out << subject << ": is too large for the memory of this machine";
-  } catch (const std::exception& problem) {
-    out << subject << ": " << problem.what();
-  }
-  return failure_sentence;
-}
-
 [[noreturn]] void work_as_child(const IsolatedWork& options, const std::function<void(std::ostream&)>& work,
                                 int pipe) {
   if (options.memory > 0) limit_memory(options.memory);
   __gnu_cxx::stdio_filebuf<char> buffer(pipe, std::ios::out | std::ios::binary);
   std::ostream out(&buffer);
-  const Answer given = answer(options.subject, work, out);
-  out << end_of_answer << static_cast<char>(given);
-  out.flush();
+  write_answer(options.subject, work, out);
   ::_exit(0);
 }
 
@@ -157,19 +135,6 @@ std::string listen(Child& child, int pipe, const IsolatedWork& options) {
     if (options.time_limit > 0 && past.count() > options.time_limit)
       throw failure(options.subject, options.too_long);
   }
-}
-
-/// What the child has written. Throws the Error that the child has thrown.
-std::string result_of(const IsolatedWork& options, std::string bytes) {
-  const std::size_t length = end_of_answer.size() + 1;
-  const std::string_view all = bytes;
-  if (all.size() < length || !all.substr(all.size() - length).starts_with(end_of_answer))
-    throw failure(options.subject, options.crashed);
-  const char given = bytes.back();
-  bytes.resize(bytes.size() - length);
-  if (given == failure_sentence) throw failure(options.subject, bytes);
-  if (given == usage_sentence) throw usage_error(options.subject, bytes);
-  return bytes;
 }
 
 std::string run_in_child(const IsolatedWork& options, const std::function<void(std::ostream&)>& work) {

@@ -16,10 +16,8 @@
 
 namespace quadrille {
 
-namespace {
-
-/// The folder of the program or shared library that contains this code. Only the kernel knows it for sure:
-/// the name that the loader keeps may be relative and match another file in the current folder.
+// Only the kernel knows it for sure: the name that the loader keeps may be relative and match another file in
+// the current folder.
 std::filesystem::path own_folder() {
   static const char anchor = 0;
   const auto address = reinterpret_cast<std::uintptr_t>(&anchor);
@@ -36,6 +34,8 @@ std::filesystem::path own_folder() {
   }
   return {};
 }
+
+namespace {
 
 /// The folders in which modules are searched for, in order.
 std::vector<std::filesystem::path> module_folders(const std::filesystem::path& own) {

@@ -111,7 +111,8 @@ CadModel build(const TopoDS_Shape& shape, const std::string& name) {
 
 /// Reads and builds the model, in a child process if asked for. OpenCASCADE's exceptions become an Error.
 template <class Read>
-CadModel guarded(const std::string& name, const ReadOptions& options, Read read) {
+CadModel guarded(const std::string& name, const ReadOptions& options, Read read,
+                 const IsolatedTask& task = {}) {
   silence_opencascade();
   try {
     if (!options.isolated) return build(read(), name);
@@ -120,7 +121,7 @@ CadModel guarded(const std::string& name, const ReadOptions& options, Read read)
       build(shape, name);
       return shape;
     };
-    return build(read_isolated(name, read_and_check, options.context, options.time_limit), name);
+    return build(read_isolated(name, read_and_check, options.context, options.time_limit, 0, task), name);
   } catch (const Standard_Failure& problem) {
     throw failure(name, fmt::format("{} could not be read as CAD ({})", name, problem.GetMessageString()));
   }
@@ -154,15 +155,21 @@ CadModel CadModel::read(const std::filesystem::path& path, const ReadOptions& op
   if (std::filesystem::is_directory(path, code)) throw failure(name, fmt::format("{} is a folder", name));
   if (!std::ifstream(path)) throw failure(name, fmt::format("{} cannot be opened for reading", name));
   const std::string extension = lower_ending(path);
+  const IsolatedTask task{"cad", {std::filesystem::absolute(path).string()}};
   if (extension == ".step" || extension == ".stp")
-    return guarded(name, options, [&] { return read_exchange(path, "quadrille_step"); });
+    return guarded(
+        name, options, [&] { return read_exchange(path, "quadrille_step"); }, task);
   if (extension == ".iges" || extension == ".igs")
-    return guarded(name, options, [&] { return read_exchange(path, "quadrille_iges"); });
+    return guarded(
+        name, options, [&] { return read_exchange(path, "quadrille_iges"); }, task);
   if (extension == ".brep" || extension == ".brp") {
-    return guarded(name, options, [&] {
-      std::ifstream stream(path, std::ios::binary);
-      return read_brep(stream, name);
-    });
+    return guarded(
+        name, options,
+        [&] {
+          std::ifstream stream(path, std::ios::binary);
+          return read_brep(stream, name);
+        },
+        task);
   }
   throw usage_error(name,
                     fmt::format("{} has an unknown ending: STEP (.step, .stp), IGES (.iges, .igs) and BREP "

@@ -3,10 +3,13 @@
 
 #include <TopoDS_Shape.hxx>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
+#include <ostream>
 #include <string>
 
 #include "geometry/base/execution_context.hpp"
+#include "geometry/base/isolated_work.hpp"
 
 namespace quadrille {
 
@@ -16,8 +19,13 @@ std::string reading_too_long(const std::string& name, double time_limit);
 /// Runs `read` in a child process and returns its shape; composed placements may differ in their last digits.
 /// Throws as run_isolated(). \param name of the file, for messages. \param context checked every few
 /// hundredths of a second; may be null. \param time_limit seconds; 0 = none. \param memory bytes that the
-/// child may take beyond what this process has; 0 = no limit.
+/// child may take beyond what this process has; 0 = no limit. \param task see IsolatedWork.
 TopoDS_Shape read_isolated(const std::string& name, const std::function<TopoDS_Shape()>& read,
-                           ExecutionContext* context, double time_limit = 0, std::size_t memory = 0);
+                           ExecutionContext* context, double time_limit = 0, std::size_t memory = 0,
+                           const IsolatedTask& task = {});
+
+/// The task "cad": reads the file and writes its shape as read_isolated() expects it. Throws as
+/// CadModel::read().
+void send_shape(const std::filesystem::path& path, std::ostream& out);
 
 }  // namespace quadrille

@@ -52,6 +52,13 @@ const Module& vdb_module() {
   return module;
 }
 
+ExternalSizes opened_size_field(const std::string& path) {
+  ExternalSizes sizes;
+  const std::string problem = vdb_module().function<VdbOpenFunction>("_open")(path, sizes);
+  if (!problem.empty()) throw failure(path, problem);
+  return sizes;
+}
+
 void write_cascade(const SizeCascade& cascade, const std::filesystem::path& path) {
   const CascadeFrame& frame = cascade.frame();
   VdbField field{{}, frame.size_max, frame.growth};

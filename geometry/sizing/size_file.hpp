@@ -2,6 +2,7 @@
 /// Sizes in .vdb files. Internal.
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
@@ -11,6 +12,7 @@ namespace quadrille {
 
 class Module;
 class SizeCascade;
+struct ExternalSizes;
 
 /// A point that asks for a size.
 struct SizePoint {
@@ -21,6 +23,10 @@ struct SizePoint {
 /// The OpenVDB module. Use it in a child process first: OpenVDB starts threads while it is loaded, and if it
 /// cannot, it ends the program or hangs. Throws Error (failure) if the threads cannot be created.
 const Module& vdb_module();
+
+/// The sizes of a .vdb file. Throws Error (failure) if it cannot be read; OpenVDB may crash on a damaged
+/// file.
+ExternalSizes opened_size_field(const std::string& path);
 
 /// Time limit of a child process that uses OpenVDB, seconds.
 inline constexpr double longest_with_vdb = 300;

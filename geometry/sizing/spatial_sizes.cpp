@@ -133,11 +133,6 @@ SpatialSizes::SpatialSizes(const CadModel& model, const SizingOptions& options, 
 void SpatialSizes::open_external(const CadModel& model, const SizingOptions& options,
                                  ExecutionContext& context) {
   const std::string path = options.size_field.string();
-  ExternalSizes sizes;
-  const auto open = [&] {
-    const std::string problem = vdb_module().function<VdbOpenFunction>("_open")(path, sizes);
-    if (!problem.empty()) throw failure(path, problem);
-  };
   // OpenVDB trusts the lengths in a damaged file. So try to open it in a child process first, which may crash
   // or ask for too much memory.
   constexpr std::size_t room = std::size_t{1} << 30, room_each_byte = 20;
@@ -150,9 +145,10 @@ void SpatialSizes::open_external(const CadModel& model, const SizingOptions& opt
   trial.time_limit = longest_with_vdb;
   trial.memory = room + (unknown ? 0 : room_each_byte * bytes);
   trial.context = &context;
+  trial.task = {"vdb", {std::filesystem::absolute(options.size_field).string()}};
   run_isolated(
-      trial, [&](std::ostream&) { open(); }, [](std::istream&) {});
-  open();
+      trial, [&](std::ostream&) { opened_size_field(path); }, [](std::istream&) {});
+  ExternalSizes sizes = opened_size_field(path);
   const double unit = options.size_field_unit, scale = unit * options.size_field_scale;
   const Vector3 low = unit * sizes.low, high = unit * sizes.high;
   if ((low.array() > model.box_max().array()).any() || (high.array() < model.box_min().array()).any())

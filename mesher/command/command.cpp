@@ -13,6 +13,7 @@
 #include "geometry/base/file_access.hpp"
 #include "geometry/base/file_ending.hpp"
 #include "geometry/base/isolated_work.hpp"
+#include "mesher/io/modules.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille::command {
@@ -43,6 +44,7 @@ void require_ending(const std::filesystem::path& path, std::string_view ending, 
   if (lower_ending(path) != ending)
     throw usage_error(std::string(option),
                       fmt::format("{}: the file name must end in {}, not {}", option, ending, path.string()));
+  require_module(ending);
   require_writable(path);
 }
 

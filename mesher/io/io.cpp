@@ -106,6 +106,7 @@ void check_format(const std::filesystem::path& path, int quad_nodes) {
                                   ".vtu and .vtk)",
                                   path.string()));
   const std::string ending = lower_ending(path);
+  require_module(ending);
   if (quad_nodes == 9 && (ending == ".inp" || ending == ".unv" || ending == ".bdf"))
     throw usage_error("nodes", fmt::format("{}: such files have no quads of nine nodes: `nodes` 9 is for "
                                            ".msh, .med, .vtu and .vtk",

@@ -2,13 +2,13 @@
 
 #include "mesher/io/midsurface_writer.hpp"
 
-#include <unistd.h>
-
 #include <BRepTools.hxx>
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <sstream>
 #include <string_view>
 
@@ -33,15 +33,26 @@ std::string brep_text(const TopoDS_Shape& shape) {
   return text.str();
 }
 
+/// A new folder for temporary files, which others may not read.
+std::filesystem::path temporary_folder() {
+  std::random_device random;
+  const std::filesystem::path name =
+      std::filesystem::temp_directory_path() /
+      fmt::format("quadrille-{:08x}{:08x}", std::uint32_t{random()}, std::uint32_t{random()});
+  std::error_code problem;
+  if (!std::filesystem::create_directory(name, problem))
+    throw failure(name.string(), fmt::format("{}: cannot be made", name.string()));
+  std::filesystem::permissions(name, std::filesystem::perms::owner_all, problem);
+  return name;
+}
+
 /// OpenCASCADE writes STEP only to a named file, so this uses a temporary folder.
 std::string step_text(const TopoDS_Shape& shape) {
-  std::string name = (std::filesystem::temp_directory_path() / "quadrille-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw failure(name, fmt::format("{}: cannot be made", name));
-  const std::filesystem::path folder(name), file = folder / "middle.step";
+  const std::filesystem::path folder = temporary_folder(), file = folder / "middle.step";
   const std::string problem =
       Module("quadrille_step").function<ExchangeWriteFunction>("_write")(file.string(), shape);
   std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
+  text << std::ifstream(file, std::ios::binary).rdbuf();
   std::error_code ignored;
   std::filesystem::remove(file, ignored);
   std::filesystem::remove(folder, ignored);

@@ -3,6 +3,9 @@
 #include "mesher/io/modules.hpp"
 
 #include <exception>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/isolated_work.hpp"
@@ -13,17 +16,32 @@ namespace quadrille {
 
 namespace {
 
+/// What each module is for, and whether this build has it.
+struct BuildPart {
+  std::string_view ending;
+  bool has;
+  std::string_view needs;
+};
+constexpr BuildPart build_parts[] = {
+    {".vtu", QUADRILLE_HAS_VTK, "VTK"},     {".vtp", QUADRILLE_HAS_VTK, "VTK"},
+    {".stl", QUADRILLE_HAS_VTK, "VTK"},     {".obj", QUADRILLE_HAS_VTK, "VTK"},
+    {".ply", QUADRILLE_HAS_VTK, "VTK"},     {".med", QUADRILLE_HAS_MED, "libmed"},
+    {".png", QUADRILLE_HAS_PICTURES, "VTK"}};
+
 const Module& vtk_module() {
+  require_module(".vtu");
   static const Module module("quadrille_vtk");
   return module;
 }
 
 const Module& picture_module() {
+  require_module(".png");
   static const Module module("quadrille_picture");
   return module;
 }
 
 const Module& med_module() {
+  require_module(".med");
   static const Module module("quadrille_med");
   return module;
 }
@@ -33,6 +51,14 @@ void check(const std::string& problem) {
 }
 
 }  // namespace
+
+void require_module(std::string_view ending) {
+  for (const BuildPart& part : build_parts)
+    if (part.ending == ending && !part.has)
+      throw usage_error(
+          std::string(ending),
+          fmt::format("{} files need {}, which this build of Quadrille comes without", ending, part.needs));
+}
 
 std::string vtu_file(const OutputMesh& mesh, const std::vector<double>& qualities) {
   std::string bytes;

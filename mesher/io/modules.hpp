@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesher/io/mesh_builder.hpp"
@@ -15,6 +16,9 @@
 #include "mesher/size_map.hpp"
 
 namespace quadrille {
+
+/// Throws Error (usage) if files of this ending (".med") need a module that this build comes without.
+void require_module(std::string_view ending);
 
 /// A mesh read by VTK. Nodes are numbered from 1 in the order of the points.
 struct ImportedMesh {

@@ -2,18 +2,22 @@
 """Runs the `quadrille` command: for `python -m quadrille mesh part.step -o part.inp`, and as the wheel's console script."""
 
 import os
+import subprocess
 import sys
 
 from .core.command import find_command
 from .core.errors import Error
+from .core.system import WINDOWS
 
 
 def main() -> None:
-    """Replaces this process with the command, keeping the arguments."""
+    """Replaces this process with the command, keeping the arguments; on Windows runs it."""
     try:
         command = find_command()
     except Error as error:
         sys.exit(f"quadrille: {error}")
+    if WINDOWS:  # where exec does not wait
+        sys.exit(subprocess.run([command, *sys.argv[1:]], check=False).returncode)
     os.execv(command, [command, *sys.argv[1:]])
 
 

@@ -14,12 +14,12 @@ import subprocess
 import tempfile
 import threading
 import time
-import uuid
 from pathlib import Path
 from typing import Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 from .errors import Error
 from .setting_table import MeshSettings
+from .system import program, scratch_prefix, start_options
 
 #: Called with a stage name and the fraction of all the work done, in [0, 1]; returning False cancels the work.
 Progress = Callable[[str, float], Optional[bool]]
@@ -42,13 +42,6 @@ def on_host(arguments: Sequence[str]) -> List[str]:
     return [*_OUT_OF_FLATPAK, *arguments] if FLATPAK_INFO.exists() else list(arguments)
 
 
-#: Waits until its input closes, which happens when the process at the other end ends. Then removes all paths that begin with
-#: $1. It does so more than once, since a mesher that is ending at the same time may still create a file.
-_REMOVE_AT_END = 'cat; for i in 1 2 3; do rm -rf -- "$1"*; sleep 1; done'
-#: By process id and parent folder: the prefix of scratch folders, and the shell that removes them when this process ends.
-_scratch: Dict[Tuple[int, str], Tuple[str, subprocess.Popen]] = {}
-
-
 def scratch_folder() -> "tempfile.TemporaryDirectory":
     """A temporary folder that the command can see too. It is removed when this process ends, even if it is killed."""
     place = "the folder for temporary files"
@@ -58,21 +51,10 @@ def scratch_folder() -> "tempfile.TemporaryDirectory":
             # The sandbox has a /tmp of its own; its cache folder has the same path outside.
             place = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
             os.makedirs(place, exist_ok=True)
-        return tempfile.TemporaryDirectory(prefix=_scratch_prefix(place), dir=place)
+        return tempfile.TemporaryDirectory(prefix=scratch_prefix(place, child_environment()), dir=place)
     except OSError as error:
         raise Error(f"{place}: no temporary folder can be made there ({error.strerror}); set the environment variable TMPDIR to "
                     "a folder that can be written", "failure", place) from error
-
-
-def _scratch_prefix(place: str) -> str:
-    key = (os.getpid(), place)
-    if key not in _scratch:
-        prefix = f"quadrille-{os.getpid()}-{uuid.uuid4().hex[:8]}-"
-        shell = subprocess.Popen(["/bin/sh", "-c", _REMOVE_AT_END, "sh", os.path.join(place, prefix)], stdin=subprocess.PIPE,
-                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=child_environment(),
-                                 start_new_session=True)
-        _scratch[key] = (prefix, shell)
-    return _scratch[key][0]
 
 
 def which(path: str) -> Optional[str]:
@@ -91,12 +73,14 @@ def which(path: str) -> Optional[str]:
 
 
 def _own(here: Path) -> Optional[str]:
-    """The command that came with this package: inside the package (wheel), or in bin/ of the bundle's folder."""
-    folders = [here / "quadrille"]
+    """The command that came with this package: inside the package (wheel), in bin/ of the addon (Windows), or in bin/ of the
+    bundle's folder."""
+    name = program("quadrille")
+    folders = [here / name, here.parent / "bin" / name]
     if here.parts[-4:-1] == ("freecad", "Mod", "Quadrille"):  # BUNDLE/share/freecad/Mod/Quadrille/quadrille
-        folders.append(here.parents[4] / "bin" / "quadrille")
+        folders.append(here.parents[4] / "bin" / name)
     elif here.parent.name == "python":
-        folders.append(here.parents[1] / "bin" / "quadrille")
+        folders.append(here.parents[1] / "bin" / name)
     for path in folders:
         if path.is_file() and os.access(path, os.X_OK):
             return str(path)
@@ -154,7 +138,8 @@ def check_version(path: str) -> None:
         return
     try:
         answer = subprocess.run(on_host([path, "--version"]), stdin=subprocess.DEVNULL, capture_output=True,
-                                text=True, errors="replace", timeout=30, env=child_environment(), check=False)
+                                encoding="utf-8", errors="replace", timeout=30, env=child_environment(), check=False,
+                                **start_options())
     except (OSError, subprocess.TimeoutExpired) as error:
         raise Error(f"{path}: does not print its version ({error}); install Quadrille {VERSION}", "failure",
                     path) from error
@@ -174,9 +159,10 @@ def _child(arguments: Sequence[str]) -> subprocess.Popen:
         stdin=subprocess.PIPE,  # closes when this process ends for any reason; the child then ends too
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
-        text=True,
+        encoding="utf-8",
         errors="replace",
         env=child_environment(),
+        **start_options(),
     )
 
 

@@ -1,0 +1,22 @@
+#pragma once
+/// What a child process writes back, the same on all systems: its result or its error, and a mark at the end.
+/// Internal.
+
+#include <functional>
+#include <ostream>
+#include <string>
+
+#include "geometry/base/isolated_work.hpp"
+
+namespace quadrille {
+
+/// Does the work and writes what it makes, or the sentence of what it throws, and the end mark, which a child
+/// that crashes does not get to. Throws nothing. \param subject of sentences without one.
+void write_answer(const std::string& subject, const std::function<void(std::ostream&)>& work,
+                  std::ostream& out);
+
+/// What the child has made, from all that it wrote. Throws the Error that the child has thrown; Error
+/// (failure) if the end mark is missing.
+std::string result_of(const IsolatedWork& options, std::string bytes);
+
+}  // namespace quadrille
