@@ -96,17 +96,14 @@ FaceDemand demand_of(FaceId id, const CadFace& face, const std::vector<FaceSampl
   return result;
 }
 
-/// The quads of rows along closed loops of a face. Blocks in corners are not counted.
-double quads_of_rows(const CadShape& shape, FaceId face, const BoundaryNodes& nodes,
-                     const ByElement<SizeLayers>& layers) {
+/// The quads of rows along edges of a face that is no grid. Blocks in corners are not counted.
+double quads_of_rows(FaceId face, const BoundaryNodes& nodes) {
   double count = 0;
-  if (!has_row_loop(shape, face, nodes.sides[face], layers)) return count;
-  for (const CadWire& wire : shape.faces[face].wires) {
-    for (const Coedge& coedge : wire.coedges) {
-      const auto own = layers.edges.find(shape.edges[coedge.edge].number);
-      if (own != layers.edges.end()) count += own->second.count * nodes.edges[coedge.edge].segments();
-    }
-  }
+  const auto lines = nodes.rows.find(face);
+  if (lines == nodes.rows.end()) return count;
+  for (const RowLine& line : lines->second)
+    for (const EdgeId edge : line.edges)
+      count += static_cast<double>(line.heights.size()) * nodes.edges[edge].segments();
   return count;
 }
 
@@ -151,7 +148,7 @@ std::vector<double> QuadEstimate::quads_by_face(const MeshOptions& options) {
       const BoundaryNodes& nodes = boundary.nodes;
       SizingField::Sampler size_at(boundary.field, id);
       const bool keeps_grid = has_kept_edge(face, nodes) || has_divided_edge(face, nodes);
-      counts[id.index()] = quads_of_rows(shape, id, nodes, options.sizing.layers);
+      counts[id.index()] = quads_of_rows(id, nodes);
       counts[id.index()] +=
           expected_quads(demand_of(id, face, samples_[id], size_at, options.sizing.growth, nodes),
                          grid_quads(face, nodes.sides[id], nodes), keeps_grid);

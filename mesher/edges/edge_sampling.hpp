@@ -16,6 +16,7 @@
 #include "mesher/edges/count_table.hpp"
 #include "mesher/edges/face_sides.hpp"
 #include "mesher/edges/matching.hpp"
+#include "mesher/edges/row_lines.hpp"
 #include "mesher/edges/tiny_features.hpp"
 #include "mesher/edges/tips.hpp"
 
@@ -47,6 +48,7 @@ struct BoundaryNodes {
   int stride = 1;
   FaceFlags subdivided;  ///< 1 = recombined at twice the size, whatever `stride` is
   FaceOutlines sides;    ///< with facing sides whose counts match
+  RowLinesOfFaces rows;  ///< see SamplingPlan::rows
 
   /// The middles, on the surface, of sides between two nodes that quads of several faces share where they
   /// cross a smooth edge; by side_key().
@@ -90,6 +92,7 @@ struct SamplingPlan {
   TinyFeatures tiny;
   std::vector<Tip> tips;       ///< at which faces end early
   PrescribedEdges prescribed;  ///< user divisions; may be empty
+  RowLines rows;               ///< along which faces get rows, and where these end on edges
   /// Edges whose nodes are copied to others, in this order; plan.tiny must leave them and their vertices.
   std::vector<MatchedEdge> matched;
 };

@@ -2,6 +2,7 @@
 
 #include "mesher/edges/grid_rows.hpp"
 #include "geometry/base/whole_number.hpp"
+#include "mesher/edges/row_lines.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,36 +13,16 @@
 
 namespace quadrille {
 
-std::vector<double> heights_of(const SizeLayers* layers) {
-  std::vector<double> heights;
-  for (int i = 0; layers != nullptr && i < layers->count; ++i)
-    heights.push_back(layers->first * std::pow(layers->ratio, i));
-  return heights;
-}
-
 namespace {
-
-/// The layers that all edges of a wire have; null if they have none, or not the same.
-const SizeLayers* layers_of(const CadShape& shape, const CadWire& wire, const ByElement<SizeLayers>& layers) {
-  const SizeLayers* result = nullptr;
-  for (const Coedge& coedge : wire.coedges) {
-    const auto own = layers.edges.find(shape.edges[coedge.edge].number);
-    if (own == layers.edges.end()) return nullptr;
-    if (result != nullptr && heights_of(result) != heights_of(&own->second)) return nullptr;
-    result = &own->second;
-  }
-  return result;
-}
 
 /// Largest ratio between the number that a member of a chord wants and the number that it gets, either way.
 constexpr double largest_row_ratio = 4;
 /// Largest share of a side that layers may take.
 constexpr double most_of_side = 0.9;
 
-/// The layers that start at the ends of an edge, in the direction of its parameter; null = none.
+/// The heights of layers that start at the ends of an edge, in the direction of its parameter.
 struct Stacks {
-  const SizeLayers* first = nullptr;
-  const SizeLayers* last = nullptr;
+  std::vector<double> first, last;
 };
 
 double sum_of(const std::vector<double>& heights) {
@@ -53,8 +34,8 @@ class StackedEdge {
  public:
   StackedEdge(double length, const Stacks& stacks, double size, double growth)
       : length_(length),
-        first_(heights_of(stacks.first)),
-        last_(heights_of(stacks.last)),
+        first_(stacks.first),
+        last_(stacks.last),
         inner_(length - sum_of(first_) - sum_of(last_)) {
     const double from = first_.empty() ? size : first_.back(), to = last_.empty() ? size : last_.back();
     counts_.push_back(0);
@@ -119,7 +100,6 @@ class RowFinder {
       if (found == options_.layers.edges.end()) continue;
       if (auto beside = stack(edge, found->second, stacks)) layered.emplace_back(edge, std::move(*beside));
     }
-    find_row_loops();
     std::map<EdgeId, PrescribedEdge> of_layers;
     for (const auto& [edge, own] : stacks) divide(edge, stacks, of_layers);
     for (const auto& [edge, beside] : layered) {
@@ -163,21 +143,10 @@ class RowFinder {
       }
     }
     for (const auto& [side, at_first] : found) {
-      (at_first ? stacks[side].first : stacks[side].last) = &layers;
+      (at_first ? stacks[side].first : stacks[side].last) = heights_of(layers);
       beside.push_back(side);
     }
     return beside;
-  }
-
-  /// Marks the edges along which some face has rows of its own.
-  void find_row_loops() {
-    for (const FaceId face : shape_.faces.ids()) {
-      if (sides_[face].is_rectangle()) continue;
-      for (const CadWire& wire : shape_.faces[face].wires) {
-        if (layers_of(shape_, wire, options_.layers) == nullptr) continue;
-        for (const Coedge& coedge : wire.coedges) rows_.layered[coedge.edge] = 1;
-      }
-    }
   }
 
   static bool holds(const FacingPair& pair, EdgeId edge) {
@@ -274,14 +243,6 @@ bool has_edge(const CadFace& face, const BoundaryNodes& nodes, bool BoundaryNode
 }
 
 }  // namespace
-
-bool has_row_loop(const CadShape& shape, FaceId face, const FaceSides& sides,
-                  const ByElement<SizeLayers>& layers) {
-  const auto& wires = shape.faces[face].wires;
-  return !layers.edges.empty() && !sides.is_rectangle() &&
-         std::any_of(wires.begin(), wires.end(),
-                     [&](const CadWire& wire) { return layers_of(shape, wire, layers) != nullptr; });
-}
 
 bool has_kept_edge(const CadFace& face, const BoundaryNodes& nodes) {
   return has_edge(face, nodes, &BoundaryNodes::Edge::kept);

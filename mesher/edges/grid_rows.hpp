@@ -18,16 +18,8 @@ struct GridRows {
   /// 1 = prescribed, and all faces along its chord are four-sided or rings: rows of flat quads keep
   /// the division, and the sizes around need not follow.
   EdgeFlags divided;
-  EdgeFlags layered;  ///< 1 = its layers become rows, in grids or along a loop
+  EdgeFlags layered;  ///< 1 = its layers become rows
 };
-
-/// Heights of the rows that layers ask for; empty if null.
-std::vector<double> heights_of(const SizeLayers* layers);
-
-/// Whether a face gets rows along a closed loop: all edges of one of its wires have the same layers, and the
-/// face is no grid whose own rows follow them.
-bool has_row_loop(const CadShape& shape, FaceId face, const FaceSides& sides,
-                  const ByElement<SizeLayers>& layers);
 
 /// Finds the divisions and layers in the options that grids can continue. The layers of an edge become rows
 /// if all its faces are four-sided, and the two sides that run away from it are single edges without a

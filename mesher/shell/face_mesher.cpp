@@ -60,7 +60,7 @@ class FaceMesher {
         surface_(*chart.surface),
         size_at_(field, face),
         judge_(field, face, context),
-        has_rows_(has_row_loop(shape, face, nodes.sides[face], options.sizing.layers)) {}
+        lines_(lines_of(face, nodes)) {}
 
   FaceMesh run() {
     using Layout = Candidate::Layout;
@@ -88,7 +88,7 @@ class FaceMesher {
  private:
   bool is_worth_trying(const Candidate& candidate, const std::optional<FaceMesh>& best) {
     using Layout = Candidate::Layout;
-    if (has_rows_) return candidate.layout == Layout::rings && !best;
+    if (!lines_.empty()) return candidate.layout == Layout::rings && !best;
     const bool is_last_resort = recipe_.off != FaceRecipe::Off::none;
     if (candidate.layout == Layout::grid) return recipe_.mapped && !is_last_resort;
     if (candidate.direct)
@@ -120,8 +120,8 @@ class FaceMesher {
 
   std::optional<FaceMesh> ringed_mesh(const Candidate& candidate) {
     if (!rings_)
-      rings_ = place_rings(chart_.boundary, surface_, enclosed_domain(chart_.boundary), options_.rings,
-                           [this](EdgeId edge) { return heights_along(edge); });
+      rings_ = place_rings(has_chain() ? halved(chart_.boundary) : chart_.boundary, surface_,
+                           enclosed_domain(chart_.boundary), options_.rings, lines_);
     if (rings_->unfit.exists())
       throw usage_error(
           "layers", fmt::format("the `layers` along Edge{} do not fit into Face{}: ask for fewer or lower "
@@ -136,11 +136,14 @@ class FaceMesher {
     return result;
   }
 
-  /// The heights of the rows asked for along an edge; empty where there are none.
-  std::vector<double> heights_along(EdgeId edge) const {
-    const auto& layers = options_.sizing.layers.edges;
-    const auto own = has_rows_ && edge.exists() ? layers.find(shape_.edges[edge].number) : layers.end();
-    return own == layers.end() ? std::vector<double>() : heights_of(&own->second);
+  static std::vector<RowLine> lines_of(FaceId face, const BoundaryNodes& nodes) {
+    const auto lines = nodes.rows.find(face);
+    return lines == nodes.rows.end() ? std::vector<RowLine>() : lines->second;
+  }
+
+  /// Whether rows end on edges, where their number may be odd: then quads have the final size from the start.
+  bool has_chain() const {
+    return std::any_of(lines_.begin(), lines_.end(), [](const RowLine& line) { return !line.is_closed(); });
   }
 
   FaceQuads quads_inside(const FaceBoundary& boundary, const Candidate& candidate) {
@@ -273,7 +276,7 @@ class FaceMesher {
   const FaceSurface& surface_;
   SizingField::Sampler size_at_;
   FaceJudge judge_;
-  bool has_rows_;  // along a loop
+  std::vector<RowLine> lines_;  // along which rows were asked for
   std::optional<HoleRings> rings_;
   std::optional<FaceProblem> problem_;                   // of the last candidate that failed
   Candidate::Layout layout_ = Candidate::Layout::plain;  // of the best mesh other than a grid
