@@ -311,11 +311,22 @@ class RingPlacer {
                   (line[(i + n - 1) % n].point - line[i].point).norm());
   }
 
-  /// The side of the loop on which the face lies: 1 = left, -1 = right, 0 = not clear.
+  /// The side of the loop on which the face lies: 1 = left, -1 = right, 0 = not clear. Looks beside the
+  /// longest segment, since at a corner the face may be narrow.
   double side_of(const Loop& loop) const {
+    constexpr double beside = 0.2;
+    const std::size_t n = loop.nodes.size();
+    std::size_t longest = 0;
+    const auto along = [&](std::size_t k) -> Vector3 {
+      return loop.nodes[(k + 1) % n].point - loop.nodes[k].point;
+    };
+    for (std::size_t k = 1; k < n; ++k)
+      if (along(k).squaredNorm() > along(longest).squaredNorm()) longest = k;
+    const Vector2 start = loop.nodes[longest].uv;
+    const Vector3 to_middle = 0.5 * along(longest), normal = surface_.normal(start).cross(along(longest));
     for (const double side : {1.0, -1.0}) {
-      Vector2 uv = loop.nodes[0].uv;
-      surface_.move(uv, loop.nodes[0].point + 0.3 * spacing(loop.nodes, 0) * across(loop.nodes, 0, side));
+      Vector2 uv = start;
+      surface_.move(uv, loop.nodes[longest].point + to_middle + beside * side * normal);
       if (domain_.inside(uv)) return side;
     }
     return 0;
