@@ -327,9 +327,8 @@ class EdgeSampler {
 
   /// Faces with rows along chains are no grids: their sides need not face each other.
   void free_sides_beside_chains(FaceOutlines& sides) const {
-    for (const auto& [face, lines] : plan_.rows.of_faces) {
-      if (std::all_of(lines.begin(), lines.end(), [](const RowLine& line) { return line.is_closed(); }))
-        continue;
+    for (const auto& [face, own] : plan_.rows.of_faces) {
+      if (!has_chain(plan_.rows.of_faces, face)) continue;
       sides[face] = {};
       for (const CadWire& wire : shape_.faces[face].wires)
         for (const Coedge& coedge : wire.coedges) sides[face].rest.push_back(coedge.edge);

@@ -20,6 +20,12 @@ std::vector<double> heights_of(const SizeLayers& layers) {
   return heights;
 }
 
+bool has_chain(const RowLinesOfFaces& lines, FaceId face) {
+  const auto own = lines.find(face);
+  return own != lines.end() && std::any_of(own->second.begin(), own->second.end(),
+                                           [](const RowLine& line) { return !line.is_closed(); });
+}
+
 namespace {
 
 /// Least and largest angle of a face (radians) at which rows can end on the edge beside their own.

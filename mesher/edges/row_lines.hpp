@@ -32,6 +32,9 @@ struct RowLine {
 
 using RowLinesOfFaces = std::map<FaceId, std::vector<RowLine>>;
 
+/// Whether a face has rows along a line that is not closed.
+bool has_chain(const RowLinesOfFaces& lines, FaceId face);
+
 /// The lengths of the segments at both ends of an edge where rows end on it, from the end inward.
 struct EdgeHeads {
   std::vector<double> first, last;

@@ -373,7 +373,8 @@ class BoundaryWalker {
 
 FaceBoundary face_boundary(const CadShape& shape, FaceId face, const CadFace& cad_face,
                            const FaceSurface& surface, const BoundaryNodes& nodes) {
-  const int stride = nodes.subdivided[face] != 0 ? 2 : 1;
+  // An odd number of segments may lie on an edge beyond the rows that end there.
+  const int stride = nodes.subdivided[face] != 0 && !has_chain(nodes.rows, face) ? 2 : 1;
   FaceBoundary boundary = BoundaryWalker(shape, face, cad_face, surface, nodes, stride).walk();
   if (boundary.segments.empty()) {
     const std::string name = fmt::format("Face{}", face.number());

@@ -33,7 +33,7 @@ struct FaceBoundary {
   /// (wires, coedges) index of the first segment of each coedge; -1 = the coedge has no segments.
   std::vector<std::vector<int>> first_segments;
   /// Segments of the final mesh for each segment here: 2 for faces that are subdivided, unless one of their
-  /// edges has an odd number of segments; else 1.
+  /// edges has an odd number of segments, or rows of given heights end on one; else 1.
   int stride = 1;
 
   /// Whether two segments share a node, even as different points on a seam.

@@ -120,8 +120,8 @@ class FaceMesher {
 
   std::optional<FaceMesh> ringed_mesh(const Candidate& candidate) {
     if (!rings_)
-      rings_ = place_rings(has_chain() ? halved(chart_.boundary) : chart_.boundary, surface_,
-                           enclosed_domain(chart_.boundary), options_.rings, lines_);
+      rings_ =
+          place_rings(chart_.boundary, surface_, enclosed_domain(chart_.boundary), options_.rings, lines_);
     if (rings_->unfit.exists())
       throw usage_error(
           "layers", fmt::format("the `layers` along Edge{} do not fit into Face{}: ask for fewer or lower "
@@ -139,11 +139,6 @@ class FaceMesher {
   static std::vector<RowLine> lines_of(FaceId face, const BoundaryNodes& nodes) {
     const auto lines = nodes.rows.find(face);
     return lines == nodes.rows.end() ? std::vector<RowLine>() : lines->second;
-  }
-
-  /// Whether rows end on edges, where their number may be odd: then quads have the final size from the start.
-  bool has_chain() const {
-    return std::any_of(lines_.begin(), lines_.end(), [](const RowLine& line) { return !line.is_closed(); });
   }
 
   FaceQuads quads_inside(const FaceBoundary& boundary, const Candidate& candidate) {
