@@ -196,10 +196,14 @@ class RingPlacer {
     auto rows = side == 0 ? std::nullopt
                           : place_rows(path_of(loop, part), part.line->heights, side, surface_, domain_);
     const auto is_misfit = [&](int point) {
-      const bool is_end = part.is_open() && (point == rows->outer.front() || point == rows->outer.back());
-      return !is_end && is_too_near(rows->points[point].point, loop, part, segments);
+      return is_too_near(rows->points[point].point, loop, part, segments);
     };
-    if (!rows || std::any_of(rows->outer.begin(), rows->outer.end(), is_misfit)) {
+    // At its ends, a chain's outer line comes to the loop.
+    const auto skipped = [&](int end) -> long {
+      const RowLine& line = *part.line;
+      return line.is_closed() ? 0 : line.ends[end] == RowLine::End::meets ? 1 : std::ssize(line.heights);
+    };
+    if (!rows || std::any_of(rows->outer.begin() + skipped(0), rows->outer.end() - skipped(1), is_misfit)) {
       result_.unfit = part.line->edges.front();
       return false;
     }
