@@ -325,10 +325,15 @@ class EdgeSampler {
     return places;
   }
 
-  /// Faces with rows along chains are no grids: their sides need not face each other.
+  /// Faces with rows along chains are no grids, nor are those at the edges on which rows end, which would
+  /// hand the short segments on to edges far away: their sides need not face each other.
   void free_sides_beside_chains(FaceOutlines& sides) const {
-    for (const auto& [face, own] : plan_.rows.of_faces) {
-      if (!has_chain(plan_.rows.of_faces, face)) continue;
+    FaceFlags freed(shape_.faces.size());
+    for (const FaceId face : freed.ids()) freed[face] = has_chain(plan_.rows.of_faces, face);
+    for (const auto& [edge, heads] : plan_.rows.heads)
+      for (const FaceId face : shape_.edges[edge].faces) freed[face] = 1;
+    for (const FaceId face : freed.ids()) {
+      if (!freed[face] || !used_[face]) continue;
       sides[face] = {};
       for (const CadWire& wire : shape_.faces[face].wires)
         for (const Coedge& coedge : wire.coedges) sides[face].rest.push_back(coedge.edge);
