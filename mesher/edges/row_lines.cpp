@@ -16,6 +16,7 @@ namespace quadrille {
 
 std::vector<double> heights_of(const SizeLayers& layers) {
   std::vector<double> heights;
+  heights.reserve(layers.count);
   for (int i = 0; i < layers.count; ++i) heights.push_back(layers.first * std::pow(layers.ratio, i));
   return heights;
 }
