@@ -77,17 +77,12 @@ FaceDemand demand_of(FaceId id, const CadFace& face, const std::vector<FaceSampl
   return result;
 }
 
-/// The quads of rows along closed loops of a face. Blocks in corners are not counted.
-double quads_of_rows(const CadShape& shape, FaceId face, const BoundaryNodes& nodes,
-                     const ByElement<SizeLayers>& layers) {
+/// The quads of rows along edges of a face that is no grid. Blocks in corners are not counted.
+double quads_of_rows(FaceId face, const BoundaryNodes& nodes) {
   double count = 0;
-  if (!nodes.plans[face].has_row_loop) return count;
-  for (const CadWire& wire : shape.faces[face].wires) {
-    for (const Coedge& coedge : wire.coedges) {
-      const auto own = layers.edges.find(shape.edges[coedge.edge].number);
-      if (own != layers.edges.end()) count += own->second.count * nodes.edges[coedge.edge].segments();
-    }
-  }
+  for (const RowLine& line : nodes.plans[face].row_lines)
+    for (const EdgeId edge : line.edges)
+      count += static_cast<double>(line.heights.size()) * nodes.edges[edge].segments();
   return count;
 }
 
@@ -132,7 +127,7 @@ std::vector<double> QuadEstimate::quads_by_face(const MeshOptions& options) {
       const BoundaryNodes& nodes = boundary.nodes;
       SizingField::Sampler size_at(boundary.field, id);
       const FacePlan& plan = nodes.plans[id];
-      counts[id.index()] = quads_of_rows(shape, id, nodes, options.sizing.layers);
+      counts[id.index()] = quads_of_rows(id, nodes);
       counts[id.index()] +=
           expected_quads(demand_of(id, face, samples_[id], size_at, options.sizing.growth, nodes),
                          plan.grid_quads, plan.has_kept_edge || plan.has_divided_edge);

@@ -28,6 +28,7 @@
 #include "mesher/edges/let_go.hpp"
 #include "mesher/edges/matching.hpp"
 #include "mesher/edges/placed_nodes.hpp"
+#include "mesher/edges/row_lines.hpp"
 #include "mesher/faces/boundary_crossings.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/settings.hpp"
@@ -86,6 +87,8 @@ class Job {
     SizingOptions sizing = options_.sizing;
     sizing.budget.bytes_an_element = Budget::bytes_an_element_of_order(options_.order);
     if (options_.force) sizing.budget = Budget::unlimited();
+    for (const auto& [vertex, layers] : plan_.rows.steps)
+      sizing.layers.vertices.emplace(vertex.number(), layers);
     const ElementBudget budget(model_, sizing, asked_, context_);
     SizingField field = SizingField::build(
         model_, sizing, context_, {let_go_.edges(), plan_.tiny.merged_faces, rows_.divided, rows_.layered});
@@ -127,6 +130,8 @@ class Job {
     result.faces = statuses();
     result.let_go = list_let_go();
     result.kept = list_kept();
+    for (const auto& [edge, why] : plan_.rows.without)
+      result.warnings.push_back(fmt::format("`layers` on Edge{} give sizes but no rows: {}", edge, why));
     result.filled_holes = filled_.holes;
     for (const EdgeId id : suppressed_) {
       constexpr int pieces = 32;
@@ -350,7 +355,7 @@ class Job {
     return !options_.partial || context_.seconds_left() > 0.1 * context_.time_limit();
   }
 
-  /// Finds the rows of grids that follow prescribed divisions and layers, as far as grids can.
+  /// Finds the rows that follow prescribed divisions and layers, in grids as far as these can, and elsewhere.
   void find_rows() {
     const SizingOptions& sizing = options_.sizing;
     if (sizing.spacings.empty() && sizing.layers.edges.empty()) return;
@@ -360,7 +365,8 @@ class Job {
     const auto sides = find_face_sides(shape_, used_, plan_.tiny, wanted);
     rows_ = find_grid_rows(shape_, sides, std::move(plan_.prescribed), sizing, limits_.largest);
     plan_.prescribed = rows_.prescribed;
-    plan_.layered_loops = rows_.layered_loops;
+    plan_.rows = find_row_lines(shape_, sides, used_, plan_.tiny, plan_.prescribed, sizing.layers);
+    for (const EdgeId edge : shape_.edges.ids()) rows_.layered[edge] |= plan_.rows.along[edge];
   }
 
   void leave_out_tiny() {

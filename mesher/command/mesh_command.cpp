@@ -206,6 +206,7 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
     for (const auto& told : {meshed.middle->problems, meshed.middle->warnings})
       warnings.insert(warnings.end(), told.begin(), told.end());
   }
+  for (const std::string& warning : result.warnings) warnings.push_back(with_options(warning));
   warn_off_geometry(result, warnings);
   warnings.insert(warnings.end(), measured.area_differences.begin(), measured.area_differences.end());
   for (const std::string& sentence : {measured.coincidences.sentence(), measured.contacts.sentence()})

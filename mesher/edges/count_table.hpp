@@ -34,6 +34,7 @@ struct CountTable {
 
   double parameter_at(double count) const { return interpolate(counts, count, parameters); }
   double parameter_at_length(double length) const { return interpolate(lengths, length, parameters); }
+  double length_at(double count) const { return interpolate(counts, count, lengths); }
   double count_at_length(double length) const { return interpolate(lengths, length, counts); }
 
   /// Scales the count between two parameters up to `least`; the rest of the edge keeps its count.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -124,7 +125,8 @@ class EdgeSampler {
   BoundaryNodes run() {
     tabulate_edges();
     wish_alike();
-    const FaceOutlines found = find_face_sides(shape_, used_, plan_.tiny, wishes_.wanted);
+    FaceOutlines found = find_face_sides(shape_, used_, plan_.tiny, wishes_.wanted);
+    free_sides_beside_chains(found);
     FaceOutlines sides = found;
     EdgeCounts chosen = choose_counts(shape_, wishes_, plan_.tiny, sides);
     const bool refined = refine_along_strips(shape_, sides, chosen, tables_, wishes_);
@@ -203,6 +205,7 @@ class EdgeSampler {
         wishes_.least_of_grids[i] =
             std::max(wishes_.least_of_grids[i], to_int(std::ceil(result_.stride * wanted - nearly)));
       }
+      add_heads(i);
       if (is_prescribed(i)) {
         fix_count(i, shared_ends[i], inner[i]);
       } else if (even) {
@@ -282,6 +285,60 @@ class EdgeSampler {
     return !plan_.prescribed.empty() && plan_.prescribed[edge].has_value();
   }
 
+  /// Adds the segments on which rows end to those that the sizes ask for beyond.
+  void add_heads(EdgeId i) {
+    const auto heads = plan_.rows.heads.find(i);
+    if (heads == plan_.rows.heads.end()) return;
+    const auto [from, to] = counts_between(i, heads->second);
+    const int own = heads->second.segments(), least = own + 1;
+    wishes_.wanted[i] = (own + std::max(1.0, plan_.factor[i] * (to - from))) / result_.stride;
+    wishes_.least[i] = std::max(wishes_.least[i], (least + result_.stride - 1) / result_.stride);
+    wishes_.least_of_grids[i] = std::max(wishes_.least_of_grids[i], least);
+  }
+
+  static double sum_of(const std::vector<double>& lengths) {
+    return std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  }
+
+  /// The counts by the sizing field at the ends of the part of an edge between its heads.
+  std::pair<double, double> counts_between(EdgeId edge, const EdgeHeads& heads) const {
+    const CountTable& table = tables_[edge];
+    return {table.count_at_length(sum_of(heads.first)),
+            table.count_at_length(table.length() - sum_of(heads.last))};
+  }
+
+  /// The places of an edge's nodes: its heads, and as the sizes ask for between; none if they have no room.
+  std::vector<double> shares_with_heads(EdgeId edge, const EdgeHeads& heads) const {
+    const CountTable& table = tables_[edge];
+    const int between = counts_[edge] - heads.segments();
+    if (between < 1) return {};
+    const auto [from, to] = counts_between(edge, heads);
+    std::vector<double> places{0};
+    for (const double length : heads.first) places.push_back(places.back() + length);
+    for (int k = 1; k < between; ++k) places.push_back(table.length_at(from + (to - from) * k / between));
+    places.push_back(table.length() - sum_of(heads.last));
+    for (auto length = heads.last.rbegin(); length != heads.last.rend(); ++length)
+      places.push_back(places.back() + *length);
+    for (double& place : places) place /= table.length();
+    places.back() = 1;
+    return places;
+  }
+
+  /// Faces with rows along chains are no grids, nor are those at the edges on which rows end, which would
+  /// hand the short segments on to edges far away: their sides need not face each other.
+  void free_sides_beside_chains(FaceOutlines& sides) const {
+    FaceFlags freed(shape_.faces.size());
+    for (const FaceId face : freed.ids()) freed[face] = has_chain(plan_.rows.of_faces, face);
+    for (const auto& [edge, heads] : plan_.rows.heads)
+      for (const FaceId face : shape_.edges[edge].faces) freed[face] = 1;
+    for (const FaceId face : freed.ids()) {
+      if (!freed[face] || !used_[face]) continue;
+      sides[face] = {};
+      for (const CadWire& wire : shape_.faces[face].wires)
+        for (const Coedge& coedge : wire.coedges) sides[face].rest.push_back(coedge.edge);
+    }
+  }
+
   /// Users may prescribe too few segments to keep the edge's shape, but a loop must stay open.
   void fix_count(EdgeId i, bool shares_both_ends, bool inner) {
     const int segments = plan_.prescribed[i]->segments;
@@ -304,6 +361,8 @@ class EdgeSampler {
     for (const EdgeId i : shape_.edges.ids()) {
       if (is_prescribed(i)) shares[i] = plan_.prescribed[i]->shares;
     }
+    for (const auto& [edge, heads] : plan_.rows.heads)
+      if (counts_[edge] > 0) shares[edge] = shares_with_heads(edge, heads);
     return shares;
   }
 
@@ -311,6 +370,7 @@ class EdgeSampler {
   void keep_spacing(const Chords& chords) {
     EdgeFlags divided(n_), kept(n_);
     for (const EdgeId i : shape_.edges.ids()) {
+      if (plan_.rows.heads.contains(i)) kept[chords.of(i)] = 1;
       if (!is_prescribed(i)) continue;
       divided[chords.of(i)] = 1;
       if (!plan_.prescribed[i]->shares.empty()) kept[chords.of(i)] = 1;
@@ -409,7 +469,6 @@ SamplingPlan::SamplingPlan(const CadShape& shape)
       bare(shape.edges.size()),
       unaligned(shape.faces.size()),
       subdivided(shape.faces.size()),
-      layered_loops(shape.faces.size()),
       tiny(find_tiny_features(shape, FaceFlags(shape.faces.size(), 1), EdgeFlags(shape.edges.size()), 0)) {}
 
 BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int stride, const FaceFlags& used,

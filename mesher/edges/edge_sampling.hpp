@@ -16,6 +16,7 @@
 #include "mesher/edges/count_table.hpp"
 #include "mesher/edges/face_plan.hpp"
 #include "mesher/edges/matching.hpp"
+#include "mesher/edges/row_lines.hpp"
 #include "mesher/edges/tiny_features.hpp"
 #include "mesher/edges/tips.hpp"
 
@@ -86,10 +87,10 @@ struct SamplingPlan {
   EdgeFlags bare;        ///< 1 = ignore how the curve turns, it may have loops
   FaceFlags unaligned;   ///< 1 = nodes need not face each other across the face's gaps
   FaceFlags subdivided;  ///< 1 = recombined at twice the size in any case: the face's edges get even numbers
-  FaceFlags layered_loops;  ///< see GridRows
   TinyFeatures tiny;
   std::vector<Tip> tips;       ///< at which faces end early
   PrescribedEdges prescribed;  ///< user divisions; may be empty
+  RowLines rows;               ///< along which faces get rows, and where these end on edges
   /// Edges whose nodes are copied to others, in this order; plan.tiny must leave them and their vertices.
   std::vector<MatchedEdge> matched;
 };

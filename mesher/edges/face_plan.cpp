@@ -26,8 +26,7 @@ int count_quads(const CadFace& face, const FaceSides& sides, const BoundaryNodes
   return counts[0] == counts[2] && counts[1] == counts[3] ? counts[0] * counts[1] : 0;
 }
 
-FacePlan plan_of(const CadFace& face, FaceSides sides, bool subdivided, bool layered_loop,
-                 const BoundaryNodes& nodes) {
+FacePlan plan_of(const CadFace& face, FaceSides sides, bool subdivided, const BoundaryNodes& nodes) {
   FacePlan plan;
   plan.stride = subdivided ? 2 : 1;
   for (const CadWire& wire : face.wires) {
@@ -40,7 +39,6 @@ FacePlan plan_of(const CadFace& face, FaceSides sides, bool subdivided, bool lay
   }
   plan.is_filled = sides.is_filled();
   plan.has_steps = sides.has_steps();
-  plan.has_row_loop = layered_loop && !sides.is_rectangle();
   plan.keeps_rows = sides.has_whole_rows() && plan.has_kept_edge;
   if (sides.has_four_sides()) plan.grid_quads = count_quads(face, sides, nodes);
   plan.sides = std::move(sides);
@@ -53,10 +51,13 @@ FacePlans plan_faces(const CadShape& shape, FaceOutlines sides, const SamplingPl
                      const BoundaryNodes& nodes) {
   for (const auto& [side, counts] : nodes.unused) sides[side.first].drop_grid();  // it ends before a tip
   FacePlans plans(shape.faces.size());
-  for (const FaceId face : plans.ids())
-    plans[face] = plan_of(shape.faces[face], std::move(sides[face]),
-                          nodes.stride == 2 || sampling.subdivided[face] != 0,
-                          sampling.layered_loops[face] != 0, nodes);
+  for (const FaceId face : plans.ids()) {
+    // An odd number of segments may lie on an edge beyond the rows that end there.
+    const bool subdivided =
+        (nodes.stride == 2 || sampling.subdivided[face] != 0) && !has_chain(sampling.rows.of_faces, face);
+    plans[face] = plan_of(shape.faces[face], std::move(sides[face]), subdivided, nodes);
+  }
+  for (const auto& [face, lines] : sampling.rows.of_faces) plans[face].row_lines = lines;
   return plans;
 }
 

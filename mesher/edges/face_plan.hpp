@@ -1,8 +1,11 @@
 #pragma once
 /// What is decided about each face once the segments of its edges are counted. Internal.
 
+#include <vector>
+
 #include "geometry/cad/cad_shape.hpp"
 #include "mesher/edges/face_sides.hpp"
+#include "mesher/edges/row_lines.hpp"
 
 namespace quadrille {
 
@@ -12,18 +15,17 @@ struct SamplingPlan;
 /// How a face is meshed between the nodes on its edges. What comes after sampling reads this, and does not
 /// look at the outline again.
 struct FacePlan {
-  FaceSides sides;  ///< of its grid, with facing sides whose counts match
+  FaceSides sides;                 ///< of its grid, with facing sides whose counts match
+  std::vector<RowLine> row_lines;  ///< along which it gets rows, since it is no grid with such rows
   /// Segments of the final mesh for each segment of the mesh that is recombined: 2 for faces that are
-  /// subdivided, unless one of their edges has an odd number of segments; else 1.
+  /// subdivided, unless one of their edges has an odd number of segments, or rows end on one; else 1.
   int stride = 1;
   int grid_quads = 0;             ///< of a grid between four sides; 0 for other faces
   bool is_filled = false;         ///< a grid fills the face, so that its sides need no room between them
   bool has_steps = false;         ///< the outline of its grid has steps
   bool has_kept_edge = false;     ///< users prescribe the spacing of one of its edges
   bool has_divided_edge = false;  ///< users prescribe the number of segments on one of its edges
-  bool has_row_loop =
-      false;                ///< it gets rows along a loop that has layers, since it is no grid with such rows
-  bool keeps_rows = false;  ///< the rows of its grid follow a prescribed spacing
+  bool keeps_rows = false;        ///< the rows of its grid follow a prescribed spacing
 };
 
 using FacePlans = IdVector<FaceId, FacePlan>;

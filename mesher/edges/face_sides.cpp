@@ -16,6 +16,16 @@
 
 namespace quadrille {
 
+double turning_at(const CadShape& shape, const FaceSurface& surface, const Coedge& from, const Coedge& to) {
+  const CadEdge &before = shape.edges[from.edge], &after = shape.edges[to.edge];
+  const double t = to.forward ? after.first : after.last;
+  const Vector3 in = (from.forward ? 1 : -1) *
+                     EdgeCurve(before).derivative(from.forward ? before.last : before.first),
+                out = (to.forward ? 1 : -1) * EdgeCurve(after).derivative(t);
+  const Vector3 normal = surface.normal(parametric_point(to, t));
+  return std::atan2(in.cross(out).dot(normal), in.dot(out));
+}
+
 namespace {
 
 constexpr double corner_turning = 0.7;  // radians; a right-angled corner turns by pi / 2
@@ -77,22 +87,12 @@ class SideFinder {
       const std::size_t n = walk.edges.size();
       if (n == 0) return {};
       for (std::size_t k = 0; k < n; ++k) {
-        walk.turnings.push_back(
-            turning(surface, wire.coedges[walk.coedges[(k + n - 1) % n]], wire.coedges[walk.coedges[k]]));
+        walk.turnings.push_back(turning_at(shape_, surface, wire.coedges[walk.coedges[(k + n - 1) % n]],
+                                           wire.coedges[walk.coedges[k]]));
       }
       walks.push_back(std::move(walk));
     }
     return walks;
-  }
-
-  double turning(const FaceSurface& surface, const Coedge& from, const Coedge& to) const {
-    const CadEdge &before = shape_.edges[from.edge], &after = shape_.edges[to.edge];
-    const double t = to.forward ? after.first : after.last;
-    const Vector3 in = (from.forward ? 1 : -1) *
-                       EdgeCurve(before).derivative(from.forward ? before.last : before.first),
-                  out = (to.forward ? 1 : -1) * EdgeCurve(after).derivative(t);
-    const Vector3 normal = surface.normal(parametric_point(to, t));
-    return std::atan2(in.cross(out).dot(normal), in.dot(out));
   }
 
   /// The vertices where the boundary turns by about a right angle; nothing if another one is not smooth.

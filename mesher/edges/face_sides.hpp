@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/tiny_features.hpp"
 
 namespace quadrille {
@@ -73,6 +74,9 @@ struct FaceSides {
 };
 
 using FaceOutlines = IdVector<FaceId, FaceSides>;
+
+/// How much the boundary of a face turns from a coedge to the next one: radians, positive to the left.
+double turning_at(const CadShape& shape, const FaceSurface& surface, const Coedge& from, const Coedge& to);
 
 /// The outlines of the faces used. A corner is a vertex where the boundary turns by about a right angle, to
 /// the left or, in stepped outlines, to the right. A side may have several edges. Opposite sides are cut into

@@ -11,39 +11,20 @@
 
 #include "geometry/base/whole_number.hpp"
 #include "mesher/edges/count_table.hpp"
+#include "mesher/edges/row_lines.hpp"
 
 namespace quadrille {
 
-std::vector<double> heights_of(const SizeLayers* layers) {
-  std::vector<double> heights;
-  for (int i = 0; layers != nullptr && i < layers->count; ++i)
-    heights.push_back(layers->first * std::pow(layers->ratio, i));
-  return heights;
-}
-
 namespace {
-
-/// Whether all edges of a wire have the same layers.
-bool is_layered(const CadShape& shape, const CadWire& wire, const ByElement<SizeLayers>& layers) {
-  const SizeLayers* before = nullptr;
-  for (const Coedge& coedge : wire.coedges) {
-    const auto own = layers.edges.find(shape.edges[coedge.edge].number);
-    if (own == layers.edges.end()) return false;
-    if (before != nullptr && heights_of(before) != heights_of(&own->second)) return false;
-    before = &own->second;
-  }
-  return before != nullptr;
-}
 
 /// Largest ratio between the number that a member of a chord wants and the number that it gets, either way.
 constexpr double largest_row_ratio = 4;
 /// Largest share of a side that layers may take.
 constexpr double most_of_side = 0.9;
 
-/// The layers that start at the ends of an edge, in the direction of its parameter; null = none.
+/// The heights of layers that start at the ends of an edge, in the direction of its parameter.
 struct Stacks {
-  const SizeLayers* first = nullptr;
-  const SizeLayers* last = nullptr;
+  std::vector<double> first, last;
 };
 
 double sum_of(const std::vector<double>& heights) {
@@ -55,8 +36,8 @@ class StackedEdge {
  public:
   StackedEdge(double length, const Stacks& stacks, double size, double growth)
       : length_(length),
-        first_(heights_of(stacks.first)),
-        last_(heights_of(stacks.last)),
+        first_(stacks.first),
+        last_(stacks.last),
         inner_(length - sum_of(first_) - sum_of(last_)) {
     const double from = first_.empty() ? size : first_.back(), to = last_.empty() ? size : last_.back();
     counts_.push_back(0);
@@ -108,7 +89,6 @@ class RowFinder {
     rows_.prescribed.resize(shape.edges.size());
     rows_.divided.resize(shape.edges.size());
     rows_.layered.resize(shape.edges.size());
-    rows_.layered_loops.resize(shape.faces.size());
   }
 
   GridRows run() {
@@ -119,7 +99,6 @@ class RowFinder {
       if (found == options_.layers.edges.end()) continue;
       if (auto beside = stack(edge, found->second, stacks)) layered.emplace_back(edge, std::move(*beside));
     }
-    find_row_loops();
     std::map<EdgeId, PrescribedEdge> of_layers;
     for (const auto& [edge, own] : stacks) divide(edge, stacks, of_layers);
     for (const auto& [edge, beside] : layered) {
@@ -163,22 +142,10 @@ class RowFinder {
       }
     }
     for (const auto& [side, at_first] : found) {
-      (at_first ? stacks[side].first : stacks[side].last) = &layers;
+      (at_first ? stacks[side].first : stacks[side].last) = heights_of(layers);
       beside.push_back(side);
     }
     return beside;
-  }
-
-  /// Marks the edges along which some face has rows of its own.
-  void find_row_loops() {
-    for (const FaceId face : shape_.faces.ids()) {
-      for (const CadWire& wire : shape_.faces[face].wires) {
-        if (!is_layered(shape_, wire, options_.layers)) continue;
-        rows_.layered_loops[face] = 1;
-        if (sides_[face].is_rectangle()) continue;
-        for (const Coedge& coedge : wire.coedges) rows_.layered[coedge.edge] = 1;
-      }
-    }
   }
 
   static bool holds(const FacingPair& pair, EdgeId edge) {

@@ -17,12 +17,8 @@ struct GridRows {
   /// 1 = prescribed, and all faces along its chord are four-sided or rings: rows of flat quads keep
   /// the division, and the sizes around need not follow.
   EdgeFlags divided;
-  EdgeFlags layered;        ///< 1 = its layers become rows, in grids or along a loop
-  FaceFlags layered_loops;  ///< 1 = all edges of one of its wires have the same layers
+  EdgeFlags layered;  ///< 1 = its layers become rows
 };
-
-/// Heights of the rows that layers ask for; empty if null.
-std::vector<double> heights_of(const SizeLayers* layers);
 
 /// Finds the divisions and layers in the options that grids can continue. The layers of an edge become rows
 /// if all its faces are four-sided, and the two sides that run away from it are single edges without a

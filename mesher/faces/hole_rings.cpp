@@ -37,7 +37,8 @@ class Segments {
  public:
   struct Segment {
     Vector3 a, b;
-    int loop;  // -1: a vertex inside the face
+    int loop;                // -1: a vertex inside the face
+    std::size_t number = 0;  // in the loop
   };
 
   explicit Segments(std::vector<Segment> segments) : segments_(std::move(segments)) {
@@ -72,35 +73,49 @@ class RingPlacer {
   RingPlacer(const FaceBoundary& boundary, const FaceSurface& surface, const TrimmedDomain& domain)
       : boundary_(boundary), surface_(surface), domain_(domain) {}
 
-  HoleRings run(int rings, const std::function<std::vector<double>(EdgeId)>& heights) {
+  HoleRings run(int rings, const std::vector<RowLine>& lines) {
     find_loops();
-    for (Loop& loop : loops_) find_heights(loop, heights);
-    const bool any_rows = std::any_of(loops_.begin(), loops_.end(), has_rows);
-    if (!any_rows && (loops_.size() < 2 || std::none_of(loops_.begin(), loops_.end(), is_hole))) return {};
+    for (const RowLine& line : lines) {
+      if (!add_part(line)) {
+        result_.unfit = line.edges.front();
+        return std::move(result_);
+      }
+    }
+    if (lines.empty() && (loops_.size() < 2 || std::none_of(loops_.begin(), loops_.end(), is_hole)))
+      return {};
     const Segments segments(all_segments());
     for (std::size_t i = 0; i < loops_.size(); ++i) {
-      if (has_rows(loops_[i])) {
-        if (!add_rows(i, segments)) return std::move(result_);
-      } else if (is_hole(loops_[i])) {
-        add_rings(i, rings, segments);
+      for (Part& part : loops_[i].parts) {
+        if (!add_rows(i, part, segments)) return std::move(result_);
       }
+      if (loops_[i].parts.empty() && is_hole(loops_[i])) add_rings(i, rings, segments);
     }
     place_loops();
     return std::move(result_);
   }
 
  private:
+  /// Consecutive segments of a loop whose place in the rest of the face an outer line takes.
+  struct Part {
+    const RowLine* line = nullptr;  // null for rings
+    std::size_t first = 0, count = 0;
+    std::array<int, 2> heads{0, 0};  // segments at the start and at the end on which rows end
+    int hole = -1;                   // index of its rings or rows in the result
+    double reach() const { return line == nullptr ? 0 : sum_of(line->heights); }
+    bool is_open() const { return line != nullptr && !line->is_closed(); }
+  };
   struct Loop {
     std::vector<int> segments;
     std::vector<HoleRings::Node> nodes;  // all nodes of the loop in the final mesh
     bool regular = true, smooth = true;
     bool outermost = false;
-    std::vector<double> heights;  // of the rows asked for
-    int hole = -1;                // index of its rings or rows in the result
+    std::vector<Part> parts;
   };
   using Line = std::vector<HoleRings::Node>;
 
-  static bool has_rows(const Loop& loop) { return !loop.heights.empty(); }
+  static double sum_of(const std::vector<double>& heights) {
+    return std::accumulate(heights.begin(), heights.end(), 0.0);
+  }
 
   static bool is_hole(const Loop& loop) {
     return loop.regular && loop.smooth && !loop.outermost && loop.nodes.size() >= fewest_segments;
@@ -134,54 +149,99 @@ class RingPlacer {
     if (outermost != nullptr) outermost->outermost = true;
   }
 
-  /// Notes the heights of rows along a loop, if all its edges ask for the same.
-  void find_heights(Loop& loop, const std::function<std::vector<double>(EdgeId)>& heights) const {
-    if (!loop.regular) return;
-    for (const int i : loop.segments) {
-      std::vector<double> wanted = heights(boundary_.segments[i].edge);
-      if (wanted.empty() || (i != loop.segments.front() && wanted != loop.heights))
-        return loop.heights.clear();
-      loop.heights = std::move(wanted);
+  /// Finds the segments of a line, and those on which its rows end. \return false if they are not there.
+  bool add_part(const RowLine& line) {
+    const auto is_along = [&](const Loop& loop, std::size_t k) {
+      const EdgeId edge = segment_of(loop, k).edge;
+      return std::find(line.edges.begin(), line.edges.end(), edge) != line.edges.end();
+    };
+    for (Loop& loop : loops_) {
+      const std::size_t n = loop.segments.size();
+      std::size_t along = 0, first = 0;
+      for (std::size_t k = 0; k < n; ++k) along += is_along(loop, k) ? 1 : 0;
+      if (along == 0) continue;
+      Part part{&line, 0, along};
+      if (part.is_open()) {
+        while (first < n && (!is_along(loop, first) || is_along(loop, first + n - 1))) ++first;
+        for (std::size_t k = 0; k < along; ++k)
+          if (!is_along(loop, first + k)) return false;
+        for (const int end : {0, 1})
+          if (line.ends[end] == RowLine::End::meets) part.heads[end] = static_cast<int>(line.heights.size());
+        part.first = (first + n - part.heads[0]) % n;
+        part.count += part.heads[0] + part.heads[1];
+      }
+      if (!loop.regular || part.count > n || part.is_open() != (part.count < n)) return false;
+      loop.parts.push_back(part);
+      return true;
     }
+    return false;
   }
 
-  /// Adds rows along a loop. \return false if they do not fit.
-  bool add_rows(std::size_t index, const Segments& segments) {
-    Loop& loop = loops_[index];
+  const FaceBoundary::Segment& segment_of(const Loop& loop, std::size_t k) const {
+    return boundary_.segments[loop.segments[k % loop.segments.size()]];
+  }
+
+  RowPath path_of(const Loop& loop, const Part& part) const {
+    if (!part.is_open()) return {loop.nodes, true, {0, 0}};
+    RowPath path{{}, false, part.heads};
+    for (std::size_t k = part.first; k <= part.first + part.count; ++k)
+      path.nodes.push_back(loop.nodes[k % loop.nodes.size()]);
+    return path;
+  }
+
+  /// Adds rows along a part of a loop. \return false if they do not fit.
+  bool add_rows(std::size_t index, Part& part, const Segments& segments) {
+    const Loop& loop = loops_[index];
     const double side = side_of(loop);
-    auto rows = side == 0 ? std::nullopt : place_rows(loop.nodes, loop.heights, side, surface_, domain_);
-    int misfit = rows ? -1 : 0;
-    for (std::size_t j = 0; rows && j < rows->outer.size() && misfit < 0; ++j) {
-      if (is_too_near(rows->points[rows->outer[j]].point, index, segments)) misfit = static_cast<int>(j);
-    }
-    if (misfit >= 0) {
-      result_.unfit = boundary_.segments[loop.segments.front()].edge;
+    auto rows = side == 0 ? std::nullopt
+                          : place_rows(path_of(loop, part), part.line->heights, side, surface_, domain_);
+    const auto is_misfit = [&](int point) {
+      return is_too_near(rows->points[point].point, loop, part, segments);
+    };
+    // At its ends, a chain's outer line comes to the loop.
+    const auto skipped = [&](int end) -> long {
+      const RowLine& line = *part.line;
+      return line.is_closed() ? 0 : line.ends[end] == RowLine::End::meets ? 1 : std::ssize(line.heights);
+    };
+    if (!rows || std::any_of(rows->outer.begin() + skipped(0), rows->outer.end() - skipped(1), is_misfit)) {
+      result_.unfit = part.line->edges.front();
       return false;
     }
     result_.has_rows = true;
-    keep(loop, std::move(*rows));
+    keep(loop, part, std::move(*rows));
     return true;
   }
 
-  /// Whether a point at the end of a loop's rows is nearer to a boundary than these are high.
-  bool is_too_near(const Vector3& point, std::size_t index, const Segments& segments) const {
+  /// The part of its loop that a segment belongs to, unless rows only end there; null if there is none.
+  const Part* part_along(const Segments::Segment& segment) const {
+    if (segment.loop < 0) return nullptr;
+    const Loop& loop = loops_[segment.loop];
+    const std::size_t n = loop.segments.size();
+    for (const Part& part : loop.parts) {
+      const std::size_t k = (segment.number + n - part.first) % n;
+      if (k >= static_cast<std::size_t>(part.heads[0]) && k + part.heads[1] < part.count) return &part;
+    }
+    return nullptr;
+  }
+
+  /// Whether a point at the end of a part's rows is nearer to a boundary than these are high.
+  bool is_too_near(const Vector3& point, const Loop& loop, const Part& part, const Segments& segments) const {
     constexpr double rounding = 0.9;  // rows are straight, loops are curved
-    const auto& heights = loops_[index].heights;
-    const double own = rounding * std::accumulate(heights.begin(), heights.end(), 0.0);
+    const double own = rounding * part.reach(), least = part.line->heights.back();
     double largest = own;
     for (const Loop& other : loops_)
-      largest =
-          std::max(largest, std::accumulate(other.heights.begin(), other.heights.end(), heights.back()));
+      for (const Part& rows : other.parts) largest = std::max(largest, rows.reach() + least);
+    const std::size_t n = loop.segments.size();
+    const EdgeId before = segment_of(loop, part.first + part.heads[0] + n - 1).edge,
+                 after = segment_of(loop, part.first + part.count - part.heads[1]).edge;
     bool near = false;
     segments.near(point, largest, [&](const Segments::Segment& other) {
-      double room = own;
-      if (other.loop != static_cast<int>(index)) {
-        room = heights.back();
-        if (other.loop >= 0) {
-          const auto& theirs = loops_[other.loop].heights;
-          room = std::accumulate(theirs.begin(), theirs.end(), room);
-        }
+      const Part* along = part_along(other);
+      if (along == nullptr && part.is_open() && other.loop >= 0) {
+        const EdgeId edge = segment_of(loops_[other.loop], other.number).edge;
+        if (edge == before || edge == after) return;  // the rows end there
       }
+      const double room = along == &part ? own : least + (along == nullptr ? 0 : along->reach());
       near = near || distance(point, other.a, other.b) < room;
     });
     return near;
@@ -198,7 +258,9 @@ class RingPlacer {
       for (int k = 0; k < count && !widths.empty() && add_line(lines, widths, side); ++k) continue;
       if (static_cast<int>(lines.size()) < count + 1) lines.resize(1);
     }
-    if (lines.size() > 1) keep(loop, joined(lines));
+    if (lines.size() < 2) return;
+    loop.parts.push_back({nullptr, 0, loop.segments.size()});
+    keep(loop, loop.parts.back(), joined(lines));
   }
 
   /// The quads between lines of as many nodes each.
@@ -230,7 +292,8 @@ class RingPlacer {
     for (std::size_t i = 0; i < loops_.size(); ++i) {
       const auto& nodes = loops_[i].nodes;
       for (std::size_t k = 0; k < nodes.size(); ++k)
-        segments.push_back({nodes[k].point, nodes[(k + 1) % nodes.size()].point, static_cast<int>(i)});
+        segments.push_back({nodes[k].point, nodes[(k + 1) % nodes.size()].point, static_cast<int>(i),
+                            k * loops_[i].segments.size() / nodes.size()});
     }
     std::vector<char> on_loop(boundary_.points.size(), 0);
     for (const auto& segment : boundary_.segments) on_loop[segment.a] = on_loop[segment.b] = 1;
@@ -252,11 +315,22 @@ class RingPlacer {
                   (line[(i + n - 1) % n].point - line[i].point).norm());
   }
 
-  /// The side of the loop on which the face lies: 1 = left, -1 = right, 0 = not clear.
+  /// The side of the loop on which the face lies: 1 = left, -1 = right, 0 = not clear. Looks beside the
+  /// longest segment, since at a corner the face may be narrow.
   double side_of(const Loop& loop) const {
+    constexpr double beside = 0.2;
+    const std::size_t n = loop.nodes.size();
+    std::size_t longest = 0;
+    const auto along = [&](std::size_t k) -> Vector3 {
+      return loop.nodes[(k + 1) % n].point - loop.nodes[k].point;
+    };
+    for (std::size_t k = 1; k < n; ++k)
+      if (along(k).squaredNorm() > along(longest).squaredNorm()) longest = k;
+    const Vector2 start = loop.nodes[longest].uv;
+    const Vector3 to_middle = 0.5 * along(longest), normal = surface_.normal(start).cross(along(longest));
     for (const double side : {1.0, -1.0}) {
-      Vector2 uv = loop.nodes[0].uv;
-      surface_.move(uv, loop.nodes[0].point + 0.3 * spacing(loop.nodes, 0) * across(loop.nodes, 0, side));
+      Vector2 uv = start;
+      surface_.move(uv, loop.nodes[longest].point + to_middle + beside * side * normal);
       if (domain_.inside(uv)) return side;
     }
     return 0;
@@ -267,19 +341,23 @@ class RingPlacer {
     const auto& line = loops_[index].nodes;
     const std::size_t n = line.size();
     std::vector<double> widths(n);
+    double most_reach = 0;
+    for (const Loop& loop : loops_)
+      for (const Part& part : loop.parts) most_reach = std::max(most_reach, part.reach());
     for (std::size_t i = 0; i < n; ++i) {
       const Vector3& p = line[i].point;
       const Vector3 outward = across(line, i, side);
       const double wanted = usual_width * spacing(line, i);
       widths[i] = wanted;
-      segments.near(p, wanted * (2 * count + rows_beside), [&](const Segments::Segment& other) {
+      segments.near(p, wanted * (2 * count + rows_beside) + most_reach, [&](const Segments::Segment& other) {
         const bool own = other.loop == static_cast<int>(index);
         if (own &&
             (0.5 * (other.a + other.b) - p).dot(outward) < 0.5 * (0.5 * (other.a + other.b) - p).norm())
           return;
         const bool ringed = other.loop >= 0 && is_hole(loops_[other.loop]);
-        widths[i] =
-            std::min(widths[i], distance(p, other.a, other.b) / ((ringed ? 2 : 1) * count + rows_beside));
+        const Part* rows = own ? nullptr : part_along(other);
+        const double room = distance(p, other.a, other.b) - (rows == nullptr ? 0 : rows->reach());
+        widths[i] = std::min(widths[i], room / ((ringed ? 2 : 1) * count + rows_beside));
       });
     }
     for (std::size_t k = 1; k < 4 * n; ++k) {  // twice around forward, then twice backward
@@ -317,56 +395,71 @@ class RingPlacer {
   }
 
   /// Adds a hole to the result.
-  void keep(Loop& loop, HoleRings::Hole hole) {
-    for (const int i : loop.segments) {
-      const auto& segment = boundary_.segments[i];
+  void keep(const Loop& loop, Part& part, HoleRings::Hole hole) {
+    for (std::size_t k = part.first; k < part.first + part.count; ++k) {
+      const auto& segment = segment_of(loop, k);
       hole.nodes.push_back(boundary_.nodes[segment.a]);
       if (segment.middle_node >= 0) hole.nodes.push_back(segment.middle_node);
     }
+    if (part.is_open()) hole.nodes.push_back(boundary_.nodes[segment_of(loop, part.first + part.count).a]);
     hole.first = next_;
     next_ += static_cast<int>(hole.outer.size());
-    loop.hole = static_cast<int>(result_.holes.size());
+    part.hole = static_cast<int>(result_.holes.size());
     result_.holes.push_back(std::move(hole));
   }
 
-  /// Moves the loops with rings or rows to their outermost lines, which may be longer.
+  /// Moves the parts of loops with rings or rows to their outer lines, which may be longer.
   void place_loops() {
     if (result_.holes.empty()) return;
     FaceBoundary& inside = result_.inside;
     inside = boundary_;
     inside.segments.clear();
     for (const Loop& loop : loops_) {
-      if (loop.hole >= 0)
-        place_line(loop, result_.holes[loop.hole]);
-      else
-        for (const int i : loop.segments) inside.segments.push_back(boundary_.segments[i]);
+      const std::size_t n = loop.segments.size();
+      const std::size_t start = loop.parts.empty() ? 0 : loop.parts.front().first;
+      for (std::size_t k = start; k < start + n;) {
+        const auto part = std::find_if(loop.parts.begin(), loop.parts.end(),
+                                       [&](const Part& own) { return own.first == k % n; });
+        if (part == loop.parts.end()) {
+          inside.segments.push_back(segment_of(loop, k++));
+        } else {
+          place_line(loop, *part);
+          k += part->count;
+        }
+      }
     }
+    drop_covered();
   }
 
-  void place_line(const Loop& loop, const HoleRings::Hole& hole) {
+  /// The points of the outer line take the place of the part's own, as far as there are as many.
+  void place_line(const Loop& loop, const Part& part) {
     FaceBoundary& inside = result_.inside;
-    const int count = static_cast<int>(hole.outer.size()), before = static_cast<int>(loop.segments.size());
-    const bool has_middles = boundary_.segments[loop.segments.front()].middle_node >= 0;
-    const int stride = has_middles ? 2 : 1, first_new = inside.size();
+    const HoleRings::Hole& hole = result_.holes[part.hole];
+    const bool has_middles = segment_of(loop, 0).middle_node >= 0;
+    const int stride = has_middles ? 2 : 1, first_new = inside.size(), covered = static_cast<int>(part.count),
+              count = (static_cast<int>(hole.outer.size()) - (part.is_open() ? 1 : 0)) / stride;
     const auto end = [&](int k) {
-      k %= count / stride;
-      return k < before ? boundary_.segments[loop.segments[k]].a : first_new + k - before;
+      if (k == count) return segment_of(loop, part.first + (part.is_open() ? part.count : 0)).a;
+      return k < covered ? segment_of(loop, part.first + k).a : first_new + k - covered;
     };
-    for (int k = 0; k < count / stride; ++k) {
-      const auto& node = hole.points[hole.outer[stride * k]];
-      FaceBoundary::Segment segment = boundary_.segments[loop.segments[std::min(k, before - 1)]];
-      segment.a = end(k);
-      segment.b = end(k + 1);
-      if (k >= before) {
+    const auto place = [&](int k) {
+      if (end(k) == inside.size()) {
         inside.nodes.push_back(-1);
         inside.uv.emplace_back();
         inside.points.emplace_back();
         inside.angles.push_back(0);
       }
-      inside.nodes[segment.a] = HoleRings::node(hole.first + stride * k);
-      inside.uv[segment.a] = node.uv;
-      inside.points[segment.a] = node.point;
-      inside.angles[segment.a] = loop.heights.empty() ? M_PI : 0;
+      const auto& node = hole.points[hole.outer[stride * k]];
+      inside.nodes[end(k)] = HoleRings::node(hole.first + stride * k);
+      inside.uv[end(k)] = node.uv;
+      inside.points[end(k)] = node.point;
+      inside.angles[end(k)] = part.line == nullptr ? M_PI : 0;
+    };
+    for (int k = 0; k < count; ++k) {
+      FaceBoundary::Segment segment = segment_of(loop, part.first + std::min(k, covered - 1));
+      segment.a = end(k);
+      segment.b = end(k + 1);
+      place(k);
       if (has_middles) {
         const auto& middle = hole.points[hole.outer[stride * k + 1]];
         segment.middle_node = HoleRings::node(hole.first + stride * k + 1);
@@ -374,6 +467,33 @@ class RingPlacer {
         segment.middle_point = middle.point;
       }
       inside.segments.push_back(segment);
+    }
+    if (part.is_open()) place(count);
+  }
+
+  /// Drops the boundary's points that only rows use.
+  void drop_covered() {
+    FaceBoundary& inside = result_.inside;
+    std::vector<char> is_covered(inside.points.size(), 0);
+    for (const auto& segment : boundary_.segments) is_covered[segment.a] = is_covered[segment.b] = 1;
+    for (const auto& segment : inside.segments) is_covered[segment.a] = is_covered[segment.b] = 0;
+    std::vector<int> renumbered(is_covered.size(), -1);
+    int left = 0;
+    for (std::size_t i = 0; i < is_covered.size(); ++i) {
+      if (is_covered[i]) continue;
+      inside.uv[left] = inside.uv[i];
+      inside.points[left] = inside.points[i];
+      inside.nodes[left] = inside.nodes[i];
+      inside.angles[left] = inside.angles[i];
+      renumbered[i] = left++;
+    }
+    inside.uv.resize(left);
+    inside.points.resize(left);
+    inside.nodes.resize(left);
+    inside.angles.resize(left);
+    for (auto& segment : inside.segments) {
+      segment.a = renumbered[segment.a];
+      segment.b = renumbered[segment.b];
     }
   }
 
@@ -388,8 +508,8 @@ class RingPlacer {
 }  // namespace
 
 HoleRings place_rings(const FaceBoundary& boundary, const FaceSurface& surface, const TrimmedDomain& domain,
-                      int rings, const std::function<std::vector<double>(EdgeId)>& heights) {
-  return RingPlacer(boundary, surface, domain).run(rings, heights);
+                      int rings, const std::vector<RowLine>& lines) {
+  return RingPlacer(boundary, surface, domain).run(rings, lines);
 }
 
 }  // namespace quadrille

@@ -2,12 +2,12 @@
 /// Rings of quads around the holes of a face, and rows of given heights along its loops. Internal.
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "geometry/base/trimmed_domain.hpp"
 #include "geometry/surfaces/face_surface.hpp"
+#include "mesher/edges/row_lines.hpp"
 #include "mesher/faces/face_boundary.hpp"
 
 namespace quadrille {
@@ -19,15 +19,18 @@ struct HoleRings {
     Vector3 point{0, 0, 0};
   };
   struct Hole {
-    int first = 0;             ///< number of the first node of `outer` among those of all holes
-    std::vector<int> nodes;    ///< (n) the loop in the final mesh, indices into BoundaryNodes::points
-    std::vector<Node> points;  ///< the loop, then all others; of rings line by line outward
-    std::vector<int> outer;    ///< the line that bounds the rest of the face, indices into `points`
+    int first = 0;  ///< number of the first node of `outer` among those of all holes
+    /// (n) the loop, or the part of it that rows cover, in the final mesh: indices into BoundaryNodes::points
+    std::vector<int> nodes;
+    std::vector<Node> points;  ///< of `nodes`, then all others; of rings line by line outward
+    /// The line that bounds the rest of the face, indices into `points`. Beside a part of a loop, its ends
+    /// are nodes of the loop.
+    std::vector<int> outer;
     std::vector<std::array<int, 4>> quads;  ///< indices into `points`; all turn the same way
   };
 
-  /// The boundary of the face without its rings: the loop of each hole is the hole's outermost line. Node j
-  /// of the outer line of hole i has the index node(holes[i].first + j) there, which is negative.
+  /// The boundary of the face without its rings: in place of a hole's nodes it has the hole's outer line.
+  /// Node j of the outer line of hole i has the index node(holes[i].first + j) there, which is negative.
   FaceBoundary inside;
   std::vector<Hole> holes;
   bool has_rows = false;  ///< some have heights that were asked for
@@ -42,11 +45,9 @@ struct HoleRings {
 /// segment, there are fewer rings or none. \param domain enclosed by the boundary \param rings largest number
 /// per hole, in rows of the final mesh. Time: O(n log n) in the boundary's points if these are spread out.
 ///
-/// Loops with heights get rows of just these heights instead, with or without corners: where a loop turns
-/// away from the face by more than 72 degrees, one or two blocks of as many quads each way fill the corner.
-/// \param heights of the rows along an edge; empty = none. The loop gets them if all its edges have the same.
-HoleRings place_rings(
-    const FaceBoundary& boundary, const FaceSurface& surface, const TrimmedDomain& domain, int rings,
-    const std::function<std::vector<double>(EdgeId)>& heights = [](EdgeId) { return std::vector<double>(); });
+/// Along lines it places rows of just the heights asked for instead, with or without corners, see
+/// place_rows(). Chains, which are part of a loop, need a boundary with stride 1.
+HoleRings place_rings(const FaceBoundary& boundary, const FaceSurface& surface, const TrimmedDomain& domain,
+                      int rings, const std::vector<RowLine>& lines = {});
 
 }  // namespace quadrille

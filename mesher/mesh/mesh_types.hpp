@@ -187,6 +187,7 @@ struct ShellMesh {
   std::vector<Kept> kept;                     ///< faces, then edges, ascending
   std::vector<FilledHole> filled_holes;       ///< ascending by the first face they lie in
   std::vector<SuppressedEdge> suppressed_edges;  ///< ascending
+  std::vector<std::string> warnings;             ///< what was not done as asked, one sentence each
   std::vector<PoorQuads> poor_quads;             ///< those that most quads have first
   std::vector<int> marked_edges;                 ///< CAD edges, from 1, that pictures draw in red
   std::vector<Face> faces;                       ///< one entry per CAD face; empty in meshes read from files
