@@ -134,145 +134,143 @@ class FaceMesher {
     return result;
   }
 
-}
-
-FaceQuads
-quads_inside(const FaceBoundary& boundary, const Candidate& candidate) {
-  const bool is_halved = candidate.direct && boundary.stride == 2;
-  const FaceBoundary segments = is_halved ? halved(boundary) : boundary;
-  FaceQuadsOptions options;
-  options.segments_per_side = segments.stride;
-  options.pair = recipe_.off != FaceRecipe::Off::as_triangles;
-  options.clean_up = recipe_.clean_up;
-  options.recombine = options_.recombine;
-  options.improve = options_.improve;
-  FaceQuads quads = make_quads(triangulate(segments, enclosed_domain(boundary)), surface_, options, context_);
-  if (!quads.surface_mesh.mesh.triangles.empty())
-    throw FaceProblem(
-        Cause::odd_boundary, face_,
-        fmt::format("Face{} has an odd boundary that cannot be made even: `strategy` subdivide meshes it",
-                    face_.number()));
-  if (recipe_.off != FaceRecipe::Off::none) leave_surface(quads);
-  return quads;
-}
-
-/// Moves nodes of inverted quads off the surface, and notes how far.
-void leave_surface(FaceQuads& quads) {
-  SurfaceMesh& mesh = quads.surface_mesh;
-  const std::vector<char> moved = unfold_in_space(mesh.mesh, mesh.fixed, context_);
-  off_.assign(moved.size(), 0);
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    const Vector3& at = mesh.mesh.points[i];
-    if (moved[i]) off_[i] = (surface_.project(mesh.parameters[i], at).point - at).norm();
+  FaceQuads quads_inside(const FaceBoundary& boundary, const Candidate& candidate) {
+    const bool is_halved = candidate.direct && boundary.stride == 2;
+    const FaceBoundary segments = is_halved ? halved(boundary) : boundary;
+    FaceQuadsOptions options;
+    options.segments_per_side = segments.stride;
+    options.pair = recipe_.off != FaceRecipe::Off::as_triangles;
+    options.clean_up = recipe_.clean_up;
+    options.recombine = options_.recombine;
+    options.improve = options_.improve;
+    FaceQuads quads =
+        make_quads(triangulate(segments, enclosed_domain(boundary)), surface_, options, context_);
+    if (!quads.surface_mesh.mesh.triangles.empty())
+      throw FaceProblem(
+          Cause::odd_boundary, face_,
+          fmt::format("Face{} has an odd boundary that cannot be made even: `strategy` subdivide meshes it",
+                      face_.number()));
+    if (recipe_.off != FaceRecipe::Off::none) leave_surface(quads);
+    return quads;
   }
-}
 
-std::optional<FaceMesh> grid_mesh() {
-  const StageTimer timer(context_, Stage::triangulate);
-  auto grid = make_grid(chart_.boundary, plan_.sides, surface_, size_at_, context_);
-  context_.check();
-  if (!grid) return std::nullopt;
-  const bool has_holes = grid->rings > 0;
-  if (has_holes && grid->rings < options_.rings) return std::nullopt;
-  FaceQuads quads;
-  quads.nodes = std::move(grid->nodes);
-  auto& mesh = quads.surface_mesh;
-  mesh.mesh.quads = std::move(grid->quads);
-  mesh.mesh.points = std::move(grid->points);
-  mesh.parameters = std::move(grid->uv);
-  quads.pole.assign(mesh.parameters.size(), 0);
-  context_.check();
-  if (has_holes && !settle(quads)) return std::nullopt;
-  FaceMesh result = finish(std::move(quads));
-  result.grid = true;
-  return result;
-}
-
-/// Moves the nodes of a grid with holes. \return whether its quads are then well shaped.
-bool settle(FaceQuads& quads) {
-  constexpr int rounds = 6;
-  constexpr double least_jacobian = 0.5;
-  SurfaceMesh& mesh = quads.surface_mesh;
-  for (const Vector2& uv : mesh.parameters) mesh.normals.push_back(surface_.normal(uv));
-  mesh.fixed.assign(mesh.parameters.size(), 0);
-  std::fill_n(mesh.fixed.begin(), quads.nodes.size(), 1);
-  for (int round = 0; round < rounds; ++round) smooth(quads, surface_, options_.improve, context_);
-  const auto& p = mesh.mesh.points;
-  return std::all_of(mesh.mesh.quads.begin(), mesh.mesh.quads.end(), [&](const std::array<int, 4>& q) {
-    return folded_scaled_jacobian(p[q[0]], p[q[1]], p[q[2]], p[q[3]], mesh.normals[q[0]]) > least_jacobian;
-  });
-}
-
-FaceTriangulation triangulate(const FaceBoundary& boundary, const TrimmedDomain& domain) {
-  const StageTimer timer(context_, Stage::triangulate);
-  PlacementOptions placement;
-  placement.scale = static_cast<double>(boundary.stride) / recipe_.fineness;
-  placement.refusal = recipe_.refusal;
-  PlacedPoints placed = place_points(boundary, surface_, domain, size_at_, placement, context_);
-  context_.check();
-  return triangulate_face(face_, boundary, std::move(placed), surface_, context_);
-}
-
-FaceMesh finish(FaceQuads quads) const {
-  FaceMesh result;
-  result.quads = std::move(quads.surface_mesh.mesh.quads);
-  result.points = std::move(quads.surface_mesh.mesh.points);
-  result.uv = std::move(quads.surface_mesh.parameters);
-  result.pole = std::move(quads.pole);
-  result.nodes = std::move(quads.nodes);
-  if (recipe_.chart != ChartKind::own) result.surface = chart_.surface;  // otherwise made again when needed
-  result.off = off_;
-  result.q_min = 1;
-  std::vector<int> inverted;
-  SparseCheck check(context_);
-  for (auto& quad : result.quads) {
-    check();
-    if (shape_.faces[face_].reversed) std::swap(quad[1], quad[3]);
-    if (quad_scaled_jacobian(result.points, quad) <= no_jacobian)
-      inverted.push_back(static_cast<int>(&quad - result.quads.data()));
-    result.q_min = std::min(result.q_min, quad_q(result.points, quad));
+  /// Moves nodes of inverted quads off the surface, and notes how far.
+  void leave_surface(FaceQuads& quads) {
+    SurfaceMesh& mesh = quads.surface_mesh;
+    const std::vector<char> moved = unfold_in_space(mesh.mesh, mesh.fixed, context_);
+    off_.assign(moved.size(), 0);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      const Vector3& at = mesh.mesh.points[i];
+      if (moved[i]) off_[i] = (surface_.project(mesh.parameters[i], at).point - at).norm();
+    }
   }
-  if (!inverted.empty()) throw inverted_problem(shape_, face_, chart_, nodes_, result, inverted);
-  if (const auto side = wrong_boundary_side(chart_.boundary, result.nodes, result.quads)) {
-    const Vector3 middle = 0.5 * (nodes_.points[side->first] + nodes_.points[side->second]);
-    throw FaceProblem(Cause::no_mesh, face_,
-                      fmt::format("the mesh of Face{} does not end as its wires do near {}", face_.number(),
-                                  place_text(middle)));
-  }
-  order(result);
-  return result;
-}
 
-/// Reorders the mesh so that neighbors are near each other in memory, here, in solvers and in viewers.
-void order(FaceMesh& mesh) const {
-  const std::vector<int> before = order_by_place(mesh.points, mesh.nodes.size(), mesh.quads, context_);
-  const auto permute = [&](auto& values) {
-    std::remove_cvref_t<decltype(values)> ordered(before.size());
-    for (std::size_t i = 0; i < before.size(); ++i) ordered[i] = values[before[i]];
+  std::optional<FaceMesh> grid_mesh() {
+    const StageTimer timer(context_, Stage::triangulate);
+    auto grid = make_grid(chart_.boundary, plan_.sides, surface_, size_at_, context_);
     context_.check();
-    values = std::move(ordered);
-  };
-  permute(mesh.points);
-  permute(mesh.uv);
-  permute(mesh.pole);
-  if (!mesh.off.empty()) permute(mesh.off);
-}
+    if (!grid) return std::nullopt;
+    const bool has_holes = grid->rings > 0;
+    if (has_holes && grid->rings < options_.rings) return std::nullopt;
+    FaceQuads quads;
+    quads.nodes = std::move(grid->nodes);
+    auto& mesh = quads.surface_mesh;
+    mesh.mesh.quads = std::move(grid->quads);
+    mesh.mesh.points = std::move(grid->points);
+    mesh.parameters = std::move(grid->uv);
+    quads.pole.assign(mesh.parameters.size(), 0);
+    context_.check();
+    if (has_holes && !settle(quads)) return std::nullopt;
+    FaceMesh result = finish(std::move(quads));
+    result.grid = true;
+    return result;
+  }
 
-const CadShape& shape_;
-FaceId face_;
-const BoundaryNodes& nodes_;
-const MeshOptions& options_;
-const FaceRecipe& recipe_;
-ExecutionContext& context_;
-const FaceChart& chart_;
-const FaceSurface& surface_;
-SizingField::Sampler size_at_;
-FaceJudge judge_;
-const FacePlan& plan_;
-std::optional<HoleRings> rings_;
-std::optional<FaceProblem> problem_;                   // of the last candidate that failed
-Candidate::Layout layout_ = Candidate::Layout::plain;  // of the best mesh other than a grid
-std::vector<double> off_;                              // (points) see FaceMesh::off
+  /// Moves the nodes of a grid with holes. \return whether its quads are then well shaped.
+  bool settle(FaceQuads& quads) {
+    constexpr int rounds = 6;
+    constexpr double least_jacobian = 0.5;
+    SurfaceMesh& mesh = quads.surface_mesh;
+    for (const Vector2& uv : mesh.parameters) mesh.normals.push_back(surface_.normal(uv));
+    mesh.fixed.assign(mesh.parameters.size(), 0);
+    std::fill_n(mesh.fixed.begin(), quads.nodes.size(), 1);
+    for (int round = 0; round < rounds; ++round) smooth(quads, surface_, options_.improve, context_);
+    const auto& p = mesh.mesh.points;
+    return std::all_of(mesh.mesh.quads.begin(), mesh.mesh.quads.end(), [&](const std::array<int, 4>& q) {
+      return folded_scaled_jacobian(p[q[0]], p[q[1]], p[q[2]], p[q[3]], mesh.normals[q[0]]) > least_jacobian;
+    });
+  }
+
+  FaceTriangulation triangulate(const FaceBoundary& boundary, const TrimmedDomain& domain) {
+    const StageTimer timer(context_, Stage::triangulate);
+    PlacementOptions placement;
+    placement.scale = static_cast<double>(boundary.stride) / recipe_.fineness;
+    placement.refusal = recipe_.refusal;
+    PlacedPoints placed = place_points(boundary, surface_, domain, size_at_, placement, context_);
+    context_.check();
+    return triangulate_face(face_, boundary, std::move(placed), surface_, context_);
+  }
+
+  FaceMesh finish(FaceQuads quads) const {
+    FaceMesh result;
+    result.quads = std::move(quads.surface_mesh.mesh.quads);
+    result.points = std::move(quads.surface_mesh.mesh.points);
+    result.uv = std::move(quads.surface_mesh.parameters);
+    result.pole = std::move(quads.pole);
+    result.nodes = std::move(quads.nodes);
+    if (recipe_.chart != ChartKind::own) result.surface = chart_.surface;  // otherwise made again when needed
+    result.off = off_;
+    result.q_min = 1;
+    std::vector<int> inverted;
+    SparseCheck check(context_);
+    for (auto& quad : result.quads) {
+      check();
+      if (shape_.faces[face_].reversed) std::swap(quad[1], quad[3]);
+      if (quad_scaled_jacobian(result.points, quad) <= no_jacobian)
+        inverted.push_back(static_cast<int>(&quad - result.quads.data()));
+      result.q_min = std::min(result.q_min, quad_q(result.points, quad));
+    }
+    if (!inverted.empty()) throw inverted_problem(shape_, face_, chart_, nodes_, result, inverted);
+    if (const auto side = wrong_boundary_side(chart_.boundary, result.nodes, result.quads)) {
+      const Vector3 middle = 0.5 * (nodes_.points[side->first] + nodes_.points[side->second]);
+      throw FaceProblem(Cause::no_mesh, face_,
+                        fmt::format("the mesh of Face{} does not end as its wires do near {}", face_.number(),
+                                    place_text(middle)));
+    }
+    order(result);
+    return result;
+  }
+
+  /// Reorders the mesh so that neighbors are near each other in memory, here, in solvers and in viewers.
+  void order(FaceMesh& mesh) const {
+    const std::vector<int> before = order_by_place(mesh.points, mesh.nodes.size(), mesh.quads, context_);
+    const auto permute = [&](auto& values) {
+      std::remove_cvref_t<decltype(values)> ordered(before.size());
+      for (std::size_t i = 0; i < before.size(); ++i) ordered[i] = values[before[i]];
+      context_.check();
+      values = std::move(ordered);
+    };
+    permute(mesh.points);
+    permute(mesh.uv);
+    permute(mesh.pole);
+    if (!mesh.off.empty()) permute(mesh.off);
+  }
+
+  const CadShape& shape_;
+  FaceId face_;
+  const BoundaryNodes& nodes_;
+  const MeshOptions& options_;
+  const FaceRecipe& recipe_;
+  ExecutionContext& context_;
+  const FaceChart& chart_;
+  const FaceSurface& surface_;
+  SizingField::Sampler size_at_;
+  FaceJudge judge_;
+  const FacePlan& plan_;
+  std::optional<HoleRings> rings_;
+  std::optional<FaceProblem> problem_;                   // of the last candidate that failed
+  Candidate::Layout layout_ = Candidate::Layout::plain;  // of the best mesh other than a grid
+  std::vector<double> off_;                              // (points) see FaceMesh::off
 };
 
 }  // namespace
