@@ -100,9 +100,10 @@ build() {
 build_opencascade() {
   [[ -f "$cache/built-occt" ]] && return
   local toolkit
+  cp cmake/windows/opencascade.cmake "$cache/"
   for toolkit in "$cache"/src/occt-*/src/TK*; do
     grep -q join_packages "$toolkit/CMakeLists.txt" ||
-      printf 'include(%s)\njoin_packages(%s)\n' "$PWD/cmake/windows/opencascade.cmake" "${toolkit##*/}" >>"$toolkit/CMakeLists.txt"
+      printf 'include(%s)\njoin_packages(%s)\n' "$cache/opencascade.cmake" "${toolkit##*/}" >>"$toolkit/CMakeLists.txt"
   done
   local off=() module
   for module in FoundationClasses ModelingData ModelingAlgorithms Visualization ApplicationFramework DataExchange Draw; do
@@ -126,7 +127,7 @@ build_openvdb() {
 build_quadrille() {
   configure . build-windows -DQUADRILLE_TESTS=OFF -DQUADRILLE_BENCH=OFF -DQUADRILLE_PYTHON=OFF -DQUADRILLE_INSTALL=OFF \
     -DQUADRILLE_VTK=OFF -DQUADRILLE_MED=OFF
-  ninja -k 0 -C build-windows quadrille
+  ninja -C build-windows quadrille
 }
 
 # The libraries that a program needs and that are no part of Windows, and those that they need.

@@ -126,7 +126,13 @@ struct ExternalField {
       const openvdb::Vec3d voxel = grid->voxelSize();
       sizes.voxel = std::min({sizes.voxel, voxel.x(), voxel.y(), voxel.z()});
     }
-    return sizes.voxel < infinity ? std::string() : "no active voxel";
+    if (sizes.voxel < infinity) return {};
+    if (!cascade) return "no active voxel";
+    // One of our files, with the largest size everywhere: it limits nothing.
+    sizes.low.setConstant(-infinity);
+    sizes.high.setConstant(infinity);
+    sizes.voxel = grids.back().grid->voxelSize()[0];
+    return {};
   }
 };
 
@@ -191,9 +197,9 @@ QUADRILLE_EXPORT std::string quadrille_vdb_open(const std::string& path, Externa
     }
     file.close();
     if (field->grids.empty()) return fmt::format("{} holds no float grid to use as a size field", path);
+    field->recognize();
     if (const std::string problem = field->measure(sizes); !problem.empty())
       return fmt::format("{} holds {}", path, problem);
-    field->recognize();
     sizes.between_voxels = field->cascade;
     sizes.at = [field](const Vector3& p) { return field->at(p); };
     return {};

@@ -54,7 +54,7 @@ class Consumer(unittest.TestCase):
         run("cmake", "-S", HERE, "-B", self.folder / "build", f"-DQUADRILLE_SOURCE={ROOT}", "-DCMAKE_BUILD_TYPE=Release",
             "-G", "Ninja")
         commands = run("ninja", "-C", self.folder / "build", "-t", "commands", "consumer")
-        self.assertIn(str(ROOT / "mesher/quads/criteria_patch.cpp"), commands)
+        self.assertIn(str(ROOT / "mesher/faces/loop_filling.cpp"), commands)
         self.assertIn("libquadrille_step.so", commands, "the modules are built with it")
         for other in ("_test.cpp", "bench", "module.cpp.o -c"):
             self.assertNotIn(f"{ROOT}/tests/{other}", commands)

@@ -351,7 +351,7 @@ TEST(SizeSources, RefuseGridsThatMakeNoSense) {
     }
   };
   refused({1, 1, 1}, 3, 1, "");
-  refused({}, 3, 1, "no active voxel");
+  refused({}, 3, 1, "");  // one of ours, of one size everywhere
   refused({1, 0}, 3, 1, "the size 0 at");
   refused({1, -2}, 3, 1, "the size -2 at");
   refused({1, std::nanf("")}, 3, 1, "nan");

@@ -359,6 +359,20 @@ TEST(SizingField, ComesBackFromItsFile) {
   std::filesystem::remove(path);
 }
 
+/// A field of one size throughout has no voxels.
+TEST(SizingField, OfOneSizeComesBackFromItsFile) {
+  const CadModel model = CadModel::read(sample_model("box").path());
+  SizingOptions options;
+  options.size = 1;
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / "quadrille_one_size_test.vdb";
+  field_of(model, options).write(path);
+  options.size_field = path;
+  const SizingField again = field_of(model, options);
+  for (const CadEdge& edge : model.shape().edges)
+    EXPECT_EQ(SizingField::Sampler(again)(EdgeCurve(edge).point(edge.first)), 1);
+  std::filesystem::remove(path);
+}
+
 TEST(SizingField, RefusesFilesThatAreNotGrids) {
   const CadModel model = CadModel::read(sample_model("box").path());
   SizingOptions options;
