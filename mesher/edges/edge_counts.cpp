@@ -114,9 +114,7 @@ class CountChooser {
     for (const EdgeId edge : wishes_.fixed.ids()) {
       if (wishes_.fixed[edge] > 0 && includes(edge)) numbers.insert(shape_.edges[edge].number);
     }
-    std::vector<std::string> names;
-    for (const int number : numbers) names.push_back(fmt::format("Edge{}", number));
-    return fmt::format("{}", fmt::join(names, ", "));
+    return numbers.empty() ? "" : fmt::format("Edge{}", fmt::join(numbers, ", Edge"));
   }
 
   /// Throws if fixed numbers cannot be kept. \param odd faces that stay odd.

@@ -114,10 +114,12 @@ class TipFinder {
     constexpr double finer = 0.1, growth = 1.15;
     Arm arm;
     const double range = (edge.last - edge.first) / edge.length;
-    double step = finer * width_;
-    for (double s = 0; s < most_of_edge * edge.length; s += step, step *= growth) {
+    double s = 0, step = finer * width_;
+    while (s < most_of_edge * edge.length) {
       arm.parameters.push_back(from_start ? edge.first + s * range : edge.last - s * range);
       arm.points.push_back(curve.point(arm.parameters.back()));
+      s += step;
+      step *= growth;
     }
     return arm;
   }

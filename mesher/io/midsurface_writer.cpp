@@ -36,7 +36,7 @@ std::string brep_text(const TopoDS_Shape& shape) {
 /// A new folder for temporary files, which others may not read.
 std::filesystem::path temporary_folder() {
   std::random_device random;
-  const std::filesystem::path name =
+  std::filesystem::path name =
       std::filesystem::temp_directory_path() /
       fmt::format("quadrille-{:08x}{:08x}", std::uint32_t{random()}, std::uint32_t{random()});
   std::error_code problem;
