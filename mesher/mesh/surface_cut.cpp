@@ -195,6 +195,7 @@ std::vector<int> coincident_points(const std::vector<Vector3>& points, double to
     return cell;
   };
   std::vector<Cell> cells;
+  cells.reserve(points.size());
   for (int v = 0; v < static_cast<int>(points.size()); ++v) cells.push_back({cell_of(points[v]), v});
   std::sort(cells.begin(), cells.end());
   for (int v = 0; v < static_cast<int>(points.size()); ++v) {

@@ -281,7 +281,8 @@ void relax(PolygonFilling& filling, std::size_t outline) {
         sum[quad[k]] += filling.places[quad[(k + 1) & 3]] + filling.places[quad[(k + 3) & 3]];
         count[quad[k]] += 2;
       }
-    for (std::size_t i = outline; i < filling.places.size(); ++i) filling.places[i] = sum[i] / count[i];
+    for (std::size_t i = outline; i < filling.places.size(); ++i)
+      if (count[i] > 0) filling.places[i] = sum[i] / count[i];
   }
 }
 
@@ -304,6 +305,7 @@ bool fill_polygon(const std::vector<Vector3>& outline, const std::vector<int>& c
   if (n < 2 || n > 6) return false;
   const std::vector<Chain> sides = sides_between(corners, nodes, 1);
   std::vector<int> lengths;
+  lengths.reserve(sides.size());
   for (const Chain& side : sides) lengths.push_back(segments_of(side));
   const auto allowed = [&](int quads) { return quads >= limits.least_quads && quads <= limits.most_quads; };
   const auto offer = [&](PolygonFilling filling) {
