@@ -1,6 +1,7 @@
-/// File names from UTF-8: libstdc++ gives them back as UTF-8 and takes them by the encoding of the C library, which knows no
-/// UTF-8 on older systems. Within this program, a conversion of narrow letters to wide ones reads UTF-8 as well: the linker takes
-/// this function in the place of the library's, which on Windows is bound when a program is linked.
+/// File names from UTF-8: libstdc++ gives them back as UTF-8 and takes them by the encoding of the C library,
+/// which knows no UTF-8 on older systems. Within this program, a conversion of narrow letters to wide ones
+/// reads UTF-8 as well: the linker takes this function in the place of the library's, which on Windows is
+/// bound when a program is linked.
 
 #include <codecvt>
 #include <cwchar>
