@@ -289,10 +289,12 @@ void relax(PolygonFilling& filling, std::size_t outline) {
 /// The sides between corners, on an outline that has `times` nodes for each node of the given one.
 std::vector<Chain> sides_between(const std::vector<int>& corners, int outline, int times) {
   std::vector<Chain> sides;
+  const int nodes = times * outline;
+  if (nodes == 0) return sides;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const int last = i + 1 < corners.size() ? corners[i + 1] : corners[0] + outline;
     Chain& side = sides.emplace_back();
-    for (int k = times * corners[i]; k <= times * last; ++k) side.push_back(k % (times * outline));
+    for (int k = times * corners[i]; k <= times * last; ++k) side.push_back(k % nodes);
   }
   return sides;
 }
