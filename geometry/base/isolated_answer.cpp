@@ -3,6 +3,7 @@
 #include "geometry/base/isolated_answer.hpp"
 
 #include <new>
+#include <sstream>
 #include <string_view>
 
 #include "geometry/base/error.hpp"
@@ -49,6 +50,16 @@ std::string result_of(const IsolatedWork& options, std::string bytes) {
   if (given == failure_sentence) throw failure(options.subject, bytes);
   if (given == usage_sentence) throw usage_error(options.subject, bytes);
   return bytes;
+}
+
+void run_isolated(const IsolatedWork& options, const std::function<void(std::ostream&)>& work,
+                  const std::function<void(std::istream&)>& take) {
+  std::istringstream in(run_in_child(options, work));
+  take(in);
+}
+
+std::string isolated_bytes(const IsolatedWork& options, const std::function<std::string()>& make) {
+  return run_in_child(options, [&](std::ostream& out) { out << make(); });
 }
 
 }  // namespace quadrille

@@ -137,6 +137,8 @@ std::string listen(Child& child, int pipe, const IsolatedWork& options) {
   }
 }
 
+}  // namespace
+
 std::string run_in_child(const IsolatedWork& options, const std::function<void(std::ostream&)>& work) {
   if (options.context != nullptr) options.context->check();
   std::array<int, 2> ends{-1, -1};
@@ -153,18 +155,6 @@ std::string run_in_child(const IsolatedWork& options, const std::function<void(s
   Child child(id);
   told.close();
   return result_of(options, listen(child, heard, options));
-}
-
-}  // namespace
-
-void run_isolated(const IsolatedWork& options, const std::function<void(std::ostream&)>& work,
-                  const std::function<void(std::istream&)>& take) {
-  std::istringstream in(run_in_child(options, work));
-  take(in);
-}
-
-std::string isolated_bytes(const IsolatedWork& options, const std::function<std::string()>& make) {
-  return run_in_child(options, [&](std::ostream& out) { out << make(); });
 }
 
 }  // namespace quadrille

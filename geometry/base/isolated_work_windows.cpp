@@ -154,6 +154,8 @@ std::string listen(const Child& child, const IsolatedWork& options) {
   }
 }
 
+}  // namespace
+
 std::string run_in_child(const IsolatedWork& options, const std::function<void(std::ostream&)>& work) {
   if (options.context != nullptr) options.context->check();
   if (options.task.name.empty()) {
@@ -163,18 +165,6 @@ std::string run_in_child(const IsolatedWork& options, const std::function<void(s
   }
   const Child child = start(options);
   return result_of(options, listen(child, options));
-}
-
-}  // namespace
-
-void run_isolated(const IsolatedWork& options, const std::function<void(std::ostream&)>& work,
-                  const std::function<void(std::istream&)>& take) {
-  std::istringstream in(run_in_child(options, work));
-  take(in);
-}
-
-std::string isolated_bytes(const IsolatedWork& options, const std::function<std::string()>& make) {
-  return run_in_child(options, [&](std::ostream& out) { out << make(); });
 }
 
 }  // namespace quadrille
