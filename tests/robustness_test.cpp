@@ -519,7 +519,7 @@ TEST(Robustness, TimeLimitEndsTheWorkInOneSentence) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), Error::Kind::failure);
     EXPECT_EQ(error.subject(), "time_limit");
-    EXPECT_EQ(std::string(error.what()), "the time limit of 0.1 s is over");
+    EXPECT_EQ(std::string(error.what()), "the time limit of 0.1 s is reached");
   }
   EXPECT_LE(calls_past, 2);  // one report, and the look after it
 }

@@ -172,7 +172,7 @@ class ExecutionContext {
   }
 
   Error time_is_over() const {
-    return failure(time_subject, fmt::format("the time limit of {:g} s is over", limit_seconds_));
+    return failure(time_subject, fmt::format("the time limit of {:g} s is reached", limit_seconds_));
   }
 
   int threads_ = 0;

@@ -1,5 +1,5 @@
-/// BRepBndLib::AddOptimal would do, but takes up to 70 ms for a face: seconds for parts that are read in
-/// a hundredth of one. Here only what reaches beyond the rest is measured.
+/// Replaces BRepBndLib::AddOptimal, which takes up to 70 ms for a face: seconds for parts that are read in a
+/// hundredth of a second. Measures only what may reach beyond the rest.
 
 #include "geometry/cad/bounding_box.hpp"
 
@@ -81,8 +81,8 @@ struct Patch {
   std::function<bool(const Vector2&)> inside;
 };
 
-/// Extends `known` to where a patch ends: from the farthest sample in each direction uphill, by steps that
-/// are halved. \param slack what lies farther behind is not looked at.
+/// Extends `known` by the extent of a patch: climbs from the farthest sample in each direction by steps that
+/// are halved. \param slack samples farther behind than this are skipped.
 void extend(Reach& known, const Patch& patch, double slack) {
   const auto step = [&](int axis) {
     return patch.cells[axis] > 0 ? (patch.high[axis] - patch.low[axis]) / patch.cells[axis] : 0;
@@ -92,7 +92,7 @@ void extend(Reach& known, const Patch& patch, double slack) {
   std::array<Vector2, 6> at;
   std::array<bool, 6> found{};
   for (int d = 0; d < 6; ++d) best[d] = known[d] - slack;
-  /// Takes a point if it is farther in a direction than what was found.
+  /// Keeps a point for each direction in which it is the farthest so far.
   const auto take = [&](int d, const Vector2& uv, const Vector3& p) {
     if (!(Reach::along(d, p) > best[d]) || !patch.inside(uv)) return false;
     best[d] = Reach::along(d, p);
@@ -107,7 +107,7 @@ void extend(Reach& known, const Patch& patch, double slack) {
       for (int d = 0; d < 6; ++d) take(d, uv, p);
     }
   }
-  constexpr double finest = 1e-4;  // of a cell; what is missed goes with the square
+  constexpr double finest = 1e-4;  // of a cell; the error is quadratic in it
   constexpr int most_steps = 200;
   for (int d = 0; d < 6; ++d) {
     double scale = 0.5;
@@ -199,7 +199,7 @@ BoundingBox bounding_box(const CadShape& shape) {
   }
   wide.add(known);
   if (wide.empty()) return {};
-  // Sides that are right but for tolerances stay as they are, and with them the sizes that follow from them.
+  // Sides that are right within tolerances stay unchanged, and so do the default sizes, which depend on them.
   const double margin = 1e-5 * wide.diagonal() + 2 * tolerance;
   if (wide.finite() && wide.exceeds(known, margin)) {
     for (const CadEdge& edge : shape.edges) {

@@ -103,8 +103,8 @@ CadModel build(const TopoDS_Shape& shape, const std::string& name) {
   auto result = std::make_shared<CadShape>(shape, name);
   if (result->faces.empty()) throw failure(name, fmt::format("{} has no face to mesh", name));
   if (!(result->diagonal() > 0) || !(result->diagonal() < largest_diagonal)) {
-    throw failure(
-        name, fmt::format("{} holds a shape of no size or an infinite one: the file may be damaged", name));
+    throw failure(name,
+                  fmt::format("{} holds a shape of zero or infinite size: the file may be damaged", name));
   }
   return CadModel(std::move(result));
 }
@@ -137,7 +137,7 @@ std::string first_few(const std::vector<std::string>& all) {
   return text;
 }
 
-/// Remembers what faces became by imprinting, and tells it.
+/// Stores what each face became by imprinting, and reports the changes.
 void keep_pieces(CadShape& shape, std::vector<std::vector<int>> pieces) {
   const std::vector<std::string> changes = changes_of_faces(pieces);
   if (!changes.empty())
@@ -197,10 +197,9 @@ CadModel CadModel::sewn(double tolerance) const {
     const Sewn made = sew(shape_->shape, tolerance);
     if (!made.coincident.empty()) {
       const auto [first, second] = made.coincident.front();
-      throw failure(
-          name, fmt::format("Face{} and Face{} lie on each other, {} pair(s) in all: `imprint` joins parts "
-                            "that touch, sewing joins edges only",
-                            first, second, made.coincident.size()));
+      throw failure(name, fmt::format("Face{} and Face{} coincide, {} such pair(s) in all: use `imprint` to "
+                                      "join parts that touch; sewing joins edges only",
+                                      first, second, made.coincident.size()));
     }
     auto result = std::make_shared<CadShape>(made.shape, name);
     if (result->faces.size() != shape_->faces.size()) {
@@ -213,7 +212,7 @@ CadModel CadModel::sewn(double tolerance) const {
       std::vector<std::string> names;
       for (const int face : made.turned) names.push_back(fmt::format("Face{}", face));
       result->problems.push_back(
-          fmt::format("{} faces were turned so that sewn faces have consistent orientation: {}", names.size(),
+          fmt::format("{} faces were reversed so that sewn faces are oriented consistently: {}", names.size(),
                       first_few(names)));
     }
     keep_pieces(*result, shape_->face_pieces);

@@ -40,17 +40,17 @@ class QUADRILLE_API CadModel {
 
   /// The model with all edges joined that lie within `tolerance` of each other, for files whose faces touch
   /// without sharing edges. Faces, solids and shells are kept; edges and vertices get new numbers; faces
-  /// outside solids are turned to face as their neighbors do. Throws Error: usage if the tolerance is not
-  /// positive or not below the diagonal, failure if OpenCASCADE cannot sew the model or loses faces, or if
-  /// faces lie on each other once sewn, which only imprinted() joins. \param tolerance millimeters.
+  /// outside solids are reversed where needed to match their neighbors. Throws Error: usage if the tolerance
+  /// is not positive or not below the diagonal, failure if OpenCASCADE cannot sew the model or loses faces,
+  /// or if faces coincide after sewing, which only imprinted() can join. \param tolerance millimeters.
   CadModel sewn(double tolerance) const;
 
   /// The model cut so that solids, shells and faces that touch or cross share faces, edges and vertices
-  /// (OpenCASCADE's general fuse). Faces that nothing meets keep their numbers, and so does one piece of each
-  /// that is cut, see pieces(); edges and vertices get new numbers. A model of one part stays as it is. Takes
-  /// milliseconds a face where parts meet. Throws Error: usage if the tolerance is negative or not below the
-  /// diagonal, failure if OpenCASCADE cannot do it. \param tolerance millimeters: parts no farther apart
-  /// touch; 0 = within the tolerances of the model itself.
+  /// (OpenCASCADE's general fuse). Faces that touch no other part keep their numbers, and one piece of each
+  /// cut face keeps its number, see pieces(); edges and vertices get new numbers. A model of one part stays
+  /// as it is. Takes milliseconds a face where parts meet. Throws Error: usage if the tolerance is negative
+  /// or not below the diagonal, failure if OpenCASCADE cannot do it. \param tolerance millimeters: parts no
+  /// farther apart touch; 0 = within the tolerances of the model itself.
   CadModel imprinted(double tolerance = 0) const;
 
   int face_count() const;    ///< faces are numbered 1 .. face_count() (FreeCAD's Face1, Face2, ...)
@@ -67,9 +67,8 @@ class QUADRILLE_API CadModel {
   double area(const ExecutionContext& context = {}) const;
   /// Problems found while reading (missing curves or seams, loose vertices, ...), one sentence each.
   const std::vector<std::string>& problems() const;
-  /// Of an imprinted model: for each face of the model before, by its number minus 1, the numbers of the
-  /// faces that it became, ascending. Faces of different parts may have become the same one. Empty for
-  /// others.
+  /// For an imprinted model: the numbers of the faces that each face of the original model became, ascending,
+  /// by its number minus 1. Faces of different parts may have become the same face. Empty for other models.
   const std::vector<std::vector<int>>& pieces() const;
   /// The same for edges, by their numbers. Empty also if the model was sewn after that.
   const std::vector<std::vector<int>>& edge_pieces() const;

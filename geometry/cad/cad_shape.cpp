@@ -52,10 +52,10 @@ void CadShape::read_topology() {
     const TopoDS_Face face = without_idle_wires(TopoDS::Face(face_map(i)));
     if (!face.IsSame(face_map(i)))
       problems.push_back(
-          fmt::format("a wire of Face{} runs there and back: it bounds nothing and is left out", i));
+          fmt::format("a wire of Face{} runs back along itself: it encloses no area and is left out", i));
     sources.push_back(with_natural_bounds(face));
     if (!sources.back().IsSame(face))
-      problems.push_back(fmt::format("Face{} has no wire: it is bounded where its surface ends", i));
+      problems.push_back(fmt::format("Face{} has no wire: the natural bounds of its surface are used", i));
   }
   TopTools_IndexedMapOfShape edge_map, vertex_map;
   TopExp::MapShapes(shape, TopAbs_EDGE, edge_map);

@@ -62,7 +62,7 @@ class CurveEndMender {
     return true;
   }
 
-  /// Finds vertices that all their curves miss by more than the shortest of these curves is long.
+  /// Finds vertices that all their curves miss by more than the length of the shortest one.
   void find_far_vertices() {
     struct Near {
       double distance = std::numeric_limits<double>::infinity(), shortest = distance;
@@ -140,8 +140,8 @@ class CurveEndMender {
     if (nearest > tolerance)
       return fmt::format("Vertex{} lies {} away from where its curves end", vertex.number(),
                          number_text(nearest));
-    return fmt::format("Vertex{} has a tolerance of {}, more than an edge of its own is long",
-                       vertex.number(), number_text(tolerance));
+    return fmt::format("Vertex{} has a tolerance of {}, larger than an edge that ends there", vertex.number(),
+                       number_text(tolerance));
   }
 
   VertexId new_vertex() {

@@ -1,6 +1,6 @@
 #pragma once
-/// Identifiers of the faces, edges and vertices of a CAD model. They do not mix: with plain integers, an edge
-/// in place of a face, or a number from 1 in place of an index from 0, compiles.
+/// Identifiers of the faces, edges and vertices of a CAD model. As separate types, they let the compiler
+/// reject an edge in place of a face, or a number from 1 in place of an index from 0.
 
 #include <compare>
 #include <cstddef>
@@ -75,7 +75,7 @@ class IdRange {
   explicit constexpr IdRange(std::size_t size) : size_(static_cast<int>(size)) {}  ///< the first `size` ids
 
   constexpr Iterator begin() const { return Iterator(0); }    ///< at the first id
-  constexpr Iterator end() const { return Iterator(size_); }  ///< behind the last id
+  constexpr Iterator end() const { return Iterator(size_); }  ///< past the last id
 
  private:
   int size_;

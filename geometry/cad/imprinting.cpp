@@ -69,7 +69,7 @@ std::vector<TopoDS_Shape> parts_of(const TopoDS_Shape& shape) {
   return list;
 }
 
-/// What a part of the model became; itself where nothing met it.
+/// What a part of the model became; itself if no other part met it.
 std::vector<TopoDS_Shape> images_of(BOPAlgo_Builder& fuse, const TopoDS_Shape& part) {
   std::vector<TopoDS_Shape> images;
   for (const TopoDS_Shape& image : fuse.Modified(part)) images.push_back(image);
@@ -184,7 +184,7 @@ Imprint imprint(const TopoDS_Shape& shape, double tolerance) {
   TopTools_IndexedMapOfShape numbers;
   TopExp::MapShapes(all, TopAbs_FACE, numbers);
   if (numbers.Extent() != static_cast<int>(numbering.faces().size()))
-    throw Standard_Failure("faces appear that are no piece of the model's");
+    throw Standard_Failure("faces appear that are not pieces of the model's faces");
 
   return {all, numbers_of_pieces(fuse, shape, all, TopAbs_FACE),
           numbers_of_pieces(fuse, shape, all, TopAbs_EDGE),

@@ -13,19 +13,19 @@ struct Imprint {
   TopoDS_Shape shape;
   /// For each face of the shape before: the numbers of the faces that it became, ascending.
   std::vector<std::vector<int>> pieces;
-  /// The same for edges and vertices; those that the fuse has dropped became nothing.
+  /// The same for edges and vertices; empty for those that the fuse has dropped.
   std::vector<std::vector<int>> edge_pieces, vertex_pieces;
 };
 
 /// OpenCASCADE's general fuse of the solids, shells and faces of a shape. A face keeps its number, or one of
 /// its pieces does; further pieces are numbered after all faces, and a number that is left over is taken by
 /// the last face. Edges and vertices get new numbers. Throws Standard_Failure with the reason where
-/// OpenCASCADE cannot do it. \param tolerance in the model's unit: what is no farther apart touches; 0 = the
+/// OpenCASCADE cannot do it. \param tolerance in the model's unit: parts no farther apart touch; 0 = the
 /// tolerances of the shape alone.
 Imprint imprint(const TopoDS_Shape& shape, double tolerance);
 
-/// The faces that are not what they were, one entry each: "Face2 became Face2, Face13", "Face9 became
-/// Face3 (shared)". \param pieces see Imprint::pieces.
+/// The faces that changed, one entry each: "Face2 became Face2, Face13", "Face9 became Face3 (shared)".
+/// \param pieces see Imprint::pieces.
 std::vector<std::string> changes_of_faces(const std::vector<std::vector<int>>& pieces);
 
 }  // namespace quadrille

@@ -356,7 +356,7 @@ TopoDS_Face joined_with_seam(const TopoDS_Face& source) {
   return TopoDS::Face(result.Oriented(source.Orientation()));
 }
 
-/// The face with its seam, as far as that can be made. Changes are recorded in `context`.
+/// The face with its seam, if that can be made. Changes are recorded in `context`.
 TopoDS_Shape mended(const TopoDS_Face& face, const Handle(ShapeBuild_ReShape) & context) {
   TopoDS_Shape result = face;
   const ClosedSurfaceFace sampled(face);

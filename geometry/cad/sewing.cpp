@@ -1,4 +1,5 @@
-/// Joins edges by BRepBuilderAPI_Sewing, turns faces piece by piece, finds faces on others by inner points.
+/// Joins edges by BRepBuilderAPI_Sewing, orients faces by connected pieces, and finds coincident faces by
+/// inner points.
 
 #include "geometry/cad/sewing.hpp"
 
@@ -53,7 +54,7 @@ std::optional<gp_Pnt> inner_point(const TopoDS_Face& face) {
   return std::nullopt;
 }
 
-/// Whether an inner point of one face lies within the tolerance on the other. Their rims are the same.
+/// Whether an inner point of one face lies within the tolerance on the other. Both faces have the same edges.
 bool lies_on(const TopoDS_Face& face, const TopoDS_Face& other, double tolerance) {
   const std::optional<gp_Pnt> point = inner_point(face);
   if (!point) return false;
@@ -81,7 +82,7 @@ std::vector<std::array<int, 2>> coincident_faces(const Faces& faces, const TopTo
   return pairs;
 }
 
-/// Turns faces outside solids so that neighbors across edges of two faces face alike.
+/// Orients faces outside solids consistently across edges that two faces share.
 class Turning {
  public:
   Turning(Faces& faces, const TopTools_IndexedMapOfShape& edges, const std::vector<char>& fixed)
@@ -96,7 +97,7 @@ class Turning {
       }
   }
 
-  /// Returns the numbers of the faces that were turned.
+  /// Returns the numbers of the faces that were reversed.
   std::vector<int> run() {
     std::vector<int> turned;
     std::vector<char> met(faces_.size(), 0);
@@ -128,7 +129,7 @@ class Turning {
     bool forward;
   };
 
-  /// Adds the neighbors of a face to its piece, with the side to which they face.
+  /// Adds the neighbors of a face to its piece, with their orientations.
   void visit(int face, std::vector<int>& piece, std::map<int, bool>& opposite, bool& one_sided) const {
     for (const int edge : uses_of_[face]) {
       const std::vector<Use>& uses = uses_[edge];

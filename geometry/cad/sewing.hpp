@@ -10,18 +10,17 @@ namespace quadrille {
 /// A shape whose faces share the edges at which they touch.
 struct Sewn {
   TopoDS_Shape shape;
-  int joined = 0;  ///< number of edges that were joined to others
-  std::vector<int>
-      turned;  ///< numbers of the faces that were turned to face as their neighbors do, ascending
-  /// Numbers of faces that have the same edges and lie on each other, the lower number first.
+  int joined = 0;           ///< number of edges that were joined to others
+  std::vector<int> turned;  ///< numbers of the faces that were reversed to match their neighbors, ascending
+  /// Numbers of coincident faces with the same edges, the lower number first.
   std::vector<std::array<int, 2>> coincident;
 };
 
 /// Sews the faces of a shape (BRepBuilderAPI_Sewing, non-manifold edges allowed). The faces keep their order,
 /// and so their numbers, and form the same solids; edges and vertices are renumbered. Where edges were
-/// joined, of faces outside solids the fewer of them are turned so that all of a connected piece face alike,
-/// unless they are a one-sided surface. Throws Standard_Failure where OpenCASCADE does. \param tolerance in
-/// the model's unit: edges no farther apart become one.
+/// joined, faces outside solids are oriented consistently within each connected piece by reversing the fewer
+/// of them, unless the surface is one-sided. Throws Standard_Failure where OpenCASCADE does. \param tolerance
+/// in the model's unit: edges no farther apart become one.
 Sewn sew(const TopoDS_Shape& shape, double tolerance);
 
 }  // namespace quadrille

@@ -83,8 +83,10 @@ PrescribedEdges prescribed_edges(const CadShape& shape, const SizingOptions& opt
       segments = 2 * std::max(1, round_to_int(0.5 * length / cap));
     }
     if (segments < static_cast<int>(pieces.size()))
-      throw usage_error("segments", fmt::format("`segments` asks for {} on Edge{}, which is in {} pieces",
-                                                segments, number, pieces.size()));
+      throw usage_error(
+          "segments",
+          fmt::format("`segments` gives {} to Edge{}, which is in {} pieces: give at least one per piece",
+                      segments, number, pieces.size()));
     if (pieces.size() > 1 && (spacing.bias != 1 || spacing.bias_both != 1))
       throw usage_error("bias",
                         fmt::format("`bias` cannot be given on Edge{}, which a seam divides", number));

@@ -191,12 +191,12 @@ void hold_elements(double count, const Budget& budget, double free) {
   const double bytes = count * budget.bytes_an_element;
   if (count > budget.elements)
     throw usage_error("size",
-                      fmt::format("the sizes asked for give about {:.3g} million elements, more than {:g} "
+                      fmt::format("the requested sizes give about {:.3g} million elements, more than {:g} "
                                   "million: `force` meshes anyway",
                                   count / 1e6, budget.elements / 1e6));
   if (budget.bytes_an_element > 0 && bytes > free)
     throw usage_error(
-        "size", fmt::format("the sizes asked for give about {:.3g} million elements, which take {:.2g} GB "
+        "size", fmt::format("the requested sizes give about {:.3g} million elements, which take {:.2g} GB "
                             "of memory, and {:.2g} GB are free: `force` meshes anyway",
                             count / 1e6, bytes / 1e9, free / 1e9));
 }

@@ -43,10 +43,9 @@ const Module& vdb_module() {
   static const Module module = [] {
     constexpr int threads = 6;  // OpenVDB starts four
     if (makeable_threads(threads) < threads)
-      throw failure(
-          "OpenVDB",
-          "OpenVDB, which reads and writes sizes, starts threads, and this process may not make them "
-          "or has no memory for them");
+      throw failure("OpenVDB",
+                    "OpenVDB, which reads and writes sizes, needs threads, and this process may not create "
+                    "them or has no memory for them");
     return Module("quadrille_vdb");
   }();
   return module;

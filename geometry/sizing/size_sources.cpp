@@ -97,8 +97,8 @@ void SizeSources::hold_segments() const {
 Error SizeSources::too_many_segments(const CadEdge& edge, double segments) const {
   return usage_error(
       "size",
-      fmt::format("Edge{} of {} mm would take about {:.3g} million segments at the sizes asked for, and "
-                  "all edges more than {:g} million: `force` meshes anyway",
+      fmt::format("Edge{} of {} mm would take about {:.3g} million segments at the requested sizes, and all "
+                  "edges more than {:g} million: `force` meshes anyway",
                   edge.number, number_text(edge.length), segments / 1e6, options_.budget.segments / 1e6));
 }
 
@@ -239,7 +239,7 @@ void SizeSources::uniform_face(FaceId id, double spacing, const PointSink& sink)
 /// size together, or in wedges, where rows end.
 void SizeSources::gaps(FaceId id, const Sink& sink) const {
   constexpr double rows = 2, longest = 4, least_width = 0.5, parallel = 0.2;
-  // Rows come in pairs where quads are cut in four: a number of elements is a least one.
+  // Rows come in pairs where quads are cut in four, so the number of elements is a minimum.
   const double asked =
       options_.proximity > rows ? rows * std::ceil(options_.proximity / rows) : options_.proximity;
   const double least = options_.size_min > 0 ? limits_.size_min : limits_.least;

@@ -278,10 +278,9 @@ CascadeFrame frame_of(const CadModel& model, const SizingOptions& options, const
   const double reach = std::max(model.box_min().cwiseAbs().maxCoeff(), model.box_max().cwiseAbs().maxCoeff());
   const int bits = 30 - std::ilogb(reach / frame.voxel(0) + 1);
   if (bits < 0) {
-    throw usage_error(
-        "size", fmt::format("the size {:.3g} is below the numerical resolution at {} mm from the origin: "
-                            "move the model there, or ask for a larger size",
-                            limits.largest, number_text(reach)));
+    throw usage_error("size", fmt::format("the size {:.3g} is below the numerical resolution at {} mm from "
+                                          "the origin: move the model to the origin, or use a larger size",
+                                          limits.largest, number_text(reach)));
   }
   frame.finest = std::min(bits, max_size_levels - 1);
   return frame;
@@ -309,10 +308,9 @@ double SizeLayers::last() const {
 }
 
 Error too_many_blocks(double blocks) {
-  return usage_error(
-      "size", fmt::format("the sizes asked for need a sizing field of {:.3g} million voxels or more: ask "
-                          "for larger ones, or `force` it",
-                          blocks * SizeLeaf::NUM_VALUES / 1e6));
+  return usage_error("size", fmt::format("the requested sizes need a sizing field of {:.3g} million voxels "
+                                         "or more: use larger sizes, or `force`",
+                                         blocks * SizeLeaf::NUM_VALUES / 1e6));
 }
 
 SizeLimits size_limits(const CadModel& model, const SizingOptions& options) {

@@ -113,7 +113,7 @@ struct SizingOptions {
   ByElement<SizeLayers> layers;              ///< sizes by the distance from faces, edges and vertices
   std::map<int, EdgeSpacing> spacings;       ///< CAD edge -> its division, whatever else is asked for
   std::set<int> kept_faces;                  ///< CAD faces whose edges are kept too
-  std::set<int> kept_edges;                  ///< CAD edges that are not let go, and that no quad crosses
+  std::set<int> kept_edges;                  ///< CAD edges that are not suppressed, and that no quad crosses
   std::vector<MatchedPair> matches;          ///< faces and edges that get the same nodes as others
   std::vector<NodePlace> nodes;              ///< places on the model that get nodes
   std::filesystem::path size_field;          ///< external .vdb grid that caps the size; empty = none

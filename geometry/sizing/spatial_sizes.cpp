@@ -108,7 +108,7 @@ std::vector<SizePoint> read_size_points(const std::filesystem::path& path) {
     if (!std::all_of(values.begin(), values.end() - 1, [](double value) { return std::isfinite(value); }))
       throw refused(number, "has a coordinate that is not a finite number");
     if (!std::isfinite(values[3]) || !(values[3] > 0))
-      throw refused(number, fmt::format("asks for the size {:g}: sizes are positive numbers", values[3]));
+      throw refused(number, fmt::format("has the size {:g}: sizes are positive numbers", values[3]));
     points.push_back({{values[0], values[1], values[2]}, values[3]});
   }
   if (points.empty()) throw failure(path.string(), fmt::format("{} holds no points", path.string()));
@@ -155,8 +155,8 @@ void SpatialSizes::open_external(const CadModel& model, const SizingOptions& opt
     throw usage_error(
         "size_field",
         fmt::format(
-            "{} does not overlap the model: its sizes reach from {} to {} mm; is `size_field_unit` right?",
-            path, place_text(low), place_text(high)));
+            "{} does not overlap the model: its sizes reach from {} to {} mm; check `size_field_unit`", path,
+            place_text(low), place_text(high)));
   external_ = [at = std::move(sizes.at), unit, scale](const Vector3& p) { return scale * at(p / unit); };
   between_voxels_ = sizes.between_voxels;
   spacing_ = std::min(spacing_, std::max(unit * sizes.voxel, limits_.size_min));
@@ -174,8 +174,9 @@ void SpatialSizes::read_points(const CadModel& model, const SizingOptions& optio
     if (at.size < limits_.largest) cascade_.add(at.point, at.size, blocks);
   }
   if (!any)
-    throw usage_error("size_points", fmt::format("no point of {} is near the model: are they in mm?",
-                                                 options.size_points.string()));
+    throw usage_error("size_points",
+                      fmt::format("no point of {} is near the model: check that they are in mm",
+                                  options.size_points.string()));
   cascade_.grade(std::min(growth_, slope_of_hints), limits_.largest, {}, blocks, context);
 }
 

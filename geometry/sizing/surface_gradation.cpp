@@ -21,8 +21,8 @@ namespace quadrille {
 
 namespace {
 
-/// Tells which voxels a face needs. Look-ups read the corners of the voxel around a point, and points may be
-/// a little off the surface.
+/// Determines which voxels a face needs. Look-ups read the corners of the voxel around a point, and points
+/// may be a little off the surface.
 class FaceBand {
  public:
   explicit FaceBand(const CadFace& face) : surface_(face) {
