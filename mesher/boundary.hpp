@@ -12,20 +12,19 @@ namespace quadrille {
 struct SettledBoundary {
   SizingField field;
   BoundaryNodes nodes;
-  FaceFlags
-      meshed;  ///< 0 = the face is not asked for, or so small that its place is taken by an edge or node
+  FaceFlags meshed;  ///< 0 = the face is not to be meshed, or so small that it becomes an edge or node
 };
 
-/// 1 = the options have this face meshed.
+/// 1 = the options ask for this face to be meshed.
 FaceFlags faces_used(const CadModel& model, const MeshOptions& options);
 
-/// The sizing field that mesh() uses: features that are let go request no sizes. Call it within on_threads().
+/// The sizing field that mesh() uses: suppressed features request no sizes. Call it within on_threads().
 /// Throws Error as mesh() does for invalid options or sizes that exceed the budget.
 SizingField wanted_sizes(const CadModel& model, const MeshOptions& options, ExecutionContext& context);
 
 /// The sizing field that mesh() would use, and the nodes on edges between which it would start to mesh the
-/// faces: features are let go, and there are more nodes where wires cross or come close. Call it within
-/// on_threads(). Throws Error as mesh() does for invalid options or sizes that exceed the budget.
+/// faces: small features are suppressed, and there are more nodes where wires cross or come close. Call it
+/// within on_threads(). Throws Error as mesh() does for invalid options or sizes that exceed the budget.
 SettledBoundary settle_boundary(const CadModel& model, const MeshOptions& options, ExecutionContext& context);
 
 }  // namespace quadrille

@@ -23,7 +23,7 @@ namespace quadrille {
 
 namespace {
 
-/// What the sizes and the segments on its edges ask for on a face.
+/// The quads that the sizes and the edge segments imply for a face.
 struct FaceDemand {
   double wanted = 0;  ///< integral of 1 / size^2
   double quads = 0;   ///< the same with quads that grow from the segments
@@ -34,7 +34,7 @@ struct FaceDemand {
 /// that size everywhere: the integral of 1 / (side + growth x)^2 - 1 / size^2. \param depth of the face
 double in_margin(double side, double size, double growth, double depth) {
   if (!(side < size)) return 0;
-  constexpr double fastest = 0.2;  // measured: from a fine border quads grow no faster, whatever is allowed
+  constexpr double fastest = 0.2;  // measured: quads grow no faster from a fine border, even if allowed
   growth = std::min(growth, fastest);
   const double reach = std::min(depth, (size - side) / growth);
   return reach / (side * (side + growth * reach)) - reach / (size * size);
@@ -64,8 +64,8 @@ FaceDemand demand_of(FaceId id, const CadFace& face, const std::vector<FaceSampl
     ++result.border;
     length += (b - a).norm();
   });
-  // Two bounds from below. The samples miss margins that are narrower than the distance between them; the
-  // other knows nothing but margins. The first takes what the sizes at the border are for known.
+  // Two lower bounds. The samples miss margins narrower than their spacing; the other bound covers only
+  // margins. The first already includes the sizes at the border.
   const double depth = length > 0 ? area / length : 0;
   double sampled = result.wanted, with_margins = coarse > 0 ? area / (coarse * coarse) : 0;
   for_each_segment([&](const Vector3& a, const Vector3& b) {
@@ -77,7 +77,7 @@ FaceDemand demand_of(FaceId id, const CadFace& face, const std::vector<FaceSampl
   return result;
 }
 
-/// The quads of rows along edges of a face that is no grid. Blocks in corners are not counted.
+/// The quads of rows along edges of a face that is not a grid. Blocks in corners are not counted.
 double quads_of_rows(FaceId face, const BoundaryNodes& nodes) {
   double count = 0;
   for (const RowLine& line : nodes.plans[face].row_lines)

@@ -52,7 +52,7 @@ namespace {
 
 class Job {
  public:
-  /// \param divides divide edges where slivers ask for it: edges and vertices are then not those of the model
+  /// \param divides divide edges at slivers: edges and vertices then differ from the model's
   Job(const CadModel& model, const MeshOptions& options, ExecutionContext& context, bool divides = true)
       : options_(with_matches_kept(options)),
         vertices_(model.vertex_count()),
@@ -81,7 +81,7 @@ class Job {
     find_rows();
   }
 
-  /// Features that are let go request no sizes. Throws Error (usage) if the sizes exceed the budget.
+  /// Suppressed features request no sizes. Throws Error (usage) if the sizes exceed the budget.
   SizingField build_field() {
     const StageTimer timer(context_, Stage::size);
     SizingOptions sizing = options_.sizing;
@@ -167,8 +167,8 @@ class Job {
     return options;
   }
 
-  /// The model with edges divided at slivers, unless users divide or match edges: what they name stays as it
-  /// is.
+  /// The model with edges divided at slivers, unless users prescribe divisions or matches, which name the
+  /// original edges.
   static CadModel divided(const CadModel& model, const FaceFlags& used, const MeshOptions& options) {
     const SizingOptions& sizing = options.sizing;
     if (!sizing.spacings.empty() || !sizing.layers.edges.empty() || !sizing.matches.empty()) return model;
@@ -239,8 +239,8 @@ class Job {
       const bool is_there = found != nodes.end() && mesh.points[found->second] == shape_.vertices[vertex];
       if (!is_there && !options_.partial)
         throw failure("nodes_at",
-                      fmt::format("`nodes_at` {} at {} got no node, since the mesh leaves out what is "
-                                  "small around it: use `keep_features`, or a smaller size there",
+                      fmt::format("`nodes_at` {} at {} got no node, because small features around it are "
+                                  "suppressed: use `keep_features`, or a smaller size there",
                                   name, place_text(shape_.vertices[vertex])));
       const bool is_added = vertex.number() > vertices_;
       mesh.placed_nodes.push_back({name, is_there ? vertex.number() : 0, is_added});
@@ -355,7 +355,8 @@ class Job {
     return !options_.partial || context_.seconds_left() > 0.1 * context_.time_limit();
   }
 
-  /// Finds the rows that follow prescribed divisions and layers, in grids as far as these can, and elsewhere.
+  /// Finds the rows of quads for prescribed divisions and layers: in grids where possible, else along lines
+  /// of edges.
   void find_rows() {
     const SizingOptions& sizing = options_.sizing;
     if (sizing.spacings.empty() && sizing.layers.edges.empty()) return;
@@ -402,7 +403,7 @@ class Job {
     if (nodes_.edges.empty()) return;
     constexpr int none = -1, several = -2;
     std::vector<int> renumbered(nodes_.points.size(), none);
-    // One node may have become several: the ends of an edge that was let go before and is kept now.
+    // One node may have become several: the ends of an edge that was suppressed before and is kept now.
     const auto renumber = [&](int before, int now) {
       if (before < 0 || now < 0) return;
       int& number = renumbered[before];
@@ -550,7 +551,8 @@ class Job {
     return order;
   }
 
-  /// For each face with a problem, keeps the features around it that were let go, or else applies a remedy.
+  /// For each face with a problem, restores the suppressed features around it or, if there are none, applies
+  /// a remedy.
   /// \return false if nothing could be done for any face.
   bool treat() {
     bool any = false;
@@ -569,7 +571,7 @@ class Job {
         continue;
       }
       if (is_failure && let_go_.keep_around(face, problems_[face]->edges, plan_.tiny)) {
-        record.history.push_back("features kept that were let go");
+        record.history.push_back("suppressed features restored");
         any = true;
         continue;
       }
@@ -609,12 +611,12 @@ class Job {
     }
   }
 
-  /// A face has no mesh if the one whose mesh it was to get has none.
+  /// A matched face has no mesh if the face whose mesh it copies has none.
   void note_failed_partners() {
     for (const MatchedFace& face : matches_.faces)
       if (problems_[face.from])
         problems_[face.to].emplace(problems_[face.from]->cause(), face.to,
-                                   fmt::format("Face{} was to get the mesh of another face: {}",
+                                   fmt::format("Face{} copies the mesh of another face, which failed: {}",
                                                face.to.number(), problems_[face.from]->what()));
   }
 
@@ -693,13 +695,13 @@ class Job {
                                    status.note.empty() ? "" : "; ");
       if (plan_.tiny.merged_faces[face]) {
         status.status = FaceStatus::merged;
-        status.note = filled_.gone[face] ? "in a filled hole"
-                                         : "tiny: its place is taken by an edge or a node of its neighbors";
+        status.note =
+            filled_.gone[face] ? "in a filled hole" : "tiny: replaced by an edge or a node of its neighbors";
       }
       status.filled_area = filled_.areas[face];
       if (meshes_[face] && meshes_[face]->quads.empty()) {
         status.status = FaceStatus::merged;
-        status.note = "crossed: its place is taken by quads whose centers lie on its neighbors";
+        status.note = "crossed: covered by quads whose centers lie on its neighbors";
       }
       if (problems_[face]) status.note = problems_[face]->what();
       if (!meshes_[face]) continue;

@@ -45,13 +45,13 @@ QUADRILLE_API ShellMesh mesh(const MidSurface& middle, const MeshOptions& option
 /// What is too small for the sizes of a mesh.
 struct SmallFeatures {
   std::vector<ShellMesh::LetGo> let_go;      ///< edges, then vertices, ascending
-  std::vector<int> faces;                    ///< faces whose place an edge or a node takes, from 1, ascending
-  std::vector<ShellMesh::Kept> kept;         ///< small faces, then edges, that stay all the same
+  std::vector<int> faces;                    ///< faces that become an edge or a node, from 1, ascending
+  std::vector<ShellMesh::Kept> kept;         ///< small faces, then edges, that are kept nevertheless
   std::vector<ShellMesh::FilledHole> holes;  ///< holes, pockets and bosses to be left out
 };
 
-/// What mesh() lets go at these options, before any face is meshed: a face that then has no mesh gets its
-/// features back. Throws Error (usage) for invalid options. Time is linear in the edges.
+/// What mesh() suppresses with these options before any face is meshed. If a face then cannot be meshed,
+/// mesh() restores its features. Throws Error (usage) for invalid options. Time is linear in the edges.
 QUADRILLE_API SmallFeatures small_features(const CadModel& model, const MeshOptions& options,
                                            ExecutionContext& context);
 

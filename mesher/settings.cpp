@@ -268,13 +268,14 @@ std::vector<Setting> make_table() {
        "leave out edges that are shorter and faces that are narrower than this length",
        [](Settings& v) -> double& { return v.mesh.merge_tiny; }},
       {"reach", "reach", "Reach", none, mesh, mm, 0, infinity, true, "half the minimum size",
-       "let go edges that are shorter and faces that are narrower than this length, where that does no harm",
+       "suppress edges that are shorter and faces that are narrower than this length, where that does no "
+       "harm",
        [](Settings& v) -> double& { return v.mesh.reach; }},
       {"fill_holes", "fill-holes", "FillHoles", "Fill holes", mesh, mm, 0, infinity, true, "all are meshed",
        "leave out holes, pockets and bosses that are no wider than this length",
        [](Settings& v) -> double& { return v.mesh.fill_holes; }},
       {"keep_features", "keep-features", "KeepFeatures", "Keep features", mesh, none, 0, 0, false, none,
-       "also mesh features below the reach instead of letting them go, and let no quad cross a smooth edge",
+       "also mesh features below the reach instead of suppressing them, and let no quad cross a smooth edge",
        [](Settings& v) -> bool& { return v.mesh.keep_features; }},
       {"keep", "keep", "Keep", none, mesh, none, 0, 0, false, "none",
        "faces and edges that keep nodes of their own, whatever their size and shape, such as Edge7,Face3",
@@ -477,7 +478,7 @@ std::vector<int> pieces_of(const Setting& setting, std::string_view kind, int nu
   return pieces[static_cast<std::size_t>(number) - 1];
 }
 
-/// Of a piece that several have in common, the value for which `better` holds.
+/// Where several entities share a piece, the value that `better` prefers.
 template <class Value, class Better>
 void rename(const Setting& setting, std::string_view kind, const std::vector<std::vector<int>>& pieces,
             std::map<int, Value>& values, Better better) {
@@ -585,7 +586,7 @@ void check(const Settings& settings, const CadModel& model) {
     check_names(entry(name), {edge}, "Edge", model.edge_count());
     if (spacing.bias != 1 && spacing.bias_both != 1)
       throw refused(entry("bias_both"),
-                    fmt::format("names Edge{}, which has a bias from one end: give one of them", edge));
+                    fmt::format("names Edge{}, which already has `bias`: give only one of them", edge));
   }
 }
 

@@ -46,9 +46,9 @@ struct QUADRILLE_API Setting {
     void (*set)(SizingOptions&, const std::string&);  ///< throws std::invalid_argument
     std::string (*get)(const SizingOptions&);         ///< in the form that set() takes
   };
-  /// Where the value is kept. The type tells what the setting takes: a number, a whole number, yes or no, one
-  /// word of `choices` (Strategy, MshVersion, Gradation, InpElement), a file, faces, sizes on faces, edges
-  /// and vertices, several words of `choices` (GroupKinds), entries, a text.
+  /// Where the value is kept. The type determines what the setting takes: a number, a whole number, yes or
+  /// no, one word of `choices` (Strategy, MshVersion, Gradation, InpElement), a file, faces, sizes on faces,
+  /// edges and vertices, several words of `choices` (GroupKinds), entries, a text.
   using Place = std::variant<double& (*)(Settings&), int& (*)(Settings&), bool& (*)(Settings&),
                              Strategy& (*)(Settings&), std::filesystem::path& (*)(Settings&),
                              std::vector<int>& (*)(Settings&), SizingOptions& (*)(Settings&),
@@ -93,12 +93,13 @@ QUADRILLE_API void assign(Settings& settings, const Setting& setting, const Sett
 /// the model: numbers outside their limits, names that the model does not have, lengths larger than it.
 QUADRILLE_API void check(const Settings& settings, const CadModel& model);
 
-/// The model as the settings want it read: imprinted, then sewn. Throws Error as those functions of CadModel.
+/// The model as the settings request it: imprinted, then sewn. Throws Error as CadModel::imprinted() and
+/// sewn().
 QUADRILLE_API CadModel joined(const Settings& settings, const CadModel& model);
 
-/// The settings with the names of an imprinted model's faces, edges and vertices instead of those that they
-/// were before: a name becomes those of all its pieces. Unchanged for other models. Throws Error (usage)
-/// where a number of segments or a bias would go to several pieces. \param model as joined() gives it.
+/// The settings with the names of faces, edges and vertices replaced by those in the imprinted model: a name
+/// becomes the names of all its pieces. Unchanged for other models. Throws Error (usage) where a number of
+/// segments or a bias would go to several pieces. \param model as joined() gives it.
 QUADRILLE_API Settings with_pieces(const Settings& settings, const CadModel& model);
 
 /// The table as an array of objects: name, option, property, label, kind, use, unit, default (null: see

@@ -66,7 +66,7 @@ SizeRegion region(const std::string& entry) {
   constexpr const char* what =
       "box:x,y,z,x,y,z=SIZE, sphere:x,y,z,r=SIZE, cylinder:x,y,z,x,y,z,r=SIZE or "
       "halfspace:x,y,z,nx,ny,nz=SIZE, "
-      "with ,TRANSITION behind SIZE or without";
+      "with an optional ,TRANSITION after SIZE";
   const std::size_t colon = entry.find(':'), equals = entry.find('=');
   if (colon == std::string::npos || equals == std::string::npos || equals < colon) refuse(what, entry);
   const std::string_view text = entry;
@@ -90,7 +90,7 @@ SizeRegion region(const std::string& entry) {
   }
   const bool has_radius = result.shape == Shape::sphere || result.shape == Shape::cylinder;
   if (has_radius && !(result.radius > 0)) refuse("positive radii", entry);
-  if (result.shape == Shape::cylinder && result.a == result.b) refuse("cylinders with two ends apart", entry);
+  if (result.shape == Shape::cylinder && result.a == result.b) refuse("cylinders whose ends differ", entry);
   if (result.shape == Shape::half_space && result.b.isZero()) refuse("half-spaces with a direction", entry);
   return result;
 }
@@ -294,10 +294,10 @@ void set_nodes(SizingOptions& sizing, const Entries& entries) {
     const std::vector<double> at = numbers(place);
     if (at.size() != 3) refuse("places such as 10,0,2.5 or Tip=10,0,2.5", entry);
     if (equals != std::string::npos && (!std::regex_match(name, form) || std::regex_match(name, taken)))
-      refuse("names of letters, digits, _ and - that no other group may have", name);
+      refuse("names of letters, digits, _ and - that no other group can have", name);
     std::string low = name;
     std::transform(low.begin(), low.end(), low.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (!name.empty() && !names.insert(low).second)  // CalculiX does not tell large letters from small ones
+    if (!name.empty() && !names.insert(low).second)  // CalculiX ignores case
       throw std::invalid_argument(fmt::format("names {} twice", name));
     nodes.push_back({name, Vector3(at[0], at[1], at[2])});
   }

@@ -113,7 +113,7 @@ class Look {
   IdVector<FaceId, std::vector<int>> of_face_;  // indices of the points on each
 };
 
-/// Sums up area and quads, and finds the range of sizes, where each source rules.
+/// Sums up area and quads, and finds the range of sizes, where each source governs.
 void sum_up(SizeMap& map) {
   for (SizeMap::Source& source : map.sources) source.least = std::numeric_limits<double>::infinity();
   for (const auto& nodes : map.triangles) {

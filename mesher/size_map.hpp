@@ -17,7 +17,7 @@ struct SizeMap {
   /// A source of sizes, named after the option that requests them.
   struct Source {
     std::string name;    ///< "size", "curvature", "short edges", "proximity", "size-on", ...
-    double area = 0;     ///< area where this source rules, square millimeters
+    double area = 0;     ///< area where this source governs, square millimeters
     double quads = 0;    ///< approximate number of quads there
     double least = 0;    ///< smallest size there, millimeters
     double largest = 0;  ///< largest size there, millimeters
@@ -29,7 +29,7 @@ struct SizeMap {
   };
   std::vector<Vector3> points;  ///< (n) millimeters
   std::vector<double> sizes;    ///< (n) wanted size at each point, millimeters
-  std::vector<int> rulers;      ///< (n) index into `sources`: the one that requests the smallest size
+  std::vector<int> rulers;      ///< (n) index into `sources`: the source that requests the smallest size
   std::vector<std::array<int, 3>> triangles;  ///< (m) counter-clockwise seen from outside
   std::vector<int> faces;                     ///< (m) CAD face of each triangle, from 1
   std::vector<Line> lines;                    ///< along the faces' boundaries
@@ -38,11 +38,11 @@ struct SizeMap {
   double quads = 0;                           ///< approximate number of quads of the mesh
 };
 
-/// The sizes that mesh() would use. To find which source rules, one field is built for each source alone. The
-/// full field is the minimum of these, since gradation turns a minimum into the minimum of the gradations.
-/// Time: that of one field per source and of the triangulation. Triangle sides are at most 1.5 times the size
-/// or 1/300 of the model's diagonal, whichever is larger. Throws Error as mesh() does for invalid options or
-/// sizes that exceed the budget.
+/// The sizes that mesh() would use. To find the governing source, one field is built for each source alone.
+/// The full field is the minimum of these, since gradation turns a minimum into the minimum of the
+/// gradations. Time: that of one field per source and of the triangulation. Triangle sides are at most 1.5
+/// times the size or 1/300 of the model's diagonal, whichever is larger. Throws Error as mesh() does for
+/// invalid options or sizes that exceed the budget.
 QUADRILLE_API SizeMap size_map(const CadModel& model, const MeshOptions& options, ExecutionContext& context);
 
 }  // namespace quadrille

@@ -32,7 +32,8 @@ nlohmann::ordered_json json_of(const std::vector<StressPeak>& peaks) {
   return result;
 }
 
-/// The peaks in the report on the mesh before. Throws Error (failure) if it is none.
+/// The stress peaks in the report on the previous mesh. Throws Error (failure) if the file is not such a
+/// report.
 std::vector<StressPeak> peaks_in(const std::filesystem::path& report) {
   std::vector<StressPeak> peaks;
   try {
@@ -44,12 +45,12 @@ std::vector<StressPeak> peaks_in(const std::filesystem::path& report) {
           {Vector3(at[0], at[1], at[2]), peak.at("stress"), peak.at("size"), peak.at("sharp_corner")});
     }
   } catch (const nlohmann::json::exception&) {
-    throw failure(report.string(), fmt::format("{} is no report of quadrille adapt", report.string()));
+    throw failure(report.string(), fmt::format("{} is not a report of quadrille adapt", report.string()));
   }
   return peaks;
 }
 
-/// What is not settled though the error is small enough, one sentence each.
+/// What has not converged although the error is small enough, one sentence each.
 std::vector<std::string> warnings_on(const AdaptResult& result) {
   std::vector<std::string> warnings;
   for (const PeakChange& change : result.changes)
@@ -80,11 +81,10 @@ void tell(const AdaptResult& result, const AdaptArguments& arguments) {
   print(fmt::format("error        {:.3g} % of the energy norm, with {} quads\n", 100 * result.error,
                     result.quads));
   if (result.is_met)
-    return print(
-        fmt::format("wanted       {:.3g} %: the target is met, and the mesh may stay; {} has its sizes\n",
-                    100 * arguments.options.error, arguments.output.string()));
+    return print(fmt::format("target       {:.3g} %: reached, so this mesh can be kept; {} has its sizes\n",
+                             100 * arguments.options.error, arguments.output.string()));
   print(
-      fmt::format("wanted       {:.3g} %, with about {:.0f} quads of {:.3g} to {:.3g} mm\n"
+      fmt::format("target       {:.3g} %, with about {:.0f} quads of {:.3g} to {:.3g} mm\n"
                   "mesh with    --size {:.3g} --size-min {:.3g} --size-field {}\n",
                   100 * result.error_wanted, result.quads_wanted, result.least, result.largest,
                   result.largest, result.least, arguments.output.string()));
@@ -121,22 +121,22 @@ void add_adapt_command(CLI::App& app) {
   command->add_option("MESH", arguments->mesh, "mesh that was solved: .inp or .msh")->required();
   command
       ->add_option("RESULT", arguments->result,
-                   "what CalculiX found: .frd, or .vtu, with U, of shells as bricks")
+                   "result of CalculiX with U, with shells expanded to solid elements: .frd or .vtu")
       ->required();
   command->add_option("-o,--output", arguments->output, "sizes as OpenVDB grids (.vdb), for --size-field")
       ->required();
-  CLI::Option* error = command->add_option(
-      "--error", options.error, "error of the stresses that is wanted, of the whole (default 0.05: 5 %)");
-  command->add_option("--count", options.count, "number of elements that is wanted, in place of an error")
+  CLI::Option* error =
+      command->add_option("--error", options.error,
+                          "target error of the stresses, relative to their energy norm (default 0.05: 5 %)");
+  command->add_option("--count", options.count, "target number of elements, instead of a target error")
       ->excludes(error);
   command->add_option("--size-min", options.size_min, "no size below this, in mm");
   command->add_option("--size-max", options.size_max, "no size above this, in mm");
   command->add_option("--growth", options.growth, "how fast the size may change (default 0.3)");
   command->add_option("--poisson", options.poisson, "Poisson's ratio (default 0.3)");
-  command->add_option("--report", arguments->report,
-                      "write error, counts, sizes and peaks of stress as JSON");
+  command->add_option("--report", arguments->report, "write error, counts, sizes and stress peaks as JSON");
   command->add_option("--before", arguments->before,
-                      "report on the mesh before: warn of peaks of stress that have changed since");
+                      "report on the previous mesh: warn of stress peaks that have changed since");
   command->add_flag("--end-with-input", arguments->end_with_input,
                     "end the work when standard input closes, for programs that start this one");
   command->add_flag("--quiet", arguments->quiet, "print nothing");

@@ -52,10 +52,9 @@ void draw_apart(const std::filesystem::path& path, ExecutionContext& context,
                 const std::function<void()>& draw) {
   IsolatedWork options;
   options.subject = path.string();
-  options.crashed = fmt::format(
-      "{}: the picture cannot be drawn: the renderer crashed, for want of memory or threads "
-      "perhaps",
-      path.string());
+  options.crashed =
+      fmt::format("{}: the picture cannot be drawn: the renderer crashed, probably out of memory or threads",
+                  path.string());
   options.context = &context;
   options.stage = Stage::write;
   const auto work = [&](std::ostream&) {

@@ -60,7 +60,7 @@ std::string describe(const CadModel& model, ExecutionContext& context) {
   return text;
 }
 
-/// What goes at a size, and what is as small but stays.
+/// The features that are suppressed at a size, and small ones that are kept.
 std::string features(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
   const SmallFeatures found = small_features(model, options, context);
   using Kind = ShellMesh::LetGo::Kind;
@@ -69,16 +69,17 @@ std::string features(const CadModel& model, const MeshOptions& options, Executio
   };
   std::string text;
   for (const auto& feature : found.let_go)
-    text +=
-        fmt::format("{:<12} {} becomes {}, at most {} mm away\n", "goes", name(feature.kind, feature.number),
-                    name(feature.to_kind, feature.to), number_text(feature.distance));
-  for (const int face : found.faces) text += fmt::format("{:<12} Face{}\n", "goes", face);
+    text += fmt::format("{:<12} {} becomes {}, at most {} mm away\n", "suppressed",
+                        name(feature.kind, feature.number), name(feature.to_kind, feature.to),
+                        number_text(feature.distance));
+  for (const int face : found.faces) text += fmt::format("{:<12} Face{}\n", "suppressed", face);
   for (const auto& hole : found.holes)
-    text += fmt::format("{:<12} {} of diameter {} in Face{} at {}\n", "goes", hole.boss ? "boss" : "hole",
-                        number_text(hole.diameter), hole.in.front(), place_text(hole.center));
+    text +=
+        fmt::format("{:<12} {} of diameter {} in Face{} at {}\n", "suppressed", hole.boss ? "boss" : "hole",
+                    number_text(hole.diameter), hole.in.front(), place_text(hole.center));
   for (const auto& feature : found.kept)
-    text += fmt::format("{:<12} {}{}: {}\n", "stays", feature.dimension == 2 ? "Face" : "Edge",
-                        feature.number, feature.why);
+    text += fmt::format("{:<12} {}{}: {}\n", "kept", feature.dimension == 2 ? "Face" : "Edge", feature.number,
+                        feature.why);
   return text.empty() ? fmt::format("{:<12} nothing is too small for this size\n", "features") : text;
 }
 
@@ -95,7 +96,7 @@ void add_info_command(CLI::App& app) {
   auto with_features = std::make_shared<bool>(false);
   command
       ->add_flag("--features", *with_features,
-                 "list the small features that a mesh of --size lets go, and those that stay and why")
+                 "list the small features that a mesh of --size suppresses, and those that it keeps and why")
       ->needs("--size");
   command->callback([input, limits, with_features] {
     require_readable(*input);

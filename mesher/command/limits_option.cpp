@@ -13,8 +13,8 @@ namespace quadrille::command {
 void LimitsOption::add_to(CLI::App& command) {
   option_ = command
                 .add_option("--limits", file_,
-                            "exit with 1 when quads fail the criteria; with a FILE, JSON or a HyperMesh "
-                            "criteria file, those of it in place of the usual limits")
+                            "exit with 1 if quads fail the usual limits or, if given, those of FILE (JSON or "
+                            "a HyperMesh criteria file)")
                 ->expected(0, 1);
 }
 

@@ -64,7 +64,7 @@ std::string draw_refused(const CadModel& model, MidSurfaceOptions options, const
                        middle.stray_edges.empty() ? "" : ", with edges inside the material in red");
   } catch (const Error& error) {
     if (error.kind() == Error::Kind::cancelled) throw;
-    return "";  // the refusal tells more
+    return "";  // the error message says more
   }
 }
 
@@ -106,8 +106,8 @@ void warn_off_geometry(const ShellMesh& mesh, std::vector<std::string>& warnings
   });
   if (mesh.off_geometry.empty() || worst == mesh.faces.end()) return;
   warnings.push_back(
-      fmt::format("{} nodes lie off the geometry, where elements would be invalid on it, most on "
-                  "Face{} (by {}): a smaller size there keeps them on it",
+      fmt::format("{} nodes lie off the geometry, because elements on it would be invalid, the farthest on "
+                  "Face{} (by {}): use a smaller size there to keep them on it",
                   mesh.off_geometry.size(), worst->face, number_text(worst->off_geometry_max)));
 }
 
@@ -198,7 +198,7 @@ void tell_poor_quads(const ShellMesh& mesh) {
       quads, most.dimension == 2 ? "Face" : "Edge", most.number, most.quads, most.why);
 }
 
-/// Writes the report, the warnings to stderr and the tables to stdout, as far as they are wanted.
+/// Writes the report, the warnings to stderr and the tables to stdout, if requested.
 void tell_quality(const ShellMesh& result, const Measured& measured, const Meshed& meshed,
                   const MeshArguments& arguments, ExecutionContext& context) {
   std::vector<std::string> warnings = meshed.model.problems();
@@ -300,7 +300,7 @@ void add_mesh_command(CLI::App& app) {
   add_settings(*command, *arguments);
   command->get_option("--elements-per-diagonal")->excludes("--size");
   command->add_option("--write-size-field", arguments->write_size_field,
-                      "write the size that is meshed with as OpenVDB grids (.vdb)");
+                      "write the sizing field of the mesh as OpenVDB grids (.vdb)");
   command->add_option("--report", arguments->report, "write counts, quality and times as JSON");
   command->add_option("--picture", arguments->picture, "draw the mesh into a .png");
   command->add_flag("--thin", arguments->thin,

@@ -65,7 +65,7 @@ void add_midsurface_command(CLI::App& app) {
       ->required()
       ->allow_extra_args(false);
   command->add_flag("--partial", arguments->options.partial,
-                    "write what could be paired where the solid is thin in places only");
+                    "if the solid is thin only in places, write the walls that were found");
   command->add_flag("--join", arguments->options.join, "treat solids that touch as one part, as if welded");
   add_settings(*command, *arguments, {"read_time_limit", "time_limit"});
   command->add_flag("--end-with-input", arguments->end_with_input,

@@ -11,7 +11,8 @@ namespace quadrille::command {
 
 void add_quality_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "quality", "measure a mesh: counts, q, Jacobians, valence, and what fails industry's criteria");
+      "quality",
+      "measure a mesh: counts, q, Jacobians, valences, and the quads that fail the industry criteria");
   auto input = std::make_shared<std::filesystem::path>();
   auto limits_option = std::make_shared<LimitsOption>();
   command
@@ -22,7 +23,7 @@ void add_quality_command(CLI::App& app) {
   auto size_min = std::make_shared<double>(0);
   command
       ->add_option("--size-min", *size_min,
-                   "least size that the mesh was made with, in mm: sides shorter than half of it fail")
+                   "minimum size of the mesh, in mm: sides shorter than half of it fail")
       ->check(CLI::PositiveNumber);
   command->callback([input, limits_option, size_min] {
     require_readable(*input);

@@ -71,7 +71,7 @@ void run(const RecombineArguments& arguments) {
   }();
   if (result.quads.empty())
     throw failure(name, fmt::format("{}: no quad can be made: no two of its triangles share a side in one "
-                                    "face or property (--merge makes one of nodes that lie close together)",
+                                    "face or property (--merge merges nodes that lie close together)",
                                     name));
   {
     const StageTimer timer(context, Stage::write);
@@ -84,7 +84,7 @@ void run(const RecombineArguments& arguments) {
   if (!arguments.quiet) print(quality_table(measures.quality));
 }
 
-/// Needed since CLI11 takes a number that is too large as the largest one and shows a range of 300 digits.
+/// Needed since CLI11 clamps a number that is too large, and shows a range of 300 digits.
 std::string seed_problem(const std::string& text) {
   std::uint64_t seed = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
@@ -95,7 +95,7 @@ std::string seed_problem(const std::string& text) {
 }  // namespace
 
 void add_recombine_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("recombine", "make quads of a triangulation");
+  CLI::App* command = app.add_subcommand("recombine", "turn a triangulation into quads");
   auto arguments = std::make_shared<RecombineArguments>();
   command
       ->add_option("TRI", arguments->input,
@@ -110,7 +110,7 @@ void add_recombine_command(CLI::App& app) {
   command->add_flag("--no-improve", arguments->no_improve,
                     "the method of the 2018 paper, unmodified: color, swap, remove; no node moves");
   add_surface_options(*command, arguments->feature_angle, arguments->merge,
-                      "their common side is kept as an edge; 0 = none");
+                      "on their common side is kept as an edge; 0 = none");
   command->add_option("--report", arguments->report, "write counts, quality and times as JSON");
   add_settings(*command, arguments->options, {"threads", "msh_version", "element", "groups"});
   command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");

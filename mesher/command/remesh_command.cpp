@@ -121,7 +121,7 @@ void run(const RemeshArguments& arguments) {
 
 void add_remesh_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("remesh", "mesh a triangulated surface, such as a scan, anew with quads");
+      app.add_subcommand("remesh", "remesh a triangulated surface, such as a scan, with quads");
   auto arguments = std::make_shared<RemeshArguments>();
   command
       ->add_option(
@@ -137,9 +137,9 @@ void add_remesh_command(CLI::App& app) {
   add_settings(
       *command, *arguments,
       {"size", "order", "force", "time_limit", "threads", "msh_version", "nodes", "element", "groups"});
-  command->get_option("--size")->required()->description("length of elements, in mm");
+  command->get_option("--size")->required()->description("target edge length, in mm");
   add_surface_options(*command, arguments->feature_angle, arguments->merge,
-                      "they are of two faces; 0 = shape makes no faces");
+                      "on they belong to different faces; 0 = faces do not depend on angles");
   command->add_option("--report", arguments->report,
                       "write counts, quality, distances to the surface and times as JSON");
   command->add_option("--picture", arguments->picture, "draw the mesh into a .png");

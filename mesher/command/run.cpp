@@ -124,7 +124,7 @@ int run(int argc, char** argv) {
   } catch (const std::exception& error) {
     return complain(error.what(), work_failed);
   } catch (...) {
-    return complain("an error of the CAD library that says nothing more", work_failed);
+    return complain("an error in the CAD library, without a description", work_failed);
   }
 }
 

@@ -23,7 +23,7 @@ std::string describe() {
 void add_settings_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("settings", "list the settings of mesh, by all their names");
   auto as_json = std::make_shared<bool>(false);
-  command->add_flag("--json", *as_json, "all that is known of each, as JSON");
+  command->add_flag("--json", *as_json, "all properties of each, as JSON");
   command->callback([as_json] { print(*as_json ? settings_table().dump(1) + "\n" : describe()); });
 }
 

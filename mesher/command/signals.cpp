@@ -73,7 +73,7 @@ extern "C" void handle_crash(int) {
 }
 
 extern "C" void handle_cpu_limit(int) {
-  end_process("quadrille: the CPU time that this process may use (ulimit -t) is over\n", 1);
+  end_process("quadrille: the CPU time limit of this process (ulimit -t) is reached\n", 1);
 }
 
 /// Copies a line and its line break; cuts off what does not fit.
@@ -89,7 +89,7 @@ std::vector<std::string> whole_files;
 
 void prepare_time_line(double time_limit) {
   copy_line(time_line,
-            fmt::format("quadrille: the time limit of {:g} s is over{}", time_limit, left_behind()));
+            fmt::format("quadrille: the time limit of {:g} s is reached{}", time_limit, left_behind()));
 }
 
 }  // namespace
@@ -160,7 +160,7 @@ void tell_limits() {
 
 void report_crashes(const std::filesystem::path& file, std::string_view work) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  static_cast<void>(file), static_cast<void>(work);  // the sanitizer's report tells more
+  static_cast<void>(file), static_cast<void>(work);  // the sanitizer's report says more
 #else
   copy_line(crash_line, fmt::format("quadrille: {}: {} this file crashed: it may be damaged",
                                     printable(file.string()), work));

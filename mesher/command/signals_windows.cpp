@@ -45,7 +45,7 @@ void ring_after(double seconds);
   std::abort();  // not reached
 }
 
-/// As the handler of SIGALRM in signals.cpp.
+/// Does the same as the SIGALRM handler in signals.cpp.
 void CALLBACK ring(void*, BOOLEAN) {
   if (!ending.exchange(true)) {
     ring_after(delivers_part ? grace_of_parts : grace);
@@ -62,7 +62,7 @@ void CALLBACK ring(void*, BOOLEAN) {
   end_process(line, was_cancelled ? 130 : 1);
 }
 
-/// Replaces the timer by one that rings once; 0 = none.
+/// Replaces the timer by one that fires once; 0 = none.
 void ring_after(double seconds) {
   HANDLE next = nullptr;
   const auto milliseconds = static_cast<DWORD>(std::clamp(1e3 * seconds, 1.0, 4e9));
@@ -92,7 +92,7 @@ std::vector<std::string> whole_files;
 
 void prepare_time_line(double time_limit) {
   const std::lock_guard lock(lines);
-  time_line = fmt::format("quadrille: the time limit of {:g} s is over{}\n", time_limit, left_behind());
+  time_line = fmt::format("quadrille: the time limit of {:g} s is reached{}\n", time_limit, left_behind());
 }
 
 }  // namespace

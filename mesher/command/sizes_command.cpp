@@ -174,7 +174,7 @@ void run(const SizesArguments& arguments) {
   const SizeMap map = size_map(model, options, context);
   write_outputs(map, arguments, context, cancel);
   for (const int face : map.missing)
-    fmt::print(stderr, "warning: Face{} is not shown: OpenCASCADE makes no triangles of it\n", face);
+    fmt::print(stderr, "warning: Face{} is not shown: OpenCASCADE cannot triangulate it\n", face);
   if (!arguments.quiet) print(table_of(map));
 }
 
@@ -190,20 +190,20 @@ std::set<std::string_view> settings_of_meshing() {
 
 void add_sizes_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("sizes", "show the sizes that a mesh would have, and what asks for them");
+      app.add_subcommand("sizes", "show the sizes that a mesh would have, and where they come from");
   auto arguments = std::make_shared<SizesArguments>();
   command->add_option("IN", arguments->input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
   command
-      ->add_option(
-          "-o,--output", arguments->outputs,
-          "the surface with sizes and what asks for them: .vtu or .json; may be given more than once")
+      ->add_option("-o,--output", arguments->outputs,
+                   "the surface with sizes and their sources: .vtu or .json; may be given more than once")
       ->allow_extra_args(false);
   command->add_option("--picture", arguments->picture, "draw the sizes into a .png");
   command->add_option("--write-size-field", arguments->write_size_field,
                       "write the sizes as OpenVDB grids (.vdb)");
-  command->add_option("--report", arguments->report, "write what each source asks for as JSON");
-  auto* count_only = command->add_flag("--count-only", arguments->count_only,
-                                       "only tell the expected number of quads, and in the report by face");
+  command->add_option("--report", arguments->report, "write area, quads and sizes of each source as JSON");
+  auto* count_only =
+      command->add_flag("--count-only", arguments->count_only,
+                        "only print the expected number of quads; the report lists it by face");
   for (const auto* output : {"--output", "--picture", "--write-size-field"})
     count_only->excludes(command->get_option(output));
   add_settings(*command, *arguments, settings_of_meshing());

@@ -23,11 +23,12 @@ void add_surface_options(CLI::App& command, std::optional<double>& feature_angle
                          std::optional<double>& merge, const std::string& fold) {
   command
       .add_option("--feature-angle", feature_angle,
-                  "degrees between the normals of neighbors from which on " + fold +
+                  "angle in degrees between the normals of neighbors from which " + fold +
                       " (default 40, none in .msh files with several faces)")
       ->check(CLI::Range(0.0, 180.0));
   command
-      .add_option("--merge", merge, "make one of nodes at most this far apart, millimeters; 0 = on one place")
+      .add_option("--merge", merge,
+                  "merge nodes at most this far apart, in mm; 0 = only nodes at the same position")
       ->check(CLI::NonNegativeNumber);
 }
 

@@ -82,7 +82,7 @@ class BdfReader {
       return true;
     }
     if (first.substr(0, 7) == "INCLUDE")
-      throw cursor_.error_before("INCLUDE is not followed: put the mesh into one file");
+      throw cursor_.error_before("INCLUDE is not supported: put the mesh into one file");
     std::vector<std::string_view> fields = fields_of(line);
     std::string_view name = trimmed(fields.front());
     const bool goes_on = name.empty() || name.front() == '+' || name.front() == '*';

@@ -94,8 +94,8 @@ int property(const OutputMesh& mesh, int face) {
   return face > 0 ? face : mesh.cad_face_count() + 1;
 }
 
-/// Writes a property for each face, with material 1 and the mean thickness of the shell if that is known. Who
-/// includes the file defines the material, and the thicknesses that are not known.
+/// Writes a property for each face, with material 1 and the mean thickness of the shell if that is known. The
+/// file that includes this one must define the material and the unknown thicknesses.
 void write_properties(const OutputMesh& mesh, TextWriter& out) {
   for (const CadGroup& group : mesh.faces()) {
     out << "PSHELL  ";

@@ -30,7 +30,7 @@ class FrdReader {
     }
     if (result_.points.empty()) throw bad("holds no nodes: is it a .frd file?");
     if (result_.elements.empty()) throw bad("holds no elements");
-    if (result_.displacements.empty()) throw bad("holds no displacements: ask for U with *NODE FILE");
+    if (result_.displacements.empty()) throw bad("holds no displacements: request U with *NODE FILE");
     std::sort(result_.elements.begin(), result_.elements.end(),
               [](const auto& a, const auto& b) { return a.number < b.number; });
     return std::move(result_);
@@ -75,7 +75,9 @@ class FrdReader {
     while (!header.empty() && header.back() == ' ') header.remove_suffix(1);
     const char format = header.empty() ? ' ' : header.back();
     if (format == '2' || format == '3')
-      throw bad("is binary: CalculiX writes text unless *NODE OUTPUT or *EL OUTPUT asks for more");
+      throw bad(
+          "is binary: use *NODE FILE and *EL FILE instead of *NODE OUTPUT and *EL OUTPUT, so that CalculiX "
+          "writes text");
     return format == '0' ? 8 : 13;
   }
 
@@ -96,7 +98,7 @@ class FrdReader {
     while (next_of_block()) {
       if (field(0, 3) != " -1") throw bad_line("a node was expected");
       if (!indices_.emplace(number<int>(3, start - 3), static_cast<int>(result_.points.size())).second)
-        throw bad_line(fmt::format("node {} comes twice", number<int>(3, start - 3)));
+        throw bad_line(fmt::format("node {} occurs twice", number<int>(3, start - 3)));
       result_.points.push_back(vector(start));
     }
   }

@@ -74,7 +74,7 @@ class InpReader {
       generated_ = text.find(",GENERATE") != std::string::npos;
       if (set_ != nullptr) block_ = Block::set;
     } else if (keyword == "*INCLUDE") {
-      throw cursor_line("*INCLUDE is not followed: put the mesh into one file");
+      throw cursor_line("*INCLUDE is not supported: put the mesh into one file");
     }
   }
 

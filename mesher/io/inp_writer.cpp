@@ -205,13 +205,14 @@ void check_membrane(const OutputMesh& mesh, InpElement element) {
   if (family_of(element) != InpFamily::membrane) return;
   for (const ThicknessGroup& group : mesh.thicknesses())
     if (group.varies)
-      throw usage_error("element", fmt::format("`element` {} cannot have a thickness that varies, as that of "
-                                               "Face{} does: choose a shell",
-                                               name_of(element), group.faces.front()));
+      throw usage_error(
+          "element",
+          fmt::format("`element` {} needs a constant thickness, and that of Face{} varies: choose a shell",
+                      name_of(element), group.faces.front()));
 }
 
-/// Writes a set and a section for each thickness; varying thicknesses are given at the nodes. Who includes
-/// the file must define the material before.
+/// Writes a set and a section for each thickness; varying thicknesses are given at the nodes. A file that
+/// includes this one must define the material first.
 void write_sections(const OutputMesh& mesh, InpElement type, TextWriter& out) {
   const InpFamily family = family_of(type);
   const bool is_thick = family != InpFamily::axisymmetric;
@@ -258,7 +259,7 @@ void write_inp(const OutputMesh& mesh, const WriteOptions& options, const std::s
   write_node_sets(mesh, names, out);
   write_matches(mesh, out);
   write_side_sets(mesh, options.element, names, out);
-  // Of plane and axisymmetric elements the sides are loaded.
+  // Plane and axisymmetric elements are loaded on their sides.
   if (!lies_in_plane(options.element)) write_surfaces(mesh, names, out);
   write_sections(mesh, options.element, out);
 }

@@ -108,17 +108,17 @@ void check_format(const std::filesystem::path& path, int quad_nodes) {
   const std::string ending = lower_ending(path);
   require_module(ending);
   if (quad_nodes == 9 && (ending == ".inp" || ending == ".unv" || ending == ".bdf"))
-    throw usage_error("nodes", fmt::format("{}: such files have no quads of nine nodes: `nodes` 9 is for "
-                                           ".msh, .med, .vtu and .vtk",
-                                           path.string()));
+    throw usage_error(
+        "nodes",
+        fmt::format("{}: this format has no nine-node quads: `nodes` 9 is for .msh, .med, .vtu and .vtk",
+                    path.string()));
   constexpr std::size_t longest_name = 64;  // bytes of a mesh name in MED
   const std::size_t name = path.stem().string().size();
   if (ending == ".med" && name > longest_name)
-    throw usage_error(
-        path.string(),
-        fmt::format("{}: without its ending the name has {} bytes, and the mesh in a .med file, "
-                    "which FreeCAD finds by it, has {} for its name: give the file a shorter one",
-                    path.string(), name, longest_name));
+    throw usage_error(path.string(),
+                      fmt::format("{}: without its ending the file name has {} bytes, and the mesh in a .med "
+                                  "file, which has the same name, can have {}: give the file a shorter name",
+                                  path.string(), name, longest_name));
 }
 
 void check_element(InpElement element, int order) {
@@ -129,7 +129,7 @@ void check_element(InpElement element, int order) {
 
 void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path, const WriteOptions& options) {
   if (mesh.order == 1 && options.quad_nodes == 9)
-    throw usage_error("nodes", "`nodes` 9 is for meshes of second order, and this one is of first");
+    throw usage_error("nodes", "`nodes` 9 is for second-order meshes, and this one is first order");
   check_format(path, mesh.order == 1 ? 4 : options.quad_nodes);
   if (lower_ending(path) == ".inp") check_element(options.element, mesh.order);
   AtomicFile file(path);

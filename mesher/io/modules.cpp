@@ -57,7 +57,7 @@ void require_module(std::string_view ending) {
     if (part.ending == ending && !part.has)
       throw usage_error(
           std::string(ending),
-          fmt::format("{} files need {}, which this build of Quadrille comes without", ending, part.needs));
+          fmt::format("{} files need {}, which this build of Quadrille lacks", ending, part.needs));
 }
 
 std::string vtu_file(const OutputMesh& mesh, const std::vector<double>& qualities) {

@@ -17,7 +17,7 @@
 
 namespace quadrille {
 
-/// Throws Error (usage) if files of this ending (".med") need a module that this build comes without.
+/// Throws Error (usage) if files of this ending (".med") need a module that this build lacks.
 void require_module(std::string_view ending);
 
 /// A mesh read by VTK. Nodes are numbered from 1 in the order of the points.

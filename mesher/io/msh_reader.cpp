@@ -91,7 +91,7 @@ class MshReader {
       const std::string end = "$End" + std::string(heading.substr(1));
       if (!cursor_.skip_past(end)) throw cursor_.truncated(end.c_str());
     } else {
-      throw cursor_.error("expected the begin of a section, such as $Nodes");
+      throw cursor_.error("expected the beginning of a section, such as $Nodes");
     }
   }
 

@@ -62,7 +62,7 @@ void OutputMesh::name_groups(int dimension) {
   if (!wanted[dimension]) return;
   std::vector<NamedGroup>& named = named_[dimension];
   if (!groups_were_read()) {
-    std::set<int> added;  // placed nodes' vertices, which are none of the model's
+    std::set<int> added;  // vertices of placed nodes, which are not in the model
     for (const ShellMesh::PlacedNode& node : mesh_.placed_nodes)
       if (dimension == 0 && node.added) added.insert(node.vertex);
     for (const CadGroup& entity : entities(dimension))

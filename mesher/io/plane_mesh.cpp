@@ -45,7 +45,7 @@ double diagonal_of(const ShellMesh& mesh) {
   return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
-/// Normal of the plane that fits best, with components that are 0 but for rounding set to 0.
+/// Normal of the plane that fits best, with components that differ from 0 only by rounding set to 0.
 Vector3 fitted_normal(const ShellMesh& mesh, const Vector3& center) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for_each_node(mesh, [&](int node, int) {
@@ -89,7 +89,7 @@ std::string turn_text(const Frame& frame, double tolerance) {
   const bool same = frame.x == Vector3::UnitX() && frame.y == Vector3::UnitY();
   if (same && std::abs(frame.height) <= tolerance) return "";
   return fmt::format(
-      "Turned into the plane z = 0: the point (x, y) here is x {} + y {} + {:.9g} {} in the model",
+      "Rotated into the plane z = 0: the point (x, y) here is x {} + y {} + {:.9g} {} in the model",
       vector_text(frame.x), vector_text(frame.y), frame.height, vector_text(frame.z));
 }
 
@@ -101,11 +101,11 @@ void check_plane(const ShellMesh& mesh, const Frame& frame, double tolerance, co
     if (off > farthest) std::tie(farthest, face) = std::pair(off, of_face);
   });
   if (farthest <= tolerance) return;
-  throw usage_error("element",
-                    fmt::format("{} needs a mesh in one plane, and Face{} leaves the plane that fits "
-                                "best by {:.3g} mm: mesh plane faces alone (`faces`), or choose a "
-                                "shell or membrane",
-                                subject, face, farthest));
+  throw usage_error(
+      "element",
+      fmt::format("{} needs a mesh in one plane, and Face{} leaves the plane that fits "
+                  "best by {:.3g} mm: mesh only faces in one plane (`faces`), or choose a shell or membrane",
+                  subject, face, farthest));
 }
 
 void check_radii(const ShellMesh& plane, const Frame& frame, double tolerance, const std::string& subject) {

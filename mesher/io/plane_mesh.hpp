@@ -14,10 +14,10 @@ struct PlaneMesh {
   std::string turn;  ///< which point of the model (x, y) is; empty if no node has moved
 };
 
-/// Turns a plane mesh into the plane z = 0, about the origin, and then shifts it along z. x of the result
-/// runs along the model's x as far as the plane lets it (along y in the plane y-z), y along z where the plane
-/// is upright. Elements that are clockwise then are turned around; those with equal corners as they are. For
-/// axisymmetric elements x is the radius, y the axis. O(n).
+/// Rotates a plane mesh about the origin into the plane z = 0 and then shifts it along z. The x axis of the
+/// result is the model's x axis projected to the plane (the y axis for the plane y-z); its y axis is the
+/// model's z axis if the plane is upright. Elements that are then clockwise are reversed. For axisymmetric
+/// elements x is the radius, y the axis. O(n).
 /// \param name of the file, for messages. All nodes must exist and be finite.
 /// Throws Error (usage, subject "element") if the mesh is not plane, or for axisymmetric elements if a node
 /// has a negative radius, each by more than 1e-5 of the mesh's diagonal.

@@ -1,4 +1,4 @@
-/// Draws two views with VTK: sizes, colored by their logarithm, and the source that rules at each place.
+/// Draws two views with VTK: sizes, colored by their logarithm, and the governing source at each place.
 
 #include "mesher/io/size_picture.hpp"
 

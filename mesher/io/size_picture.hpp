@@ -7,8 +7,8 @@
 
 namespace quadrille {
 
-/// The bytes of a PNG: on the left the sizes, on the right which source rules where. Empty if VTK cannot
-/// draw it. \param width, height pixels.
+/// The bytes of a PNG: on the left the sizes, on the right the governing sources. Empty if VTK cannot draw
+/// it. \param width, height pixels.
 std::string draw_sizes(const SizeMap& map, int width, int height);
 
 }  // namespace quadrille

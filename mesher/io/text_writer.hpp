@@ -129,8 +129,9 @@ void write_in_order(std::size_t count, TextWriter& out, Write&& write) {
     if (next >= count) control.stop();
     return std::exchange(next, next + at_once);
   };
-  // The pipeline passes pointers, since it does not destroy what it holds when a filter throws. Texts leave
-  // in order, so those under way are consecutive, and a place in `texts` is free when its turn comes again.
+  // The pipeline passes pointers, since it does not destroy what it holds when a filter throws. Texts are
+  // written in order, so those in progress are consecutive, and an entry of `texts` is free when it is used
+  // again.
   const int under_way = 2 * threads;
   std::vector<TextWriter> texts(under_way);
   const auto make_text = [&](std::size_t begin) {

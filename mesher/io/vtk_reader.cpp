@@ -107,7 +107,7 @@ ImportedMesh read_isolated(const std::string& name, const std::string& ending) {
   IsolatedWork options;
   options.subject = name;
   options.crashed = fmt::format("{}: reading this file crashed: it may be damaged", name);
-  // Counts in a damaged file may be larger than the file, and VTK loops over all that they promise.
+  // Counts in a damaged file may be larger than the file, and VTK loops as often as they say.
   std::error_code ignored;
   const std::uintmax_t bytes = std::filesystem::file_size(name, ignored);
   options.time_limit = 20 + (ignored ? 0 : static_cast<double>(bytes) / 1e6);

@@ -505,7 +505,7 @@ TEST(Command, TellsWhatLeavesTheGeometry) {
       folder.path().string(), program, ellipsoid));
   ASSERT_EQ(result.exit_code, 0) << result.out;
   EXPECT_PRED2(contains, result.out,
-               "nodes lie off the geometry, where elements would be invalid on it, most on Face1");
+               "nodes lie off the geometry, because elements on it would be invalid, the farthest on Face1");
   EXPECT_PRED2(contains, result.out, "inverted           0");
   const auto report = nlohmann::json::parse(test::file_text(folder / "r.json"));
   EXPECT_GT(report["quality"]["jacobian_min"], 0);
@@ -625,7 +625,7 @@ TEST(Command, GivesUpReadingAfterItsLimit) {
               "quadrille: pipe.brep: reading it takes longer than 0.3 s: it may be damaged; "
               "--read-time-limit allows more\n");
     EXPECT_EQ(read("--time-limit 0.3"),
-              "quadrille: the time limit of 0.3 s is over, and nothing was written\n");
+              "quadrille: the time limit of 0.3 s is reached, and nothing was written\n");
   }
 }
 
@@ -823,7 +823,7 @@ TEST(Command, ReportsTheLimitOfCpuTime) {
                   "--force --quiet 2>&1",
                   folder.path().string(), program, bracket));
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(result.out, "quadrille: the CPU time that this process may use (ulimit -t) is over\n");
+  EXPECT_EQ(result.out, "quadrille: the CPU time limit of this process (ulimit -t) is reached\n");
   EXPECT_EQ(folder.file_count(), 0);
 }
 

@@ -216,7 +216,7 @@ TEST_F(MidsurfaceCommand, DrawsWhatItRefuses) {
 TEST_F(MidsurfaceCommand, EndsWithItsTimeLimit) {
   const auto result = quadrille_says("midsurface thin.brep -o late.brep --time-limit 0.001");
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_PRED2(contains, result.out, "the time limit of 0.001 s is over");
+  EXPECT_PRED2(contains, result.out, "the time limit of 0.001 s is reached");
   EXPECT_FALSE(exists("late.brep"));
   EXPECT_EQ(quadrille_says("midsurface thin.brep -o m.brep --time-limit 100").exit_code, 0);
 }

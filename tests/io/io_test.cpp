@@ -298,8 +298,8 @@ TEST(Writers, NineNodesAreTheEightAndTheMiddleOfTheElement) {
   EXPECT_NEAR(y, 1.0 / 6, 1e-12);
   EXPECT_NEAR(z, 0.3 * std::sin(0.5), 2e-3);
   for (const char* name : {"a.inp", "a.unv", "a.bdf"})
-    EXPECT_SAYS(write_mesh(grid.mesh(), folder / name, options), "no quads of nine nodes");
-  EXPECT_SAYS(write_mesh(ShellGrid(3, 1).mesh(), folder / "b.msh", options), "this one is of first");
+    EXPECT_SAYS(write_mesh(grid.mesh(), folder / name, options), "no nine-node quads");
+  EXPECT_SAYS(write_mesh(ShellGrid(3, 1).mesh(), folder / "b.msh", options), "this one is first order");
 }
 
 TEST(Writers, RefuseNamesThatMedCannotHold) {

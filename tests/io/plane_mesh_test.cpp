@@ -239,12 +239,12 @@ TEST(PlaneMesh, TellsHowItWasTurned) {
   EXPECT_EQ(turn(face), "");
   EXPECT_EQ(
       turn(placed(face, gp_Pnt(0, 4, 0), -gp::DY(), gp::DX())),
-      "Turned into the plane z = 0: the point (x, y) here is x (1, 0, 0) + y (0, 0, 1) + -4 (0, -1, 0) in "
+      "Rotated into the plane z = 0: the point (x, y) here is x (1, 0, 0) + y (0, 0, 1) + -4 (0, -1, 0) in "
       "the model");
   const TemporaryFolder folder;
   const ShellMesh mesh = mesh_of(placed(face, gp_Pnt(0, 4, 0), -gp::DY(), gp::DX()), 1, 1);
   write_mesh(mesh, folder / "a.inp", with(InpElement::cpe4));
-  EXPECT_NE(test::file_text(folder / "a.inp").find("\n** Turned into the plane z = 0"), std::string::npos);
+  EXPECT_NE(test::file_text(folder / "a.inp").find("\n** Rotated into the plane z = 0"), std::string::npos);
 }
 
 TEST(PlaneMesh, RefusesWhatDoesNotFit) {
@@ -283,7 +283,7 @@ TEST(PlaneMesh, MembranesHaveSectionsOfTheirOwn) {
   }
   mesh.varying_thicknesses = {varying};
   EXPECT_EQ(refusal([&] { write_mesh(mesh, folder / "a.inp", with(InpElement::m3d8r)); }),
-            "`element` M3D8R cannot have a thickness that varies, as that of Face1 does: choose a shell");
+            "`element` M3D8R needs a constant thickness, and that of Face1 varies: choose a shell");
 }
 
 }  // namespace

@@ -336,7 +336,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damaged{"a.bdf", "GRID,1,7,0.,0.,0.\nENDDATA\n", "coordinate system 7"},
         Damaged{"b.bdf", "GRID,1,,0.,a,0.\nENDDATA\n", "found \"a\""},
         Damaged{"c.bdf", "CTETRA,1,1,1,2,3,4\n", "CTETRA is a volume"},
-        Damaged{"d.bdf", "INCLUDE 'other.bdf'\n", "INCLUDE is not followed"},
+        Damaged{"d.bdf", "INCLUDE 'other.bdf'\n", "INCLUDE is not supported"},
         Damaged{"e.bdf", "", "neither quads nor triangles"}, Damaged{"a.stl", "rubbish\n", "a.stl"},
         Damaged{"a.ply", "ply\nformat ascii 1.0\n", "a.ply"},
         Damaged{"a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 2 0\nf 1 2 3 4 5\n",

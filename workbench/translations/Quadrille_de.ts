@@ -831,11 +831,11 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Flächen und Kanten, die eigene Knoten behalten, wie groß und geformt sie auch sind, etwa Edge7,Face3; leer = keine</translation>
     </message>
     <message>
-        <source>Also mesh features below the reach instead of letting them go, and let no quad cross a smooth edge</source>
+        <source>Also mesh features below the reach instead of suppressing them, and let no quad cross a smooth edge</source>
         <translation>Auch Formelemente unterhalb der Reichweite vernetzen, statt sie wegzulassen, und kein Viereck eine glatte Kante überqueren lassen</translation>
     </message>
     <message>
-        <source>Let go edges that are shorter and faces that are narrower than this length, where that does no harm; 0 = half the minimum size</source>
+        <source>Suppress edges that are shorter and faces that are narrower than this length, where that does no harm; 0 = half the minimum size</source>
         <translation>Kanten, die kürzer, und Flächen, die schmaler als diese Länge sind, weglassen, wo es nicht schadet; 0 = die Hälfte der kleinsten Größe</translation>
     </message>
     <message>

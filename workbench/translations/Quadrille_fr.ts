@@ -831,11 +831,11 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Faces et arêtes qui gardent leurs propres nœuds, quelles que soient leur taille et leur forme, par exemple Edge7,Face3 ; vide = aucune</translation>
     </message>
     <message>
-        <source>Also mesh features below the reach instead of letting them go, and let no quad cross a smooth edge</source>
+        <source>Also mesh features below the reach instead of suppressing them, and let no quad cross a smooth edge</source>
         <translation>Mailler aussi les détails plus petits que la portée au lieu de les omettre, et ne laisser aucun quadrangle traverser une arête lisse</translation>
     </message>
     <message>
-        <source>Let go edges that are shorter and faces that are narrower than this length, where that does no harm; 0 = half the minimum size</source>
+        <source>Suppress edges that are shorter and faces that are narrower than this length, where that does no harm; 0 = half the minimum size</source>
         <translation>Omettre les arêtes plus courtes et les faces plus étroites que cette longueur, là où cela ne nuit pas ; 0 = la moitié de la taille minimale</translation>
     </message>
     <message>
