@@ -1,4 +1,4 @@
-/// Opens the file, or makes one in the folder: permissions alone do not tell on Windows, where access lists
+/// Opens the file, or makes one in the folder: on Windows, permissions do not show it, since access lists
 /// decide.
 
 #include <windows.h>

@@ -1,5 +1,5 @@
 #pragma once
-/// The ending of a file name, which tells the file's format.
+/// The ending of a file name, which determines the file's format.
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-/// What GlobalMemoryStatusEx counts: physical memory, and what may still be promised with the paging file.
+/// What GlobalMemoryStatusEx counts: physical memory, and what can still be committed with the paging file.
 
 #include <windows.h>
 

@@ -19,8 +19,8 @@ void write_answer(const std::string& subject, const std::function<void(std::ostr
 /// (failure) if the end mark is missing.
 std::string result_of(const IsolatedWork& options, std::string bytes);
 
-/// Has the work done by a child process and returns what it made; each system has a way of its own. Throws as
-/// run_isolated().
+/// Runs the work in a child process and returns what it made; the implementation depends on the system.
+/// Throws as run_isolated().
 std::string run_in_child(const IsolatedWork& options, const std::function<void(std::ostream&)>& work);
 
 }  // namespace quadrille

@@ -1,6 +1,6 @@
 #pragma once
 /// Work in a child process: a crash, lack of memory or an endless loop there does no harm here. On Windows,
-/// which cannot copy a process, the child is a program of its own, which is told the work by a name.
+/// which cannot copy a process, the child is a program of its own, which gets the name of the work.
 
 #include <cstddef>
 #include <functional>

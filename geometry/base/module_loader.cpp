@@ -50,8 +50,8 @@ std::vector<std::filesystem::path> module_folders(const std::filesystem::path& o
 void* open_library(const std::string& name) {
   const std::filesystem::path own = own_folder();
   if (!own.is_absolute())
-    throw failure(name, fmt::format("{} cannot be looked for: /proc/self/maps does not tell where this "
-                                    "program lies (is /proc mounted?)",
+    throw failure(name, fmt::format("{} cannot be searched for: /proc/self/maps does not show where this "
+                                    "program is (is /proc mounted?)",
                                     name));
   std::vector<std::string> looked_in;
   for (const std::filesystem::path& folder : module_folders(own)) {
@@ -81,7 +81,7 @@ void* Module::symbol(const std::string& name) const {
 }
 
 Error Module::mismatch() const {
-  return failure(file_, fmt::format("{} is of another version than Quadrille {}", file_, QUADRILLE_VERSION));
+  return failure(file_, fmt::format("{} has another version than Quadrille {}", file_, QUADRILLE_VERSION));
 }
 
 }  // namespace quadrille

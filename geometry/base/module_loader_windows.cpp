@@ -71,7 +71,7 @@ void* Module::symbol(const std::string& name) const {
 }
 
 Error Module::mismatch() const {
-  return failure(file_, fmt::format("{} is of another version than Quadrille {}", file_, QUADRILLE_VERSION));
+  return failure(file_, fmt::format("{} has another version than Quadrille {}", file_, QUADRILLE_VERSION));
 }
 
 }  // namespace quadrille

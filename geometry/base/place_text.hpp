@@ -10,11 +10,11 @@
 
 namespace quadrille {
 
-/// What is below this share of its like is a rounding error.
+/// A value below this share of what it is compared with is a rounding error.
 inline constexpr double rounding_share = 1e-9;
 
 /// A number with four digits; 0 if it is a rounding error. \param like what it compares with; the default
-/// suits lengths in millimeters, of which a picometer is no length, and ratios.
+/// suits lengths in millimeters, where a picometer is a rounding error, and ratios.
 inline std::string number_text(double value, double like = 1e-3) {
   return fmt::format("{:.4g}", std::abs(value) <= rounding_share * std::abs(like) ? 0.0 : value);
 }

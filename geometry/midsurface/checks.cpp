@@ -362,7 +362,7 @@ std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::v
   for (std::size_t i = 0; i < faces.size(); ++i) {
     context.check();
     if (faces[i].step) continue;
-    std::vector<double> told;  // over what the rays tell
+    std::vector<double> told;  // over what the rays measure
     for (const FaceSample& sample : sample_face(faces[i].face, 16)) {
       const BRepAdaptor_Surface surface(faces[i].face, Standard_False);
       gp_Pnt at;

@@ -22,13 +22,13 @@ void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vec
                 MidSurface& result);
 
 /// The volume that area times thickness counts twice where more than two middle surfaces meet. Corners of two
-/// walls count once: what is counted twice on their inside is missing on their outside. It makes up for
+/// walls count once: what is counted twice on their inside is missing on their outside. It compensates for
 /// fillets between the same walls, as far as no thickness contains these. Linear in the edges.
 double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
                      Fillets fillets);
 
 /// Indices of the faces whose thickness differs by more than a twentieth from what rays through the solid
-/// tell on most of them.
+/// measure on most of the face.
 std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::vector<Wall>& walls,
                                                   const std::vector<JoinedFace>& faces,
                                                   const ExecutionContext& context);

@@ -13,8 +13,8 @@
 namespace quadrille {
 
 /// Finds closest points of a face's surface, trimmed or not. On bounded free-form surfaces Newton's method
-/// starts at the nearest points of a grid, which is about fifty times faster than OpenCASCADE's search. It
-/// finds the same points, and is what is used for other surfaces and where the method does not converge.
+/// starts at the nearest points of a grid, which is about fifty times faster than OpenCASCADE's search. That
+/// search, which finds the same points, is used for other surfaces and where the method does not converge.
 /// Evaluation uses internal caches: threads must not share an object.
 class ClosestPoint {
  public:
@@ -23,7 +23,7 @@ class ClosestPoint {
   gp_Pnt2d operator()(const gp_Pnt& point);
 
  private:
-  /// A point of the surface, and the square of its distance from the one that is asked for.
+  /// A point of the surface, and the square of its distance from the given point.
   struct Place {
     std::array<double, 2> uv{};
     double distance = 0;

@@ -1,8 +1,8 @@
 /// Adds the material of fillets, which lies beside the corners of middle surfaces, to the thickness of strips
-/// along these corners. How the thickness is distributed over a strip hardly matters for the stiffness, but
-/// how much it is: material in a corner keeps both walls from bending and twisting, and as thickness of
-/// either it does less. So the thinner wall gets more than there is, within a bound that is told as counted
-/// twice. Closed sections resist twisting by their walls' areas, and get what there is.
+/// along these corners. For the stiffness the amount matters, and hardly its distribution over a strip:
+/// material in a corner keeps both walls from bending and twisting, but as thickness of one wall it has less
+/// effect. So the thinner wall gets more material than there is, up to a bound, which is reported as counted
+/// twice. Closed sections resist twisting by their walls' areas, and get the actual amount.
 
 #include <BOPAlgo_Builder.hxx>
 #include <TopExp.hxx>

@@ -115,7 +115,7 @@ class GridLine {
 };
 
 /// How much the direction in which middle points are searched is tilted from the normal of the first side.
-/// Where that side and the face beside it meet at an angle, the middles of both shall end at the same points,
+/// Where that side and the face beside it meet at an angle, the middles of both must end at the same points,
 /// on the plane that bisects the angle. From there the tilt fades toward the other end.
 class Tilt {
  public:
@@ -127,7 +127,7 @@ class Tilt {
   gp_Vec at(const gp_Pnt2d& uv) {
     const double y = (uv.Y() - ranges_[1].low) / ranges_[1].length();
     gp_Vec result = between_ends_of_u(uv.X(), uv.Y());
-    // What the ends of v want, beyond what those of u give there.
+    // The tilt for the ends of v, beyond that from the ends of u.
     const std::array<double, 2> bounds{ranges_[1].low, ranges_[1].high}, weights{1 - y, y};
     for (int end = 0; end < 2; ++end) {
       if (beside_[2 + end] >= 0)

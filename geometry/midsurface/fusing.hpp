@@ -9,8 +9,8 @@
 
 namespace quadrille {
 
-/// Runs work that takes a progress range of OpenCASCADE. Throws Error when the context is cancelled or its
-/// time is over, soon after that.
+/// Runs work that takes a progress range of OpenCASCADE. Throws Error soon after the context is cancelled or
+/// reaches its time limit.
 void under_limit(const ExecutionContext& context,
                  const std::function<void(const Message_ProgressRange&)>& work);
 

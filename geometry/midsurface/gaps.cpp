@@ -58,7 +58,7 @@ struct DrawnFace {
   std::vector<std::pair<TopoDS_Shape, int>> numbers;
 };
 
-/// What was seen of another solid's face across a gap.
+/// Measurements of another solid's face across a gap.
 struct Across {
   double widest = 0;     ///< largest width of the gap
   double thickness = 0;  ///< least thickness of the two walls there

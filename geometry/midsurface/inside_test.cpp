@@ -1,4 +1,4 @@
-/// Classifies with one wire at a time; a grid of cells tells which holes are near.
+/// Classifies with one wire at a time; a grid of cells finds the holes near by.
 
 #include "geometry/midsurface/inside_test.hpp"
 
@@ -23,8 +23,8 @@ bool has_many_holes(const TopoDS_Face& face) {
 TopAbs_State InsideTest::Part::at(const gp_Pnt2d& uv, double near) const {
   const TopAbs_State state = inside->Perform(uv, Standard_True);
   if (state != TopAbs_ON) return state;
-  // OpenCASCADE takes the boundary for a polygon, and what is as near to it as the polygon is off for a point
-  // on it. For a face with curved sides that may be a hundredth of its size.
+  // OpenCASCADE replaces the boundary by a polygon, and takes points within the error of the polygon to lie
+  // on it. For a face with curved sides that error may be a hundredth of its size.
   BRepClass_FaceClassifier exact;
   exact.Perform(face, uv, near);
   return exact.State();

@@ -49,9 +49,9 @@ struct Fillets {
 /// Adds the material of fillets in corners, as thickness, to the strips of the walls between the fillet and
 /// the corner; in open sections to those of the thinner wall once more, up to 2 % of the volume. The faces
 /// are cut where the fillets begin. Does nothing unless the middle surfaces lack more than a hundredth of the
-/// volume and the fillets hold at least half of that. What is counted twice where walls meet makes up for the
-/// fillets there, and for nothing else. \param volume of the solid. \return the material of fillets that no
-/// thickness contains.
+/// volume and the fillets hold at least half of that. What is counted twice where walls meet compensates for
+/// the fillets there, and for nothing else. \param volume of the solid. \return the material of fillets that
+/// no thickness contains.
 Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
                     const ExecutionContext& context, std::vector<JoinedFace>& faces);
 

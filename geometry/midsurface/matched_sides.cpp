@@ -18,7 +18,7 @@ namespace quadrille {
 
 namespace {
 
-/// Whether two faces go on into each other at an edge: their normals differ little all along it.
+/// Whether two faces continue into each other at an edge: their normals differ little all along it.
 bool is_smooth(const SkinFace& a, const SkinFace& b, const TopoDS_Edge& edge) {
   const double most_turn = std::cos(20 * M_PI / 180);
   const BRepAdaptor_Curve curve(edge);
@@ -101,7 +101,7 @@ class Walk {
     chain.walls.push_back({{pairs_[pair][first], pairs_[pair][1 - first]}, {-1, -1, -1, -1}, {}});
   }
 
-  /// Adds the other pair to the chain if a wall of the chain goes on into it.
+  /// Adds the other pair to the chain if a wall of the chain continues into it.
   void go_on(std::size_t at, std::size_t other, Chain& chain) const {
     const auto known = std::find(chain.pairs.begin(), chain.pairs.end(), other);
     const auto index = static_cast<std::size_t>(known - chain.pairs.begin());
@@ -117,7 +117,7 @@ class Walk {
     }
   }
 
-  /// The ends of the parameters of the first side of one wall at which it goes on into another one.
+  /// The ends of the parameters of the first side of one wall at which it continues into another one.
   std::vector<int> ends_between(const std::array<int, 2>& from, const std::array<int, 2>& to) const {
     const auto face = [&](int index) -> const SkinFace& { return skin_.faces()[index]; };
     std::vector<int> result;

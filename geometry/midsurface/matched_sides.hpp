@@ -1,5 +1,5 @@
 #pragma once
-/// Chains of free-form walls whose sides go on into each other smoothly or nearly so. Internal.
+/// Chains of free-form walls whose sides continue into each other smoothly or nearly so. Internal.
 
 #include <array>
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace quadrille {
 struct MatchedSides {
   std::array<int, 2> faces{};  ///< indices into Skin::faces()
   /// For the ends (low u, high u, low v, high v) of the first face's parameters, the first face of the wall
-  /// into which this one goes on there, as index; -1 = none.
+  /// into which this one continues there, as index; -1 = none.
   std::array<int, 4> beside{-1, -1, -1, -1};
   std::vector<std::size_t> next;  ///< indices of these walls in the list
 };

@@ -84,7 +84,7 @@ double volume_of_triangles(const TopoDS_Shape& solid, double deflection) {
 }
 
 /// The volume within about a thousandth. OpenCASCADE's integral with a tolerance is exact for plain faces,
-/// but may be off by a fifth for B-splines, whatever tolerance it tells.
+/// but may be off by a fifth for B-splines, whatever tolerance it reports.
 double volume_of(const TopoDS_Shape& solid) {
   constexpr double tolerance = 1e-3;
   bool plain = true;
@@ -178,18 +178,19 @@ std::vector<char> find_thick(const SolidMiddle& middle, const std::vector<WallEn
   return result;
 }
 
-/// Adds a problem with options.partial; otherwise throws it as an error. \param given what the option gives.
+/// Adds a problem with options.partial; otherwise throws it as an error. \param given what the option
+/// returns.
 void tell(const std::string& problem, const std::string& name, const MidSurfaceOptions& options,
-          std::vector<std::string>& problems, std::string_view given = "what could be paired") {
-  if (!options.partial) throw failure(name, fmt::format("{}; `partial` gives {}", problem, given));
+          std::vector<std::string>& problems, std::string_view given = "the walls that were found") {
+  if (!options.partial) throw failure(name, fmt::format("{}; `partial` returns {}", problem, given));
   problems.push_back(problem);
 }
 
 /// The sentence for a solid that is not thin.
 std::string not_thin_sentence(const std::string& solid, const MidSurfaceOptions& options) {
   return fmt::format(
-      "{} is not a thin solid: no wall whose thickness is under {:g} of its width makes up its "
-      "volume; mesh it as a solid, or its skin with quadrille mesh",
+      "{} is not a thin solid: walls thinner than {:g} times their width do not make up its volume; mesh it "
+      "as a solid, or its skin with quadrille mesh",
       solid, options.thickest);
 }
 
@@ -238,7 +239,7 @@ std::string cannot_join(const std::string& name, const Skin& skin, const std::ve
     faces.insert(faces.end(), sides.begin(), sides.end());
   }
   std::sort(faces.begin(), faces.end());
-  return fmt::format("{}: {} free-form walls go on into each other, which cannot be joined yet: {}", name,
+  return fmt::format("{}: {} free-form walls continue into each other, which cannot be joined yet: {}", name,
                      blended.size(), face_names(faces));
 }
 
@@ -264,12 +265,12 @@ void drop_thick(const Skin& skin, const std::string& name, const std::vector<Wal
   if (thick_volume <= 0.5 * all && all > 0) return;
   middle.faces = std::move(thin);
   if (middle.faces.empty()) return;
-  tell(fmt::format("{} is thin in places only: {} are further apart than {:g} of their width", name,
+  tell(fmt::format("{} is thin only in places: {} are farther apart than {:g} times their width", name,
                    face_names({numbers.begin(), numbers.end()}), options.thickest),
        name, options, middle.problems);
 }
 
-/// Tells which fitted walls of the middle surface miss the tolerance even on the finest grid.
+/// Reports which fitted walls of the middle surface miss the tolerance even on the finest grid.
 void check_fits(const Skin& skin, const std::string& name, const MidSurfaceOptions& options,
                 SolidMiddle& middle) {
   const double most = most_tolerances * options.tolerance;
@@ -305,7 +306,7 @@ void make_middle(const Skin& skin, const MidSurfaceOptions& options, const Execu
     if (blended.count(static_cast<int>(wall)) != 0) continue;
     try {
       pieces[wall] = wall_pieces(skin, result.walls, static_cast<int>(wall), fences, context);
-    } catch (const Standard_Failure&) {  // its text names no place, and tells users nothing
+    } catch (const Standard_Failure&) {  // its text does not help users
       tell(fmt::format("{}: the wall between {} cannot be cut out of its middle surface; heal or simplify "
                        "these faces",
                        name, face_names(side_numbers(skin, result.walls[wall]))),
@@ -319,16 +320,16 @@ void make_middle(const Skin& skin, const MidSurfaceOptions& options, const Execu
   check_fits(skin, name, options, result);
 }
 
-/// Runs work on one solid; where OpenCASCADE fails, tells that of the solid. \param done in words, "made".
+/// Runs work on one solid; reports it where OpenCASCADE fails. \param done in words, "made".
 /// \return whether it succeeded.
 bool attempt(const MidSurfaceOptions& options, std::string_view done, SolidMiddle& solid,
              const std::function<void()>& work) {
   try {
     work();
     return true;
-  } catch (const Standard_Failure&) {  // its text tells users nothing
-    tell(fmt::format("{}: its middle surface cannot be {}, as OpenCASCADE fails at its geometry; check and "
-                     "heal its faces",
+  } catch (const Standard_Failure&) {  // its text does not help users
+    tell(fmt::format("{}: its middle surface cannot be {}, since OpenCASCADE fails on its geometry; check "
+                     "and heal its faces",
                      solid.name, done),
          solid.name, options, solid.problems, "the rest");
     return false;
@@ -368,16 +369,16 @@ TopoDS_Compound assemble(const std::vector<JoinedFace>& faces) {
 std::string volume_sentence(const MidSurface& result, const std::string& name, double share) {
   std::string sentence = fmt::format(
       "{} {}: area times thickness of its middle surface is {:.1f} % of its volume", name,
-      share < 1 ? "is thin in places only" : "has walls that overlap too much where they meet", 100 * share);
+      share < 1 ? "is thin only in places" : "has walls that overlap too much where they meet", 100 * share);
   if (!result.unpaired.empty()) sentence += "; without a partner: " + face_names(result.unpaired);
   if (!result.uneven.empty())
     sentence +=
-        "; rays through the solid tell another thickness of the result's " + face_names(result.uneven);
+        "; rays through the solid measure another thickness at the result's " + face_names(result.uneven);
   return sentence;
 }
 
 /// Compares area times thickness with the volume: what differs is a problem or a warning. What is counted
-/// twice where walls meet makes up for nothing that is missing elsewhere.
+/// twice where walls meet does not compensate for what is missing elsewhere.
 void check_volume(const std::string& name, MidSurface& result, std::vector<std::string>& problems) {
   constexpr double most_missing = 0.05, most_twice = 0.1, worth_telling = 0.02;
   const double all = result.shell_volume / result.volume;
@@ -406,9 +407,8 @@ std::string stray_sentence(const MidSurface& result, const std::string& name) {
   const bool one = result.stray_edges.size() == 1;
   return fmt::format(
       "{}: {} of the middle surface {} inside the material {} (faces of the solid): the walls there are not "
-      "joined, "
-      "or one is continued too far; let them meet at a plain corner or step, without the fillet or slope "
-      "between them",
+      "joined, or one is extended too far; remove the fillet or slope between them, so that they meet at a "
+      "plain corner or step",
       name, one ? "a free edge" : fmt::format("{} free edges", result.stray_edges.size()),
       one ? "ends" : "end", fmt::join(places, ", "));
 }
@@ -428,8 +428,9 @@ std::string parts_sentence(const SolidMiddle& middle, const Skin& skin) {
     parts.push_back(face_names(faces[i]));
   }
   if (faces.size() > most) parts.push_back(fmt::format("and {} more", faces.size() - most));
-  return fmt::format("{}: the middle surface falls into {} parts where the solid is one: between {}",
-                     middle.name, faces.size(), fmt::join(parts, "; "));
+  return fmt::format(
+      "{}: the middle surface is in {} separate parts although the solid is in one piece: between {}",
+      middle.name, faces.size(), fmt::join(parts, "; "));
 }
 
 /// The sentence for fillets whose material a shell cannot have where it is.
@@ -438,9 +439,9 @@ std::string soft_fillets_sentence(const SolidMiddle& middle, const Skin& skin) {
   for (const int fillet : middle.fillets.soft) numbers.push_back(skin.faces()[fillet].number());
   sort_unique(numbers);
   return fmt::format(
-      "{}: the large fillets or welds at {} stiffen the walls there more than their material does as "
-      "thickness of "
-      "the shell: it may be too soft, by a tenth or more, where it is twisted or bent across them",
+      "{}: the large fillets or welds at {} stiffen the walls there more than the same material does as "
+      "thickness of the shell: the shell may be too soft, by a tenth or more, where it is twisted or bent "
+      "across them",
       middle.name, face_names(numbers));
 }
 
@@ -532,7 +533,7 @@ void check_solids(std::vector<SolidMiddle>& middles, const std::deque<Skin>& ski
       MidSurface checked =
           check_solid(middle, static_cast<int>(solid) + 1, skins[solid], numbers, context, result);
       for (const std::string& problem : find_problems(middle, skins[solid], checked))
-        tell(problem, middle.name, options, middle.problems, "it all the same");
+        tell(problem, middle.name, options, middle.problems, "it nevertheless");
       add_checked(checked, result);
     };
     if (!middle.faces.empty()) attempt(options, "checked", middle, check);
@@ -642,10 +643,10 @@ MidSurface midsurface(const CadModel& model, const MidSurfaceOptions& options, E
   const StageTimer timer(context, Stage::midsurface);
   try {
     return make(model, options, context);
-  } catch (const Standard_Failure&) {  // its text tells users nothing
+  } catch (const Standard_Failure&) {  // its text does not help users
     throw failure(model.shape().name,
-                  fmt::format("{}: its middle surface cannot be made, as OpenCASCADE fails at its geometry; "
-                              "check and heal its faces, or take its solids one by one",
+                  fmt::format("{}: its middle surface cannot be made, since OpenCASCADE fails on its "
+                              "geometry; check and heal its faces, or process its solids one by one",
                               model.shape().name));
   }
 }

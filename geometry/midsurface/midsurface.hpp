@@ -59,7 +59,7 @@ struct MidSurface {
   std::vector<MiddleRim> rims{};    ///< the free edges that lie on the skin, ascending
   double volume = 0;                ///< volume of the solids
   double shell_volume = 0;          ///< sum of area times mean thickness, without steps
-  /// What of shell_volume is counted twice where walls meet, and makes up for no fillet there.
+  /// What of shell_volume is counted twice where walls meet, and compensates for no fillet there.
   double counted_twice = 0;
   int solids = 0;                  ///< number of solids that are thin; with options.join, after joining
   int parts = 0;                   ///< number of connected parts of the middle surface
@@ -70,7 +70,7 @@ struct MidSurface {
   /// Numbers of the solid's faces that are neither a side nor a rim of a wall nor the riser of a step, and
   /// that are not narrower than half the thickness of the thinnest wall.
   std::vector<int> unpaired{};
-  std::vector<int> uneven{};  ///< numbers of the faces of which rays through the solid tell another thickness
+  std::vector<int> uneven{};  ///< numbers of the faces where rays through the solid measure another thickness
   std::vector<std::string> problems{};  ///< with options.partial: what would have been an error
   std::vector<std::string> warnings{};  ///< what is imprecise, but no error
   /// The thickness of a face (from 1) at a point; the mean if it does not vary. One thread at a time.

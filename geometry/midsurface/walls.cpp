@@ -294,7 +294,7 @@ std::optional<Wall> chained_wall(const Skin& skin, const std::vector<MatchedSide
   wall.sides = {std::vector<int>{own.faces[0]}, std::vector<int>{own.faces[1]}};
   wall.thickness = thickness;
   auto sides = wall.sides;
-  // Past the end of the second side the next wall's goes on.
+  // Past the end of the second side, the next wall's second side continues.
   for (const std::size_t next : own.next) add_once(sides[1], chains[next].faces[1]);
   const auto middle = fit_middle(skin, sides, tolerance * thickness, margin, own.beside);
   if (!middle) return std::nullopt;
@@ -304,8 +304,8 @@ std::optional<Wall> chained_wall(const Skin& skin, const std::vector<MatchedSide
   return wall;
 }
 
-/// Moves the pairs in chains of free-form walls that go on into each other from `pairs` to `walls`. A pair of
-/// faces from different walls of a chain is no wall. \param margin see fit_middle().
+/// Moves the pairs in chains of free-form walls that continue into each other from `pairs` to `walls`. A pair
+/// of faces from different walls of a chain is no wall. \param margin see fit_middle().
 void move_chains(const Skin& skin, const std::vector<int>& surfaces, double tolerance, double margin,
                  const ExecutionContext& context, std::vector<SurfacePair>& pairs, std::vector<Wall>& walls) {
   const std::vector<MatchedSides> chains = matched_sides(skin, mutual_pairs(pairs));

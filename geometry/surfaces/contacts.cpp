@@ -113,7 +113,7 @@ class Search {
 
   double reach(double own, double other) const { return std::max({own, other, tolerance_}); }
 
-  /// Remembers that the parts of two faces touch. Returns whether that is new.
+  /// Records that the parts of two faces touch. Returns whether that is new.
   bool add(FaceId a, FaceId b) {
     const std::array<int, 2> parts{std::min(part_of_[a], part_of_[b]), std::max(part_of_[a], part_of_[b])};
     return met_.emplace(parts, std::array{std::min(a, b).number(), std::max(a, b).number()}).second;
@@ -209,7 +209,7 @@ class Search {
         const BRepExtrema_DistShapeShape distance(shape_.edges[id].edge, other.face);
         if (distance.IsDone() && distance.Value() <= near) return true;
       } catch (const Standard_Failure&) {
-        // Its distance is unknown. Other edges tell.
+        // Its distance is unknown. Other edges decide.
       }
     }
     return false;

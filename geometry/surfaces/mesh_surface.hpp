@@ -7,8 +7,8 @@
 
 namespace quadrille {
 
-/// What the stages after the boundary ask of a surface. Each kind defines what its parameters mean: those of
-/// a CAD face are (u, v), those of a triangulation begin with the number of a triangle.
+/// What the stages after the boundary need from a surface. Each kind defines what its parameters mean: those
+/// of a CAD face are (u, v), those of a triangulation begin with the number of a triangle.
 class MeshSurface {
  public:
   virtual ~MeshSurface() = default;

@@ -238,12 +238,13 @@ TEST(MidSurface, NamesWhatIsThick) {
     middle_of(plate_on_block(24));
     FAIL() << "the block under the plate is not thin";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("are further apart than 0.2 of their width"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("are farther apart than 0.2 times their width"),
+              std::string::npos);
   }
   const MidSurface middle = middle_of(plate_on_block(24), true);
   ASSERT_EQ(middle.faces.size(), 1U);
   EXPECT_NEAR(middle.faces[0].thickness, 3, 1e-9);
-  EXPECT_NE(middle.problems.front().find("thin in places only"), std::string::npos);
+  EXPECT_NE(middle.problems.front().find("thin only in places"), std::string::npos);
 }
 
 TEST(MidSurface, TellsTheRangeOfAThicknessThatVaries) {
@@ -716,7 +717,7 @@ TEST(MidSurface, RefusesFreeEdgesThatAreNotAtARim) {
   } catch (const Error& error) {
     const std::string told = error.what();
     EXPECT_NE(told.find("inside the material between Face"), std::string::npos) << told;
-    EXPECT_NE(told.find("; `partial` gives it all the same"), std::string::npos) << told;
+    EXPECT_NE(told.find("; `partial` returns it nevertheless"), std::string::npos) << told;
   }
   const MidSurface middle = middle_of(solid, true);
   ASSERT_FALSE(middle.stray_edges.empty());

@@ -128,8 +128,8 @@ class MiddleTest(GuiCase):
         part = self.part(Part.makeBox(40, 40, 40).fuse(Part.makeBox(3, 40, 100)).removeSplitter())
         questions = self.make(part)
         self.assertEqual(len(questions), 1)
-        self.assertIn("thin in places only", questions[0])
-        self.assertTrue(self.surfaces()[0].Problems[0].startswith("Sheet is thin in places only"))
+        self.assertIn("thin only in places", questions[0])
+        self.assertTrue(self.surfaces()[0].Problems[0].startswith("Sheet is thin only in places"))
 
     def test_what_takes_long_can_be_cancelled(self):
         part = self.sheet()
