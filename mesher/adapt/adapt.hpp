@@ -18,7 +18,7 @@ struct AdaptOptions {
   double growth = 0.3;   ///< gradation of the sizes written: change of size per length
   double size_min = 0;   ///< smallest size allowed
   double size_max = 0;   ///< largest size allowed; 0 = any
-  std::vector<StressPeak> before;  ///< peaks of the solution on the mesh before, under the same load
+  std::vector<StressPeak> before;  ///< peaks of the solution on the previous mesh, under the same load
 };
 
 struct AdaptResult {
@@ -33,11 +33,11 @@ struct AdaptResult {
 };
 
 /// Estimates the error of a solution by patch recovery, and writes the sizes that distribute it evenly to a
-/// .vdb file for `size_field`. Where the error is small enough already, and no number of elements is wanted,
-/// the sizes are those of the mesh: none is asked to be coarser. One material is assumed. \param mesh the
-/// mesh that was solved. \param solution .frd file of CalculiX, or .vtu file. The displacements are used, on
-/// the bricks into which CalculiX expands shells and plane elements. \param sizes the file to write. Throws
-/// Error: failure for results that cannot be read or do not fit the mesh, usage for options out of range.
+/// .vdb file for `size_field`. Where the error is small enough already, and no number of elements is given,
+/// the sizes are those of the mesh: nothing is coarsened. One material is assumed. \param mesh the mesh that
+/// was solved. \param solution .frd file of CalculiX, or .vtu file. The displacements are used, on the bricks
+/// into which CalculiX expands shells and plane elements. \param sizes the file to write. Throws Error:
+/// failure for results that cannot be read or do not fit the mesh, usage for options out of range.
 QUADRILLE_API AdaptResult adapt(const ShellMesh& mesh, const std::filesystem::path& solution,
                                 const std::filesystem::path& sizes, const AdaptOptions& options,
                                 ExecutionContext& context);

@@ -120,13 +120,13 @@ std::string PeakChange::sentence() const {
   const std::string percent = fmt::format("{:.3g} %", 100 * std::abs(change));
   if (is_singular())
     return fmt::format(
-        "the peak stress at {}, a sharp re-entrant corner, has grown by {} since the mesh before: it is "
-        "singular and grows with every refinement, so that no mesh tells it; round the corner, or "
-        "take the stress beside it",
+        "the peak stress at {}, a sharp re-entrant corner, has grown by {} since the previous mesh: it is "
+        "singular and grows with every refinement, so that no mesh gives its value; round off the corner, or "
+        "use the stress beside it",
         place, percent);
   return fmt::format(
-      "the peak stress at {} is {} {} than on the mesh before: it has not settled, though the error of "
-      "the whole is small; take a smaller size there, unless a point load or the end of a support "
+      "the peak stress at {} is {} {} than on the previous mesh: it has not converged, although the global "
+      "error is small; use a smaller size there, unless a point load or the end of a support "
       "makes it singular",
       place, percent, change > 0 ? "higher" : "lower");
 }

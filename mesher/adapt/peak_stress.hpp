@@ -21,14 +21,14 @@ struct StressPeak {
   bool sharp_corner = false;  ///< the mesh's rim has a sharp re-entrant corner there: stress has no limit
 };
 
-/// How a peak has changed since the mesh before.
+/// How a peak has changed since the previous mesh.
 struct PeakChange {
   StressPeak peak;    ///< on the new mesh
   double change = 0;  ///< relative to the stress before: 0.2 = 20 % more
 
   /// Whether the peak is singular: it grows at a sharp re-entrant corner.
   bool is_singular() const { return change > 0 && peak.sharp_corner; }
-  /// What to make of it, naming place and change in percent.
+  /// One sentence with place, change in percent and what to do.
   QUADRILLE_API std::string sentence() const;
 };
 

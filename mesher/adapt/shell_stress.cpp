@@ -156,10 +156,9 @@ std::vector<std::array<ShellStress, 4>> shell_stresses(const ShellMesh& mesh, co
     const bool fits = (element.type == SolverResult::Element::eight_nodes && element.nodes.size() == 8) ||
                       (element.type == SolverResult::Element::twenty_nodes && element.nodes.size() == 20);
     if (!fits)
-      throw failure(
-          name, fmt::format("{}: element {} is no brick of 8 or 20 nodes: results are wanted as bricks, by "
-                            "*NODE FILE, OUTPUT=3D",
-                            name, element.number));
+      throw failure(name, fmt::format("{}: element {} is not a solid element of 8 or 20 nodes: request the "
+                                      "results with *NODE FILE, OUTPUT=3D",
+                                      name, element.number));
     bricks.push_back(&element);
   }
   if (bricks.size() != mesh.quads.size())

@@ -20,8 +20,8 @@ class Chords {
   /// Whether an edge runs in the opposite direction to the representative of its chord.
   bool against(EdgeId edge) const;
 
-  /// Merges the chords of two edges, unless some member wants more than `largest_ratio` times the count that
-  /// another one wants. \return whether the two edges are now in one chord.
+  /// Merges the chords of two edges, unless the wanted count of some member is more than `largest_ratio`
+  /// times that of another one. \return whether the two edges are now in one chord.
   bool tie(const SideEdge& a, const SideEdge& b, double largest_ratio);
 
  private:

@@ -1,4 +1,4 @@
-/// Mends one wrong sum after another by cheapest paths of changes by one (Dijkstra).
+/// Corrects one wrong sum after another along cheapest paths of changes by one (Dijkstra).
 
 #include "mesher/edges/count_balance.hpp"
 
@@ -72,8 +72,8 @@ class Balancer {
     const int after = variable.value + change;
     const double possible = std::max(variable.wanted, 1.0 * variable.least);
     if (after < variable.least || after > 2 * possible + 1 || 2 * (after + 1) < possible) return infinity;
-    // Relative to the wanted value even if that is below `least`: two rows in a strip that wants a fifth of a
-    // row are worse than eleven segments instead of ten.
+    // Relative to the wanted value even if that is below `least`: two rows in a strip whose wanted count is a
+    // fifth of a row are worse than eleven segments instead of ten.
     constexpr double smallest_wanted = 0.1;
     const double wanted = std::max(variable.wanted, smallest_wanted);
     const auto deviation = [&](int value) { return std::pow((value - wanted) / wanted, 2); };

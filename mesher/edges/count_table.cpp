@@ -75,10 +75,9 @@ class EdgeTabulator {
 
 void hold_segments(double segments, const Budget& budget, const CadEdge& edge) {
   if (!(segments > budget.segments)) return;
-  throw usage_error("size",
-                    fmt::format("the edges take more than {:g} million segments at the sizes asked for, "
-                                "Edge{} many of them: `force` meshes anyway",
-                                budget.segments / 1e6, edge.number));
+  throw usage_error("size", fmt::format("the edges take more than {:g} million segments at the requested "
+                                        "sizes, many of them on Edge{}: `force` meshes anyway",
+                                        budget.segments / 1e6, edge.number));
 }
 
 namespace {

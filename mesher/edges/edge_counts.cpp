@@ -123,20 +123,17 @@ class CountChooser {
       const int fixed = fixed_[chord];
       if (chords_.of(chord) != chord || fixed % units_[chord] == 0) continue;
       throw usage_error(
-          "segments",
-          fmt::format(
-              "`segments` gives {} to {}, and a face there that is not a grid needs an even number: {} or "
-              "{}, or `strategy` direct",
-              fixed, fixed_edges([&](EdgeId edge) { return chords_.of(edge) == chord; }), fixed - 1,
-              fixed + 1));
+          "segments", fmt::format("`segments` gives {} to {}, and a face there that is not a grid needs an "
+                                  "even number: use {} or {}, or `strategy` direct",
+                                  fixed, fixed_edges([&](EdgeId edge) { return chords_.of(edge) == chord; }),
+                                  fixed - 1, fixed + 1));
     }
     for (const FaceId face : odd) {
       const std::string names = fixed_edges([&](EdgeId edge) { return is_on(edge, sides_[face]); });
       if (names.empty()) continue;
-      throw usage_error("segments",
-                        fmt::format("`segments` leaves Face{} with an odd number of segments around it: "
-                                    "one more or fewer on one of {}",
-                                    face.number(), names));
+      throw usage_error("segments", fmt::format("`segments` leaves Face{} with an odd number of segments "
+                                                "around it: use one more or one fewer on one of {}",
+                                                face.number(), names));
     }
   }
 

@@ -13,8 +13,9 @@ namespace quadrille {
 
 /// What the counts of the edges of the faces used should be.
 struct CountWishes {
-  std::vector<std::pair<SideEdge, SideEdge>> tied;  ///< edges that have one count, whatever they want
-  int stride = 1;                                   ///< see BoundaryNodes::stride
+  std::vector<std::pair<SideEdge, SideEdge>>
+      tied;                              ///< edges that get the same count, whatever their wanted counts
+  int stride = 1;                        ///< see BoundaryNodes::stride
   IdVector<EdgeId, double> wanted;       ///< segments by the sizing field, in the mesh that is recombined
   IdVector<EdgeId, int> least;           ///< least number in the mesh that is recombined; 0 = edge not used
   IdVector<EdgeId, int> least_of_grids;  ///< least number in the final mesh if only grids use the chord
@@ -29,13 +30,13 @@ struct EdgeCounts {
 
 /// Chooses the counts of all edges near the wanted ones: one count for each chord, equal counts on facing
 /// sides, and an even sum around every face. A face whose sides would get counts too far from the wanted ones
-/// loses its outline. \param sides in: as found; out: with facing sides only where their counts
-/// match. Chords that only grids use are counted in segments of the final mesh, others in multiples of the
-/// stride. With stride 2, wedges and strips may keep an odd boundary, since the remaining triangle is
-/// subdivided too. Fixed counts are kept. The edges of the same chord take them over if they want at most
-/// four times and at least a quarter as many. Throws Error (usage, naming the edges) if a fixed count cannot
-/// be kept: an odd one on an edge of a face that needs even numbers, or one that leaves the boundary of a
-/// face odd.
+/// loses its outline. \param sides in: as found; out: with facing sides only where their counts match. Chords
+/// that only grids use are counted in segments of the final mesh, others in multiples of the stride. With
+/// stride 2, wedges and strips may keep an odd boundary, since the remaining triangle is subdivided too.
+/// Fixed counts are kept. Other edges of the chord get the fixed count if their wanted counts are between a
+/// quarter of it and four times of it. Throws Error (usage, naming the edges) if a fixed count cannot be
+/// kept: an odd one on an edge of a face that needs even numbers, or one that leaves the boundary of a face
+/// odd.
 EdgeCounts choose_counts(const CadShape& shape, const CountWishes& wishes, const TinyFeatures& tiny,
                          FaceOutlines& sides);
 

@@ -1,4 +1,4 @@
-/// Finds the least and wanted counts of all edges, has them chosen, and places nodes along the curves.
+/// Finds the least and wanted counts of all edges, chooses the counts, and places nodes along the curves.
 
 #include "mesher/edges/edge_sampling.hpp"
 
@@ -189,7 +189,8 @@ class EdgeSampler {
       const double turning = plan_.bare[i] ? 0 : tables_[i].turning;
       wishes_.least[i] =
           least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], result_.stride);
-      // What a face needs to be meshed at all does not give way to the wishes of opposite edges.
+      // The count that a face needs to be meshed at all has priority over the wanted counts of opposite
+      // edges.
       if (is_finer) wishes_.least[i] = std::max(wishes_.least[i], static_cast<int>(wanted));
       // Between grids, one segment may do for a straight edge, and for a short arc of up to a quarter turn.
       // Other curves keep their shape there as elsewhere.
@@ -199,7 +200,7 @@ class EdgeSampler {
       wishes_.least_of_grids[i] =
           is_curve || is_finer || may_coincide ? result_.stride * wishes_.least[i] : 1;
       if (turning > least_arc) {
-        // The number that the sizes ask for on an arc is a least one: the stresses there depend on it.
+        // On an arc, the number that the sizes give is a minimum: the stresses there depend on it.
         constexpr double nearly = 0.25;
         wishes_.least[i] = std::max(wishes_.least[i], to_int(std::ceil(wanted - nearly)));
         wishes_.least_of_grids[i] =
@@ -217,7 +218,7 @@ class EdgeSampler {
     }
   }
 
-  /// Edges with the same nodes take over each other's wishes, the larger ones.
+  /// Edges with the same nodes get the larger of their wanted counts.
   void wish_alike() {
     const auto take = [&](EdgeId to, EdgeId from) {
       const auto raise = [&](auto& values) { values[to] = std::max(values[to], values[from]); };
@@ -237,7 +238,7 @@ class EdgeSampler {
     }
   }
 
-  /// Moves the nodes of matched edges to where those of their partners are, moved.
+  /// Moves the nodes of matched edges to the images of their partners' nodes.
   void copy_nodes() {
     for (const MatchedEdge& copy : plan_.matched) {
       const BoundaryNodes::Edge& from = result_.edges[copy.from];
@@ -285,7 +286,7 @@ class EdgeSampler {
     return !plan_.prescribed.empty() && plan_.prescribed[edge].has_value();
   }
 
-  /// Adds the segments on which rows end to those that the sizes ask for beyond.
+  /// Adds the segments on which rows end to those that the sizes give on the rest of the edge.
   void add_heads(EdgeId i) {
     const auto heads = plan_.rows.heads.find(i);
     if (heads == plan_.rows.heads.end()) return;
@@ -307,7 +308,7 @@ class EdgeSampler {
             table.count_at_length(table.length() - sum_of(heads.last))};
   }
 
-  /// The places of an edge's nodes: its heads, and as the sizes ask for between; none if they have no room.
+  /// The places of an edge's nodes: its heads, and between them by the sizes; none if the heads have no room.
   std::vector<double> shares_with_heads(EdgeId edge, const EdgeHeads& heads) const {
     const CountTable& table = tables_[edge];
     const int between = counts_[edge] - heads.segments();
@@ -324,8 +325,8 @@ class EdgeSampler {
     return places;
   }
 
-  /// Faces with rows along chains are no grids, nor are those at the edges on which rows end, which would
-  /// hand the short segments on to edges far away: their sides need not face each other.
+  /// Faces with rows along chains, and faces at the edges on which rows end, are not treated as grids, which
+  /// would pass the short segments on to edges far away: their sides need not face each other.
   void free_sides_beside_chains(FaceOutlines& sides) const {
     FaceFlags freed(shape_.faces.size());
     for (const FaceId face : freed.ids()) freed[face] = has_chain(plan_.rows.of_faces, face);

@@ -1,4 +1,5 @@
-/// Puts together what the outline of a face, the counts on its edges and the wishes of users make of it.
+/// Derives the plan of a face from its outline, the counts on its edges and the divisions that users
+/// prescribe.
 
 #include "mesher/edges/face_plan.hpp"
 

@@ -1,4 +1,4 @@
-/// Pairs edges of faces with two to four of them; strips are told by short ends and runs of long edges.
+/// Pairs edges of faces with two to four of them; strips are recognized by short ends and runs of long edges.
 
 #include "mesher/edges/facing_sides.hpp"
 

@@ -17,7 +17,7 @@ namespace quadrille {
 
 namespace {
 
-/// Largest ratio between the number that a member of a chord wants and the number that it gets, either way.
+/// Largest ratio, either way, between the wanted count of a member of a chord and the count that it gets.
 constexpr double largest_row_ratio = 4;
 /// Largest share of a side that layers may take.
 constexpr double most_of_side = 0.9;

@@ -23,9 +23,9 @@ struct GridRows {
 /// Finds the divisions and layers in the options that grids can continue. The layers of an edge become rows
 /// if all its faces are four-sided, and the two sides that run away from it are single edges without a
 /// division of their own. The layers may take up to nine tenths of these sides. The edges that run along
-/// these sides must not have another prescribed number, nor want more than four times or less than a quarter
-/// as many. \param sides outlines \param prescribed what users prescribe \param size the size
-/// on edges that options.edge_sizes does not name
+/// these sides must not have another prescribed number, nor a wanted count above four times or below a
+/// quarter of it. \param sides outlines \param prescribed what users prescribe \param size the size on edges
+/// that options.edge_sizes does not name
 GridRows find_grid_rows(const CadShape& shape, const FaceOutlines& sides, PrescribedEdges prescribed,
                         const SizingOptions& options, double size);
 

@@ -51,10 +51,10 @@ std::optional<HoleBlock> block_of(const HolePlace& hole, int nodes, const GridSi
 /// Whether at least one row of cells lies between any two blocks, and between blocks and the grid's outline.
 bool keep_apart(const std::vector<HoleBlock>& blocks, const GridSize& grid);
 
-/// Changes the wanted counts so that holes fit into the grids of faces with four corners. A hole then wants
-/// as many segments as its block has around it, provided that segments of the hole's size are about as long
-/// as those of the face's sides. Sides want two more or two fewer segments where that centers the blocks
-/// better on the holes. \param sides as choose_counts() left them. \return whether
+/// Changes the wanted counts so that holes fit into the grids of faces with four corners. A hole's wanted
+/// count is then the number of segments around its block, provided that segments of the hole's size are about
+/// as long as those of the face's sides. The wanted counts of sides become two more or two fewer where that
+/// centers the blocks better on the holes. \param sides as choose_counts() left them. \return whether
 /// anything changed, so that counts must be chosen again.
 bool fit_holes_to_grids(const CadShape& shape, const FaceOutlines& sides, const EdgeCounts& chosen,
                         const IdVector<EdgeId, CountTable>& tables, CountWishes& wishes);

@@ -159,8 +159,7 @@ class HoleFinder {
            });
   }
 
-  /// The faces on the other side of a loop, as far as loops let them go on. Nothing if they are no hole to be
-  /// filled.
+  /// The faces behind a loop, up to the next loops. Nothing if they are not a hole to be filled.
   std::optional<Hole> hole_at(std::size_t first) const {
     Hole hole;
     std::set<std::size_t> loops{first};
@@ -269,7 +268,7 @@ class Filler {
   const FaceFlags& gone() const { return gone_; }
 
  private:
-  /// A hole that was filled in the face before goes with it.
+  /// A hole that was filled in the face before is removed with it.
   void leave_out(FaceId face, ShellMesh::FilledHole& with) {
     gone_[face] = 1;
     with.faces.push_back(face.number());

@@ -22,10 +22,10 @@ class HarmFinder {
   HarmFinder(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny, double reach)
       : shape_(shape), used_(used), tiny_(tiny), reach_(reach), uses_(uses_of_nodes(shape, used, tiny)) {}
 
-  /// An edge that was let go on a face but must be kept, since no good quads fit otherwise.
+  /// A suppressed edge of a face that must be kept, because no good quads fit without it.
   struct Harm {
     EdgeId edge;      // became a point, or shares the nodes of another
-    std::string why;  // what the face would get otherwise
+    std::string why;  // what would be wrong without it
   };
 
   std::vector<Harm> find(FaceId id) const {
@@ -51,7 +51,7 @@ class HarmFinder {
  private:
   bool is_gone(const Coedge& coedge) const { return tiny_.collapsed_edges[coedge.edge] != 0; }
 
-  /// Whether nothing is left of a hole and of the faces behind it, so that the face goes on over it.
+  /// Whether nothing is left of a hole and of the faces behind it, so that the face continues across it.
   bool is_closed_hole(FaceId id, const CadWire& hole) const {
     const auto is_left = [&](const Coedge& coedge) { return !is_gone(coedge); };
     const auto is_open = [&](const Coedge& coedge) {
@@ -219,7 +219,7 @@ void LetGo::choose(const EdgeFlags& fine) {
   }
 }
 
-/// Keeps the features that would harm a face if let go. \return whether there was something to keep.
+/// Keeps the features whose suppression would harm a face. \return whether there was something to keep.
 bool LetGo::keep_harmed() {
   const TinyFeatures tiny = find(0);
   const HarmFinder finder(shape_, used_, tiny, reach_);

@@ -1,5 +1,5 @@
 #pragma once
-/// Features below the least size that are let go. Internal.
+/// Features below the least size that are suppressed. Internal.
 
 #include <map>
 #include <string>
@@ -15,8 +15,8 @@ namespace quadrille {
 /// No node lies further than `reach` from a vertex that it replaces.
 class LetGo {
  public:
-  /// \param used 1 = the face is meshed. \param reach model units; 0 = nothing is let go.
-  /// \param fine 1 = must not become a point; nor does a face become an edge if all its edges are so.
+  /// \param used 1 = the face is meshed. \param reach model units; 0 = nothing is suppressed.
+  /// \param fine 1 = must not become a point; a face with only such edges does not become an edge either.
   /// \param held vertices that share their nodes with no other: edges that end there and faces around them
   /// stay.
   LetGo(const CadShape& shape, const FaceFlags& used, double reach, const EdgeFlags& fine,
@@ -25,15 +25,15 @@ class LetGo {
   /// What is left out of the mesh if edges() become points; see find_tiny_features().
   TinyFeatures find(double length) const;
 
-  /// Keeps what was let go at these edges of the face, beside them and at their vertices or, if there is
-  /// nothing, all around the face. \param edges none = all of the face \param tiny the result of find().
-  /// \return false if nothing was let go there.
+  /// Restores what was suppressed at these edges of the face, beside them and at their vertices or, if there
+  /// is nothing, all around the face. \param edges none = all of the face \param tiny the result of find().
+  /// \return false if nothing was suppressed there.
   bool keep_around(FaceId face, const std::vector<EdgeId>& edges, const TinyFeatures& tiny);
 
   /// 1 = becomes a point.
   const EdgeFlags& edges() const { return edges_; }
 
-  /// Small edges and narrow faces that stay all the same, and why.
+  /// Small edges and narrow faces that are kept nevertheless, and why.
   const std::map<EdgeId, std::string>& kept_edges() const { return kept_edges_; }
   const std::map<FaceId, std::string>& kept_faces() const { return reasons_; }
 

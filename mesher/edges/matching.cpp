@@ -112,7 +112,7 @@ class MotionSearch {
     }
   }
 
-  /// \return what the best motion maps onto what.
+  /// \return which entities the best motion maps onto each other.
   MatchLink run(const MatchedPair& pair) {
     if (a_.edges.size() != b_.edges.size())
       throw usage_error("match",
@@ -271,7 +271,7 @@ class MotionSearch {
     return holds(apart);
   }
 
-  /// Parameters of some points inside a face, from a grid as fine as it takes.
+  /// Parameters of some points inside a face, from a grid as fine as needed.
   static std::vector<Vector2> points_inside(const CadFace& face) {
     BRepTopAdaptor_FClass2d inside(face.face, Precision::PConfusion());
     std::vector<Vector2> result;
@@ -315,7 +315,8 @@ void turn_back(MatchedFace& face) {
   for (MatchedEdge& edge : face.edges) turn_back(edge);
 }
 
-/// Orders copies such that each one starts from what is there, and drops those to what has been copied.
+/// Orders copies so that each one starts from existing nodes, and drops those whose target has been copied
+/// to.
 template <class Copy>
 std::vector<Copy> in_order(const std::vector<Copy>& asked) {
   using Id = decltype(Copy::from);

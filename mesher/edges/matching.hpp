@@ -48,12 +48,12 @@ struct Matches {
 /// Finds the motion of each pair: it maps the vertices and edges of the first onto those of the second, and
 /// the surface too. If several do, a translation is preferred to a rotation; then one that leaves in place
 /// what both faces share; then one that takes the outside of the first face to the inside of the second, so
-/// that the part goes on there; then the smallest angle. \param used 1 = the face is meshed. Throws Error
+/// that the part continues there; then the smallest angle. \param used 1 = the face is meshed. Throws Error
 /// (usage, subject "match") if there is no such motion, or one of the pair is not meshed.
 Matches find_matches(const CadShape& shape, const std::vector<MatchedPair>& pairs, const FaceFlags& used);
 
 /// The motion that takes the points to others as closely as possible (least squares); of several, the one
-/// that turns least. \param tolerance rotations and slides by less are none
+/// that turns least. \param tolerance rotations and translations by less count as none
 RigidMotion fit_motion(const std::vector<Vector3>& from, const std::vector<Vector3>& to, double tolerance);
 
 }  // namespace quadrille

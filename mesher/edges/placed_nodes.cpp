@@ -139,7 +139,7 @@ class Placing {
           nearest = {distance, parameter};
       }
     } catch (const Standard_Failure&) {
-      // Its distance is unknown. The faces at it tell.
+      // Its distance is unknown. The faces at it decide.
     }
     return nearest;
   }
@@ -149,7 +149,7 @@ class Placing {
     if (sizing_.spacings.contains(number) || sizing_.layers.edges.contains(number))
       throw refused(p,
                     fmt::format("lies inside Edge{}, whose nodes follow from `segments`, a bias or `layers`: "
-                                "leave out one of the two",
+                                "remove one of the two",
                                 number));
     return divide_edge(*shape_, edge, {parameter}).front();
   }
@@ -163,7 +163,7 @@ class Placing {
           p, exists ? fmt::format("lies {} mm from Face{}, the nearest face that is meshed, and may lie "
                                   "at most {} mm from it",
                                   number_text(found.distance), found.face.number(), number_text(allowed))
-                    : "has no distance from the faces that are meshed");
+                    : "cannot be projected onto a face that is meshed");
     CadFace& face = shape_->faces[found.face];
     const FaceSurface surface(face);
     Vector2 uv = found.uv;

@@ -10,7 +10,7 @@
 
 namespace quadrille {
 
-/// A place that a node is wanted at, as a vertex of the shape.
+/// A place that gets a node, as a vertex of the shape.
 struct PlacedNode {
   std::string name;  ///< as given, else "Node1", "Node2", ...
   VertexId vertex;   ///< of the model, or one that was added at the place's projection

@@ -144,7 +144,7 @@ class RowLineFinder {
     line.ends[which] = angle > largest_angle ? RowLine::End::free : RowLine::End::meets;
     if (line.ends[which] == RowLine::End::free) return {};
     if (prescribed_[beside.edge])
-      return fmt::format("its rows would end on Edge{}, which is divided otherwise", edge.number);
+      return fmt::format("its rows would end on Edge{}, which has a prescribed division", edge.number);
     // The edge's start lies at the line's end where the wire leaves the line along its direction.
     const bool at_start = beside.forward == (which == 1);
     EdgeHeads& own = heads[beside.edge];
@@ -152,7 +152,7 @@ class RowLineFinder {
     for (double& length : lengths) length /= std::sin(angle);
     std::vector<double>& head = at_start ? own.first : own.last;
     if (!head.empty() && head != lengths)
-      return fmt::format("its rows would end on Edge{}, where others end", edge.number);
+      return fmt::format("its rows would end on Edge{}, where other rows end", edge.number);
     head = std::move(lengths);
     const auto sum = [](const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); };
     const double left = edge.length - sum(own.first) - sum(own.last);

@@ -1,5 +1,5 @@
 #pragma once
-/// Lines of edges along which faces that are no grids get rows of given heights. Internal.
+/// Lines of edges along which faces that are not grids get rows of given heights. Internal.
 
 #include <array>
 #include <map>
@@ -45,16 +45,16 @@ struct RowLines {
   RowLinesOfFaces of_faces;
   EdgeFlags along;  ///< 1 = some face has rows along the edge
   std::map<EdgeId, EdgeHeads> heads;
-  /// Vertices where rows end beside what has no rows: sizes around them follow the heights.
+  /// Vertices where rows end beside faces without rows: sizes around them follow the heights.
   std::map<VertexId, SizeLayers> steps;
   std::map<int, std::string> without;  ///< (edge numbers) why an edge with layers has no rows
 };
 
-/// Finds the lines in faces that are no rectangles: closed loops and open chains of edges with the same
-/// layers. At the ends of a chain, the rows meet the next edge if the face's angle there is between 40 and
-/// 140 degrees, and end freely if it is larger. An edge on which they end must have room for them in nine
-/// tenths of its length and no division or layers of its own, and the face must use it once. \param sides
-/// outlines \param used 1 = the face is meshed \param prescribed divisions of edges, which stay
+/// Finds the lines in faces that are not grids: closed loops and open chains of edges with the same layers.
+/// At the ends of a chain, the rows meet the next edge if the face's angle there is between 40 and 140
+/// degrees, and end freely if it is larger. An edge on which they end must have room for them in nine tenths
+/// of its length and no division or layers of its own, and the face must use it once. \param sides outlines
+/// \param used 1 = the face is meshed \param prescribed divisions of edges, which stay
 RowLines find_row_lines(const CadShape& shape, const FaceOutlines& sides, const FaceFlags& used,
                         const TinyFeatures& tiny, const PrescribedEdges& prescribed,
                         const ByElement<SizeLayers>& layers);

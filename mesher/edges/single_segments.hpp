@@ -6,11 +6,11 @@
 
 namespace quadrille {
 
-/// Gives one segment in place of two to the chords whose edges want no more than one: the ends of strips, for
-/// instance, which then have one row. Faces beside them are not cut from quads of twice the size, so their
-/// boundaries need an even sum of segments only: where the sum would be odd, a cheapest set of chords keeps
-/// its two segments (make_even()). Chords keep them too where curves, users, or sums over sides of several
-/// edges ask for more than one. Does nothing unless the stride is 2.
+/// Gives one segment in place of two to the chords whose edges have a wanted count of at most one: the ends
+/// of strips, for instance, which then have one row. Faces beside them are not cut from quads of twice the
+/// size, so their boundaries need an even sum of segments only: where the sum would be odd, a cheapest set of
+/// chords keeps its two segments (make_even()). Chords keep them too where curves, users, or sums over sides
+/// of several edges require more than one. Does nothing unless the stride is 2.
 void choose_single_segments(const CadShape& shape, const CountWishes& wishes, const FaceOutlines& sides,
                             EdgeCounts& chosen);
 

@@ -180,7 +180,7 @@ class SliverFinder {
     return n > first;
   }
 
-  /// Whether each edge is of another kind than a seam and one of them at least belongs to another face.
+  /// Whether no edge is a seam and at least one of them belongs to another face.
   bool has_neighbors(FaceId id) const {
     bool any = false;
     for (std::size_t i = 0; i < edges_.size(); ++i) {

@@ -155,7 +155,7 @@ class Finder {
     }
   }
 
-  /// The edges that may go along which a wire runs there and back, with nothing left between.
+  /// The edges that may be dropped because a wire runs back along them, with nothing left between.
   template <class MayGo>
   std::vector<EdgeId> there_and_back(const CadWire& wire, MayGo&& may_go) const {
     std::vector<EdgeId> result;

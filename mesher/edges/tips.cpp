@@ -170,7 +170,7 @@ class TipEnder {
   }
 
  private:
-  /// Whether the edge and the faces beside it are left as they are, and nobody prescribes its nodes.
+  /// Whether the edge and the faces beside it are unchanged, and its nodes are not prescribed.
   bool is_whole(const Tip::Flank& side) const {
     const auto& faces = shape_.edges[side.edge].faces;
     const BoundaryNodes::Edge& edge = nodes_.edges[side.edge];
@@ -218,7 +218,7 @@ class TipEnder {
     for (int k = 1; k <= count; ++k)
       parameters[at(follower, k)] = nearest_on(arm, nodes_.points[from.nodes[at(leader, k)]]).parameter;
     const double now = parameters[at(follower, count)];
-    // The nodes left are not to be squeezed or stretched much.
+    // The remaining nodes must not be squeezed or stretched much.
     constexpr double most_stretch = 1.25;
     const double scale = (end - now) / (end - before);
     if (!(scale < most_stretch) || !(scale > 1 / most_stretch)) return false;

@@ -31,8 +31,8 @@ std::vector<Tip> find_tips(const CadShape& shape, const FaceFlags& used, const T
 
 /// Ends faces early at their tips: the edges beside a tip share the nodes that lie closer together than the
 /// width of find_tips(), and the face ends at the last of them. Elements beyond would be smaller than that,
-/// and have the angle of the tip. Edges that are let go or borrow nodes, and those whose divisions users
-/// prescribe, stay as they are. \param nodes changed: places of nodes, BoundaryNodes::unused
+/// and have the angle of the tip. Suppressed edges, edges that borrow nodes and edges whose divisions users
+/// prescribe stay as they are. \param nodes changed: places of nodes, BoundaryNodes::unused
 void end_faces_at_tips(const CadShape& shape, const std::vector<Tip>& tips, const TinyFeatures& tiny,
                        BoundaryNodes& nodes);
 

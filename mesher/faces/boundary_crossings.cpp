@@ -221,7 +221,7 @@ std::optional<FaceProblem> crowding_problem(FaceId face, const FaceBoundary& bou
   }
   if (stretches.empty()) return std::nullopt;
   FaceProblem problem(Cause::narrow_gaps, face,
-                      fmt::format("Face{} is narrower near {} than its edges bend between nodes",
+                      fmt::format("Face{} is narrower near {} than its edges bulge between nodes",
                                   face.number(), place_text(*near)));
   problem.stretches = std::move(stretches);
   return problem;

@@ -131,7 +131,7 @@ class BoundaryWalker {
     const CadEdge& cad = shape_.edges[coedge.edge];
     const VertexId end = i == 0 ? cad.first_vertex : i == edge.segments() ? cad.last_vertex : VertexId();
     if (!edge.borrows() && !end.exists()) return uv;
-    // A node that stands for features which were let go is not where the edge's own curve is.
+    // A node that stands for suppressed features is not on the edge's own curve.
     constexpr double tolerances = 10;
     double tolerance = edge.borrows() ? 0 : tolerances * std::max(face_.tolerance, cad.tolerance);
     if (end.exists()) tolerance = std::max(tolerance, 2 * shape_.vertex_tolerances[end]);

@@ -42,11 +42,10 @@ FaceChart chart_of(const CadShape& shape, FaceId face, const BoundaryNodes& node
       kind == ChartKind::view ? FaceSurface::seen_from_above(cad_face, widest_loop(cad_face, nodes))
                               : FaceSurface(cad_face));
   if (chart.surface->is_curve())
-    throw FaceProblem(
-        Cause::no_area, face,
-        fmt::format("the surface of Face{} is a curve, without area: the file may be damaged, or "
-                    "`faces` leaves it out",
-                    face.number()));
+    throw FaceProblem(Cause::no_area, face,
+                      fmt::format("the surface of Face{} is a curve, without area: the file may be damaged; "
+                                  "`faces` can leave the face out",
+                                  face.number()));
   chart.boundary = face_boundary(shape, face, cad_face, *chart.surface, nodes);
   return chart;
 }

@@ -87,7 +87,7 @@ class RowPlacer {
     return corner;
   }
 
-  /// Has the rays beside a node lean as its own does, less and less, so that they do not cross.
+  /// Makes the rays beside a node lean like its own, less and less, so that they do not cross.
   void spread_lean(int k, int step) {
     constexpr double gently = 3;
     const double lean = corners_[k].lean[step > 0 ? 1 : 0], reach = gently * reach_.back() * std::abs(lean);

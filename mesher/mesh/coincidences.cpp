@@ -72,7 +72,7 @@ class Count {
   }
 
  private:
-  /// Two nodes of one quad at one place are a defect of that quad, which its quality tells.
+  /// Two nodes of one quad at one place are a defect of that quad, which its quality shows.
   void forgive_collapsed_sides() {
     for (const auto& quad : mesh_.quads)
       for (int i = 0; i < 4; ++i)

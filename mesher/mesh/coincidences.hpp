@@ -18,7 +18,7 @@ struct Coincidences {
   std::vector<int> faces;        ///< CAD faces with such nodes, ascending
   bool sewing_suffices = false;  ///< all of it is along free edges that lie on free edges
   /// The name of the setting that joins or parts them: "sew"; "imprint"; "keep_features" where quads lie on
-  /// quads with the same nodes, since the sides of something thin were let go; empty if there are none.
+  /// quads with the same nodes, since the sides of something thin were suppressed; empty if there are none.
   std::string_view remedy() const;
   /// "38 nodes lie on others ...", with the remedy; empty if there are none.
   std::string sentence() const;

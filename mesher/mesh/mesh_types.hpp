@@ -89,7 +89,7 @@ struct ShellMesh {
   struct LetGo {
     /// The kind of an entity.
     enum class Kind { edge, vertex };
-    Kind kind = Kind::edge;     ///< kind of the entity that was let go
+    Kind kind = Kind::edge;     ///< kind of the suppressed entity
     int number = 0;             ///< its number, from 1
     Kind to_kind = Kind::edge;  ///< kind of the entity that stands for it
     int to = 0;                 ///< number of the edge or vertex whose nodes stand for it
@@ -121,11 +121,11 @@ struct ShellMesh {
     std::vector<int> faces;   ///< the faces that were left out, from 1, ascending; none in a sheet
   };
 
-  /// A CAD edge or face below the least size that is meshed all the same.
+  /// A CAD edge or face below the least size that is meshed nevertheless.
   struct Kept {
     int dimension = 1;  ///< 1: edge, 2: face
     int number = 0;     ///< its number, from 1
-    std::string why;    ///< what the mesh would get without it
+    std::string why;    ///< what would be wrong without it
   };
 
   /// The quads outside the usual limits that one CAD edge, or one reason on a CAD face, forces.
@@ -149,7 +149,7 @@ struct ShellMesh {
   struct PlacedNode {
     std::string name;    ///< of its group
     int vertex = 0;      ///< its corner's vertex; 0 = not in the mesh, since its faces were left out
-    bool added = false;  ///< the vertex is none of the CAD model's: its number follows theirs
+    bool added = false;  ///< the vertex is not in the CAD model: its number follows those of the model
   };
 
   /// Two CAD faces, or two edges, that have the same nodes.

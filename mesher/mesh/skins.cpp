@@ -40,7 +40,7 @@ std::array<std::array<double, 2>, 8> derivatives(int nodes, double x, double y) 
 
 using Places = std::array<Vector3, 8>;
 
-/// The normal at a place of an element, as long as its area is stretched there.
+/// The normal at a place of an element; its length is the scale of areas there.
 Vector3 normal_at(int nodes, const Places& points, double x, double y) {
   Vector3 u = Vector3::Zero(), v = Vector3::Zero();
   const auto slopes = derivatives(nodes, x, y);
@@ -143,8 +143,8 @@ std::string bad_skins_sentence(const std::vector<int>& faces) {
     names.push_back(fmt::format("Face{}", faces[i]));
   if (faces.size() > most) names.push_back(fmt::format("{} more", faces.size() - most));
   return fmt::format(
-      "elements of {} turn over on a skin of the shell, since it is thicker than it is bent there: solvers "
-      "that expand shells refuse them; make the bend a sharp corner, or mesh it as a solid",
+      "elements of {} are inverted on a surface of the shell, since it is too thick for its bend radius "
+      "there: solvers that expand shells refuse them; make the bend a sharp corner, or mesh it as a solid",
       fmt::join(names, ", "));
 }
 

@@ -15,7 +15,7 @@ namespace quadrille {
 /// by less than 20 degrees. Each element is looked at in the four points of 2 x 2 Gauss integration.
 QUADRILLE_API std::vector<int> faces_with_bad_skins(const ShellMesh& mesh);
 
-/// Tells of such faces, and what to do; empty if there are none.
+/// One sentence that names such faces and says what to do; empty if there are none.
 QUADRILLE_API std::string bad_skins_sentence(const std::vector<int>& faces);
 
 }  // namespace quadrille

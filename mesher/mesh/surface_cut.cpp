@@ -47,8 +47,9 @@ Twins neighbors(const TriangleMesh& mesh) {
   return twins;
 }
 
-/// Finds which triangles in the piece of `seed` must be turned to agree with it.
-/// \param turned -1 = not visited yet; out: 1 = must be turned, 0 = not. \return the triangles of the piece.
+/// Finds which triangles in the piece of `seed` must be reversed to match it.
+/// \param turned -1 = not visited yet; out: 1 = must be reversed, 0 = not. \return the triangles of the
+/// piece.
 std::vector<int> agree_with(int seed, const TriangleMesh& mesh, const Twins& twins,
                             std::vector<char>& turned) {
   std::vector<int> piece{seed};
@@ -66,8 +67,8 @@ std::vector<int> agree_with(int seed, const TriangleMesh& mesh, const Twins& twi
         piece.push_back(triangle_of(twin));
       } else if (other != wanted) {
         throw failure(fmt::format("triangle {}", t),
-                      fmt::format("triangle {} agrees with its neighbors neither way round: the surface has "
-                                  "one side only, as a Moebius strip has",
+                      fmt::format("triangle {} cannot be oriented to match its neighbors: the surface is "
+                                  "one-sided, like a Moebius strip",
                                   t));
       }
     }

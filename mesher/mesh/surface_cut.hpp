@@ -14,7 +14,7 @@ namespace quadrille {
 std::vector<int> coincident_points(const std::vector<Vector3>& points, double tolerance);
 
 /// Orients triangles so that neighbors of one tag run along their common side in opposite directions. Each
-/// connected piece takes the orientation of the majority. Returns how many triangles were turned. Throws
+/// connected piece takes the orientation of the majority. Returns how many triangles were reversed. Throws
 /// Error (failure) naming a triangle that agrees with its neighbors in neither orientation (a one-sided
 /// surface), or that has the same corners as another. O(n).
 int orient_alike(TriangleMesh& mesh);

@@ -106,7 +106,7 @@ QuadMesh recombine_as_in_paper(const TriangleMesh& mesh, const RecombineOptions&
   }();
   const StageTimer timer(context, Stage::recombine);
   if (options.leftovers == Leftovers::pair && augment(coloring, free, {.heading = &mesh}, context) > 0) {
-    // Triangles that no path joins walk, which takes flips of edges.
+    // Triangles that no path joins walk to each other by edge flips.
     CostedColoring flipped(mesh, std::move(coloring));
     flipped.compute_costs(mesh.points, context);
     walk(flipped, mesh.points, context);

@@ -16,10 +16,10 @@ namespace quadrille {
 /// With Method::paper all three colors are assigned before one is chosen. Points are kept (same indices and
 /// places). Edges are kept too, unless triangles have to be walked. No triangle remains in a connected piece
 /// (of one tag) with an even number of them, one in a piece with an odd number (Leftovers::leave may leave
-/// more). Quads may be badly shaped or concave where the triangulation leaves no choice: improve_on() mends
-/// them. Throws Error (failure) naming the triangle if the mesh is not manifold or not consistently oriented.
-/// Deterministic for input, options and seed, whatever the thread count. Time: linear in practice. Based on:
-/// Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018).
+/// more). Quads may be badly shaped or concave where the triangulation leaves no choice: improve_on()
+/// improves them. Throws Error (failure) naming the triangle if the mesh is not manifold or not consistently
+/// oriented. Deterministic for input, options and seed, whatever the thread count. Time: linear in practice.
+/// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018).
 QUADRILLE_API QuadMesh recombine(const TriangleMesh& mesh, const RecombineOptions& options,
                                  ExecutionContext& context);
 

@@ -27,7 +27,7 @@ constexpr int few_growths = 4, near_search = 100;
 /// face's quads that may be gained or lost in all.
 constexpr double least_share = 0.7, most_share = 1.35, most_drift = 0.08;
 constexpr int few_quads = 8;  ///< this many quads may be gained or lost in any face
-/// Scaled Jacobian above which quads may start: smoothing mends them.
+/// Scaled Jacobian above which quads may start: smoothing repairs them.
 constexpr double mendable_filling = 0.2;
 /// How much the sum of the quads' objectives may rise for each unit of valence cost saved. The nodes of the
 /// patch have been smoothed, those of a filling not yet.

@@ -23,7 +23,7 @@ namespace {
 using Quad = QuadTopology::Quad;
 constexpr double pi = std::numbers::pi;
 constexpr int max_patch = 32;  ///< quads in a patch
-/// Scaled Jacobian above which a better connected patch may start: smoothing mends it.
+/// Scaled Jacobian above which a better connected patch may start: smoothing repairs it.
 constexpr double mendable_patch = 0.05;
 constexpr double regular_cost = 0.5;  ///< nodes that cost less are left alone
 constexpr double min_gain = 0.5;      ///< a patch is refilled only if it gains this much

@@ -15,7 +15,7 @@ constexpr double outside_objective = 1, folded_objective = 999;
 /// to the industry criteria once their nodes have moved (measure_objective()). For meshes whose nodes are
 /// well placed already, so that the gain comes from new connections.
 ///
-/// \param poor quads with a larger objective are mended
+/// \param poor quads with a larger objective are to be replaced
 /// \param least_turn_cosine the normals at two corners of a new quad differ by no more than this, or than
 /// those of the quads before; -1 = by any angle \param changed out: (points) 1 = the point belongs to a new
 /// quad or to one next to a refilled patch \return the number of refilled patches. Time: about 120 us for

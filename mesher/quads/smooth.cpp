@@ -106,13 +106,13 @@ class Smoother {
   }
 
   /// Helps elements below `floor` that moves of single nodes cannot help (rows of flat quads against a wall).
-  /// Averages all nodes near the element without regard to shapes, then mends them. Keeps the result only if
-  /// the worst element there is better than before. \param most_failures gives up after this many failures in
-  /// a row: the face is then too narrow for its size.
+  /// Averages all nodes near the element without regard to shapes, then repairs them. Keeps the result only
+  /// if the worst element there is better than before. \param most_failures gives up after this many failures
+  /// in a row: the face is then too narrow for its size.
   bool loosen_below(double floor, int most_failures) {
     bool any = false;
     int failures = 0;
-    // Such places are few. If a whole face is folded, work on single elements cannot mend it.
+    // Such places are few. If a whole face is folded, work on single elements cannot repair it.
     constexpr std::size_t nodes_each = 4, nodes_at_least = 2000;
     std::size_t left = nodes_each * points_.size() + nodes_at_least;
     for (int quad = 0; quad < static_cast<int>(quads_.size()) && failures < most_failures; ++quad) {

@@ -20,7 +20,7 @@ struct FaceQuads {
 
 /// Cuts a quad into two triangles if its four parts would be worse than the six parts of the triangles. Such
 /// quads have a corner of almost 180 degrees or more. Where the boundary makes that corner, smoothing cannot
-/// mend it. Parts have the edges' own nodes on boundary sides. \param normals (points) unit normals of the
+/// repair it. Parts have the edges' own nodes on boundary sides. \param normals (points) unit normals of the
 /// surface. \param segments as for subdivide().
 void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
                     const std::vector<FaceBoundary::Segment>& segments, const ExecutionContext& context = {});

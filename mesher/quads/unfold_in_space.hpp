@@ -1,5 +1,5 @@
 #pragma once
-/// Mends inverted quads by moving their nodes off the surface. Not part of the public interface.
+/// Repairs inverted quads by moving their nodes off the surface. Not part of the public interface.
 
 #include <vector>
 

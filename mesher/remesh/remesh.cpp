@@ -66,10 +66,9 @@ void check_manifold(const TriangleMesh& mesh) {
   };
   for_each_shared_side(mesh.points.size(), no_check, look, mesh.triangles);
   if (mesh.triangles.size() > 2 && !any_shared)
-    throw failure(
-        "", fmt::format("none of the {} triangles shares a side with another: `merge` makes one of nodes "
-                        "that lie close together",
-                        mesh.triangles.size()));
+    throw failure("", fmt::format("none of the {} triangles shares a side with another: `merge` merges nodes "
+                                  "that lie close together",
+                                  mesh.triangles.size()));
 }
 
 /// The surface to be meshed, in one or more pieces.
@@ -86,7 +85,7 @@ Surface oriented_surface(TriangleMesh mesh, std::vector<std::string>& notes) {
   mesh.tags.clear();
   check_manifold(mesh);
   if (const int turned = orient_alike(mesh); turned > 0)
-    notes.push_back(fmt::format("{} triangles were turned to agree with those of neighboring faces", turned));
+    notes.push_back(fmt::format("{} triangles were reversed to match those of neighboring faces", turned));
   CutSurface cut = cut_surface(mesh, 0);
   Surface surface{std::move(cut.mesh), std::move(cut.original), {}, {}, cut.pieces};
   surface.pieces = std::move(surface.mesh.tags);
@@ -629,8 +628,9 @@ class Remesher : public ShellGeometry {
         mesh.groups.push_back(std::move(kept));
     }
     if (!lost.empty())
-      notes_.push_back(fmt::format("groups that hold nodes, or nothing of the surface, are left out: {}",
-                                   fmt::join(lost, ", ")));
+      notes_.push_back(
+          fmt::format("groups of nodes, and groups without elements of the surface, are left out: {}",
+                      fmt::join(lost, ", ")));
     if (mesh.groups.empty()) return;
     std::set<std::string> names;
     for (const ShellMesh::Group& group : mesh.groups) names.insert(group.name);

@@ -176,8 +176,8 @@ std::vector<std::string> area_differences(const CadModel& model, const ShellMesh
   for (const FaceId face : areas.ids()) {
     if (!differ[face] || difference(face) <= largest * integrals[face] + of_loss * losses[face]) continue;
     result.push_back(fmt::format(
-        "Face{}{} has an area of {} in the mesh and of {} by OpenCASCADE's integration: the "
-        "size is too coarse for its shape, or the file or the integral wrong",
+        "Face{}{} has an area of {} in the mesh and of {} by OpenCASCADE's integration: the size may be too "
+        "coarse for its shape, or the file or the integral may be wrong",
         face.number(), joined.contains(face.number()) ? " with the faces that share quads with it" : "",
         number_text(areas[face], integrals[face]), number_text(integrals[face], areas[face])));
   }

@@ -166,9 +166,11 @@ void make_second_order(const MeshedFaces& meshed, const ShellNumbering& numberin
   const auto count = std::count_if(folded.begin(), folded.end(),
                                    [&](std::size_t quad) { return mesh.quad_faces[quad] == face; });
   const std::string name = fmt::format("Face{}", face);
-  throw failure(name, fmt::format("{} keeps {} second-order elements that fold even with straight sides: try "
-                                  "a smaller size on it",
-                                  name, count));
+  throw failure(
+      name,
+      fmt::format(
+          "{} has {} second-order elements that fold even with straight sides: try a smaller size on it",
+          name, count));
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 
 namespace quadrille {
 
-/// Parameters of a point begin with the number of a triangle of a mesh of the faces. The triangle tells the
-/// face, on whose surface the point then lies. Use one object per thread.
+/// Parameters of a point begin with the number of a triangle of a mesh of the faces. The triangle determines
+/// the face on whose surface the point lies. Use one object per thread.
 class CompositeSurface : public MeshSurface {
  public:
   /// \param triangles of all faces, consistently oriented \param members (triangles) index into `surfaces`

@@ -1,4 +1,4 @@
-/// Joins the meshes of faces along smooth edges, mends the quads beside these, and gives each quad back to
+/// Joins the meshes of faces along smooth edges, improves the quads beside these, and gives each quad back to
 /// the face that its center lies on.
 
 #include "mesher/shell/edge_suppression.hpp"

@@ -24,7 +24,7 @@ struct CompositeFace {
 
 /// Takes faces as one where they meet smoothly, within 10 degrees all along an edge, and a quad at the edge
 /// is outside the industry criteria: nodes may then move over both faces, on their surfaces, and patches may
-/// be refilled across the edge. The mesh of the first member becomes that of all, those of the others empty.
+/// be refilled across the edge. The first member gets the mesh of all; the meshes of the others become empty.
 /// \param kept 1 = the edge stays. So do edges with a prescribed spacing, free and non-manifold edges, and
 /// edges that share nodes with others. Linear in the quads.
 std::vector<CompositeFace> join_smooth_faces(const CadShape& shape, const EdgeFlags& kept,

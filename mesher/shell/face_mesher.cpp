@@ -121,10 +121,9 @@ class FaceMesher {
       rings_ = place_rings(chart_.boundary, surface_, enclosed_domain(chart_.boundary), options_.rings,
                            plan_.row_lines);
     if (rings_->unfit.exists())
-      throw usage_error(
-          "layers", fmt::format("the `layers` along Edge{} do not fit into Face{}: ask for fewer or lower "
-                                "ones, or for a smaller size on the edge",
-                                shape_.edges[rings_->unfit].number, face_.number()));
+      throw usage_error("layers", fmt::format("the `layers` along Edge{} do not fit into Face{}: use fewer "
+                                              "or thinner layers, or a smaller size on the edge",
+                                              shape_.edges[rings_->unfit].number, face_.number()));
     if (rings_->holes.empty()) return std::nullopt;
     FaceQuads quads = quads_inside(rings_->inside, candidate);
     add_ring_quads(quads, *rings_, surface_);
@@ -146,10 +145,10 @@ class FaceMesher {
     FaceQuads quads =
         make_quads(triangulate(segments, enclosed_domain(boundary)), surface_, options, context_);
     if (!quads.surface_mesh.mesh.triangles.empty())
-      throw FaceProblem(
-          Cause::odd_boundary, face_,
-          fmt::format("Face{} has an odd boundary that cannot be made even: `strategy` subdivide meshes it",
-                      face_.number()));
+      throw FaceProblem(Cause::odd_boundary, face_,
+                        fmt::format("Face{} has an odd number of boundary segments that cannot be made even: "
+                                    "use `strategy` subdivide",
+                                    face_.number()));
     if (recipe_.off != FaceRecipe::Off::none) leave_surface(quads);
     return quads;
   }
@@ -234,8 +233,8 @@ class FaceMesher {
     if (const auto side = wrong_boundary_side(chart_.boundary, result.nodes, result.quads)) {
       const Vector3 middle = 0.5 * (nodes_.points[side->first] + nodes_.points[side->second]);
       throw FaceProblem(Cause::no_mesh, face_,
-                        fmt::format("the mesh of Face{} does not end as its wires do near {}", face_.number(),
-                                    place_text(middle)));
+                        fmt::format("the mesh of Face{} does not end on the face's boundary near {}",
+                                    face_.number(), place_text(middle)));
     }
     order(result);
     return result;

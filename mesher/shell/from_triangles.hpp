@@ -25,7 +25,7 @@ struct FromTrianglesOptions {
 /// Replaces the triangles of a mesh by quads. Quads of the input are first cut in two. Sides between faces,
 /// segments of the mesh, and sides with more than two elements stay, with their nodes. So do nodes that are
 /// corners or in groups of nodes. Groups keep their extent: a group of nodes with all nodes of a face gets
-/// all nodes of the quads there. Elements oriented against the majority of their connected face are turned.
+/// all nodes of the quads there. Elements oriented against the majority of their connected face are reversed.
 /// If the mesh has no faces, those that the feature angle separates are numbered from 1. The result is first
 /// order. \param notes out, one sentence for each repair or loss is appended. Throws Error: failure naming
 /// the element at fault (indices from 0 as in the mesh), cancelled. Linear in practice.

@@ -42,7 +42,7 @@ class InvertedQuads {
                         : inside                               ? Cause::inverted_inside
                                                                : Cause::inverted_at_boundary;
     FaceProblem problem(cause, face_,
-                        fmt::format("Face{} keeps {} inverted quad{} at this size, the first at {}, {}",
+                        fmt::format("Face{} has {} inverted quad{} at this size, the first at {}, {}",
                                     face_.number(), inverted.size(), inverted.size() == 1 ? "" : "s",
                                     place_text(near), place_of(mesh, corner)));
     problem.stretches = stretches_at(touched);

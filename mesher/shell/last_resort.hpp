@@ -16,7 +16,7 @@ namespace quadrille {
 /// usual quads, those of the triangles alone (each in its own charts), and triangles that span the loops in
 /// space. Nodes leave the surface only at quads that would be inverted, except with the last, which is not
 /// taken for faces longer than `reach` whose curves cross.
-/// \param problem why the face has no mesh; thrown if none of them will do
+/// \param problem why the face has no mesh; thrown if none of them works
 /// \param reach the largest distance of a node from the surface, model units
 /// \return the mesh, with its distances in FaceMesh::off
 FaceMesh mesh_off_surface(const CadShape& shape, const FaceProblem& problem, const BoundaryNodes& nodes,

@@ -86,11 +86,10 @@ FaceMesh moved(const CadShape& shape, const MatchedFace& face, const BoundaryNod
   for (int& node : result.nodes) {
     const auto found = at.find(node);
     if (found == at.end() || found->second < 0)
-      throw failure("match",
-                    fmt::format("`match` cannot give Face{} the mesh of Face{}, which has a node at {} "
-                                "and no counterpart on Face{}",
-                                face.to.number(), face.from.number(), place_text(nodes.points[node]),
-                                face.to.number()));
+      throw failure("match", fmt::format("`match` cannot give Face{} the mesh of Face{}, which has a node at "
+                                         "{} without a counterpart on Face{}",
+                                         face.to.number(), face.from.number(), place_text(nodes.points[node]),
+                                         face.to.number()));
     node = found->second;
   }
   for (std::size_t i = 0; i < result.points.size(); ++i)
@@ -141,8 +140,8 @@ void add_pairs(const MatchedEdge& edge, const BoundaryNodes& nodes, const ShellN
   }
 }
 
-/// Takes the midside nodes to where their partners are, moved. A node off the geometry takes its partner
-/// along. \return whether a node became one off the geometry.
+/// Moves the midside nodes to the images of their partners. A node off the geometry takes its partner off it
+/// too. \return whether a node became one off the geometry.
 bool align_midsides(const RigidMotion& motion, const Pairs& pairs, ShellMesh& mesh) {
   std::map<int, double> off;
   for (const auto& node : mesh.off_geometry) off[node.node] = node.distance;
@@ -187,7 +186,7 @@ void list_matches(const Matches& matches, const BoundaryNodes& nodes, const Shel
     mesh.matches.push_back(
         {link.pair.dimension, {link.pair.first, link.pair.second}, link.motion(), std::move(pairs)});
   }
-  // A node off the geometry takes along its partner, and that one the next.
+  // A node off the geometry takes its partner off it too, and that one the next.
   for (std::size_t round = 0; round <= mesh.matches.size(); ++round) {
     bool any = false;
     for (const ShellMesh::Match& match : mesh.matches) any |= align_midsides(match.motion, match.nodes, mesh);
@@ -199,11 +198,10 @@ void list_matches(const Matches& matches, const BoundaryNodes& nodes, const Shel
     for (const auto& [a, b] : match.nodes) {
       const double apart = (match.motion(mesh.points[a]) - mesh.points[b]).norm();
       if (apart <= matches.links[i].tolerance) continue;
-      throw failure("match",
-                    fmt::format("`match` {}={} cannot be kept beside the other pairs: a node at {} lies "
-                                "{} mm from where its partner goes",
-                                name_of(pair, pair.first), name_of(pair, pair.second),
-                                place_text(mesh.points[b]), number_text(apart)));
+      throw failure("match", fmt::format("`match` {}={} contradicts the other pairs: a node at {} lies {} mm "
+                                         "from the image of its partner",
+                                         name_of(pair, pair.first), name_of(pair, pair.second),
+                                         place_text(mesh.points[b]), number_text(apart)));
     }
   }
 }

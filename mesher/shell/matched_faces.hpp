@@ -13,9 +13,9 @@ namespace quadrille {
 /// are those of the partner's own edges. Throws Error (failure, subject "match") where it has no such node.
 void copy_faces(const CadShape& shape, const Matches& matches, const BoundaryNodes& nodes, FaceMeshes& faces);
 
-/// Lists the nodes of each pair that has them, in ShellMesh::matches, and takes midside nodes exactly to
-/// where those of their partners are, moved. Throws Error (failure, subject "match") if two nodes lie
-/// further apart than the tolerance of their pair allows.
+/// Lists the nodes of each pair that has them, in ShellMesh::matches, and moves midside nodes exactly to the
+/// images of their partners. Throws Error (failure, subject "match") if two nodes lie further apart than the
+/// tolerance of their pair allows.
 void list_matches(const Matches& matches, const BoundaryNodes& nodes, const ShellNumbering& numbering,
                   ShellMesh& mesh);
 

@@ -90,7 +90,7 @@ struct FaceState {
   }
 };
 
-/// The surface on which nodes of a face move while it is mended.
+/// The surface on which nodes of a face move while patches are refilled.
 class MovedOnFace : public MeshSurface {
  public:
   explicit MovedOnFace(FaceState& face)
@@ -140,7 +140,7 @@ class NodeSliding {
     slide(sweeps, toward_limits);
   }
 
-  /// Lets all nodes rest but those of some faces.
+  /// Deactivates all nodes except those of some faces.
   void wake_only(const std::vector<CompositeFace>& composites) {
     FaceFlags awake(states_.size(), 0);
     for (const CompositeFace& composite : composites) awake[composite.members.front()] = 1;
@@ -148,7 +148,7 @@ class NodeSliding {
       if (!awake[face]) std::fill(states_[face].active.begin(), states_[face].active.end(), 0);
   }
 
-  /// Refills patches around quads outside the limits, and wakes their nodes. \return whether any changed.
+  /// Refills patches around quads outside the limits, and activates their nodes. \return whether any changed.
   bool mend() {
     aim_ = toward_limits;
     for_each_face([&](FaceId face) {

@@ -1,5 +1,5 @@
-/// Tells edges shorter than the least size, sharp corners, narrow faces and places where nothing forces poor
-/// quads from each other.
+/// Distinguishes edges shorter than the least size, sharp corners, narrow faces and places where nothing
+/// forces poor quads.
 
 #include "mesher/shell/poor_quads.hpp"
 
@@ -214,7 +214,7 @@ class Finder {
       case Reason::none:
         break;
     }
-    return "nothing there is so small or sharp: rows of quads end there, or pass on from a neighbor";
+    return "nothing there is too small or sharp: rows of quads end there, or continue from a neighbor";
   }
 
   const CadShape& shape_;

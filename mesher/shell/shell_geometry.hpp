@@ -1,5 +1,5 @@
 #pragma once
-/// What assembly and second order ask of the model behind a mesh: a CAD shape, or a scan cut into faces.
+/// The model behind a mesh, as assembly and second order need it: a CAD shape, or a scan cut into faces.
 /// Internal.
 
 #include <memory>

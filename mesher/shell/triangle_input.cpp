@@ -46,9 +46,10 @@ void check_places(const std::vector<Vector3>& points) {
   for (int v = 0; v < static_cast<int>(points.size()); ++v) {
     const Vector3& p = points[v];
     if (first[v] != v)
-      throw failure(fmt::format("point {}", v),
-                    fmt::format("the points {} and {} lie on one place, {} {} {}: join them with `merge` 0",
-                                first[v], v, p.x(), p.y(), p.z()));
+      throw failure(
+          fmt::format("point {}", v),
+          fmt::format("the points {} and {} are at the same position, {} {} {}: merge them with `merge` 0",
+                      first[v], v, p.x(), p.y(), p.z()));
   }
 }
 
@@ -110,12 +111,12 @@ TriangleInput triangle_input(const ShellMesh& input, double merge, std::vector<s
   std::size_t merged = 0;
   for (std::size_t v = 0; v < work.node.size(); ++v) merged += work.node[v] != static_cast<int>(v);
   if (merged > 0) notes.push_back(fmt::format("{} nodes were merged with others", merged));
-  if (lost > 0) notes.push_back(fmt::format("{} triangles lost their area by that and are left out", lost));
+  if (lost > 0)
+    notes.push_back(fmt::format("{} triangles lost their area by merging and are left out", lost));
   if (work.mesh.triangles.empty()) throw failure("", "no triangle is left");
   check_shapes(work.mesh);
   const int turned = orient_alike(work.mesh);
-  if (turned > 0)
-    notes.push_back(fmt::format("{} triangles were turned to agree with their neighbors", turned));
+  if (turned > 0) notes.push_back(fmt::format("{} triangles were reversed to match their neighbors", turned));
   order(work, context);
   for (const ShellMesh::Segment& segment : input.segments) {
     const int a = work.node[segment.nodes[0]], b = work.node[segment.nodes[1]];

@@ -172,7 +172,7 @@ class Straightening {
         share == whole ? side.middle : Vector3(side.place + part * (side.middle - side.place));
   }
 
-  /// The Jacobian bound that a mended element needs: 0.02, but at most half of that with straight sides.
+  /// The Jacobian bound that a repaired element needs: 0.02, but at most half of that with straight sides.
   double wanted(std::size_t quad) const {
     constexpr double enough = 0.02;
     return std::min(enough, 0.5 * quick_jacobian_bound(straight_quad(mesh_, quad)));

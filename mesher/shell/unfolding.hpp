@@ -1,5 +1,5 @@
 #pragma once
-/// Mends second-order elements that their curved sides fold. Internal.
+/// Repairs second-order elements that fold because of their curved sides. Internal.
 
 #include <cstddef>
 #include <vector>

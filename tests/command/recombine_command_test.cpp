@@ -60,16 +60,16 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"a triangle twice", square("", 4, two + "3 2 2 0 1 2 3 1\n", 3),
                  "triangle 2 has the same corners as triangle 0"},
         BadInput{
-            "one side only",
+            "one-sided",
             square("5 2 0.5 1\n6 2 1 2\n", 6,
                    "1 2 2 0 1 1 2 3\n2 2 2 0 1 2 3 4\n3 2 2 0 1 3 4 5\n4 2 2 0 1 4 5 1\n5 2 2 0 1 5 1 2\n",
                    5),
-            "as a Moebius strip has"},
+            "like a Moebius strip"},
         BadInput{"no area", square("5 2 0 0\n", 5, two + "3 2 2 0 1 1 5 2\n", 3), "triangle 2 has no area"},
         BadInput{"a node twice in an element", square("", 4, two + "3 2 2 0 1 1 1 2\n", 3),
                  "element 3 uses node 1 twice"},
         BadInput{"two nodes on one place", square("5 0 0 0\n", 5, two + "3 2 2 0 1 5 4 3\n", 3),
-                 "the points 0 and 4 lie on one place, 0 0 0: join them with --merge 0 ("},
+                 "the points 0 and 4 are at the same position, 0 0 0: merge them with --merge 0 ("},
         BadInput{"each triangle a face", square("", 4, "1 2 2 1 1 1 2 3\n2 2 2 2 2 1 3 4\n", 2),
                  "no quad can be made"},
         BadInput{"a node defined twice", square("4 0 2 0\n", 5, two, 2), "node 4 is defined twice"},
@@ -223,7 +223,7 @@ TEST(RecombineCommand, TakesTrianglesAndQuadsAndTurnsWhatDisagrees) {
   const auto result = test::run(fmt::format(
       "cd {} && timeout 300 {} recombine in.msh -o out.msh --quiet 2>&1", folder.path().string(), program));
   EXPECT_EQ(result.exit_code, 0) << result.out;
-  EXPECT_EQ(result.out, "in.msh: 1 triangles were turned to agree with their neighbors\n");
+  EXPECT_EQ(result.out, "in.msh: 1 triangles were reversed to match their neighbors\n");
   EXPECT_EQ(read_mesh(folder / "out.msh").quads.size(), 2U);
 }
 

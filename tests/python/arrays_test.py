@@ -141,7 +141,7 @@ class ArraysTest(unittest.TestCase):
             path = Path(folder) / "two.inp"
             path.write_text("*NODE\n1,0,0\n2,1,0\n3,2,0\n4,0,1\n5,1,1\n6,2,1\n*ELEMENT,TYPE=S3,ELSET=Left\n1,1,2,5\n"
                             "2,1,4,5\n*ELEMENT,TYPE=S3,ELSET=Right\n3,2,3,6\n4,2,6,5\n")
-            with self.assertWarnsRegex(UserWarning, "1 triangles were turned"):
+            with self.assertWarnsRegex(UserWarning, "1 triangles were reversed"):
                 mesh = quadrille.read_mesh(path).recombined()
         self.assertEqual(len(mesh.quads), 2)
         self.assertEqual([group[:3] for group in mesh.groups], [("Left", 2, 0), ("Right", 2, 0)])
@@ -150,7 +150,7 @@ class ArraysTest(unittest.TestCase):
         self.assertLessEqual(left[..., 0].max(), 1)
         apart = quadrille.Mesh(np.tile(POINTS, (2, 1)), np.empty((0, 4), int),
                                triangles=[(0, 1, 4), (1, 2, 4), (5, 7, 8), (5, 8, 9), (7, 8, 9)])
-        with self.assertRaisesRegex(quadrille.Error, "lie on one place, 0 0 0: join them with merge 0$"):
+        with self.assertRaisesRegex(quadrille.Error, "are at the same position, 0 0 0: merge them with merge 0$"):
             apart.recombined()
         for wrong in ({"feature_angle": 200}, {"feature_angle": -1}, {"merge": -1.0}):
             with self.assertRaises(quadrille.Error) as raised:

@@ -481,10 +481,10 @@ TEST(Remesh, RefusesWhatIsNoSurface) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   expect_error(surface_of({{0, 0, 0}, {1, 0, 0}, {nan, 1, 0}}, {{0, 1, 2}}), options, Kind::failure,
                "no finite position");
-  expect_error(box({1, 1, 1}), with_size(0.2), Kind::failure, "lie on one place");
+  expect_error(box({1, 1, 1}), with_size(0.2), Kind::failure, "are at the same position");
   const ShellMesh strip = surface_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0.5, 1}},
                                      {{0, 1, 2}, {1, 2, 3}, {2, 3, 4}, {3, 4, 0}, {4, 0, 1}});
-  expect_error(strip, with_size(0.5), Kind::failure, "one side only");
+  expect_error(strip, with_size(0.5), Kind::failure, "one-sided");
 }
 
 TEST(Remesh, RefusesSizesThatMakeNoSenseBeforeItBegins) {

@@ -97,7 +97,7 @@ TEST(FromTriangles, RefusesNodesOnOnePlaceUnlessTheyAreToBeMerged) {
     quads_of(triangle_soup(2));
     FAIL() << "nothing was refused";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("lie on one place"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("are at the same position"), std::string::npos) << error.what();
   }
   ShellMesh shaken = triangle_soup(3);
   for (std::size_t i = 0; i < shaken.points.size(); ++i)
@@ -132,7 +132,7 @@ TEST(FromTriangles, TrianglesAreTurnedAndItIsSaid) {
   for (const std::size_t t : {3U, 30U}) std::swap(input.triangles[t][0], input.triangles[t][1]);
   std::vector<std::string> notes;
   const ShellMesh mesh = quads_of(input, {}, &notes);
-  EXPECT_EQ(notes, std::vector<std::string>{"2 triangles were turned to agree with their neighbors"});
+  EXPECT_EQ(notes, std::vector<std::string>{"2 triangles were reversed to match their neighbors"});
   EXPECT_NEAR(area_vector(mesh.points, mesh.quads).z() + area_vector(mesh.points, mesh.triangles).z(), 1,
               1e-9);
 }
