@@ -182,7 +182,7 @@ std::vector<char> find_thick(const SolidMiddle& middle, const std::vector<WallEn
 /// returns.
 void tell(const std::string& problem, const std::string& name, const MidSurfaceOptions& options,
           std::vector<std::string>& problems, std::string_view given = "the walls that were found") {
-  if (!options.partial) throw failure(name, fmt::format("{}; `partial` returns {}", problem, given));
+  if (!options.partial) throw failure(name, fmt::format("{}; `partial` gives {}", problem, given));
   problems.push_back(problem);
 }
 

@@ -717,7 +717,7 @@ TEST(MidSurface, RefusesFreeEdgesThatAreNotAtARim) {
   } catch (const Error& error) {
     const std::string told = error.what();
     EXPECT_NE(told.find("inside the material between Face"), std::string::npos) << told;
-    EXPECT_NE(told.find("; `partial` returns it nevertheless"), std::string::npos) << told;
+    EXPECT_NE(told.find("; `partial` gives it nevertheless"), std::string::npos) << told;
   }
   const MidSurface middle = middle_of(solid, true);
   ASSERT_FALSE(middle.stray_edges.empty());
