@@ -585,8 +585,9 @@ void check(const Settings& settings, const CadModel& model) {
     const char* name = spacing.segments > 0 ? "segments" : spacing.bias != 1 ? "bias" : "bias_both";
     check_names(entry(name), {edge}, "Edge", model.edge_count());
     if (spacing.bias != 1 && spacing.bias_both != 1)
-      throw refused(entry("bias_both"),
-                    fmt::format("names Edge{}, which already has `bias`: give only one of them", edge));
+      throw refused(
+          entry("bias_both"),
+          fmt::format("names Edge{}, which already has a bias from one end: give only one of them", edge));
   }
 }
 

@@ -167,7 +167,7 @@ class ExecutionContext {
 
   void ask_again() const {
     if (now() - asked_.load(std::memory_order_relaxed) < interval_) return;
-    const std::unique_lock lock(mutex_, std::try_to_lock);  // whoever holds the lock asks for all
+    const std::unique_lock lock(mutex_, std::try_to_lock);  // the thread that holds the lock calls for all
     if (lock && !stage_.empty()) ask();
   }
 

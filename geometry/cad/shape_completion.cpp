@@ -47,8 +47,8 @@ void add_curves(const TopoDS_Face& face) {
   }
 }
 
-/// Whether each edge of a wire occurs once in either direction on one and the same parametric curve. A seam
-/// has two of them.
+/// Whether each edge of a wire occurs once in either direction on the same parametric curve. A seam has two
+/// of them.
 bool runs_there_and_back(const TopoDS_Wire& wire, const TopoDS_Face& face) {
   TopTools_MapOfOrientedShape pending;
   std::vector<TopoDS_Edge> edges;

@@ -49,7 +49,7 @@ double volume_of(const SkinFace& fillet, const std::vector<Wall>& walls,
   }
   const double a = std::sin(first.turn + 0.5 * arc), b = std::sin(second->turn + 0.5 * arc);
   if (a <= 0 || b <= 0) return 0;
-  // The end of a gusset is no fillet, nor is the inclined side of a block.
+  // The end of a gusset is not a fillet, and neither is the inclined side of a block.
   constexpr double longest_leg = 4;  // over the thickness
   const bool strip = first.turn == 0 ||
                      (width < length && chord * std::max(a, b) < longest_leg * thickness * std::sin(turn));

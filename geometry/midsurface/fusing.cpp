@@ -1,4 +1,4 @@
-/// Hands OpenCASCADE a progress indicator that asks the context whether to go on.
+/// Gives OpenCASCADE a progress indicator that checks the context for cancellation.
 
 #include "geometry/midsurface/fusing.hpp"
 

@@ -72,7 +72,7 @@ struct MidSurface {
   std::vector<int> unpaired{};
   std::vector<int> uneven{};  ///< numbers of the faces where rays through the solid measure another thickness
   std::vector<std::string> problems{};  ///< with options.partial: what would have been an error
-  std::vector<std::string> warnings{};  ///< what is imprecise, but no error
+  std::vector<std::string> warnings{};  ///< imprecise results that are not errors
   /// The thickness of a face (from 1) at a point; the mean if it does not vary. One thread at a time.
   std::function<double(int face, const Vector3& point)> thickness_at{};
 };

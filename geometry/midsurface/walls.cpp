@@ -305,7 +305,7 @@ std::optional<Wall> chained_wall(const Skin& skin, const std::vector<MatchedSide
 }
 
 /// Moves the pairs in chains of free-form walls that continue into each other from `pairs` to `walls`. A pair
-/// of faces from different walls of a chain is no wall. \param margin see fit_middle().
+/// of faces from different walls of a chain is not a wall. \param margin see fit_middle().
 void move_chains(const Skin& skin, const std::vector<int>& surfaces, double tolerance, double margin,
                  const ExecutionContext& context, std::vector<SurfacePair>& pairs, std::vector<Wall>& walls) {
   const std::vector<MatchedSides> chains = matched_sides(skin, mutual_pairs(pairs));

@@ -59,7 +59,7 @@ std::vector<FaceSample> sample_face(const CadShape& shape, const CadFace& face) 
   return samples;
 }
 
-/// What regions ask for on a face, by cells of its parameter plane. Cells at borders of regions are halved.
+/// What regions request on a face, by cells of its parameter plane. Cells at borders of regions are halved.
 class RegionSum {
  public:
   RegionSum(const CadShape& shape, const CadFace& face, const std::vector<SizeRegion>& regions, double least)
@@ -120,7 +120,7 @@ class RegionSum {
 /// voxels thick and at any angle to the blocks; each coarser level repeats it with a quarter of the blocks.
 constexpr double blocks_a_square = 3.3 / 64;
 
-/// The size asked for on a face itself or by its layers, at most the global one.
+/// The size requested on a face itself or by its layers, at most the global one.
 double size_on(const SizingOptions& options, const SizeLimits& limits, FaceId face) {
   double size = limits.largest;
   if (const auto own = options.face_sizes.find(face.number()); own != options.face_sizes.end())
@@ -143,7 +143,7 @@ bool may_pass_blocks(const CadShape& shape, const SizingOptions& options) {
   return squares * blocks_a_square > options.budget.blocks;
 }
 
-/// Throws Error (usage) if regions ask for more elements or blocks on the used faces than allowed.
+/// Throws Error (usage) if regions request more elements or blocks on the used faces than allowed.
 void hold_regions(const CadShape& shape, const SizingOptions& options, const SizeLimits& limits,
                   const FaceFlags& used, double free, const ExecutionContext& context) {
   const double most = std::min(options.budget.elements, options.budget.blocks / blocks_a_square);

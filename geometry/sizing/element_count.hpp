@@ -33,15 +33,15 @@ double count_elements(const FaceSamples& samples,
 void hold_elements(double count, const Budget& budget, double free);
 
 /// Checks a run against its budget, and its elements against the free memory. Where bounding boxes show that
-/// no size asked for can exceed them, nothing is measured.
+/// no requested size can exceed them, nothing is measured.
 class ElementBudget {
  public:
-  /// Throws Error (usage), with the number, if the sizes asked for on faces, in regions and by curvature
+  /// Throws Error (usage), with the number, if the sizes requested on faces, in regions and by curvature
   /// exceed the budget of elements or that of the sizing field.
   ElementBudget(const CadModel& model, const SizingOptions& options, const FaceFlags& used,
                 ExecutionContext& context);
 
-  /// Throws Error (usage), with the number, if the graded field asks for more elements than allowed.
+  /// Throws Error (usage), with the number, if the graded field requests more elements than allowed.
   void check(const SizingField& field) const;
 
  private:

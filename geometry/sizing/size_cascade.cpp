@@ -1,5 +1,5 @@
 /// Gradation by Dijkstra's algorithm over the voxels (chamfer distances over 26 neighbors, Borgefors 1986).
-/// Values only decrease, and the result is the largest field below the sources that has the slope asked for.
+/// Values only decrease, and the result is the largest field below the sources that has the requested slope.
 
 #include "geometry/sizing/size_cascade.hpp"
 

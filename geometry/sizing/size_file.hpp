@@ -14,7 +14,7 @@ class Module;
 class SizeCascade;
 struct ExternalSizes;
 
-/// A point that asks for a size.
+/// A point that requests a size.
 struct SizePoint {
   Vector3 point;
   double size;
@@ -36,7 +36,7 @@ inline constexpr double longest_with_vdb = 300;
 void write_cascade(const SizeCascade& cascade, const std::filesystem::path& path);
 
 /// A field from sizes at points, growing away from them by at most `growth` per unit of length, up to the
-/// largest size. Voxels hold the mean of the points around them. The least would be smaller than asked for
+/// largest size. Voxels hold the mean of the points around them. The least would be smaller than requested
 /// wherever sizes change.
 SizeCascade mean_sizes(const std::vector<SizePoint>& points, double growth, const ExecutionContext& context);
 

@@ -62,7 +62,7 @@ SizeSources::SizeSources(const CadShape& shape, const SizingOptions& options, co
   if (options.proximity_walls > 0) rays_.emplace(shape, options.proximity_walls * limits.size_min, context);
 }
 
-/// The size asked for on an edge itself and by its length.
+/// The size requested on an edge itself and by its length.
 double SizeSources::cap_of(const CadEdge& edge) const {
   double cap = limits_.largest;
   if (const auto it = options_.edge_sizes.find(edge.number); it != options_.edge_sizes.end())
@@ -118,7 +118,7 @@ void SizeSources::edge(EdgeId id, const Sink& sink) const {
   sample_edge(curve, edge, cap, !curve.circular(), sink);
 }
 
-/// Asks for the segment lengths along a prescribed edge, so that the faces beside it are as fine as the edge.
+/// Requests the segment lengths along a prescribed edge, so that the faces beside it are as fine as the edge.
 void SizeSources::prescribed_edge(const CadEdge& edge, const PrescribedEdge& prescribed,
                                   const Sink& sink) const {
   const EdgeCurve curve(edge);
@@ -234,9 +234,9 @@ void SizeSources::uniform_face(FaceId id, double spacing, const PointSink& sink)
   }
 }
 
-/// Asks for options.proximity elements across each gap and, with options.short_edges, for elements along it
-/// that are at most four times as long as its two rows are wide. Not where these are below half the least
-/// size together, or in wedges, where rows end.
+/// Requests options.proximity elements across each gap and, with options.short_edges, elements along it that
+/// are at most four times as long as its two rows are wide. Not where these are below half the least size
+/// together, or in wedges, where rows end.
 void SizeSources::gaps(FaceId id, const Sink& sink) const {
   constexpr double rows = 2, longest = 4, least_width = 0.5, parallel = 0.2;
   // Rows come in pairs where quads are cut in four, so the number of elements is a minimum.
@@ -256,7 +256,7 @@ void SizeSources::gaps(FaceId id, const Sink& sink) const {
   }
 }
 
-/// Asks for options.proximity_walls elements through the thickness of each wall.
+/// Requests options.proximity_walls elements through the thickness of each wall.
 void SizeSources::walls(FaceId id, const Sink& sink) const {
   const double n = options_.proximity_walls;
   const CadFace& face = shape_.faces[id];

@@ -1,5 +1,5 @@
 #pragma once
-/// The sizes that a model's edges and faces ask for, as points. Internal.
+/// The sizes that a model's edges and faces request, as points. Internal.
 
 #include <functional>
 #include <optional>
@@ -19,18 +19,18 @@ namespace quadrille {
 /// Samples edges and faces at distances of about the local size. Thread-safe.
 class SizeSources {
  public:
-  /// Takes a point that asks for a size smaller than the largest.
+  /// Takes a point that requests a size smaller than the largest.
   using Sink = std::function<void(const Vector3& point, double size)>;
 
   SizeSources(const CadShape& shape, const SizingOptions& options, const SizeLimits& limits,
               const UnsizedFeatures& unsized, const SpatialSizes& spatial, const ExecutionContext& context);
 
-  /// Throws Error (usage) if the sizes asked for on edges alone exceed the budget of segments or of blocks.
+  /// Throws Error (usage) if the sizes requested on edges alone exceed the budget of segments or of blocks.
   void hold_segments() const;
 
-  /// What an edge asks for by its length, its curvature and its own size.
+  /// What an edge requests by its length, its curvature and its own size.
   void edge(EdgeId id, const Sink& sink) const;
-  /// What a face asks for inside.
+  /// What a face requests inside.
   void face(FaceId id, const Sink& sink) const;
 
   using PointSink = std::function<void(const Vector3& point)>;
@@ -70,7 +70,7 @@ class SizeSources {
   const SpatialSizes& spatial_;
   const ExecutionContext& context_;
   PrescribedEdges prescribed_;
-  std::optional<WallRays> rays_;  // set if walls ask for sizes
+  std::optional<WallRays> rays_;  // set if walls request sizes
 };
 
 }  // namespace quadrille

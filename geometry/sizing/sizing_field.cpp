@@ -148,7 +148,7 @@ class Builder {
     return field_.cascades_of(faces);
   }
 
-  /// Adds points anywhere in space. What they ask for on faces is sampled on the faces.
+  /// Adds points anywhere in space. What they request on faces is sampled on the faces.
   void add_points() {
     if (field_.on_surface) return;
     for (const auto& [p, size] : spatial_.points()) {
@@ -262,7 +262,7 @@ void visit_named_sizes(const CadModel& model, const SizingOptions& options, doub
   }
 }
 
-/// The smallest size that the user asks for anywhere.
+/// The smallest size that the user requests anywhere.
 double smallest(const CadModel& model, const SizingOptions& options, double size) {
   double result = std::numeric_limits<double>::infinity();
   visit_named_sizes(model, options, size, [&](Named, int, double own) { result = std::min(result, own); });
@@ -316,7 +316,7 @@ Error too_many_blocks(double blocks) {
 SizeLimits size_limits(const CadModel& model, const SizingOptions& options) {
   const double size = options.size > 0 ? options.size : model.diagonal() / options.elements_per_diagonal;
   const double least = options.size_min > 0 ? std::min(options.size_min, size) : size / 8;
-  // A number of elements across gaps is asked for by name; the default lower limit must not undercut it.
+  // A number of elements across gaps is requested by name; the default lower limit must not undercut it.
   const double at_gaps = options.proximity > 0 && options.size_min <= 0 ? size / 32 : least;
   return {size, std::min({least, at_gaps, smallest(model, options, size)}), least};
 }

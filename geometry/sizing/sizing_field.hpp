@@ -28,22 +28,22 @@ SizeLimits size_limits(const CadModel& model, const SizingOptions& options);  //
 /// those sizes.
 EdgeFlags edges_below_size_min(const CadModel& model, const SizingOptions& options, const SizeLimits& limits);
 
-/// The size that a curvature (1 / length) asks for, from limits.size_min to limits.largest.
+/// The size that a curvature (1 / length) requests, from limits.size_min to limits.largest.
 double size_of_curvature(const SizingOptions& options, const SizeLimits& limits, double curvature);
 
 /// Features that set no sizes of their own: too small, or meshed by rows of flat quads. Empty = none.
 struct UnsizedFeatures {
   EdgeFlags edges;    ///< 1 = the edge
   FaceFlags faces;    ///< 1 = the face
-  EdgeFlags divided;  ///< 1 = its prescribed division asks for no sizes
-  EdgeFlags layered;  ///< 1 = its layers ask for no sizes
-  /// Whether an edge asks for no sizes.
+  EdgeFlags divided;  ///< 1 = its prescribed division requests no sizes
+  EdgeFlags layered;  ///< 1 = its layers request no sizes
+  /// Whether an edge requests no sizes.
   bool edge(EdgeId id) const { return !edges.empty() && edges[id] != 0; }
-  /// Whether the prescribed division of an edge asks for no sizes.
+  /// Whether the prescribed division of an edge requests no sizes.
   bool is_divided(EdgeId id) const { return !divided.empty() && divided[id] != 0; }
-  /// Whether the layers of an edge ask for no sizes.
+  /// Whether the layers of an edge request no sizes.
   bool is_layered(EdgeId id) const { return !layered.empty() && layered[id] != 0; }
-  /// Whether a face asks for no sizes.
+  /// Whether a face requests no sizes.
   bool face(FaceId id) const { return !faces.empty() && faces[id] != 0; }
 };
 
@@ -53,7 +53,7 @@ double field_voxel(double size_max, double size, double growth);
 /// The error for a field that would take so many blocks (see Budget) or more.
 Error too_many_blocks(double blocks);
 
-/// Whether the options ask for sizes by curvature.
+/// Whether the options request sizes by curvature.
 bool has_curvature_sizes(const SizingOptions& options);
 
 struct CascadeFrame;
@@ -63,7 +63,7 @@ CascadeFrame frame_of(const CadModel& model, const SizingOptions& options, const
 
 /// h(x): the largest size below every source that satisfies the gradation |grad h| <= growth.
 ///
-/// Sources are the global size, curvature of faces and edges, lengths of short edges, sizes asked for on
+/// Sources are the global size, curvature of faces and edges, lengths of short edges, sizes requested on
 /// faces, edges and vertices, gaps inside faces, walls, regions, points, layers, and an external grid. They
 /// are sampled on the model. Values are stored in cascades of OpenVDB float grids with voxels of
 /// size_max/2^k. Each grid is active only where the size is about its voxel, so small features cost no more

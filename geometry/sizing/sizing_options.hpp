@@ -54,7 +54,7 @@ struct SizeRegion {
 
 /// The number of segments of a CAD edge, and the ratios of their lengths.
 struct EdgeSpacing {
-  int segments = 0;      ///< number of segments; 0 = from the size asked for on the edge
+  int segments = 0;      ///< number of segments; 0 = from the size requested on the edge
   double bias = 1;       ///< length ratio of each segment to the one before, in the edge's direction
   double bias_both = 1;  ///< the same ratio from both ends to the middle
 };
@@ -98,10 +98,10 @@ enum class Gradation { surface, space };
 struct SizingOptions {
   double size = 0;                    ///< global target length; 0 = diagonal / elements_per_diagonal
   double elements_per_diagonal = 60;  ///< elements along the diagonal of the model's bounding box
-  double size_min = 0;                ///< lower limit of sizes, unless users ask for less; 0 = size / 8
+  double size_min = 0;                ///< lower limit of sizes, unless users request less; 0 = size / 8
   double elements_per_circle = 12;    ///< elements per 2 pi of curvature; 0 = curvature is ignored
   ChordError chord_error;             ///< applies in addition to elements_per_circle
-  bool short_edges = true;            ///< edges and parts of faces that are small ask for small sizes
+  bool short_edges = true;            ///< edges and parts of faces that are small request small sizes
   double proximity = 0;               ///< elements across a gap inside a face; 0 = any number
   double proximity_walls = 0;         ///< elements through the thickness of a wall; 0 = any number
   double growth = 0.3;                ///< gradation: largest |grad size|
@@ -111,7 +111,7 @@ struct SizingOptions {
   std::map<int, double> vertex_sizes;        ///< CAD vertex -> size at it
   std::vector<SizeRegion> regions;           ///< regions of space with sizes
   ByElement<SizeLayers> layers;              ///< sizes by the distance from faces, edges and vertices
-  std::map<int, EdgeSpacing> spacings;       ///< CAD edge -> its division, whatever else is asked for
+  std::map<int, EdgeSpacing> spacings;       ///< CAD edge -> its division, whatever else is requested
   std::set<int> kept_faces;                  ///< CAD faces whose edges are kept too
   std::set<int> kept_edges;                  ///< CAD edges that are not suppressed, and that no quad crosses
   std::vector<MatchedPair> matches;          ///< faces and edges that get the same nodes as others

@@ -1,4 +1,4 @@
-/// Distances to regions, the text of point files, and what points ask for at a place.
+/// Distances to regions, the text of point files, and what points request at a place.
 
 #include "geometry/sizing/spatial_sizes.hpp"
 
@@ -134,7 +134,7 @@ void SpatialSizes::open_external(const CadModel& model, const SizingOptions& opt
                                  ExecutionContext& context) {
   const std::string path = options.size_field.string();
   // OpenVDB trusts the lengths in a damaged file. So try to open it in a child process first, which may crash
-  // or ask for too much memory.
+  // or request too much memory.
   constexpr std::size_t room = std::size_t{1} << 30, room_each_byte = 20;
   std::error_code unknown;
   const std::uintmax_t bytes = std::filesystem::file_size(options.size_field, unknown);

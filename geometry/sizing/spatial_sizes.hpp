@@ -17,7 +17,7 @@ namespace quadrille {
 /// Reads lines x,y,z,size, with or without a header line. Throws Error (failure) for anything else.
 std::vector<SizePoint> read_size_points(const std::filesystem::path& path);
 
-/// The smallest size asked for by position. Thread-safe.
+/// The smallest size requested by position. Thread-safe.
 class SpatialSizes {
  public:
   /// Throws Error: failure for files that cannot be read, usage for sources that do not reach the model.
@@ -27,7 +27,7 @@ class SpatialSizes {
   bool empty() const { return regions_.empty() && !external_ && points_.empty(); }
   /// The size at a point, within the limits.
   double at(const Vector3& point) const;
-  /// The size for a corner of the voxel around a point that asks for a size. If the size comes from one of
+  /// The size for a corner of the voxel around a point that requests a size. If the size comes from one of
   /// our own files, it is the file's size at the corner, so that sizes come out of the field as they are in
   /// the file. Otherwise it is the size at the point.
   double at_corner(const SizePoint& point, const Vector3& corner) const;

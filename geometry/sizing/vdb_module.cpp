@@ -56,7 +56,7 @@ struct ExternalField {
     return std::numeric_limits<double>::infinity();
   }
 
-  /// The least active corner of all grids: never larger than asked for, and free of background values.
+  /// The least active corner of all grids: never larger than requested, and free of background values.
   double least(const Vector3& p) const {
     double result = std::numeric_limits<double>::infinity();
     for (const auto& [grid, unit, limit] : grids) {

@@ -32,7 +32,7 @@ struct VdbField {
   double growth = 0;
 };
 
-/// The sizes that an external file asks for, in the file's own unit.
+/// The sizes that an external file requests, in the file's own unit.
 struct ExternalSizes {
   /// The least size of all grids at a point; for one of our own files the interpolated size of its cascade.
   /// Infinite where no grid has a value.

@@ -114,7 +114,7 @@ void end_with_input();
 class CancelOnSignal {
  public:
   /// \param time_limit seconds; 0 = none. \param partial work that lifts the context's time limit within a
-  /// second after its end goes on, to deliver what is done.
+  /// second after its end continues, to deliver what is done.
   explicit CancelOnSignal(ExecutionContext& context, double time_limit = 0, bool partial = false);
 
   /// Also limits the time until reading_is_done(): reading cannot be cancelled. \param seconds 0 = no limit.

@@ -179,7 +179,7 @@ nlohmann::json imprinted_to_json(const CadModel& model) {
   return result;
 }
 
-/// What was meshed, and what is known of it.
+/// The mesh, its model and their checks.
 struct Meshed {
   const CadModel& model;
   const std::optional<MidSurface>& middle;  ///< with --thin

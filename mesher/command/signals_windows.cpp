@@ -1,4 +1,4 @@
-/// Ctrl-C, time limits and crashes on Windows, where handlers and timers run in threads of their own.
+/// Ctrl-C, time limits and crashes on Windows, where handlers and timers run in separate threads.
 /// mesher/command/signals.cpp does the same for POSIX.
 #include <windows.h>
 

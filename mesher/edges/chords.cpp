@@ -151,7 +151,7 @@ class ChordSpacing {
     followed_[chords_.of(edge)] = true;
   }
 
-  /// Whether no segment would be far longer than the edge's own sizes ask for.
+  /// Whether no segment would be far longer than the edge's own sizes request.
   bool suits(EdgeId edge) const {
     constexpr double most = 2;
     const CountTable& table = tables_[edge];

@@ -16,7 +16,7 @@ struct SamplingPlan;
 /// look at the outline again.
 struct FacePlan {
   FaceSides sides;                 ///< of its grid, with facing sides whose counts match
-  std::vector<RowLine> row_lines;  ///< along which it gets rows, if it is not a grid with such rows
+  std::vector<RowLine> row_lines;  ///< along which it gets rows, if it is not a grid with these rows
   /// Segments of the final mesh for each segment of the mesh that is recombined: 2 for faces that are
   /// subdivided, unless one of their edges has an odd number of segments, or rows end on one; else 1.
   int stride = 1;

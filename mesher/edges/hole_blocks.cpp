@@ -112,7 +112,7 @@ class HoleFitter {
     const Vector2 along = 0.5 * (corners[1] - corners[0] + corners[2] - corners[3]),
                   up = 0.5 * (corners[3] - corners[0] + corners[2] - corners[1]);
     const double area = along.x() * up.y() - along.y() * up.x();
-    constexpr double least_sine = 0.1;  // below, the sides are no frame to measure places in
+    constexpr double least_sine = 0.1;  // below, the sides are not a frame to measure places in
     if (!(std::abs(area) > least_sine * along.norm() * up.norm())) return {};
     const auto share_of = [&](const Vector2& uv) {
       const Vector2 p = uv.cwiseProduct(scale) - corners[0];

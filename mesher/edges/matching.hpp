@@ -24,7 +24,7 @@ struct MatchedFace {
   std::vector<MatchedEdge> edges;  ///< all of the first face's edges, also those that stay in place
 };
 
-/// A pair that users asked for, and how far its nodes may lie from the moved ones.
+/// A pair that users requested, and how far its nodes may lie from the moved ones.
 struct MatchLink {
   MatchedPair pair;
   double tolerance = 0;            ///< the model's own, model units
@@ -34,7 +34,7 @@ struct MatchLink {
 };
 
 struct Matches {
-  std::vector<MatchLink> links;    ///< as asked for
+  std::vector<MatchLink> links;    ///< as requested
   std::vector<MatchedEdge> edges;  ///< in the order in which nodes are copied: an edge is copied to once
   std::vector<MatchedFace> faces;  ///< likewise
   EdgeFlags matched_edges;         ///< 1 = in some pair, or on the boundary of a face in some pair

@@ -166,7 +166,7 @@ class RowLineFinder {
     return coedge.forward ? edge.first_vertex : edge.last_vertex;
   }
 
-  /// Asks for sizes where rows end freely, and where another face has the short segments on which they end.
+  /// Requests sizes where rows end freely, and where another face has the short segments on which they end.
   void note_step(RowLine::End end, const Coedge& beside, VertexId vertex, const SizeLayers& layers) {
     if (end == RowLine::End::meets && shape_.edges[beside.edge].faces.size() == 1) return;
     if (vertex.exists()) lines_.steps.emplace(vertex, layers);

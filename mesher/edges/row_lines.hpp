@@ -14,7 +14,7 @@
 
 namespace quadrille {
 
-/// Heights of the rows that layers ask for.
+/// Heights of the rows that layers request.
 std::vector<double> heights_of(const SizeLayers& layers);
 
 /// Consecutive edges of a wire with rows beside them.
@@ -22,7 +22,7 @@ struct RowLine {
   enum class End {
     none,   ///< the line is closed
     meets,  ///< the rows end on the edge beside the line: its first segments are as long as they need
-    free    ///< that edge runs away at a large angle: the rows end in a line of their own
+    free    ///< that edge runs away at a large angle: the rows end in a separate line
   };
   std::vector<EdgeId> edges;                      ///< in the order of the wire
   std::vector<double> heights;                    ///< of the rows, from the edges inward

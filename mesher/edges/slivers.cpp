@@ -212,7 +212,7 @@ class SliverFinder {
     }
     if (curve.straight()) return;
     // A curve of length s between points at distance c is nowhere farther from them than this; by parameter
-    // the pieces are not equally long, hence the factor.
+    // the pieces are not equally long, which the factor allows for.
     const double s = 1.5 * edge.length / intervals;
     for (int i = 0; i < intervals; ++i) {
       const double c = (to.points[i + 1] - to.points[i]).norm();

@@ -9,11 +9,10 @@
 
 namespace quadrille {
 
-/// Raises the counts that edges of four-sided faces and the rest of their chords want, until quads are at
+/// Raises the wanted counts of edges of four-sided faces and of the rest of their chords until quads are at
 /// most four times as long as the rows are wide. The width of the rows is known once counts are chosen. A
 /// face that would need more than three times as many segments is left as it is. \param sides as
-/// choose_counts() left them. \return whether anything was raised, so that counts must
-/// be chosen again.
+/// choose_counts() left them. \return whether anything was raised, so that counts must be chosen again.
 bool refine_along_strips(const CadShape& shape, const FaceOutlines& sides, const EdgeCounts& chosen,
                          IdVector<EdgeId, CountTable>& tables, CountWishes& wishes);
 

@@ -33,7 +33,7 @@ struct HoleRings {
   /// Node j of the outer line of hole i has the index node(holes[i].first + j) there, which is negative.
   FaceBoundary inside;
   std::vector<Hole> holes;
-  bool has_rows = false;  ///< some have heights that were asked for
+  bool has_rows = false;  ///< some have prescribed heights
   EdgeId unfit;           ///< an edge along which rows do not fit; then nothing else counts
 
   static int node(int number) { return -2 - number; }  ///< index of a node from its number among all holes
@@ -45,8 +45,8 @@ struct HoleRings {
 /// segment, there are fewer rings or none. \param domain enclosed by the boundary \param rings largest number
 /// per hole, in rows of the final mesh. Time: O(n log n) in the boundary's points if these are spread out.
 ///
-/// Along lines it places rows of just the heights asked for instead, with or without corners, see
-/// place_rows(). Chains, which are part of a loop, need a boundary with stride 1.
+/// Along lines it places rows of the prescribed heights instead, with or without corners, see place_rows().
+/// Chains, which are part of a loop, need a boundary with stride 1.
 HoleRings place_rings(const FaceBoundary& boundary, const FaceSurface& surface, const TrimmedDomain& domain,
                       int rings, const std::vector<RowLine>& lines = {});
 

@@ -101,7 +101,7 @@ class PointGrid {
 /// A limit for damaged files, whose faces may be unbounded.
 constexpr std::size_t most_points = 20'000'000;
 
-/// Boundary segments are shorter or longer than the sizing field wants where edges share their counts with
+/// Boundary segments are shorter or longer than the size in the field where edges share their counts with
 /// others. Sizes start as those of the segments, at least `least_ratio` and at most `most_ratio` times the
 /// field's. Each step away from the boundary reduces the difference to the field by the factor `ratio_decay`.
 constexpr double least_ratio = 0.4, most_ratio = 1.2, ratio_decay = 0.7;
@@ -113,7 +113,7 @@ struct FrontPoint {
   Vector3 normal;
   Vector3 direction;  // unit tangent: one of the four directions of the cross
   double size = 0;
-  double ratio = 1;  // size over what the sizing field wants there
+  double ratio = 1;  // size over that of the sizing field there
   bool proposes = false;
 };
 

@@ -35,7 +35,7 @@ struct Spokes {
 };
 
 /// Fills three or five sides around a point. \param sides their points from corner to corner; each ends where
-/// the next one begins \param middle makes the point amid the feet of the rows \param row makes a row of
+/// the next one begins \param middle makes the point between the feet of the rows \param row makes a row of
 /// points from one to another, as a number of segments \param grid fills a loop of four sides
 /// \return whether the numbers of segments allow it.
 template <class Middle, class Row, class Grid>

@@ -275,8 +275,8 @@ class InpReader {
         }
   }
 
-  /// Whether our own files contain this set in any case: of everything, or of the elements with a certain
-  /// side on an edge. Such sets are written anew, so they are not read.
+  /// Whether our own files always contain this set: of everything, or of the elements with a certain side on
+  /// an edge. Such sets are written anew, so they are not read.
   bool is_made_anew(const std::string& upper_name) const {
     if (upper_name == "NALL" || upper_name == "EALL" || upper_name == "EOTHER") return true;
     const std::size_t side = upper_name.rfind("_SIDE");

@@ -38,7 +38,7 @@ void write_text(const OutputMesh& mesh, const std::string& ending, const WriteOp
     write_msh2(mesh, out);
 }
 
-/// \param output the mesh as it lies in the model.
+/// \param output the mesh in the coordinates of the model.
 void write_inp_text(const ShellMesh& mesh, const OutputMesh& output, const std::string& name,
                     const WriteOptions& options, TextWriter& out) {
   if (!lies_in_plane(options.element)) {

@@ -1,4 +1,4 @@
-/// Writes .brep and .step with OpenCASCADE, and what is known of each face as .json.
+/// Writes .brep and .step with OpenCASCADE, and the data of each face as .json.
 
 #include "mesher/io/midsurface_writer.hpp"
 

@@ -9,8 +9,8 @@
 
 namespace quadrille {
 
-/// What is known of a middle surface: for each face its area, thickness (mean, least and largest) and the
-/// faces of the solid between which it lies, and the results of the checks.
+/// The data of a middle surface: for each face its area, thickness (mean, least and largest) and the faces of
+/// the solid between which it lies, and the results of the checks.
 QUADRILLE_API nlohmann::json midsurface_json(const MidSurface& middle);
 
 /// Writes the faces of the middle surface as .brep, .brp, .step or .stp, or midsurface_json() as .json. The

@@ -1,4 +1,4 @@
-/// The ending tells the reader: .vtu goes to VTK's module, everything else is read as .frd.
+/// Chooses the reader by the ending: .vtu goes to VTK's module, everything else is read as .frd.
 
 #include "mesher/io/result_reader.hpp"
 

@@ -37,7 +37,7 @@ void write_set(const std::string& name, const std::vector<char>& members, TextWr
   for (const char member : members) out << static_cast<int>(member) << '\n';
 }
 
-/// Writes sets of shell elements, then those of segments and corners, which are no cells here, as node sets.
+/// Writes sets of shell elements, then those of segments and corners, which are not cells here, as node sets.
 void write_set_arrays(const OutputMesh& mesh, TextWriter& out) {
   std::vector<std::string> of_nodes;
   for (const std::string& name : mesh.set_names()) {

@@ -180,8 +180,8 @@ struct ShellMesh {
   std::vector<int> triangle_faces;            ///< CAD face of each triangle, from 1
   std::vector<Segment> segments;              ///< the sides on CAD edges, each once
   std::vector<Corner> corners;                ///< the nodes on CAD vertices and those of placed_nodes
-  std::vector<PlacedNode> placed_nodes;       ///< in the order in which they were asked for
-  std::vector<Match> matches;                 ///< in the order in which they were asked for
+  std::vector<PlacedNode> placed_nodes;       ///< in the order in which they were requested
+  std::vector<Match> matches;                 ///< in the order in which they were requested
   std::vector<OffGeometry> off_geometry;      ///< ascending by node; usually empty
   std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; for faces see Face::status
   std::vector<Kept> kept;                     ///< faces, then edges, ascending

@@ -127,8 +127,8 @@ void join_twins(const TriangleMesh& mesh, Join&& join) {
 /// The side of the other triangle at each side, by triangle and side; -1 = none.
 using Twins = std::vector<std::array<Side, 3>>;
 
-/// Numbers the pieces that triangles form across sides, from 0. \param is_open whether a piece goes on across
-/// a side that has a twin \param pieces out: piece of each triangle. \return their number.
+/// Numbers the pieces that triangles form across sides, from 0. \param is_open whether a piece continues
+/// across a side that has a twin \param pieces out: piece of each triangle. \return their number.
 template <class Open>
 int number_pieces(const Twins& twins, Open&& is_open, std::vector<int>& pieces) {
   pieces.assign(twins.size(), -1);

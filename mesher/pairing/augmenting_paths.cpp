@@ -92,7 +92,7 @@ class PathFinder {
   }
 
  private:
-  /// What the search knows of a triangle; zero where it was never reached.
+  /// The state of the search at a triangle; zero where it was never reached.
   struct Node {
     int search;  // stamp of the search that reached it
     int seen;    // stamp of the search for a common base that passed it

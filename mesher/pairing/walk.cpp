@@ -162,7 +162,7 @@ class Walker {
         coloring_.pair(entry);
         return true;
       }
-      // Pairs that this walk has recut are no longer what the search saw.
+      // Pairs that this walk has recut differ from those that the search found.
       if (contains(recut_, triangle_of(entry)) || contains(recut_, triangle_of(way_[k + 1]))) return false;
       if (!step(entry, way_[k + 1], at)) return false;
     }

@@ -1,4 +1,5 @@
-/// Grows a patch to the nearest irregular nodes, fills its outline anew, and keeps what is no worse.
+/// Grows a patch to the nearest irregular nodes, fills its outline anew, and keeps the result if it is not
+/// worse.
 
 #include "mesher/quads/cavities.hpp"
 

@@ -11,7 +11,7 @@ namespace quadrille {
 /// to four corners. The patch is refilled if its quads then lie nearer to the industry criteria on average,
 /// or only a little farther away for each irregular node saved. The mesh around the patch stays: each node of
 /// the outline keeps its number of quads. Only boundary nodes whose quads are all inside the patch get as
-/// many quads as their angle asks for.
+/// many quads as their angle requires.
 ///
 /// Time: linear in the irregular nodes; a patch has at most 150 quads. Based on: Verma & Tautges, Jaal:
 /// engineering a high quality all-quadrilateral mesh generator (2011), for convex patches around irregular

@@ -124,7 +124,7 @@ class LevelPlane : public MeshSurface {
   double z_;
 };
 
-/// The elements of one tag, with a numbering of the points of their own.
+/// The elements of one tag, with their own numbering of the points.
 struct Patch {
   TriangleMesh triangulation;
   QuadMesh quads;

@@ -35,7 +35,7 @@ struct FeatureNetwork {
 /// The rules by which the surface is divided into faces.
 struct FeatureRules {
   double angle = 40;  ///< a side is a fold if the normals beside it differ by more degrees; 0 = no folds
-  double size = 0;    ///< element size, millimeters; folds and faces that are far smaller are no features
+  double size = 0;    ///< element size, millimeters; folds and faces that are far smaller are not features
   std::map<std::pair<int, int>, int> sides;  ///< sides to keep: their points, ascending -> edge number
   std::vector<char> fixed;                   ///< (points) 1 = a corner if a curve passes through the point
 };

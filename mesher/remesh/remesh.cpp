@@ -512,7 +512,7 @@ class Remesher : public ShellGeometry {
       if (same < 0) {
         same = static_cast<int>(nodes_.points.size());
         nodes_.points.push_back(place);
-        // The start of a closed curve without corners is no corner.
+        // The start of a closed curve without corners is not a corner.
         if (corner >= 0 && network_.corner[corner]) nodes_.vertex_nodes.push_back(same);
       }
       node[point] = same;

@@ -21,7 +21,7 @@ struct RemeshOptions {
   /// none, and two nodes at the same position are refused.
   double merge = -1;
   int order = 1;               ///< 1 or 2
-  bool force = false;          ///< go on even if the mesh would exceed 50 million elements or the memory
+  bool force = false;          ///< continue even if the mesh would exceed 50 million elements or the memory
   RecombineOptions recombine;  ///< how triangles are paired
   ImproveOptions improve;      ///< how quads are improved
 };

@@ -115,7 +115,7 @@ class TriangleRemesher {
       const auto& [a, b, c] = surface_.triangles[t];
       const Face face = mesh_.add_face(Vertex(a), Vertex(b), Vertex(c));
       if (face == Mesh::null_face())
-        throw failure("", "the surface touches itself where its triangles cannot be told apart");
+        throw failure("", "the surface touches itself where its triangles cannot be distinguished");
       patch_[face] = network_.patches[t];
     }
     for (std::size_t c = 0; c < network_.curves.size(); ++c) {
@@ -301,7 +301,7 @@ class TriangleRemesher {
     return true;
   }
 
-  /// Sides on curves are not split, because their nodes are given, unless folds ask for smaller sizes.
+  /// Sides on curves are not split, because their nodes are given, unless folds require smaller sizes.
   bool may_not_split(Edge e) const {
     if (!on_curve(e)) return false;
     return cap_[mesh_.vertex(e, 0)] == infinity && cap_[mesh_.vertex(e, 1)] == infinity;

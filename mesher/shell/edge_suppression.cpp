@@ -286,7 +286,7 @@ class Joining {
       add_surface(composite, mesh);
     } catch (const Error& error) {
       if (error.kind() != Error::Kind::failure) throw;
-      return std::nullopt;  // quads with two sides in common make triangles that are no manifold
+      return std::nullopt;  // quads with two sides in common make triangles that are not manifold
     }
     return mesh;
   }

@@ -22,7 +22,7 @@ struct CompositeFace {
   std::shared_ptr<const CompositeSurface> surface;               ///< of all
 };
 
-/// Takes faces as one where they meet smoothly, within 10 degrees all along an edge, and a quad at the edge
+/// Treats faces as one where they meet smoothly, within 10 degrees all along an edge, and a quad at the edge
 /// is outside the industry criteria: nodes may then move over both faces, on their surfaces, and patches may
 /// be refilled across the edge. The first member gets the mesh of all; the meshes of the others become empty.
 /// \param kept 1 = the edge stays. So do edges with a prescribed spacing, free and non-manifold edges, and

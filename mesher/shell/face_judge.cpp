@@ -1,4 +1,4 @@
-/// Measures the share of quads outside the usual limits, the number of quads beside what the sizes ask for,
+/// Measures the share of quads outside the usual limits, the number of quads beside what the sizes request,
 /// and their shapes.
 
 #include "mesher/shell/face_judge.hpp"

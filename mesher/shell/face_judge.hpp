@@ -14,14 +14,14 @@ namespace quadrille {
 /// 150th of their diagonals.
 struct FaceThresholds {
   /// A grid is kept without a look at other meshes up to this share of quads outside the limits; one with
-  /// steps has corners of its own, which other meshes do without.
+  /// steps has corners of its own, which other meshes do not have.
   double outside_of_grid = 0.05, outside_of_steps = 0.01;
   /// The share outside the limits in a grid must fall by this factor with another mesh.
   double gain = 2, gain_of_steps = 1;
   /// Where a grid is wasteful (GridWaste), the share of quads outside the limits in another mesh.
   double most_outside = 0.05;
   /// Quads cut in four are replaced by quads of the final size if there are more than `few` and this many
-  /// times those that the sizes ask for, or if their mean badness exceeds `poor` and falls by the factor
+  /// times those that the sizes request, or if their mean badness exceeds `poor` and falls by the factor
   /// `better`.
   std::size_t few = 200;
   double too_many = 1.4, poor = 0.1, better = 0.6;

@@ -15,13 +15,13 @@ namespace quadrille {
 /// The quads of one face, ready for assembly. The first `nodes.size()` points lie on the boundary.
 struct FaceMesh {
   std::vector<Vector3> points;
-  std::vector<Vector2> uv;                ///< (n) parameters on the surface
-  std::vector<char> pole;                 ///< (n) 1 = the point is a pole: its uv is one of many
-  std::vector<std::array<int, 4>> quads;  ///< counter-clockwise about the face's normal in the model
-  std::vector<int> nodes;                 ///< indices into BoundaryNodes::points
-  double q_min = 0;                       ///< lowest q of the quads
-  bool grid = false;                      ///< the face was meshed as a grid, see face_grid.hpp
-  bool rows = false;                      ///< rows of heights that were asked for: no node moves any more
+  std::vector<Vector2> uv;                     ///< (n) parameters on the surface
+  std::vector<char> pole;                      ///< (n) 1 = the point is a pole: its uv is one of many
+  std::vector<std::array<int, 4>> quads;       ///< counter-clockwise about the face's normal in the model
+  std::vector<int> nodes;                      ///< indices into BoundaryNodes::points
+  double q_min = 0;                            ///< lowest q of the quads
+  bool grid = false;                           ///< the face was meshed as a grid, see face_grid.hpp
+  bool rows = false;                           ///< rows with prescribed heights: no node moves any more
   std::shared_ptr<const MeshSurface> surface;  ///< surface that uv refer to; null = the face's own
   std::vector<Vector3> normals;  ///< (n) unit normals, if faces are taken as one (edge_suppression.hpp)
   /// (n) distance of each point from the surface, where quads on it would be inverted; empty = all lie on it.

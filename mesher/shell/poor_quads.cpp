@@ -175,7 +175,7 @@ class Finder {
   std::optional<Row> row_of(int quad, int shortest) const {
     Row result{length(quad, shortest), {}};
     for (const int direction : {1, 3}) {
-      constexpr int most = 8;  // rows: more are no strip
+      constexpr int most = 8;  // rows: more are not a strip
       int at = quad, k = (shortest + direction) & 3;
       int& end = result.edges[direction / 2];
       for (int row = 0; row < most && end == 0; ++row) {
