@@ -355,8 +355,7 @@ class Job {
     return !options_.partial || context_.seconds_left() > 0.1 * context_.time_limit();
   }
 
-  /// Finds the rows of quads for prescribed divisions and layers: in grids where possible, else along lines
-  /// of edges.
+  /// Finds the rows for prescribed divisions and layers: in grids if possible, else along lines of edges.
   void find_rows() {
     const SizingOptions& sizing = options_.sizing;
     if (sizing.spacings.empty() && sizing.layers.edges.empty()) return;
@@ -551,8 +550,7 @@ class Job {
     return order;
   }
 
-  /// For each face with a problem, restores the suppressed features around it or, if there are none, applies
-  /// a remedy.
+  /// For each face with a problem, restores the suppressed features around it, or else applies a remedy.
   /// \return false if nothing could be done for any face.
   bool treat() {
     bool any = false;

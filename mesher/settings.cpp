@@ -268,8 +268,7 @@ std::vector<Setting> make_table() {
        "leave out edges that are shorter and faces that are narrower than this length",
        [](Settings& v) -> double& { return v.mesh.merge_tiny; }},
       {"reach", "reach", "Reach", none, mesh, mm, 0, infinity, true, "half the minimum size",
-       "suppress edges that are shorter and faces that are narrower than this length, where that does no "
-       "harm",
+       "suppress edges shorter and faces narrower than this length, where that does no harm",
        [](Settings& v) -> double& { return v.mesh.reach; }},
       {"fill_holes", "fill-holes", "FillHoles", "Fill holes", mesh, mm, 0, infinity, true, "all are meshed",
        "leave out holes, pockets and bosses that are no wider than this length",
@@ -585,9 +584,8 @@ void check(const Settings& settings, const CadModel& model) {
     const char* name = spacing.segments > 0 ? "segments" : spacing.bias != 1 ? "bias" : "bias_both";
     check_names(entry(name), {edge}, "Edge", model.edge_count());
     if (spacing.bias != 1 && spacing.bias_both != 1)
-      throw refused(
-          entry("bias_both"),
-          fmt::format("names Edge{}, which already has a bias from one end: give only one of them", edge));
+      throw refused(entry("bias_both"),
+                    fmt::format("names Edge{}, which has a bias from one end: give one of them", edge));
   }
 }
 

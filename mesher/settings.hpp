@@ -93,8 +93,7 @@ QUADRILLE_API void assign(Settings& settings, const Setting& setting, const Sett
 /// the model: numbers outside their limits, names that the model does not have, lengths larger than it.
 QUADRILLE_API void check(const Settings& settings, const CadModel& model);
 
-/// The model as the settings request it: imprinted, then sewn. Throws Error as CadModel::imprinted() and
-/// sewn().
+/// The model imprinted, then sewn, if the settings request it. Throws Error as those functions of CadModel.
 QUADRILLE_API CadModel joined(const Settings& settings, const CadModel& model);
 
 /// The settings with the names of faces, edges and vertices replaced by those in the imprinted model: a name

@@ -12,8 +12,7 @@
 
 namespace quadrille {
 
-/// The folder of the program or shared library that contains this code; empty where the system does not
-/// report it.
+/// The folder of the program or shared library that contains this code; empty if not known.
 std::filesystem::path own_folder();
 
 /// An open module. It stays open until the program ends, since VTK and HDF5 cannot be unloaded safely.

@@ -1,5 +1,4 @@
-/// Joins edges by BRepBuilderAPI_Sewing, orients faces by connected pieces, and finds coincident faces by
-/// inner points.
+/// Joins edges by BRepBuilderAPI_Sewing, orients connected faces, and finds coincident faces by inner points.
 
 #include "geometry/cad/sewing.hpp"
 

@@ -178,8 +178,7 @@ std::vector<char> find_thick(const SolidMiddle& middle, const std::vector<WallEn
   return result;
 }
 
-/// Adds a problem with options.partial; otherwise throws it as an error. \param given what the option
-/// returns.
+/// Adds a problem with options.partial; otherwise throws it as an error. \param given what the option gives.
 void tell(const std::string& problem, const std::string& name, const MidSurfaceOptions& options,
           std::vector<std::string>& problems, std::string_view given = "the walls that were found") {
   if (!options.partial) throw failure(name, fmt::format("{}; `partial` gives {}", problem, given));

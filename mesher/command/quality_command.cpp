@@ -11,8 +11,7 @@ namespace quadrille::command {
 
 void add_quality_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "quality",
-      "measure a mesh: counts, q, Jacobians, valences, and the quads that fail the industry criteria");
+      "quality", "measure a mesh: counts, q, Jacobians, valence, and quads that fail the industry criteria");
   auto input = std::make_shared<std::filesystem::path>();
   auto limits_option = std::make_shared<LimitsOption>();
   command

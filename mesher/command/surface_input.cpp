@@ -28,7 +28,7 @@ void add_surface_options(CLI::App& command, std::optional<double>& feature_angle
       ->check(CLI::Range(0.0, 180.0));
   command
       .add_option("--merge", merge,
-                  "merge nodes at most this far apart, in mm; 0 = only nodes at the same position")
+                  "merge nodes at most this far apart, in mm; 0 = only at the same position")
       ->check(CLI::NonNegativeNumber);
 }
 

@@ -189,8 +189,7 @@ class EdgeSampler {
       const double turning = plan_.bare[i] ? 0 : tables_[i].turning;
       wishes_.least[i] =
           least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], result_.stride);
-      // The count that a face needs to be meshed at all has priority over the wanted counts of opposite
-      // edges.
+      // The count that a face needs to be meshed at all overrides the wanted counts of opposite edges.
       if (is_finer) wishes_.least[i] = std::max(wishes_.least[i], static_cast<int>(wanted));
       // Between grids, one segment may do for a straight edge, and for a short arc of up to a quarter turn.
       // Other curves keep their shape there as elsewhere.

@@ -1,5 +1,4 @@
-/// Derives the plan of a face from its outline, the counts on its edges and the divisions that users
-/// prescribe.
+/// Derives the plan of a face from its outline, the counts on its edges and prescribed divisions.
 
 #include "mesher/edges/face_plan.hpp"
 

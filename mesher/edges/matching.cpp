@@ -315,8 +315,7 @@ void turn_back(MatchedFace& face) {
   for (MatchedEdge& edge : face.edges) turn_back(edge);
 }
 
-/// Orders copies so that each one starts from existing nodes, and drops those whose target has been copied
-/// to.
+/// Orders copies so that each one starts from existing nodes, and drops those with a target copied before.
 template <class Copy>
 std::vector<Copy> in_order(const std::vector<Copy>& asked) {
   using Id = decltype(Copy::from);

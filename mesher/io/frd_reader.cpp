@@ -74,10 +74,7 @@ class FrdReader {
     std::string_view header = line_;
     while (!header.empty() && header.back() == ' ') header.remove_suffix(1);
     const char format = header.empty() ? ' ' : header.back();
-    if (format == '2' || format == '3')
-      throw bad(
-          "is binary: use *NODE FILE and *EL FILE instead of *NODE OUTPUT and *EL OUTPUT, so that CalculiX "
-          "writes text");
+    if (format == '2' || format == '3') throw bad("is binary: use *NODE FILE and *EL FILE, which write text");
     return format == '0' ? 8 : 13;
   }
 

@@ -130,8 +130,7 @@ void write_in_order(std::size_t count, TextWriter& out, Write&& write) {
     return std::exchange(next, next + at_once);
   };
   // The pipeline passes pointers, since it does not destroy what it holds when a filter throws. Texts are
-  // written in order, so those in progress are consecutive, and an entry of `texts` is free when it is used
-  // again.
+  // written in order, so those in progress are consecutive, and an entry of `texts` is free when reused.
   const int under_way = 2 * threads;
   std::vector<TextWriter> texts(under_way);
   const auto make_text = [&](std::size_t begin) {

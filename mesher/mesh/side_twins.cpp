@@ -43,8 +43,8 @@ void check_sides(const TriangleMesh& mesh) {
     if (sides.size() < 2) return;
     const Side side = sides[1];
     if (from(side) == from(sides[0])) {
-      fail(side, fmt::format("runs along its side {}-{} in the same direction as triangle {}", from(side),
-                             to(side), triangle_of(sides[0])));
+      fail(side, fmt::format("runs along its side {}-{} the same way as triangle {}", from(side), to(side),
+                             triangle_of(sides[0])));
     }
     if (sides.size() > 2)
       fail(sides[2], fmt::format("is the third on the side {}-{}", from(sides[2]), to(sides[2])));

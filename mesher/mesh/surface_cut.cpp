@@ -48,8 +48,7 @@ Twins neighbors(const TriangleMesh& mesh) {
 }
 
 /// Finds which triangles in the piece of `seed` must be reversed to match it.
-/// \param turned -1 = not visited yet; out: 1 = must be reversed, 0 = not. \return the triangles of the
-/// piece.
+/// \param turned -1 = not visited yet; out: 1 = to be reversed, 0 = not. \return the triangles of the piece.
 std::vector<int> agree_with(int seed, const TriangleMesh& mesh, const Twins& twins,
                             std::vector<char>& turned) {
   std::vector<int> piece{seed};

@@ -1,4 +1,4 @@
-/// Grows a patch to the nearest irregular nodes, fills its outline anew, and keeps the result if it is not
+/// Grows a patch to the nearest irregular nodes, refills its outline, and keeps the result if it is not
 /// worse.
 
 #include "mesher/quads/cavities.hpp"

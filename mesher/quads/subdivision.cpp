@@ -220,8 +220,7 @@ void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
         second{Triangle{a, b, d}, Triangle{b, c, d}};
     const double by_first = std::min(worst(first[0]), worst(first[1])),
                  by_second = std::min(worst(second[0]), worst(second[1]));
-    // A corner of 180 degrees must always be removed. One near that, as at cusps, is removed if the value
-    // doubles.
+    // Corners of 180 degrees are always cut. One near that, as at cusps, is cut if the value doubles.
     const double cut = std::max(by_first, by_second);
     if (cut < 0 || cut < whole + std::clamp(whole, flat, gain)) return false;
     const auto& parts = by_first > by_second ? first : second;

@@ -169,7 +169,7 @@ void make_second_order(const MeshedFaces& meshed, const ShellNumbering& numberin
   throw failure(
       name,
       fmt::format(
-          "{} has {} second-order elements that fold even with straight sides: try a smaller size on it",
+          "{} has {} second-order elements that fold even with straight sides: use a smaller size on it",
           name, count));
 }
 

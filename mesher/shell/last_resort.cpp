@@ -65,8 +65,7 @@ class LoopMesher {
   }
 
  private:
-  /// Sides are identified by the nodes of their ends, so that both sides of a seam or a bridge share a
-  /// middle.
+  /// Identifies sides by their end nodes, so that both sides of a seam or a bridge share a middle.
   std::uint64_t key(int a, int b) const { return side_key(mesh_.nodes[a], mesh_.nodes[b]); }
 
   void add_loop(const CadWire& wire) {

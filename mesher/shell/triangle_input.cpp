@@ -112,7 +112,7 @@ TriangleInput triangle_input(const ShellMesh& input, double merge, std::vector<s
   for (std::size_t v = 0; v < work.node.size(); ++v) merged += work.node[v] != static_cast<int>(v);
   if (merged > 0) notes.push_back(fmt::format("{} nodes were merged with others", merged));
   if (lost > 0)
-    notes.push_back(fmt::format("{} triangles lost their area by merging and are left out", lost));
+    notes.push_back(fmt::format("{} triangles lost their area by that merging: they are left out", lost));
   if (work.mesh.triangles.empty()) throw failure("", "no triangle is left");
   check_shapes(work.mesh);
   const int turned = orient_alike(work.mesh);

@@ -192,7 +192,7 @@ std::string complaint(const TriangleMesh& mesh) {
 TEST(Recombine, RefusesBadTriangulationsByName) {
   TriangleMesh mesh = strip(3);
   mesh.triangles[1] = {1, 3, 2};
-  EXPECT_EQ(complaint(mesh), "triangle 1 runs along its side 2-1 in the same direction as triangle 0");
+  EXPECT_EQ(complaint(mesh), "triangle 1 runs along its side 2-1 the same way as triangle 0");
   mesh = strip(2);
   mesh.points.emplace_back(0, 0, 1);
   mesh.triangles.push_back({1, 2, 4});
@@ -211,16 +211,13 @@ TEST(Recombine, RefusesBadTriangulationsByName) {
     const std::array<int, 3> first = mesh.triangles[0];
     mesh.points.emplace_back(3, 3, 0);
     mesh.triangles = {first, {first[0], first[1], 4}};
-    EXPECT_NE(complaint(mesh).find("in the same direction as triangle 0"), std::string::npos)
-        << complaint(mesh);
+    EXPECT_NE(complaint(mesh).find("the same way as triangle 0"), std::string::npos) << complaint(mesh);
     mesh.points.emplace_back(4, 4, 0);
     mesh.triangles.push_back({first[1], first[0], 5});
-    EXPECT_NE(complaint(mesh).find("in the same direction as triangle 0"), std::string::npos)
-        << complaint(mesh);
+    EXPECT_NE(complaint(mesh).find("the same way as triangle 0"), std::string::npos) << complaint(mesh);
     mesh.points.emplace_back(5, 4, 0);
     mesh.triangles.push_back({first[1], first[0], 6});
-    EXPECT_NE(complaint(mesh).find("in the same direction as triangle 0"), std::string::npos)
-        << complaint(mesh);
+    EXPECT_NE(complaint(mesh).find("the same way as triangle 0"), std::string::npos) << complaint(mesh);
     std::swap(mesh.triangles[1], mesh.triangles[2]);
     EXPECT_NE(complaint(mesh).find("is the third on the side"), std::string::npos) << complaint(mesh);
   }

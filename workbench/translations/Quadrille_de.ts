@@ -835,7 +835,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Auch Formelemente unterhalb der Reichweite vernetzen, statt sie wegzulassen, und kein Viereck eine glatte Kante überqueren lassen</translation>
     </message>
     <message>
-        <source>Suppress edges that are shorter and faces that are narrower than this length, where that does no harm; 0 = half the minimum size</source>
+        <source>Suppress edges shorter and faces narrower than this length, where that does no harm; 0 = half the minimum size</source>
         <translation>Kanten, die kürzer, und Flächen, die schmaler als diese Länge sind, weglassen, wo es nicht schadet; 0 = die Hälfte der kleinsten Größe</translation>
     </message>
     <message>

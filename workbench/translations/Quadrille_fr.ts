@@ -835,7 +835,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Mailler aussi les détails plus petits que la portée au lieu de les omettre, et ne laisser aucun quadrangle traverser une arête lisse</translation>
     </message>
     <message>
-        <source>Suppress edges that are shorter and faces that are narrower than this length, where that does no harm; 0 = half the minimum size</source>
+        <source>Suppress edges shorter and faces narrower than this length, where that does no harm; 0 = half the minimum size</source>
         <translation>Omettre les arêtes plus courtes et les faces plus étroites que cette longueur, là où cela ne nuit pas ; 0 = la moitié de la taille minimale</translation>
     </message>
     <message>
