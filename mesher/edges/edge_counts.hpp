@@ -33,9 +33,9 @@ struct EdgeCounts {
 /// loses its outline. \param sides in: as found; out: with facing sides only where their counts match. Chords
 /// that only grids use are counted in segments of the final mesh, others in multiples of the stride. With
 /// stride 2, wedges and strips may keep an odd boundary, since the remaining triangle is subdivided too.
-/// Fixed counts are kept. Other edges of the chord get the fixed count if they want between a quarter of it
-/// and four times it. Throws Error (usage, naming the edges) if a fixed count cannot be kept: an odd one on
-/// an edge of a face that needs even numbers, or one that leaves the boundary of a face odd.
+/// Fixed counts are kept. Other edges of the chord get the fixed count if their wanted counts are between a
+/// quarter of it and four times it. Throws Error (usage, naming the edges) if a fixed count cannot be kept:
+/// an odd one on an edge of a face that needs even numbers, or one that leaves the boundary of a face odd.
 EdgeCounts choose_counts(const CadShape& shape, const CountWishes& wishes, const TinyFeatures& tiny,
                          FaceOutlines& sides);
 
