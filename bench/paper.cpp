@@ -175,8 +175,7 @@ double bytes_per_triangle(const TriangleMesh& mesh, const RecombineOptions& opti
 json run_memory(const TriangleMesh& mesh) {
   RecombineOptions coloring;
   coloring.method = Method::paper;
-  const json entry = {{"coloring", bytes_per_triangle(mesh, coloring)},
-                      {"default", bytes_per_triangle(mesh, {})}};
+  json entry = {{"coloring", bytes_per_triangle(mesh, coloring)}, {"default", bytes_per_triangle(mesh, {})}};
   fmt::print("  peak memory, bytes a triangle: coloring {:.0f}, default {:.0f}\n",
              entry["coloring"].get<double>(), entry["default"].get<double>());
   std::fflush(stdout);
@@ -368,7 +367,9 @@ json run_best(const TriangleMesh& mesh) {
   json entry = measures(best);
   entry["seconds"] = seconds;
   const json free = measures(take(false));
-  entry["bound"] = free["q_mean"].get<double>() * free["quads"].get<double>() / (graph.size() / 2);
+  const std::size_t most_pairs = graph.size() / 2;
+  entry["bound"] =
+      free["q_mean"].get<double>() * free["quads"].get<double>() / static_cast<double>(most_pairs);
   return entry;
 }
 #endif

@@ -75,7 +75,9 @@ class HoleFitter {
     for (std::size_t wire = 0; wire < face.wires.size(); ++wire) {
       if (static_cast<int>(wire) != sides.outer && !has_size_of(face.wires[wire], side)) return std::nullopt;
     }
-    const std::vector<HolePlace> shares = places(face, sides);
+    std::vector<HolePlace> shares;
+    for (const HoleShares& hole : shares_of_holes(shape_, face, sides))
+      shares.push_back(place_of(hole, [](const Vector2& share) { return share; }));
     if (shares.empty()) return std::nullopt;
     const GridSize grid{best_count(shares, 0, now.columns), best_count(shares, 1, now.rows)};
     Fit result{{},
@@ -101,38 +103,6 @@ class HoleFitter {
     int sum = 0;
     for (const SideEdge& edge : sides.facing[which].first) sum += chosen_.counts[edge.edge];
     return sum;
-  }
-
-  /// The boxes of the holes as shares of the way between facing sides; empty if the outline has no area.
-  std::vector<HolePlace> places(const CadFace& face, const FaceSides& sides) const {
-    const Vector2 scale = FaceSurface(face).mean_scale();
-    std::array<Vector2, 4> corners;
-    for (std::size_t k = 0; k < 4; ++k)
-      corners[k] = start_of(face.wires[sides.outer].coedges[sides.starts[k]]).cwiseProduct(scale);
-    const Vector2 along = 0.5 * (corners[1] - corners[0] + corners[2] - corners[3]),
-                  up = 0.5 * (corners[3] - corners[0] + corners[2] - corners[1]);
-    const double area = along.x() * up.y() - along.y() * up.x();
-    constexpr double least_sine = 0.1;  // below, the sides are not a frame to measure places in
-    if (!(std::abs(area) > least_sine * along.norm() * up.norm())) return {};
-    const auto share_of = [&](const Vector2& uv) {
-      const Vector2 p = uv.cwiseProduct(scale) - corners[0];
-      return Vector2((p.x() * up.y() - p.y() * up.x()) / area,
-                     (along.x() * p.y() - along.y() * p.x()) / area);
-    };
-    std::vector<HolePlace> result;
-    for (std::size_t wire = 0; wire < face.wires.size(); ++wire) {
-      if (static_cast<int>(wire) == sides.outer) continue;
-      HolePlace place;
-      for (const Vector2& uv : points_along(face.wires[wire])) place.include(share_of(uv));
-      for (const Coedge& coedge : face.wires[wire].coedges) place.note_vertex(share_of(start_of(coedge)));
-      result.push_back(place);
-    }
-    return result;
-  }
-
-  Vector2 start_of(const Coedge& coedge) const {
-    const CadEdge& edge = shape_.edges[coedge.edge];
-    return parametric_point(coedge, coedge.forward ? edge.first : edge.last);
   }
 
   /// The count near `now` that suits the holes best. \param axis 0 = columns, 1 = rows
@@ -165,23 +135,44 @@ class HoleFitter {
     return ratio > least_hole_ratio && ratio < largest_hole_ratio;
   }
 
-  std::vector<Vector2> points_along(const CadWire& wire) const {
-    constexpr int samples = 32;
-    std::vector<Vector2> points;
-    for (const Coedge& coedge : wire.coedges) {
-      const CadEdge& edge = shape_.edges[coedge.edge];
-      for (int i = 0; i <= samples; ++i)
-        points.push_back(parametric_point(coedge, edge.first + (edge.last - edge.first) * i / samples));
-    }
-    return points;
-  }
-
   const CadShape& shape_;
   const EdgeCounts& chosen_;
   const IdVector<EdgeId, CountTable>& tables_;
 };
 
 }  // namespace
+
+std::vector<HoleShares> shares_of_holes(const CadShape& shape, const CadFace& face, const FaceSides& sides) {
+  constexpr int samples = 32;
+  const Vector2 scale = FaceSurface(face).mean_scale();
+  const auto place = [&](const Coedge& coedge, double share) -> Vector2 {
+    const CadEdge& edge = shape.edges[coedge.edge];
+    const double t = edge.first + (edge.last - edge.first) * (coedge.forward ? share : 1 - share);
+    return parametric_point(coedge, t).cwiseProduct(scale);
+  };
+  std::array<Vector2, 4> corners;
+  for (std::size_t k = 0; k < 4; ++k) corners[k] = place(face.wires[sides.outer].coedges[sides.starts[k]], 0);
+  const Vector2 along = 0.5 * (corners[1] - corners[0] + corners[2] - corners[3]),
+                up = 0.5 * (corners[3] - corners[0] + corners[2] - corners[1]);
+  const double area = along.x() * up.y() - along.y() * up.x();
+  constexpr double least_sine = 0.1;  // below, the sides are not a frame to measure places in
+  if (!(std::abs(area) > least_sine * along.norm() * up.norm())) return {};
+  const auto share_of = [&](const Vector2& at) {
+    const Vector2 p = at - corners[0];
+    return Vector2((p.x() * up.y() - p.y() * up.x()) / area, (along.x() * p.y() - along.y() * p.x()) / area);
+  };
+  std::vector<HoleShares> result;
+  for (std::size_t wire = 0; wire < face.wires.size(); ++wire) {
+    if (static_cast<int>(wire) == sides.outer) continue;
+    HoleShares& hole = result.emplace_back();
+    for (const Coedge& coedge : face.wires[wire].coedges) {
+      hole.vertices.push_back(share_of(place(coedge, 0)));
+      for (int i = 0; i < samples; ++i)
+        hole.points.push_back(share_of(place(coedge, static_cast<double>(i) / samples)));
+    }
+  }
+  return result;
+}
 
 std::optional<HoleBlock> block_of(const HolePlace& hole, int nodes, const GridSize& grid) {
   const Vector2 extent = hole.high - hole.low;

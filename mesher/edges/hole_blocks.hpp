@@ -11,6 +11,15 @@
 
 namespace quadrille {
 
+/// A hole's boundary as shares of the way between the facing sides of its face: x along the first one.
+struct HoleShares {
+  std::vector<Vector2> points, vertices;
+};
+
+/// The holes of a face that has four corners outside, by wire without the outline; empty if the outline has
+/// no area.
+std::vector<HoleShares> shares_of_holes(const CadShape& shape, const CadFace& face, const FaceSides& sides);
+
 /// The bounding box of a hole in a grid, in cells counted from the first column and row.
 struct HolePlace {
   Vector2 low = Vector2::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -47,6 +56,15 @@ struct HoleBlock {
 /// \param nodes number of nodes around the hole; 0 = as many as suit the block. \return nothing if no block
 /// of that many nodes is larger than the hole by no more than a few cells.
 std::optional<HoleBlock> block_of(const HolePlace& hole, int nodes, const GridSize& grid);
+
+/// The place of a hole. \param cell_at turns shares into cells.
+template <class CellAt>
+HolePlace place_of(const HoleShares& hole, CellAt&& cell_at) {
+  HolePlace place;
+  for (const Vector2& point : hole.points) place.include(cell_at(point));
+  for (const Vector2& vertex : hole.vertices) place.note_vertex(cell_at(vertex));
+  return place;
+}
 
 /// Whether at least one row of cells lies between any two blocks, and between blocks and the grid's outline.
 bool keep_apart(const std::vector<HoleBlock>& blocks, const GridSize& grid);

@@ -11,7 +11,6 @@
 
 #include "geometry/base/whole_number.hpp"
 #include "mesher/edges/count_table.hpp"
-#include "mesher/edges/hole_blocks.hpp"
 #include "mesher/faces/spokes.hpp"
 #include "mesher/faces/step_layout.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
@@ -31,9 +30,14 @@ Line turned(Line line) {
 
 class GridMaker {
  public:
-  GridMaker(const FaceBoundary& boundary, const FaceSides& sides, const FaceSurface& surface,
+  GridMaker(const FaceBoundary& boundary, const FacePlan& plan, const FaceSurface& surface,
             SizingField::Sampler& size_at, const ExecutionContext& context)
-      : boundary_(boundary), sides_(sides), surface_(surface), size_at_(size_at), check_(context) {}
+      : boundary_(boundary),
+        plan_(plan),
+        sides_(plan.sides),
+        surface_(surface),
+        size_at_(size_at),
+        check_(context) {}
 
   std::optional<FaceGrid> run() {
     if (sides_.kind == GridKind::other || !find_loops()) return std::nullopt;
@@ -268,18 +272,15 @@ class GridMaker {
     const int columns = static_cast<int>(sides[0].size()) - 1,
               row_count = static_cast<int>(sides[1].size()) - 1;
     if (columns < 3 || row_count < 3) return false;
-    std::vector<HoleBlock> blocks;
+    if (plan_.hole_blocks.size() + 1 != loops_.size()) return false;
     std::vector<char> covered(static_cast<std::size_t>(columns) * row_count, 0);
+    auto block = plan_.hole_blocks.begin();
     for (std::size_t i = 0; i < loops_.size(); ++i) {
       if (static_cast<int>(i) == sides_.outer) continue;
-      const std::vector<Vector2> places = places_in(rows, loops_[i]);
-      const auto block = block_round(places, {columns, row_count});
-      if (!block) return false;
-      blocks.push_back(*block);
-      if (!keep_apart(blocks, {columns, row_count})) return false;
+      if (block->around() != static_cast<int>(loops_[i].size())) return false;
       for (int j = block->row; j < block->row + block->rows; ++j)
         std::fill_n(covered.begin() + static_cast<long>(j) * columns + block->column, block->columns, 1);
-      join_hole(outline_of(rows, *block), loops_[i], places);
+      join_hole(outline_of(rows, *block++), loops_[i]);
     }
     for (int j = 0; j < row_count; ++j) {
       for (int i = 0; i < columns; ++i) {
@@ -287,46 +288,6 @@ class GridMaker {
       }
     }
     return true;
-  }
-
-  /// The places of a line's points in a grid, in cells.
-  std::vector<Vector2> places_in(const std::vector<Line>& rows, const Line& line) {
-    const int n = static_cast<int>(rows.size()) - 1, m = static_cast<int>(rows[0].size()) - 1;
-    std::vector<Vector2> places;
-    int i = m / 2, j = n / 2;
-    for (const int point : line) {
-      Vector2 place(i, j);
-      for (int step = 0; step < 2 * (m + n); ++step) {
-        check_();
-        const auto at = [&](int column, int row) -> const Vector3& {
-          return grid_.points[rows[row][column]];
-        };
-        const Vector3 along = 0.5 * (at(i + 1, j) - at(i - 1, j)), up = 0.5 * (at(i, j + 1) - at(i, j - 1)),
-                      way = grid_.points[point] - at(i, j);
-        const double aa = along.squaredNorm(), uu = up.squaredNorm(), au = along.dot(up),
-                     det = aa * uu - au * au;
-        const double x = (uu * way.dot(along) - au * way.dot(up)) / det,
-                     y = (aa * way.dot(up) - au * way.dot(along)) / det;
-        place = Vector2(i + x, j + y);
-        if (!place.allFinite()) break;
-        const int next_i = std::clamp(i + round_to_int(std::clamp<double>(x, -m, m)), 1, m - 1),
-                  next_j = std::clamp(j + round_to_int(std::clamp<double>(y, -n, n)), 1, n - 1);
-        if (next_i == i && next_j == j) break;
-        i = next_i;
-        j = next_j;
-      }
-      places.push_back(place);
-    }
-    return places;
-  }
-
-  static std::optional<HoleBlock> block_round(const std::vector<Vector2>& places, const GridSize& grid) {
-    HolePlace place;
-    for (const Vector2& p : places) place.include(p);
-    if (!place.low.allFinite() || !place.high.allFinite()) return std::nullopt;
-    // Edges start with a vertex, and so do loops.
-    place.note_vertex(places.front());
-    return block_of(place, static_cast<int>(places.size()), grid);
   }
 
   /// The points around a block, counter-clockwise in cells.
@@ -341,14 +302,9 @@ class GridMaker {
   }
 
   /// Makes rings of quads between the outline of a block and a hole with the same number of nodes.
-  void join_hole(const Line& outline, Line hole, const std::vector<Vector2>& places) {
-    double area = 0;
+  void join_hole(const Line& outline, Line hole) {
     const std::size_t n = hole.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      const Vector2 &p = places[k], &q = places[(k + 1) % n];
-      area += p.x() * q.y() - p.y() * q.x();
-    }
-    if (area < 0) hole = turned(hole);
+    if (area_of(hole) * area_of(outline) < 0) hole = turned(hole);
     const auto [shift, way] = nearest_shift(outline, hole);
     std::rotate(hole.begin(), hole.begin() + shift, hole.end());
     double length = 0;
@@ -366,6 +322,13 @@ class GridMaker {
     }
     lines.push_back(hole);
     add_rows(lines);
+  }
+
+  /// Twice the area that a closed line encloses in the parameter plane.
+  double area_of(const Line& line) const {
+    double area = 0;
+    for (std::size_t k = 1; k + 1 < line.size(); ++k) area += cross(line[0], line[k], line[k + 1]);
+    return area;
   }
 
   /// Adds quads between consecutive closed lines.
@@ -470,6 +433,7 @@ class GridMaker {
   }
 
   const FaceBoundary& boundary_;
+  const FacePlan& plan_;
   const FaceSides& sides_;
   const FaceSurface& surface_;
   SizingField::Sampler& size_at_;
@@ -482,10 +446,10 @@ class GridMaker {
 
 }  // namespace
 
-std::optional<FaceGrid> make_grid(const FaceBoundary& boundary, const FaceSides& sides,
+std::optional<FaceGrid> make_grid(const FaceBoundary& boundary, const FacePlan& plan,
                                   const FaceSurface& surface, SizingField::Sampler& size_at,
                                   const ExecutionContext& context) {
-  return GridMaker(boundary, sides, surface, size_at, context).run();
+  return GridMaker(boundary, plan, surface, size_at, context).run();
 }
 
 }  // namespace quadrille

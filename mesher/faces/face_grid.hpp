@@ -8,7 +8,7 @@
 #include "geometry/base/execution_context.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/surfaces/face_surface.hpp"
-#include "mesher/edges/face_sides.hpp"
+#include "mesher/edges/face_plan.hpp"
 #include "mesher/faces/face_boundary.hpp"
 
 namespace quadrille {
@@ -27,7 +27,7 @@ struct FaceGrid {
 /// grid with blocks replaced by holes. With holes, the nodes inside must still be moved,
 /// and quads may be folded until then. \return nothing if the outline allows no grid, or if the grid would
 /// fold or miss the sizing field. Time: linear in the points.
-std::optional<FaceGrid> make_grid(const FaceBoundary& boundary, const FaceSides& sides,
+std::optional<FaceGrid> make_grid(const FaceBoundary& boundary, const FacePlan& plan,
                                   const FaceSurface& surface, SizingField::Sampler& size_at,
                                   const ExecutionContext& context = {});
 

@@ -166,7 +166,7 @@ class FaceMesher {
 
   std::optional<FaceMesh> grid_mesh() {
     const StageTimer timer(context_, Stage::triangulate);
-    auto grid = make_grid(chart_.boundary, plan_.sides, surface_, size_at_, context_);
+    auto grid = make_grid(chart_.boundary, plan_, surface_, size_at_, context_);
     context_.check();
     if (!grid) return std::nullopt;
     const bool has_holes = grid->rings > 0;

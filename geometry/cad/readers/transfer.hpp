@@ -33,7 +33,7 @@ namespace quadrille {
 class HealingWithoutLoops : public ShapeAlgo_ToolContainer {
  public:
   Handle(ShapeFix_Shape) FixShape() const override {
-    const Handle(ShapeFix_Shape) fix = ShapeAlgo_ToolContainer::FixShape();
+    Handle(ShapeFix_Shape) fix = ShapeAlgo_ToolContainer::FixShape();
     fix->FixFaceTool()->FixLoopWiresMode() = Standard_False;
     return fix;
   }
