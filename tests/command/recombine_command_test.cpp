@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"a triangle twice", square("", 4, two + "3 2 2 0 1 2 3 1\n", 3),
                  "triangle 2 has the same corners as triangle 0"},
         BadInput{
-            "one-sided",
+            "one side only",
             square("5 2 0.5 1\n6 2 1 2\n", 6,
                    "1 2 2 0 1 1 2 3\n2 2 2 0 1 2 3 4\n3 2 2 0 1 3 4 5\n4 2 2 0 1 4 5 1\n5 2 2 0 1 5 1 2\n",
                    5),
