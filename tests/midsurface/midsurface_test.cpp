@@ -639,7 +639,7 @@ TEST(MidSurface, NamesTheFreeFormWallsThatItCannotJoin) {
     middle_of(blended_housing());
     FAIL() << "its bends are of free form, and go on into each other";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("8 free-form walls go on into each other"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("8 free-form walls continue into each other"), std::string::npos)
         << error.what();
     EXPECT_NE(std::string(error.what()).find(": Face1, "), std::string::npos) << error.what();
   }
