@@ -709,7 +709,7 @@ class PanelTest(GuiCase):
 
         self.assertEqual(told(), "")  # no analysis in the document
         analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
-        self.assertIn("the mesh is in no analysis", told())
+        self.assertIn("the mesh is not in an analysis", told())
         analysis.addObject(mesh)
         FemGui.setActiveAnalysis(analysis)
         text = told()
