@@ -230,7 +230,7 @@ class PanelTest(GuiCase):
         self.press_mesh()
         crossed = find("QuadrilleCrossed")
         self.assertTrue(crossed.isVisible())
-        self.assertIn("get no group: 1;", crossed.text())
+        self.assertIn("without a group): 1;", crossed.text())
         self.assertEqual(crossed.toolTip(), "Edge2 (Face1)")
         self.assertNotIn("cross", find("QuadrilleLog").toPlainText())
         self.assertTrue(overlays.is_shown(mesh, overlays.CROSSED))
