@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Installs the Quadrille workbench where FreeCAD 0.20, 1.0 and 1.1 look for addons of the user, or takes it away again.
+# Installs the Quadrille workbench where FreeCAD 0.20, 1.0 and 1.1 look for addons of the user, or removes it.
 #
 #   ./install-addon.sh                 for every FreeCAD of this user (distribution, AppImage; Flatpak if it is there)
 #   ./install-addon.sh --link          a symbolic link instead of a copy, for work on the addon
 #   ./install-addon.sh --to FOLDER     into FOLDER/Quadrille (a Mod folder of FreeCAD)
 #   ./install-addon.sh --uninstall     with --to as above
 #
-# The quadrille command stays where it is: when build/quadrille is there, its path goes into the addon, which falls
-# back on it when PATH has none.
+# The quadrille command stays where it is: if build/quadrille exists, its path is stored in the addon, which uses
+# it if there is none on PATH.
 set -euo pipefail
 
 here=$(dirname "$(readlink -f "$0")")
@@ -39,7 +39,7 @@ if [[ ${#targets[@]} -eq 0 ]]; then
     fi
     for folder in "${folders[@]}"; do
       targets+=("$folder/Mod")
-      # From 1.1 on each version has a folder of its own, once it has run where no FreeCAD had.
+      # From 1.1 on, each version has its own folder if no older FreeCAD has run before.
       for version in "$folder"/v[0-9]*; do
         if [[ -d "$version" ]]; then targets+=("$version/Mod"); fi
       done
@@ -51,7 +51,7 @@ remove() {
   if [[ -L "$1" ]]; then
     rm "$1"
   elif [[ -d "$1" ]]; then
-    # Only what is ours: another addon of this name would have another package.xml.
+    # Only our own files: another addon of this name would have another package.xml.
     if ! grep -q '<name>Quadrille</name>' "$1/package.xml" 2>/dev/null; then
       echo "error: $1 is not the Quadrille addon: left alone" >&2
       exit 1

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Quadrille's main job: installs what is missing, builds, and works inside FreeCAD: the sample, a bracket of sheet metal, from its
-# solid over its middle surface and a mesh of quads to its stresses, or a part of yours to a mesh.
+# Installs what is missing, builds, and runs a job in FreeCAD: the sample, a sheet-metal bracket, from its solid to its middle
+# surface, a mesh of quads and the stresses; or the mesh of your own part.
 #
 #   ./run.sh                          the sample             -> out/sample.FCStd, out/sample.inp, out/sample.png
-#   ./run.sh PART.step --size 2       a part of yours        -> out/PART.FCStd, out/PART.inp, out/PART.png
+#   ./run.sh PART.step --size 2       your own part          -> out/PART.FCStd, out/PART.inp, out/PART.png
 #   ./run.sh PART.step --help         all options
 set -euo pipefail
 
@@ -28,7 +28,7 @@ step() { printf '[%d:%02d] %s\n' $((SECONDS / 60)) $((SECONDS % 60)) "$*"; }
 step "1 of 4: Debian packages"
 scripts/install_dependencies.sh
 step "2 of 4: building; the first time takes minutes"
-# All that `cmake --install build` installs; the shared library is only linked.
+# Everything that `cmake --install build` installs; the shared library is only linked.
 scripts/build.sh release quadrille quadrille_python quadrille_library
 
 step "3 of 4: ${part:-the sample} inside FreeCAD"

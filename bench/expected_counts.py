@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Compares the number of quads that `quadrille sizes` expects with that of the mesh: at the sizes that `quadrille info` suggests, with
-elements across gaps at the middle one, and with default settings.
+elements across gaps at the middle size, and with default settings.
 
     bench/expected_counts.py --quadrille build/quadrille MODEL..."""
 

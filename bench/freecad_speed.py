@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Times the way from the click to the visible mesh in FreeCAD's window, for Quadrille's panel and for FreeCAD's own
+"""Measures the time from the click to the visible mesh in FreeCAD's window, for Quadrille's panel and for FreeCAD's own
 Gmsh object on the same part, and the writing of CalculiX's input for both.
 
     scripts/freecad_gui bench/freecad_speed.py [--part examples/models/bracket.step] [--quads 100000] [--order 1st]

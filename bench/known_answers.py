@@ -4,8 +4,8 @@ CalculiX: prints the errors at three sizes.
 
     scripts/freecad_python bench/known_answers.py [--build build] [--case NAME...]
 
-Gmsh pairs triangles (Blossom) of twice the size and cuts each element into quads, so that all are quads of the size asked
-for, with the same number of elements on a circle and eight nodes each. Both meshes get the same loads and supports.
+Gmsh pairs triangles (Blossom) of twice the size and cuts each element into quads, so that all are quads of the requested
+size, with the same number of elements on a circle and eight nodes each. Both meshes get the same loads and supports.
 """
 
 import argparse
@@ -48,7 +48,7 @@ class Disc:
         return Part.Face(Part.Wire(Part.makeCircle(self.radius)))
 
     def exact(self):
-        """Timoshenko and Woinowsky-Krieger, Theory of Plates and Shells, 16 and 20: bending, and what shear adds."""
+        """Timoshenko and Woinowsky-Krieger, Theory of Plates and Shells, 16 and 20: bending plus shear deflection."""
         shear = self.young / 2 / (1 + self.poisson) * self.thickness * 5 / 6
         return self.pressure * self.radius**2 * (self.factor * self.radius**2 / 64 / self.stiffness + 1 / 4 / shear)
 

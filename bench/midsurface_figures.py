@@ -4,8 +4,8 @@
     bench/midsurface_figures.py [--build BUILD] [--beams [NAME...] [--check] | --bracket | --solids FILE... [--fine SHARE]]
 
 Without options: for each thin test model, area times thickness over volume, the number of parts, edges inside the
-material, CPU seconds. With --beams: cantilevers, meshed by Quadrille with S8R on the middle surface, against C3D20R of
-the same solid: deflection under an even load on the section at the tip, and the first bending frequency, both by
+material, CPU seconds. With --beams: cantilevers, meshed by Quadrille with S8R on the middle surface, compared with C3D20R of
+the same solid: deflection under a uniform load on the section at the tip, and the first bending frequency, both by
 CalculiX (ccx on the PATH). With --bracket: the sample part, examples/freecad/sheet_bracket.step, as C3D20R, the
 reference for its shell. With --solids: CAD files of thin solids, clamped at the low end of their longest axis and loaded
 at the other, S8R against C3D10 of Gmsh whose size is the thinnest wall times SHARE.
@@ -128,7 +128,7 @@ def solid_mesh(folder, build, name, length):
 
 
 def solve(folder, name, mesh, axis=2, push=1):
-    """The displacement of the tip along an axis under an even load on its section, and CalculiX's table of frequencies."""
+    """The displacement of the tip along an axis under a uniform load on its section, and CalculiX's table of frequencies."""
     nodes, text, _, shares = mesh
     root = min(point[axis] for point in nodes.values())
     held = [number for number, point in nodes.items() if abs(point[axis] - root) < 1e-6]
@@ -191,7 +191,7 @@ def tetrahedra(folder, model, size, axis):
     for _, *triangle in (list(map(int, row)) for row in rows("ELEMENT, type=CPS6")):
         if all(abs(nodes[node][axis] - far) < 1e-6 for node in triangle):
             a, b, c = (np.array(nodes[node]) for node in triangle[:3])
-            for node in triangle[3:]:  # an even load on a triangle of second order acts on its midside nodes alone
+            for node in triangle[3:]:  # a uniform load on a triangle of second order acts on its midside nodes only
                 shares[node] = shares.get(node, 0) + np.linalg.norm(np.cross(b - a, c - a)) / 6
     text = "*NODE, NSET=Nall\n" + "\n".join(f"{n}, {p[0]!r}, {p[1]!r}, {p[2]!r}" for n, p in nodes.items())
     text += "\n*ELEMENT, TYPE=C3D10, ELSET=Eall\n" + "\n".join(", ".join(map(str, element)) for element in elements)
@@ -306,7 +306,7 @@ def main():
     parser.add_argument("--bracket", action="store_true")
     parser.add_argument("--solids", nargs="+", type=pathlib.Path, metavar="FILE")
     parser.add_argument("--fine", type=float, default=1, metavar="SHARE", help="size of the tetrahedra over the thinnest wall")
-    parser.add_argument("--check", action="store_true", help="exit code 1 where a beam is off by more than was asked for")
+    parser.add_argument("--check", action="store_true", help="exit code 1 if a beam is off by more than allowed")
     arguments = parser.parse_args()
     if (arguments.beams is not None or arguments.bracket or arguments.solids) and shutil.which("ccx") is None:
         print("NOT TESTED: ccx is not installed")

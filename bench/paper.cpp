@@ -142,7 +142,7 @@ std::int64_t resident_bytes(const char* which) {
   for (std::string line; std::getline(status, line);) {
     if (line.rfind(which, 0) == 0) return 1024 * std::stoll(line.substr(line.find(':') + 1));
   }
-  throw failure("memory", "/proc/self/status does not tell the memory used");
+  throw failure("memory", "/proc/self/status does not contain the memory used");
 }
 
 /// Peak memory of a pairing with its input and output, in bytes per triangle. Measured in a process of its

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Counts what forces quads outside the limits, over many parts, and draws the face where each cause forces most.
+"""Counts the causes of quads outside the limits, over many parts, and draws the face where each cause forces most.
 
     PYTHONPATH=build/python bench/poor_quads.py --quadrille build/quadrille [--div 60] [-o OUT.png] PART...
 
-Each part gets its diagonal over --div as size, an eighth of it as least size, twelve elements per circle, one thread. The table of
+Each part gets its diagonal over --div as size, an eighth of it as minimum size, twelve elements per circle, one thread. The table of
 causes is printed to standard output as Markdown; the criterion of the shortest side counts, warp does not."""
 
 import argparse
@@ -39,7 +39,7 @@ class Worst(NamedTuple):
 
 
 def cause_of(why: str) -> str:
-    """The cause that a sentence of the report tells."""
+    """The cause in a sentence of the report."""
     return next(cause for start, cause in CAUSES.items() if why.startswith(start))
 
 

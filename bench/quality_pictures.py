@@ -4,7 +4,7 @@
 
     PYTHONPATH=build/python xvfb-run -a bench/quality_pictures.py --quadrille build/quadrille --gmsh "Gmsh 4.8.4=gmsh" -o parts.png PART...
 
-Every mesher gets the diagonal over --div as size, an eighth of it as least size, twelve elements per circle, one thread. Gmsh recombines
+Every mesher gets the diagonal over --div as size, an eighth of it as minimum size, twelve elements per circle, one thread. Gmsh recombines
 at twice the size and subdivides, its best all-quad mode. The table is printed to standard output as Markdown."""
 
 import argparse

@@ -120,7 +120,7 @@ void compare(const std::filesystem::path& path, double many, double few, int rep
       std::filesystem::temp_directory_path() / fmt::format("quadrille-scale-{}.msh", ::getpid());
   const double fine = size_for(path, many, output), coarse = size_for(path, few, output);
   fmt::print("load before: {:.2f}\n\n{:<18} {:>9} {:>8} {:>8} {:>8} {:>8} {:>10} {:>10} {:>12}\n", load(), "",
-             "quads", "read s", "mesh s", "write s", "CPU s", "us a quad", "CPU us", "peak B/quad");
+             "quads", "read s", "mesh s", "write s", "CPU s", "us/quad", "CPU us", "peak B/quad");
   const auto best_of = [&](double size, int threads) {
     Run best;
     for (int i = 0; i < repeats; ++i) {
@@ -134,15 +134,15 @@ void compare(const std::filesystem::path& path, double many, double few, int rep
   print_run("small, 1 thread", small);
   print_run("large, 1 thread", large);
   print_run("large, 2 threads", two);
-  fmt::print("\nCPU a quad, large against small: {:.2f}\n",
+  fmt::print("\nCPU per quad, large compared with small: {:.2f}\n",
              large.cpu / large.quads / (small.cpu / small.quads));
-  fmt::print("two threads against one: {:.2f} times meshing alone, {:.2f} times with reading and writing\n",
+  fmt::print("two threads and one: {:.2f} times meshing alone, {:.2f} times with reading and writing\n",
              large.mesh / two.mesh,
              (large.read + large.mesh + large.write) / (two.read + two.mesh + two.write));
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Time and memory a quad, large against small and two threads against one");
+  CLI::App app("Time and memory per quad, large compared with small and two threads with one");
   std::string model = QUADRILLE_SOURCE_DIR "/../shared/corpus/U_Joint_2.stp";
   double many = 1e6, few = 2e4;
   int repeats = 3;

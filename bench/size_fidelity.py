@@ -5,7 +5,7 @@
     bench/size_fidelity.py --quadrille build/quadrille MODEL... [-- --growth 0.2]
 
 The size is the diagonal over --div, with --proximity elements across gaps; arguments after -- go to `quadrille mesh`. A model keeps its
-sizes if the median of length over wanted size is in [0.9, 1.1] and 95 % of the sides are between 0.55 and 1.6 times the wanted size."""
+sizes if the median of length over requested size is in [0.9, 1.1] and 95 % of the sides are between 0.55 and 1.6 times the requested size."""
 
 import argparse
 import json

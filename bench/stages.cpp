@@ -183,7 +183,7 @@ void print_row(const std::string& name, double divisions, const Measured& row, b
 /// A row for each part, and one of the sums for each size.
 void print_table(const std::vector<std::filesystem::path>& models, const std::vector<double>& divisions,
                  const BenchOptions& options) {
-  fmt::print("microseconds a quad: stages and total by the clock, summed over threads{}\n",
+  fmt::print("microseconds per quad: stages and total by the clock, summed over threads{}\n",
              options.gmsh ? "; cpu, gmsh and their ratio are CPU time, Gmsh's with its start" : "");
   fmt::print("{:<26}{:>6}{:>9}", "model", "n", "quads");
   for (const auto& stage : stages) fmt::print("{:>12}", stage);
@@ -204,7 +204,7 @@ void print_table(const std::vector<std::filesystem::path>& models, const std::ve
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Microseconds a quad of each stage");
+  CLI::App app("Microseconds per quad of each stage");
   std::vector<std::string> models;
   std::vector<double> divisions{60, 150, 300};
   BenchOptions options;

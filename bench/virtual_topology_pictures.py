@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws four parts with features below the least size, meshed with and without virtual topology and by Gmsh.
+"""Draws four parts with features below the minimum size, meshed with and without virtual topology and by Gmsh.
 
     scripts/freecad_python bench/virtual_topology_pictures.py parts FOLDER
     PYTHONPATH=build/python bench/virtual_topology_pictures.py draw FOLDER --quadrille build/quadrille --gmsh gmsh -o OUT.png
 
 The first command makes the parts. Gmsh gets twice the size and subdivides, once as the faces are and once with the faces that meet
 smoothly as one compound surface. Quads outside the industry limits (without warp) are red, others with a side under half the
-least size orange. The table is printed to standard output as Markdown."""
+minimum size orange. The table is printed to standard output as Markdown."""
 
 import argparse
 import subprocess
@@ -20,7 +20,7 @@ class Case(NamedTuple):
     """A part and how it is meshed and looked at."""
 
     title: str
-    size: float  #: mm; the least size is an eighth
+    size: float  #: mm; the minimum size is an eighth
     compound: str  #: numbers of the faces that meet smoothly, for Gmsh
     center: Tuple[float, float, float]  #: of the detail that is drawn
     eye: Tuple[float, float, float]  #: towards the eye

@@ -1,7 +1,7 @@
-# What `cmake --install` puts where. Each component is a package of its own; see docs/install.md.
+# Where `cmake --install` puts files. Each component is a separate package; see docs/install.md.
 include(CMakePackageConfigHelpers)
 
-# The command lies among its modules, which it looks for where it lies; in bin there is a link to it.
+# The command is in the folder of its modules, where it searches them; in bin there is a link to it.
 install(TARGETS quadrille RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/quadrille COMPONENT command)
 file(RELATIVE_PATH command ${CMAKE_INSTALL_FULL_BINDIR} ${MODULES_FOLDER}/quadrille)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/link)
@@ -35,7 +35,7 @@ install(FILES ${PROJECT_BINARY_DIR}/quadrille-config.cmake ${PROJECT_BINARY_DIR}
   DESTINATION ${CONFIG_FOLDER} COMPONENT development)
 
 if(QUADRILLE_PYTHON)
-  # Where Debian's interpreter looks: for packages, for the administrator, or else in a prefix of one's own.
+  # Where Debian's interpreter searches: for packages, for the administrator, otherwise in a user's own prefix.
   set(python lib/python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR})
   if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
     set(python_folder lib/python3/dist-packages)
@@ -50,7 +50,7 @@ if(QUADRILLE_PYTHON)
   install(TARGETS quadrille_python LIBRARY DESTINATION ${QUADRILLE_PYTHON_FOLDER}/quadrille COMPONENT python)
 endif()
 
-# The FreeCAD addon: Debian's FreeCAD looks here; others take a copy, see install-addon.sh.
+# The FreeCAD addon: Debian's FreeCAD looks here; others need a copy, see install-addon.sh.
 install(DIRECTORY workbench/ DESTINATION ${CMAKE_INSTALL_DATADIR}/freecad/Mod/Quadrille COMPONENT addon
   PATTERN "*.cpp" EXCLUDE PATTERN "*.hpp" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/freecad/Mod/Quadrille COMPONENT addon)

@@ -1,6 +1,6 @@
-# Debian packages by CPack, one a component; scripts/package.sh makes them. Included by install.cmake.
+# Debian packages by CPack, one per component; scripts/package.sh makes them. Included by install.cmake.
 
-# Man pages and the completion of the shell, from what the command says of itself.
+# Man pages and shell completion, generated from the command's help.
 set(MANUAL ${PROJECT_BINARY_DIR}/manual)
 add_custom_command(OUTPUT ${MANUAL}/stamp
   COMMAND ${CMAKE_COMMAND} -E rm -rf ${MANUAL}
@@ -23,8 +23,8 @@ set(COMPONENTS command library development python addon)
 file(STRINGS /etc/os-release os_release REGEX "^VERSION_ID=")
 string(REGEX REPLACE "[^0-9]" "" QUADRILLE_DEBIAN "${os_release}")
 set(QUADRILLE_RELEASE 1~deb${QUADRILLE_DEBIAN})
-# Who packs says so as for Debian's own tools, by DEBFULLNAME and DEBEMAIL. Else the address is none, which lintian
-# finds fault with.
+# The maintainer is given as for Debian's own tools, by DEBFULLNAME and DEBEMAIL. Without them there is no address, which
+# lintian reports.
 set(maintainer "The Quadrille maintainers")
 set(address quadrille@localhost.localdomain)
 if(DEFINED ENV{DEBFULLNAME})
@@ -93,7 +93,7 @@ one chain of nodes on each edge, nodes on the geometry, groups named as in\n\
 FreeCAD.\n")
 foreach(pair "COMMAND;all-quad shell meshes of CAD parts;This package has the command."
     "LIBRARY;all-quad shell meshes of CAD parts - library;This package has the shared library and its modules."
-    "DEVELOPMENT;all-quad shell meshes of CAD parts - headers;This package has what C++ programs are built with."
+    "DEVELOPMENT;all-quad shell meshes of CAD parts - headers;This package has the headers for C++ programs."
     "PYTHON;all-quad shell meshes of CAD parts - Python module;This package has the Python module."
     "ADDON;all-quad shell meshes of CAD parts - FreeCAD addon;This package has the workbench of FreeCAD.")
   list(POP_FRONT pair component summary text)

@@ -1,5 +1,5 @@
-# What the build asks of the operating system, one function a concern, each with one implementation a system: docs/porting.md
-# tells what others need.
+# What the build needs from the operating system: one function per concern, each with one implementation per system.
+# docs/porting.md lists what other systems need.
 
 # scripts/windows.sh builds for Windows on Debian.
 set(WINDOWS_ON_DEBIAN FALSE)
@@ -7,7 +7,7 @@ if(WIN32 AND CMAKE_CROSSCOMPILING)
   set(WINDOWS_ON_DEBIAN TRUE)
 endif()
 
-# OpenVDB; Debian keeps its find module apart. Built for Windows it is a static library without Boost's.
+# OpenVDB; Debian keeps its find module in a separate folder. Built for Windows it is a static library without Boost.
 macro(quadrille_find_openvdb)
   if(WINDOWS_ON_DEBIAN)
     add_library(OpenVDB::openvdb INTERFACE IMPORTED)
@@ -52,9 +52,9 @@ endfunction()
 set(SYSTEM_LIBRARIES ${CMAKE_DL_LIBS})
 if(WIN32)
   set(SYSTEM_LIBRARIES psapi shell32)
-  # Modules are called as libraries are on other systems.
+  # Modules have the same names as on other systems.
   set(CMAKE_SHARED_MODULE_PREFIX "")
-  # File names in UTF-16, and no macros in the place of common words.
+  # File names in UTF-16, and no macros that replace common words.
   add_compile_definitions(UNICODE _UNICODE NOMINMAX WIN32_LEAN_AND_MEAN _USE_MATH_DEFINES)
   add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${PROJECT_SOURCE_DIR}/geometry/base/plain_names_windows.hpp>")
 endif()

@@ -99,7 +99,7 @@ def main():
           f"{mesh.FemMesh.NodeCount} nodes and {groups} groups, in {document.Name}/{analysis.Label}")
     if thickness:
         print(f"{part.Label} looks like a thin solid, of about {thickness:.2g} mm: its skin, meshed here, is a hollow box, and shell "
-              "stresses on it mean nothing; --thin meshes its middle surface")
+              "stresses on it are meaningless; --thin meshes its middle surface")
 
 
 main()

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # Looks for common mistakes in the C++ sources with clang-tidy (configured in .clang-tidy), two sources at a time. The last
-# line tells how many sources and findings there were; it fails if there are any findings.
+# line gives the number of sources and findings; it fails if there are any findings.
 #
 #   scripts/clang_tidy.sh              sources that differ from where this branch left main; on main, from the commit before.
 #                                      For a header: the source or the test of its name, otherwise one that includes it
-#   scripts/clang_tidy.sh --most N     the same; but none if there are more than N, which is said
+#   scripts/clang_tidy.sh --most N     the same, but if there are more than N, none, with a message
 #   scripts/clang_tidy.sh --all        all sources, some 20 s each
 #   scripts/clang_tidy.sh FILE...      these
 #
-# Without clang-tidy, or without the repository that tells what has changed, nothing is checked, which is said too.
+# Without clang-tidy, or without a repository to find changes, nothing is checked, with a message.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 

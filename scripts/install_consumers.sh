@@ -14,7 +14,7 @@ if [[ "${1:-}" == --list ]]; then
   exit 0
 fi
 if ! command -v apt-get >/dev/null; then
-  echo "error: this system has no apt-get; install what these Debian packages hold: ${packages[*]}" >&2
+  echo "error: this system has no apt-get; install the contents of these Debian packages: ${packages[*]}" >&2
   exit 1
 fi
 as_root=()

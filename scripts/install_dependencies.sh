@@ -80,7 +80,7 @@ if [[ ${#missing[@]} -eq 0 ]]; then
 fi
 
 if ! command -v apt-get >/dev/null; then
-  echo "error: this system has no apt-get; install what these Debian packages hold: ${missing[*]}" >&2
+  echo "error: this system has no apt-get; install the contents of these Debian packages: ${missing[*]}" >&2
   exit 1
 fi
 as_root=()

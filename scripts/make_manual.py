@@ -36,7 +36,7 @@ def parse(text):
 
 
 def roff(text):
-    """Escapes text for man: hyphens can be copied as hyphens, and no line is taken for a roff request."""
+    """Escapes text for man: hyphens can be copied as hyphens, and no line is read as a roff request."""
     text = text.replace("\\", "\\e").replace("-", "\\-")
     return "\\&" + text if text[:1] in (".", "'") else text
 
@@ -61,15 +61,15 @@ def page(name, version, help_text, see):
         for entry, explanation in entries:
             term = f"\\fB{roff(entry)}\\fR" if heading == "Subcommands" else term_of(entry)
             lines += [".TP", term, roff(explanation)]
-    lines += [".SH EXIT STATUS", "0 done, 1 could not, 2 makes no sense as asked, 130 cancelled.", ".SH SEE ALSO",
+    lines += [".SH EXIT STATUS", "0 success, 1 failure, 2 incorrect usage, 130 cancelled.", ".SH SEE ALSO",
               ",\n".join(f".BR {roff(other)} (1)" for other in see)]
     return "\n".join(lines) + "\n"
 
 
 def markdown(pages):
     """One page with all commands, in Markdown."""
-    lines = ["# The command", "", "Made of what `quadrille --help` says. Lengths are millimeters. Exit codes: 0 done, 1 could "
-             "not, 2 makes no sense as", "asked, 130 cancelled; then one sentence on stderr and no half-written file."]
+    lines = ["# The command", "", "Generated from `quadrille --help`. Lengths are millimeters. Exit codes: 0 success, 1 failure, 2 incorrect",
+             "usage, 130 cancelled; an error is one sentence on stderr, and leaves no half-written file."]
     for name, help_text in pages.items():
         about, usage, sections = parse(help_text)
         lines += ["", f"## {name.replace('quadrille-', 'quadrille ')}", "", about[0].upper() + about[1:] + ".", "",

@@ -21,7 +21,7 @@ ABOUT = {
     "geometry/cad": "reads and repairs the model",
     "geometry/surfaces": "points on curves and surfaces",
     "geometry/midsurface": "middle surfaces of thin solids",
-    "geometry/sizing": "the size wanted at each place",
+    "geometry/sizing": "the size at each place",
     "mesher/mesh": "mesh types, criteria, quality",
     "mesher/edges": "counts and nodes on edges",
     "mesher/faces": "grids, points, triangles",
@@ -29,7 +29,7 @@ ABOUT = {
     "mesher/quads": "clean-up, smoothing, repair",
     SETTINGS: "options, settings, estimate, size map",
     "mesher/shell": "one face; remedies; all faces together",
-    "mesher/remesh": "triangulated surfaces anew",
+    "mesher/remesh": "remeshing triangulated surfaces",
     "mesher/io": "mesh files, reports, pictures",
     "mesher/adapt": "sizes from results",
     RUN: "the run, and quadrille.hpp",
@@ -46,7 +46,7 @@ FLOW = [  # from, to, what is handed on
 ]
 PACKAGES = {
     "core": "command, settings, errors",
-    "document": "what a document says of a mesh",
+    "document": "data of meshes in a document",
     "solvers": "FreeCAD's solvers",
     "features": "the document objects",
     "gui": "panel, commands, views",

@@ -18,7 +18,7 @@ exec 9>"$cache/lock"
 flock -n 9 || { echo "error: another windows.sh is using $cache" >&2; exit 1; }
 
 began=$SECONDS
-# step WHAT COMMAND...: tells what is being done and how long it took; the output goes to a log, shown if it fails.
+# step WHAT COMMAND...: prints what is being done and how long it took; the output goes to a log, shown if it fails.
 step() {
   local what=$1 start=$SECONDS
   shift
@@ -39,7 +39,7 @@ install_tools() {
   "${root[@]}" apt-get install -y --no-install-recommends "${packages[@]}"
 }
 
-# Debian's list of sources, apart from the system's own.
+# Debian's list of sources, separate from the system's own.
 fetch() {
   echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian bookworm main" \
     >"$cache/sources.list"
@@ -67,7 +67,7 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 END
-  # Libraries of headers alone are the same on all systems.
+  # Header-only libraries are the same on all systems.
   local headers
   for headers in boost CGAL CLI nlohmann eigen3; do ln -sfn "/usr/include/$headers" "$prefix/include/$headers"; done
   # Copies of their descriptions, which look for the headers near themselves: /usr/include itself is Linux's.
@@ -96,7 +96,7 @@ build() {
   touch "$cache/built-$name"
 }
 
-# OpenCASCADE has 3800 sources: those of a package are compiled together, where they stand it.
+# OpenCASCADE has 3800 sources: those of a package are compiled together where possible.
 build_opencascade() {
   [[ -f "$cache/built-occt" ]] && return
   local toolkit

@@ -25,7 +25,7 @@ class QuadrilleWorkbench(FreeCADGui.Workbench):
         self.appendMenu("Quadrille", commands.TOOLBAR)
 
     def GetClassName(self):
-        """Tells FreeCAD that the workbench is written in Python."""
+        """The type by which FreeCAD recognizes a workbench written in Python."""
         return "Gui::PythonWorkbench"
 
 

@@ -331,8 +331,8 @@ void bind_mesh(py::module_& module) {
       .def_property_readonly("faces", &face_statuses, "What became of each CAD face: a list of dicts.")
       .def("quality", &quality_dict, py::arg("limits") = py::none(),
            documented("quality(self, limits=None)",
-                      "Counts and measures: a dict, named as in the command's report, with the criteria of "
-                      "industry under\n'criteria'. limits: a limits file, JSON or HyperMesh's.")
+                      "Counts and measures: a dict, named as in the command's report, with the industry "
+                      "criteria under\n'criteria'. limits: a limits file, JSON or HyperMesh's.")
                .c_str())
       .def(
           "qualities",
@@ -423,8 +423,8 @@ void bind_midsurface(py::module_& module) {
       .def_readonly("free_edges", &MidSurface::free_edges, "Edges of one face only.")
       .def_readonly("unpaired", &MidSurface::unpaired, "Solid faces that are neither side nor rim of a wall.")
       .def_readonly("counted_twice", &MidSurface::counted_twice,
-                    "What of shell_volume is counted twice where walls meet, fillets there aside, in mm^3.")
-      .def_readonly("warnings", &MidSurface::warnings, "What is imprecise, but no error.")
+                    "Volume that shell_volume counts twice where walls meet, without fillets there, in mm^3.")
+      .def_readonly("warnings", &MidSurface::warnings, "Inaccuracies that are not errors.")
       .def_readonly("problems", &MidSurface::problems, "With partial: what would have been an error.")
       .def("write", &write_midsurface, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
            documented("write(self, path)",
@@ -437,7 +437,7 @@ void bind_midsurface(py::module_& module) {
       documented(
           "midsurface(model, *, partial=False, join=False)",
           "The MidSurface of the solids of a model. partial: give what could be paired where a solid is "
-          "thin in\nplaces only, instead of raising quadrille.Error. join: take solids that touch for one "
+          "thin in\nplaces only, instead of raising quadrille.Error. join: treat solids that touch as one "
           "part, as if welded.")
           .c_str());
 }
@@ -489,16 +489,12 @@ void bind_functions(py::module_& module) {
       documented(
           "remesh(surface, *, size, feature_angle=40.0, merge=None, order=1, progress=None, force=None, "
           "time_limit=None, threads=None)",
-          "A triangulated surface, a Mesh such as read_mesh() gives, meshed anew with quads only.\n\n"
-          "size: length of elements, mm; feature_angle: degrees between normals from which on neighbors are "
-          "of "
-          "two faces,\n0 = shape makes no faces; merge: make one of nodes at most so far apart, mm; order: 1 "
-          "or "
-          "2; force, time_limit,\nthreads, progress as mesh() has them. Groups of faces and edges are kept; "
-          "how "
-          "far the mesh is from the surface\nis in its fidelity. What was mended or lost is warned of. "
-          "Raises "
-          "quadrille.Error.")
+          "Remeshes a triangulated surface, a Mesh such as read_mesh() returns, with quads only.\n\n"
+          "size: length of elements, mm; feature_angle: neighbors belong to two faces from this angle\n"
+          "between normals on, degrees, 0 = no faces by shape; merge: nodes at most this far apart are\n"
+          "merged, mm; order: 1 or 2; force, time_limit, threads, progress: as for mesh(). Groups of faces\n"
+          "and edges are kept; the distances from the surface are in fidelity. Repairs and losses give a\n"
+          "warning. Raises quadrille.Error.")
           .c_str());
   module.def(
       "suggested_size",

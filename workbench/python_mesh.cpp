@@ -239,7 +239,7 @@ std::vector<ShellMesh::Match> matches_in(const py::handle& state) {
 }
 
 /// What pickle stores: the constructor's arguments, face statuses, thicknesses, groups, solid faces, placed
-/// nodes, the least size, and matches.
+/// nodes, the minimum size, and matches.
 py::tuple state_of(const py::object& self) {
   py::list varying;
   for (const ShellMesh::VaryingThickness& entry : mesh_of(self).mesh.varying_thicknesses)
@@ -407,17 +407,16 @@ void bind_arrays(py::class_<PythonMesh>& mesh) {
                              "Of a mesh that was read from a file with names: a list of (name, dimension, "
                              "number, entities): the\n"
                              "faces (dimension 2), edges (1) or vertices (0) that belong to it.")
-      .def(
-          "recombined", &recombined, py::kw_only(), py::arg("feature_angle") = 40.0,
-          py::arg("merge") = py::none(), py::arg("improve") = true, py::arg("threads") = 0,
-          documented(
-              "recombined(self, *, feature_angle=40.0, merge=None, improve=True, threads=0)",
-              "A Mesh of quads in place of the triangles; quads are cut in two first. feature_angle: degrees "
-              "between normals\nfrom which on a side stays, 0 = none; merge: make one of nodes at most so "
-              "far "
-              "apart, mm; improve: clean up and\nsmooth the quads; threads: 0 = all cores. Groups, segments "
-              "and corners are kept. What was mended or lost is warned\nof. Raises quadrille.Error.")
-              .c_str())
+      .def("recombined", &recombined, py::kw_only(), py::arg("feature_angle") = 40.0,
+           py::arg("merge") = py::none(), py::arg("improve") = true, py::arg("threads") = 0,
+           documented(
+               "recombined(self, *, feature_angle=40.0, merge=None, improve=True, threads=0)",
+               "A Mesh of quads instead of the triangles; quads are cut in two first. feature_angle: sides\n"
+               "are kept from this angle between normals on, degrees, 0 = none; merge: nodes at most this\n"
+               "far apart are merged, mm; improve: clean up and smooth the quads; threads: 0 = all cores.\n"
+               "Groups, segments and corners are kept. Repairs and losses give a warning. Raises\n"
+               "quadrille.Error.")
+               .c_str())
       .def_property_readonly(
           "matches", &matches_of,
           "The pairs of `match`: dicts with the names `from` and `to`, the motion's `matrix` "

@@ -1,6 +1,6 @@
 # Included at the end of each toolkit of OpenCASCADE by scripts/windows.sh: compiles the sources of a package together, twelve at
-# a time, which takes a third of the time. Some stay apart: they define the same names as their neighbors, or macros that take
-# the place of generics.
+# a time, which takes a third of the time. Some are compiled separately: they define the same names as others, or macros that
+# replace generics.
 cmake_policy(SET CMP0057 NEW)  # if(IN_LIST)
 
 set(SOURCES_APART

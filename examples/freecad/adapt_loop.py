@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Solves and meshes in turn until the estimated error of the stresses is as small as wanted.
+"""Solves and meshes in turn until the estimated error of the stresses reaches the target.
 
     scripts/freecad_python examples/freecad/adapt_loop.py [DOCUMENT.FCStd] [--error 0.03] [--rounds 6] [--save ADAPTED.FCStd]
 
@@ -75,7 +75,7 @@ def solve_to_pipeline(solver, folder):
 
 
 def largest_stress(mesh, analysis):
-    """The largest von Mises stress in the result that the error is estimated of, MPa."""
+    """The largest von Mises stress in the result whose error is estimated, MPa."""
     result = quadrille.adaption.last_result(mesh, analysis)
     if result.isDerivedFrom("Fem::FemResultObject"):
         return max(result.vonMises)
@@ -86,7 +86,7 @@ def main():
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("document", nargs="?")
-    parser.add_argument("--error", type=float, default=0.03, help="wanted, as a share of the whole (default 0.03)")
+    parser.add_argument("--error", type=float, default=0.03, help="target error, relative (default 0.03)")
     parser.add_argument("--rounds", type=int, default=6, help="at most (default 6)")
     parser.add_argument("--save", help="keep the document with the last mesh and result here")
     arguments = parser.parse_args()
@@ -97,7 +97,7 @@ def main():
     meshes = [obj for obj in document.Objects if is_quad_mesh(obj)]
     analysis = groups.analysis_of(meshes[0]) if len(meshes) == 1 else None
     if analysis is None:
-        raise SystemExit(f"{document.Label}: one quad mesh in an analysis is wanted")
+        raise SystemExit(f"{document.Label}: must have one quad mesh in an analysis")
     mesh = meshes[0]
     for solver in results.solvers_of(analysis):
         setattr(solver, results.SURFACE_RESULTS, True)

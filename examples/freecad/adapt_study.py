@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes that follow their own results, beside uniform ones: `quadrille adapt` in a loop with CalculiX.
+"""Meshes that follow their own results, compared with uniform ones: `quadrille adapt` in a loop with CalculiX.
 
     scripts/freecad_python examples/freecad/adapt_study.py --out study.json [--case le1]
 
@@ -25,7 +25,7 @@ import verification  # puts quadrille on sys.path
 import quadrille.core.command
 from verification import Mesh, Problem, displacements, write_input
 
-MOST_ROUNDS = 10  #: limit on rounds of meshing and solving for each wanted error
+MOST_ROUNDS = 10  #: limit on rounds of meshing and solving for each target error
 OUTPUT = "*NODE PRINT, NSET=Nall\nU\n*NODE FILE, OUTPUT=3D\nU\n*EL FILE, OUTPUT=3D\nS\n"
 
 
@@ -229,8 +229,8 @@ def main():
     parser.add_argument("--out", default="study.json")
     parser.add_argument("--plot", help="draw the errors into this .png")
     parser.add_argument("--check", action="store_true",
-                        help="fail unless the last adapted mesh has the error wanted with a third of the uniform elements")
-    parser.add_argument("--part", help="a shell of your own (.brep, .step) in place of the cases")
+                        help="fail unless the last adapted mesh has the target error with a third of the uniform elements")
+    parser.add_argument("--part", help="a shell of your own (.brep, .step) instead of the cases")
     parser.add_argument("--hold", metavar="x=0", help="of the part: the plane where it is clamped")
     parser.add_argument("--pull", metavar="y=100", help="of the part: the plane with the edges that are pulled")
     parser.add_argument("--thickness", type=float, default=1.0, help="of the part (default 1)")

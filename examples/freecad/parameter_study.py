@@ -120,9 +120,9 @@ def main():
     # A strip without a hole deflects by F L^3 / (3 E I). A hole increases this; twice the thickness gives an eighth.
     solid = FORCE * LENGTH**3 / (3 * YOUNG * WIDTH / 12)
     if not 0.9 * solid < rows[0]["sag"] < 1.2 * solid or not rows[0]["sag"] < rows[2]["sag"] < rows[4]["sag"]:
-        sys.exit(f"the sags make no sense beside {solid:.4f} of a strip without a hole")
+        sys.exit(f"the deflections are implausible compared with {solid:.4f} of a strip without a hole")
     if abs(rows[0]["sag"] / rows[1]["sag"] / 8 - 1) > 0.02:
-        sys.exit("twice the thickness must sag an eighth")
+        sys.exit("twice the thickness must give an eighth of the deflection")
 
 
 if __name__ == "__main__":

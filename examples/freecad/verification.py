@@ -148,7 +148,7 @@ def main():
     """Checks the cases, or runs convergence studies."""
     parser = argparse.ArgumentParser(description="Known answers, with Quadrille and CalculiX.")
     parser.add_argument("--case", choices=sorted(CASES), action="append")
-    parser.add_argument("--converge", help="follow meshers over several sizes; their rows in this .json are made anew")
+    parser.add_argument("--converge", help="run meshers over several sizes; their rows in this .json are replaced")
     parser.add_argument("--mesher", choices=MESHERS, action="append", help="with --converge not all of them, else not Quadrille")
     parser.add_argument("--shells", action="store_true", help="the bending patch tests with each kind of shell")
     parser.add_argument("--size", type=float, help="another size than the case's own")

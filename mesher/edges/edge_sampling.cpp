@@ -17,10 +17,8 @@
 #include "mesher/edges/edge_counts.hpp"
 #include "mesher/edges/face_plan.hpp"
 #include "mesher/edges/face_sides.hpp"
-#include "mesher/edges/facing_sides.hpp"
 #include "mesher/edges/gap_nodes.hpp"
 #include "mesher/edges/hole_blocks.hpp"
-#include "mesher/edges/narrow_faces.hpp"
 #include "mesher/edges/strip_counts.hpp"
 
 namespace quadrille {
@@ -144,7 +142,6 @@ class EdgeSampler {
       if (counts_[i] > 0) place_nodes(i, check);
     }
     copy_nodes();
-    align_narrow_faces(shape_, used_, find_split_strips(shape_, used_, wishes_.wanted), result_);
     align_gaps(shape_, used_, sides, plan_.unaligned, result_);
     end_faces_at_tips(shape_, plan_.tips, plan_.tiny, result_);
     copy_nodes();

@@ -1,4 +1,4 @@
-/// Sorts outlines by their corners: four, three or five, steps, two loops, or wedges and crescents.
+/// Sorts outlines by their corners: four, three or five, steps, or two loops.
 
 #include "mesher/edges/face_sides.hpp"
 
@@ -12,7 +12,6 @@
 
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
-#include "mesher/edges/facing_sides.hpp"
 
 namespace quadrille {
 
@@ -51,21 +50,10 @@ class SideFinder {
     if (walks.size() == 1) take_corners(walks[0], sides);
     if (walks.size() == 2) take_ring(walks[0], walks[1], sides);
     if (walks.size() >= 2 && sides.facing.empty()) take_holes(walks, sides);
-    if (sides.kind == GridKind::holed) return sides;
-    if (sides.facing.empty()) take_rest(face, sides);
+    if (!sides.facing.empty()) return sides;
+    for (const CadWire& wire : face.wires)
+      for (const Coedge& coedge : wire.coedges) sides.rest.push_back(coedge.edge);
     return sides;
-  }
-
-  /// Adds the facing sides of a narrow face, one long side of which has several edges.
-  void take_strip(const SplitStrip& strip, FaceSides& sides) const {
-    if (!sides.facing.empty()) return;
-    FacingPair& pair = sides.facing.emplace_back();
-    pair.first.push_back({strip.whole->edge, strip.whole->forward});
-    for (const Coedge* part : strip.parts) pair.second.push_back({part->edge, part->forward});
-    pair.second = turned(pair.second);
-    for (const FaceSide* side : {&pair.first, &pair.second}) {
-      for (const SideEdge& edge : *side) std::erase(sides.rest, edge.edge);
-    }
   }
 
  private:
@@ -184,31 +172,12 @@ class SideFinder {
     return length_of(side) / std::max(1.0, std::max(wanted_of(side), static_cast<double>(side.size())));
   }
 
-  /// Treads that follow one another without overlap, on both sides of the face, face each other part by part.
-  /// Others, such as those of a comb's teeth, form a single pair.
-  void add_treads(std::vector<Tread> one, std::vector<Tread> other, FaceSides& sides) const {
-    const bool in_rows = put_in_order(one) && put_in_order(other);
-    FacingPair pair;
+  /// The counts of all treads in one direction add up to those of the treads against it.
+  static void add_treads(const std::vector<Tread>& one, const std::vector<Tread>& other, FaceSides& sides) {
+    FacingPair& pair = sides.facing.emplace_back();
     for (const Tread& tread : one) pair.first.insert(pair.first.end(), tread.side.begin(), tread.side.end());
     for (const Tread& tread : other)
       pair.second.insert(pair.second.end(), tread.side.begin(), tread.side.end());
-    if (in_rows) {
-      add_pairs(pair.first, pair.second, sides);
-    } else {
-      sides.facing.push_back(std::move(pair));
-    }
-  }
-
-  /// Sorts treads along their direction. \return whether none overlaps the next one.
-  static bool put_in_order(std::vector<Tread>& treads) {
-    std::stable_sort(treads.begin(), treads.end(),
-                     [](const Tread& a, const Tread& b) { return a.from < b.from; });
-    constexpr double overlap = 0.1;  // of the shorter one
-    for (std::size_t i = 0; i + 1 < treads.size(); ++i) {
-      const Tread &a = treads[i], &b = treads[i + 1];
-      if (a.to - b.from > overlap * std::min(a.to - a.from, b.to - b.from)) return false;
-    }
-    return true;
   }
 
   static bool is_smooth(const Walk& walk) {
@@ -285,29 +254,6 @@ class SideFinder {
         points.push_back(curve.point(edge.first + (edge.last - edge.first) * i / each));
     }
     return points;
-  }
-
-  /// Narrow or slender wedges, narrow crescents, and faces of four edges without four proper corners have
-  /// facing sides too. All other edges are the rest.
-  void take_rest(const CadFace& face, FaceSides& sides) const {
-    std::vector<const Coedge*> faced;
-    for (const FacingSides& facing : facing_sides(shape_, face)) {
-      const EdgeId first = facing.first->edge, second = facing.second->edge;
-      if (has_unusual_edges(shape_, face)) continue;
-      const std::size_t count = face.wires[0].coedges.size();
-      const bool is_narrow = facing.width < narrow * segment_length(shape_, wanted_, first);
-      constexpr double slender = 0.5;  // base over long side of a triangle
-      const bool is_slender = count == 3 && facing.width < slender * shape_.edges[first].length;
-      if (count != 4 && !is_narrow && !is_slender) continue;
-      sides.facing.push_back({{{first, facing.first->forward}}, {{second, !facing.second->forward}}});
-      faced.push_back(facing.first);
-      faced.push_back(facing.second);
-    }
-    for (const CadWire& wire : face.wires) {
-      for (const Coedge& coedge : wire.coedges) {
-        if (std::find(faced.begin(), faced.end(), &coedge) == faced.end()) sides.rest.push_back(coedge.edge);
-      }
-    }
   }
 
   static FaceSide turned(FaceSide side) {
@@ -392,8 +338,6 @@ FaceOutlines find_face_sides(const CadShape& shape, const FaceFlags& used, const
   for (const FaceId face : result.ids()) {
     if (used[face]) result[face] = finder.find(shape.faces[face]);
   }
-  for (const SplitStrip& strip : find_split_strips(shape, used, wanted))
-    finder.take_strip(strip, result[strip.face]);
   return result;
 }
 

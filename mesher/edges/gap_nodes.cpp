@@ -10,7 +10,6 @@
 #include <cmath>
 
 #include "geometry/surfaces/edge_curve.hpp"
-#include "mesher/edges/facing_sides.hpp"
 
 namespace quadrille {
 

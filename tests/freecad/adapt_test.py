@@ -262,7 +262,7 @@ class AdaptTest(unittest.TestCase):
         adaption.adapt(mesh, error=0.05)
         self.refused(mesh, "does not fit the mesh", error=0.01)  # not solved again
         analysis.removeObject(mesh)
-        self.refused(mesh, "is in no analysis")
+        self.refused(mesh, "is not in an analysis")
 
 
 if __name__ == "__main__":

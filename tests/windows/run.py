@@ -153,7 +153,7 @@ def errors(table, windows, scratch):
         code, _, line, _ = windows.run(*case, timeout=60)
         if code not in (1, 2) or not line.startswith("quadrille: ") or (scratch / "bad.inp").exists():
             wrong.append(f"{' '.join(map(str, case))[-60:]}: {code} {line}")
-    table.row(f"{len(cases)} bad inputs end in a sentence", not wrong, "; ".join(wrong) or "exit codes 1 and 2, nothing written")
+    table.row(f"{len(cases)} bad inputs end with an error message", not wrong, "; ".join(wrong) or "exit codes 1 and 2, nothing written")
     whole = (SAMPLE / "bracket.step").read_bytes()
     wrong, drawn = [], random.Random(1)
     for i in range(20):
@@ -165,7 +165,7 @@ def errors(table, windows, scratch):
         code, _, line, _ = windows.run("mesh", file, "-o", scratch / "damaged.inp", "--time-limit", 60, timeout=90)
         if code not in (0, 1, 2) or (code != 0 and not line.startswith("quadrille: ")):
             wrong.append(f"{i}: {code} {line}")
-    table.row("20 damaged files", not wrong, "; ".join(wrong) or "a mesh or a sentence")
+    table.row("20 damaged files", not wrong, "; ".join(wrong) or "a mesh or an error message")
 
 
 def large(scratch, out):
@@ -273,7 +273,7 @@ def main():
         ENVIRONMENT.setdefault("WINEPREFIX", str(scratch / "wine"))
         windows, linux = Program([shutil.which("wine64") or "/usr/lib/wine/wine64", str(given.program)], True), \
             Program([str(given.linux)], False)
-        print("| what | good | told |\n| --- | --- | --- |")
+        print("| what | passed | output |\n| --- | --- | --- |")
         code, out, line, _ = windows.run("--version")
         table.row("`--version`", code == 0, out.strip() or line)
         code, _, line, _ = windows.run("mesh", SAMPLE / "bracket.step", "-o", scratch / "a.inp", "-o", scratch / "a.msh",

@@ -148,7 +148,7 @@ def done_before(task: Task) -> Optional[Dict[str, Any]]:
 
 
 def _client(options: argparse.Namespace):
-    """Dask's client, connected to the scheduler that was asked for, or to a new cluster on this machine's cores."""
+    """Dask's client, connected to the given scheduler, or to a new cluster on this machine's cores."""
     try:
         import distributed
     except ImportError as error:
@@ -341,7 +341,7 @@ def run(arguments: Optional[List[str]] = None) -> int:
         print(f"quadrille.batch: {error.filename}: {error.strerror}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print("quadrille.batch: stopped; the same command goes on from here", file=sys.stderr)
+        print("quadrille.batch: stopped; the same command continues from here", file=sys.stderr)
         return 130
     if not options.quiet:
         print(summary_of(records))

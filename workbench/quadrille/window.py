@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tells the features of the user interface, for scripts that import the facades while FreeCAD has a window."""
+"""Registers the user interface with the features, for scripts that import the facades while FreeCAD has a window."""
 
 from .features import views
 

@@ -24,7 +24,7 @@
         <translation>Teil / Netz zeigen</translation>
     </message>
     <message>
-        <source>Shows the mesh in place of the part, or the part in place of the mesh</source>
+        <source>Shows the mesh instead of the part, or the part instead of the mesh</source>
         <translation>Zeigt das Netz anstelle des Teils oder das Teil anstelle des Netzes</translation>
     </message>
     <message>
@@ -64,7 +64,7 @@
         <translation>Elementgröße</translation>
     </message>
     <message>
-        <source>none of what is selected is a face of {}: select its faces, or nothing to flip all of them</source>
+        <source>no face of {} is selected: select its faces, or nothing to flip all of them</source>
         <translation>nichts vom Gewählten ist eine Fläche von {}: seine Flächen wählen, oder nichts, um alle umzudrehen</translation>
     </message>
     <message>
@@ -84,7 +84,7 @@
         <translation>wird von selbst gefunden</translation>
     </message>
     <message>
-        <source>Path of the quadrille command, where it is not on PATH</source>
+        <source>Path of the quadrille command if it is not on PATH</source>
         <translation>Pfad des Befehls quadrille, wenn er nicht auf PATH liegt</translation>
     </message>
     <message>
@@ -264,7 +264,7 @@
         <translation>Spannungen an der Oberfläche</translation>
     </message>
     <message>
-        <source>CalculiX then gives results at the top and bottom of the shell, where bending stresses are, and not at its middle alone (the solver&apos;s property Beam Shell Result Output 3D)</source>
+        <source>CalculiX then gives results at the top and bottom of the shell, where bending stresses occur, not only at its middle (the solver&apos;s property Beam Shell Result Output 3D)</source>
         <translation>CalculiX gibt dann Ergebnisse an Ober- und Unterseite der Schale, wo Biegespannungen sind, und nicht nur in ihrer Mitte (Eigenschaft „Beam Shell Result Output 3D“ des Lösers)</translation>
     </message>
     <message>
@@ -362,7 +362,7 @@
     <message>
         <source>{} has the SHA-256
 {}
-Compare it with the one beside the file where it was published. Installing unpacks it into {} and runs it.</source>
+Compare it with the one published with the file. Installing unpacks it into {} and runs it.</source>
         <translation>{} hat die SHA-256
 {}
 Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Installieren wird sie nach {} entpackt und ausgeführt.</translation>
@@ -376,11 +376,11 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>{}. Nehmen, was gepaart werden konnte?</translation>
     </message>
     <message>
-        <source>{} are on {}. Put them on its middle surface?</source>
+        <source>{} are on {}. Move them to its middle surface?</source>
         <translation>{} liegen auf {}. Auf dessen Mittelfläche übertragen?</translation>
     </message>
     <message>
-        <source>{} may be a thin solid, of about {} mm: its skin is then a hollow box, and shell stresses on it mean nothing.</source>
+        <source>{} may be a thin solid, of about {} mm: a mesh of its skin is a hollow box, and shell stresses on it are meaningless.</source>
         <translation>{} ist vielleicht ein dünner Körper von etwa {} mm: Seine Haut ist dann ein hohler Kasten, und Schalenspannungen darauf besagen nichts.</translation>
     </message>
     <message>
@@ -528,7 +528,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>erzwungen von {}</translation>
     </message>
     <message>
-        <source>Smooth edges that quads cross, dotted in the view, and that get no group: {}; Keep names edges that stay</source>
+        <source>Smooth edges that quads cross (dotted in the view, without a group): {}; edges listed in Keep are not crossed</source>
         <translation>Glatte Kanten, die Vierecke kreuzen, in der Ansicht gepunktet und ohne Gruppe: {}; Behalten nennt Kanten, die bleiben</translation>
     </message>
     <message>
@@ -536,7 +536,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Löcher, Taschen und Zapfen, die weggelassen sind: {}</translation>
     </message>
     <message>
-        <source>the mesh is in no analysis: drag it into one in the tree</source>
+        <source>the mesh is not in an analysis: drag it into one in the tree</source>
         <translation>das Netz liegt in keiner Analyse: im Baum in eine ziehen</translation>
     </message>
     <message>
@@ -556,7 +556,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>das Netz hat Teile ohne gemeinsame Knoten: Verschneiden oder Nähen verbindet, was sich berührt</translation>
     </message>
     <message>
-        <source>stresses come from the middle of the shell alone: Stresses at the surfaces</source>
+        <source>stresses come from the middle of the shell only: tick Stresses at the surfaces</source>
         <translation>Spannungen kommen nur aus der Mitte der Schale: Spannungen an der Oberfläche</translation>
     </message>
     <message>
@@ -931,7 +931,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Schalennormalen umdrehen</translation>
     </message>
     <message>
-        <source>Turn the shell normals of the selected faces over (of all faces when none is selected); meshes again</source>
+        <source>Flip the shell normals of the selected faces (of all faces if none is selected) and mesh again</source>
         <translation>Die Schalennormalen der gewählten Flächen umdrehen (aller, wenn keine gewählt ist); vernetzt neu</translation>
     </message>
 </context>

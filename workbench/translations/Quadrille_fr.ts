@@ -24,7 +24,7 @@
         <translation>Afficher pièce / maillage</translation>
     </message>
     <message>
-        <source>Shows the mesh in place of the part, or the part in place of the mesh</source>
+        <source>Shows the mesh instead of the part, or the part instead of the mesh</source>
         <translation>Affiche le maillage à la place de la pièce, ou la pièce à la place du maillage</translation>
     </message>
     <message>
@@ -64,7 +64,7 @@
         <translation>Taille des éléments</translation>
     </message>
     <message>
-        <source>none of what is selected is a face of {}: select its faces, or nothing to flip all of them</source>
+        <source>no face of {} is selected: select its faces, or nothing to flip all of them</source>
         <translation>rien de ce qui est sélectionné n'est une face de {} : sélectionnez ses faces, ou rien pour les retourner toutes</translation>
     </message>
     <message>
@@ -84,7 +84,7 @@
         <translation>trouvée d'elle-même</translation>
     </message>
     <message>
-        <source>Path of the quadrille command, where it is not on PATH</source>
+        <source>Path of the quadrille command if it is not on PATH</source>
         <translation>Chemin de la commande quadrille, si elle n'est pas dans PATH</translation>
     </message>
     <message>
@@ -264,7 +264,7 @@
         <translation>Contraintes en surface</translation>
     </message>
     <message>
-        <source>CalculiX then gives results at the top and bottom of the shell, where bending stresses are, and not at its middle alone (the solver&apos;s property Beam Shell Result Output 3D)</source>
+        <source>CalculiX then gives results at the top and bottom of the shell, where bending stresses occur, not only at its middle (the solver&apos;s property Beam Shell Result Output 3D)</source>
         <translation>CalculiX donne alors des résultats en haut et en bas de la coque, où sont les contraintes de flexion, et non seulement en son milieu (propriété « Beam Shell Result Output 3D » du solveur)</translation>
     </message>
     <message>
@@ -362,7 +362,7 @@
     <message>
         <source>{} has the SHA-256
 {}
-Compare it with the one beside the file where it was published. Installing unpacks it into {} and runs it.</source>
+Compare it with the one published with the file. Installing unpacks it into {} and runs it.</source>
         <translation>{} a la SHA-256
 {}
 Comparez-la avec celle publiée à côté du fichier. L’installation l’extrait dans {} et l’exécute.</translation>
@@ -376,11 +376,11 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>{}. Prendre ce qui a pu être apparié ?</translation>
     </message>
     <message>
-        <source>{} are on {}. Put them on its middle surface?</source>
+        <source>{} are on {}. Move them to its middle surface?</source>
         <translation>{} portent sur {}. Les reporter sur sa surface moyenne ?</translation>
     </message>
     <message>
-        <source>{} may be a thin solid, of about {} mm: its skin is then a hollow box, and shell stresses on it mean nothing.</source>
+        <source>{} may be a thin solid, of about {} mm: a mesh of its skin is a hollow box, and shell stresses on it are meaningless.</source>
         <translation>{} est peut-être un solide mince d’environ {} mm : sa peau est alors une boîte creuse, et des contraintes de coque y sont dépourvues de sens.</translation>
     </message>
     <message>
@@ -528,7 +528,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>imposé par {}</translation>
     </message>
     <message>
-        <source>Smooth edges that quads cross, dotted in the view, and that get no group: {}; Keep names edges that stay</source>
+        <source>Smooth edges that quads cross (dotted in the view, without a group): {}; edges listed in Keep are not crossed</source>
         <translation>Arêtes lisses que des quadrangles traversent, en pointillé dans la vue et sans groupe : {} ; Garder nomme les arêtes qui restent</translation>
     </message>
     <message>
@@ -536,7 +536,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Trous, poches et bossages laissés de côté : {}</translation>
     </message>
     <message>
-        <source>the mesh is in no analysis: drag it into one in the tree</source>
+        <source>the mesh is not in an analysis: drag it into one in the tree</source>
         <translation>le maillage n'est dans aucune analyse : le glisser dans une analyse de l'arborescence</translation>
     </message>
     <message>
@@ -556,7 +556,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>le maillage est en morceaux sans nœud commun : Imprimer ou Coudre relie ce qui se touche</translation>
     </message>
     <message>
-        <source>stresses come from the middle of the shell alone: Stresses at the surfaces</source>
+        <source>stresses come from the middle of the shell only: tick Stresses at the surfaces</source>
         <translation>les contraintes viennent du seul milieu de la coque : Contraintes en surface</translation>
     </message>
     <message>
@@ -931,7 +931,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Retourner les normales de coque</translation>
     </message>
     <message>
-        <source>Turn the shell normals of the selected faces over (of all faces when none is selected); meshes again</source>
+        <source>Flip the shell normals of the selected faces (of all faces if none is selected) and mesh again</source>
         <translation>Retourner les normales des faces sélectionnées (de toutes si aucune ne l'est) ; maille à nouveau</translation>
     </message>
 </context>

@@ -40,7 +40,7 @@ def _sides(face, corners):
     else:
         found = [[step] for step in around]
     if len(face.Wires) != 1 or len(found) not in (3, 4):
-        raise RuntimeError(f"a face has {len(found)} sides, and a grid wants three or four")
+        raise RuntimeError(f"a face has {len(found)} sides; a grid needs three or four")
     return found
 
 
@@ -118,7 +118,7 @@ def _blend(face, patch):
 
 
 def _along(face, points):
-    """Whether the normals of a grid's elements point the same way as the face's."""
+    """Whether the normals of a grid's elements point in the same direction as the face's."""
     i, j = (points.shape[0] // 4) * 2, (points.shape[1] // 4) * 2
     normal = np.cross(points[i, j + 1] - points[i, j], points[i + 1, j] - points[i, j])
     return float(normal @ np.array(face.normalAt(*face.Surface.parameter(Vector(*points[i, j]))))) > 0

@@ -230,7 +230,7 @@ class PanelTest(GuiCase):
         self.press_mesh()
         crossed = find("QuadrilleCrossed")
         self.assertTrue(crossed.isVisible())
-        self.assertIn("get no group: 1;", crossed.text())
+        self.assertIn("without a group): 1;", crossed.text())
         self.assertEqual(crossed.toolTip(), "Edge2 (Face1)")
         self.assertNotIn("cross", find("QuadrilleLog").toPlainText())
         self.assertTrue(overlays.is_shown(mesh, overlays.CROSSED))
@@ -709,7 +709,7 @@ class PanelTest(GuiCase):
 
         self.assertEqual(told(), "")  # no analysis in the document
         analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
-        self.assertIn("the mesh is in no analysis", told())
+        self.assertIn("the mesh is not in an analysis", told())
         analysis.addObject(mesh)
         FemGui.setActiveAnalysis(analysis)
         text = told()

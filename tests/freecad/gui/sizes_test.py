@@ -269,7 +269,7 @@ class SizesTest(GuiCase):
         with mock.patch.object(QtGui.QInputDialog, "getDouble", return_value=(2.0, True)):
             with Boxes() as boxes:
                 trigger("Quadrille_Adapt")
-        self.assertTrue(any("is in no analysis" in text for text in boxes.texts), boxes.texts)
+        self.assertTrue(any("is not in an analysis" in text for text in boxes.texts), boxes.texts)
         with mock.patch.object(QtGui.QInputDialog, "getDouble", return_value=(2.0, False)):
             trigger("Quadrille_Adapt")
 

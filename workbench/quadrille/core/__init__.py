@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command as a child process, its settings, errors and meshes as arrays: what knows nothing of documents."""
+"""The command as a child process, its settings, errors and meshes as arrays: everything independent of documents."""

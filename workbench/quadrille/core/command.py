@@ -294,7 +294,7 @@ class CommandJob:
                 self._process.wait()
 
     def kill(self) -> None:
-        """Kills the child process at once, for work that leaves no files behind. There is no result then."""
+        """Kills the child process at once, for work that leaves no files behind. There is then no result."""
         self._cancelled = True
         if self.running:
             self._process.kill()

@@ -6,7 +6,7 @@ class Error(RuntimeError):
     """What went wrong, as one sentence for the user.
 
     Attributes:
-        kind: "usage" (the request makes no sense), "failure" (the input or the machine made it impossible) or
+        kind: "usage" (the request is invalid), "failure" (the input or the machine made it impossible) or
             "cancelled".
         subject: the file, face ("Face3"), object or option concerned; may be empty.
     """

@@ -167,7 +167,7 @@ def _with_names_of_the_part(fem_mesh: "Fem.FemMesh", pieces: Dict[str, List[str]
     """Gives the groups of an imprinted part's faces, edges and vertices the names that these have in FreeCAD.
 
     Args:
-        pieces: by the name in FreeCAD, the names of what it became. Where sewing has numbered edges anew, none are known: such
+        pieces: by the name in FreeCAD, the names of what it became. Where sewing has renumbered edges, none are known: such
             groups are left out, and FreeCAD finds the nodes by their places.
     """
     kinds = {"Face": "Face", "Edge": "Edge", "Vertex": "Node"}

@@ -8,13 +8,13 @@ Result = TypeVar("Result")
 
 
 class Prepared(Generic[Result]):
-    """At most one result, by what it was made of. A result that was not taken makes room for the next."""
+    """At most one result, by what it was made of. The next result replaces one that was not taken."""
 
     def __init__(self) -> None:
         self._kept: Dict[Hashable, Result] = {}
 
     def put(self, key: Hashable, result: Result) -> None:
-        """Keeps a result in place of the one before."""
+        """Keeps a result instead of the previous one."""
         self._kept = {key: result}
 
     def make(self, key: Hashable, work: Callable[[], Result]) -> Result:

@@ -8,17 +8,17 @@ import numpy as np
 from .arrays import faces_of, nodes_of
 
 #: The industry criteria: the value of a perfect square, and the usual limit. Same as in the mesher (mesher/mesh/criteria.hpp).
-#: Half the least size of a mesh is the limit of min_length, see limits().
+#: Half the minimum size of a mesh is the limit of min_length, see limits().
 CRITERIA = {
     "aspect": (1.0, 5.0), "warp": (0.0, 15.0), "skew": (0.0, 40.0), "angle_min": (90.0, 40.0), "angle_max": (90.0, 140.0),
     "jacobian_ratio": (1.0, 0.6), "taper": (0.0, 0.6), "min_length": (np.inf, 0.0),
 }
-#: A direction that no mesh has, of at most unit length: few nodes that lie apart are close together along it.
+#: A direction unrelated to any mesh, of at most unit length: along it, few separate nodes are close together.
 _SLANTED = np.array([0.5271, 0.3817, 0.7590])
 
 
 def limits(least_size: float = 0.0) -> Dict[str, Tuple[float, float]]:
-    """CRITERIA for a mesh of a least size, in mm; 0 = not known, no side is too short."""
+    """CRITERIA for a mesh with this minimum size, in mm; 0 = not known, no side is too short."""
     return {**CRITERIA, "min_length": (np.inf, 0.5 * least_size)}
 
 

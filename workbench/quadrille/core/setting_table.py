@@ -104,7 +104,7 @@ _OPTION = re.compile(r"(?<![\w-])--[a-z]+(?:-[a-z]+)*")
 
 def words_for(option: str, translate: Callable[[str], str] = str) -> Optional[str]:
     """What FreeCAD calls an option: the panel's label in quotes, or the property that the panel does not show, or the argument
-    of mesh_object(). None if it is no option for meshing."""
+    of mesh_object(). None if it is not an option for meshing."""
     if option in _WORDS_ELSEWHERE:
         return _WORDS_ELSEWHERE[option]
     for setting in SETTINGS:

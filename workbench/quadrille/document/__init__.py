@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a FreeCAD document says about a mesh: its part, links, sizes, groups, and whether the mesh is up to date."""
+"""The data of a mesh in a FreeCAD document: its part, links, sizes, groups, and whether the mesh is up to date."""

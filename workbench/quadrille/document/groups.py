@@ -90,7 +90,7 @@ def referenced(mesh) -> List[str]:
         try:
             names.update(shapes.references_to_names(mesh.Shape.Shape, mesh.Shape, source.References))
         except Error:
-            continue  # left_out() tells of it
+            continue  # left_out() reports it
     return sorted(name for name in names if name.startswith(("Face", "Edge")))
 
 
@@ -109,7 +109,7 @@ def left_out(mesh) -> List[str]:
         if missing:
             way = "mesh that face too" if links.names_in(mesh.Faces) else "mesh again, so that it gets nodes of its own"
             sentences.append(f"{member.Label} is on {missing[0]}, which is not in the mesh {mesh.Label}: {way}, or "
-                             f"take it out of {member.Label}")
+                             f"remove it from {member.Label}")
     return sentences
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The faces, edges and vertices that a mesh object names, stored as FreeCAD's links, and where they are after the part was
+"""The faces, edges and vertices that a mesh object names, stored as FreeCAD's links and identified again after the part was
 edited.
 
 FreeCAD renumbers faces when an edit adds or removes some: Face6 may then be another face. FreeCAD 1.0 updates links to

@@ -5,7 +5,7 @@ window.
 A click on a PartDesign Body picks its topmost feature, and faces are named by feature (`Pocket.Face9`). A click inside a Part
 container names the container first. A pick is followed from the outermost object inward: the first object with its own shape
 is the part. So a Body stays the part when features are added to it. A container's shape, which holds all that is in it, counts only
-if nothing inside was picked. A pick on a mesh stands for what the mesh has there, see on_mesh()."""
+if nothing inside was picked. A pick on a mesh means the part's element there, see on_mesh()."""
 
 import re
 from typing import Dict, Iterable, List, Sequence, Tuple
@@ -65,7 +65,7 @@ def elements_of(part, picks: Iterable[Pick]) -> List[str]:
             inner = ".".join(pick[1].split(".")[path.index(part) - len(path):])
             name = shapes.find_element(part.Shape, part.getSubObject(inner))
             if name is None:
-                raise Error(f"{part.Label}: {pick[1]} is not on its surface any more", "usage", pick[1])
+                raise Error(f"{part.Label}: {pick[1]} is no longer on its surface", "usage", pick[1])
         if name not in names:
             names.append(name)
     return names
@@ -127,7 +127,7 @@ def _is_mesh_of(part, obj) -> bool:
 
 # Picks on meshes
 
-#: How near a pick must be to a side or a corner of an element to mean the edge or the vertex there, in mean sides of the element.
+#: How close to a side or a corner of an element a pick means the edge or the vertex there, relative to the mean side length.
 _NEAR_EDGE, _NEAR_VERTEX = 0.2, 0.25
 #: Elements whose distance to a pick is measured: those with the nearest circumscribed spheres.
 _CANDIDATES = 60
@@ -138,7 +138,7 @@ def on_mesh(mesh, point: Sequence[float]) -> str:
     FreeCAD 0.20 names elements other than those that were clicked, so it is found by the point. Raises Error if the part has
     changed since it was meshed."""
     if mesh.Status in (state.PART_CHANGED, state.BOTH_CHANGED, state.PART_GONE, state.LOST, state.OTHER_MEANS):
-        raise Error(f"{mesh.Label}: {mesh.Status}; its faces, edges and vertices can be picked on the part alone until then", "usage",
+        raise Error(f"{mesh.Label}: {mesh.Status}; until then, pick its faces, edges and vertices on the part", "usage",
                     mesh.Name)
     element, quad, ends, at = _nearest(mesh, point)
     if not element:

@@ -26,7 +26,7 @@ def refine(mesh, references, size, name: str = "Refinement"):
         raise Error("select the faces, edges or vertices to refine", "usage", mesh.Name)
     length = millimeters(size)
     if not length > 0:
-        raise Error(f"a refinement of size {size} makes no sense: it must be larger than 0", "usage", mesh.Name)
+        raise Error(f"a refinement needs a size larger than 0, not {size}", "usage", mesh.Name)
     check_references(mesh, references)  # raises now, not when meshing
     region = ObjectsFem.makeMeshRegion(mesh.Document, mesh, length, name)
     region.References = references

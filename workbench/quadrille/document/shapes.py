@@ -12,7 +12,7 @@ from ..core.errors import Error
 
 
 def check_size(shape, sizes: Iterable[float]) -> None:
-    """Raises Error if an element size makes no sense for a shape. The first is the usual one, which the mesher refuses if it is
+    """Raises Error if an element size is not possible for a shape. The first is the global size, which the mesher refuses if it is
     larger than the model."""
     size, *_ = sizes = list(sizes)
     diagonal, least = shape.BoundBox.DiagonalLength, min(sizes)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a mesh object asks for, and whether its mesh still matches that. Runs inside FreeCAD."""
+"""The settings of a mesh object, and whether its mesh still matches them. Runs inside FreeCAD."""
 
 import hashlib
 import json
@@ -20,7 +20,7 @@ SURFACE_TYPE = "Fem::FemMeshQuadrilleSurface"
 #: Two properties for sizes that follow results, see adaption.py: the file with the sizes, which the document stores, and
 #: whether to use it. The second is needed since FreeCAD cannot empty the first.
 ADAPTED, FOLLOWS = "AdaptedSizes", "FollowResults"
-#: Property with the peaks of stress on the mesh that was adapted last, as the command reports them.
+#: Property with the stress peaks on the mesh that was adapted last, as the command reports them.
 PEAKS = "StressPeaks"
 
 # The values of the property Status.
@@ -34,7 +34,7 @@ SENSELESS = "the settings make no sense"
 OTHER_MEANS = "made by other means: mesh again"
 BOTH_CHANGED = "the part and the settings have changed: mesh again"
 STATUSES = (NOT_MESHED, UP_TO_DATE, PART_CHANGED, SETTINGS_CHANGED, PART_GONE, LOST, SENSELESS, OTHER_MEANS, BOTH_CHANGED)
-#: Settings that name faces, edges and vertices: other names may mean the same elements of a part that has changed.
+#: Settings that name faces, edges and vertices: in a changed part, other names may mean the same elements.
 _NAMING = frozenset(("flipped", *(setting["name"] for setting in SETTINGS if setting["kind"] in ("names", "entries"))))
 
 
@@ -70,7 +70,7 @@ def source_of(mesh):
 
 
 def wanted_of(mesh) -> Wanted:
-    """What a mesh object asks for."""
+    """The settings of a mesh object."""
     values = {setting["property"]: getattr(mesh, setting["property"]) for setting in SETTINGS if setting["property"]}
     values.update((name, getattr(mesh, name, default)) for name, default in ((ADAPTED, ""), (FOLLOWS, False)))
     refinements = [Refinement(region.Name, region.References, _length(region)) for region in mesh.MeshRegionList]
@@ -168,7 +168,7 @@ def same_settings(one: str, other: str, by_name: bool = True) -> bool:
     """Compares two keys of settings_key(). A setting that is missing in one of them counts as having its current default.
 
     Args:
-        by_name: whether to compare what is said of faces, edges and vertices by name, too.
+        by_name: whether to compare settings that name faces, edges and vertices, too.
     """
     defaults = {setting["name"]: setting["default"] for setting in SETTINGS if setting["default"] is not None}
     both = [{**defaults, **json.loads(key or "{}")} for key in (one, other)]
@@ -247,4 +247,4 @@ def complaint(mesh) -> str:
         return ""
     if now == UP_TO_DATE:
         return "; ".join(groups.left_out(mesh)) if is_quad_mesh(mesh) else ""
-    return f"{mesh.Label}: {sentence}; what is solved with the mesh as it is would not be right"
+    return f"{mesh.Label}: {sentence}; results with this mesh would be wrong"

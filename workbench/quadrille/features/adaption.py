@@ -27,20 +27,20 @@ from . import mesh_object as core
 
 
 class Estimate(NamedTuple):
-    """The error of a solution, and the mesh that would reach the wanted error."""
+    """The error of a solution, and the mesh that would reach the target error."""
 
     error: float  #: relative error of the stresses in the energy norm
     quads: int  #: number of quads in the mesh that was solved
     quads_wanted: float  #: approximate number of quads in the next mesh
     size_min: float  #: smallest size in the next mesh, mm
     size_max: float  #: largest size in the next mesh, mm
-    met: bool  #: the error is not above the wanted one; the other values are then those of the present mesh
-    warnings: List[str]  #: if it is met: where a peak of stress has changed since the mesh before, under the same loads
+    met: bool  #: the error is not above the target; the other values are then those of the present mesh
+    warnings: List[str]  #: if it is met: where a stress peak has changed since the previous mesh, under the same loads
     peaks: List[Dict[str, Any]]  #: places and sizes of the highest stresses, as the command reports them
 
 
 class _Round(NamedTuple):
-    """A finished round of adapting that is not yet stored in the document."""
+    """A finished round of adaptation that is not yet stored in the document."""
 
     estimate: Estimate
     folder: object  #: scratch folder that holds the sizes
@@ -91,7 +91,7 @@ def adapt(mesh, error: float = 0.05, count: Optional[float] = None, result=None,
 
 def prepare(mesh, error: float = 0.05, count: Optional[float] = None, progress: Optional[Progress] = None) -> Estimate:
     """Does the work of the adapt() call that follows immediately, while a window shows the progress. The adapt() call itself is
-    then quick, and macros can record it. Returns what adapt() will."""
+    then quick, and macros can record it. Returns the same as adapt()."""
     return _ready.make(_key(mesh), lambda: _prepare(mesh, error, count, None, progress, None)).estimate
 
 
@@ -105,7 +105,7 @@ def _key(mesh) -> Tuple[str, str]:
 def _prepare(mesh, error, count, result, progress, command) -> _Round:
     """Does everything that can fail, before the document is changed."""
     if mesh.SizeField:
-        raise Error(f"{mesh.Label}: its SizeField is set, where the sizes from results belong: clear it first", "usage",
+        raise Error(f"{mesh.Label}: its SizeField is set, which the sizes from results would replace: clear it first", "usage",
                     "SizeField")
     folder = scratch_folder()
     try:
@@ -130,7 +130,7 @@ _SIZES = "sizes.vdb"
 def _estimate(mesh, result, aim: List[str], folder: str, progress: Optional[Progress], command: Optional[str]) -> Estimate:
     analysis = groups.analysis_of(mesh)
     if analysis is None:
-        raise Error(f"{mesh.Label}: is in no analysis: put it into one, and solve that first", "usage", mesh.Name)
+        raise Error(f"{mesh.Label}: is not in an analysis: add it to one, and solve that first", "usage", mesh.Name)
     solved, displaced, sizes = (os.path.join(folder, name) for name in ("mesh.inp", "result.vtu", _SIZES))
     result = result or last_result(mesh, analysis)
     _write_bricks(displaced, _bricks_of(result, analysis))
@@ -206,7 +206,7 @@ class _Bricks(NamedTuple):
 def _bricks_of(result, analysis) -> _Bricks:
     for solver in results.solvers_of(analysis):
         if _is_pipeline(result) and result in getattr(solver, "Results", ()) and getattr(solver, "DisplaceMesh", False):
-            raise Error(f"{result.Label}: its nodes are moved: set DisplaceMesh of {solver.Label} to false, and solve again", "usage",
+            raise Error(f"{result.Label}: its nodes are displaced: set DisplaceMesh of {solver.Label} to false, and solve again", "usage",
                         result.Name)
     bricks = _bricks_of_pipeline(result) if _is_pipeline(result) else _bricks_of_object(result)
     if not bricks.kinds.size or not np.isin(bricks.kinds, [kind for kind, _ in _BRICKS.values()]).all():

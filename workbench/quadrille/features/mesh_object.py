@@ -176,7 +176,7 @@ def start(mesh, command: Optional[str] = None, outputs: Sequence[Union[str, Path
     found = links.follow(mesh, wanted.anew)
     flipped = state.flipped(mesh, found)
     shape = shapes.with_reversed_faces(shape_of(part), flipped)
-    # What the analysis refers to keeps its nodes, and so its groups. A file gets the mesh that is there.
+    # Elements that the analysis refers to keep their nodes, and so their groups. A file gets the existing mesh.
     kept = list(mesh.KeptForAnalysis) if outputs else groups.referenced(mesh)
     used = state.settings_to_use(mesh, wanted, found)
     if kept:
@@ -247,8 +247,8 @@ def export(mesh, path: Union[str, Path]) -> None:
         job = mesh.Proxy.start(mesh, outputs=[written])
         fem_mesh, _ = job.wait_for_result()
         if (fem_mesh.FaceCount, fem_mesh.NodeCount) != (mesh.FemMesh.FaceCount, mesh.FemMesh.NodeCount):
-            raise Error(f"{mesh.Label}: the mesher gives another mesh now (it is of another version, or the part was computed "
-                        "anew and differs by rounding): mesh again, then export", "failure", mesh.Name)
+            raise Error(f"{mesh.Label}: the mesher now gives another mesh (its version has changed, or the part was recomputed "
+                        "and differs by rounding): mesh again, then export", "failure", mesh.Name)
         try:
             Path(path).write_bytes(Path(written).read_bytes())
         except OSError as error:
@@ -257,7 +257,7 @@ def export(mesh, path: Union[str, Path]) -> None:
 
 #: The properties of every mesh object besides its settings: type, name, group and description.
 RESULT_PROPERTIES = (
-    ("App::PropertyEnumeration", "Status", "Result", "Whether the mesh is that of the part and the settings"),
+    ("App::PropertyEnumeration", "Status", "Result", "Whether the mesh is up to date with the part and the settings"),
     ("App::PropertyEnumeration", "Element", "Solve", "Type of the elements for CalculiX. Plane stress (CPS), plane strain (CPE) and "
      "rotational symmetry about the y axis (CAX) need a part in the plane z = 0; M3D are membranes"),
     ("App::PropertyBool", "ReducedShells", "Solve", "Second-order shells are written for CalculiX as S8R, not S8"),
@@ -271,12 +271,12 @@ RESULT_PROPERTIES = (
     ("App::PropertyFloat", "MeanJacobian", "Result", "Mean scaled Jacobian"),
     ("App::PropertyFloat", "LargestAspect", "Result", "Largest ratio of longest to shortest edge of a quad"),
     ("App::PropertyFloat", "IrregularPercent", "Result", "Inner nodes with more or fewer than four quads, percent"),
-    ("App::PropertyFloat", "OutsidePercent", "Result", "Quads outside the limits of industry, percent"),
+    ("App::PropertyFloat", "OutsidePercent", "Result", "Quads outside the industry limits, percent"),
     ("App::PropertyStringList", "FilledHoles", "Result", "Holes, pockets and bosses that are left out, with the faces they lie in"),
     ("App::PropertyStringList", "CrossedEdges", "Result", "Smooth edges that quads cross, with their faces"),
     ("App::PropertyVectorList", "CrossedLines", "Result", "Points along each of these edges, as many on each"),
-    ("App::PropertyStringList", "PoorQuads", "Result", "Edges and faces whose quads are outside the limits of industry, and why"),
-    ("App::PropertyFloat", "LeastSize", "Result", "Least size of the mesh by its sizes, mm; sides under half of it count as outside"),
+    ("App::PropertyStringList", "PoorQuads", "Result", "Edges and faces whose quads are outside the industry limits, and why"),
+    ("App::PropertyFloat", "LeastSize", "Result", "Minimum size of the mesh, mm; sides under half of it count as outside"),
     ("App::PropertyFloat", "Seconds", "Result", "Seconds that the mesher took, all threads together"),
     ("App::PropertyFloatList", "MeshedShape", "Hidden", "Measures of the part when it was meshed"),
     ("App::PropertyString", "MeshedSettings", "Hidden", "Settings that the mesh was made with"),
@@ -318,15 +318,15 @@ class MeshFeature:
             setattr(obj, name, to_property(setting, None))
         for kind, name, group, text in (
             ("App::PropertyLink", "Shape", "Mesh", "The part that is meshed"),
-            (links.PROPERTY, "FlippedFaces", "Mesh", "Faces whose shell normals are turned over"),
-            ("App::PropertyBool", state.FOLLOWS, "Mesh", "Sizes follow results, as the last round of adapting found them"),
-            ("App::PropertyFileIncluded", state.ADAPTED, "Hidden", "Sizes of the last round of adapting"),
-            ("App::PropertyString", state.PEAKS, "Hidden", "Peaks of stress on the mesh before the last round of adapting"),
+            (links.PROPERTY, "FlippedFaces", "Mesh", "Faces whose shell normals are flipped"),
+            ("App::PropertyBool", state.FOLLOWS, "Mesh", "Use the sizes of the last round of adaptation"),
+            ("App::PropertyFileIncluded", state.ADAPTED, "Hidden", "Sizes of the last round of adaptation"),
+            ("App::PropertyString", state.PEAKS, "Hidden", "Stress peaks on the mesh before the last round of adaptation"),
             ("App::PropertyLinkList", "MeshRegionList", "Mesh", "FEM mesh regions: sizes on faces, edges, vertices"),
             ("App::PropertyLinkList", "MeshGroupList", "Mesh", "FEM mesh groups to make"),
             *RESULT_PROPERTIES,
             ("App::PropertyStringList", "KeptForAnalysis", "Hidden", "Faces and edges that the analysis referred to"),
-            ("App::PropertyString", "ChosenElements", "Hidden", "What the named faces, edges and vertices were"),
+            ("App::PropertyString", "ChosenElements", "Hidden", "Measures of the named faces, edges and vertices"),
         ):
             if name not in obj.PropertiesList:
                 obj.addProperty(kind, name, group, text)
@@ -393,7 +393,7 @@ def _in_millimeters(settings: MeshSettings) -> MeshSettings:
 
 
 def check_analysis(analysis) -> None:
-    """Raises Error if an object is no analysis, or one that already holds a mesh other than a result mesh."""
+    """Raises Error if an object is not an analysis, or already holds a mesh other than a result mesh."""
     if analysis is None:
         return
     if not analysis.isDerivedFrom("Fem::FemAnalysis"):

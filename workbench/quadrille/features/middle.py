@@ -164,7 +164,7 @@ def _update_thicknesses(middle) -> None:
 # Loads and supports
 
 def counterparts(middle, name: str) -> List[str]:
-    """The elements of a middle surface that stand for a face or solid of its part. For a solid: all middle faces. For a face:
+    """The elements of a middle surface that correspond to a face or solid of its part. For a solid: all middle faces. For a face:
     the middle faces between it and another face, or, if it is a rim, the free edges on it. Empty if there are none."""
     if name.startswith("Solid"):
         return [f"Face{i}" for i in range(1, len(middle.Thicknesses) + 1)]
@@ -205,7 +205,7 @@ def move_references(middle, analysis) -> List[str]:
         if missing:
             left.append(f"{member.Label}: {', '.join(missing)} of {middle.Source.Label} has no counterpart on {middle.Label}")
         elif turned is None:
-            left.append(f"{member.Label}: presses on the middle surface from both sides: make a pressure for each side")
+            left.append(f"{member.Label}: would act on the middle surface from both sides: create a pressure for each side")
         else:
             member.References = list(dict.fromkeys(references))
             if turned:
@@ -285,7 +285,7 @@ class _MiddleJob(CommandJob):
 
 
 def _progress(part):
-    """Yields what is called with the progress: in FreeCAD's window that of a bar with a Cancel button."""
+    """Yields the function to call with the progress: in FreeCAD's window that of a bar with a Cancel button."""
     window = views.window()
     return window.progress_bar_for(part) if window is not None else contextlib.nullcontext()
 
@@ -344,12 +344,12 @@ class MiddleSurface:
             ("App::PropertyFloatList", "Areas", "Result", "Area of each face, mm2"),
             ("App::PropertyFloat", "AreaTimesThickness", "Result", "Sum of area times thickness, mm3"),
             ("App::PropertyFloat", "VolumeShare", "Result", "Sum of area times thickness over the volume of the part"),
-            ("App::PropertyFloat", "VolumeShareOnce", "Result", "The same without what counts twice where walls meet"),
+            ("App::PropertyFloat", "VolumeShareOnce", "Result", "The same, without volume counted twice where walls meet"),
             ("App::PropertyInteger", "Parts", "Result", "Number of connected parts of the surface"),
             ("App::PropertyInteger", "Solids", "Result", "Number of solids that have a middle surface"),
             ("App::PropertyInteger", "FreeEdges", "Result", "Number of free edges"),
             ("App::PropertyStringList", "LeftOut", "Result", "The faces of the part that are neither side nor rim of a wall"),
-            ("App::PropertyStringList", "Problems", "Result", "What is left out, imprecise or wrong, a sentence each"),
+            ("App::PropertyStringList", "Problems", "Result", "Omissions, inaccuracies and errors, one sentence each"),
         ):
             if name not in obj.PropertiesList:
                 obj.addProperty(kind, name, group, text)

@@ -18,7 +18,7 @@ from ..document import links, state
 
 
 class Source(NamedTuple):
-    """Something that asks for sizes, and the region where it asks for the smallest."""
+    """A source of sizes, and the region where it requests the smallest."""
 
     name: str  #: the option that it comes from
     area: float  #: area of the region, mm^2
@@ -113,7 +113,7 @@ class CountJob(SizesJob):
     """The same for a Count alone, which takes far less time.
 
     Args:
-        wanted: find the size that gives about this many quads, in place of that of the settings.
+        wanted: find the size that gives about this many quads, instead of that of the settings.
     """
 
     def __init__(self, shape, settings: MeshSettings, command: Optional[str] = None, wanted: int = 0) -> None:
@@ -147,7 +147,7 @@ def start(mesh, wanted: Optional[state.Wanted] = None, command: Optional[str] = 
         wanted: settings to use instead of the object's own.
 
     Raises:
-        Error: with one sentence, if the settings or the part make no sense.
+        Error: with one sentence, if the settings or the part are invalid.
     """
     wanted = wanted or state.wanted_of(mesh)
     shape = state.shape_of(mesh.Shape)

@@ -37,7 +37,7 @@ def is_mesh_object(obj) -> bool:
 
 
 def check_surface(surface, analysis=None) -> None:
-    """Raises Error if `surface` is no mesh object that can be meshed, or if the analysis cannot take its mesh."""
+    """Raises Error if `surface` is not a mesh object that can be meshed, or if the analysis cannot take its mesh."""
     label, name = getattr(surface, "Label", surface), getattr(surface, "Name", "")
     if not is_mesh_object(surface):
         raise Error(f"{label}: is not a mesh object; select one, such as an STL file that was imported", "usage", name)
@@ -226,8 +226,8 @@ class SurfaceMesh:
             ("App::PropertyEnumeration", "ElementOrder", "Mesh", "2nd: eight-node quads, 1st: four-node quads"),
             ("App::PropertyAngle", "FeatureAngle", "Mesh", "Smallest angle between neighboring triangles of two different "
              "faces; 0 = the whole surface is one face"),
-            ("App::PropertyLength", "MergeDistance", "Mesh", "Nodes at most this far apart become one; 0 = those on one place"),
-            ("App::PropertyFloat", "OffSurface", "Result", "The farthest that the mesh is from the surface, mm"),
+            ("App::PropertyLength", "MergeDistance", "Mesh", "Nodes at most this far apart are merged; 0 = only coincident nodes"),
+            ("App::PropertyFloat", "OffSurface", "Result", "Largest distance of the mesh from the surface, mm"),
             *core.RESULT_PROPERTIES,
         ):
             if name in obj.PropertiesList:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What FreeCAD's window adds to the document objects. The user interface registers it here, since this package knows nothing of
+"""What FreeCAD's window adds to the document objects. The user interface registers it here, since this package does not depend on
 the user interface and works without a window."""
 
 from typing import Any, Callable, Optional

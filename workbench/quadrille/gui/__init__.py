@@ -33,7 +33,7 @@ def drawn_icon(name: str) -> QtGui.QIcon:
 
 
 def tell(text: str, title: str = "Quadrille") -> None:
-    """Tells the user what went wrong, in a message box and in the report view."""
+    """Shows an error in a message box and in the report view."""
     FreeCAD.Console.PrintError(f"{title}: {text}\n")
     QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), title, text)
 

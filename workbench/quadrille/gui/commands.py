@@ -190,7 +190,7 @@ class MiddleCommand(_Command):
         middle_search.find(part, options, self.ask)
         if analysis is not None:
             loads = middle.referring_to(part, analysis)
-            if loads and self.ask(translate("Quadrille", "{} are on {}. Put them on its middle surface?").format(
+            if loads and self.ask(translate("Quadrille", "{} are on {}. Move them to its middle surface?").format(
                     ", ".join(member.Label for member in loads), part.Label)):
                 options["move_loads"] = True
         do("import quadrille.middle")
@@ -342,7 +342,7 @@ class FlipCommand(_Command):
     name = "Quadrille_Flip"
     text = QT_TRANSLATE_NOOP("Quadrille_Flip", "Flip shell normals")
     tip = QT_TRANSLATE_NOOP(
-        "Quadrille_Flip", "Turn the shell normals of the selected faces over (of all faces when none is selected); meshes again")
+        "Quadrille_Flip", "Flip the shell normals of the selected faces (of all faces if none is selected) and mesh again")
     accelerator = "Q, F"
     pixmap = "quadrille_flip"
     step = "Flip shell normals"
@@ -356,8 +356,8 @@ class FlipCommand(_Command):
         chosen = [pick for pick in picked(mesh.Document) if pick[1].split(".")[-1]]
         faces = [name for name in picks.elements_of(part_of(mesh), chosen) if name.startswith("Face")]
         if chosen and not faces:
-            raise Error(translate("Quadrille", "none of what is selected is a face of {}: select its faces, or nothing to flip "
-                                  "all of them").format(mesh.Shape.Label), "usage")
+            raise Error(translate("Quadrille", "no face of {} is selected: select its faces, or nothing "
+                                  "to flip all of them").format(mesh.Shape.Label), "usage")
         do("import quadrille.freecad")
         do(f"quadrille.freecad.flip({path_of(mesh)}, {faces!r})")
         if overlays.is_shown(mesh, overlays.NORMALS):
@@ -406,7 +406,7 @@ class AdaptCommand(_Command):
 
     @staticmethod
     def ask(mesh) -> Optional[float]:
-        """Asks for the wanted error, in percent, in a dialog; None if it is cancelled."""
+        """Asks for the target error, in percent, in a dialog; None if it is cancelled."""
         percent, agreed = QtGui.QInputDialog.getDouble(
             FreeCADGui.getMainWindow(), translate("Quadrille", "Adapt {} to results").format(mesh.Label),
             translate("Quadrille", "Target error of the stresses, percent"), 5.0, 0.01, 99.0, 2)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Counts the quads that a mesh would have, for its panel. A child process counts, so that the window stays responsive however
-large the part is."""
+"""Counts the quads that a mesh would have, for its panel. A child process counts, so that the window stays responsive even for
+large parts."""
 
 import time
 from typing import Callable, Optional, Tuple
@@ -19,12 +19,12 @@ FAILURES = (Error, AttributeError, RuntimeError)
 
 
 class Counting:
-    """At most one count at a time: a new question makes that before void."""
+    """At most one count at a time: a new request replaces the previous one."""
 
     def __init__(self, done: Callable[[Optional[Count], Optional[Exception]], None]) -> None:
         """done: called with the count, or with the reason why there is none."""
         self._done = done
-        self._asked: Optional[Tuple[object, MeshSettings, int]] = None  # the question, until its job is started
+        self._asked: Optional[Tuple[object, MeshSettings, int]] = None  # the request, until its job is started
         self._job: Optional[CountJob] = None
         self._settle, self._timer = QtCore.QTimer(), QtCore.QTimer()
         self._settle.setSingleShot(True)
@@ -35,7 +35,7 @@ class Counting:
 
     @property
     def busy(self) -> bool:
-        """True until the last question is answered."""
+        """True until the last request is answered."""
         return self._asked is not None or self._job is not None
 
     def ask(self, shape, settings: MeshSettings, wanted: int = 0) -> None:
@@ -52,7 +52,7 @@ class Counting:
             self._poll()
 
     def release(self) -> None:
-        """Drops the question that is not answered yet."""
+        """Drops the request that is not answered yet."""
         self._settle.stop()
         self._timer.stop()
         self._asked = None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One element of a mesh, clicked in the 3-D view or chosen from a list: its face, its measures, and what forces its shape."""
+"""One element of a mesh, clicked in the 3-D view or chosen from a list: its face, its measures, and the cause of its shape."""
 
 from typing import Callable, Optional
 
@@ -13,7 +13,7 @@ from . import mesh_clicks, overlays, translate
 
 
 class ElementView(QtGui.QWidget):
-    """Tells of an element, and offers to refine there. Follows clicks on the mesh until release() is called."""
+    """Describes an element, and offers to refine there. Follows clicks on the mesh until release() is called."""
 
     def __init__(self, mesh, measured: Callable[[], quality.ElementQuality], refine: Callable[[str, float], None]) -> None:
         super().__init__()
@@ -35,7 +35,7 @@ class ElementView(QtGui.QWidget):
         mesh_clicks.listeners.append(self._clicked)
 
     def forget(self) -> None:
-        """Tells of no element, as when the mesh has changed."""
+        """Describes no element, as when the mesh has changed."""
         self._groups = None
         self.setVisible(False)
 
@@ -73,7 +73,7 @@ class ElementView(QtGui.QWidget):
         return [(entry.split(":")[0], entry.partition(", ")[2]) for entry in self._mesh.PoorQuads]
 
     def show_element(self, index: int) -> None:
-        """Tells of an element, by its index in the measures."""
+        """Describes an element, by its index in the measures."""
         measured = self._measured()
         self._face, self._size = self.face_of(index), 0.5 * float(measured.lengths[index])
         criteria = measured.criteria

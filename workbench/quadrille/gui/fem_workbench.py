@@ -132,7 +132,7 @@ def _offer_meshing_again(mesh, menu) -> None:
 
 
 def mesh_again(meshes: Sequence[Any]) -> None:
-    """Meshes again with the settings that the meshes have, each as one step of undo. What fails is told, and keeps its mesh."""
+    """Meshes again with the settings of the meshes, each as one undo step. Failures are reported; such meshes stay as they are."""
     if FreeCADGui.Control.activeDialog():
         tell(translate("Quadrille", "Another task panel is open: close it first."))
         return

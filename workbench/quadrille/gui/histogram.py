@@ -75,5 +75,5 @@ class Histogram(QtGui.QWidget):
 
 
 def _level(count: int, most: int) -> float:
-    """The height of a bar, of 1 at most: 0 for no element; those for one element and for ten can be told apart."""
+    """The height of a bar, of 1 at most: 0 for no element; one element and ten give different heights."""
     return float(np.log10(1 + count) / np.log10(1 + most))

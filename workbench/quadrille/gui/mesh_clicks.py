@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is selected, for commands and panels: a click on a quad mesh stands for the face, edge or vertex of its part there.
+"""What is selected, for commands and panels: a click on a quad mesh counts as one on the face, edge or vertex of its part there.
 
-FreeCAD tells observers where a click was even if it selects the whole mesh, as at the second click on it; the selection itself
-does not."""
+FreeCAD gives observers the position of a click even if it selects the whole mesh, as at the second click on it; the selection
+itself does not contain it."""
 
 from typing import Callable, Dict, List, Optional, Sequence, Tuple
 
@@ -11,14 +11,14 @@ import FreeCADGui
 from ..document import picks
 from ..document.state import is_quad_mesh
 
-#: Where selected objects were clicked, by the names of document and object as FreeCAD tells them.
+#: Where selected objects were clicked, by the names of document and object as FreeCAD passes them.
 _clicks: Dict[Tuple[str, str], List[Sequence[float]]] = {}
 #: Called with the names of document and object, and with the point, at each click that selects something.
 listeners: List[Callable[[str, str, Sequence[float]], None]] = []
 
 
 class _Observer:
-    """Notes the clicks on what is selected."""
+    """Records the clicks on selected objects."""
 
     def addSelection(self, document: str, obj: str, _path: str, point) -> None:
         """FreeCAD calls this when something is selected; scripts and the tree give no point."""
@@ -44,7 +44,7 @@ _observer: Optional[_Observer] = None
 
 
 def watch() -> None:
-    """Starts to note clicks. Further calls do nothing."""
+    """Starts to record clicks. Further calls do nothing."""
     global _observer
     if _observer is None:
         _observer = _Observer()
@@ -67,7 +67,7 @@ def picked(document) -> List[picks.Pick]:
 
 
 def toggle(mesh) -> None:
-    """Shows a mesh in place of its part, or the part in place of the mesh."""
+    """Shows a mesh instead of its part, or the part instead of the mesh."""
     part = mesh.Shape
     to_part = mesh.ViewObject.Visibility
     mesh.ViewObject.Visibility = not to_part

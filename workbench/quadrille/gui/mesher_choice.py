@@ -151,7 +151,7 @@ class MesherChoice(QtGui.QGroupBox):
             self._archive, digest = outcome
             digest = "\n".join(digest[i:i + 32] for i in (0, 32))  # a panel is narrow
             self.text.setText(translate(
-                "Quadrille", "{} has the SHA-256\n{}\nCompare it with the one beside the file where it was published. "
+                "Quadrille", "{} has the SHA-256\n{}\nCompare it with the one published with the file. "
                 "Installing unpacks it into {} and runs it.").format(self._archive.name, digest, data_folder() / "mesher"))
         elif isinstance(outcome, str):
             self._use(outcome)

@@ -79,7 +79,7 @@ class PreferencesPage:
         self.command = QtGui.QLineEdit()
         self.command.setObjectName("QuadrillePrefCommand")
         self.command.setPlaceholderText(translate("Quadrille", "found automatically"))
-        self.command.setToolTip(translate("Quadrille", "Path of the quadrille command, where it is not on PATH"))
+        self.command.setToolTip(translate("Quadrille", "Path of the quadrille command if it is not on PATH"))
         browse = QtGui.QPushButton("...")
         browse.clicked.connect(self._browse)
         self.found = QtGui.QLabel()

@@ -17,12 +17,12 @@ from .wheel import calm
 
 #: What is missing before a mesh can be solved, by the names of the checks.
 MISSING = {
-    "analysis": QT_TRANSLATE_NOOP("Quadrille", "the mesh is in no analysis: drag it into one in the tree"),
+    "analysis": QT_TRANSLATE_NOOP("Quadrille", "the mesh is not in an analysis: drag it into one in the tree"),
     "active": QT_TRANSLATE_NOOP("Quadrille", "its analysis is not the active one: double-click it"),
     "material": QT_TRANSLATE_NOOP("Quadrille", "the analysis has no material"),
     "thickness": QT_TRANSLATE_NOOP("Quadrille", "the analysis has no shell thickness (Model > Element geometry)"),
     "pieces": QT_TRANSLATE_NOOP("Quadrille", "the mesh is in pieces that share no nodes: Imprint or Sew joins parts that touch"),
-    "surfaces": QT_TRANSLATE_NOOP("Quadrille", "stresses come from the middle of the shell alone: Stresses at the surfaces"),
+    "surfaces": QT_TRANSLATE_NOOP("Quadrille", "stresses come from the middle of the shell only: tick Stresses at the surfaces"),
 }
 WORST = 20
 BINS = 20
@@ -150,11 +150,11 @@ class QualityWidget(QtGui.QWidget):
         self.status.setText(translate("QuadrilleStatus", status))
 
     def _list_forced(self) -> None:
-        """Tells which smooth edges quads cross, and what forces short sides."""
+        """Shows which smooth edges quads cross, and the causes of short sides."""
         for label, entries, text in (
                 (self.crossed, self.mesh.CrossedEdges,
                  translate("Quadrille",
-                           "Smooth edges that quads cross, dotted in the view, and that get no group: {}; Keep names edges that stay")),
+                           "Smooth edges that quads cross (dotted in the view, without a group): {}; edges listed in Keep are not crossed")),
                 (self.filled, self.mesh.FilledHoles, translate("Quadrille", "Holes, pockets and bosses that are left out: {}")),
                 (self.poor, self.mesh.PoorQuads,
                  translate("Quadrille", "Edges and faces whose quads are outside the limits: {}"))):
@@ -184,7 +184,7 @@ class QualityWidget(QtGui.QWidget):
         self._list_worst()
 
     def _tell_what_is_missing(self) -> None:
-        """Tells what a document with an analysis lacks before this mesh can be solved."""
+        """Shows what is missing in a document with an analysis before this mesh can be solved."""
         self.ready.setVisible(any(obj.isDerivedFrom("Fem::FemAnalysis") for obj in self.mesh.Document.Objects))
         if not self.ready.isVisibleTo(self):
             return

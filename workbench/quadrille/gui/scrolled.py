@@ -10,7 +10,7 @@ _LEAST_HEIGHT = 160
 
 
 class Scrolled(QtGui.QWidget):
-    """As high as FreeCAD's view of tasks lets it be."""
+    """As high as FreeCAD's task view allows."""
 
     def __init__(self) -> None:
         super().__init__()

@@ -161,7 +161,7 @@ class SizePreview(QtGui.QWidget):
 
 
 def summary(found: sizes.SizeMap) -> str:
-    """A text that says what the colors mean, and what asks for the sizes."""
+    """A text that explains the colors and lists the sources of the sizes."""
     lines = [translate("Quadrille", "dark {} mm, light {} mm").format(
         digits(found.sizes.min()), digits(found.sizes.max()))]
     area = sum(source.area for source in found.sources)

@@ -37,11 +37,11 @@ from .thin_hint import thin_hint
 from .wheel import calm
 
 _POLL_MILLISECONDS = 10
-#: Delay before a mesher is started to stand by, after opening and after meshing, which it would slow down.
+#: Delay before a standby mesher is started, after opening and after meshing, which it would slow down.
 _STAND_BY_MILLISECONDS = 500
 #: The mesher's minimum size, where none is given, is the size divided by this (see "Minimum" in the table of settings).
 _SIZE_TO_MINIMUM = 8
-#: What the mesher writes about smooth edges, which the panel tells in its own words.
+#: The beginning of the mesher's message about smooth edges, which the panel words itself.
 _CROSSED = "note: quads cross"
 #: Properties that are always visible; the others are under "More settings".
 _IN_SIGHT = ("Size", "ElementOrder", "Faces")
@@ -92,8 +92,8 @@ class MeshPanel:
         self.surfaces = QtGui.QCheckBox(translate("Quadrille", "Stresses at the surfaces"))
         self.surfaces.setObjectName("QuadrilleSurfaces")
         self.surfaces.setToolTip(translate(
-            "Quadrille", "CalculiX then gives results at the top and bottom of the shell, where bending stresses are, and not at "
-            "its middle alone (the solver's property Beam Shell Result Output 3D)"))
+            "Quadrille", "CalculiX then gives results at the top and bottom of the shell, where bending stresses occur, not only "
+            "at its middle (the solver's property Beam Shell Result Output 3D)"))
         self.estimate = QtGui.QLabel()
         self.estimate.setObjectName("QuadrilleEstimate")
         self.estimate.setWordWrap(True)
@@ -109,7 +109,7 @@ class MeshPanel:
         self.stop_button = _button("QuadrilleStop", translate("Quadrille", "Stop"), translate("Quadrille", "Ends the mesher"))
         self.stop_button.setEnabled(False)
         self.show_other = _button("QuadrilleShowOther", translate("Quadrille", "Show part / mesh"),
-                                  translate("Quadrille", "Shows the mesh in place of the part, or the part in place of the mesh"))
+                                  translate("Quadrille", "Shows the mesh instead of the part, or the part instead of the mesh"))
         self.show_other.clicked.connect(lambda *_: mesh_clicks.toggle(self.mesh))
         self.bar = QtGui.QProgressBar()
         self.bar.setObjectName("QuadrilleProgress")
@@ -260,10 +260,10 @@ class MeshPanel:
         self._update_estimate()
 
     def _show_errors(self, error: Optional[Exception] = None) -> None:
-        """Tells what is wrong below the fields that it concerns.
+        """Shows errors below the fields concerned.
 
         Args:
-            error: what came up when all the fields were used together.
+            error: the error when all fields were used together.
         """
         sentences = dict(self._refused)
         if isinstance(error, Error):
@@ -358,7 +358,7 @@ class MeshPanel:
         self._update_estimate()
 
     def _picked(self, *kinds: str) -> list:
-        """The names of the selected elements of these kinds on the part. Tells the user if there are none."""
+        """The names of the selected elements of these kinds on the part. Shows a message if there are none."""
         try:
             part = state.part_of(self.mesh)
             names = picks.elements_of(part, mesh_clicks.picked(self.mesh.Document))
@@ -413,7 +413,7 @@ class MeshPanel:
         self.entries.add("NodesAt", named)
 
     def _usual_size(self) -> float:
-        """The size where no other is asked for. Raises Error if it cannot be read."""
+        """The global size. Raises Error if it cannot be read."""
         return self.settings["Size"].value() or default_size(state.part_of(self.mesh).Shape.BoundBox.DiagonalLength)
 
     @staticmethod

@@ -19,7 +19,7 @@ def thin_hint(part, close: Callable[[], object]) -> Optional[QtGui.QLabel]:
     if thickness is None:
         return None
     text = translate(
-        "Quadrille", "{} may be a thin solid, of about {} mm: its skin is then a hollow box, and shell stresses on it mean nothing."
+        "Quadrille", "{} may be a thin solid, of about {} mm: a mesh of its skin is a hollow box, and shell stresses on it are meaningless."
     ).format(part.Label, f"{thickness:.2g}")
     offer = translate("Quadrille", "Make its middle surface")
     label = QtGui.QLabel(f'{text} <a href="middle">{offer}</a>')

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The type of elements in CalculiX's input: FreeCAD writes S4 and S8, and what a mesh object asks for takes their place, with
+"""The type of elements in CalculiX's input: S4 and S8, which FreeCAD writes, are replaced by the type of a mesh object, with
 the sections and supports that it needs. Runs inside FreeCAD."""
 
 import re
@@ -13,7 +13,7 @@ from ..core.setting_table import BY_NAME
 
 #: Types with which CalculiX 2.20 finds a strip 3.5 times too soft (M3D8) and singular (M3D8R).
 _WRONG = ("M3D8", "M3D8R")
-#: The types that a mesh object can ask for, of those of `--element`. With "shell", quads are S4, at second order S8R or S8.
+#: The types that a mesh object can have, of those of `--element`. With "shell", quads are S4, at second order S8R or S8.
 SHELL, *OTHERS = (name for name in BY_NAME["element"]["choices"] if name not in _WRONG)
 #: How far a node may be from the plane z = 0, or behind the axis, as a share of the diagonal.
 _TOLERANCE = 1e-5
@@ -24,7 +24,7 @@ _ROTATIONS, _OUT_OF_PLANE = re.compile(rb"(?m)^[^,\n]+,[456](?:,[^\n]*)?\n"), re
 
 
 def element_of(mesh) -> str:
-    """The type that a mesh object asks for; "shell" for mesh objects that are not Quadrille's."""
+    """The type of a mesh object; "shell" for mesh objects that are not Quadrille's."""
     return mesh.Element if "ReducedShells" in mesh.PropertiesList else SHELL
 
 
@@ -34,7 +34,7 @@ def lies_in_plane(element: str) -> bool:
 
 
 def problem_of(mesh) -> str:
-    """Why CalculiX cannot take the mesh as the elements that its object asks for, as a sentence; empty if it can."""
+    """Why CalculiX cannot use the mesh with its object's element type, as a sentence; empty if it can."""
     element = element_of(mesh)
     if element == SHELL:
         return ""
@@ -53,10 +53,11 @@ def _problem_in_plane(label: str, element: str, shells: arrays.Shells) -> str:
     tolerance = _TOLERANCE * float(np.linalg.norm(points.max(axis=0) - points.min(axis=0)))
     off = float(np.abs(points[:, 2]).max())
     if off > tolerance:
-        return (f"{label}: Element {element} needs a part in the plane z = 0, and this one leaves it by {off:.4g} mm: move or turn "
-                "it there")
+        return (f"{label}: Element {element} needs a part in the plane z = 0, and this one leaves it by {off:.4g} mm: move or "
+                "rotate it there")
     if element.startswith("CAX") and points[:, 0].min() < -tolerance:
-        return (f"{label}: Element {element} turns round the y axis, and the part reaches to x = {points[:, 0].min():.4g} mm: move "
+        return (f"{label}: Element {element} has the y axis as its axis of symmetry, and the part reaches to x = "
+                f"{points[:, 0].min():.4g} mm: move "
                 "it to positive x")
     return ""
 

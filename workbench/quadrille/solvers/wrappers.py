@@ -8,7 +8,7 @@ is written to the report view.
 With several materials or thicknesses, FreeCAD looks up each element's nodes in a list of the nodes on a face, and searches
 all volumes for the faces that belong to none. Both take quadratic time in the number of elements: many minutes for 100 000.
 If the mesh has the group of elements that groups.py makes for a material or thickness, that group is used. Otherwise the
-list is turned into a set, and if there are no volumes, all faces are taken as belonging to none.
+list is turned into a set, and if there are no volumes, all faces count as belonging to none.
 
 Meshes without such groups, and mesh objects that are not Quadrille's, give the same results as before. Runs inside FreeCAD."""
 
@@ -213,7 +213,7 @@ def _when_needed(function):
 
 
 def _followed(function):
-    """Writes CalculiX's input with the element type and the shell offset that the mesh object asks for."""
+    """Writes CalculiX's input with the element type and the shell offset of the mesh object."""
 
     @functools.wraps(function)
     def write_solver_input(self, *arguments, **options):
