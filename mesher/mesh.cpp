@@ -25,10 +25,10 @@
 #include "mesher/edges/edge_sampling.hpp"
 #include "mesher/edges/grid_rows.hpp"
 #include "mesher/edges/hole_filling.hpp"
-#include "mesher/edges/let_go.hpp"
 #include "mesher/edges/matching.hpp"
 #include "mesher/edges/placed_nodes.hpp"
 #include "mesher/edges/row_lines.hpp"
+#include "mesher/edges/suppressed_features.hpp"
 #include "mesher/faces/boundary_crossings.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/settings.hpp"
@@ -73,7 +73,7 @@ class Job {
         problems_before_(shape_.faces.size()),
         records_(shape_.faces.size()),
         asked_(used_),
-        let_go_(shape_, asked_, reach_of_let_go(limits_, options), edges_that_stay(), held_vertices()) {
+        suppressed_(shape_, asked_, suppression_reach(limits_, options), edges_that_stay(), held_vertices()) {
     if (options_.strategy == Strategy::subdivide) plan_.subdivided.assign(shape_.faces.size(), 1);
     plan_.matched = matches_.edges;
     plan_.prescribed = prescribed_edges(shape_, options.sizing, limits_.largest);
@@ -90,8 +90,9 @@ class Job {
     for (const auto& [vertex, layers] : plan_.rows.steps)
       sizing.layers.vertices.emplace(vertex.number(), layers);
     const ElementBudget budget(model_, sizing, asked_, context_);
-    SizingField field = SizingField::build(
-        model_, sizing, context_, {let_go_.edges(), plan_.tiny.merged_faces, rows_.divided, rows_.layered});
+    SizingField field =
+        SizingField::build(model_, sizing, context_,
+                           {suppressed_.edges(), plan_.tiny.merged_faces, rows_.divided, rows_.layered});
     budget.check(field);
     return field;
   }
@@ -128,21 +129,21 @@ class Job {
     ShellMesh result = assemble(CadGeometry(shape_), nodes_, meshes_, options_.order, context_, &numbering);
     list_matches(matches_, nodes_, numbering, result);
     result.faces = statuses();
-    result.let_go = list_let_go();
+    result.suppressed_features = list_suppressed();
     result.kept = list_kept();
     for (const auto& [edge, why] : plan_.rows.without)
       result.warnings.push_back(fmt::format("`layers` on Edge{} give sizes but no rows: {}", edge, why));
     result.filled_holes = filled_.holes;
-    for (const EdgeId id : suppressed_) {
+    for (const EdgeId id : crossed_) {
       constexpr int pieces = 32;
       const CadEdge& edge = shape_.edges[id];
-      result.suppressed_edges.push_back({edge.number,
-                                         {edge.faces.front().number(), edge.faces.back().number()},
-                                         points_along(edge, pieces)});
+      result.crossed_edges.push_back({edge.number,
+                                      {edge.faces.front().number(), edge.faces.back().number()},
+                                      points_along(edge, pieces)});
     }
-    std::sort(result.suppressed_edges.begin(), result.suppressed_edges.end());
-    result.suppressed_edges.erase(std::unique(result.suppressed_edges.begin(), result.suppressed_edges.end()),
-                                  result.suppressed_edges.end());
+    std::sort(result.crossed_edges.begin(), result.crossed_edges.end());
+    result.crossed_edges.erase(std::unique(result.crossed_edges.begin(), result.crossed_edges.end()),
+                               result.crossed_edges.end());
     name_placed_nodes(result);
     if (options_.sizing.spacings.empty()) result.size_min = limits_.least;
     result.poor_quads = poor_quads(shape_, result);
@@ -150,7 +151,7 @@ class Job {
   }
 
   SmallFeatures small_features() const {
-    SmallFeatures result{list_let_go(), {}, list_kept(), filled_.holes};
+    SmallFeatures result{list_suppressed(), {}, list_kept(), filled_.holes};
     for (const FaceId face : asked_.ids())
       if (asked_[face] && plan_.tiny.merged_faces[face]) result.faces.push_back(face.number());
     return result;
@@ -172,7 +173,7 @@ class Job {
   static CadModel divided(const CadModel& model, const FaceFlags& used, const MeshOptions& options) {
     const SizingOptions& sizing = options.sizing;
     if (!sizing.spacings.empty() || !sizing.layers.edges.empty() || !sizing.matches.empty()) return model;
-    const double reach = reach_of_let_go(size_limits(model, options.sizing), options);
+    const double reach = suppression_reach(size_limits(model, options.sizing), options);
     const auto shape = divided_at_slivers(model.shape(), used, reach);
     return shape ? CadModel(shape) : model;
   }
@@ -268,7 +269,7 @@ class Job {
   void slide() {
     const EdgeFlags kept = named_edges();
     const auto move = [&] {
-      suppressed_ = slide_nodes(shape_, nodes_, meshes_, kept, options_.improve, context_);
+      crossed_ = slide_nodes(shape_, nodes_, meshes_, kept, options_.improve, context_);
     };
     if (!is_limited()) return move();
     const BoundaryNodes nodes = nodes_;
@@ -371,7 +372,7 @@ class Job {
 
   void leave_out_tiny() {
     TinyFeatures& tiny = plan_.tiny;
-    tiny = let_go_.find(options_.merge_tiny);
+    tiny = suppressed_.find(options_.merge_tiny);
     for (const FaceId face : filled_.gone.ids()) tiny.merged_faces[face] |= filled_.gone[face];
     for (const FaceId face : used_.ids()) {
       used_[face] = asked_[face] && !tiny.merged_faces[face];
@@ -380,10 +381,10 @@ class Job {
     FaceFlags may_end = used_;
     for (const FaceId face : may_end.ids())
       may_end[face] = used_[face] && !to_tips_[face] && !touches_match(face);
-    plan_.tips = find_tips(shape_, may_end, tiny, reach_of_let_go(limits_, options_));
+    plan_.tips = find_tips(shape_, may_end, tiny, suppression_reach(limits_, options_));
   }
 
-  static double reach_of_let_go(const SizeLimits& limits, const MeshOptions& options) {
+  static double suppression_reach(const SizeLimits& limits, const MeshOptions& options) {
     constexpr double far_below = 0.5;
     if (options.keep_features) return 0;
     return options.reach > 0 ? options.reach : far_below * limits.size_min;
@@ -568,7 +569,7 @@ class Job {
         any = true;
         continue;
       }
-      if (is_failure && let_go_.keep_around(face, problems_[face]->edges, plan_.tiny)) {
+      if (is_failure && suppressed_.keep_around(face, problems_[face]->edges, plan_.tiny)) {
         record.history.push_back("suppressed features restored");
         any = true;
         continue;
@@ -624,10 +625,10 @@ class Job {
     }
   }
 
-  std::vector<ShellMesh::LetGo> list_let_go() const {
-    using Kind = ShellMesh::LetGo::Kind;
+  std::vector<ShellMesh::SuppressedFeature> list_suppressed() const {
+    using Kind = ShellMesh::SuppressedFeature::Kind;
     const TinyFeatures& tiny = plan_.tiny;
-    std::vector<ShellMesh::LetGo> result;
+    std::vector<ShellMesh::SuppressedFeature> result;
     for (const EdgeId id : tiny.edges.ids()) {
       const CadEdge& edge = shape_.edges[id];
       const VertexId end = tiny.end(edge.first_vertex);
@@ -643,8 +644,8 @@ class Job {
         result.push_back({Kind::vertex, vertex.number(), Kind::vertex, end.number(),
                           (shape_.vertices[vertex] - shape_.vertices[end]).norm()});
     }
-    // The pieces of a divided edge come last, and may be let go in the same way.
-    const auto place = [](const ShellMesh::LetGo& a) {
+    // The pieces of a divided edge come last, and may be suppressed in the same way.
+    const auto place = [](const ShellMesh::SuppressedFeature& a) {
       return std::tuple(a.kind, a.number, a.to_kind, a.to);
     };
     std::sort(result.begin(), result.end(),
@@ -665,9 +666,10 @@ class Job {
 
   std::vector<ShellMesh::Kept> list_kept() const {
     std::vector<ShellMesh::Kept> result;
-    for (const auto& [face, why] : let_go_.kept_faces()) result.push_back({2, face.number(), why});
+    for (const auto& [face, why] : suppressed_.kept_faces()) result.push_back({2, face.number(), why});
     std::map<int, std::string> edges;  // by number, which the pieces of a divided edge share
-    for (const auto& [edge, why] : let_go_.kept_edges()) edges.try_emplace(shape_.edges[edge].number, why);
+    for (const auto& [edge, why] : suppressed_.kept_edges())
+      edges.try_emplace(shape_.edges[edge].number, why);
     for (const auto& [number, why] : edges) result.push_back({1, number, why});
     return result;
   }
@@ -720,7 +722,7 @@ class Job {
   Matches matches_;
   ExecutionContext& context_;
   SamplingPlan plan_;
-  std::vector<EdgeId> suppressed_;
+  std::vector<EdgeId> crossed_;
   EdgeTables tables_;
   FaceFlags to_tips_;  ///< 1 = does not end before its tips
   GridRows rows_;
@@ -731,7 +733,7 @@ class Job {
   IdVector<FaceId, std::optional<FaceProblem>> problems_, problems_before_;
   IdVector<FaceId, FaceRecord> records_;
   FaceFlags asked_;
-  LetGo let_go_;
+  SuppressedFeatures suppressed_;
 };
 
 /// \param uncrossed numbers of edges that no quad may cross

@@ -56,12 +56,13 @@ struct MeshOptions {
   /// Edges shorter than this become points, and faces narrower than this between two edges become edges; 0 =
   /// all are kept.
   double merge_tiny = 0;
-  /// Edges shorter and faces narrower than this are suppressed where that does no harm (ShellMesh::let_go); 0
-  /// = half the least size.
+  /// Edges shorter and faces narrower than this are suppressed where that does no harm
+  /// (ShellMesh::suppressed_features); 0 = half the least size.
   double reach = 0;
   /// Holes, pockets and bosses that are no wider than this are left out (ShellMesh::filled_holes); 0 = none.
   double fill_holes = 0;
-  /// Mesh edges and slivers below the reach too, instead of suppressing them (ShellMesh::let_go).
+  /// Mesh edges and slivers below the reach too, instead of suppressing them
+  /// (ShellMesh::suppressed_features).
   bool keep_features = false;
   int rings = 1;         ///< most rings of quads around each hole without corners
   bool partial = false;  ///< deliver what could be meshed when a face fails, instead of throwing

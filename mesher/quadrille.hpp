@@ -44,7 +44,7 @@ QUADRILLE_API ShellMesh mesh(const MidSurface& middle, const MeshOptions& option
 
 /// What is too small for the sizes of a mesh.
 struct SmallFeatures {
-  std::vector<ShellMesh::LetGo> let_go;      ///< edges, then vertices, ascending
+  std::vector<ShellMesh::SuppressedFeature> suppressed_features;  ///< edges, then vertices, ascending
   std::vector<int> faces;                    ///< faces that become an edge or a node, from 1, ascending
   std::vector<ShellMesh::Kept> kept;         ///< small faces, then edges, that are kept nevertheless
   std::vector<ShellMesh::FilledHole> holes;  ///< holes, pockets and bosses to be left out

@@ -108,7 +108,7 @@ TEST(Mesh, NodesLieOnTheGeometry) {
       std::set<int> faces{mesh.quad_faces[i]};
       for (std::size_t before = 0; before != faces.size();) {
         before = faces.size();
-        for (const auto& edge : mesh.suppressed_edges) {
+        for (const auto& edge : mesh.crossed_edges) {
           if (faces.contains(edge.faces[0]) || faces.contains(edge.faces[1]))
             faces.insert(edge.faces.begin(), edge.faces.end());
         }

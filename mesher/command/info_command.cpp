@@ -63,12 +63,12 @@ std::string describe(const CadModel& model, ExecutionContext& context) {
 /// The features that are suppressed at a size, and small ones that are kept.
 std::string features(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
   const SmallFeatures found = small_features(model, options, context);
-  using Kind = ShellMesh::LetGo::Kind;
+  using Kind = ShellMesh::SuppressedFeature::Kind;
   const auto name = [](Kind kind, int number) {
     return fmt::format("{}{}", kind == Kind::edge ? "Edge" : "Vertex", number);
   };
   std::string text;
-  for (const auto& feature : found.let_go)
+  for (const auto& feature : found.suppressed_features)
     text += fmt::format("{:<12} {} becomes {}, at most {} mm away\n", "suppressed",
                         name(feature.kind, feature.number), name(feature.to_kind, feature.to),
                         number_text(feature.distance));

@@ -225,13 +225,13 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
   }
   if (arguments.quiet) return;
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
-  if (!result.suppressed_edges.empty()) {
-    const int edge = result.suppressed_edges.front().edge;
+  if (!result.crossed_edges.empty()) {
+    const int edge = result.crossed_edges.front().edge;
     fmt::print(stderr,
                "note: quads cross smooth edges ({}, Edge{} first), which get no groups of their own: --keep "
                "Edge{} keeps "
                "it, --keep-features all\n",
-               result.suppressed_edges.size(), edge, edge);
+               result.crossed_edges.size(), edge, edge);
   }
   if (!result.filled_holes.empty())
     fmt::print(stderr, "note: {} holes, pockets and bosses are left out; the report (--report) lists them\n",

@@ -114,7 +114,7 @@ double median_length(const ShellMesh& mesh, const std::vector<std::array<int, 2>
 vtkNew<vtkActor> suppressed_actor(const ShellMesh& mesh, double step, double width) {
   std::vector<Vector3> ends;
   std::vector<std::array<int, 2>> dots;
-  for (const ShellMesh::SuppressedEdge& edge : mesh.suppressed_edges) {
+  for (const ShellMesh::CrossedEdge& edge : mesh.crossed_edges) {
     for (std::size_t k = 0; k + 1 < edge.line.size(); ++k) {
       const Vector3 &from = edge.line[k], &to = edge.line[k + 1];
       constexpr double most = 1000;
@@ -145,7 +145,7 @@ void add_actors(const ShellMesh& mesh, const std::vector<double>& qualities, dou
   const vtkNew<vtkActor> marks = line_actor(marked, points, 6 * line_width, 1);
   marks->GetProperty()->SetColor(0.9, 0, 0.1);
   renderer->AddActor(marks);
-  if (!mesh.suppressed_edges.empty())
+  if (!mesh.crossed_edges.empty())
     renderer->AddActor(suppressed_actor(mesh, 8 * line_width * pixel, 2.4 * line_width));
 }
 

@@ -106,9 +106,9 @@ json off_geometry_to_json(const ShellMesh& mesh) {
   return nodes;
 }
 
-json suppressed_to_json(const ShellMesh& mesh) {
+json crossed_to_json(const ShellMesh& mesh) {
   json edges = json::array();
-  for (const ShellMesh::SuppressedEdge& edge : mesh.suppressed_edges) {
+  for (const ShellMesh::CrossedEdge& edge : mesh.crossed_edges) {
     json line = json::array();
     for (const Vector3& point : edge.line) line.push_back({point.x(), point.y(), point.z()});
     edges.push_back(
@@ -157,12 +157,12 @@ json matches_to_json(const ShellMesh& mesh) {
   return matches;
 }
 
-json let_go_to_json(const ShellMesh& mesh) {
-  const auto name = [](ShellMesh::LetGo::Kind kind, int number) {
-    return (kind == ShellMesh::LetGo::Kind::edge ? "Edge" : "Vertex") + std::to_string(number);
+json suppressed_to_json(const ShellMesh& mesh) {
+  const auto name = [](ShellMesh::SuppressedFeature::Kind kind, int number) {
+    return (kind == ShellMesh::SuppressedFeature::Kind::edge ? "Edge" : "Vertex") + std::to_string(number);
   };
   json features = json::array();
-  for (const ShellMesh::LetGo& feature : mesh.let_go)
+  for (const ShellMesh::SuppressedFeature& feature : mesh.suppressed_features)
     features.push_back({{"name", name(feature.kind, feature.number)},
                         {"to", name(feature.to_kind, feature.to)},
                         {"distance", feature.distance}});
@@ -226,10 +226,10 @@ json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const Exec
           {"peak_bytes", usage.peak_bytes},
           {"faces", faces_to_json(mesh)},
           {"off_geometry", off_geometry_to_json(mesh)},
-          {"let_go", let_go_to_json(mesh)},
+          {"let_go", suppressed_to_json(mesh)},
           {"kept", kept_to_json(mesh)},
           {"filled_holes", filled_holes_to_json(mesh)},
-          {"suppressed_edges", suppressed_to_json(mesh)},
+          {"suppressed_edges", crossed_to_json(mesh)},
           {"placed_nodes", placed_to_json(mesh)},
           {"matches", matches_to_json(mesh)},
           {"poor_quads", poor_quads_to_json(mesh)},

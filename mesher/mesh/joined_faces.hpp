@@ -8,11 +8,11 @@
 
 namespace quadrille {
 
-/// Finds the faces that ShellMesh::suppressed_edges connect. O(n log n) in these edges.
+/// Finds the faces that ShellMesh::crossed_edges connect. O(n log n) in these edges.
 class JoinedFaces {
  public:
   explicit JoinedFaces(const ShellMesh& mesh) {
-    for (const auto& edge : mesh.suppressed_edges) {
+    for (const auto& edge : mesh.crossed_edges) {
       const int a = first(edge.faces[0]), b = first(edge.faces[1]);
       before_.emplace(a, a);
       before_.emplace(b, b);

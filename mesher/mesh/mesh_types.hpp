@@ -86,7 +86,7 @@ struct ShellMesh {
   };
 
   /// A CAD edge or vertex that is not meshed because it is too small.
-  struct LetGo {
+  struct SuppressedFeature {
     /// The kind of an entity.
     enum class Kind { edge, vertex };
     Kind kind = Kind::edge;     ///< kind of the suppressed entity
@@ -97,16 +97,16 @@ struct ShellMesh {
   };
 
   /// A CAD edge between faces that meet smoothly, or a piece of it, that quads cross: it has no segments.
-  struct SuppressedEdge {
+  struct CrossedEdge {
     int edge = 0;                ///< its number, from 1
     std::array<int, 2> faces{};  ///< its faces, from 1; quads belong to the one that their center lies on
     std::vector<Vector3> line;   ///< points on it, in the direction of its parameter, to draw it by
     /// Whether edge and faces are the same.
-    friend bool operator==(const SuppressedEdge& a, const SuppressedEdge& b) {
+    friend bool operator==(const CrossedEdge& a, const CrossedEdge& b) {
       return a.edge == b.edge && a.faces == b.faces;
     }
     /// By edge, then by faces.
-    friend bool operator<(const SuppressedEdge& a, const SuppressedEdge& b) {
+    friend bool operator<(const CrossedEdge& a, const CrossedEdge& b) {
       return std::pair(a.edge, a.faces) < std::pair(b.edge, b.faces);
     }
   };
@@ -183,14 +183,15 @@ struct ShellMesh {
   std::vector<PlacedNode> placed_nodes;       ///< in the order in which they were requested
   std::vector<Match> matches;                 ///< in the order in which they were requested
   std::vector<OffGeometry> off_geometry;      ///< ascending by node; usually empty
-  std::vector<LetGo> let_go;                  ///< edges, then vertices, ascending; for faces see Face::status
-  std::vector<Kept> kept;                     ///< faces, then edges, ascending
-  std::vector<FilledHole> filled_holes;       ///< ascending by the first face they lie in
-  std::vector<SuppressedEdge> suppressed_edges;  ///< ascending
-  std::vector<std::string> warnings;             ///< what was not done as asked, one sentence each
-  std::vector<PoorQuads> poor_quads;             ///< those that most quads have first
-  std::vector<int> marked_edges;                 ///< CAD edges, from 1, that pictures draw in red
-  std::vector<Face> faces;                       ///< one entry per CAD face; empty in meshes read from files
+  std::vector<SuppressedFeature>
+      suppressed_features;                 ///< edges, then vertices, ascending; for faces see Face::status
+  std::vector<Kept> kept;                  ///< faces, then edges, ascending
+  std::vector<FilledHole> filled_holes;    ///< ascending by the first face they lie in
+  std::vector<CrossedEdge> crossed_edges;  ///< ascending
+  std::vector<std::string> warnings;       ///< what was not done as asked, one sentence each
+  std::vector<PoorQuads> poor_quads;       ///< those that most quads have first
+  std::vector<int> marked_edges;           ///< CAD edges, from 1, that pictures draw in red
+  std::vector<Face> faces;                 ///< one entry per CAD face; empty in meshes read from files
   /// The groups in a file that the mesh was read from, in file order. Groups may overlap: entities are made
   /// small enough that each group is a set of whole entities. If this is empty, written files get one group
   /// for each entity: Face3, Edge7, Vertex2.

@@ -17,7 +17,7 @@
 #include "mesher/mesh/sides.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/mending.hpp"
-#include "mesher/shell/edge_suppression.hpp"
+#include "mesher/shell/crossed_edges.hpp"
 
 namespace quadrille {
 namespace {

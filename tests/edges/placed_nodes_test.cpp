@@ -135,7 +135,7 @@ TEST(PlacedNodes, LieOnFacesEdgesAndVerticesOfAPlate) {
   // Nothing else has changed: each of the model's vertices has its corner, and each edge its segments.
   std::set<int> edges;
   for (const auto& segment : mesh.segments) edges.insert(segment.edge);
-  for (const auto& crossed : mesh.suppressed_edges) edges.insert(crossed.edge);
+  for (const auto& crossed : mesh.crossed_edges) edges.insert(crossed.edge);
   EXPECT_EQ(static_cast<int>(edges.size()), model.edge_count());
   EXPECT_EQ(static_cast<int>(mesh.corners.size()), model.vertex_count() + 5);
 
@@ -157,15 +157,15 @@ TEST(PlacedNodes, LieOnFacesEdgesAndVerticesOfAPlate) {
   EXPECT_EQ(again.quads, mesh.quads);
 }
 
-TEST(PlacedNodes, AreThereBesideFeaturesThatAreLetGo) {
-  // A slit 0.3 wide, far below the least size, is let go; its edge with the node is not.
+TEST(PlacedNodes, AreThereBesideFeaturesThatAreSuppressed) {
+  // A slit 0.3 wide, far below the least size, is suppressed; its edge with the node is not.
   const TopoDS_Shape block = BRepPrimAPI_MakeBox(60, 40, 10).Shape();
   const TopoDS_Shape step = BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 9.7), 60, 20, 5).Shape();
   const CadModel model(std::make_shared<CadShape>(BRepAlgoAPI_Cut(block, step).Shape(), "step"));
   MeshOptions options;
   options.sizing.size = 5;
   options.sizing.size_min = 2;
-  EXPECT_FALSE(mesh_with(model, {}, options).let_go.empty());
+  EXPECT_FALSE(mesh_with(model, {}, options).suppressed_features.empty());
   const std::vector<NodePlace> places = {{"", {31, 20, 10}}, {"", {0, 20, 9.7}}};
   const ShellMesh mesh = mesh_with(model, places, options);
   EXPECT_EQ(joined(validate(mesh, true)), "");

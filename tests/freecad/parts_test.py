@@ -206,7 +206,7 @@ class PartsTest(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         faces = json.loads(report.read_text())["faces"]
         self.assertEqual(len(faces), len(shape.Faces))
-        # Slivers far below the least size are let go: an edge takes their place.
+        # Slivers far below the least size are suppressed: an edge takes their place.
         self.assertLessEqual({face["status"] for face in faces}, {"meshed", "merged"})
         nodes, quads = read_quads(mesh)
         area = 0

@@ -51,7 +51,7 @@ TEST(Coincidences, QuadsOnQuadsAreForImprinting) {
   EXPECT_NE(found.sentence().find("`imprint`"), std::string::npos);
 }
 
-/// Quads that share their nodes and lie on each other: the skins of a sliver whose sides were let go.
+/// Quads that share their nodes and lie on each other: the skins of a sliver whose sides were suppressed.
 TEST(Coincidences, QuadsOfTheSameNodes) {
   ShellMesh mesh;
   add_square(mesh, 0, 0, 0);

@@ -505,7 +505,7 @@ TEST(Remesh, RefusesSizesThatMakeNoSenseBeforeItBegins) {
 
 /// Bodies without curves get elements as small as they are thick, but not far below the size: a foil of which
 /// no edge is kept is refused before it takes long.
-TEST(Remesh, RefusesFoilsWhoseEdgesAreLetGo) {
+TEST(Remesh, RefusesFoilsWhoseEdgesAreSuppressed) {
   RemeshOptions options = with_size(40);
   options.feature_angle = 0;
   options.merge = 0;

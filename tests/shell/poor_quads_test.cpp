@@ -106,12 +106,12 @@ TEST(SmallFeatures, FollowTheReach) {
     return small_features(model, options, context);
   };
   const SmallFeatures usual = found(0, false);
-  ASSERT_FALSE(usual.let_go.empty());
-  EXPECT_EQ(usual.let_go[0].kind, ShellMesh::LetGo::Kind::edge);
-  EXPECT_NEAR(usual.let_go[0].distance, 0.2, 1e-9);
-  EXPECT_TRUE(found(0.1, false).let_go.empty());
-  EXPECT_FALSE(found(0.3, false).let_go.empty());
-  EXPECT_TRUE(found(0, true).let_go.empty());
+  ASSERT_FALSE(usual.suppressed_features.empty());
+  EXPECT_EQ(usual.suppressed_features[0].kind, ShellMesh::SuppressedFeature::Kind::edge);
+  EXPECT_NEAR(usual.suppressed_features[0].distance, 0.2, 1e-9);
+  EXPECT_TRUE(found(0.1, false).suppressed_features.empty());
+  EXPECT_FALSE(found(0.3, false).suppressed_features.empty());
+  EXPECT_TRUE(found(0, true).suppressed_features.empty());
 }
 
 }  // namespace

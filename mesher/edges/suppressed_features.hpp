@@ -13,14 +13,14 @@ namespace quadrille {
 /// Chooses the edges shorter than `reach` that can become points without harm ("virtual topology"): edges
 /// that meet as a result must not meet too sharply. Faces narrower than `reach` become edges (slivers.hpp).
 /// No node lies further than `reach` from a vertex that it replaces.
-class LetGo {
+class SuppressedFeatures {
  public:
   /// \param used 1 = the face is meshed. \param reach model units; 0 = nothing is suppressed.
   /// \param fine 1 = must not become a point; a face with only such edges does not become an edge either.
   /// \param held vertices that share their nodes with no other: edges that end there and faces around them
   /// stay.
-  LetGo(const CadShape& shape, const FaceFlags& used, double reach, const EdgeFlags& fine,
-        const std::vector<VertexId>& held = {});
+  SuppressedFeatures(const CadShape& shape, const FaceFlags& used, double reach, const EdgeFlags& fine,
+                     const std::vector<VertexId>& held = {});
 
   /// What is left out of the mesh if edges() become points; see find_tiny_features().
   TinyFeatures find(double length) const;

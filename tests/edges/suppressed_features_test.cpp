@@ -1,6 +1,6 @@
 /// Features below the least size that the mesh does without.
 
-#include "mesher/edges/let_go.hpp"
+#include "mesher/edges/suppressed_features.hpp"
 
 #include <gtest/gtest.h>
 
@@ -61,20 +61,20 @@ int merged_faces(const ShellMesh& mesh) {
                                         [](const auto& face) { return face.status == FaceStatus::merged; }));
 }
 
-TEST(LetGo, GivesABevelBelowTheLeastSizeToItsNeighbors) {
+TEST(SuppressedFeatures, GivesABevelBelowTheLeastSizeToItsNeighbors) {
   const CadModel block = beveled_block(0.1);
   const ShellMesh kept = mesh_of(block, 5, true), mesh = mesh_of(block, 5, false);
   EXPECT_EQ(merged_faces(kept), 0);
-  EXPECT_TRUE(kept.let_go.empty());
+  EXPECT_TRUE(kept.suppressed_features.empty());
   EXPECT_GT(check_criteria(kept).failing, 0);
   EXPECT_EQ(validate(mesh, true), std::vector<std::string>{});
   EXPECT_EQ(merged_faces(mesh), 1);
   EXPECT_EQ(check_criteria(mesh).failing, 0);
   EXPECT_LT(mesh.quads.size(), kept.quads.size());
   // Both ends of the bevel, one of its sides, a vertex at each end.
-  using Kind = ShellMesh::LetGo::Kind;
+  using Kind = ShellMesh::SuppressedFeature::Kind;
   std::vector<std::pair<Kind, Kind>> kinds;
-  for (const auto& feature : mesh.let_go) kinds.push_back({feature.kind, feature.to_kind});
+  for (const auto& feature : mesh.suppressed_features) kinds.push_back({feature.kind, feature.to_kind});
   std::sort(kinds.begin(), kinds.end());
   EXPECT_EQ(kinds, (std::vector<std::pair<Kind, Kind>>{{Kind::edge, Kind::edge},
                                                        {Kind::edge, Kind::vertex},
@@ -83,13 +83,13 @@ TEST(LetGo, GivesABevelBelowTheLeastSizeToItsNeighbors) {
                                                        {Kind::vertex, Kind::vertex}}));
 }
 
-TEST(LetGo, KeepsWhatElementsCanShow) {
+TEST(SuppressedFeatures, KeepsWhatElementsCanShow) {
   EXPECT_EQ(merged_faces(mesh_of(beveled_block(1), 5, false)), 0);
   EXPECT_EQ(merged_faces(mesh_of(beveled_block(0.1), 0.4, false)), 0);
 }
 
 /// The floor of a narrow slot, or the rim of a blade, becomes an edge; both walls stay.
-TEST(LetGo, TapersSlotsAndBlades) {
+TEST(SuppressedFeatures, TapersSlotsAndBlades) {
   constexpr double width = 0.1;
   for (const double depth : {15.0, -15.0}) {
     SCOPED_TRACE(depth);
@@ -114,7 +114,7 @@ CadModel model_of(const TopoDS_Shape& shape) {
 }
 
 /// Holes and pins far thinner than elements vanish with their rims; the face goes on over them.
-TEST(LetGo, ClosesHolesAndPinsThinnerThanElements) {
+TEST(SuppressedFeatures, ClosesHolesAndPinsThinnerThanElements) {
   const TopoDS_Shape block = BRepPrimAPI_MakeBox(60, 40, 20).Shape();
   const TopoDS_Shape rod = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(30, 20, -10), gp::DZ()), 0.1, 50).Shape();
   const CadModel drilled = model_of(BRepAlgoAPI_Cut(block, rod).Shape()),
@@ -134,7 +134,7 @@ TEST(LetGo, ClosesHolesAndPinsThinnerThanElements) {
 }
 
 /// A rib or groove with the same face on both sides leaves an edge inside that face, or nothing.
-TEST(LetGo, ClosesTheFaceUnderARib) {
+TEST(SuppressedFeatures, ClosesTheFaceUnderARib) {
   const TopoDS_Shape block = BRepPrimAPI_MakeBox(60, 40, 20).Shape();
   for (const double start : {10.0, -10.0}) {
     SCOPED_TRACE(start);
@@ -154,7 +154,7 @@ TEST(LetGo, ClosesTheFaceUnderARib) {
 
 /// A sliver with nothing beside it is the whole part.
 /// Both sides of the groove get the same nodes, however far off their own curves the tolerances allow.
-TEST(LetGo, ClosesAGrooveBetweenTwoHoles) {
+TEST(SuppressedFeatures, ClosesAGrooveBetweenTwoHoles) {
   constexpr double width = 0.05;
   TopoDS_Shape part = BRepPrimAPI_MakeBox(40, 30, 10).Shape();
   for (const double x : {12.0, 28.0})
@@ -172,7 +172,7 @@ TEST(LetGo, ClosesAGrooveBetweenTwoHoles) {
   }
 }
 
-TEST(LetGo, KeepsAFaceThatStandsAlone) {
+TEST(SuppressedFeatures, KeepsAFaceThatStandsAlone) {
   BRepBuilderAPI_MakePolygon wire(gp_Pnt(0, 0, 0), gp_Pnt(60, 0, 0), gp_Pnt(60, 0.1, 0), gp_Pnt(0, 0.1, 0),
                                   true);
   const CadModel band(std::make_shared<CadShape>(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), "band"));
@@ -180,7 +180,7 @@ TEST(LetGo, KeepsAFaceThatStandsAlone) {
 }
 
 /// Two half circles that sliver faces join are left as a whole circle: a loop of two edges, but no lens.
-TEST(LetGo, LeavesACircleOfTwoHalves) {
+TEST(SuppressedFeatures, LeavesACircleOfTwoHalves) {
   constexpr double radius = 3, off = 0.0015;
   const auto half = [&](double y, int side) {
     const gp_Pnt start(side * radius, y, 0), middle(0, y + side * radius, 0), end(-side * radius, y, 0);
@@ -200,7 +200,7 @@ TEST(LetGo, LeavesACircleOfTwoHalves) {
 }
 
 /// A small size by name keeps features where it reaches, and no others.
-TEST(LetGo, KeepsFeaturesWhereSmallSizesAreNamed) {
+TEST(SuppressedFeatures, KeepsFeaturesWhereSmallSizesAreNamed) {
   const CadModel block = beveled_block(0.1);
   MeshOptions options;
   options.sizing.size = 5;
@@ -231,22 +231,22 @@ TEST(LetGo, KeepsFeaturesWhereSmallSizesAreNamed) {
 }
 
 /// What is kept on request is kept with all that hangs together with it.
-TEST(LetGo, KeepsAroundAFaceOnRequest) {
+TEST(SuppressedFeatures, KeepsAroundAFaceOnRequest) {
   const CadModel block = beveled_block(0.1);
   const CadShape& shape = block.shape();
   const FaceFlags used(block.face_count(), 1);
   const EdgeFlags none(shape.edges.size());
-  LetGo let_go(shape, used, 0.5, none);
-  const TinyFeatures tiny = let_go.find(0);
+  SuppressedFeatures found(shape, used, 0.5, none);
+  const TinyFeatures tiny = found.find(0);
   const auto faces = tiny.merged_faces.ids();
   const auto bevel =
       std::find_if(faces.begin(), faces.end(), [&](FaceId face) { return tiny.merged_faces[face] != 0; });
   ASSERT_NE(bevel, faces.end());
-  EXPECT_TRUE(let_go.keep_around(*bevel, {}, tiny));
-  const TinyFeatures after = let_go.find(0);
+  EXPECT_TRUE(found.keep_around(*bevel, {}, tiny));
+  const TinyFeatures after = found.find(0);
   EXPECT_EQ(std::count(after.merged_faces.begin(), after.merged_faces.end(), 1), 0);
   EXPECT_EQ(std::count(after.collapsed_edges.begin(), after.collapsed_edges.end(), 1), 0);
-  EXPECT_FALSE(let_go.keep_around(face_id(1), {}, after));
+  EXPECT_FALSE(found.keep_around(face_id(1), {}, after));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 /// Based on: Sheffer, Bercovier, Blacker & Clements, Virtual topology operators for meshing (2000), for
 /// merging faces and edges where the model divides them into parts smaller than the elements.
 
-#include "mesher/edges/let_go.hpp"
+#include "mesher/edges/suppressed_features.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -139,8 +139,8 @@ class HarmFinder {
 
 }  // namespace
 
-LetGo::LetGo(const CadShape& shape, const FaceFlags& used, double reach, const EdgeFlags& wanted_fine,
-             const std::vector<VertexId>& held)
+SuppressedFeatures::SuppressedFeatures(const CadShape& shape, const FaceFlags& used, double reach,
+                                       const EdgeFlags& wanted_fine, const std::vector<VertexId>& held)
     : shape_(shape),
       used_(used),
       reach_(reach),
@@ -163,7 +163,7 @@ LetGo::LetGo(const CadShape& shape, const FaceFlags& used, double reach, const E
 }
 
 /// Keeps the edges that end at the vertices, and the faces that would become edges there.
-void LetGo::hold(const std::vector<VertexId>& held, EdgeFlags& fine) {
+void SuppressedFeatures::hold(const std::vector<VertexId>& held, EdgeFlags& fine) {
   EdgeFlags ends(shape_.edges.size());
   for (const EdgeId id : ends.ids()) {
     const CadEdge& edge = shape_.edges[id];
@@ -179,12 +179,12 @@ void LetGo::hold(const std::vector<VertexId>& held, EdgeFlags& fine) {
   }
 }
 
-TinyFeatures LetGo::find(double length) const {
+TinyFeatures SuppressedFeatures::find(double length) const {
   return find_tiny_features(shape_, used_, edges_, length, {&slivers_, &kept_faces_});
 }
 
 /// Takes edges, the shortest first, if all vertices that then share a node lie within reach of each other.
-void LetGo::choose(const EdgeFlags& fine) {
+void SuppressedFeatures::choose(const EdgeFlags& fine) {
   std::vector<EdgeId> candidates;
   for (const EdgeId id : edges_.ids()) {
     const CadEdge& edge = shape_.edges[id];
@@ -220,7 +220,7 @@ void LetGo::choose(const EdgeFlags& fine) {
 }
 
 /// Keeps the features whose suppression would harm a face. \return whether there was something to keep.
-bool LetGo::keep_harmed() {
+bool SuppressedFeatures::keep_harmed() {
   const TinyFeatures tiny = find(0);
   const HarmFinder finder(shape_, used_, tiny, reach_);
   bool any = false;
@@ -256,7 +256,8 @@ bool LetGo::keep_harmed() {
   return any;
 }
 
-bool LetGo::keep_around(FaceId face, const std::vector<EdgeId>& edges, const TinyFeatures& tiny) {
+bool SuppressedFeatures::keep_around(FaceId face, const std::vector<EdgeId>& edges,
+                                     const TinyFeatures& tiny) {
   const std::string why = fmt::format("Face{} has no valid mesh without it", face.number());
   bool any = false;
   std::set<VertexId> here;
@@ -283,7 +284,7 @@ bool LetGo::keep_around(FaceId face, const std::vector<EdgeId>& edges, const Tin
   return any || (!edges.empty() && keep_around(face, {}, tiny));
 }
 
-void LetGo::keep_face(FaceId face, const std::string& why) {
+void SuppressedFeatures::keep_face(FaceId face, const std::string& why) {
   kept_faces_[face] = 1;
   reasons_.try_emplace(face, why);
 }

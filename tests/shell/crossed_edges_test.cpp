@@ -1,6 +1,6 @@
 /// Quads cross smooth edges where these force them outside the limits, and only there.
 
-#include "mesher/shell/edge_suppression.hpp"
+#include "mesher/shell/crossed_edges.hpp"
 
 #include <gtest/gtest.h>
 
@@ -84,9 +84,9 @@ TEST(EdgeSuppression, CrossesAnEdgeThatForcesPoorQuads) {
     EXPECT_NEAR(area(*mesh, 1) + area(*mesh, 2), 800, 0.1);  // but for the tip
     for (const Vector3& point : mesh->points) EXPECT_EQ(point.z(), 0);
   }
-  ASSERT_EQ(crossed.suppressed_edges.size(), 1U);
-  EXPECT_EQ(crossed.suppressed_edges[0].edge, edge);
-  EXPECT_TRUE(whole.suppressed_edges.empty());
+  ASSERT_EQ(crossed.crossed_edges.size(), 1U);
+  EXPECT_EQ(crossed.crossed_edges[0].edge, edge);
+  EXPECT_TRUE(whole.crossed_edges.empty());
   EXPECT_LT(10 * segments(crossed, edge), segments(whole, edge));  // those of the tip stay
   EXPECT_LT(outside(crossed), 0.5 * outside(whole));
   // Faces keep their area, as far as quads follow the edge.
@@ -104,7 +104,7 @@ TEST(EdgeSuppression, LeavesWhatUsersName) {
   all[4].sizing.layers.edges[edge] = {1, 1.2, 2};
   for (const MeshOptions& options : all) {
     const ShellMesh mesh = meshed(model, 1.5, options);
-    EXPECT_TRUE(mesh.suppressed_edges.empty());
+    EXPECT_TRUE(mesh.crossed_edges.empty());
     EXPECT_GT(segments(mesh, edge), 20);
   }
 }
@@ -113,9 +113,9 @@ TEST(EdgeSuppression, LeavesEdgesWithoutPoorQuadsAndCreases) {
   for (const double size : {2.0, 4.0}) {
     const ShellMesh flat =
         meshed(sheet({{{0, 0}, {20, 0}, {20, 20}, {0, 20}}, {{20, 0}, {40, 0}, {40, 20}, {20, 20}}}), size);
-    EXPECT_TRUE(flat.suppressed_edges.empty());
+    EXPECT_TRUE(flat.crossed_edges.empty());
     const CadModel box(std::make_shared<CadShape>(BRepPrimAPI_MakeBox(40, 30, 1).Shape(), "box"));
-    EXPECT_TRUE(meshed(box, size).suppressed_edges.empty());
+    EXPECT_TRUE(meshed(box, size).crossed_edges.empty());
   }
 }
 
@@ -132,7 +132,7 @@ TEST(EdgeSuppression, KeepsSolidsClosedAndNodesOnTheirFaces) {
                                           model.shape().shape);
       EXPECT_LT(distance.Value(), order == 2 ? 0.05 : 1e-4);
     }
-    for (const auto& edge : mesh.suppressed_edges) EXPECT_EQ(segments(mesh, edge.edge), 0);
+    for (const auto& edge : mesh.crossed_edges) EXPECT_EQ(segments(mesh, edge.edge), 0);
   }
 }
 
@@ -167,7 +167,7 @@ TEST(EdgeSuppression, LoadsOnCrossedFacesSumUpInCalculix) {
   for (const CadEdge& cad : model.shape().edges)
     if (cad.faces.size() == 2 && cad.length < 30) options.sizing.kept_edges.insert(cad.number);
   const ShellMesh mesh = meshed(model, 2, options);
-  ASSERT_EQ(mesh.suppressed_edges.size(), 1U);
+  ASSERT_EQ(mesh.crossed_edges.size(), 1U);
   const test::TemporaryFolder folder;
   const double triangle = reaction(mesh, 1, folder), rest = reaction(mesh, 2, folder);
   EXPECT_NEAR(triangle + rest, 800, 0.8);  // the areas of the CAD faces are 160 and 640
@@ -179,7 +179,7 @@ TEST(EdgeSuppression, IsTheSameOnAnyNumberOfThreads) {
   const ShellMesh one = meshed(model, 3), four = meshed(model, 3, {}, 4);
   EXPECT_EQ(one.points, four.points);
   EXPECT_EQ(one.quads, four.quads);
-  EXPECT_EQ(one.suppressed_edges, four.suppressed_edges);
+  EXPECT_EQ(one.crossed_edges, four.crossed_edges);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 /// Joins the meshes of faces along smooth edges, improves the quads beside these, and gives each quad back to
 /// the face that its center lies on.
 
-#include "mesher/shell/edge_suppression.hpp"
+#include "mesher/shell/crossed_edges.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
