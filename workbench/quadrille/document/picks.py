@@ -78,6 +78,8 @@ def points_of(part, picks: Iterable[Pick]) -> Dict[str, Tuple[float, float, floa
     found: Dict[str, Tuple[float, float, float]] = {}
     for pick in picks:
         obj, element = along(pick)[-1], pick[1].split(".")[-1]
+        if state.is_quad_mesh(obj) and obj.Shape != part:
+            obj = state.part_of(obj)
         shape = getattr(obj, "Shape", None)
         if part in along(pick) or _is_mesh_of(part, obj):
             names = [name for name in elements_of(part, [pick]) if name.startswith("Vertex")]
