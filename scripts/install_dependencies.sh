@@ -30,7 +30,7 @@ test_packages=(
   # read written files back in the tests; scripts/install_consumers.sh installs the large ones
   python3-meshio python3-h5py python3-vtk9 libmed-tools
   # packages, bundles and the manual
-  patchelf dpkg-dev lintian doxygen mkdocs flake8
+  patchelf dpkg-dev lintian doxygen mkdocs flake8 mypy
 )
 # Skipped if a release of Debian does not have them (Debian 13 has no CalculiX). bench/paper computes the optimal pairing
 # with LEMON; `python3 -m quadrille.batch` needs python3-distributed.

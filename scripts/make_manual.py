@@ -23,7 +23,8 @@ def parse(text):
     """The text before the usage line, the usage line, and the sections: {"Options": [(term, explanation)]}."""
     head, _, rest = text.partition("Usage: ")
     usage, _, rest = rest.partition("\n")
-    sections, entries = {}, []
+    sections: dict[str, list[list[str]]] = {}
+    entries: list[list[str]] = []
     for line in rest.splitlines():
         heading, entry = SECTION.match(line), ENTRY.match(line)
         if heading:

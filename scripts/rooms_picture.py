@@ -64,7 +64,7 @@ def group_of(name):
 
 def included():
     """The rooms that the sources of each room include."""
-    found = {room: set() for room in ABOUT}
+    found: dict[str, set[str]] = {room: set() for room in ABOUT}
     for top in ("geometry", "mesher"):
         for path in (ROOT / top).rglob("*.?pp"):
             name = path.relative_to(ROOT).as_posix()
@@ -81,7 +81,7 @@ def imported():
         top = module.split(".")[0]
         return top if top in names else names[-1]
 
-    found = {name: set() for name in names}
+    found: dict[str, set[str]] = {name: set() for name in names}
     for module, path in modules.items():
         if module:
             found[package(module)] |= {package(other) for other in rooms_test.imports_of(path, modules) if other} - {package(module)}
@@ -121,7 +121,7 @@ def column(names, about, x, width, arrows, out):
 
 
 def picture():
-    out = []
+    out: list[str] = []
     rows = column(list(ABOUT), ABOUT, 210, 250, reduced(included()), out)
     packages = column(list(PACKAGES), PACKAGES, 690, 230, reduced(imported()), out)
     flow = [("CAD file", None, "geometry/cad"), *((label, start, end) for start, end, label in FLOW), ("mesh file", "mesher/io", None)]

@@ -130,6 +130,13 @@ class LinksTest(unittest.TestCase):
                          ["Face3", "Edge5", "Body.Pad.Face2", "Body.Pad.", "Body.Pad.Vertex1"])
         self.assertEqual(picks.elements_of(self.part, picks.picks_of([picked])[:2]), ["Face3", "Edge5"])
 
+    def test_a_vertex_picked_on_the_mesh_of_another_part_is_a_point(self):
+        other = self.document.addObject("Part::Box", "Other")
+        other.Placement.Base.x = 100
+        self.document.recompute()
+        mesh = core.mesh_object(other, size=5)
+        self.assertEqual(picks.points_of(self.part, [(mesh, "Vertex1"), (mesh, "")]), {"Node1": tuple(other.Shape.Vertexes[0].Point)})
+
     def test_two_faces_that_have_changed_places_are_asked_for(self):
         self.edit(self.renumbered(Part.makeBox(20, 20, 20), range(6)))
         mesh = core.make_mesh(self.part, size=5, faces=[1])

@@ -47,17 +47,6 @@ class Task(NamedTuple):
     arguments: List[str]  #: options of `quadrille mesh`
 
 
-class _Arguments:
-    """Command-line options as they are, used instead of MeshSettings."""
-
-    def __init__(self, arguments: List[str]) -> None:
-        self._arguments = arguments
-
-    def arguments(self) -> List[str]:
-        """The options."""
-        return list(self._arguments)
-
-
 def mesh_part(task: Task, command: Optional[str]) -> Dict[str, Any]:
     """Meshes a part in a child process. Writes and returns its record, whether meshing succeeds or fails."""
     start = time.monotonic()
@@ -65,7 +54,7 @@ def mesh_part(task: Task, command: Optional[str]) -> Dict[str, Any]:
     try:
         for path in filter(None, (task.mesh, task.picture)):
             Path(path).parent.mkdir(parents=True, exist_ok=True)
-        job = MeshJob(task.model, [task.mesh], _Arguments(task.arguments), command, task.picture)
+        job = MeshJob(task.model, [task.mesh], None, command, task.picture, ("mesh", *task.arguments))
         report = job.start().wait()
         record.update(_measures(report), status="meshed", mesh=task.mesh, picture=task.picture)
     except Error as error:
@@ -309,7 +298,7 @@ def parser() -> argparse.ArgumentParser:
     result.add_argument("--quiet", action="store_true", help="print no progress")
     group = result.add_argument_group("options of quadrille mesh")
     for setting in SETTINGS:
-        kind = {"action": "store_true"} if setting["kind"] == "flag" else {}
+        kind: Dict[str, Any] = {"action": "store_true"} if setting["kind"] == "flag" else {}
         if setting["kind"] == "entries":
             kind = {"action": "append"}
         group.add_argument(setting["option"], dest=setting["name"], default=None,

@@ -15,7 +15,7 @@ import tempfile
 import threading
 import time
 from pathlib import Path
-from typing import Callable, Dict, List, Optional, Sequence, Tuple, Union
+from typing import IO, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Union
 
 from .errors import Error
 from .setting_table import MeshSettings
@@ -153,23 +153,29 @@ def check_version(path: str) -> None:
     _checked[path] = modified
 
 
-def _child(arguments: Sequence[str]) -> subprocess.Popen:
-    return subprocess.Popen(
-        on_host(arguments),
-        stdin=subprocess.PIPE,  # closes when this process ends for any reason; the child then ends too
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        encoding="utf-8",
-        errors="replace",
-        env=child_environment(),
-        **start_options(),
-    )
+class _Child(subprocess.Popen):
+    """A child process that gets its work, or nothing, as input, and tells its progress."""
+
+    stdin: IO[str]  # both are pipes, see below
+    stderr: IO[str]
+
+    def __init__(self, arguments: Sequence[str]) -> None:
+        super().__init__(
+            on_host(arguments),
+            stdin=subprocess.PIPE,  # closes when this process ends for any reason; the child then ends too
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            encoding="utf-8",
+            errors="replace",
+            env=child_environment(),
+            **start_options(),
+        )
 
 
 #: What is fixed when a child process starts: command, current folder, environment.
 _Start = Tuple[str, str, Dict[str, str]]
 #: The child process that stands by, and how it was started.
-_standby: Optional[Tuple[_Start, subprocess.Popen]] = None
+_standby: Optional[Tuple[_Start, _Child]] = None
 
 
 def _start_of(command: str) -> _Start:
@@ -185,7 +191,7 @@ def stand_by(command: str) -> None:
         if _standby is not None and _standby[0] == start and _standby[1].poll() is None:
             return
         dismiss()
-        _standby = (start, _child([command, "standby"]))
+        _standby = (start, _Child([command, "standby"]))
     except OSError:
         pass
 
@@ -204,7 +210,7 @@ def dismiss() -> None:
     process.stderr.close()
 
 
-def _given_to_standby(arguments: Sequence[str]) -> Optional[subprocess.Popen]:
+def _given_to_standby(arguments: Sequence[str]) -> Optional[_Child]:
     """Gives the work to the standby child process and returns that process. None if no process stands by that was started with
     the same command, folder and environment, or if it cannot take the work."""
     global _standby
@@ -242,7 +248,7 @@ class CommandJob:
         self._arguments = [command or find_command(), *arguments, self._report_option, str(self._report),
                            "--end-with-input"]
         self._lines: "queue.Queue[str]" = queue.Queue()
-        self._process: Optional[subprocess.Popen] = None
+        self._process: Optional[_Child] = None
         self._reader: Optional[threading.Thread] = None
         self._cancelled = False
         self._last_progress = ("start", 0.0)
@@ -251,16 +257,21 @@ class CommandJob:
     def start(self) -> "CommandJob":
         """Starts a child process, or gives the work to the standby process."""
         try:
-            self._process = self._stands_by and _given_to_standby(self._arguments) or _child(self._arguments)
+            self._process = self._stands_by and _given_to_standby(self._arguments) or _Child(self._arguments)
         except OSError as error:
             raise Error(f"{self._arguments[0]}: cannot be started: {error.strerror}", "failure",
                         self._arguments[0]) from error
-        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader = threading.Thread(target=self._read, args=(self._process.stderr,), daemon=True)
         self._reader.start()
         return self
 
-    def _read(self) -> None:
-        for line in self._process.stderr:
+    def _started(self) -> Tuple[_Child, threading.Thread]:
+        """The child process, and the thread that reads what it tells."""
+        assert self._process is not None and self._reader is not None, "start() comes first"
+        return self._process, self._reader
+
+    def _read(self, told: Iterable[str]) -> None:
+        for line in told:
             self._lines.put(line.rstrip("\n"))
 
     @property
@@ -270,7 +281,7 @@ class CommandJob:
 
     def poll(self) -> List[Tuple[str, float]]:
         """The progress since the last call, as (stage, fraction) pairs. Never waits."""
-        progress = []
+        progress: List[Tuple[str, float]] = []
         while True:
             try:
                 line = self._lines.get_nowait()
@@ -286,19 +297,21 @@ class CommandJob:
         """Ends the child process: asks it to end, then kills it after KILL_AFTER_SECONDS."""
         self._cancelled = True
         if self.running:
-            self._process.terminate()
+            process, _ = self._started()
+            process.terminate()
             try:
-                self._process.wait(KILL_AFTER_SECONDS)
+                process.wait(KILL_AFTER_SECONDS)
             except subprocess.TimeoutExpired:
-                self._process.kill()
-                self._process.wait()
+                process.kill()
+                process.wait()
 
     def kill(self) -> None:
         """Kills the child process at once, for work that leaves no files behind. There is then no result."""
         self._cancelled = True
         if self.running:
-            self._process.kill()
-            self._process.wait()
+            process, _ = self._started()
+            process.kill()
+            process.wait()
         self._close()
 
     def wait(self, progress: Optional[Progress] = None) -> Dict:
@@ -327,8 +340,9 @@ class CommandJob:
 
     def result(self) -> Dict:
         """The report of a job that has ended. Raises Error with the command's own sentence if it failed."""
-        code = self._process.wait()
-        self._reader.join(1.0)
+        process, reader = self._started()
+        code = process.wait()
+        reader.join(1.0)
         self.poll()
         try:
             if self._cancelled:
@@ -341,10 +355,11 @@ class CommandJob:
             self._close()
 
     def _close(self) -> None:
-        self._reader.join(1.0)
-        self._process.stdin.close()
-        if not self._reader.is_alive():  # a grandchild process may hold the pipe open
-            self._process.stderr.close()
+        process, reader = self._started()
+        reader.join(1.0)
+        process.stdin.close()
+        if not reader.is_alive():  # a grandchild process may hold the pipe open
+            process.stderr.close()
         self._folder.cleanup()
 
     def _error(self, code: int) -> Error:
@@ -368,7 +383,7 @@ class MeshJob(CommandJob):
         picture: Optional[Union[str, Path]] = None,
         work: Sequence[str] = ("mesh",),
     ) -> None:
-        """work: the subcommand, with options that are not in the table of settings."""
+        """work: the subcommand, with options that `settings` does not give."""
         arguments = [*work, str(model)]
         for output in outputs:
             arguments += ["-o", str(output)]

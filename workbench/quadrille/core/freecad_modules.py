@@ -15,7 +15,7 @@ def find() -> None:
     except ImportError as error:
         reason: Exception = error
     before = list(sys.path)
-    for program in filter(None, map(shutil.which, ("freecadcmd", "FreeCADCmd"))):
+    for program in filter(None, [shutil.which(name) for name in ("freecadcmd", "FreeCADCmd")]):
         home = Path(program).resolve().parent.parent
         sys.path.append(str(home / "lib"))
         sys.path += [str(folder) for folder in sorted((home / "Mod").glob("*")) if folder.is_dir()]

@@ -18,7 +18,7 @@ import urllib.error
 import urllib.request
 import zlib
 from pathlib import Path
-from typing import Callable, Optional, Union
+from typing import Any, Callable, Dict, Optional, Union
 from urllib.parse import urlsplit
 
 from .command import check_version
@@ -104,7 +104,7 @@ def install(archive: Union[str, Path], data_folder: Union[str, Path]) -> str:
     try:
         with tarfile.open(path) as bundle:
             members = _members(bundle, path)
-            extra = {"filter": "data"} if hasattr(tarfile, "data_filter") else {}
+            extra: Dict[str, Any] = {"filter": "data"} if hasattr(tarfile, "data_filter") else {}
             bundle.extractall(fresh, members, **extra)
         root = fresh / Path(members[0].name).parts[0]
         if not (root / "bin" / "quadrille").is_file():

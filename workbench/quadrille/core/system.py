@@ -8,7 +8,7 @@ import subprocess
 import time
 import uuid
 from pathlib import Path
-from typing import Dict, Optional, Tuple
+from typing import Any, Dict, Optional, Tuple
 
 WINDOWS = os.name == "nt"
 
@@ -26,7 +26,7 @@ def program(name: str) -> str:
     return f"{name}.exe" if WINDOWS else name
 
 
-def start_options() -> Dict[str, int]:
+def start_options() -> Dict[str, Any]:
     """Arguments of subprocess.Popen and run() with which no console window flashes."""
     return {"creationflags": getattr(subprocess, "CREATE_NO_WINDOW", 0x08000000)} if WINDOWS else {}
 

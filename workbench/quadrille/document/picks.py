@@ -8,7 +8,7 @@ is the part. So a Body stays the part when features are added to it. A container
 if nothing inside was picked. A pick on a mesh means the part's element there, see on_mesh()."""
 
 import re
-from typing import Dict, Iterable, List, Sequence, Tuple
+from typing import Any, Dict, Iterable, List, Sequence, Tuple
 
 import FreeCAD
 import numpy as np
@@ -18,7 +18,7 @@ from ..core.errors import Error
 from . import groups, shapes, state
 
 #: The outermost object, and the path inside it of what is picked: (Body, "Pocket.Face9"), or (Box, "") for the whole object.
-Pick = Tuple[object, str]
+Pick = Tuple[Any, str]
 
 
 def picks_of(selection) -> List[Pick]:
@@ -63,9 +63,10 @@ def elements_of(part, picks: Iterable[Pick]) -> List[str]:
         name = element
         if path[-1] != part and part in path:
             inner = ".".join(pick[1].split(".")[path.index(part) - len(path):])
-            name = shapes.find_element(part.Shape, part.getSubObject(inner))
-            if name is None:
+            found = shapes.find_element(part.Shape, part.getSubObject(inner))
+            if found is None:
                 raise Error(f"{part.Label}: {pick[1]} is no longer on its surface", "usage", pick[1])
+            name = found
         if name not in names:
             names.append(name)
     return names
@@ -77,19 +78,23 @@ def points_of(part, picks: Iterable[Pick]) -> Dict[str, Tuple[float, float, floa
     found: Dict[str, Tuple[float, float, float]] = {}
     for pick in picks:
         obj, element = along(pick)[-1], pick[1].split(".")[-1]
+        if state.is_quad_mesh(obj) and obj.Shape != part:
+            obj = state.part_of(obj)
         shape = getattr(obj, "Shape", None)
         if part in along(pick) or _is_mesh_of(part, obj):
             names = [name for name in elements_of(part, [pick]) if name.startswith("Vertex")]
             points = [part.Shape.getElement(name).Point for name in names]
+        elif shape is None:
+            continue
         elif element.startswith("Vertex"):
             points = [_moved(shape.getElement(element).Point, obj, part)]
         else:
             points = [_moved(vertex.Point, obj, part) for vertex in getattr(shape, "Vertexes", ())]
             if len(points) != 1 or shape.Edges:
                 continue
-        for point in points:
+        for x, y, z in points:
             number = next(number for number in range(1, len(found) + 2) if f"Node{number}" not in found)
-            found[f"Node{number}" if element or part in along(pick) else obj.Name] = tuple(point)
+            found[f"Node{number}" if element or part in along(pick) else obj.Name] = (x, y, z)
     return found
 
 

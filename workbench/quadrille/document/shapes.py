@@ -22,7 +22,7 @@ def check_size(shape, sizes: Iterable[float]) -> None:
         raise Error(f"a size of {size:.3g} mm is larger than the model, whose diagonal is {diagonal:.3g} mm", "usage", "Size")
 
 
-_last_fingerprint: List[Tuple[object, List[float]]] = []
+_last_fingerprint: List[Tuple[Any, List[float]]] = []
 
 
 def fingerprint(shape) -> List[float]:
@@ -166,7 +166,7 @@ def _alike(one: Sequence[float], other: Sequence[float], tolerance: float) -> bo
 def topology(shape) -> str:
     """A digest of a shape's topology: the edges of each face and the vertices of each edge, by number, the orientation of faces,
     and the types of surfaces and curves. Equal for two shapes that differ only in measures."""
-    known: Dict[int, List[Tuple[object, int]]] = {}
+    known: Dict[int, List[Tuple[Any, int]]] = {}
     count = 0
 
     def number(part) -> int:

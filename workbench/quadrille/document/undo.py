@@ -5,7 +5,7 @@ meshes are kept, by token. Runs inside FreeCAD."""
 
 import uuid
 from collections import OrderedDict
-from typing import Dict
+from typing import Any, Dict, Tuple
 
 import Fem
 
@@ -70,6 +70,7 @@ def bring_back(mesh) -> None:
 
 def forget(document) -> None:
     """Drops everything that is kept for a document that closes."""
-    for table in (_meshes, _current, _held):
+    tables: Tuple[Dict[tuple, Any], ...] = (_meshes, _current, _held)
+    for table in tables:
         for key in [key for key in table if key[0] == document.Uid]:
             del table[key]

@@ -10,6 +10,7 @@ property BeamShellResultOutput3D). Runs inside FreeCAD."""
 
 import json
 import os
+from tempfile import TemporaryDirectory
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 import FreeCAD
@@ -43,7 +44,7 @@ class _Round(NamedTuple):
     """A finished round of adaptation that is not yet stored in the document."""
 
     estimate: Estimate
-    folder: object  #: scratch folder that holds the sizes
+    folder: TemporaryDirectory  #: scratch folder that holds the sizes
     properties: Dict[str, Any]  #: new property values of the mesh object
     job: Optional[core.ShapeJob]  #: the job that has made the mesh; None if the error is small enough already
 
@@ -252,8 +253,9 @@ def _bricks_of_pipeline(pipeline) -> _Bricks:
     if moved is None:
         raise Error(f"{pipeline.Label}: has no displacements: solve again", "usage", pipeline.Name)
     cells = grid.GetCells()
-    return _Bricks(*map(vtk_to_numpy, (grid.GetPoints().GetData(), moved, cells.GetConnectivityArray())),
-                   vtk_to_numpy(cells.GetOffsetsArray())[1:], vtk_to_numpy(grid.GetCellTypesArray()))
+    points, displacements, nodes, ends, kinds = map(vtk_to_numpy, (
+        grid.GetPoints().GetData(), moved, cells.GetConnectivityArray(), cells.GetOffsetsArray(), grid.GetCellTypesArray()))
+    return _Bricks(points, displacements, nodes, ends[1:], kinds)
 
 
 def _write_bricks(path: str, bricks: _Bricks) -> None:

@@ -251,8 +251,8 @@ _prepared: Prepared[_Result] = Prepared()
 
 
 def _key(part, partial: bool, join: bool) -> Tuple[str, str, int, bool, bool]:
-    shape = getattr(part, "Shape", None)
-    number = shape.hashCode() if hasattr(shape, "hashCode") else 0  # another one after the part was recomputed
+    hash_code = getattr(getattr(part, "Shape", None), "hashCode", None)
+    number = hash_code() if hash_code is not None else 0  # another one after the part was recomputed
     return (part.Document.Name, part.Name, number, partial, join)
 
 

@@ -3,7 +3,7 @@
 bias, places of nodes. Each row shows where an entry applies, and its numbers, which are edited in place. Numbers of segments on
 edges and places of nodes are added here, other new entries in the property editor."""
 
-from typing import Any, Callable, Dict, List, NamedTuple, Sequence
+from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Sequence
 
 from PySide import QtGui
 
@@ -56,7 +56,7 @@ class EntryRows(RowList):
             found[row.property] += row.entries()
         return found
 
-    def show_all(self, values: Dict[str, Sequence[str]]) -> None:
+    def show_all(self, values: Mapping[str, Sequence[str]]) -> None:
         """Shows these entries, by property, and no others."""
         self._clear()
         for name in PROPERTIES:

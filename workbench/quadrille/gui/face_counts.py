@@ -31,7 +31,7 @@ class FaceCounts(QtGui.QListWidget):
 
     def _fill(self) -> None:
         self.clear()
-        for name in sorted(self._counts, key=self._counts.get, reverse=True):
+        for name in sorted(self._counts, key=self._counts.__getitem__, reverse=True):
             self.addItem(f"{name}: {max(1, round(self._counts[name]))}")
 
     def _select(self, item) -> None:

@@ -60,7 +60,7 @@ def picked(document) -> List[picks.Pick]:
             found.append(pick)
             continue
         inner = pick[1][:pick[1].rfind(".") + 1]
-        points = _clicks.get((document.Name, pick[0].Name)) or _clicks.get((document.Name, mesh.Name), [])
+        points = _clicks.get((document.Name, pick[0].Name)) or _clicks.get((document.Name, mesh.Name)) or []
         names = [name for name in (picks.on_mesh(mesh, point) for point in points) if name]
         found += [(pick[0], inner + name) for name in dict.fromkeys(names)] or [(pick[0], inner)]
     return list(dict.fromkeys(found))

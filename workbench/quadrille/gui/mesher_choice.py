@@ -3,6 +3,7 @@
 
 import tempfile
 import threading
+from functools import partial
 from pathlib import Path
 from typing import Callable, Optional
 
@@ -43,7 +44,7 @@ class MesherChoice(QtGui.QGroupBox):
         self._archive: Optional[Path] = None
         self._thread: Optional[threading.Thread] = None
         self._outcome: object = None
-        self._downloads = None
+        self._downloads: Optional[tempfile.TemporaryDirectory] = None
         self._build()
         self._timer = QtCore.QTimer(self)
         self._timer.setInterval(_POLL_MILLISECONDS)
@@ -84,6 +85,7 @@ class MesherChoice(QtGui.QGroupBox):
             layout.addWidget(widget)
 
     def _take_path(self) -> None:
+        assert self._found is not None  # else the button is disabled
         try:
             check_version(self._found)
         except Error as error:
@@ -115,8 +117,9 @@ class MesherChoice(QtGui.QGroupBox):
 
     def _install(self) -> None:
         archive = self._archive
+        assert archive is not None  # else the button is disabled
         self.text.setText(translate("Quadrille", "unpacking {}").format(archive))
-        self._work(lambda: mesher_setup.install(archive, data_folder()), archive)
+        self._work(partial(mesher_setup.install, archive, data_folder()), archive)
 
     def _work(self, function: Callable[[], object], archive: Optional[Path] = None) -> None:
         """Runs a function in a thread. _poll() takes its result, or the Error that it raises; then `archive` can be
@@ -148,11 +151,12 @@ class MesherChoice(QtGui.QGroupBox):
         self._timer.stop()
         self._thread, outcome = None, self._outcome
         if isinstance(outcome, tuple):
-            self._archive, digest = outcome
+            archive, digest = outcome
+            self._archive = archive
             digest = "\n".join(digest[i:i + 32] for i in (0, 32))  # a panel is narrow
             self.text.setText(translate(
                 "Quadrille", "{} has the SHA-256\n{}\nCompare it with the one published with the file. "
-                "Installing unpacks it into {} and runs it.").format(self._archive.name, digest, data_folder() / "mesher"))
+                "Installing unpacks it into {} and runs it.").format(archive.name, digest, data_folder() / "mesher"))
         elif isinstance(outcome, str):
             self._use(outcome)
         else:

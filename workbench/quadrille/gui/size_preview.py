@@ -111,6 +111,9 @@ class SizePreview(QtGui.QWidget):
                 self._timer.stop()
                 self._drawing = None
             return
+        if self._job is None:
+            self._timer.stop()
+            return
         for _, fraction in self._job.poll():
             self._show_text(translate("Quadrille", "finding sizes: {} %").format(round(100 * fraction)))
         if self._job.running:

@@ -6,6 +6,7 @@ document with the mesh, or by OK, each as one undo step. Cancel undoes all of it
 """
 
 import time
+from functools import partial
 from typing import Any, Callable, Dict, Optional
 
 import FreeCAD
@@ -57,7 +58,7 @@ class MeshPanel:
         old_documents.mesh_regions(mesh)
         self._session = Session(mesh, made_by)
         self._job: Optional[core.ShapeJob] = None
-        self._job_wanted: Optional[state.Wanted] = None
+        self._job_wanted: state.Wanted  # set with the job
         self._anew: set = set()
         self._refused: Dict[str, str] = {}  # what the mesher has said about fields that have not changed since, by property
         self._started = 0.0
@@ -126,7 +127,7 @@ class MeshPanel:
         self.stop_button.clicked.connect(self._stop)
         self.follows.toggled.connect(lambda *_: self._update_estimate())
         for name, setting in self.settings.items():
-            setting.when_changed(lambda name=name: self._changed(name))
+            setting.when_changed(partial(self._changed, name))
 
     def _lay_out(self) -> None:
         basic, more = _form(), _form()
@@ -461,11 +462,11 @@ class MeshPanel:
             self._show_progress(fraction, stage)
         if self._job.running:
             return
-        self._end()
+        self._end(self._job)
 
-    def _end(self) -> None:
+    def _end(self, job: core.ShapeJob) -> None:
         """Stores and shows the result of a job that has ended."""
-        job, self._job = self._job, None
+        self._job = None
         self._timer.stop()
         QtCore.QTimer.singleShot(_STAND_BY_MILLISECONDS, self._stand_by)
         self.mesh_button.setEnabled(True)
@@ -535,8 +536,8 @@ class MeshPanel:
             tell(str(error))
             return False
         if self._job is not None:
-            self._stop()
-            self._end()
+            self._job.cancel()
+            self._end(self._job)
         if lines:
             with self._session.step("Quad mesh settings"):
                 self._store(lines)
@@ -548,8 +549,8 @@ class MeshPanel:
     def reject(self) -> bool:
         """Called on Cancel: ends the mesher, and restores the document."""
         if self._job is not None:
-            self._stop()
-            self._end()
+            self._job.cancel()
+            self._end(self._job)
         part, document = self.mesh.Shape, self.mesh.Document
         self._close()
         self._session.take_back()

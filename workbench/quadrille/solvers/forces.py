@@ -6,7 +6,7 @@ with NumPy. Runs inside FreeCAD."""
 
 import functools
 from collections.abc import Mapping
-from typing import Dict, List, Optional, Sequence, Tuple
+from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
@@ -89,8 +89,8 @@ def _table(femmesh, femelement_table: Mapping, femnodes_mesh: Dict, force) -> Op
         return None
     if len(names) != len(asked) or not names or not all(name.startswith("Face") for name in names):
         return None
-    known = isinstance(femelement_table, ElementTable)
-    shells = femelement_table.shells(femnodes_mesh) if known else arrays.shells_of(femmesh, femnodes_mesh)
+    shells = (femelement_table.shells(femnodes_mesh) if isinstance(femelement_table, ElementTable)
+              else arrays.shells_of(femmesh, femnodes_mesh))
     if shells is None:
         return None
     areas = [mesh.Shape.Shape.getElement(name).Area for name in names]
@@ -120,13 +120,13 @@ def _areas(shells: Shells, elements: np.ndarray) -> Tuple[np.ndarray, np.ndarray
     """The nodes of elements (ids, ascending), and the part of the elements' area that belongs to each node."""
     places = shells.places(shells.corners[elements])
     size = places.shape[1]
-    area = sum(_triangle(shells.points, places[:, triangle]) for triangle in _TRIANGLES[size])
+    area = sum((_triangle(shells.points, places[:, triangle]) for triangle in _TRIANGLES[size]), np.zeros(len(places)))
     shares = np.bincount(places.ravel(), (area[:, None] * np.array(_SHARES[size])).ravel(), len(shells.nodes))
     used = np.zeros(len(shells.nodes), dtype=bool)
     used[places] = True
     return shells.nodes[used], shares[used]
 
 
-def _triangle(points: np.ndarray, corners: Sequence[Sequence[int]]) -> np.ndarray:
+def _triangle(points: np.ndarray, corners: np.ndarray) -> np.ndarray:
     a, b, c = (points[corners[:, position]] for position in range(3))
     return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Results at the surfaces of shells: which solvers can give them, and a hint where they are missing. Runs inside FreeCAD."""
 
-from typing import List
+from typing import Any, List
 
 import FreeCAD
 
@@ -9,7 +9,7 @@ import FreeCAD
 SURFACE_RESULTS = "BeamShellResultOutput3D"
 
 
-def solvers_of(analysis) -> List[object]:
+def solvers_of(analysis) -> List[Any]:
     """The solver objects of an analysis that can give results at the surfaces of shells."""
     members = analysis.Group if analysis is not None else ()
     return [member for member in members if SURFACE_RESULTS in member.PropertiesList]

@@ -5,7 +5,7 @@ separately, 400 000 lines for 100 000 quads. Runs inside FreeCAD."""
 import functools
 from collections.abc import Mapping
 from itertools import chain
-from typing import Callable, Dict, Optional
+from typing import Any, Callable, Dict, Optional
 
 import numpy as np
 
@@ -70,7 +70,7 @@ def nodes_later(function):
 
     @functools.wraps(function)
     def _load_tables(self):
-        fem_mesh = getattr(self, "femmesh", None)
+        fem_mesh: Any = getattr(self, "femmesh", None)
         if fem_mesh is not None and not self.femnodes_mesh and fem_mesh.FaceCount and not fem_mesh.VolumeCount:
             self.femnodes_mesh = Later(lambda: fem_mesh.Nodes, fem_mesh.NodeCount)
         function(self)

@@ -15,7 +15,7 @@ Meshes without such groups, and mesh objects that are not Quadrille's, give the 
 import functools
 import importlib.util
 import os
-from typing import Callable, List, Optional
+from typing import Any, Callable, List, Optional
 
 import FreeCAD
 
@@ -27,7 +27,7 @@ from .shell_input import Later
 Complaint = Callable[[object], str]
 _complaint: Optional[Complaint] = None
 #: The materials or thicknesses whose elements FreeCAD is gathering.
-_asked_for: List[object] = []
+_asked_for: List[Any] = []
 
 
 def wrap_solvers(complaint: Complaint) -> None:
@@ -35,14 +35,17 @@ def wrap_solvers(complaint: Complaint) -> None:
     global _complaint
     if _complaint is not None:
         return
-
-    def problem(mesh) -> str:
-        return complaint(mesh) or element_types.problem_of(mesh)
-
-    _complaint = problem
+    _complaint = complaint
     newer = NEWER if importlib.util.find_spec(NEWER[0][0]) is not None else ()
     for module, name, wrapper in (*newer, *WRAPPED):
         _wrap(module, name, wrapper)
+
+
+def _problem_of(mesh) -> str:
+    """Why a mesh object's mesh must not be used; empty if it may, and if there is no mesh object."""
+    if not mesh or _complaint is None:
+        return ""
+    return _complaint(mesh) or element_types.problem_of(mesh)
 
 
 def _wrap(module: str, name: str, wrapper) -> None:
@@ -104,7 +107,7 @@ def _problems() -> Callable[[object], str]:
 
     def problem_of(analysis) -> str:
         mesh, _ = mesh_of_analysis(analysis)
-        return _complaint(mesh) if mesh is not None else ""
+        return _problem_of(mesh)
 
     return problem_of
 
@@ -129,7 +132,7 @@ def _checked_by_ccxtools(function):
     @functools.wraps(function)
     def check_member_for_solver_calculix(analysis, solver, mesh, member):
         message = function(analysis, solver, mesh, member)
-        problem = _complaint(mesh) if mesh else ""
+        problem = _problem_of(mesh)
         return f"{message}{problem}\n" if problem else message
 
     return check_member_for_solver_calculix
@@ -141,7 +144,7 @@ def _announced(function):
     @functools.wraps(function)
     def get_mesh_to_solve(analysis):
         mesh, message = function(analysis)
-        problem = _complaint(mesh) if mesh is not None else ""
+        problem = _problem_of(mesh)
         if problem:
             FreeCAD.Console.PrintError(f"{problem}\n")
         return mesh, message
