@@ -1,29 +1,32 @@
 /// POSIX signals. docs/porting.md describes what replaces them on other systems.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/isolated_work.hpp"
 #include "geometry/base/printable.hpp"
-#include "geometry/cad/isolated_reading.hpp"
 #include "mesher/command/command.hpp"
-#include "mesher/command/setting_options.hpp"
+#include "mesher/command/signals.hpp"
 
 namespace quadrille::command {
+
+void ring_after(double seconds) {
+  struct itimerval timer {};
+  timer.it_value.tv_sec = static_cast<time_t>(seconds);
+  timer.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (seconds - std::floor(seconds)));
+  ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
 
 namespace {
 
@@ -33,13 +36,6 @@ std::atomic<bool> ending{false}, delivers_part{false};
 char crash_line[512], time_line[512];
 constexpr char cancel_line[] = "quadrille: the work was cancelled\n";
 constexpr int grace_microseconds = 150000, grace_of_parts_microseconds = 850000;
-
-void ring_after(double seconds) {
-  struct itimerval timer {};
-  timer.it_value.tv_sec = static_cast<time_t>(seconds);
-  timer.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (seconds - std::floor(seconds)));
-  ::setitimer(ITIMER_REAL, &timer, nullptr);
-}
 
 [[noreturn]] void end_process(const char* line, int code) {
   remove_unfinished_files();
@@ -76,65 +72,31 @@ extern "C" void handle_cpu_limit(int) {
   end_process("quadrille: the CPU time limit of this process (ulimit -t) is reached\n", 1);
 }
 
-/// Copies a line and its line break; cuts off what does not fit.
+/// Copies a line; cuts off what does not fit before its line break.
 template <std::size_t n>
 void copy_line(char (&buffer)[n], const std::string& line) {
-  const std::size_t length = std::min(line.size(), n - 2);
+  const std::size_t length = std::min(line.size() - 1, n - 2);
   std::memcpy(buffer, line.data(), length);
   buffer[length] = '\n';
   buffer[length + 1] = 0;
 }
 
-std::vector<std::string> whole_files;
-
-void prepare_time_line(double time_limit) {
-  copy_line(time_line,
-            fmt::format("quadrille: the time limit of {:g} s is reached{}", time_limit, left_behind()));
-}
-
 }  // namespace
 
-std::string left_behind() {
-  if (whole_files.empty()) return ", and nothing was written";
-  return fmt::format(", and {} was written before", fmt::join(whole_files, ", "));
+void set_alarm_line(const std::string& line) {
+  copy_line(time_line, line);
 }
 
-CancelOnSignal::CancelOnSignal(ExecutionContext& context, double time_limit, bool partial)
-    : time_limit_(time_limit), start_(std::chrono::steady_clock::now()) {
+void watch_signals(ExecutionContext& context, bool delivers) {
   cancellable.store(&context);
   ending.store(false);
-  delivers_part.store(partial);
-  whole_files.clear();
-  prepare_time_line(time_limit);
+  delivers_part.store(delivers);
   std::signal(SIGINT, cancel_work);
   std::signal(SIGTERM, cancel_work);
   std::signal(SIGALRM, handle_alarm);
-  if (time_limit <= 0) return;
-  context.limit_time(time_limit);
-  ring_after(time_limit);
 }
 
-void CancelOnSignal::reading(const std::filesystem::path& file, double seconds) {
-  if (seconds <= 0 || (time_limit_ > 0 && time_limit_ <= seconds)) return;
-  copy_line(time_line,
-            "quadrille: " + with_options(reading_too_long(printable(file.string(), ' '), seconds)));
-  ring_after(seconds);
-}
-
-void CancelOnSignal::reading_is_done() {
-  const std::chrono::duration<double> past = std::chrono::steady_clock::now() - start_;
-  ring_after(0);
-  prepare_time_line(time_limit_);
-  if (time_limit_ > 0) ring_after(std::max(time_limit_ - past.count(), 1e-3));
-}
-
-void CancelOnSignal::wrote(const std::filesystem::path& file) {
-  whole_files.push_back(printable(file.string(), ' '));
-  prepare_time_line(time_limit_);
-}
-
-CancelOnSignal::~CancelOnSignal() {
-  ring_after(0);
+void stop_watching_signals() {
   std::signal(SIGALRM, SIG_IGN);
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
@@ -162,7 +124,7 @@ void report_crashes(const std::filesystem::path& file, std::string_view work) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   static_cast<void>(file), static_cast<void>(work);  // the sanitizer's report says more
 #else
-  copy_line(crash_line, fmt::format("quadrille: {}: {} this file crashed: it may be damaged",
+  copy_line(crash_line, fmt::format("quadrille: {}: {} this file crashed: it may be damaged\n",
                                     printable(file.string()), work));
   static char stack[1 << 16];  // after endless recursion there is no other stack left
   stack_t alternative{};

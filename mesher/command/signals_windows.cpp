@@ -3,12 +3,10 @@
 #include <windows.h>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <io.h>
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -16,13 +14,11 @@
 #include <mutex>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/printable.hpp"
-#include "geometry/cad/isolated_reading.hpp"
 #include "mesher/command/command.hpp"
-#include "mesher/command/setting_options.hpp"
+#include "mesher/command/signals.hpp"
 
 namespace quadrille::command {
 
@@ -35,8 +31,6 @@ std::mutex lines;
 std::string crash_line, time_line;
 constexpr const char* cancel_line = "quadrille: the work was cancelled\n";
 constexpr double grace = 0.15, grace_of_parts = 0.85;  // seconds
-
-void ring_after(double seconds);
 
 [[noreturn]] void end_process(const std::string& line, unsigned code) {
   remove_unfinished_files();
@@ -62,6 +56,8 @@ void CALLBACK ring(void*, BOOLEAN) {
   end_process(line, was_cancelled ? 130 : 1);
 }
 
+}  // namespace
+
 /// Replaces the timer by one that fires once; 0 = none.
 void ring_after(double seconds) {
   HANDLE next = nullptr;
@@ -70,6 +66,8 @@ void ring_after(double seconds) {
     ::CreateTimerQueueTimer(&next, nullptr, ring, nullptr, milliseconds, 0, WT_EXECUTEONLYONCE);
   if (HANDLE old = timer.exchange(next)) ::DeleteTimerQueueTimer(nullptr, old, nullptr);
 }
+
+namespace {
 
 /// A second Ctrl-C ends the process at once.
 BOOL WINAPI cancel_work(DWORD) {
@@ -88,56 +86,21 @@ extern "C" void handle_abort(int) {
   end_process(crash_line, 1);
 }
 
-std::vector<std::string> whole_files;
-
-void prepare_time_line(double time_limit) {
-  const std::lock_guard lock(lines);
-  time_line = fmt::format("quadrille: the time limit of {:g} s is reached{}\n", time_limit, left_behind());
-}
-
 }  // namespace
 
-std::string left_behind() {
-  if (whole_files.empty()) return ", and nothing was written";
-  return fmt::format(", and {} was written before", fmt::join(whole_files, ", "));
+void set_alarm_line(const std::string& line) {
+  const std::lock_guard lock(lines);
+  time_line = line;
 }
 
-CancelOnSignal::CancelOnSignal(ExecutionContext& context, double time_limit, bool partial)
-    : time_limit_(time_limit), start_(std::chrono::steady_clock::now()) {
+void watch_signals(ExecutionContext& context, bool delivers) {
   cancellable.store(&context);
   ending.store(false);
-  delivers_part.store(partial);
-  whole_files.clear();
-  prepare_time_line(time_limit);
+  delivers_part.store(delivers);
   ::SetConsoleCtrlHandler(cancel_work, TRUE);
-  if (time_limit <= 0) return;
-  context.limit_time(time_limit);
-  ring_after(time_limit);
 }
 
-void CancelOnSignal::reading(const std::filesystem::path& file, double seconds) {
-  if (seconds <= 0 || (time_limit_ > 0 && time_limit_ <= seconds)) return;
-  {
-    const std::lock_guard lock(lines);
-    time_line = "quadrille: " + with_options(reading_too_long(printable(file.string(), ' '), seconds)) + "\n";
-  }
-  ring_after(seconds);
-}
-
-void CancelOnSignal::reading_is_done() {
-  const std::chrono::duration<double> past = std::chrono::steady_clock::now() - start_;
-  ring_after(0);
-  prepare_time_line(time_limit_);
-  if (time_limit_ > 0) ring_after(std::max(time_limit_ - past.count(), 1e-3));
-}
-
-void CancelOnSignal::wrote(const std::filesystem::path& file) {
-  whole_files.push_back(printable(file.string(), ' '));
-  prepare_time_line(time_limit_);
-}
-
-CancelOnSignal::~CancelOnSignal() {
-  ring_after(0);
+void stop_watching_signals() {
   ::SetConsoleCtrlHandler(cancel_work, FALSE);
   cancellable.store(nullptr);
 }

@@ -36,7 +36,7 @@ class Shells(NamedTuple):
 
     def places(self, ids: np.ndarray) -> np.ndarray:
         """The positions of node ids in `nodes`."""
-        return np.searchsorted(self.nodes, ids)
+        return np.asarray(np.searchsorted(self.nodes, ids))
 
 
 def shells_of(fem_mesh, nodes: Optional[Dict] = None) -> Optional[Shells]:

@@ -101,7 +101,7 @@ def _table(femmesh, femelement_table: Mapping, femnodes_mesh: Dict, force) -> Op
         found = np.array(groups.elements_in(femmesh, name), dtype=int)
         if not found.size or not np.isin(found, shells.elements).all():
             return None
-        nodes, shares = _areas(shells, np.searchsorted(shells.elements, found))
+        nodes, shares = _areas(shells, np.asarray(np.searchsorted(shells.elements, found)))
         if not 0.99 < shares.sum() / area < 1.01:
             return None
         table.append((f"node loads on shape: {obj.Name}:{asked_name}",
