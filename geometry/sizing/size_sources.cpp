@@ -33,7 +33,10 @@ struct Cells {
   int nu, nv;
   Vector2 low, cell;
   /// Middle of the k-th cell, counted row by row.
-  Vector2 middle(int k) const { return low + Vector2((k % nu + 0.5) * cell.x(), (k / nu + 0.5) * cell.y()); }
+  Vector2 middle(int k) const {
+    const int column = k % nu, row = k / nu;
+    return low + Vector2((column + 0.5) * cell.x(), (row + 0.5) * cell.y());
+  }
 };
 
 /// Cells about as long as `spacing`.
@@ -90,7 +93,7 @@ void SizeSources::hold_segments() const {
     most = segments;
     longest = &edge;
   }
-  if (sum > options_.budget.segments) throw too_many_segments(*longest, most);
+  if (longest != nullptr && sum > options_.budget.segments) throw too_many_segments(*longest, most);
   if (blocks > options_.budget.blocks) throw too_many_blocks(blocks);
 }
 
@@ -229,7 +232,8 @@ void SizeSources::uniform_face(FaceId id, double spacing, const PointSink& sink)
   };
   const Vector2 cell = extent / fewest_cells;
   for (int k = 0; k < fewest_cells * fewest_cells; ++k) {
-    const Vector2 place(k % fewest_cells + 0.5, k / fewest_cells + 0.5);
+    const int column = k % fewest_cells, row = k / fewest_cells;
+    const Vector2 place(column + 0.5, row + 0.5);
     split_cell(sample, low + place.cwiseProduct(cell), cell, 0);
   }
 }

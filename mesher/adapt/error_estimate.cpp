@@ -79,7 +79,7 @@ class Recovery {
     take(node);
     // At a boundary or a fold there are few quads: take their neighbors too.
     if (quads.size() < fewest_quads) {
-      const std::set<int> first = quads;
+      const std::vector<int> first(quads.begin(), quads.end());
       for (const int near : first) {
         for (const int corner : mesh_.quads[near]) take(corner);
       }
