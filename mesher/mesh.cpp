@@ -194,7 +194,6 @@ class Job {
     }
   }
 
-  /// With options.partial and a time limit, undoes the sliding if there is no time for all of it.
   /// 1 = users name the edge, or a face at it: it keeps nodes of its own.
   EdgeFlags named_edges() const {
     const SizingOptions& sizing = options_.sizing;
@@ -266,6 +265,7 @@ class Job {
                        [&](FaceId face) { return options_.sizing.kept_faces.contains(face.number()); });
   }
 
+  /// With options.partial and a time limit, undoes the sliding if there is no time for all of it.
   void slide() {
     const EdgeFlags kept = named_edges();
     const auto move = [&] {
@@ -793,8 +793,6 @@ std::vector<int> nodes_of_face(const ShellMesh& mesh, int face) {
   return nodes;
 }
 
-/// Groups of the middle faces and rims that belong to each face of the solid, for loads and supports that
-/// were meant for that face.
 /// Edges between faces of unlike thickness, and at steps. No quad may belong to both sides.
 std::set<int> edges_where_thickness_changes(const MidSurface& middle) {
   std::set<int> result;
@@ -811,6 +809,8 @@ std::set<int> edges_where_thickness_changes(const MidSurface& middle) {
   return result;
 }
 
+/// Groups of the middle faces and rims that belong to each face of the solid, for loads and supports that
+/// were meant for that face.
 std::vector<ShellMesh::Group> groups_of_solid_faces(const MidSurface& middle) {
   std::map<int, std::vector<int>> faces, rims;
   for (std::size_t i = 0; i < middle.faces.size(); ++i) {

@@ -201,6 +201,20 @@ class RimCheck {
   const std::vector<Wall>& walls_;
 };
 
+/// Lists the faces of the solid that belong to no wall. \param accounted indices of those that do
+void list_unpaired(const Skin& skin, const std::vector<Wall>& walls, const std::set<int>& accounted,
+                   double thinnest, MidSurface& result) {
+  // A face that was cut where solids were joined counts as one.
+  std::set<int> numbers;
+  for (const int face : accounted) numbers.insert(skin.faces()[face].number());
+  for (const SkinFace& face : skin.faces()) {
+    // Bevels, and strips that are left where solids were joined, belong to no wall.
+    const bool narrow = width_of(face.face()) < 0.5 * thinnest;
+    if (numbers.count(face.number()) == 0 && !narrow && !across_a_wall(skin, walls, face))
+      result.unpaired.push_back(face.number());
+  }
+}
+
 }  // namespace
 
 void sort_unique(std::vector<int>& numbers) {
@@ -262,15 +276,7 @@ void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vec
     sort_unique(rim.solid_faces);
     if (!rim.solid_faces.empty()) result.rims.push_back(rim);
   }
-  // A face that was cut where solids were joined counts as one.
-  std::set<int> numbers;
-  for (const int face : accounted) numbers.insert(skin.faces()[face].number());
-  for (const SkinFace& face : skin.faces()) {
-    // Bevels, and strips that are left where solids were joined, belong to no wall.
-    const bool narrow = width_of(face.face()) < 0.5 * thinnest;
-    if (numbers.count(face.number()) == 0 && !narrow && !across_a_wall(skin, walls, face))
-      result.unpaired.push_back(face.number());
-  }
+  list_unpaired(skin, walls, accounted, thinnest, result);
 }
 
 namespace {
@@ -283,16 +289,57 @@ double common_section(double angle, double first, double second) {
   return (first * second + 0.5 * (first * first + second * second) * std::cos(angle)) / sine;
 }
 
+/// The use of an edge by a middle face.
+struct EdgeUse {
+  const JoinedFace* face;
+  TopoDS_Edge edge;
+};
+
+/// The area of a cross-section through an edge that counts to several of the walls that meet there; 0 for
+/// fewer than three. \param meeting out: the walls
+double section_counted_twice(const Skin& skin, const std::vector<Wall>& walls,
+                             const std::vector<EdgeUse>& around, std::set<int>& meeting) {
+  std::size_t meet = 0;
+  for (const EdgeUse& use : around) meet += use.edge.Orientation() == TopAbs_INTERNAL ? 2 : 1;
+  if (meet < 3) return 0;
+  struct Half {
+    double angle, thickness;
+  };
+  std::vector<Half> halves;
+  gp_Vec zero;
+  for (const EdgeUse& use : around) {
+    const Fan fan = fan_at(use.edge, use.face->face, 0.5);
+    if (halves.empty()) zero = fan.away;
+    const Coverage& coverage = use.face->coverage;
+    const double thinnest = coverage.thinnest - coverage.added;
+    const double thickness = std::clamp(thickness_round(walls[use.face->wall], skin, fan.point), thinnest,
+                                        std::max(thinnest, coverage.thickest - coverage.added));
+    meeting.insert(use.face->wall);
+    const auto add = [&](const gp_Vec& away) {
+      if (zero.Magnitude() < 0.5 || away.Magnitude() < 0.5) return;
+      const double angle = zero.AngleWithRef(away, fan.along);
+      halves.push_back({angle < 0 ? angle + 2 * M_PI : angle, 0.5 * thickness});
+    };
+    add(fan.away);
+    if (use.edge.Orientation() == TopAbs_INTERNAL) add(fan.away.Reversed());
+  }
+  if (halves.size() < 3) return 0;
+  std::sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) { return a.angle < b.angle; });
+  double section = 0;
+  for (std::size_t i = 0; i < halves.size(); ++i) {
+    const Half& next = halves[(i + 1) % halves.size()];
+    const double turn = next.angle - halves[i].angle + (i + 1 == halves.size() ? 2 * M_PI : 0);
+    section += common_section(turn, halves[i].thickness, next.thickness);
+  }
+  return section;
+}
+
 }  // namespace
 
 double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
                      Fillets fillets) {  // NOLINT(performance-unnecessary-value-param): counted down
-  struct Use {
-    const JoinedFace* face;
-    TopoDS_Edge edge;
-  };
   TopTools_IndexedMapOfShape edges;
-  std::vector<std::vector<Use>> uses;
+  std::vector<std::vector<EdgeUse>> uses;
   for (const JoinedFace& face : faces) {
     if (face.step) continue;
     for (TopExp_Explorer it(face.face, TopAbs_EDGE); it.More(); it.Next()) {
@@ -304,41 +351,10 @@ double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std
     }
   }
   std::map<std::set<int>, double> twice;  // by the walls that meet
-  for (const std::vector<Use>& around : uses) {
-    std::size_t meet = 0;
-    for (const Use& use : around) meet += use.edge.Orientation() == TopAbs_INTERNAL ? 2 : 1;
-    if (meet < 3) continue;
-    struct Half {
-      double angle, thickness;
-    };
+  for (const std::vector<EdgeUse>& around : uses) {
     std::set<int> meeting;
-    std::vector<Half> halves;
-    gp_Vec zero;
-    for (const Use& use : around) {
-      const Fan fan = fan_at(use.edge, use.face->face, 0.5);
-      if (halves.empty()) zero = fan.away;
-      const Coverage& coverage = use.face->coverage;
-      const double thinnest = coverage.thinnest - coverage.added;
-      const double thickness = std::clamp(thickness_round(walls[use.face->wall], skin, fan.point), thinnest,
-                                          std::max(thinnest, coverage.thickest - coverage.added));
-      meeting.insert(use.face->wall);
-      const auto add = [&](const gp_Vec& away) {
-        if (zero.Magnitude() < 0.5 || away.Magnitude() < 0.5) return;
-        const double angle = zero.AngleWithRef(away, fan.along);
-        halves.push_back({angle < 0 ? angle + 2 * M_PI : angle, 0.5 * thickness});
-      };
-      add(fan.away);
-      if (use.edge.Orientation() == TopAbs_INTERNAL) add(fan.away.Reversed());
-    }
-    if (halves.size() < 3) continue;
-    std::sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) { return a.angle < b.angle; });
-    double section = 0;
-    for (std::size_t i = 0; i < halves.size(); ++i) {
-      const Half& next = halves[(i + 1) % halves.size()];
-      const double turn = next.angle - halves[i].angle + (i + 1 == halves.size() ? 2 * M_PI : 0);
-      section += common_section(turn, halves[i].thickness, next.thickness);
-    }
-    twice[meeting] += section * length_of(around.front().edge);
+    const double section = section_counted_twice(skin, walls, around, meeting);
+    if (section != 0) twice[meeting] += section * length_of(around.front().edge);
   }
   double result = 0;
   for (auto& [meeting, volume] : twice) {

@@ -293,9 +293,9 @@ DrawnFace thick_face(const TopoDS_Face& face, double from, double to,
 }
 
 /// Looks from the faces of each solid toward the other solids.
-class Outlook {
+class GapFinder {
  public:
-  Outlook(const std::deque<Skin>& solids, const ExecutionContext& context)
+  GapFinder(const std::deque<Skin>& solids, const ExecutionContext& context)
       : solids_(solids), context_(context) {
     for (const Skin& skin : solids) {
       widths_.emplace_back();
@@ -487,13 +487,13 @@ class Outlook {
 };
 
 /// The narrow gaps, one for each pair of faces, seen from the face of which the larger share faces the other.
-std::vector<Gap> find_gaps(const std::deque<Skin>& solids, const Outlook& outlook) {
+std::vector<Gap> find_gaps(const std::deque<Skin>& solids, const GapFinder& finder) {
   std::vector<Gap> gaps;
   for (int solid = 0; solid < static_cast<int>(solids.size()); ++solid) {
     for (int face = 0; face < static_cast<int>(solids[solid].faces().size()); ++face)
-      outlook.add_gaps({solid, face}, gaps);
+      finder.add_gaps({solid, face}, gaps);
   }
-  std::erase_if(gaps, [&](const Gap& gap) { return outlook.is_crevice(gap); });
+  std::erase_if(gaps, [&](const Gap& gap) { return finder.is_crevice(gap); });
   std::stable_sort(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.share > b.share; });
   std::set<std::pair<FaceOf, FaceOf>> closed;
   std::erase_if(gaps, [&](const Gap& gap) { return !closed.insert(std::minmax(gap.from, gap.to)).second; });
@@ -531,23 +531,23 @@ void add_common(const DrawnFace& a, const DrawnFace& b, const ExecutionContext& 
 GapFillers fill_gaps(const std::deque<Skin>& solids, const ExecutionContext& context) {
   constexpr double into = 0.25;  // over the thickness; surfaces that only touch are harder to fuse
   constexpr double all = 0.999;
-  const Outlook outlook(solids, context);
+  const GapFinder finder(solids, context);
   GapFillers result;
   std::set<std::pair<int, FaceOf>> moved;
-  for (const Gap& gap : find_gaps(solids, outlook)) {
+  for (const Gap& gap : find_gaps(solids, finder)) {
     context.check();
     const double depth = into * gap.across.thickness, length = gap.across.widest + depth;
-    const bool flat = is_flat(outlook.face(gap.from));
+    const bool flat = is_flat(finder.face(gap.from));
     std::vector<DrawnFace> parts;
     if (flat || !gap.along)
-      parts = outlook.drawn(gap.from, gap.along, 0, length);
+      parts = finder.drawn(gap.from, gap.along, 0, length);
     else if (moved.insert({gap.from.solid, gap.to}).second)  // an end may have several faces
-      parts.push_back(outlook.moved(gap.from, length * gp_Vec(*gap.along)));
-    if (flat && (gap.share > all || !is_flat(outlook.face(gap.to)))) {
+      parts.push_back(finder.moved(gap.from, length * gp_Vec(*gap.along)));
+    if (flat && (gap.share > all || !is_flat(finder.face(gap.to)))) {
       add(parts.front(), result);
-    } else if (outlook.goes_on(gap.to)) {
+    } else if (finder.goes_on(gap.to)) {
       const auto back = flat ? std::optional(gap.along->Reversed()) : std::nullopt;
-      for (const DrawnFace& other : outlook.drawn(gap.to, back, depth, 2 * length)) {
+      for (const DrawnFace& other : finder.drawn(gap.to, back, depth, 2 * length)) {
         for (const DrawnFace& part : parts) add_common(part, other, context, result);
       }
     }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "geometry/base/place_text.hpp"
+#include "geometry/base/whole_number.hpp"
 
 namespace quadrille::command {
 
@@ -39,7 +40,7 @@ std::string quality_histogram(const QualitySummary& summary) {
   for (std::size_t i = 0; i < bins.size(); ++i) {
     const double bin = 1.0 / static_cast<double>(bins.size());
     const double low = static_cast<double>(i) * bin;
-    const int bar = static_cast<int>(static_cast<double>(bins[i]) * width / largest + 0.5);
+    const int bar = round_to_int(static_cast<double>(bins[i]) * width / largest);
     text += fmt::format("{:.2f}-{:.2f} {:>10}", low, low + bin, bins[i]);
     text += bar > 0 ? fmt::format(" {:#<{}}\n", "", bar) : "\n";
   }

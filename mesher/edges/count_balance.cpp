@@ -104,7 +104,8 @@ class Balancer {
     distance[key(start)] = 0;
     queue.push({0, key(start)});
     while (!queue.empty() && queue.top().first < best) {
-      const auto [d, at] = queue.top();
+      const double d = queue.top().first;
+      const auto at = queue.top().second;
       queue.pop();
       if (d > distance[at]) continue;
       for_each_change(state(at), [&](int variable, int change, int other, int effect) {

@@ -28,11 +28,11 @@ constexpr double largest_fixed_ratio = 4;  // the same if one of them is fixed
 
 class CountChooser {
  public:
-  CountChooser(const CadShape& shape, const CountWishes& wishes, const TinyFeatures& tiny,
+  CountChooser(const CadShape& shape, const CountTargets& targets, const TinyFeatures& tiny,
                FaceOutlines& sides)
-      : shape_(shape), wishes_(wishes), tiny_(tiny), sides_(sides), chords_(IdVector<EdgeId, double>()) {
-    for (const EdgeId edge : wishes.wanted.ids())
-      effective_.push_back(std::max(wishes.wanted[edge], 1.0 * wishes.least[edge]));
+      : shape_(shape), targets_(targets), tiny_(tiny), sides_(sides), chords_(IdVector<EdgeId, double>()) {
+    for (const EdgeId edge : targets.wanted.ids())
+      effective_.push_back(std::max(targets.wanted[edge], 1.0 * targets.least[edge]));
   }
 
   EdgeCounts run() {
@@ -60,7 +60,7 @@ class CountChooser {
     EdgeCounts result{IdVector<EdgeId, int>(effective_.size()), chords_};
     for (const EdgeId edge : effective_.ids()) {
       const EdgeId chord = chords_.of(edge);
-      if (wishes_.least[edge] == 0) continue;
+      if (targets_.least[edge] == 0) continue;
       result.counts[edge] = fixed_[chord] > 0 ? fixed_[chord] : units_[chord] * variable(chord).value;
     }
     return result;
@@ -111,8 +111,8 @@ class CountChooser {
   template <class Includes>
   std::string fixed_edges(Includes&& includes) const {
     std::set<int> numbers;  // the pieces of an edge that a seam divides have one number
-    for (const EdgeId edge : wishes_.fixed.ids()) {
-      if (wishes_.fixed[edge] > 0 && includes(edge)) numbers.insert(shape_.edges[edge].number);
+    for (const EdgeId edge : targets_.fixed.ids()) {
+      if (targets_.fixed[edge] > 0 && includes(edge)) numbers.insert(shape_.edges[edge].number);
     }
     return numbers.empty() ? "" : fmt::format("Edge{}", fmt::join(numbers, ", Edge"));
   }
@@ -148,7 +148,7 @@ class CountChooser {
 
   void tie_chords() {
     chords_ = Chords(effective_);
-    fixed_ = wishes_.fixed;
+    fixed_ = targets_.fixed;
     fixed_.resize(effective_.size());
     const auto unite = [&](const SideEdge& a, const SideEdge& b) {
       if (!tie(a, b, std::numeric_limits<double>::infinity()))
@@ -161,7 +161,7 @@ class CountChooser {
       const EdgeId same = tiny_.edges[edge];
       if (same != edge) unite({same, true}, {edge, !tiny_.reversed_edges[edge]});
     }
-    for (const auto& [a, b] : wishes_.tied) unite(a, b);
+    for (const auto& [a, b] : targets_.tied) unite(a, b);
     for (const FaceId face : sides_.ids()) {
       const auto& facing = sides_[face].facing;
       if (is_waiting_[face]) continue;
@@ -178,10 +178,10 @@ class CountChooser {
 
   /// Starts each chord near the mean count of its members, in segments of the mesh that is recombined.
   void start_values() {
-    units_.assign(effective_.size(), wishes_.stride);
+    units_.assign(effective_.size(), targets_.stride);
     members_.assign(effective_.size(), {});
     for (const EdgeId edge : effective_.ids()) {
-      if (wishes_.least[edge] != 0) members_[chords_.of(edge)].push_back(edge);
+      if (targets_.least[edge] != 0) members_[chords_.of(edge)].push_back(edge);
     }
     problem_.variables.assign(effective_.size(), {});
     for (const EdgeId chord : effective_.ids()) start_value(chord);
@@ -192,16 +192,16 @@ class CountChooser {
     const std::vector<EdgeId>& members = members_[chord];
     if (members.empty()) return;
     auto& variable = this->variable(chord);
-    const int unit = units_[chord], parts = wishes_.stride / unit;
-    const bool final_segments = unit < wishes_.stride;
+    const int unit = units_[chord], parts = targets_.stride / unit;
+    const bool final_segments = unit < targets_.stride;
     bool even = false;
     double wanted = 0;
     variable.least = 1;
     for (const EdgeId i : members) {
-      wanted += wishes_.wanted[i];
+      wanted += targets_.wanted[i];
       variable.least =
-          std::max(variable.least, final_segments ? wishes_.least_of_grids[i] : wishes_.least[i]);
-      even |= !wishes_.even.empty() && wishes_.even[i] != 0;
+          std::max(variable.least, final_segments ? targets_.least_of_grids[i] : targets_.least[i]);
+      even |= !targets_.even.empty() && targets_.even[i] != 0;
     }
     variable.wanted = parts * (wanted / static_cast<double>(members.size()));
     variable.weight = static_cast<double>(members.size());
@@ -232,7 +232,7 @@ class CountChooser {
       return units[groups.find_set(static_cast<std::size_t>(chord.index()))];
     };
     for (const EdgeId chord : units_.ids()) {
-      if (!is_between_grids_[chord]) unit_of(chord) = wishes_.stride;
+      if (!is_between_grids_[chord]) unit_of(chord) = targets_.stride;
     }
     for (const EdgeId chord : units_.ids()) {
       if (units_[chord] == unit_of(chord)) continue;
@@ -258,7 +258,7 @@ class CountChooser {
       }
       add_facing(face);
       for (const EdgeId edge : sides.rest) is_between_grids_[chords_.of(edge)] = 0;
-      if (sides.rest.empty() || (sides.may_be_odd() && wishes_.stride == 2)) continue;
+      if (sides.rest.empty() || (sides.may_be_odd() && targets_.stride == 2)) continue;
       const int node = add_node(face, BalanceProblem::Rule::even);
       for (const EdgeId edge : sides.rest) add_term(edge, node, 1);
     }
@@ -363,7 +363,7 @@ class CountChooser {
   }
 
   void add_term(EdgeId edge, int node, int coefficient) {
-    if (wishes_.least[edge] == 0) return;
+    if (targets_.least[edge] == 0) return;
     auto& terms = variable(chords_.of(edge)).terms;
     const auto it =
         std::find_if(terms.begin(), terms.end(), [&](const auto& term) { return term.first == node; });
@@ -430,7 +430,7 @@ class CountChooser {
   BalanceProblem::Variable& variable(EdgeId chord) { return problem_.variables[chord.index()]; }
 
   const CadShape& shape_;
-  const CountWishes& wishes_;
+  const CountTargets& targets_;
   const TinyFeatures& tiny_;
   FaceOutlines& sides_;
   IdVector<EdgeId, double> effective_;  // wanted count, at least `least`
@@ -447,10 +447,10 @@ class CountChooser {
 
 }  // namespace
 
-EdgeCounts choose_counts(const CadShape& shape, const CountWishes& wishes, const TinyFeatures& tiny,
+EdgeCounts choose_counts(const CadShape& shape, const CountTargets& targets, const TinyFeatures& tiny,
                          FaceOutlines& sides) {
-  EdgeCounts result = CountChooser(shape, wishes, tiny, sides).run();
-  choose_single_segments(shape, wishes, sides, result);
+  EdgeCounts result = CountChooser(shape, targets, tiny, sides).run();
+  choose_single_segments(shape, targets, sides, result);
   return result;
 }
 

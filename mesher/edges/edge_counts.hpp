@@ -12,7 +12,7 @@
 namespace quadrille {
 
 /// What the counts of the edges of the faces used should be.
-struct CountWishes {
+struct CountTargets {
   std::vector<std::pair<SideEdge, SideEdge>>
       tied;                              ///< edges that get the same count, whatever their wanted counts
   int stride = 1;                        ///< see BoundaryNodes::stride
@@ -36,7 +36,7 @@ struct EdgeCounts {
 /// Fixed counts are kept. Other edges of the chord get the fixed count if their wanted counts are between a
 /// quarter of it and four times it. Throws Error (usage, naming the edges) if a fixed count cannot be kept:
 /// an odd one on an edge of a face that needs even numbers, or one that leaves the boundary of a face odd.
-EdgeCounts choose_counts(const CadShape& shape, const CountWishes& wishes, const TinyFeatures& tiny,
+EdgeCounts choose_counts(const CadShape& shape, const CountTargets& targets, const TinyFeatures& tiny,
                          FaceOutlines& sides);
 
 }  // namespace quadrille

@@ -122,15 +122,15 @@ class EdgeSampler {
 
   BoundaryNodes run() {
     tabulate_edges();
-    wish_alike();
-    FaceOutlines found = find_face_sides(shape_, used_, plan_.tiny, wishes_.wanted);
+    share_targets();
+    FaceOutlines found = find_face_sides(shape_, used_, plan_.tiny, targets_.wanted);
     free_sides_beside_chains(found);
     FaceOutlines sides = found;
-    EdgeCounts chosen = choose_counts(shape_, wishes_, plan_.tiny, sides);
-    const bool refined = refine_along_strips(shape_, sides, chosen, tables_, wishes_);
-    if (fit_holes_to_grids(shape_, sides, chosen, tables_, wishes_) || refined) {
+    EdgeCounts chosen = choose_counts(shape_, targets_, plan_.tiny, sides);
+    const bool refined = refine_along_strips(shape_, sides, chosen, tables_, targets_);
+    if (fit_holes_to_grids(shape_, sides, chosen, tables_, targets_) || refined) {
       sides = found;
-      chosen = choose_counts(shape_, wishes_, plan_.tiny, sides);
+      chosen = choose_counts(shape_, targets_, plan_.tiny, sides);
     }
     counts_ = chosen.counts;
     shares_ = space_chords(shape_, sides, chosen.chords, tables_, counts_, prescribed_shares());
@@ -155,12 +155,12 @@ class EdgeSampler {
     const EdgeFlags shared_ends = find_shared_ends(shape_, plan_.tiny);
     const EdgeFlags inner = find_inner_edges(shape_);
     tables_.resize(n_);
-    wishes_.stride = result_.stride;
-    wishes_.least.assign(n_, 0);
-    wishes_.least_of_grids.assign(n_, 0);
-    wishes_.wanted.assign(n_, 0);
-    wishes_.fixed.assign(n_, 0);
-    wishes_.even.assign(n_, 0);
+    targets_.stride = result_.stride;
+    targets_.least.assign(n_, 0);
+    targets_.least_of_grids.assign(n_, 0);
+    targets_.wanted.assign(n_, 0);
+    targets_.fixed.assign(n_, 0);
+    targets_.even.assign(n_, 0);
     double segments = 0;
     for (const EdgeId i : shape_.edges.ids()) {
       if (i.index() % 256 == 0) context_.report(Stage::sample, 0.5 * i.index() / static_cast<double>(n_));
@@ -176,59 +176,62 @@ class EdgeSampler {
         tables_[i].make_finer(part.from, part.to, part.segments * stride);
         is_finer = true;
       }
-      double& wanted = wishes_.wanted[i];
+      double& wanted = targets_.wanted[i];
       wanted = tables_[i].total() / result_.stride;
       // An edge has at least one segment, which the factor multiplies.
       if (plan_.factor[i] > 1) wanted = std::max(wanted, 1.0) * plan_.factor[i];
       if (along_chord(i)) wanted *= chord_of(edge) / edge.length;
       segments += result_.stride * wanted;
       hold_segments(segments, field_.budget(), edge);
-      const double turning = plan_.bare[i] ? 0 : tables_[i].turning;
-      wishes_.least[i] =
+      const double turning = plan_.ignore_curvature[i] ? 0 : tables_[i].turning;
+      targets_.least[i] =
           least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], result_.stride);
       // The count that a face needs to be meshed at all overrides the wanted counts of opposite edges.
-      if (is_finer) wishes_.least[i] = std::max(wishes_.least[i], static_cast<int>(wanted));
-      // Between grids, one segment may do for a straight edge, and for a short arc of up to a quarter turn.
-      // Other curves keep their shape there as elsewhere.
-      constexpr double straight = 1e-3, quarter_turn = 1.6;
-      const bool is_curve = turning > straight && (result_.stride * wanted > 1 || turning > quarter_turn);
-      const bool may_coincide = shared_ends[i] != 0 || inner[i] != 0;
-      wishes_.least_of_grids[i] =
-          is_curve || is_finer || may_coincide ? result_.stride * wishes_.least[i] : 1;
-      if (turning > least_arc) {
-        // On an arc, the number that the sizes give is a minimum: the stresses there depend on it.
-        constexpr double nearly = 0.25;
-        wishes_.least[i] = std::max(wishes_.least[i], to_int(std::ceil(wanted - nearly)));
-        wishes_.least_of_grids[i] =
-            std::max(wishes_.least_of_grids[i], to_int(std::ceil(result_.stride * wanted - nearly)));
-      }
+      if (is_finer) targets_.least[i] = std::max(targets_.least[i], static_cast<int>(wanted));
+      raise_least(i, turning, is_finer || shared_ends[i] != 0 || inner[i] != 0);
       add_heads(i);
       if (is_prescribed(i)) {
         fix_count(i, shared_ends[i], inner[i]);
       } else if (even) {
-        wishes_.even[i] = 1;
-        wishes_.least[i] = std::max(
-            wishes_.least[i] + wishes_.least[i] % 2,
+        targets_.even[i] = 1;
+        targets_.least[i] = std::max(
+            targets_.least[i] + targets_.least[i] % 2,
             stride * least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride));
       }
     }
   }
 
+  /// Sets the least count between grids, and raises both least counts on arcs.
+  void raise_least(EdgeId i, double turning, bool needs_least) {
+    const double wanted = targets_.wanted[i];
+    int &least = targets_.least[i], &of_grids = targets_.least_of_grids[i];
+    // Between grids, one segment may do for a straight edge, and for a short arc of up to a quarter turn.
+    // Other curves keep their shape there as elsewhere.
+    constexpr double straight = 1e-3, quarter_turn = 1.6;
+    const bool is_curve = turning > straight && (result_.stride * wanted > 1 || turning > quarter_turn);
+    of_grids = is_curve || needs_least ? result_.stride * least : 1;
+    if (turning <= least_arc) return;
+    // On an arc, the number that the sizes give is a minimum: the stresses there depend on it.
+    constexpr double nearly = 0.25;
+    least = std::max(least, to_int(std::ceil(wanted - nearly)));
+    of_grids = std::max(of_grids, to_int(std::ceil(result_.stride * wanted - nearly)));
+  }
+
   /// Edges with the same nodes get the larger of their wanted counts.
-  void wish_alike() {
+  void share_targets() {
     const auto take = [&](EdgeId to, EdgeId from) {
       const auto raise = [&](auto& values) { values[to] = std::max(values[to], values[from]); };
-      if (wishes_.fixed[to] != 0 && wishes_.fixed[from] != 0) return;  // choose_counts() compares them
-      raise(wishes_.least);
-      raise(wishes_.least_of_grids);
-      raise(wishes_.wanted);
-      raise(wishes_.fixed);
-      raise(wishes_.even);
+      if (targets_.fixed[to] != 0 && targets_.fixed[from] != 0) return;  // choose_counts() compares them
+      raise(targets_.least);
+      raise(targets_.least_of_grids);
+      raise(targets_.wanted);
+      raise(targets_.fixed);
+      raise(targets_.even);
     };
     for (auto copy = plan_.matched.rbegin(); copy != plan_.matched.rend(); ++copy) take(copy->from, copy->to);
     for (const MatchedEdge& copy : plan_.matched) {
       take(copy.to, copy.from);
-      wishes_.tied.push_back({{copy.from, true}, {copy.to, !copy.reversed}});
+      targets_.tied.push_back({{copy.from, true}, {copy.to, !copy.reversed}});
       result_.edges[copy.from].matched = result_.edges[copy.to].matched = result_.edges[copy.to].copied =
           true;
     }
@@ -288,9 +291,9 @@ class EdgeSampler {
     if (heads == plan_.rows.heads.end()) return;
     const auto [from, to] = counts_between(i, heads->second);
     const int own = heads->second.segments(), least = own + 1;
-    wishes_.wanted[i] = (own + std::max(1.0, plan_.factor[i] * (to - from))) / result_.stride;
-    wishes_.least[i] = std::max(wishes_.least[i], (least + result_.stride - 1) / result_.stride);
-    wishes_.least_of_grids[i] = std::max(wishes_.least_of_grids[i], least);
+    targets_.wanted[i] = (own + std::max(1.0, plan_.factor[i] * (to - from))) / result_.stride;
+    targets_.least[i] = std::max(targets_.least[i], (least + result_.stride - 1) / result_.stride);
+    targets_.least_of_grids[i] = std::max(targets_.least_of_grids[i], least);
   }
 
   static double sum_of(const std::vector<double>& lengths) {
@@ -347,10 +350,10 @@ class EdgeSampler {
     if (segments < (needs_stride ? result_.stride * least : 1))
       throw usage_error("segments", fmt::format("`segments` gives {} to Edge{}, which needs {} or more",
                                                 segments, shape_.edges[i].number, result_.stride * least));
-    wishes_.fixed[i] = segments;
-    wishes_.wanted[i] = 1.0 * segments / result_.stride;
-    wishes_.least[i] = std::max(1, std::min(wishes_.least[i], segments / result_.stride));
-    wishes_.least_of_grids[i] = std::min(wishes_.least_of_grids[i], segments);
+    targets_.fixed[i] = segments;
+    targets_.wanted[i] = 1.0 * segments / result_.stride;
+    targets_.least[i] = std::max(1, std::min(targets_.least[i], segments / result_.stride));
+    targets_.least_of_grids[i] = std::min(targets_.least_of_grids[i], segments);
   }
 
   EdgeShares prescribed_shares() const {
@@ -378,7 +381,9 @@ class EdgeSampler {
     }
   }
 
-  bool along_chord(EdgeId edge) const { return plan_.bare[edge] && !plan_.tiny.closed(shape_.edges[edge]); }
+  bool along_chord(EdgeId edge) const {
+    return plan_.ignore_curvature[edge] && !plan_.tiny.closed(shape_.edges[edge]);
+  }
 
   int add_point(const Vector3& point) {
     result_.points.push_back(point);
@@ -453,7 +458,7 @@ class EdgeSampler {
   std::size_t n_;      // edges
   EdgeFlags used_edges_;
   IdVector<EdgeId, CountTable> tables_;
-  CountWishes wishes_;
+  CountTargets targets_;
   IdVector<EdgeId, int> counts_;  // segments of the final mesh
   EdgeShares shares_;             // empty = by own sizes
   BoundaryNodes result_;
@@ -463,7 +468,7 @@ class EdgeSampler {
 
 SamplingPlan::SamplingPlan(const CadShape& shape)
     : factor(shape.edges.size(), 1),
-      bare(shape.edges.size()),
+      ignore_curvature(shape.edges.size()),
       unaligned(shape.faces.size()),
       subdivided(shape.faces.size()),
       tiny(find_tiny_features(shape, FaceFlags(shape.faces.size(), 1), EdgeFlags(shape.edges.size()), 0)) {}

@@ -215,7 +215,7 @@ bool keep_apart(const std::vector<HoleBlock>& blocks, const GridSize& grid) {
 }
 
 bool fit_holes_to_grids(const CadShape& shape, const FaceOutlines& sides, const EdgeCounts& chosen,
-                        const IdVector<EdgeId, CountTable>& tables, CountWishes& wishes) {
+                        const IdVector<EdgeId, CountTable>& tables, CountTargets& targets) {
   const HoleFitter fitter(shape, chosen, tables);
   bool any = false;
   for (const FaceId i : sides.ids()) {
@@ -224,8 +224,8 @@ bool fit_holes_to_grids(const CadShape& shape, const FaceOutlines& sides, const 
     const auto fit = fitter.fit(face, sides[i]);
     if (!fit) continue;
     const auto want = [&](EdgeId edge, double segments) {
-      any |= std::abs(wishes.wanted[edge] * wishes.stride - segments) > 0.5;
-      wishes.wanted[edge] = segments / wishes.stride;
+      any |= std::abs(targets.wanted[edge] * targets.stride - segments) > 0.5;
+      targets.wanted[edge] = segments / targets.stride;
     };
     for (const std::size_t k : {0, 1}) {
       if (fit->sides[k] == 1) continue;

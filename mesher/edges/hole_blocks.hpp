@@ -75,6 +75,6 @@ bool keep_apart(const std::vector<HoleBlock>& blocks, const GridSize& grid);
 /// centers the blocks better on the holes. \param sides as choose_counts() left them. \return whether
 /// anything changed, so that counts must be chosen again.
 bool fit_holes_to_grids(const CadShape& shape, const FaceOutlines& sides, const EdgeCounts& chosen,
-                        const IdVector<EdgeId, CountTable>& tables, CountWishes& wishes);
+                        const IdVector<EdgeId, CountTable>& tables, CountTargets& targets);
 
 }  // namespace quadrille

@@ -16,9 +16,9 @@ constexpr double most_wanted = 1;
 
 class SingleSegments {
  public:
-  SingleSegments(const CadShape& shape, const CountWishes& wishes, const FaceOutlines& sides,
+  SingleSegments(const CadShape& shape, const CountTargets& targets, const FaceOutlines& sides,
                  EdgeCounts& chosen)
-      : shape_(shape), wishes_(wishes), sides_(sides), chosen_(chosen), single_(wishes.wanted.size(), 0) {}
+      : shape_(shape), targets_(targets), sides_(sides), chosen_(chosen), single_(targets.wanted.size(), 0) {}
 
   void run() {
     for (const EdgeId edge : single_.ids()) single_[chord(edge)] |= chosen_.counts[edge] == 2;
@@ -36,8 +36,8 @@ class SingleSegments {
   bool is_single(EdgeId edge) const { return chosen_.counts[edge] > 0 && single_[chord(edge)] != 0; }
 
   bool may_be_single(EdgeId edge) const {
-    return wishes_.least_of_grids[edge] <= 1 && wishes_.fixed[edge] == 0 && wishes_.even[edge] == 0 &&
-           wishes_.wanted[edge] * wishes_.stride <= most_wanted;
+    return targets_.least_of_grids[edge] <= 1 && targets_.fixed[edge] == 0 && targets_.even[edge] == 0 &&
+           targets_.wanted[edge] * targets_.stride <= most_wanted;
   }
 
   /// Chords on which sums over sides of several edges depend keep their segments, and those of faces that are
@@ -78,7 +78,7 @@ class SingleSegments {
   }
 
   const CadShape& shape_;
-  const CountWishes& wishes_;
+  const CountTargets& targets_;
   const FaceOutlines& sides_;
   EdgeCounts& chosen_;
   EdgeFlags single_;  // (chords) 1 = gets one segment
@@ -86,9 +86,9 @@ class SingleSegments {
 
 }  // namespace
 
-void choose_single_segments(const CadShape& shape, const CountWishes& wishes, const FaceOutlines& sides,
+void choose_single_segments(const CadShape& shape, const CountTargets& targets, const FaceOutlines& sides,
                             EdgeCounts& chosen) {
-  if (wishes.stride == 2) SingleSegments(shape, wishes, sides, chosen).run();
+  if (targets.stride == 2) SingleSegments(shape, targets, sides, chosen).run();
 }
 
 }  // namespace quadrille

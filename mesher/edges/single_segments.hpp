@@ -11,7 +11,7 @@ namespace quadrille {
 /// size, so their boundaries need an even sum of segments only: where the sum would be odd, a cheapest set of
 /// chords keeps its two segments (make_even()). Chords keep them too where curves, users, or sums over sides
 /// of several edges require more than one. Does nothing unless the stride is 2.
-void choose_single_segments(const CadShape& shape, const CountWishes& wishes, const FaceOutlines& sides,
+void choose_single_segments(const CadShape& shape, const CountTargets& targets, const FaceOutlines& sides,
                             EdgeCounts& chosen);
 
 }  // namespace quadrille

@@ -29,7 +29,7 @@ Extent extent_of(const CadShape& shape, const FacingPair& pair, const IdVector<E
 }  // namespace
 
 bool refine_along_strips(const CadShape& shape, const FaceOutlines& sides, const EdgeCounts& chosen,
-                         IdVector<EdgeId, CountTable>& tables, CountWishes& wishes) {
+                         IdVector<EdgeId, CountTable>& tables, CountTargets& targets) {
   IdVector<EdgeId, double> densities(shape.edges.size());  // (chords) least segments for each whole edge
   for (const FaceSides& face : sides) {
     if (!face.is_rectangle()) continue;
@@ -50,12 +50,12 @@ bool refine_along_strips(const CadShape& shape, const FaceOutlines& sides, const
   bool any = false;
   for (const EdgeId i : tables.ids()) {
     const double density = densities[chosen.chords.of(i)];
-    if (wishes.least[i] == 0 || density <= 0) continue;
+    if (targets.least[i] == 0 || density <= 0) continue;
     const double before = tables[i].total();
     tables[i].raise_to(density / tables[i].length());
     constexpr double noticeable = 1.02;
     if (tables[i].total() <= noticeable * before) continue;
-    wishes.wanted[i] = std::max(wishes.wanted[i], tables[i].total() / wishes.stride);
+    targets.wanted[i] = std::max(targets.wanted[i], tables[i].total() / targets.stride);
     any = true;
   }
   return any;

@@ -14,6 +14,6 @@ namespace quadrille {
 /// face that would need more than three times as many segments is left as it is. \param sides as
 /// choose_counts() left them. \return whether anything was raised, so that counts must be chosen again.
 bool refine_along_strips(const CadShape& shape, const FaceOutlines& sides, const EdgeCounts& chosen,
-                         IdVector<EdgeId, CountTable>& tables, CountWishes& wishes);
+                         IdVector<EdgeId, CountTable>& tables, CountTargets& targets);
 
 }  // namespace quadrille

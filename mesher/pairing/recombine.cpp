@@ -9,8 +9,8 @@
 #include "mesher/mesh/side_twins.hpp"
 #include "mesher/pairing/augmenting_paths.hpp"
 #include "mesher/pairing/costed_coloring.hpp"
+#include "mesher/pairing/free_triangles.hpp"
 #include "mesher/pairing/kempe_chains.hpp"
-#include "mesher/pairing/walk.hpp"
 
 namespace quadrille {
 
@@ -54,7 +54,7 @@ CostedColoring color_by_quality(const TriangleMesh& mesh, const RecombineOptions
   coloring.compute_costs(mesh.points, context);
   color_by_cost(coloring, context);
   if (augment(coloring, free_triangles(coloring), {}, context) > 0 &&
-      walk(coloring, mesh.points, context) > 0)
+      migrate_free_triangles(coloring, mesh.points, context) > 0)
     move_free(coloring, context);
   context.check();
   if (options.exchange == Exchange::where_it_gains) exchange_chains(coloring, mesh.points, context);
@@ -109,7 +109,7 @@ QuadMesh recombine_as_in_paper(const TriangleMesh& mesh, const RecombineOptions&
     // Triangles that no path joins walk to each other by edge flips.
     CostedColoring flipped(mesh, std::move(coloring));
     flipped.compute_costs(mesh.points, context);
-    walk(flipped, mesh.points, context);
+    migrate_free_triangles(flipped, mesh.points, context);
     return remove_color(flipped, mesh);
   }
   return remove_color(coloring, mesh, [&](int t) -> const std::array<int, 3>& { return mesh.triangles[t]; });

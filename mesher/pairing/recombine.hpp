@@ -10,7 +10,7 @@ namespace quadrille {
 
 /// Pairs the triangles of a mesh into quads: colors its edges, no two alike in a triangle, and removes one
 /// color. That color is given to the edges whose quads are best, then brought to every triangle, along
-/// alternating paths or by triangles that walk until they meet. Last, it is exchanged with the other two
+/// alternating paths or by triangles that migrate until they meet. Last, it is exchanged with the other two
 /// along chains (kempe_chains.hpp) where quality or valence gains. The other two colors are completed then.
 /// An odd cycle of them keeps one blank edge, since another choice of the removed color would cost quality.
 /// With Method::paper all three colors are assigned before one is chosen. Points are kept (same indices and

@@ -442,15 +442,7 @@ class Remesher : public ShellGeometry {
           segment.middle_point = middle_places_[side];
         }
       }
-      piece.boundary_count = static_cast<int>(boundary.size());
-      std::map<int, int> copies;
-      for (const int v : boundary) ++copies[cut.original[v]];
-      for (const int v : boundary) {
-        piece.nodes.push_back(cut.original[v]);
-        const auto sum = angles.find({patch, triangles_.surface_corner[cut.original[v]]});
-        piece.angles.push_back(sum == angles.end() ? std::numbers::pi
-                                                   : sum->second / copies[cut.original[v]]);
-      }
+      add_boundary_nodes(cut, boundary, patch, angles, piece);
       for (const int t : triangles) {
         auto triangle = cut.mesh.triangles[t];
         for (int& v : triangle) {
@@ -466,6 +458,19 @@ class Remesher : public ShellGeometry {
   }
 
   using AngleSums = std::map<std::pair<int, int>, double>;  // (patch, corner of the surface) -> angle
+
+  /// \param boundary points of `cut` on the boundary of the piece
+  void add_boundary_nodes(const CutSurface& cut, const std::vector<int>& boundary, int patch,
+                          const AngleSums& angles, FaceTriangulation& piece) const {
+    piece.boundary_count = static_cast<int>(boundary.size());
+    std::map<int, int> copies;
+    for (const int v : boundary) ++copies[cut.original[v]];
+    for (const int v : boundary) {
+      piece.nodes.push_back(cut.original[v]);
+      const auto sum = angles.find({patch, triangles_.surface_corner[cut.original[v]]});
+      piece.angles.push_back(sum == angles.end() ? std::numbers::pi : sum->second / copies[cut.original[v]]);
+    }
+  }
 
   AngleSums sum_angles() const {
     AngleSums sums;

@@ -50,9 +50,9 @@ bool twice_as_fine(Case& job) {
 bool along_chord(Case& job) {
   bool any = false;
   for (const EdgeId edge : job.problem.edges) {
-    char& bare = job.plan.bare[edge];
-    any |= bare == 0;
-    bare = 1;
+    char& ignore = job.plan.ignore_curvature[edge];
+    any |= ignore == 0;
+    ignore = 1;
   }
   if (any) job.record.recipe.chart = ChartKind::own;
   return any;

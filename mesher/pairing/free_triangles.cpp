@@ -1,6 +1,6 @@
 /// Moves free triangles over pairs to each other by the cheapest way (Dijkstra), in each connected piece.
 
-#include "mesher/pairing/walk.hpp"
+#include "mesher/pairing/free_triangles.hpp"
 
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
@@ -208,7 +208,8 @@ std::vector<int> label_pieces(const EdgeColoring& coloring, const ExecutionConte
 
 }  // namespace
 
-int walk(CostedColoring& coloring, const std::vector<Vector3>& points, const ExecutionContext& context) {
+int migrate_free_triangles(CostedColoring& coloring, const std::vector<Vector3>& points,
+                           const ExecutionContext& context) {
   const std::vector<int> free = free_triangles(coloring);
   if (free.size() < 2) return static_cast<int>(free.size());
   const std::vector<int> piece = label_pieces(coloring, context);

@@ -1,6 +1,6 @@
-/// Triangles that no path pairs walk until they meet.
+/// Triangles that no path pairs migrate until they meet.
 
-#include "mesher/pairing/walk.hpp"
+#include "mesher/pairing/free_triangles.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing;
 
-TEST(Walk, FreeTrianglesFarApartMeet) {
+TEST(FreeTriangles, FreeTrianglesFarApartMeet) {
   // One triangle less in each of two far corners: what the cheapest way is searched for does not reach.
   const TriangleMesh mesh = grid(300, 150);
   const TriangleMesh cut = keep_triangles(mesh, [&](int t, const Vector3&) {
@@ -27,7 +27,7 @@ TEST(Walk, FreeTrianglesFarApartMeet) {
   }
   EXPECT_EQ(free_triangles(coloring).size(), 2U);
   coloring.compute_costs(cut.points);
-  EXPECT_EQ(walk(coloring, cut.points), 0);
+  EXPECT_EQ(migrate_free_triangles(coloring, cut.points), 0);
   EXPECT_EQ(validate(coloring), "");
 }
 
