@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "geometry/base/whole_number.hpp"
+#include "geometry/surfaces/edge_curve.hpp"
 #include "mesher/edges/count_table.hpp"
 #include "mesher/edges/row_lines.hpp"
 
@@ -142,10 +143,24 @@ class RowFinder {
       }
     }
     for (const auto& [side, at_first] : found) {
-      (at_first ? stacks[side].first : stacks[side].last) = heights_of(layers);
+      std::vector<double> lengths = heights_of(layers);
+      const double sine = sine_between(edge, shape_.edges[side], at_first);
+      for (double& length : lengths) length /= sine;
+      (at_first ? stacks[side].first : stacks[side].last) = std::move(lengths);
       beside.push_back(side);
     }
     return beside;
+  }
+
+  /// The sine of the angle between an edge and one that runs away from it. Layers on slanted sides are as
+  /// high as asked for, measured across the edge.
+  static double sine_between(const CadEdge& edge, const CadEdge& away, bool at_first) {
+    constexpr double least = 0.3;  // sharper corners get lower layers
+    const VertexId vertex = at_first ? away.first_vertex : away.last_vertex;
+    const Vector3 along =
+        EdgeCurve(edge).derivative(vertex == edge.first_vertex ? edge.first : edge.last).normalized();
+    const Vector3 across = EdgeCurve(away).derivative(at_first ? away.first : away.last).normalized();
+    return std::clamp(along.cross(across).norm(), least, 1.0);
   }
 
   static bool holds(const FacingPair& pair, EdgeId edge) {

@@ -15,6 +15,7 @@
 #include "mesher/quadrille.hpp"
 #include "tests/support/ids.hpp"
 #include "tests/support/sample_models.hpp"
+#include "tests/support/sheet.hpp"
 
 namespace quadrille {
 namespace {
@@ -82,6 +83,26 @@ TEST(GridRows, LayersAreFlatRows) {
                         [&](const ShellMesh::Segment& segment) { return segment.edge == edge; });
       EXPECT_NEAR(static_cast<double>(on_edge), length / 2, 1 + 0.2 * length / 2);
     }
+  }
+}
+
+/// Between slanted sides, layers are as high as on a rectangle.
+TEST(GridRows, LayersAreFlatRowsBetweenSlantedSides) {
+  const CadModel sheet = testing::sheet({{{0, 0}, {40, 0}, {30, 12}, {6, 12}}});
+  const auto& edges = sheet.shape().edges;
+  const auto longest = std::max_element(
+      edges.begin(), edges.end(), [](const CadEdge& a, const CadEdge& b) { return a.length < b.length; });
+  MeshOptions options;
+  options.sizing.size = 2;
+  options.sizing.layers.edges[longest->number] = {0.1, 1.2, 4};
+  const ShellMesh mesh = mesh_of(sheet, options);
+  EXPECT_EQ(count_grids(mesh), 1);
+  const std::vector<double> heights = heights_on(sheet, mesh, longest->number, 1);
+  ASSERT_GT(heights.size(), 5u);
+  double height = 0;
+  for (int i = 0; i <= 4; ++i) {
+    EXPECT_NEAR(heights[i], height, 1e-6) << "layer " << i;
+    height += 0.1 * std::pow(1.2, i);
   }
 }
 
