@@ -84,8 +84,7 @@ class FrdReader {
   }
 
   Vector3 vector(std::size_t start) const {
-    const Vector3 v(number<double>(start, 12), number<double>(start + 12, 12),
-                    number<double>(start + 24, 12));
+    Vector3 v(number<double>(start, 12), number<double>(start + 12, 12), number<double>(start + 24, 12));
     if (!v.allFinite()) throw bad_line("a value is not finite");
     return v;
   }

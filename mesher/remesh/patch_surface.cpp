@@ -6,7 +6,7 @@
 namespace quadrille {
 
 Vector3 PatchSurface::move(Vector2& uv, const Vector3& target, Vector3& normal) const {
-  const Vector3 walked = whole_.move(uv, target, normal);
+  Vector3 walked = whole_.move(uv, target, normal);
   const SurfaceLocator::Place found = locator_.nearest(patch_, target);
   constexpr double closer = 1 - 1e-9;
   if ((found.point - target).norm() >= closer * (walked - target).norm()) return walked;

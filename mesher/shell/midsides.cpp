@@ -167,7 +167,7 @@ Vector3 CadGeometry::middle(EdgeId edge, double from, double to) const {
   constexpr int bisections = 30;
   for (int i = 0; i < bisections; ++i) {
     const double t = 0.5 * (from + to);
-    const Vector3 p = curve.point(t);
+    Vector3 p = curve.point(t);
     const double difference = (p - first).norm() - (p - last).norm();
     if (std::abs(difference) < 1e-9 * (last - first).norm()) return p;
     (difference < 0 ? from : to) = t;

@@ -31,8 +31,8 @@ using Place = std::function<Vector3(double, double)>;
 ShellMesh grid(int n, const Place& place) {
   ShellMesh mesh;
   mesh.order = 2;
-  for (int k = 0; k < (n + 1) * (n + 1); ++k)
-    mesh.points.push_back(place(1.0 * (k % (n + 1)) / n, 1.0 * (k / (n + 1)) / n));
+  for (int row = 0; row <= n; ++row)
+    for (int column = 0; column <= n; ++column) mesh.points.push_back(place(1.0 * column / n, 1.0 * row / n));
   for (int k = 0; k < n * n; ++k) {
     const int a = k / n * (n + 1) + k % n;
     mesh.quads.push_back({a, a + 1, a + n + 2, a + n + 1});

@@ -63,6 +63,7 @@ inline TriangleMesh delaunay(const std::vector<Vector3>& points) {
   using Vertex = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
   using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex>>;
   std::vector<std::pair<Kernel::Point_2, int>> sites;
+  sites.reserve(points.size());
   for (const Vector3& p : points)
     sites.emplace_back(Kernel::Point_2(p.x(), p.y()), static_cast<int>(sites.size()));
   const Delaunay triangulation(sites.begin(), sites.end());
@@ -89,6 +90,7 @@ inline TriangleMesh random_with_holes(int count, int holes, unsigned seed) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> uniform(0, 1);
   std::vector<Vector3> centers;
+  centers.reserve(holes);
   for (int k = 0; k < holes; ++k)
     centers.emplace_back(uniform(generator), uniform(generator), 0.25 * uniform(generator));
   return keep_triangles(random_square(count, seed + 1), [&](int, const Vector3& p) {
