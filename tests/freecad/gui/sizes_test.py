@@ -26,7 +26,6 @@ from quadrille.features import sizes
 from quadrille.gui import size_preview
 from quadrille.solvers import results
 
-real = sizes.SizesJob.drop
 CANCEL = QtGui.QDialogButtonBox.Cancel
 
 
@@ -276,13 +275,13 @@ class SizesTest(GuiCase):
     def test_closing_ends_the_work(self):
         part = self.bracket()
         self.open_panel(part)
-        type_into("QuadrilleSize", "0.2 mm")  # takes longer than the wait below
-        find("QuadrillePreview").click()
-        process(0.05)
-        started = []
-        with mock.patch.object(sizes.SizesJob, "drop", autospec=True, side_effect=lambda job: (started.append(job), real(job))):
-            close_panel(CANCEL)
-        self.assertEqual({type(job) for job in started}, {sizes.SizesJob, sizes.CountJob})  # of the preview and of the panel
+        begin, started = sizes.SizesJob.start, []
+        with mock.patch.object(sizes.SizesJob, "start", autospec=True, side_effect=lambda job: (started.append(job), begin(job))[1]):
+            type_into("QuadrilleSize", "0.2 mm")
+            find("QuadrillePreview").click()
+            # Those of the preview and of the panel.
+            wait_for(lambda: {type(job) for job in started} == {sizes.SizesJob, sizes.CountJob}, what="both jobs")
+        close_panel(CANCEL)
         self.assertFalse(any(job.running for job in started))
         self.assertTrue(part.ViewObject.Visibility)
 
