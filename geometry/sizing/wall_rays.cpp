@@ -52,7 +52,7 @@ struct Exit {
   double cosine = 0;  ///< cosine of the angle between the ray and the outward normal there
 
   /// Distance at which the ray enters a box; infinite if it misses the box.
-  Scalar minimumOnVolume(const Box& box) const {  // NOLINT(readability-identifier-naming): as Eigen calls it
+  Scalar minimumOnVolume(const Box& box) const {
     double first = 0, last = infinity;
     for (int axis = 0; axis < 3; ++axis) {
       if (way[axis] == 0) {
@@ -68,7 +68,7 @@ struct Exit {
   }
 
   /// Möller and Trumbore (1997). Triangles are slightly enlarged, so that no ray passes between two.
-  Scalar minimumOnObject(int triangle) {  // NOLINT(readability-identifier-naming)
+  Scalar minimumOnObject(int triangle) {
     const auto& [a, b, c] = surface.triangles[triangle];
     const Vector3 ab = surface.points[b] - surface.points[a], ac = surface.points[c] - surface.points[a];
     const Vector3 normal = ab.cross(ac), aside = way.cross(ac), offset = from - surface.points[a];

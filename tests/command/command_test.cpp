@@ -330,7 +330,7 @@ TEST(Command, MeshesWithTheOrderOfTheElement) {
   const TemporaryFolder folder;
   for (const std::string type : {"CPS4", "CPE8R", "CAX8", "M3D4R"}) {
     EXPECT_EQ(stderr_of(folder, "mesh " + box + " --faces Face1 -o a.inp --quiet --element " + type).out, "");
-    EXPECT_PRED2(contains, test::file_text(folder / "a.inp"), "TYPE=" + type + ",");
+    EXPECT_PRED2(contains, test::file_text(folder / "a.inp"), fmt::format("TYPE={},", type));
   }
   const auto refused = [&](const std::string& options, const std::string& sentence) {
     const auto result = stderr_of(folder, "mesh " + box + " -o b.inp --quiet " + options);

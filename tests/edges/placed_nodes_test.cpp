@@ -80,8 +80,9 @@ std::vector<NodePlace> places_all_over(const CadModel& model, const ShellMesh& c
     const CadFace& cad = shape.faces[face_id(face)];
     Vector2 best(0.5 * (cad.u_min + cad.u_max), 0.5 * (cad.v_min + cad.v_max));
     for (int k = 0; k < 400; ++k) {  // the nearest of many is near enough to start from
+      const int row = k / 20;
       const Vector2 uv(cad.u_min + (cad.u_max - cad.u_min) * (k % 20) / 19.0,
-                       cad.v_min + (cad.v_max - cad.v_min) * (k / 20) / 19.0);
+                       cad.v_min + (cad.v_max - cad.v_min) * row / 19.0);
       if ((surface.point(uv) - middle).norm() < (surface.point(best) - middle).norm()) best = uv;
     }
     places.push_back({"", surface.nearest(best, middle)});

@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace quadrille {
 namespace {
 
 std::vector<Vector3> circle(int n, double radius, double z) {
   std::vector<Vector3> points;
+  points.reserve(n);
   for (int i = 0; i < n; ++i)
     points.emplace_back(radius * std::cos(2 * M_PI * i / n), radius * std::sin(2 * M_PI * i / n), z);
   return points;
@@ -41,8 +43,8 @@ double area(const std::vector<Vector3>& p, const std::vector<std::array<int, 3>>
 
 TEST(LoopFilling, SpansALoopAlongItsDirection) {
   const std::vector<Vector3> points = circle(12, 1, 0);
-  std::vector<int> loop;
-  for (int i = 0; i < 12; ++i) loop.push_back(i);
+  std::vector<int> loop(points.size());
+  std::iota(loop.begin(), loop.end(), 0);
   for (const bool turned : {false, true}) {
     if (turned) std::reverse(loop.begin(), loop.end());
     const auto triangles = fill_loops(points, {loop}, true);

@@ -10,7 +10,7 @@
 namespace quadrille {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double pi = std::numbers::pi;
 
 double value(Criterion criterion, const std::array<Vector3, 4>& quad) {
   return measure_criteria(quad[0], quad[1], quad[2], quad[3])[static_cast<std::size_t>(criterion)];
@@ -61,12 +61,12 @@ TEST(Criteria, OfTheBentQuad) {
   EXPECT_NEAR(value(Criterion::warp, bent), 60, 1e-12);
   // Middles: (0.5, 1, 0.5) - (0.5, 0, 0) and (1, 0.5, 0.5) - (0, 0.5, 0), both (.., .., 0.5).
   const double cosine = 0.25 / 1.25;
-  EXPECT_NEAR(value(Criterion::skew, bent), 90 - std::acos(cosine) * 180 / kPi, 1e-12);
+  EXPECT_NEAR(value(Criterion::skew, bent), 90 - std::acos(cosine) * 180 / pi, 1e-12);
 }
 
 TEST(Criteria, OfTheConcaveQuad) {
   // At the reflex corner the sides run to (0.75, -0.25) and (-0.25, 0.75).
-  const double inner = std::acos((2 * 0.75 * -0.25) / (0.625)) * 180 / kPi;
+  const double inner = std::acos((2 * 0.75 * -0.25) / (0.625)) * 180 / pi;
   EXPECT_NEAR(value(Criterion::angle_max, arrow), 360 - inner, 1e-9);
   EXPECT_LT(value(Criterion::jacobian_ratio, arrow), 0.6);
 }

@@ -13,7 +13,7 @@
 namespace quadrille {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double pi = std::numbers::pi;
 
 Vector3 flat(double x, double y) {
   return {x, y, 0};
@@ -75,7 +75,7 @@ TEST(ScaledJacobian, IsNotPositiveForBadQuads) {
 
 TEST(ScaledJacobian, EqualsTheSineOfQForConvexQuads) {
   const Vector3 a = flat(0, 0), b = flat(1.2, -0.1), c = flat(1.4, 1.1), d = flat(0.1, 0.8);
-  EXPECT_NEAR(std::sin(kPi / 2 * quad_q(a, b, c, d)), quad_scaled_jacobian(a, b, c, d), 1e-12);
+  EXPECT_NEAR(std::sin(pi / 2 * quad_q(a, b, c, d)), quad_scaled_jacobian(a, b, c, d), 1e-12);
 }
 
 TEST(Quality, OfAGridOfSquares) {
@@ -158,7 +158,7 @@ TEST(Quality, MeasuresAspectWarpingAndInversion) {
   warped.quad_faces = {1};
   summary = quality(warped);
   // Each corner's normal is (-+0.5, -+0.5, 1): tilted by atan(sqrt(0.5)) from the mean (0, 0, 1).
-  EXPECT_NEAR(summary.warping_max_degrees, std::atan(std::sqrt(0.5)) * 180 / kPi, 1e-9);
+  EXPECT_NEAR(summary.warping_max_degrees, std::atan(std::sqrt(0.5)) * 180 / pi, 1e-9);
 }
 
 TEST(Quality, OfNothingIsZero) {

@@ -61,6 +61,7 @@ TEST(Renumbering, KeepsEveryTriangleAndBringsNeighborsTogether) {
 TEST(Renumbering, QuadsStayWhereTheyAreAndComeByPlace) {
   constexpr int across = 60, fixed = 3;
   std::vector<Vector3> points;
+  points.reserve((across + 1) * (across + 1));
   for (int v = 0; v < (across + 1) * (across + 1); ++v)
     points.emplace_back(v % (across + 1), v / (across + 1), 0);
   std::mt19937 generator(6);

@@ -425,6 +425,7 @@ TEST(MidSurface, TellsWhichFacesOfTheSolidFreeEdgesLieOn) {
     ++edges_on[rim.solid_faces[0]];
   }
   std::vector<int> counts;
+  counts.reserve(edges_on.size());
   for (const auto& [face, count] : edges_on) counts.push_back(count);
   std::sort(counts.begin(), counts.end());
   EXPECT_EQ(counts, (std::vector<int>{1, 1, 1, 1, 5, 5}));
@@ -871,7 +872,8 @@ TopoDS_Shape sheet_with_holes(int count) {
       {{0, 0}, {10.0 * count, 0}, {10.0 * count, 10.0 * count}, {0, 10.0 * count}}};
   BRepBuilderAPI_MakeFace face(TopoDS::Face(section(outlines)));
   for (int i = 0; i < count * count; ++i) {
-    const gp_Ax2 axis(gp_Pnt(10 * (i % count) + 5, 10 * (i / count) + 5, 0), -gp::DZ());
+    const int row = i / count;
+    const gp_Ax2 axis(gp_Pnt(10 * (i % count) + 5, 10 * row + 5, 0), -gp::DZ());
     face.Add(BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(gp_Circ(axis, 3)).Edge()).Wire());
   }
   return BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0, 0, 2)).Shape();

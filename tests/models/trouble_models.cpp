@@ -104,7 +104,7 @@ TopoDS_Wire circle(double x, double y, double radius) {
 TopoDS_Face cylinder_side() {
   const TopoDS_Shape solid = BRepPrimAPI_MakeCylinder(10, 30).Shape();
   for (TopExp_Explorer it(solid, TopAbs_FACE); it.More(); it.Next()) {
-    const TopoDS_Face face = TopoDS::Face(it.Current());
+    TopoDS_Face face = TopoDS::Face(it.Current());
     if (!Handle(Geom_CylindricalSurface)::DownCast(BRep_Tool::Surface(face)).IsNull()) return face;
   }
   return {};
@@ -314,7 +314,7 @@ TopoDS_Shape other_parameters() {
 TopoDS_Shape open_wire() {
   int k = 0;
   return with_parametric_curves(quarter_cylinder(), [&](const Handle(Geom2d_Curve) & curve, double, double) {
-    const Handle(Geom2d_Curve) moved = Handle(Geom2d_Curve)::DownCast(curve->Copy());
+    Handle(Geom2d_Curve) moved = Handle(Geom2d_Curve)::DownCast(curve->Copy());
     ++k;
     moved->Translate(gp_Vec2d(0.004 * std::cos(k), 0.04 * std::sin(k)));
     return moved;

@@ -132,8 +132,8 @@ TEST(PolygonFilling, FindsAFillingWhereverThereIsRoom) {
   // Facing sides may differ by two, odd polygons need that each side is shorter than those beside it
   // together.
   for_each_polygon(4, 3, [&](const std::vector<int>& more) {
-    std::vector<int> sides;
-    for (const int k : more) sides.push_back(5 + k);
+    std::vector<int> sides = more;
+    for (int& side : sides) side += 5;
     if ((sides[0] + sides[1] + sides[2] + sides[3]) % 2 != 0) return;
     const Polygon shape = polygon(sides);
     const auto fillings = polygon_fillings(shape.outline, shape.corners, 2);

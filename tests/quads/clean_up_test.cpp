@@ -22,7 +22,7 @@ namespace quadrille {
 namespace {
 
 using SideSet = std::set<std::pair<int, int>>;
-constexpr double kStraight = 1e-9;
+constexpr double straight = 1e-9;
 
 /// The sides with one element, as that element runs them.
 SideSet open_sides(const QuadMesh& mesh) {
@@ -202,14 +202,14 @@ TEST(QuadTopology, KeepsTagsApart) {
 
 class CleanUpSamples : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() { samples_ = sample::samples(24); }
-  static std::vector<sample::Sample> samples_;
+  static void SetUpTestSuite() { all = sample::samples(24); }
+  static std::vector<sample::Sample> all;
 };
-std::vector<sample::Sample> CleanUpSamples::samples_;
+std::vector<sample::Sample> CleanUpSamples::all;
 
 TEST_F(CleanUpSamples, StayValidWithTheirBoundary) {
-  ASSERT_GE(samples_.size(), 8u);
-  for (const auto& [name, before, surface] : samples_) {
+  ASSERT_GE(all.size(), 8u);
+  for (const auto& [name, before, surface] : all) {
     SCOPED_TRACE(name);
     ASSERT_EQ(validate(before.mesh), std::vector<std::string>{});
     SurfaceMesh after = before;
@@ -238,7 +238,7 @@ TEST_F(CleanUpSamples, StayValidWithTheirBoundary) {
 
 TEST_F(CleanUpSamples, BecomeFarMoreRegularAndWellShaped) {
   int merges = 0, doublets = 0;
-  for (const auto& [name, before, surface] : samples_) {
+  for (const auto& [name, before, surface] : all) {
     SCOPED_TRACE(name);
     SurfaceMesh after = before;
     ImproveReport report = clean(after, *surface);
@@ -259,7 +259,7 @@ TEST_F(CleanUpSamples, BecomeFarMoreRegularAndWellShaped) {
 }
 
 TEST_F(CleanUpSamples, KeepTheArea) {
-  for (const auto& [name, before, surface] : samples_) {
+  for (const auto& [name, before, surface] : all) {
     if (dynamic_cast<const PlanarSurface*>(surface.get()) == nullptr) continue;
     SurfaceMesh after = before;
     clean(after);
@@ -268,7 +268,7 @@ TEST_F(CleanUpSamples, KeepTheArea) {
 }
 
 TEST_F(CleanUpSamples, GiveTheSameResultTwice) {
-  for (const auto& [name, before, surface] : samples_) {
+  for (const auto& [name, before, surface] : all) {
     SurfaceMesh first = before, second = before;
     clean(first, *surface);
     clean(second, *surface);
@@ -278,7 +278,7 @@ TEST_F(CleanUpSamples, GiveTheSameResultTwice) {
 }
 
 TEST_F(CleanUpSamples, StayOnTheirSurface) {
-  for (const auto& [name, before, surface] : samples_) {
+  for (const auto& [name, before, surface] : all) {
     SurfaceMesh after = before;
     clean(after, *surface);
     for (std::size_t i = 0; i < after.mesh.points.size(); ++i) {
@@ -342,7 +342,7 @@ TEST(CleanUp, OpensAStraightCornerOnTheBoundary) {
     mesh.mesh.quads[1] = {1, 2, 3, 6};
     mesh.mesh.quads[2] = {3, 8, 7, 6};
     ASSERT_TRUE(validate(mesh.mesh).empty());
-    ASSERT_LT(least_scaled_jacobian(mesh), kStraight);
+    ASSERT_LT(least_scaled_jacobian(mesh), straight);
     clean(mesh);
     EXPECT_TRUE(validate(mesh.mesh, true).empty());
     EXPECT_GT(least_scaled_jacobian(mesh), 0.3) << rows;
@@ -354,7 +354,7 @@ TEST(CleanUp, OpensStraightCornersInARowOfQuads) {
   SurfaceMesh mesh = grid(5, 1);
   mesh.mesh.quads = {{0, 1, 2, 6}, {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 5, 9, 8}, {5, 11, 10, 9}};
   ASSERT_TRUE(validate(mesh.mesh).empty());
-  ASSERT_LT(least_scaled_jacobian(mesh), kStraight);
+  ASSERT_LT(least_scaled_jacobian(mesh), straight);
   clean(mesh);
   EXPECT_TRUE(validate(mesh.mesh, true).empty());
   EXPECT_GT(least_scaled_jacobian(mesh), 0.3);

@@ -73,7 +73,7 @@ inline void make_delaunay(Triangulation& mesh) {
     std::vector<char> touched(mesh.triangles.size(), 0);
     int flips = 0;
     for (const auto& [side, t] : owner) {
-      const auto [a, b] = side;
+      const int a = side.first, b = side.second;
       const auto other = owner.find({b, a});
       if (other == owner.end() || a > b) continue;
       const int s = other->second;
