@@ -183,9 +183,10 @@ TEST(Remesh, ABoxKeepsItsVolumeEdgesAndCorners) {
   double total = 0;
   for (const auto& [edge, nodes] : nodes_of_edge) {
     int constant = 0;  // coordinates
+    const Vector3& first = mesh.points[*nodes.begin()];
     for (int k = 0; k < 3; ++k)
-      constant += std::all_of(nodes.begin(), nodes.end(),
-                              [&](int v) { return mesh.points[v][k] == mesh.points[*nodes.begin()][k]; });
+      constant +=
+          std::all_of(nodes.begin(), nodes.end(), [&](int v) { return mesh.points[v][k] == first[k]; });
     EXPECT_EQ(constant, 2) << "Edge" << edge;
     total += length_of_edge[edge];
   }

@@ -32,7 +32,7 @@ using namespace testing;
 
 /// Two faces in a plane, between them an edge that meets the rim at 11 degrees: its number is in `edge`.
 CadModel plate_with_slanted_edge(int& edge) {
-  const CadModel model = sheet({{{0, 0}, {40, 0}, {40, 8}}, {{0, 0}, {40, 8}, {40, 20}, {0, 20}}});
+  CadModel model = sheet({{{0, 0}, {40, 0}, {40, 8}}, {{0, 0}, {40, 8}, {40, 20}, {0, 20}}});
   for (const CadEdge& cad : model.shape().edges)
     if (cad.faces.size() == 2) edge = cad.number;
   return model;

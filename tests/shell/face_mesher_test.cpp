@@ -164,7 +164,8 @@ TEST(FaceSurface, IsTheSameSeenFromAbove) {
   EXPECT_TRUE(view.is_view());
   const double size = (loop[2] - loop[0]).norm();
   for (int i = 0; i < 100; ++i) {
-    const Vector2 uv = low + Vector2(0.05 + i % 10 / 11.0, 0.05 + i / 10 / 11.0).cwiseProduct(span);
+    const int column = i % 10, row = i / 10;
+    const Vector2 uv = low + Vector2(0.05 + column / 11.0, 0.05 + row / 11.0).cwiseProduct(span);
     const Vector3 point = own.point(uv);
     const Vector2 seen = view.seen_at(point);
     const SurfacePoint at = view.evaluate(seen);
