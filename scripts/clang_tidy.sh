@@ -6,7 +6,7 @@
 #                                      For a header: the source or the test of its name, otherwise one that includes it
 #   scripts/clang_tidy.sh --most N     the same, but if there are more than N, none, with a message
 #   scripts/clang_tidy.sh --all        all sources; those that the build joins are read together, since most of the time goes into
-#                                      headers. The static analyzer looks at the others only. Takes half an hour
+#                                      headers. The static analyzer looks at the others only. Joined sources count as one
 #   scripts/clang_tidy.sh FILE...      these
 #
 # Without clang-tidy, or without a repository to find changes, nothing is checked, with a message.
