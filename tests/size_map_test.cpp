@@ -113,6 +113,7 @@ TEST(SizeMap, FieldIsTheLeastOfItsSources) {
     alone[4].face_sizes = all.sizing.face_sizes;
     alone[4].vertex_sizes = all.sizing.vertex_sizes;
     std::vector<SizingField> fields;
+    fields.reserve(alone.size());
     for (const SizingOptions& options : alone) fields.push_back(SizingField::build(model, options, context));
     std::map<int, int> face_of;  // a point's
     for (std::size_t i = 0; i < map.triangles.size(); ++i) {

@@ -329,7 +329,8 @@ TEST(Command, ShowsSizes) {
 TEST(Command, MeshesWithTheOrderOfTheElement) {
   const TemporaryFolder folder;
   for (const std::string type : {"CPS4", "CPE8R", "CAX8", "M3D4R"}) {
-    EXPECT_EQ(stderr_of(folder, "mesh " + box + " --faces Face1 -o a.inp --quiet --element " + type).out, "");
+    const std::string command = fmt::format("mesh {} --faces Face1 -o a.inp --quiet --element {}", box, type);
+    EXPECT_EQ(stderr_of(folder, command).out, "");
     EXPECT_PRED2(contains, test::file_text(folder / "a.inp"), fmt::format("TYPE={},", type));
   }
   const auto refused = [&](const std::string& options, const std::string& sentence) {

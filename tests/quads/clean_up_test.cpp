@@ -139,6 +139,7 @@ std::vector<const PatchTemplate*> fillings_by_cost(int sides, const FillingCosts
   std::stable_sort(priced.begin(), priced.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<const PatchTemplate*> result;
+  result.reserve(priced.size());
   for (const auto& [cost, filling] : priced) result.push_back(filling);
   return result;
 }

@@ -62,8 +62,8 @@ class BruteForce {
       const auto n = [](double length) { return static_cast<int>(std::lround(length / step)); };
       const int nu = n(face.u_max - face.u_min), nv = n(face.v_max - face.v_min);
       for (int k = 0; k < (nu + 1) * (nv + 1); ++k) {
-        const Vector3 p =
-            surface.point({face.u_min + step * (k % (nu + 1)), face.v_min + step * (k / (nu + 1))});
+        const int column = k % (nu + 1), row = k / (nu + 1);
+        const Vector3 p = surface.point({face.u_min + step * column, face.v_min + step * row});
         here.push_back(index_of(p));
       }
     }

@@ -46,8 +46,9 @@ void look(const CadModel& model, Visit&& visit) {
     const FaceSurface surface(face);
     constexpr int n = 11;
     for (int k = 0; k < n * n; ++k) {
-      const Vector2 uv(face.u_min + (k % n + 0.5) / n * (face.u_max - face.u_min),
-                       face.v_min + (k / n + 0.5) / n * (face.v_max - face.v_min));
+      const int column = k % n, row = k / n;
+      const Vector2 uv(face.u_min + (column + 0.5) / n * (face.u_max - face.u_min),
+                       face.v_min + (row + 0.5) / n * (face.v_max - face.v_min));
       visit(id, surface.point(uv), Vector3((face.reversed ? 1 : -1) * surface.normal(uv)));
     }
   }
