@@ -33,7 +33,7 @@ test_packages=(
   patchelf dpkg-dev lintian doxygen mkdocs flake8 mypy
 )
 # Skipped if a release of Debian does not have them (Debian 13 has no CalculiX). bench/paper computes the optimal pairing
-# with LEMON; `python3 -m quadrille.batch` needs python3-distributed.
+# with LEMON; `quadrille.batch --scheduler` and its test need python3-distributed.
 optional=(calculix-ccx)
 test_optional=(calculix-cgx liblemon-dev python3-distributed)
 

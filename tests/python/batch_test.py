@@ -1,16 +1,21 @@
-"""A folder of parts meshed by Dask: what fails or crashes stops nothing, what is done is not done again."""
+"""A folder of parts: what fails or crashes stops nothing, what is done is not done again."""
 
+import contextlib
 import csv
 import io
 import os
 import shutil
-import socket
+import signal
 import stat
+import subprocess
+import sys
 import tempfile
+import time
 import unittest
-from contextlib import redirect_stderr, redirect_stdout, suppress
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
+import quadrille
 from quadrille import batch
 from quadrille.core.command import find_command
 
@@ -20,14 +25,52 @@ except ImportError:
     distributed = None
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
-# A mesher that crashes on parts of one name, ends without a word on others, and passes on the rest.
+PACKAGE = Path(quadrille.__file__).parent
+# A mesher that crashes on parts of one name, ends without a word on others, removes a part, waits until its input closes, and
+# passes on the rest.
 WRAPPER = """#!/bin/sh
-case "$*" in *--version*) ;; *crash*) kill -SEGV $$ ;; *silent*) exit 1 ;; esac
+case "$*" in
+  *--version*) ;; *crash*) kill -SEGV $$ ;; *silent*) exit 1 ;; *remover*) rm -f '{folder}/boxes/vanishing.brep' ;;
+  *slow*) echo $$ > '{folder}/slow.tmp'; mv '{folder}/slow.tmp' '{folder}/slow.pid'; exec cat >/dev/null ;;
+esac
 exec '{command}' "$@"
 """
 
 
-@unittest.skipIf(distributed is None, "Dask is not installed")
+def processes():
+    """The parent of each process, by its id."""
+    found = {}
+    for status in Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):  # it has ended
+            found[int(status.parent.name)] = int(status.read_text().rpartition(")")[2].split()[1])
+    return found
+
+
+def family_of(pid):
+    """A process and its descendants."""
+    parents, family = processes(), {pid}
+    while new := {child for child, parent in parents.items() if parent in family} - family:
+        family |= new
+    return family
+
+
+def listening_of(pids):
+    """The sockets with which these processes wait for connections, as lines of the kernel's tables."""
+    inodes = {}
+    for name, state, listens, inode in (("tcp", 3, "0A", 9), ("tcp6", 3, "0A", 9), ("unix", 3, "00010000", 6)):
+        for line in Path(f"/proc/net/{name}").read_text().splitlines()[1:]:
+            words = line.split()
+            if words[state] == listens:
+                inodes[f"socket:[{words[inode]}]"] = f"{name} {line}"
+    found = set()
+    for pid in pids:
+        with contextlib.suppress(OSError):
+            for link in Path(f"/proc/{pid}/fd").iterdir():
+                with contextlib.suppress(OSError):
+                    found.add(os.readlink(link))
+    return [inodes[link] for link in found if link in inodes]
+
+
 class BatchTest(unittest.TestCase):
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
@@ -39,7 +82,7 @@ class BatchTest(unittest.TestCase):
         (self.folder / "bad.step").write_text("nonsense")
         (self.folder / "readme.txt").write_text("no CAD")
         self.command = Path(scratch.name) / "mesher"
-        self.command.write_text(WRAPPER.format(command=find_command()))
+        self.command.write_text(WRAPPER.format(command=find_command(), folder=scratch.name))
         self.command.chmod(self.command.stat().st_mode | stat.S_IXUSR)
 
     def run_batch(self, *arguments, folder=None):
@@ -48,6 +91,23 @@ class BatchTest(unittest.TestCase):
             code = batch.run([str(folder or self.folder), "-o", str(self.out), "--workers", "2", "--command",
                               str(self.command), "--elements-per-diagonal", "12", *arguments])
         return code, out.getvalue(), err.getvalue()
+
+    def program(self, *arguments, module="quadrille.batch", before=(), cwd=None, path=(), **variables):
+        """A program of the package, as a process of its own."""
+        environment = dict(os.environ, PYTHONPATH=os.pathsep.join([*map(str, path), str(PACKAGE.parent)]),
+                           QUADRILLE_COMMAND=str(self.command), **variables)
+        return subprocess.Popen([*before, sys.executable, "-m", module, *map(str, arguments)], env=environment, text=True,
+                                cwd=cwd or self.folder.parent, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                errors="surrogateescape", start_new_session=True,
+                                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+
+    def batch_of(self, names):
+        """The arguments for a batch of boxes with these names (bytes), whatever they contain."""
+        folder = self.folder.parent / "boxes"
+        folder.mkdir(exist_ok=True)
+        for name in names:
+            shutil.copy(os.fsencode(MODELS / "box.brep"), os.fsencode(folder) + b"/" + name)
+        return [folder, "-o", self.out, "--workers", "2", "--elements-per-diagonal", "12"]
 
     def records(self):
         with (self.out / "report.csv").open(encoding="utf-8", newline="") as file:
@@ -92,28 +152,71 @@ class BatchTest(unittest.TestCase):
         self.assertEqual(err, "")
         self.assertGreater(meshes[0].stat().st_mtime_ns, after[0])
 
-    def test_another_dask_may_run_here(self):
-        """Dask's own port is taken: nothing is said of it."""
-        with socket.socket() as other:
-            with suppress(OSError):  # taken by a real one
-                other.bind(("", 8787))
-                other.listen()
-            code, _, err = self.run_batch("--quiet")
-        self.assertEqual((code, err), (1, ""))
+    def test_nothing_listens(self):
+        """Another user of the machine has no way in while a batch runs."""
+        process = self.program(*self.batch_of([b"slow.brep", b"box.brep"]), "--quiet")
+        seen = set()
+        try:
+            while process.poll() is None and len(seen) < 4:
+                family = family_of(process.pid)
+                self.assertEqual(listening_of(family), [])
+                seen |= family
+                if (self.out / "records" / "box.brep.json").exists() and (self.folder.parent / "slow.pid").exists():
+                    break
+                time.sleep(0.01)
+            self.assertIn(int((self.folder.parent / "slow.pid").read_text()), family_of(process.pid))
+        finally:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.communicate()
 
     def test_bad_use_is_one_sentence(self):
         for arguments, part, expected in (
-                (("--scheduler", "tcp://127.0.0.1:1", "--scheduler-timeout", "1"), "no Dask scheduler", 1),
-                (("--scheduler", "nonsense"), "no Dask scheduler", 1)):
+                (("--scheduler", "tcp://127.0.0.1:1"), "without TLS", 2),
+                (("--scheduler", "nonsense"), "tls://HOST:8786", 2),
+                (("--scheduler", "tls://127.0.0.1:1"), "--tls-ca", 2),
+                (("--scheduler", "tls://127.0.0.1:1", "--tls-ca", __file__, "--tls-cert", "missing"), "--tls-cert", 2)):
             code, _, err = self.run_batch(*arguments)
             self.assertEqual(code, expected)
             self.assertIn(part, err)
             self.assertEqual(len(err.strip().splitlines()), 1, err)
+            self.assertFalse(self.out.exists())
         for folder in (self.folder / "missing", self.folder / "readme.txt", self.out.parent / "empty"):
             (self.out.parent / "empty").mkdir(exist_ok=True)
             code, _, err = self.run_batch(folder=folder)
             self.assertEqual(code, 2)
             self.assertEqual(len(err.strip().splitlines()), 1, err)
+
+    @unittest.skipIf(distributed is None, "Dask is not installed: apt install python3-distributed")
+    @unittest.skipIf(shutil.which("openssl") is None, "openssl is not installed")
+    def test_a_cluster_behind_tls(self):
+        def certificate(name):
+            files = [str(self.folder.parent / f"{name}.{ending}") for ending in ("crt", "key")]
+            subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
+                            "-days", "2", "-subj", f"/CN={name}", "-out", files[0], "-keyout", files[1]], check=True,
+                           capture_output=True)
+            return [files[0], *files]
+
+        ours, strangers = certificate("ours"), certificate("strangers")
+        options = ("--tls-ca", "--tls-cert", "--tls-key")
+        names = ("tls_ca_file", "tls_scheduler_cert", "tls_scheduler_key", "tls_worker_cert", "tls_worker_key",
+                 "tls_client_cert", "tls_client_key")
+        security = distributed.Security(require_encryption=True, **dict(zip(names, [*ours, *ours[1:], *ours[1:]])))
+        os.environ["QUADRILLE_COMMAND"], before = str(self.command), os.environ.get("QUADRILLE_COMMAND")
+        self.addCleanup(lambda: os.environ.update(QUADRILLE_COMMAND=before) if before else
+                        os.environ.pop("QUADRILLE_COMMAND"))
+        with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=False, host="127.0.0.1", protocol="tls://",
+                                      security=security, dashboard_address=None, worker_dashboard_address=None,
+                                      scheduler_kwargs={"dashboard_address": "127.0.0.1:0"}) as cluster:
+            address = cluster.scheduler_address
+            self.assertTrue(address.startswith("tls://"), address)
+            stranger = [word for pair in zip(options, strangers) for word in pair]
+            code, _, err = self.run_batch("--scheduler", address, "--scheduler-timeout", "2", *stranger)
+            self.assertEqual(code, 1)
+            self.assertIn("does not accept the certificate", err)
+            code, out, err = self.run_batch("--scheduler", address, *(word for pair in zip(options, ours) for word in pair))
+        self.assertEqual(code, 1)
+        self.assertIn("2 of 5 parts meshed", out)
+        self.assertIn("signal 11", self.records()["crash.brep"]["reason"])
 
     def test_options_are_those_of_the_table(self):
         options = batch.parser().parse_args(["f", "-o", "o", "--size", "2", "--size-in", "sphere:0,0,0,1=1", "--size-in",
@@ -122,9 +225,9 @@ class BatchTest(unittest.TestCase):
         arguments = " ".join(batch.setting_arguments(options))
         self.assertIn("--size-in sphere:0,0,0,1=1 --size-in box:0,0,0,1,1,1=1", arguments)
         self.assertIn("--partial", arguments)
-        self.assertIn(f" --time-limit {batch.TIME_LIMIT} --read-time-limit {batch.TIME_LIMIT}", arguments)
+        self.assertIn(" --time-limit 300 --read-time-limit 300 --threads 1", arguments)
         options = batch.parser().parse_args(["f", "-o", "o", "--read-time-limit", "9"])
-        self.assertEqual(batch.setting_arguments(options), ["--read-time-limit", "9", "--time-limit", str(batch.TIME_LIMIT)])
+        self.assertEqual(batch.setting_arguments(options), ["--read-time-limit", "9", "--time-limit", "300", "--threads", "1"])
 
 
 if __name__ == "__main__":

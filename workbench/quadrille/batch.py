@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes all CAD files of a folder, on all cores or on a cluster.
 
-    python3 -m quadrille.batch FOLDER -o OUT [--workers 4] [--scheduler tcp://host:8786] [--size 2 ...]
+    python3 -m quadrille.batch FOLDER -o OUT [--workers 4] [--size 2 ...]
 
-Each part is meshed by its own run of the `quadrille` command, so a failure or crash affects no other part. Dask distributes
-the parts (Debian: python3-distributed). OUT gets each part's mesh, picture and record. A later run with the same options
-meshes only parts that are new or have changed, or that failed because of a lost worker or a full disk. OUT/report.csv and
-OUT/report.html list all parts.
+Each part is meshed by its own run of the `quadrille` command, so a failure or crash affects no other part. Threads of this
+process start these runs, or Dask does on other machines. OUT gets each part's mesh, picture and record. A later run with the
+same options meshes only parts that are new or have changed, or that failed because of a lost worker or a full disk.
+OUT/report.csv and OUT/report.html list all parts.
 """
 
 import argparse
+import contextlib
 import csv
 import html
 import json
@@ -18,8 +19,9 @@ import os
 import sys
 import time
 import warnings
+from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
 from pathlib import Path
-from typing import Any, Dict, Iterable, List, NamedTuple, Optional
+from typing import Any, Dict, Iterable, Iterator, List, NamedTuple, Optional
 
 from .core.command import VERSION, MeshJob, check_version, find_command
 from .core.errors import Error
@@ -27,12 +29,10 @@ from .core.setting_table import SETTINGS
 
 ENDINGS = (".step", ".stp", ".iges", ".igs", ".brep")
 FORMATS = ("msh", "inp", "unv", "med", "vtu", "vtk", "bdf")
-#: Time limit in seconds for a part, and for reading it, unless --time-limit or --read-time-limit is given.
-TIME_LIMIT = 300
+#: Settings of `quadrille mesh` that hold unless others are given: time limits in seconds; each worker uses one core.
+DEFAULTS = {"time_limit": 300, "read_time_limit": 300, "threads": 1}
 #: The columns of the report.
 COLUMNS = ("part", "status", "quads", "q_mean", "q_min", "outside_percent", "seconds", "reason")
-#: How often a part is tried: when a worker dies, its part is tried once more on another worker.
-_TRIES = 2
 
 
 class Task(NamedTuple):
@@ -107,7 +107,7 @@ def tasks_of(options: argparse.Namespace) -> List[Task]:
 
 
 def setting_arguments(options: argparse.Namespace) -> List[str]:
-    """The options of `quadrille mesh` that were given, and time limits where none were given."""
+    """The options of `quadrille mesh` that were given, and the defaults of a batch for others."""
     arguments: List[str] = []
     for setting in SETTINGS:
         value = getattr(options, setting["name"], None)
@@ -116,9 +116,9 @@ def setting_arguments(options: argparse.Namespace) -> List[str]:
         elif value:
             for text in value if isinstance(value, list) else [value]:
                 arguments += [setting["option"], text]
-    for limit in ("time_limit", "read_time_limit"):
-        if getattr(options, limit, None) is None:
-            arguments += ["--" + limit.replace("_", "-"), str(TIME_LIMIT)]
+    for name, default in DEFAULTS.items():
+        if getattr(options, name, None) is None:
+            arguments += ["--" + name.replace("_", "-"), str(default)]
     return arguments
 
 
@@ -136,25 +136,37 @@ def done_before(task: Task) -> Optional[Dict[str, Any]]:
     return record
 
 
-def _client(options: argparse.Namespace):
-    """Dask's client, connected to the given scheduler, or to a new cluster on this machine's cores."""
+@contextlib.contextmanager
+def _executor(options: argparse.Namespace) -> Iterator[Executor]:
+    """Threads of this process, or the workers of the given Dask scheduler."""
+    address = options.scheduler
+    if not address:
+        with ThreadPoolExecutor(options.workers) as threads:
+            yield threads
+        return
+    files = {"--tls-ca": options.tls_ca, "--tls-cert": options.tls_cert, "--tls-key": options.tls_key}
+    if not address.startswith("tls://"):
+        raise Error(f"{address}: without TLS, anyone who reaches a scheduler runs programs on its workers as their user; start "
+                    "it with certificates and name it as tls://HOST:8786", "usage", address)
+    for option, path in files.items():
+        if not os.path.isfile(path or ""):
+            raise Error(f"{option}: names no file, and --scheduler needs the files of the authority's certificate, of a "
+                        "certificate and of its key", "usage", option)
     try:
         import distributed
     except ImportError as error:
         raise Error("Dask is not installed: apt install python3-distributed", "failure", "distributed") from error
     warnings.filterwarnings("ignore", category=DeprecationWarning, module="tornado")  # a dependency of Dask
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
-    if options.scheduler:
-        try:
-            return distributed.Client(options.scheduler, timeout=options.scheduler_timeout)
-        except (OSError, TimeoutError, ValueError, TypeError) as error:
-            raise Error(f"{options.scheduler}: no Dask scheduler answers there", "failure", options.scheduler) from error
-    # Even without a dashboard its server runs. Let it use a free port that only this machine sees.
-    own = "127.0.0.1:0"
-    cluster = distributed.LocalCluster(n_workers=options.workers, threads_per_worker=1, dashboard_address=None,
-                                       scheduler_kwargs={"dashboard_address": own}, worker_dashboard_address=own,
-                                       memory_limit=0, silence_logs=logging.CRITICAL)
-    return distributed.Client(cluster)
+    try:
+        security = distributed.Security(tls_ca_file=options.tls_ca, tls_client_cert=options.tls_cert,
+                                        tls_client_key=options.tls_key, require_encryption=True)
+        client = distributed.Client(address, security=security, timeout=options.scheduler_timeout)
+    except (OSError, TimeoutError, ValueError, TypeError) as error:
+        raise Error(f"{address}: no Dask scheduler answers there, or it does not accept the certificate", "failure",
+                    address) from error
+    with client, client.get_executor(pure=False) as machines:
+        yield machines
 
 
 class _Bar:
@@ -184,7 +196,7 @@ class _Bar:
             print(f"progress: {text}", file=sys.stderr, flush=True)
 
 
-def run_tasks(tasks: List[Task], options: argparse.Namespace) -> List[Dict[str, Any]]:
+def run_tasks(tasks: List[Task], options: argparse.Namespace, executor: Executor) -> List[Dict[str, Any]]:
     """Meshes the parts that have no valid record yet. Returns the records of all parts, in the order of the tasks."""
     records = {task.part: done_before(task) for task in tasks}
     left = [task for task in tasks if records[task.part] is None]
@@ -193,35 +205,27 @@ def run_tasks(tasks: List[Task], options: argparse.Namespace) -> List[Dict[str, 
         if not options.scheduler:  # with a scheduler, each machine finds its own command
             command = find_command(options.command)
             check_version(command)
-        # Each worker uses one core.
-        with_threads = [task if "--threads" in task.arguments else
-                        task._replace(arguments=[*task.arguments, "--threads", "1"]) for task in left]
-        client = _client(options)
-        try:
-            records.update(_collect(client, with_threads, command, _Bar(len(left), options.quiet)))
-        finally:
-            client.close()
-            if client.cluster is not None:
-                client.cluster.close()
+        records.update(_collect(executor, left, command, _Bar(len(left), options.quiet)))
     return [record for record in (records[task.part] for task in tasks) if record is not None]
 
 
-def _collect(client, tasks: List[Task], command: Optional[str], bar: _Bar) -> Dict[str, Dict[str, Any]]:
-    from distributed import as_completed
-
-    futures = {client.submit(mesh_part, task, command, pure=False, retries=_TRIES - 1): task for task in tasks}
+def _collect(executor: Executor, tasks: List[Task], command: Optional[str], bar: _Bar) -> Dict[str, Dict[str, Any]]:
+    futures = {executor.submit(mesh_part, task, command): task for task in tasks}
     records = {}
-    for future in as_completed(futures):
-        task = futures[future]
-        if future.status == "finished":
-            record = future.result()
-        else:  # the worker died, or could not run the job
-            record = {"part": task.part, "key": task.key, "status": "failed", "seconds": None, "retry": True,
-                      "reason": f"the worker was lost ({future.exception()!r})"}
-            write_record(task.record, record)
-        future.release()
-        records[task.part] = record
-        bar.step(record)
+    try:
+        for future in as_completed(futures):
+            task = futures[future]
+            try:
+                record = future.result()
+            except Exception as error:  # the worker died, or could not run the job
+                record = {"part": task.part, "key": task.key, "status": "failed", "seconds": None, "retry": True,
+                          "reason": f"the run was lost ({error!r})"}
+                write_record(task.record, record)
+            records[task.part] = record
+            bar.step(record)
+    finally:
+        for future in futures:
+            future.cancel()
     return records
 
 
@@ -290,8 +294,11 @@ def parser() -> argparse.ArgumentParser:
     result.add_argument("-o", "--output", metavar="OUT", required=True, help="folder for meshes, pictures and the report")
     result.add_argument("--format", choices=FORMATS, default="msh", help="file format of the meshes (default msh)")
     result.add_argument("--workers", type=_positive, default=os.cpu_count(), help="parts at a time (default: one per core)")
-    result.add_argument("--scheduler", metavar="ADDRESS", help="Dask scheduler to use, such as tcp://host:8786; its workers "
-                        "must see the same folders, and import quadrille")
+    result.add_argument("--scheduler", metavar="ADDRESS", help="Dask scheduler to use, as tls://host:8786; its workers must "
+                        "see the same folders, and import quadrille")
+    for name, what in (("ca", "certificate of the authority that signed those of"), ("cert", "own certificate for"),
+                       ("key", "key of the own certificate for")):
+        result.add_argument(f"--tls-{name}", metavar="FILE", help=f"{what} the scheduler")
     result.add_argument("--scheduler-timeout", type=float, default=10, help="seconds to wait for it (default 10)")
     result.add_argument("--no-pictures", action="store_true", help="draw no pictures")
     result.add_argument("--command", metavar="PATH", help="the quadrille command")
@@ -317,10 +324,11 @@ def run(arguments: Optional[List[str]] = None) -> int:
     """Runs the command. Returns its exit code: 0 all parts meshed, 1 some or none, 2 wrong usage, 130 interrupted."""
     options = parser().parse_args(arguments)
     try:
-        tasks = tasks_of(options)
-        out = Path(options.output)
-        out.mkdir(parents=True, exist_ok=True)
-        records = run_tasks(tasks, options)
+        with _executor(options) as executor:
+            tasks = tasks_of(options)
+            out = Path(options.output)
+            out.mkdir(parents=True, exist_ok=True)
+            records = run_tasks(tasks, options, executor)
         write_csv(out / "report.csv", records)
         write_page(out / "report.html", records, f"Quadrille: {Path(options.folder).resolve().name}")
     except Error as error:
