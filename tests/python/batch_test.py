@@ -1,8 +1,10 @@
-"""A folder of parts: what fails or crashes stops nothing, what is done is not done again."""
+"""A folder of parts: what fails or crashes stops nothing, what is done is not done again, and no file or record harms it."""
 
 import contextlib
 import csv
+import html.parser
 import io
+import json
 import os
 import shutil
 import signal
@@ -10,8 +12,10 @@ import stat
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
+import urllib.parse
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
@@ -69,6 +73,19 @@ def listening_of(pids):
                 with contextlib.suppress(OSError):
                     found.add(os.readlink(link))
     return [inodes[link] for link in found if link in inodes]
+
+
+class Page(html.parser.HTMLParser):
+    """The tags of a page and the targets of its links."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.tags, self.links = [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        self.links += [value for name, value in attrs if name in ("href", "src")]
 
 
 class BatchTest(unittest.TestCase):
@@ -136,8 +153,13 @@ class BatchTest(unittest.TestCase):
             self.assertTrue((self.out / "pictures" / f"{picture}.png").is_file())
         before = [path.stat().st_mtime_ns for path in meshes]
 
-        # Nothing is done again but what has changed, and what lost its mesh.
-        os.utime(self.folder / "box.brep")
+        # Nothing is done again but what has changed, even in secret, and what lost its mesh.
+        changed = self.folder / "box.brep"
+        state = changed.stat()
+        os.utime(self.folder / "deep" / "b <&> c.brep")
+        changed.write_bytes(changed.read_bytes().replace(b"\n\n", b" \n", 1))
+        os.utime(changed, ns=(state.st_atime_ns, state.st_mtime_ns))
+        self.assertEqual(changed.stat().st_size, state.st_size)
         code, out, err = self.run_batch()
         self.assertIn("1 of 1", err)
         after = [path.stat().st_mtime_ns for path in meshes]
@@ -217,6 +239,149 @@ class BatchTest(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertIn("2 of 5 parts meshed", out)
         self.assertIn("signal 11", self.records()["crash.brep"]["reason"])
+
+    def test_attack_of_names(self):
+        """Names of any bytes, closed files and folders, pipes and devices, in the run of an ordinary user and in any locale."""
+        long = b"n" * 250 + b".brep"
+        names = [b"a\xff.brep", long, b"m" + long[1:], b"new\nline\x1b[31m.brep", b'=HYPERLINK("x").brep', b"-1.brep", b"@x.brep",
+                 b"\tx.brep", b"<script>alert(1)<script>.brep", b"\"a' #?%41&amp;.brep", b"closed.brep", "\u202e\xfc.brep".encode()]
+        arguments = self.batch_of(names)
+        folder = arguments[0]
+        (folder / "nowhere.brep").symlink_to("nothing")
+        (folder / "zero.step").symlink_to("/dev/zero")
+        os.mkfifo(folder / "pipe.step")
+        (folder / "dark").mkdir()
+        (folder / "listed").mkdir()
+        shutil.copy(MODELS / "box.brep", folder / "listed")
+        before = []
+        if os.geteuid() == 0:
+            if shutil.which("setpriv") is None:
+                self.skipTest("root reads closed files, and setpriv is not installed")
+            before = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
+            for place in [folder.parent, *folder.parent.rglob("*")]:
+                os.chown(place, 65534, 65534, follow_symlinks=False)
+        for name, mode in (("closed.brep", 0), ("dark", 0), ("listed", 0o444)):
+            (folder / name).chmod(mode)
+            self.addCleanup((folder / name).chmod, 0o777)
+        failing = {"closed.brep", "dark", "listed/box.brep"}
+        locales = ({}, {"LC_ALL": "C"}, {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"},
+                   {"PYTHONIOENCODING": "ascii"})
+        for count, locale in enumerate(locales):
+            process = self.program(*arguments, before=before, **locale)
+            out, err = process.communicate(timeout=100)
+            self.assertEqual(process.returncode, 1, err)
+            self.assertIn(f"{len(names) - 1} of {len(names) + 2} parts meshed", out + err)
+            self.assertNotIn("Traceback", err)
+            if count:  # all is known
+                self.assertNotIn("progress", err)
+            text = (self.out / "report.csv").read_bytes().decode()
+            rows = list(csv.DictReader(io.StringIO(text, newline="")))
+            self.assertEqual({row["part"] for row in rows if row["status"] != "meshed"}, failing)
+            self.assertTrue(all(row["reason"] for row in rows if row["part"] in failing), rows)
+            for row in rows:
+                self.assertTrue(row["part"].isprintable(), row)
+                self.assertNotRegex(row["part"], "^[-=+@\t\r]")
+            page = (self.out / "report.html").read_bytes().decode()
+            tags = Page(page)
+            self.assertEqual((tags.tags.count("script"), tags.tags.count("tr")), (1, len(rows) + 1))
+            pictures = {os.fsencode(self.out) + b"/" + urllib.parse.unquote_to_bytes(link) for link in tags.links}
+            self.assertEqual(len(pictures), len(names) - 1)
+            self.assertTrue(all(os.path.isfile(picture) for picture in pictures), pictures)
+        process = self.program(*arguments, "--stray\x1b[31m\udcff")
+        self.assertIn("--stray\\x1b[31m\\udcff", process.communicate(timeout=60)[1])
+        process = self.program("missing\x1b[31m\udcff", "-o", self.out)
+        self.assertRegex(process.communicate(timeout=60)[1], r"^quadrille.batch: \S*missing\\x1b\[31m\\udcff: is not a folder\n$")
+
+    def test_attack_of_records(self):
+        """A record is believed only where it says what this run would have written."""
+        arguments = [*map(str, self.batch_of([b"box.brep", b"other.brep"])), "--no-pictures"]
+        other, mesh, path = (self.out / name for name in ("meshes/other.brep.msh", "meshes/box.brep.msh",
+                                                          "records/box.brep.json"))
+
+        def run():
+            out, err = io.StringIO(), io.StringIO()
+            with redirect_stdout(out), redirect_stderr(err):
+                self.assertEqual(batch.run(arguments), 0, err.getvalue())
+            self.assertIn("2 of 2 parts meshed", out.getvalue())
+            return err.getvalue()
+
+        run()
+        good = json.loads(path.read_text(encoding="utf-8"))
+        self.assertEqual(run(), "")
+        for attack in (b"[" * 100000, json.dumps({**good, "q_min": "<script>"}).encode()):
+            path.write_bytes(attack)
+            self.assertIn("1 of 1", run())
+            self.assertEqual(run(), "")
+        path.unlink()
+        os.mkfifo(path)
+        self.assertIn("1 of 1", run())
+        path.write_text(json.dumps({**good, "mesh": str(other)}), encoding="utf-8")
+        mesh.unlink()
+        self.assertIn("1 of 1", run())
+        self.assertTrue(mesh.is_file())
+        attacks = [b"", b"\xff\xfe", b"[]", b"null", b'"meshed"', b"[" * 100000, b"{" + b" " * (2 << 20) + b"}", b"9" * 5000]
+        for name in good:
+            attacks.append(json.dumps({key: value for key, value in good.items() if key != name}).encode())
+            for value in (None, [], {}, True, float("nan"), float("inf"), 10 ** 300, "<script>", ["meshed"], str(other)):
+                attacks.append(json.dumps({**good, name: value}).encode())
+        changes_nothing = ("part", "mesh", "picture", "reason")  # the first three are not read
+        task = batch.tasks_of(batch.parser().parse_args(arguments), {})[0]
+        for attack in attacks:
+            path.write_bytes(attack)
+            record = batch.done_before(task)
+            if record is not None:
+                found = json.loads(attack)
+                self.assertTrue(all(found.get(name) == good[name] for name in good if name not in changes_nothing), attack)
+                self.assertEqual({**record, "reason": ""}, good)
+
+    def test_parts_that_vanish_fail_alone(self):
+        arguments = self.batch_of([b"a_remover.brep", b"box.brep", b"vanishing.brep"])
+        process = self.program(*arguments, "--workers", "1", "--no-pictures")
+        out, err = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, out.split(",")[0]), (1, "2 of 3 parts meshed"), err)
+        self.assertIn("vanishing.brep", self.records()["vanishing.brep"]["reason"])
+
+    def test_folders_may_be_deep(self):
+        """Deeper than Python calls itself; and what lies in OUT is not written through."""
+        arguments = self.batch_of([b"box.brep"])
+        self.addCleanup(subprocess.run, ["rm", "-rf", arguments[0] / "d"], check=True)
+        for count in (1, 1200):
+            deep = arguments[0].joinpath(*["d"] * count)
+            subprocess.run(["mkdir", "-p", deep], check=True)
+            shutil.copy(MODELS / "box.brep", deep)
+        (self.out / "records").mkdir(parents=True)
+        os.mkfifo(self.out / "records" / "box.brep.json.part")
+        (self.out / "report.csv.part").symlink_to(self.command)
+        before = self.command.read_text()
+        process = self.program(*arguments, "--no-pictures")
+        out, err = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, out.split(",")[0]), (1, "2 of 3 parts meshed"), err)
+        self.assertEqual(self.command.read_text(), before)
+
+    def test_endless_parts_reach_the_time_limit(self):
+        """A part may have become a pipe or a device after it was listed."""
+        arguments = self.batch_of([b"box.brep"])
+        task = batch.tasks_of(batch.parser().parse_args([*map(str, arguments), "--read-time-limit", "1", "--no-pictures"]), {})[0]
+        for name in ("zero.step", "zero.iges", "zero.brep"):
+            (arguments[0] / name).symlink_to("/dev/zero")
+        os.mkfifo(arguments[0] / "silent_pipe.step")
+        os.mkfifo(arguments[0] / "pipe.step")
+
+        def feed():
+            with contextlib.suppress(BrokenPipeError), open(arguments[0] / "pipe.step", "wb") as pipe:
+                pipe.write(b"ISO-10303-21;\nHEADER;\n")
+                while True:
+                    pipe.write(b"/* on and on */\n" * 4096)
+
+        threading.Thread(target=feed, daemon=True).start()
+        for name in ("zero.step", "zero.iges", "zero.brep", "pipe.step", "silent_pipe.step"):
+            model = str(arguments[0] / name)
+            start = time.monotonic()
+            self.assertEqual(len(batch._state_of(model)), 64)
+            record = batch.mesh_part(task._replace(model=model), find_command())
+            self.assertEqual(record["status"], "failed")
+            self.assertIn(name, record["reason"])
+            self.assertLess(time.monotonic() - start, 20)
 
     def test_options_are_those_of_the_table(self):
         options = batch.parser().parse_args(["f", "-o", "o", "--size", "2", "--size-in", "sphere:0,0,0,1=1", "--size-in",

@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 from .core.command import find_command
-from .core.errors import Error
+from .core.errors import Error, printable
 from .core.system import WINDOWS
 
 
@@ -15,7 +15,7 @@ def main() -> None:
     try:
         command = find_command()
     except Error as error:
-        sys.exit(f"quadrille: {error}")
+        sys.exit(printable(f"quadrille: {error}"))
     if WINDOWS:  # where exec does not wait
         sys.exit(subprocess.run([command, *sys.argv[1:]], check=False).returncode)
     os.execv(command, [command, *sys.argv[1:]])

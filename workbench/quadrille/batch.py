@@ -5,34 +5,45 @@
 
 Each part is meshed by its own run of the `quadrille` command, so a failure or crash affects no other part. Threads of this
 process start these runs, or Dask does on other machines. OUT gets each part's mesh, picture and record. A later run with the
-same options meshes only parts that are new or have changed, or that failed because of a lost worker or a full disk.
-OUT/report.csv and OUT/report.html list all parts.
+same options meshes only parts that are new or have changed, or whose run was not finished. OUT/report.csv and OUT/report.html
+list all parts.
 """
 
 import argparse
 import contextlib
 import csv
+import errno
+import hashlib
 import html
+import io
+import itertools
 import json
 import logging
 import os
+import stat
 import sys
 import time
+import urllib.parse
 import warnings
 from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
 from pathlib import Path
-from typing import Any, Dict, Iterable, Iterator, List, NamedTuple, Optional
+from typing import Any, Dict, Iterable, Iterator, List, NamedTuple, NoReturn, Optional
 
 from .core.command import VERSION, MeshJob, check_version, find_command
-from .core.errors import Error
+from .core.errors import Error, printable
 from .core.setting_table import SETTINGS
 
 ENDINGS = (".step", ".stp", ".iges", ".igs", ".brep")
 FORMATS = ("msh", "inp", "unv", "med", "vtu", "vtk", "bdf")
 #: Settings of `quadrille mesh` that hold unless others are given: time limits in seconds; each worker uses one core.
 DEFAULTS = {"time_limit": 300, "read_time_limit": 300, "threads": 1}
-#: The columns of the report.
+#: The columns of the report, of which these are numbers.
 COLUMNS = ("part", "status", "quads", "q_mean", "q_min", "outside_percent", "seconds", "reason")
+NUMBERS = COLUMNS[2:7]
+#: Longer file names (in bytes) are shortened, so that endings can be added.
+_LONGEST_NAME = 200
+#: How many bytes of a part count as its content, and of a record.
+_MOST_CONTENT, _MOST_RECORD = 1 << 30, 1 << 20
 
 
 class Task(NamedTuple):
@@ -43,27 +54,31 @@ class Task(NamedTuple):
     mesh: str
     picture: Optional[str]
     record: str
-    key: str  #: identifies the file's state and the options
+    key: str  #: identifies the file's content and the options
     arguments: List[str]  #: options of `quadrille mesh`
 
 
 def mesh_part(task: Task, command: Optional[str]) -> Dict[str, Any]:
-    """Meshes a part in a child process. Writes and returns its record, whether meshing succeeds or fails."""
+    """Meshes a part in a child process. Writes and returns its record, whether meshing succeeds or fails; raises what says
+    nothing about the part, such as a full disk."""
     start = time.monotonic()
-    record: Dict[str, Any] = {"part": task.part, "key": task.key, "status": "failed", "reason": ""}
+    for path in filter(None, (task.mesh, task.picture)):
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+    job = MeshJob(task.model, [task.mesh], None, command, task.picture, ("mesh", *task.arguments)).start()
     try:
-        for path in filter(None, (task.mesh, task.picture)):
-            Path(path).parent.mkdir(parents=True, exist_ok=True)
-        job = MeshJob(task.model, [task.mesh], None, command, task.picture, ("mesh", *task.arguments))
-        report = job.start().wait()
-        record.update(_measures(report), status="meshed", mesh=task.mesh, picture=task.picture)
+        record = _record(task, "meshed", **_measures(job.wait()))
     except Error as error:
-        record["reason"] = str(error)
-    except OSError as error:
-        record.update(reason=f"{error.filename}: {error.strerror}", retry=True)
+        if error.kind == "cancelled":
+            raise
+        record = _record(task, "failed", str(error))
     record["seconds"] = round(time.monotonic() - start, 3)
-    write_record(task.record, record)
+    write_whole(Path(task.record), json.dumps(record, indent=1) + "\n")
     return record
+
+
+def _record(task: Task, status: str, reason: str = "", **numbers: Any) -> Dict[str, Any]:
+    files = {"mesh": task.mesh, "picture": task.picture} if status == "meshed" else {}
+    return {"part": task.part, "key": task.key, "status": status, "reason": reason, **files, **numbers}
 
 
 def _measures(report: Dict[str, Any]) -> Dict[str, Any]:
@@ -72,37 +87,81 @@ def _measures(report: Dict[str, Any]) -> Dict[str, Any]:
             "outside_percent": report["criteria"]["failing_percent"]}
 
 
-def write_record(path: str, record: Dict[str, Any]) -> None:
-    """Writes a record completely or not at all."""
-    target = Path(path)
+def write_whole(target: Path, text: str) -> None:
+    """Writes a file completely or not at all."""
     target.parent.mkdir(parents=True, exist_ok=True)
-    scratch = target.with_suffix(f".{os.getpid()}.part")
-    scratch.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    scratch = target.with_name(target.name + ".part")
+    scratch.unlink(missing_ok=True)
+    with scratch.open("xb") as file:  # through no link or pipe that lies there
+        file.write(text.encode())
     scratch.replace(target)
 
 
-def parts_of(folder: Path) -> List[Path]:
-    """The CAD files in a folder and its subfolders, sorted by path."""
+def _content(path: str, most: int) -> Iterator[bytes]:
+    """So many bytes of a file, in chunks. Pipes and devices, which may never end, are an error."""
+    with open(path, "rb", opener=lambda name, flags: os.open(name, flags | getattr(os, "O_NONBLOCK", 0))) as file:
+        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+            raise OSError(errno.EINVAL, "is not a file", path)
+        chunk = 1 << 20
+        yield from itertools.islice(iter(lambda: file.read(chunk), b""), most // chunk)
+
+
+def _state_of(model: str) -> str:
+    """Identifies what is in a file. Of what cannot be read, its own run says why."""
+    digest = hashlib.sha256()
+    with contextlib.suppress(OSError):
+        for chunk in _content(model, _MOST_CONTENT):
+            digest.update(chunk)
+        state = os.stat(model)
+        if state.st_size > _MOST_CONTENT:
+            digest.update(f"{state.st_size} {state.st_mtime_ns}".encode())
+    return digest.hexdigest()
+
+
+def parts_of(folder: Path, closed: Dict[str, str]) -> List[Path]:
+    """The CAD files in a folder and its subfolders, sorted by path. Adds to `closed` why folders cannot be read."""
     if not folder.is_dir():
         raise Error(f"{folder}: is not a folder", "usage", str(folder))
-    found = sorted(path for path in folder.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file())
-    if not found:
+    found, places = [], [str(folder)]
+    while places:
+        place = places.pop()
+        try:
+            with os.scandir(place) as items:
+                for item in items:
+                    if item.is_dir(follow_symlinks=False):
+                        places.append(item.path)
+                    elif item.name.lower().endswith(ENDINGS):
+                        if item.is_file(follow_symlinks=False) or os.path.isfile(item.path):
+                            found.append(Path(item.path))
+        except OSError as error:
+            closed[place] = f"{place}: {error.strerror}"
+    if not found and not closed:
         raise Error(f"{folder}: holds no CAD files ({', '.join(ENDINGS)})", "usage", str(folder))
-    return found
+    return sorted(found)
 
 
-def tasks_of(options: argparse.Namespace) -> List[Task]:
+def _short(part: Path) -> str:
+    """The part's path with a file name to which endings can be added. A hash tells shortened names apart; no part has such a
+    name, for it has no ending."""
+    name = os.fsencode(part.name)
+    if len(name) <= _LONGEST_NAME:
+        return str(part)
+    start = name[:_LONGEST_NAME - 20].decode("utf-8", "ignore")
+    return str(part.with_name(f"{start}~{hashlib.sha256(name).hexdigest()[:16]}"))
+
+
+def tasks_of(options: argparse.Namespace, closed: Dict[str, str]) -> List[Task]:
     """The parts to mesh. Files whose names differ only in their endings get separate meshes."""
-    folder, out = Path(options.folder).resolve(), Path(options.output).resolve()
+    folder, out = (Path(os.path.realpath(path)) for path in (options.folder, options.output))
     arguments = setting_arguments(options)
     tasks = []
-    for model in parts_of(folder):
+    for model in parts_of(folder, closed):
         part = model.relative_to(folder)
-        state = model.stat()
-        key = json.dumps([VERSION, state.st_mtime_ns, state.st_size, arguments, options.format, not options.no_pictures])
-        picture = None if options.no_pictures else str(out / "pictures" / f"{part}.png")
-        tasks.append(Task(str(part), str(model), str(out / "meshes" / f"{part}.{options.format}"), picture,
-                          str(out / "records" / f"{part}.json"), key, arguments))
+        name = _short(part)
+        kind = json.dumps([VERSION, _state_of(str(model)), arguments, options.format, not options.no_pictures])
+        picture = None if options.no_pictures else str(out / "pictures" / f"{name}.png")
+        tasks.append(Task(str(part), str(model), str(out / "meshes" / f"{name}.{options.format}"), picture,
+                          str(out / "records" / f"{name}.json"), hashlib.sha256(kind.encode()).hexdigest(), arguments))
     return tasks
 
 
@@ -123,17 +182,19 @@ def setting_arguments(options: argparse.Namespace) -> List[str]:
 
 
 def done_before(task: Task) -> Optional[Dict[str, Any]]:
-    """The record of an earlier run with the same file and options, if its outputs are still there."""
+    """The record of an earlier run with the same content and options, if its outputs are still there. From the file, which
+    may be damaged, only what a record should hold is taken."""
     try:
-        record = json.loads(Path(task.record).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        found = json.loads(b"".join(_content(task.record, _MOST_RECORD)))
+        status, reason = found["status"], found["reason"]
+        numbers = {name: found[name] for name in (NUMBERS if status == "meshed" else ("seconds",))}
+        sound = (found["key"] == task.key and status in ("meshed", "failed") and isinstance(reason, str)
+                 and all(type(value) in (int, float) and abs(value) < 1e12 for value in numbers.values()))
+    except (OSError, ValueError, LookupError, TypeError, RecursionError):
         return None
-    if not isinstance(record, dict) or record.get("key") != task.key or record.get("retry"):
+    if not sound or (status == "meshed" and not all(Path(path).is_file() for path in (task.mesh, task.picture) if path)):
         return None
-    if record.get("status") == "meshed" and not all(
-            Path(path).is_file() for path in (record.get("mesh"), record.get("picture")) if path):
-        return None
-    return record
+    return _record(task, status, reason, **numbers)
 
 
 @contextlib.contextmanager
@@ -217,10 +278,8 @@ def _collect(executor: Executor, tasks: List[Task], command: Optional[str], bar:
             task = futures[future]
             try:
                 record = future.result()
-            except Exception as error:  # the worker died, or could not run the job
-                record = {"part": task.part, "key": task.key, "status": "failed", "seconds": None, "retry": True,
-                          "reason": f"the run was lost ({error!r})"}
-                write_record(task.record, record)
+            except Exception as error:  # without a record on disk, the next run tries again
+                record = _record(task, "failed", sentence_of(error))
             records[task.part] = record
             bar.step(record)
     finally:
@@ -229,12 +288,27 @@ def _collect(executor: Executor, tasks: List[Task], command: Optional[str], bar:
     return records
 
 
+def sentence_of(error: Exception) -> str:
+    """What the user is told of an error."""
+    if isinstance(error, OSError):
+        return f"{error.filename or 'output'}: {error.strerror or error}"
+    return str(error) if isinstance(error, Error) else f"the run was lost ({error!r})"
+
+
 def write_csv(path: Path, records: Iterable[Dict[str, Any]]) -> None:
-    """Writes a table with one line per part."""
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, COLUMNS, extrasaction="ignore", restval="")
-        writer.writeheader()
-        writer.writerows(records)
+    """Writes a table with one line per part. Spreadsheets take no text in it for a formula."""
+    text = io.StringIO()
+    writer = csv.writer(text)
+    writer.writerow(COLUMNS)
+    for record in records:
+        cells = [_shown(record.get(column)) for column in COLUMNS]
+        writer.writerow("'" + cell if cell.startswith(("=", "+", "-", "@")) and column not in NUMBERS else cell
+                        for column, cell in zip(COLUMNS, cells))
+    write_whole(path, text.getvalue())
+
+
+def _shown(value: Any) -> str:
+    return "" if value is None else printable(str(value))
 
 
 _PAGE = """<!DOCTYPE html>
@@ -266,16 +340,15 @@ def write_page(path: Path, records: List[Dict[str, Any]], title: str) -> None:
         cells = []
         for column in COLUMNS:
             value = record.get(column)
-            text = "" if value is None else f"{value:.3g}" if isinstance(value, float) else str(value)
-            shown = html.escape(text)
+            shown = html.escape(f"{value:.3g}" if isinstance(value, float) else _shown(value))
             if column == "part" and picture:
-                link = html.escape(os.path.relpath(picture, path.parent).replace(os.sep, "/"), quote=True)
+                link = urllib.parse.quote(os.fsencode(os.path.relpath(picture, path.parent).replace(os.sep, "/")))
                 shown = f'<a href="{link}"><img src="{link}" loading="lazy" alt=""></a>{shown}'
-            cells.append(f'<td data-value="{html.escape("" if value is None else str(value), quote=True)}">{shown}</td>')
+            cells.append(f'<td data-value="{html.escape(_shown(value))}">{shown}</td>')
         rows.append(f'<tr class="{record["status"]}">{"".join(cells)}</tr>')
-    page = _PAGE.format(title=html.escape(title), summary=html.escape(summary_of(records)), rows="\n".join(rows),
+    page = _PAGE.format(title=html.escape(printable(title)), summary=html.escape(summary_of(records)), rows="\n".join(rows),
                         head="".join(f"<th>{column.replace('_', ' ')}</th>" for column in COLUMNS))
-    path.write_text(page, encoding="utf-8")
+    write_whole(path, page)
 
 
 def summary_of(records: List[Dict[str, Any]]) -> str:
@@ -286,10 +359,14 @@ def summary_of(records: List[Dict[str, Any]]) -> str:
             f"{seconds:.1f} s of work.")
 
 
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        super().error(printable(message))
+
+
 def parser() -> argparse.ArgumentParser:
     """The parser for this module's options, and for those of `quadrille mesh` from the table of settings."""
-    result = argparse.ArgumentParser(prog="python3 -m quadrille.batch", description=__doc__.split("\n", 1)[0],
-                                     allow_abbrev=False)
+    result = _Parser(prog="python3 -m quadrille.batch", description=__doc__.split("\n", 1)[0], allow_abbrev=False)
     result.add_argument("folder", metavar="FOLDER", help="folder of CAD files; its subfolders are searched too")
     result.add_argument("-o", "--output", metavar="OUT", required=True, help="folder for meshes, pictures and the report")
     result.add_argument("--format", choices=FORMATS, default="msh", help="file format of the meshes (default msh)")
@@ -323,20 +400,20 @@ def _positive(text: str) -> int:
 def run(arguments: Optional[List[str]] = None) -> int:
     """Runs the command. Returns its exit code: 0 all parts meshed, 1 some or none, 2 wrong usage, 130 interrupted."""
     options = parser().parse_args(arguments)
+    folder, out = (Path(os.path.realpath(path)) for path in (options.folder, options.output))
+    closed: Dict[str, str] = {}
     try:
         with _executor(options) as executor:
-            tasks = tasks_of(options)
-            out = Path(options.output)
+            tasks = tasks_of(options, closed)
             out.mkdir(parents=True, exist_ok=True)
             records = run_tasks(tasks, options, executor)
+        records += [{"part": os.path.relpath(place, folder), "status": "failed", "reason": reason}
+                    for place, reason in closed.items()]
         write_csv(out / "report.csv", records)
-        write_page(out / "report.html", records, f"Quadrille: {Path(options.folder).resolve().name}")
-    except Error as error:
-        print(f"quadrille.batch: {error}", file=sys.stderr)
-        return 2 if error.kind == "usage" else 1
-    except OSError as error:
-        print(f"quadrille.batch: {error.filename}: {error.strerror}", file=sys.stderr)
-        return 1
+        write_page(out / "report.html", records, f"Quadrille: {folder.name}")
+    except (Error, OSError) as error:
+        print(printable(f"quadrille.batch: {sentence_of(error)}"), file=sys.stderr)
+        return 2 if isinstance(error, Error) and error.kind == "usage" else 1
     except KeyboardInterrupt:
         print("quadrille.batch: stopped; the same command continues from here", file=sys.stderr)
         return 130

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The one exception type."""
+"""The one exception type, and text that is safe to print."""
 
 
 class Error(RuntimeError):
@@ -15,3 +15,9 @@ class Error(RuntimeError):
         super().__init__(sentence)
         self.kind = kind
         self.subject = subject
+
+
+def printable(text: str) -> str:
+    """The text as one line that any terminal or file can take. Control characters, and bytes of a file name that are not text,
+    become escapes such as \\n."""
+    return "".join(sign if sign.isprintable() else repr(sign)[1:-1] for sign in text)
