@@ -1,4 +1,4 @@
-"""A folder of parts: what fails or crashes stops nothing, what is done is not done again, and no file or record harms it."""
+"""A folder of parts: what fails or crashes stops nothing, what is done is not done again, and no file, record or neighbor harms it."""
 
 import contextlib
 import csv
@@ -6,6 +6,7 @@ import html.parser
 import io
 import json
 import os
+import re
 import shutil
 import signal
 import stat
@@ -240,6 +241,25 @@ class BatchTest(unittest.TestCase):
         self.assertIn("2 of 5 parts meshed", out)
         self.assertIn("signal 11", self.records()["crash.brep"]["reason"])
 
+    def test_nothing_comes_from_the_current_folder(self):
+        """Programs run beside CAD files from elsewhere. What Python imports before a program begins is not tried."""
+        arguments = self.batch_of([b"box.brep"])
+        here = arguments[0]
+        for name in ("argparse", "csv", "distributed", "hashlib", "html", "json", "logging", "numpy", "queue", "signal",
+                     "subprocess", "tempfile", "urllib", "uuid"):
+            (here / f"{name}.py").write_text(f"open('ran_{name}', 'w').close()\n")
+        programs = {".".join(file.relative_to(PACKAGE.parent).with_suffix("").parts).replace(".__main__", "")
+                    for file in PACKAGE.rglob("*.py") if "if __name__ ==" in file.read_text(encoding="utf-8")}
+        self.assertEqual(programs, {"quadrille", "quadrille.batch"})
+        for module, words in (("quadrille", ["--version"]), ("quadrille.batch", arguments),
+                              ("quadrille.batch", [*arguments, "--scheduler", "tls://127.0.0.1:1", "--scheduler-timeout", "1",
+                                                   "--tls-ca", __file__, "--tls-cert", __file__, "--tls-key", __file__])):
+            for path in ((), ("",), (here,)):
+                process = self.program(*words, module=module, cwd=here, path=path)
+                _, err = process.communicate(timeout=60)
+                self.assertEqual(sorted(file.name for file in here.glob("ran_*")), [], err)
+                self.assertEqual(process.returncode, 1 if "--scheduler" in words else 0, err)
+
     def test_attack_of_names(self):
         """Names of any bytes, closed files and folders, pipes and devices, in the run of an ordinary user and in any locale."""
         long = b"n" * 250 + b".brep"
@@ -382,6 +402,39 @@ class BatchTest(unittest.TestCase):
             self.assertEqual(record["status"], "failed")
             self.assertIn(name, record["reason"])
             self.assertLess(time.monotonic() - start, 20)
+
+    def test_interrupts(self):
+        """Ctrl-C at any time: one sentence, exit code 130, no child is left, and the next run continues."""
+        arguments = self.batch_of([b"a.brep", b"slow.brep", b"z.brep"])
+        early = self.folder.parent / "early"
+        early.mkdir()
+        (early / "csv.py").write_text("import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\ntime.sleep(9)\n")
+        pid_file = self.folder.parent / "slow.pid"
+        for how in ("at the start", "process", "group"):
+            process = self.program(*arguments, "--quiet", "--no-pictures", "--workers", "1",
+                                   path=[early] if how == "at the start" else ())
+            child = None
+            if how != "at the start":
+                deadline = time.monotonic() + 30
+                while not pid_file.exists() and time.monotonic() < deadline:
+                    time.sleep(0.02)
+                child = int(pid_file.read_text())
+                pid_file.unlink()
+                (os.killpg if how == "group" else os.kill)(process.pid, signal.SIGINT)
+            out, err = process.communicate(timeout=20)
+            self.assertEqual((process.returncode, out), (130, ""), err)
+            self.assertRegex(err, r"\Aquadrille\.batch: stopped; [^\n]*\n\Z")
+            deadline = time.monotonic() + 5
+            while child in processes() and time.monotonic() < deadline:
+                time.sleep(0.02)
+            self.assertNotIn(child, processes())
+        self.assertEqual([path.name for path in (self.out / "records").iterdir()], ["a.brep.json"])
+        first = (self.out / "meshes" / "a.brep.msh").stat().st_mtime_ns
+        self.command.write_text(re.sub(r"  \*slow.*\n", "", self.command.read_text()))
+        process = self.program(*arguments, "--no-pictures")
+        out, err = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, out.split(",")[0]), (0, "3 of 3 parts meshed"), err)
+        self.assertEqual((self.out / "meshes" / "a.brep.msh").stat().st_mtime_ns, first)
 
     def test_options_are_those_of_the_table(self):
         options = batch.parser().parse_args(["f", "-o", "o", "--size", "2", "--size-in", "sphere:0,0,0,1=1", "--size-in",

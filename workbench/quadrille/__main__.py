@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the `quadrille` command: for `python -m quadrille mesh part.step -o part.inp`, and as the wheel's console script."""
 
+if __name__ == "__main__":
+    from .core import entry
+
+    entry.begin("quadrille: stopped")
+
 import os
 import subprocess
 import sys

@@ -9,6 +9,11 @@ same options meshes only parts that are new or have changed, or whose run was no
 list all parts.
 """
 
+if __name__ == "__main__":
+    from .core import entry
+
+    entry.begin("quadrille.batch: stopped; the same command continues from here")
+
 import argparse
 import contextlib
 import csv
@@ -398,7 +403,7 @@ def _positive(text: str) -> int:
 
 
 def run(arguments: Optional[List[str]] = None) -> int:
-    """Runs the command. Returns its exit code: 0 all parts meshed, 1 some or none, 2 wrong usage, 130 interrupted."""
+    """Runs the command. Returns its exit code: 0 all parts meshed, 1 some or none, 2 wrong usage."""
     options = parser().parse_args(arguments)
     folder, out = (Path(os.path.realpath(path)) for path in (options.folder, options.output))
     closed: Dict[str, str] = {}
@@ -414,9 +419,6 @@ def run(arguments: Optional[List[str]] = None) -> int:
     except (Error, OSError) as error:
         print(printable(f"quadrille.batch: {sentence_of(error)}"), file=sys.stderr)
         return 2 if isinstance(error, Error) and error.kind == "usage" else 1
-    except KeyboardInterrupt:
-        print("quadrille.batch: stopped; the same command continues from here", file=sys.stderr)
-        return 130
     if not options.quiet:
         print(summary_of(records))
     return 0 if all(record["status"] == "meshed" for record in records) else 1

@@ -10,6 +10,7 @@ import os
 import queue
 import re
 import shutil
+import signal
 import subprocess
 import tempfile
 import threading
@@ -28,7 +29,7 @@ _PROGRESS_LINE = re.compile(r"progress: (\S+) (\d+) %")
 #: How long a cancelled child may take to end before it is killed.
 KILL_AFTER_SECONDS = 2.0
 
-_KINDS = {2: "usage", 130: "cancelled"}
+_KINDS = {2: "usage", 130: "cancelled", -signal.SIGINT: "cancelled", -signal.SIGTERM: "cancelled"}
 
 
 #: This file exists inside a Flatpak sandbox, and nowhere else.
@@ -364,7 +365,7 @@ class CommandJob:
 
     def _error(self, code: int) -> Error:
         if code < 0:
-            return Error(f"the mesher was killed by signal {-code}", "failure", self._arguments[0])
+            return Error(f"the mesher was killed by signal {-code}", _KINDS.get(code, "failure"), self._arguments[0])
         return Error(sentence_of(self.messages, code), _KINDS.get(code, "failure"))
 
 
