@@ -29,7 +29,6 @@ import stat
 import sys
 import time
 import urllib.parse
-import warnings
 from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any, Dict, Iterable, Iterator, List, NamedTuple, NoReturn, Optional
@@ -222,8 +221,7 @@ def _executor(options: argparse.Namespace) -> Iterator[Executor]:
         import distributed
     except ImportError as error:
         raise Error("Dask is not installed: apt install python3-distributed", "failure", "distributed") from error
-    warnings.filterwarnings("ignore", category=DeprecationWarning, module="tornado")  # a dependency of Dask
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    logging.disable(logging.ERROR)  # Dask logs lost connections under many names; the records tell of them
     try:
         security = distributed.Security(tls_ca_file=options.tls_ca, tls_client_cert=options.tls_cert,
                                         tls_client_key=options.tls_key, require_encryption=True)
