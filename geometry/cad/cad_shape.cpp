@@ -26,7 +26,7 @@
 namespace quadrille {
 
 CadShape::CadShape(const TopoDS_Shape& source, std::string shape_name)
-    : name(std::move(shape_name)), shape(with_parametric_curves(source, problems)) {
+    : name(std::move(shape_name)), shape(with_all_curves(source, problems)) {
   read_topology();
   trust_curve_ends(*this);
   measure();

@@ -1,9 +1,10 @@
-/// Projects edges that lack parametric curves, drops wires that bound nothing, and bounds closed surfaces.
+/// Completes the curves of edges, drops wires that bound nothing, and bounds closed surfaces.
 
 #include "geometry/cad/shape_completion.hpp"
 
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepLib.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
@@ -20,8 +21,10 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Iterator.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -31,16 +34,47 @@ namespace quadrille {
 
 namespace {
 
-bool lacks_curves(const TopoDS_Face& face) {
-  if (BRep_Tool::Surface(face).IsNull()) return false;
-  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
-    double first = 0, last = 0;
-    if (BRep_Tool::CurveOnSurface(TopoDS::Edge(it.Current()), face, first, last).IsNull()) return true;
-  }
-  return false;
+/// Whether edges of the face have curves in space, and parametric curves on it.
+struct Completeness {
+  bool in_space = true, on_face = true;
+};
+
+/// Whether an edge that the file marks as degenerate, a single point, joins two places.
+bool is_marked_wrongly(const TopoDS_Edge& edge) {
+  if (!BRep_Tool::Degenerated(edge)) return false;
+  TopoDS_Vertex first, last;
+  TopExp::Vertices(edge, first, last);
+  if (first.IsNull() || last.IsNull() || first.IsSame(last)) return false;
+  const double reach =
+      std::max({BRep_Tool::Tolerance(first), BRep_Tool::Tolerance(last), BRep_Tool::Tolerance(edge)});
+  return BRep_Tool::Pnt(first).Distance(BRep_Tool::Pnt(last)) > 2 * reach;
 }
 
-void add_curves(const TopoDS_Face& face) {
+Completeness curves_of(const TopoDS_Face& face) {
+  Completeness found;
+  const bool has_surface = !BRep_Tool::Surface(face).IsNull();
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
+    double first = 0, last = 0;
+    TopLoc_Location place;
+    if ((!BRep_Tool::Degenerated(edge) || is_marked_wrongly(edge)) &&
+        BRep_Tool::Curve(edge, place, first, last).IsNull())
+      found.in_space = false;
+    if (has_surface && BRep_Tool::CurveOnSurface(edge, face, first, last).IsNull()) found.on_face = false;
+  }
+  return found;
+}
+
+void add_spatial_curves(const TopoDS_Shape& face) {
+  const BRep_Builder builder;
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
+    if (is_marked_wrongly(edge)) builder.Degenerated(edge, Standard_False);
+  }
+  BRepLib::BuildCurves3d(face);
+}
+
+void add_parametric_curves(const TopoDS_Face& face) {
   for (TopExp_Explorer it(face, TopAbs_WIRE); it.More(); it.Next()) {
     ShapeFix_Wire fix(TopoDS::Wire(it.Current()), face, BRep_Tool::Tolerance(face));
     fix.FixEdgeCurves();  // changes the edges in place
@@ -116,26 +150,34 @@ bool has_no_border(const Handle(Geom_Surface) & surface) {
 
 }  // namespace
 
-TopoDS_Shape with_parametric_curves(const TopoDS_Shape& shape, std::vector<std::string>& problems) {
+TopoDS_Shape with_all_curves(const TopoDS_Shape& shape, std::vector<std::string>& problems) {
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(shape, TopAbs_FACE, faces);
-  std::vector<int> incomplete;
+  std::vector<std::pair<int, Completeness>> incomplete;
   for (int i = 1; i <= faces.Extent(); ++i) {
-    if (lacks_curves(TopoDS::Face(faces(i)))) incomplete.push_back(i);
+    const Completeness found = curves_of(TopoDS::Face(faces(i)));
+    if (!found.in_space || !found.on_face) incomplete.emplace_back(i, found);
   }
   if (incomplete.empty()) return shape;
   const TopoDS_Shape copy = BRepBuilderAPI_Copy(shape, Standard_False).Shape();
   TopTools_IndexedMapOfShape copied;
   TopExp::MapShapes(copy, TopAbs_FACE, copied);
-  for (const int i : incomplete) {
+  const auto complete = [&](int face, const char* kind, const char* how, const auto& make) {
     try {
-      add_curves(TopoDS::Face(copied(i)));
-      problems.push_back(fmt::format("Face{} lacked parametric curves: they were made by projection", i));
+      make();
+      problems.push_back(fmt::format("Face{} lacked {} curves: they were made {}", face, kind, how));
     } catch (const Standard_Failure& problem) {
-      problems.push_back(fmt::format("Face{} lacks parametric curves, and they cannot be made ({})", i,
+      problems.push_back(fmt::format("Face{} lacks {} curves, and they cannot be made ({})", face, kind,
                                      problem.GetMessageString()));
     }
-  }
+  };
+  // First those in space, which all faces at an edge share.
+  for (const auto& [i, found] : incomplete)
+    if (!found.in_space)
+      complete(i, "spatial", "from its parametric ones", [&] { add_spatial_curves(copied(i)); });
+  for (const auto& [i, found] : incomplete)
+    if (!found.on_face)
+      complete(i, "parametric", "by projection", [&] { add_parametric_curves(TopoDS::Face(copied(i))); });
   return copy;
 }
 
@@ -159,7 +201,7 @@ CadFace with_new_curves(const CadFace& face) {
         builder.UpdateEdge(edge, none, result.face, BRep_Tool::Tolerance(edge));
       }
     }
-    add_curves(result.face);
+    add_parametric_curves(result.face);
     for (CadWire& wire : result.wires) {
       for (Coedge& coedge : wire.coedges) {
         const TopoDS_Edge copy =

@@ -10,10 +10,10 @@
 
 namespace quadrille {
 
-/// The shape with a parametric curve for every edge on every face; missing ones are made by projection where
-/// possible. Faces, edges and vertices keep their order. If nothing is missing, returns the shape itself,
-/// otherwise a copy. Each change adds a sentence to `problems`.
-TopoDS_Shape with_parametric_curves(const TopoDS_Shape& shape, std::vector<std::string>& problems);
+/// The shape with a curve in space for every edge, and a parametric one on every face; missing ones are made
+/// from each other where possible. Faces, edges and vertices keep their order. If nothing is missing, returns
+/// the shape itself, otherwise a copy. Each change adds a sentence to `problems`.
+TopoDS_Shape with_all_curves(const TopoDS_Shape& shape, std::vector<std::string>& problems);
 
 /// The face without wires that bound nothing: on a surface without a border (a sphere, a torus), those whose
 /// edges all occur once in either direction, such as a great circle there and back. Their edges keep their
