@@ -39,6 +39,7 @@
 #include "mesher/shell/node_sliding.hpp"
 #include "mesher/shell/poor_quads.hpp"
 #include "mesher/shell/remedies.hpp"
+#include "mesher/shell/shell_check.hpp"
 
 namespace quadrille {
 
@@ -113,6 +114,7 @@ class Job {
         leave_surfaces(field);
       });
     }
+    if (!options_.strict) in_time([&] { leave_edges(field); });
     advise_on_tiny_faces();
     note_failed_partners();
     const bool none =
@@ -315,7 +317,7 @@ class Job {
       try {
         const bool done = in_time([&] {
           meshes_[face] =
-              mesh_off_surface(shape_, *problem, nodes_, field, limits_.size_min, options_, context_);
+              mesh_off_surface(shape_, *problem, nodes_, field, reach_of(face), false, options_, context_);
         });
         if (!done) return false;
       } catch (const FaceProblem&) {
@@ -326,6 +328,35 @@ class Job {
       records_[face].history.push_back(fmt::format("{}: nodes off its surface", problem->what()));
     }
     return any && may_go_on();
+  }
+
+  /// How far nodes may leave a face that has no mesh with them on it: the least size, or the tolerance of the
+  /// file there.
+  double reach_of(FaceId face) const {
+    double reach = std::max(limits_.size_min, shape_.faces[face].tolerance);
+    for (const CadWire& wire : shape_.faces[face].wires)
+      for (const Coedge& coedge : wire.coedges) reach = std::max(reach, shape_.edges[coedge.edge].tolerance);
+    return reach;
+  }
+
+  /// Meshes the faces that still have no mesh with nodes off their edges.
+  void leave_edges(const SizingField& field) {
+    for (const FaceId face : problems_.ids()) {
+      const auto problem = problems_[face];
+      if (!problem || meshes_[face] || problem->cause() == Cause::out_of_time) continue;
+      try {
+        meshes_[face] =
+            mesh_off_surface(shape_, *problem, nodes_, field, reach_of(face), true, options_, context_);
+      } catch (const FaceProblem&) {
+        continue;  // the first problem is the one to report
+      }
+      if (!unfold_with_edges(shape_, face, reach_of(face), nodes_, meshes_, context_)) {
+        meshes_[face].reset();
+        continue;
+      }
+      problems_[face].reset();
+      records_[face].history.push_back(fmt::format("{}: nodes off its edges", problem->what()));
+    }
   }
 
   /// Takes back the finer segments that did not help the faces that have no mesh. \return whether there were
@@ -427,7 +458,9 @@ class Job {
         node = renumbered[node];
         keep = keep && node >= 0 && node < static_cast<int>(nodes.points.size());
       }
-      if (!keep) meshes_[face].reset();
+      if (keep) continue;
+      meshes_[face].reset();
+      records_[face].given_up = false;  // its boundary is another one now: it is to be meshed again
     }
   }
 
@@ -471,6 +504,7 @@ class Job {
         if (record.first_work == 0) record.first_work = share.work();
       };
       try {
+        record.recipe.reach = options_.strict ? 0 : reach_of(face);
         meshes_[face] = mesh_face(shape_, face, chart, nodes_, field, options_, record.recipe, share);
       } catch (...) {
         count();
@@ -684,9 +718,9 @@ class Job {
       status.seconds = record.seconds;
       status.work = record.work;
       status.share = record.share();
-      status.status = meshes_[face]     ? FaceStatus::meshed
-                      : problems_[face] ? FaceStatus::failed
-                                        : FaceStatus::skipped;
+      status.status = meshes_[face]  ? FaceStatus::meshed
+                      : asked_[face] ? FaceStatus::failed
+                                     : FaceStatus::skipped;
       status.note = fmt::format("{}", fmt::join(record.history, "; "));
       if (meshes_[face] && meshes_[face]->grid) status.note += status.note.empty() ? "grid" : "; grid";
       const auto end = nodes_.unused.lower_bound({face, EdgeId()});
@@ -745,6 +779,9 @@ ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, const st
   if (!options.write_size_field.empty()) field.write(options.write_size_field);
   ShellMesh result = job.run(field);
   note_off_geometry(result);
+  const std::vector<std::string> defects = shell_defects(model.shape(), faces_used(model, options), result);
+  if (!defects.empty() && !options.partial) throw failure("", fmt::format("{}", fmt::join(defects, "; ")));
+  result.warnings.insert(result.warnings.end(), defects.begin(), defects.end());
   if (options.inspect) options.inspect(result, field);
   return result;
 }

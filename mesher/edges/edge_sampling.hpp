@@ -48,6 +48,9 @@ struct BoundaryNodes {
   int stride = 1;
   FacePlans plans;
 
+  /// How far nodes lie off their edges, because quads would be inverted with them there; by node.
+  std::map<int, double> off;
+
   /// The middles, on the surface, of sides between two nodes that quads of several faces share where they
   /// cross a smooth edge; by side_key().
   std::unordered_map<std::uint64_t, Vector3> middles;

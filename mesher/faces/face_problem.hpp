@@ -20,8 +20,7 @@ enum class Cause {
   looped_edge,           ///< segments of one edge cross, however fine: its curve has a loop
   stray_curves,          ///< segments cross or quads are inverted, and parametric curves lie off their edges
   crossing_curves,       ///< segments of two edges cross or touch, however fine
-  inverted_inside,       ///< the finished mesh has inverted quads, some at nodes inside the face
-  inverted_at_boundary,  ///< the finished mesh has inverted quads, all at boundary nodes
+  inverted,              ///< the finished mesh has inverted quads
   odd_boundary,          ///< a triangle is left over, which only subdivision can turn into quads
   no_mesh,               ///< a stage gave up
   out_of_work,           ///< the face has used up its share of work

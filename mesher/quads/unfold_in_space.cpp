@@ -14,8 +14,14 @@ namespace {
 
 class SpaceUnfolding {
  public:
-  SpaceUnfolding(QuadMesh& mesh, const std::vector<char>& fixed, const ExecutionContext& context)
-      : quads_(mesh.quads), points_(mesh.points), fixed_(fixed), context_(context) {}
+  SpaceUnfolding(QuadMesh& mesh, const std::vector<char>& fixed, double reach,
+                 const ExecutionContext& context)
+      : quads_(mesh.quads),
+        points_(mesh.points),
+        starts_(mesh.points),
+        fixed_(fixed),
+        reach_(reach),
+        context_(context) {}
 
   std::vector<char> run() {
     constexpr int rounds = 20;
@@ -76,6 +82,7 @@ class SpaceUnfolding {
   }
 
   void try_place(int node, const std::vector<int>& quads, const Vector3& place, double& best) {
+    if ((place - starts_[node]).norm() > reach_) return;
     const Vector3 before = points_[node];
     points_[node] = place;
     if (const double now = worst(quads); now > best)
@@ -90,8 +97,9 @@ class SpaceUnfolding {
     for (const int quad : quads)
       for (const int other : quads_[quad])
         step = std::max(step, 0.5 * (points_[other] - points_[node]).norm());
+    step = std::min(step, reach_);
     double best = worst(quads);
-    constexpr int halvings = 6;
+    constexpr int halvings = 16;
     for (int k = 0; k < halvings; ++k, step *= 0.5) {
       for (int axis = 0; axis < 6; ++axis)
         try_place(node, quads, points_[node] + (axis < 3 ? step : -step) * Vector3::Unit(axis % 3), best);
@@ -100,15 +108,17 @@ class SpaceUnfolding {
 
   const std::vector<std::array<int, 4>>& quads_;
   std::vector<Vector3>& points_;
+  const std::vector<Vector3> starts_;
   const std::vector<char>& fixed_;
+  double reach_;
   const ExecutionContext& context_;
 };
 
 }  // namespace
 
-std::vector<char> unfold_in_space(QuadMesh& mesh, const std::vector<char>& fixed,
+std::vector<char> unfold_in_space(QuadMesh& mesh, const std::vector<char>& fixed, double reach,
                                   const ExecutionContext& context) {
-  return SpaceUnfolding(mesh, fixed, context).run();
+  return SpaceUnfolding(mesh, fixed, reach, context).run();
 }
 
 }  // namespace quadrille

@@ -42,6 +42,8 @@ namespace {
 
 /// Sides of quads shorter than this times the surface's diagonal count as having no length.
 constexpr double same_place = 1e-9;
+/// Nodes at most this share of the size apart are one: the rims of needles would ask for sides as short.
+constexpr double one_point = 1e-6;
 
 void check(const RemeshOptions& options) {
   if (!(options.size > 0) || !std::isfinite(options.size))
@@ -184,7 +186,8 @@ class Remesher : public ShellGeometry {
   void find_faces() {
     const StageTimer timer(context_, Stage::sample);
     context_.report(Stage::sample, 0);
-    TriangleInput triangles = triangle_input(input_, options_.merge, notes_, context_);
+    TriangleInput triangles =
+        triangle_input(input_, options_.merge, one_point * options_.size, notes_, context_);
     if (input_.order == 2)
       notes_.push_back(
           "the mesh is of second order: the surface is taken to be flat between its corner nodes");
@@ -383,8 +386,8 @@ class Remesher : public ShellGeometry {
     options.recombine = options_.recombine;
     options.improve = options_.improve;
     FaceQuads quads = quadrille::make_quads(std::move(triangulation), surface, options, context_);
-    const std::vector<char> moved =
-        unfold_in_space(quads.surface_mesh.mesh, quads.surface_mesh.fixed, context_);
+    const std::vector<char> moved = unfold_in_space(quads.surface_mesh.mesh, quads.surface_mesh.fixed,
+                                                    std::numeric_limits<double>::infinity(), context_);
     FaceMesh result;
     result.points = std::move(quads.surface_mesh.mesh.points);
     result.uv = std::move(quads.surface_mesh.parameters);

@@ -18,7 +18,7 @@ struct RemeshOptions {
   /// Faces end where the normals of neighbors differ by more than this, degrees; 0 = no faces end at folds.
   double feature_angle = 40;
   /// Nodes at most this far apart are merged, millimeters; 0 = only nodes at the same position; negative =
-  /// none, and two nodes at the same position are refused.
+  /// two nodes at the same position are refused. Those within a millionth of the size are merged always.
   double merge = -1;
   int order = 1;               ///< 1 or 2
   bool force = false;          ///< continue even if the mesh would exceed 50 million elements or the memory

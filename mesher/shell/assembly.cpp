@@ -132,6 +132,8 @@ class Assembler {
   }
 
   void note_off_surface() {
+    for (const auto& [node, distance] : nodes_.off)
+      if (numbering_.nodes[node] >= 0) mesh_.off_geometry.push_back({numbering_.nodes[node], distance});
     std::size_t next = mesh_.points.size();
     for (const FaceId id : faces_.ids()) {
       if (faces_[id]) next -= faces_[id]->points.size() - faces_[id]->nodes.size();

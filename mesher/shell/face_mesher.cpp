@@ -81,6 +81,10 @@ class FaceMesher {
       }
     }
     if (grid && !(best && judge_.replaces_grid(*best, *grid))) return std::move(*grid);
+    if (!best && recipe_.reach > 0) {
+      may_leave_surface_ = true;
+      best = attempt({Layout::plain, false});
+    }
     if (!best) throw FaceProblem(*problem_);
     return std::move(*best);
   }
@@ -89,13 +93,12 @@ class FaceMesher {
   bool is_worth_trying(const Candidate& candidate, const std::optional<FaceMesh>& best) {
     using Layout = Candidate::Layout;
     if (!plan_.row_lines.empty()) return candidate.layout == Layout::rings && !best;
-    const bool is_last_resort = recipe_.off != FaceRecipe::Off::none;
-    if (candidate.layout == Layout::grid) return recipe_.mapped && !is_last_resort;
+    if (candidate.layout == Layout::grid) return recipe_.mapped;
     if (candidate.direct)
       return best && candidate.layout == layout_ && chart_.boundary.stride == 2 && recipe_.clean_up &&
              judge_.is_doubtful(*best);
     if (best) return false;
-    return candidate.layout == Layout::plain || (options_.rings > 0 && recipe_.clean_up && !is_last_resort);
+    return candidate.layout == Layout::plain || (options_.rings > 0 && recipe_.clean_up);
   }
 
   /// Empty if the face has no such mesh. A problem is kept for the user and for the remedies.
@@ -138,7 +141,7 @@ class FaceMesher {
     const FaceBoundary segments = is_halved ? halved(boundary) : boundary;
     FaceQuadsOptions options;
     options.segments_per_side = segments.stride;
-    options.pair = recipe_.off != FaceRecipe::Off::as_triangles;
+    options.pair = recipe_.pair;
     options.clean_up = recipe_.clean_up;
     options.recombine = options_.recombine;
     options.improve = options_.improve;
@@ -149,14 +152,14 @@ class FaceMesher {
                         fmt::format("Face{} has an odd number of boundary segments that cannot be made even: "
                                     "use `strategy` subdivide",
                                     face_.number()));
-    if (recipe_.off != FaceRecipe::Off::none) leave_surface(quads);
+    if (may_leave_surface_) leave_surface(quads);
     return quads;
   }
 
   /// Moves nodes of inverted quads off the surface, and notes how far.
   void leave_surface(FaceQuads& quads) {
     SurfaceMesh& mesh = quads.surface_mesh;
-    const std::vector<char> moved = unfold_in_space(mesh.mesh, mesh.fixed, context_);
+    const std::vector<char> moved = unfold_in_space(mesh.mesh, mesh.fixed, recipe_.reach, context_);
     off_.assign(moved.size(), 0);
     for (std::size_t i = 0; i < moved.size(); ++i) {
       const Vector3& at = mesh.mesh.points[i];
@@ -203,8 +206,7 @@ class FaceMesher {
   FaceTriangulation triangulate(const FaceBoundary& boundary, const TrimmedDomain& domain) {
     const StageTimer timer(context_, Stage::triangulate);
     PlacementOptions placement;
-    placement.scale = static_cast<double>(boundary.stride) / recipe_.fineness;
-    placement.refusal = recipe_.refusal;
+    placement.scale = boundary.stride;
     PlacedPoints placed = place_points(boundary, surface_, domain, size_at_, placement, context_);
     context_.check();
     return triangulate_face(face_, boundary, std::move(placed), surface_, context_);
@@ -229,7 +231,8 @@ class FaceMesher {
         inverted.push_back(static_cast<int>(&quad - result.quads.data()));
       result.q_min = std::min(result.q_min, quad_q(result.points, quad));
     }
-    if (!inverted.empty()) throw inverted_problem(shape_, face_, chart_, nodes_, result, inverted);
+    if (!inverted.empty() && !recipe_.inverted_too)
+      throw inverted_problem(shape_, face_, chart_, nodes_, result, inverted);
     if (const auto side = wrong_boundary_side(chart_.boundary, result.nodes, result.quads)) {
       const Vector3 middle = 0.5 * (nodes_.points[side->first] + nodes_.points[side->second]);
       throw FaceProblem(Cause::no_mesh, face_,
@@ -269,6 +272,7 @@ class FaceMesher {
   std::optional<HoleRings> rings_;
   std::optional<FaceProblem> problem_;                   // of the last candidate that failed
   Candidate::Layout layout_ = Candidate::Layout::plain;  // of the best mesh other than a grid
+  bool may_leave_surface_ = false;                       // where quads are inverted
   std::vector<double> off_;                              // (points) see FaceMesh::off
 };
 

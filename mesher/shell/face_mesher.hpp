@@ -6,7 +6,6 @@
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/edges/edge_sampling.hpp"
 #include "mesher/faces/face_chart.hpp"
-#include "mesher/faces/point_placement.hpp"
 #include "mesher/options.hpp"
 #include "mesher/shell/face_mesh.hpp"
 
@@ -14,18 +13,12 @@ namespace quadrille {
 
 /// How a face is meshed.
 struct FaceRecipe {
-  /// Which nodes may leave the surface, as a last resort.
-  enum class Off {
-    none,
-    where_inverted,  ///< those of inverted quads
-    as_triangles     ///< likewise, on triangles that were not paired
-  };
   ChartKind chart = ChartKind::own;             ///< plane that the face is triangulated in
   bool mapped = true;                           ///< mesh the face as a grid if its outline allows
   bool clean_up = true;                         ///< do topological clean-up
-  double refusal = PlacementOptions().refusal;  ///< least distance between points, see PlacementOptions
-  int fineness = 1;                             ///< divides the spacing of inner points
-  Off off = Off::none;                          ///< which nodes may leave the surface
+  bool pair = true;                             ///< pair the triangles; else each becomes three quads
+  double reach = 0;           ///< how far nodes of inverted quads may leave the surface, as a last resort
+  bool inverted_too = false;  ///< also return a mesh that keeps inverted quads
 };
 
 /// Meshes a face in one attempt: tries candidates (a grid, rings round its holes, neither; quads cut in four,

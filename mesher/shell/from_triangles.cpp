@@ -161,7 +161,7 @@ void keep_sides_and_corners(const ShellMesh& input, const TriangleInput& work, c
 
 ShellMesh quads_from_triangles(const ShellMesh& input, const FromTrianglesOptions& options,
                                std::vector<std::string>& notes, ExecutionContext& context) {
-  TriangleInput work = triangle_input(input, options.merge, notes, context);
+  TriangleInput work = triangle_input(input, options.merge, 0, notes, context);
   if (input.order == 2)
     notes.emplace_back("the mesh was of second order: the quads are of first order, on the corner nodes");
   const NodeGroups node_groups(input, work);

@@ -1,5 +1,4 @@
-/// Finds the corner that is inverted most, what it lies on, and the edges near it that finer segments may
-/// help.
+/// Finds the corner that is inverted most, what it lies on, and the edges near it.
 
 #include "mesher/shell/inverted_quads.hpp"
 
@@ -35,18 +34,12 @@ class InvertedQuads {
     }
     const int corner = worst_corner(mesh, mesh.quads[inverted.front()]);
     const Vector3& near = mesh.points[corner];
-    const bool inside = std::any_of(inverted.begin(), inverted.end(), [&](int quad) {
-      return worst_corner(mesh, mesh.quads[quad]) >= static_cast<int>(mesh.nodes.size());
-    });
-    const Cause cause = largest_stray(boundary_, surface_) > 1 ? Cause::stray_curves
-                        : inside                               ? Cause::inverted_inside
-                                                               : Cause::inverted_at_boundary;
+    const Cause cause = largest_stray(boundary_, surface_) > 1 ? Cause::stray_curves : Cause::inverted;
     FaceProblem problem(cause, face_,
                         fmt::format("Face{} has {} inverted quad{} at this size, the first at {}, {}",
                                     face_.number(), inverted.size(), inverted.size() == 1 ? "" : "s",
                                     place_text(near), place_of(mesh, corner)));
-    problem.stretches = stretches_at(touched);
-    for (const EdgeStretch& part : problem.stretches) problem.edges.push_back(part.edge);
+    problem.edges = edges_at(touched);
     return problem;
   }
 
@@ -84,30 +77,14 @@ class InvertedQuads {
     return "inside the face";
   }
 
-  /// The segments that end at the given nodes, joined where consecutive. Each is to become four segments.
-  std::vector<EdgeStretch> stretches_at(const std::set<int>& touched) const {
-    const int stride = boundary_.stride;
-    std::vector<EdgeStretch> result;
-    std::set<EdgeId> edges;
-    for (const auto& segment : boundary_.segments) {
-      if (segment.edge.exists()) edges.insert(segment.edge);
-    }
-    for (const EdgeId id : edges) {
-      const BoundaryNodes::Edge& edge = nodes_.edges[id];
-      int last = -1;  // last segment in a stretch
-      for (int i = 0; i + stride < static_cast<int>(edge.nodes.size()); i += stride) {
-        if (!touched.contains(edge.nodes[i]) && !touched.contains(edge.nodes[i + stride])) continue;
-        const double from = edge.parameters[i], to = edge.parameters[i + stride];
-        if (last >= 0 && last + stride == i) {
-          result.back().to = to;
-          result.back().segments += 4;
-        } else {
-          result.push_back({id, from, to, 4});
-        }
-        last = i;
-      }
-    }
-    return result;
+  /// The edges of the face, ascending, that have one of the given nodes.
+  std::vector<EdgeId> edges_at(const std::set<int>& touched) const {
+    std::set<EdgeId> result;
+    for (const auto& segment : boundary_.segments)
+      if (segment.edge.exists() &&
+          (touched.contains(boundary_.nodes[segment.a]) || touched.contains(boundary_.nodes[segment.b])))
+        result.insert(segment.edge);
+    return {result.begin(), result.end()};
   }
 
   const CadShape& shape_;

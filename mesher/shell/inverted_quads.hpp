@@ -9,7 +9,7 @@
 
 namespace quadrille {
 
-/// The problem of inverted quads, with the stretches of edges that they and the quads around them touch.
+/// The problem of inverted quads, with the edges that they and the quads around them touch.
 /// \param inverted indices of the quads, at least one
 FaceProblem inverted_problem(const CadShape& shape, FaceId face, const FaceChart& chart,
                              const BoundaryNodes& nodes, const FaceMesh& mesh,

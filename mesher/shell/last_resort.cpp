@@ -1,4 +1,5 @@
-/// Fills the face's loops with triangles in space, makes three quads of each, and moves nodes to the surface.
+/// Fills the face's loops with triangles in space, makes three quads of each, and moves nodes to the surface;
+/// then moves nodes off surfaces and edges together.
 
 #include "mesher/shell/last_resort.hpp"
 
@@ -7,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
+#include <set>
 #include <unordered_map>
 
 #include "geometry/base/side_key.hpp"
@@ -17,17 +20,19 @@
 #include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/quads/unfold_in_space.hpp"
-#include "mesher/shell/remedies.hpp"
 
 namespace quadrille {
 
 namespace {
 
-bool is_valid(const FaceMesh& mesh, double reach) {
-  return std::all_of(mesh.off.begin(), mesh.off.end(), [&](double off) { return off <= reach; }) &&
-         std::all_of(mesh.quads.begin(), mesh.quads.end(), [&](const std::array<int, 4>& q) {
-           return quad_scaled_jacobian(mesh.points, q) > no_jacobian;
-         });
+bool is_near(const FaceMesh& mesh, double reach) {
+  return std::all_of(mesh.off.begin(), mesh.off.end(), [&](double off) { return off <= reach; });
+}
+
+bool has_inverted_quads(const FaceMesh& mesh) {
+  return std::any_of(mesh.quads.begin(), mesh.quads.end(), [&](const std::array<int, 4>& q) {
+    return quad_scaled_jacobian(mesh.points, q) <= no_jacobian;
+  });
 }
 
 /// Spans the loops of a face in space: every other boundary node is a corner of triangles, the nodes between
@@ -122,13 +127,13 @@ class LoopMesher {
     for (std::size_t i = mesh_.nodes.size(); i < mesh_.points.size(); ++i)
       mesh_.points[i] = surface_.project(mesh_.uv[i], spanned[i]).point;
     mesh_.pole.assign(mesh_.points.size(), 0);
-    if (!is_valid(mesh_, 0)) mesh_.points = spanned;
+    if (has_inverted_quads(mesh_)) mesh_.points = spanned;
     QuadMesh quads;
     quads.points = std::move(mesh_.points);
     quads.quads = std::move(mesh_.quads);
     std::vector<char> fixed(quads.points.size(), 0);
     std::fill_n(fixed.begin(), mesh_.nodes.size(), 1);
-    unfold_in_space(quads, fixed, context_);
+    unfold_in_space(quads, fixed, std::numeric_limits<double>::infinity(), context_);
     mesh_.points = std::move(quads.points);
     mesh_.quads = std::move(quads.quads);
     mesh_.q_min = 1;
@@ -149,51 +154,167 @@ class LoopMesher {
   std::unordered_map<std::uint64_t, int> middles_;
 };
 
+/// Whether the quads of a mesh face as the surface does, or all alike: those in loops that cross do neither.
+bool faces_one_way(const CadFace& face, const FaceMesh& mesh) {
+  const FaceSurface surface(face);
+  double outward = 0, all = 0;
+  Vector3 sum = Vector3::Zero();
+  for (const auto& quad : mesh.quads) {
+    const Vector3 area = quad_area_vector(mesh.points, quad);
+    outward += (face.reversed ? -1 : 1) * area.dot(surface.normal(mesh.uv[quad[2]]));
+    all += area.norm();
+    sum += area;
+  }
+  constexpr double mostly = 0.5, all_alike = 0.9;
+  return outward > mostly * all || sum.norm() > all_alike * all;
+}
+
+/// The quads around a face as one mesh, and back.
+class Surroundings {
+ public:
+  Surroundings(const CadShape& shape, FaceId face, BoundaryNodes& nodes, FaceMeshes& meshes)
+      : shape_(shape), nodes_(nodes), meshes_(meshes) {
+    faces_.insert(face);
+    for (const CadWire& wire : shape.faces[face].wires)
+      for (const Coedge& coedge : wire.coedges)
+        for (const FaceId other : shape.edges[coedge.edge].faces)
+          if (meshes[other]) faces_.insert(other);
+    quads_.points = nodes.points;
+    for (const FaceId id : faces_) {
+      const FaceMesh& mesh = *meshes[id];
+      const std::size_t fixed = mesh.nodes.size();
+      const int first = static_cast<int>(quads_.points.size() - fixed);
+      quads_.points.insert(quads_.points.end(), mesh.points.begin() + static_cast<long>(fixed),
+                           mesh.points.end());
+      for (const auto& quad : mesh.quads) {
+        auto& corners = quads_.quads.emplace_back();
+        std::transform(quad.begin(), quad.end(), corners.begin(), [&](int corner) {
+          return corner < static_cast<int>(fixed) ? mesh.nodes[corner] : first + corner;
+        });
+      }
+    }
+  }
+
+  /// \return whether no quad is inverted any more.
+  bool unfold(double reach, const ExecutionContext& context) {
+    std::vector<char> fixed(quads_.points.size(), 0);
+    for (const int node : nodes_.vertex_nodes)
+      if (node >= 0) fixed[node] = 1;
+    for (const auto& edge : nodes_.edges)
+      if (edge.matched)
+        for (const int node : edge.nodes) fixed[node] = 1;
+    for (const FaceId id : meshes_.ids())
+      if (meshes_[id] && !faces_.contains(id))
+        for (const int node : meshes_[id]->nodes) fixed[node] = 1;
+    unfold_in_space(quads_, fixed, reach, context);
+    return std::all_of(quads_.quads.begin(), quads_.quads.end(), [&](const std::array<int, 4>& q) {
+      return quad_scaled_jacobian(quads_.points, q) > no_jacobian;
+    });
+  }
+
+  /// Puts the moved nodes back, unless one is farther from its surface than the reach. \return whether it
+  /// did.
+  bool commit(double reach) {
+    std::map<int, double> off;
+    for (std::size_t i = 0; i < nodes_.points.size(); ++i) {
+      const double distance = (quads_.points[i] - nodes_.points[i]).norm();
+      if (distance > 0) off[static_cast<int>(i)] = distance;
+    }
+    FaceMeshes made(meshes_.size());
+    std::size_t next = nodes_.points.size();
+    for (const FaceId id : faces_) {
+      FaceMesh& mesh = made[id].emplace(*meshes_[id]);
+      const FaceSurface surface(shape_.faces[id]);
+      for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        const std::size_t at = i < mesh.nodes.size() ? mesh.nodes[i] : next++;
+        if (quads_.points[at] == mesh.points[i]) continue;
+        mesh.points[i] = quads_.points[at];
+        mesh.off.resize(mesh.points.size(), 0);
+        if (i < mesh.nodes.size()) continue;
+        mesh.off[i] = (surface.project(mesh.uv[i], mesh.points[i]).point - mesh.points[i]).norm();
+        if (mesh.off[i] > reach) return false;
+      }
+    }
+    for (const FaceId id : faces_) meshes_[id] = std::move(made[id]);
+    for (auto& edge : nodes_.edges)
+      edge.kept |=
+          std::any_of(edge.nodes.begin(), edge.nodes.end(), [&](int node) { return off.contains(node); });
+    for (const auto& [node, distance] : off) {
+      nodes_.points[node] = quads_.points[node];
+      nodes_.off[node] += distance;
+    }
+    return true;
+  }
+
+ private:
+  const CadShape& shape_;
+  BoundaryNodes& nodes_;
+  FaceMeshes& meshes_;
+  std::set<FaceId> faces_;
+  QuadMesh quads_;  // the boundary nodes of the model, then the inner nodes of these faces
+};
+
 }  // namespace
 
 FaceMesh mesh_off_surface(const CadShape& shape, const FaceProblem& problem, const BoundaryNodes& nodes,
-                          const SizingField& field, double reach, const MeshOptions& options,
-                          ExecutionContext& context) {
+                          const SizingField& field, double reach, bool inverted_too,
+                          const MeshOptions& options, ExecutionContext& context) {
   const FaceId face = problem.face();
-  const auto attempt = [&](const auto& make) -> std::optional<FaceMesh> {
+  std::optional<FaceMesh> last;
+  const auto attempt = [&](const auto& make) {
     try {
       std::optional<FaceMesh> mesh = make();
-      if (mesh && is_valid(*mesh, reach)) return mesh;
+      if (!mesh || !is_near(*mesh, reach)) return false;
+      const bool is_valid = !has_inverted_quads(*mesh);
+      if (is_valid || inverted_too) last = std::move(mesh);
+      return is_valid;
     } catch (const Error& error) {
       if (error.kind() != Error::Kind::failure || error.subject() == ExecutionContext::time_subject) throw;
     } catch (const Standard_Failure&) {
       context.check();  // the surface cannot be evaluated somewhere
     }
-    return std::nullopt;
+    return false;
   };
-  bool crosses = false;
   for (const ChartKind kind : {ChartKind::own, ChartKind::new_curves, ChartKind::view}) {
     const auto chart = [&]() -> std::optional<FaceChart> {
       try {
         FaceChart made = make_chart(shape, face, nodes, kind);
         if (!crossing_problem(face, shape, made.boundary, *made.surface)) return made;
-        crosses = true;
       } catch (const FaceProblem&) {
         context.check();  // there is no such chart
       }
       return std::nullopt;
     }();
     if (!chart) continue;
-    for (const auto off : {FaceRecipe::Off::where_inverted, FaceRecipe::Off::as_triangles}) {
-      const FaceRecipe recipe{.chart = kind, .mapped = false, .clean_up = false, .off = off};
+    for (const bool pair : {true, false}) {
+      const FaceRecipe recipe{.chart = kind,
+                              .mapped = false,
+                              .clean_up = false,
+                              .pair = pair,
+                              .reach = reach,
+                              .inverted_too = inverted_too};
       const auto make = [&] {
         return mesh_face(shape, face, *chart, nodes, field, options, recipe, context);
       };
-      if (auto mesh = attempt([&] { return std::optional(make()); })) return std::move(*mesh);
+      if (attempt([&] { return std::optional(make()); })) return std::move(*last);
     }
   }
-  // Loops that cross enclose no area that a mesh could be right about, unless all of it is below the reach.
-  if (crosses && longest_edge(shape, face) > reach) throw FaceProblem(problem);
   for (const bool flips : {true, false}) {
-    if (auto mesh = attempt([&] { return LoopMesher(shape, face, nodes, context).run(flips); }))
-      return std::move(*mesh);
+    const auto span = [&] {
+      auto mesh = LoopMesher(shape, face, nodes, context).run(flips);
+      if (mesh && !faces_one_way(shape.faces[face], *mesh)) mesh.reset();
+      return mesh;
+    };
+    if (attempt(span)) return std::move(*last);
   }
-  throw FaceProblem(problem);
+  if (!last) throw FaceProblem(problem);
+  return std::move(*last);
+}
+
+bool unfold_with_edges(const CadShape& shape, FaceId face, double reach, BoundaryNodes& nodes,
+                       FaceMeshes& meshes, const ExecutionContext& context) {
+  Surroundings around(shape, face, nodes, meshes);
+  return around.unfold(reach, context) && around.commit(reach);
 }
 
 }  // namespace quadrille

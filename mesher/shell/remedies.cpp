@@ -33,20 +33,6 @@ bool finer_there(Case& job) {
   return true;
 }
 
-/// Doubles the fineness of segments and points on the whole face: near poles and in narrow faces, more than
-/// one place may be too coarse.
-bool twice_as_fine(Case& job) {
-  SamplingPlan& plan = job.plan;
-  std::set<EdgeId> edges;
-  for (const CadWire& wire : job.shape.faces[job.face].wires) {
-    for (const Coedge& coedge : wire.coedges) edges.insert(coedge.edge);
-  }
-  std::erase_if(plan.finer, [&](const EdgeStretch& part) { return edges.contains(part.edge); });
-  job.record.recipe = {.chart = job.record.recipe.chart, .fineness = 2 * job.record.recipe.fineness};
-  for (const EdgeId edge : edges) plan.factor[edge] = std::max(plan.factor[edge], job.record.recipe.fineness);
-  return true;
-}
-
 bool along_chord(Case& job) {
   bool any = false;
   for (const EdgeId edge : job.problem.edges) {
@@ -65,18 +51,6 @@ bool with_curves_made_anew(Case& job) {
 
 bool seen_from_above(Case& job) {
   job.record.recipe = {ChartKind::view};
-  return true;
-}
-
-bool denser_points(Case& job) {
-  job.record.recipe = {
-      .chart = job.record.recipe.chart, .refusal = 0.6, .fineness = job.record.recipe.fineness};
-  return true;
-}
-
-bool without_clean_up(Case& job) {
-  if (!job.record.recipe.clean_up) return false;
-  job.record.recipe.mapped = job.record.recipe.clean_up = false;
   return true;
 }
 
@@ -112,24 +86,16 @@ bool nodes_where_they_were(Case& job) {
 
 /// The remedies for each cause, the least intrusive first.
 constexpr std::array table{
-    Row{any_of({Cause::inverted_inside, Cause::inverted_at_boundary, Cause::odd_boundary, Cause::no_mesh}),
-        "by subdivision", 1, by_subdivision},
+    Row{any_of({Cause::inverted, Cause::odd_boundary, Cause::no_mesh}), "by subdivision", 1, by_subdivision},
     Row{any_of({Cause::coarse_segments, Cause::looped_edge, Cause::crossing_curves}),
         "nodes not moved to face each other", 1, nodes_where_they_were},
     Row{any_of({Cause::narrow_gaps}), "finer segments there", FaceRecord::most_looks, finer_there},
     Row{any_of({Cause::coarse_segments}), "finer segments there", 4, finer_there},
     Row{any_of({Cause::looped_edge}), "nodes along the chord of that edge", 1, along_chord},
-    Row{any_of({Cause::inverted_inside, Cause::inverted_at_boundary}), "without clean-up", 1,
-        without_clean_up},
-    Row{any_of({Cause::inverted_inside, Cause::no_mesh}), "denser points", 1, denser_points},
     Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::unusable_boundary, Cause::no_mesh}),
         "parametric curves recreated by projection", 1, with_curves_made_anew},
-    Row{any_of({Cause::inverted_inside, Cause::inverted_at_boundary}), "finer segments there", 2,
-        finer_there},
-    Row{any_of({Cause::inverted_inside, Cause::inverted_at_boundary}), "the whole face twice as fine", 3,
-        twice_as_fine},
     Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::looped_edge, Cause::unusable_boundary,
-                Cause::no_mesh, Cause::inverted_inside, Cause::inverted_at_boundary}),
+                Cause::no_mesh, Cause::inverted}),
         "seen from above", 1, seen_from_above},
 };
 

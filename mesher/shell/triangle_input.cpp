@@ -82,15 +82,15 @@ void order(TriangleInput& input, const ExecutionContext& context) {
 
 }  // namespace
 
-TriangleInput triangle_input(const ShellMesh& input, double merge, std::vector<std::string>& notes,
-                             const ExecutionContext& context) {
+TriangleInput triangle_input(const ShellMesh& input, double merge, double least,
+                             std::vector<std::string>& notes, const ExecutionContext& context) {
   check_finite(input.points);
   TriangleInput work;
   work.mesh.points = input.points;
-  if (merge >= 0) {
-    work.node = coincident_points(input.points, merge);
+  if (merge < 0) check_places(input.points);
+  if (merge >= 0 || least > 0) {
+    work.node = coincident_points(input.points, std::max(merge, least));
   } else {
-    check_places(input.points);
     work.node.resize(input.points.size());
     std::iota(work.node.begin(), work.node.end(), 0);
   }

@@ -18,10 +18,12 @@ struct TriangleInput {
 };
 
 /// Merges nodes, cuts quads in two, orients triangles, and reorders large meshes for the caches, without the
-/// nodes that no triangle uses. \param merge as FromTrianglesOptions::merge. \param notes out, one sentence
-/// for each repair is appended. Throws Error (failure) naming the element at fault: a node without a finite
-/// position, two nodes at the same position, no area, a one-sided surface, two equal triangles. O(n log n).
-TriangleInput triangle_input(const ShellMesh& input, double merge, std::vector<std::string>& notes,
-                             const ExecutionContext& context);
+/// nodes that no triangle uses. \param merge as FromTrianglesOptions::merge.
+/// \param least nodes at most this far apart are merged in any case, after places are checked; 0 = none.
+/// \param notes out, one sentence for each repair is appended. Throws Error (failure) naming the element at
+/// fault: a node without a finite position, two nodes at the same position, no area, a one-sided surface, two
+/// equal triangles. O(n log n).
+TriangleInput triangle_input(const ShellMesh& input, double merge, double least,
+                             std::vector<std::string>& notes, const ExecutionContext& context);
 
 }  // namespace quadrille

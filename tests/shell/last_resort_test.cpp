@@ -26,7 +26,8 @@ FaceMesh off_surface(const TopoDS_Shape& shape, double reach) {
   ExecutionContext context(1);
   const SettledBoundary boundary = settle_boundary(model, options, context);
   const FaceProblem problem(Cause::no_mesh, FaceId::from_number(1), "Face1 has no mesh");
-  return mesh_off_surface(model.shape(), problem, boundary.nodes, boundary.field, reach, options, context);
+  return mesh_off_surface(model.shape(), problem, boundary.nodes, boundary.field, reach, false, options,
+                          context);
 }
 
 double least_jacobian(const FaceMesh& mesh) {
