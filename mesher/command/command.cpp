@@ -18,15 +18,6 @@
 
 namespace quadrille::command {
 
-void require_readable(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw failure(name, fmt::format("{}: is a folder, not a file", name));
-  if (const std::string why = why_unreadable(path); !why.empty())
-    throw failure(name, fmt::format("{}: cannot be read: {}", name, why));
-}
-
 void require_writable(const std::filesystem::path& path) {
   const std::string name = path.string();
   std::error_code ignored;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
+#include "geometry/base/file_access.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 #include "mesher/settings.hpp"
 
@@ -34,9 +35,6 @@ void print(std::string_view text);
 
 /// Whether stderr is a terminal.
 bool stderr_is_terminal();
-
-/// Throws Error (failure) unless the path is a file that can be read.
-void require_readable(const std::filesystem::path& path);
 
 /// Throws Error (usage) unless a file can be made at the path: the folder exists and is writable, and the
 /// path is not itself a folder.

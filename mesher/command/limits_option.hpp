@@ -2,6 +2,7 @@
 /// The option --limits [FILE], shared by the commands that have it.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -29,6 +30,7 @@ class LimitsOption {
  private:
   std::string file_;
   const CLI::Option* option_ = nullptr;
+  mutable std::optional<CriteriaLimits> read_;  // from the file
 };
 
 }  // namespace quadrille::command

@@ -243,7 +243,6 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
 
 void run(const MeshArguments& arguments) {
   check_files(arguments);
-  arguments.limits.check();
   Settings settings = arguments.settings;
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(settings.threads, [&](std::string_view stage, double fraction) {
@@ -256,6 +255,7 @@ void run(const MeshArguments& arguments) {
   report_crashes(arguments.input, "reading");
   CancelOnSignal cancel(context, settings.time_limit, settings.mesh.partial);
   if (arguments.end_with_input) end_with_input();
+  arguments.limits.check();  // may wait, if the file is a pipe
   cancel.reading(arguments.input, settings.read_time_limit);
   const CadModel source = read_model(arguments, context);
   cancel.reading_is_done();

@@ -80,7 +80,6 @@ void tell(const ShellMesh& mesh, const RemeshFidelity& fidelity, const std::vect
 
 void run(const RemeshArguments& arguments) {
   check_files(arguments);
-  arguments.limits.check();
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(arguments.settings.threads, [&](std::string_view stage, double fraction) {
     return display.show(stage, fraction);
@@ -89,6 +88,7 @@ void run(const RemeshArguments& arguments) {
       {Stage::read, Stage::sample, Stage::triangulate, Stage::mesh, Stage::assemble, Stage::write});
   CancelOnSignal cancel(context, arguments.settings.time_limit);
   if (arguments.end_with_input) end_with_input();
+  arguments.limits.check();  // may wait, if the file is a pipe
   std::vector<std::string> notes;
   context.report(Stage::read, 0);
   const ShellMesh input = [&] {

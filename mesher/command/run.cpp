@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -119,10 +118,8 @@ int run(int argc, char** argv) {
     return work({argv + std::min(argc, 1), argv + argc});
   } catch (const Error& error) {
     return complain(error);
-  } catch (const std::bad_alloc&) {
-    return complain("out of memory", work_failed);
   } catch (const std::exception& error) {
-    return complain(error.what(), work_failed);
+    return complain(quadrille::sentence_of(error), work_failed);
   } catch (...) {
     return complain("an error in the CAD library, without a description", work_failed);
   }

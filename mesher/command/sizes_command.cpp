@@ -214,7 +214,7 @@ void add_sizes_command(CLI::App& app) {
       ->needs("--count-only")
       ->excludes("--size")
       ->excludes("--elements-per-diagonal")
-      ->check(CLI::PositiveNumber);
+      ->check(number(positive));
   command->add_flag("--end-with-input", arguments->end_with_input,
                     "end the work when standard input closes, for programs that start this one");
   command->add_flag("--quiet", arguments->quiet, "no progress, no table");

@@ -169,6 +169,40 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"quality square.msh --limits text.step", 1, "neither JSON"},
         Mistake{"mesh IN OUT --size 1e-4", 2, "million"}));
 
+const std::pair<const char*, std::vector<const char*>> numeric_options[] = {
+    {"recombine square.msh OUT --merge", {"nan", "inf", "-1"}},
+    {"recombine square.msh OUT --feature-angle", {"nan", "181", "-1"}},
+    {"remesh square.msh OUT --size 1 --merge", {"nan"}},
+    {"adapt square.msh square.msh -o a.vdb --count", {"0", "nan", "inf", "-5"}},
+    {"adapt square.msh square.msh -o a.vdb --error", {"0", "1", "nan"}},
+    {"adapt square.msh square.msh -o a.vdb --growth", {"0", "nan", "inf"}},
+    {"adapt square.msh square.msh -o a.vdb --poisson", {"0.5", "nan", "-0.1"}},
+    {"adapt square.msh square.msh -o a.vdb --size-min", {"nan", "-1"}},
+    {"adapt square.msh square.msh -o a.vdb --size-max", {"inf", "-1"}},
+    {"sizes IN --count-only --wanted-quads", {"0", "nan", "inf"}},
+    {"quality square.msh --size-min", {"-1", "0", "nan", "inf"}},
+    {"mesh IN OUT --time-limit", {"nan", "inf"}},
+};
+
+std::vector<Mistake> wrong_numbers() {
+  std::vector<Mistake> mistakes;
+  for (const auto& [command, values] : numeric_options)
+    for (const char* value : values)
+      mistakes.push_back({fmt::format("{} {}", command, value), 2, " must be a "});
+  return mistakes;
+}
+
+INSTANTIATE_TEST_SUITE_P(Numbers, Mistakes, testing::ValuesIn(wrong_numbers()));
+
+/// Points that close coincide to OpenCASCADE, and counts of them are beyond what a double holds.
+INSTANTIATE_TEST_SUITE_P(
+    TinySizes, Mistakes,
+    testing::Values(Mistake{"mesh IN OUT --size 1e-200", 2, "1e-200 mm is requested"},
+                    Mistake{"mesh IN OUT --elements-per-diagonal 1e300", 2, "mm is requested"},
+                    Mistake{"mesh IN OUT --size-on Face1=1e-200", 2, "mm is requested"},
+                    Mistake{"mesh IN OUT --layers Edge1=1e-300,1.2,6", 2, "mm is requested"},
+                    Mistake{"mesh IN OUT --layers Vertex1=1e-300,1.2,6", 2, "mm is requested"}));
+
 /// Refused before anything is spent: within 5 s of CPU, and 2 GB of memory beyond what libraries map.
 class TooMuch : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
@@ -628,6 +662,67 @@ TEST(Command, GivesUpReadingAfterItsLimit) {
     EXPECT_EQ(read("--time-limit 0.3"),
               "quadrille: the time limit of 0.3 s is reached, and nothing was written\n");
   }
+}
+
+/// setitimer() counts microseconds, and takes none for "never".
+TEST(Command, TheShortestTimeLimitHolds) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe.brep").c_str(), 0600), 0);
+  const auto result =
+      test::run(fmt::format("cd {} && timeout 20 {} mesh pipe.brep -o a.msh --time-limit 1e-7 2>&1",
+                            folder.path().string(), program));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "quadrille: the time limit of 1e-07 s is reached, and nothing was written\n");
+}
+
+/// All inputs count, not only the model: nobody writes to the pipe of limits.
+TEST(Command, TheTimeLimitHoldsForEveryInput) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "limits.json").c_str(), 0600), 0);
+  ASSERT_EQ(::mkfifo((folder / "points.csv").c_str(), 0600), 0);
+  for (const char* option : {"--limits limits.json", "--size-points points.csv"}) {
+    const auto result =
+        test::run(fmt::format("cd {} && timeout 20 {} mesh {} -o a.msh {} --time-limit 0.3 2>&1",
+                              folder.path().string(), program, box, option));
+    EXPECT_EQ(result.exit_code, 1) << option;
+    EXPECT_EQ(result.out, "quadrille: the time limit of 0.3 s is reached, and nothing was written\n")
+        << option;
+  }
+}
+
+TEST(Command, LimitsMayComeThroughAPipe) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "limits.json").c_str(), 0600), 0);
+  const auto result =
+      test::run(fmt::format("cd {} && {{ echo '{{\"aspect\": 1.0001}}' > limits.json & }}; timeout 20 {} "
+                            "mesh {} -o a.msh --size 2.9 --quiet "
+                            "--limits limits.json 2>&1",
+                            folder.path().string(), program, box));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_PRED2(contains, result.out, "quads are outside the limits");
+}
+
+/// A device and a file of four terabytes, as each kind of input.
+TEST(Command, WhatHasNoEndIsRefused) {
+  const TemporaryFolder folder;
+  for (const char* name : {"large.brep", "large.json", "large.csv", "large.msh"}) {
+    test::write_text(folder / name, "");
+    std::filesystem::resize_file(folder / name, std::uintmax_t{1} << 42);
+    std::filesystem::create_symlink("/dev/zero", folder / ("zero" + std::string(name).substr(5)));
+  }
+  const int before = folder.file_count();
+  for (const std::string kind : {"large", "zero"}) {
+    for (const std::string& arguments :
+         {"mesh " + kind + ".brep -o a.msh", "info " + kind + ".brep", "quality " + kind + ".msh",
+          "mesh " + box + " -o a.msh --limits " + kind + ".json",
+          "mesh " + box + " -o a.msh --size-points " + kind + ".csv"}) {
+      const auto result = test::run(
+          fmt::format("cd {} && ulimit -t 20 && {} {} 2>&1", folder.path().string(), program, arguments));
+      EXPECT_EQ(result.exit_code, 1) << arguments;
+      EXPECT_PRED2(contains, result.out, "cannot be read: it ") << arguments;
+    }
+  }
+  EXPECT_EQ(folder.file_count(), before);
 }
 
 TEST(Command, NamesThePictureThatCannotBeDrawn) {
