@@ -11,6 +11,7 @@
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_access.hpp"
 #include "geometry/base/file_ending.hpp"
 #include "geometry/base/printable.hpp"
 #include "geometry/base/threads.hpp"
@@ -79,6 +80,7 @@ constexpr std::string_view readable[] = {".msh", ".inp", ".unv", ".bdf", ".nas",
 }  // namespace
 
 std::string whole_file(const std::filesystem::path& path) {
+  require_readable(path);
   std::ifstream file(path, std::ios::binary);
   std::string bytes;
   std::array<char, 1 << 16> block;

@@ -24,7 +24,9 @@ int corner_count(ElementShape shape) {
 
 void MeshBuilder::add_node(std::int64_t number, const Vector3& position) {
   if (number <= 0) throw failure(name_, fmt::format("{}: node number {} is not positive", name_, number));
-  if (!position.allFinite())
+  // Farther out, products of lengths such as those in areas and volumes become infinite.
+  constexpr double farthest = 1e75;
+  if (!(position.cwiseAbs().maxCoeff() < farthest) || !position.allFinite())
     throw failure(name_, fmt::format("{}: node {} has no finite position", name_, number));
   if (index_of(number) >= 0) throw failure(name_, fmt::format("{}: node {} is defined twice", name_, number));
   const int index = static_cast<int>(points_.size());

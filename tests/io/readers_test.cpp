@@ -323,6 +323,12 @@ struct Damaged {
   std::string file, text, says;
 };
 
+/// A file of one quad with these points.
+std::string vtk_quad(const std::string& points) {
+  return "# vtk DataFile Version 2.0\nA quad\nASCII\nDATASET UNSTRUCTURED_GRID\n" + points +
+         "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\n";
+}
+
 class DamagedFiles : public testing::TestWithParam<Damaged> {};
 INSTANTIATE_TEST_SUITE_P(
     Readers, DamagedFiles,
@@ -346,6 +352,18 @@ INSTANTIATE_TEST_SUITE_P(
         Damaged{"a.msh",
                 "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 top\n$EndPhysicalNames\n",
                 "line 6: expected a name in quotes"},
+        Damaged{
+            "b.ply",
+            "ply\nformat ascii 1.0\nelement vertex -1\nproperty float x\nproperty float y\nproperty float z\n"
+            "element face -1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
+            "not enough memory"},
+        // One coordinate too many, and too few; a place whose squares are infinite; counts of 10^9 in 200
+        // bytes.
+        Damaged{"b.vtk", vtk_quad("POINTS 4 double\n0 0 0 0\n1 0 0\n1 1 0\n0 1 0\n"), "b.vtk"},
+        Damaged{"c.vtk", vtk_quad("POINTS 4 double\n0 0 0\n1 0 0\n1 0\n0 1 0\n"), "c.vtk"},
+        Damaged{"d.vtk", vtk_quad("POINTS 4 double\n0 0 0\n1 0 0\n1e308 1 0\n0 1 0\n"),
+                "node 3 has no finite"},
+        Damaged{"e.vtk", vtk_quad("POINTS 1000000000 double\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"), "e.vtk"},
         Damaged{"a.xyz", "", "unknown mesh format (known are .msh, .inp, .unv, .bdf, .nas, .dat, "}),
     [](const auto& file) {
       std::string name = file.param.file;
@@ -364,6 +382,26 @@ TEST_P(DamagedFiles, GiveOneSentenceThatNamesTheFile) {
     EXPECT_NE(what.find(GetParam().says), std::string::npos) << what;
     EXPECT_NE(what.find(GetParam().file), std::string::npos) << what;
     EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+    for (const char* inner : {"std::", "vector::", "_M_"})
+      EXPECT_EQ(what.find(inner), std::string::npos) << what;
+  }
+}
+
+TEST(Readers, WhatHasNoEndIsNotRead) {
+  const TemporaryFolder folder;
+  for (const char* name : {"zero.msh", "zero.stl", "large.inp", "large.vtk"}) {
+    if (name[0] == 'z') std::filesystem::create_symlink("/dev/zero", folder / name);
+    if (name[0] == 'l') {
+      test::write_text(folder / name, "");
+      std::filesystem::resize_file(folder / name, std::uintmax_t{1} << 42);
+    }
+    try {
+      read_mesh(folder / name);
+      ADD_FAILURE() << name << ": nothing was refused";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(std::string(name) + ": cannot be read"), std::string::npos)
+          << error.what();
+    }
   }
 }
 
