@@ -78,7 +78,7 @@ nlohmann::ordered_json report_on(const AdaptResult& result) {
 }
 
 void tell(const AdaptResult& result, const AdaptArguments& arguments) {
-  for (const std::string& warning : warnings_on(result)) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : warnings_on(result)) say("warning: {}", warning);
   print(fmt::format("error        {:.3g} % of the energy norm, with {} quads\n", 100 * result.error,
                     result.quads));
   if (result.is_met)
@@ -92,15 +92,8 @@ void tell(const AdaptResult& result, const AdaptArguments& arguments) {
 }
 
 void run(const AdaptArguments& arguments) {
-  require_readable(arguments.mesh);
-  require_readable(arguments.result);
-  if (!arguments.before.empty()) require_readable(arguments.before);
-  require_ending(arguments.output, ".vdb", "-o");
-  if (!arguments.report.empty()) require_writable(arguments.report);
-  require_different_files({{"MESH", arguments.mesh},
-                           {"RESULT", arguments.result},
-                           {"-o", arguments.output},
-                           {"--report", arguments.report}});
+  require_usable({{{"MESH", arguments.mesh}, {"RESULT", arguments.result}, {"--before", arguments.before}},
+                  {{"-o", arguments.output, ".vdb"}, {"--report", arguments.report}}});
   report_crashes(arguments.mesh, "reading");
   ExecutionContext context;
   const CancelOnSignal cancel(context);

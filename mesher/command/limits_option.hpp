@@ -18,6 +18,9 @@ class LimitsOption {
 
   bool given() const { return option_->count() > 0; }
 
+  /// The file of limits; empty = none.
+  std::filesystem::path file() const { return file_; }
+
   /// Throws Error (failure) if the file of limits cannot be read or makes no sense.
   void check() const { limits({}); }
 

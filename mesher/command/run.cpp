@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/base/printable.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/recombine_command.hpp"
 #include "mesher/command/setting_options.hpp"
@@ -27,7 +26,8 @@ enum ExitCode : int { success = 0, work_failed = 1, bad_use = 2, work_cancelled 
 /// Prints the message as one line on stderr, whatever it contains.
 int complain(std::string message, ExitCode code) {
   while (!message.empty() && message.back() == '\n') message.pop_back();
-  fmt::print(stderr, "quadrille: {}\n", printable(std::move(message), ' '));
+  std::replace(message.begin(), message.end(), '\n', ' ');  // of CLI11
+  say("quadrille: {}", message);
   return code;
 }
 

@@ -54,12 +54,12 @@ void write_format(const ShellMesh& mesh, const std::filesystem::path& path, Writ
                   AtomicFile& file) {
   const std::string ending = lower_ending(path);
   // Solvers would take the text after a line break in the title for a keyword.
-  options.title = options.title.empty() ? "Quadrille mesh" : printable(options.title);
+  options.title = options.title.empty() ? "Quadrille mesh" : printable(options.title, "?");
   const OutputMesh output(mesh, options.groups, options.quad_nodes);
   const bool tells_quality = ending == ".vtu" || ending == ".vtk";
   const std::vector<double> qualities = tells_quality ? quad_qualities(mesh) : std::vector<double>();
   if (ending == ".med") {
-    file.write(med_file(output, printable(path.stem().string()), options.title));
+    file.write(med_file(output, printable(path.stem().string(), "?"), options.title));
   } else if (ending == ".vtu") {
     file.write(vtu_file(output, qualities));
   } else {

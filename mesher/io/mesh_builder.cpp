@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/printable.hpp"
 
 namespace quadrille {
 
@@ -50,7 +51,8 @@ int MeshBuilder::index_of(std::int64_t number) const {
   return found == scattered_.end() ? -1 : found->second;
 }
 
-int MeshBuilder::group(const std::string& name, int number, int dimension) {
+int MeshBuilder::group(const std::string& given, int number, int dimension) {
+  const std::string name = printable(given, "_");  // names go to terminals and to files of lines
   const auto [found, is_new] =
       group_places_.try_emplace({name, number, dimension}, static_cast<int>(groups_.size()));
   if (is_new) groups_.push_back({name, number, dimension});

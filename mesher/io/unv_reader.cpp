@@ -6,7 +6,6 @@
 #include <cctype>
 #include <limits>
 
-#include "geometry/base/printable.hpp"
 #include "mesher/io/mesh_builder.hpp"
 #include "mesher/io/readers.hpp"
 #include "mesher/io/text_cursor.hpp"
@@ -187,7 +186,7 @@ class UnvReader {
       if (missing > 0)
         builder_.note(
             fmt::format("the group {} holds {} members that the file does not define: they are left out",
-                        printable(group.name), missing));
+                        group.name, missing));
     }
   }
 

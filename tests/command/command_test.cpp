@@ -702,6 +702,86 @@ TEST(Command, LimitsMayComeThroughAPipe) {
   EXPECT_PRED2(contains, result.out, "quads are outside the limits");
 }
 
+struct TwoRoles {
+  std::string command, input, output;
+};
+
+/// Through a symbolic and a hard link as well.
+TEST(Command, NoOutputReplacesAnInput) {
+  const TemporaryFolder folder;
+  for (const auto& [command, input, output] :
+       {TwoRoles{"mesh " + box + " -o a.msh --limits @", "limits.json", "--report"},
+        TwoRoles{"mesh " + box + " --limits @", "limits.msh", "-o"},
+        TwoRoles{"mesh " + box + " -o a.msh --size-points @", "points.csv", "--report"},
+        TwoRoles{"remesh none.stl -o a.msh --size 1 --limits @", "limits.json", "--report"},
+        TwoRoles{"adapt none.inp none.frd -o a.vdb --before @", "before.json", "--report"},
+        TwoRoles{"sizes " + box + " -o a.vtu --size-points @", "points.csv", "--report"}}) {
+    const std::string text = "{\"aspect\": 5}\n";
+    test::write_text(folder / input, text);
+    for (const char* none : {"none.stl", "none.inp", "none.frd"}) test::write_text(folder / none, "");
+    const std::string ending = std::filesystem::path(input).extension().string(), soft = "soft" + ending,
+                      hard = "hard" + ending;
+    std::filesystem::remove(folder / soft);
+    std::filesystem::remove(folder / hard);
+    std::filesystem::create_symlink(input, folder / soft);
+    std::filesystem::create_hard_link(folder / input, folder / hard);
+    for (const std::string& name : {input, soft, hard}) {
+      std::string line = command;
+      line.replace(line.find('@'), 1, input);
+      const auto result = stderr_of(folder, fmt::format("{} {} {}", line, output, name));
+      EXPECT_EQ(result.exit_code, 2) << line << ' ' << name;
+      EXPECT_PRED2(contains, result.out, "is the same file as");
+      EXPECT_EQ(test::file_text(folder / input), text);
+    }
+  }
+}
+
+/// Whoever could act as the owner of the older file's program must not as that of the mesh.
+TEST(Command, AnOverwrittenFileKeepsNoRightsOfItsOwner) {
+  const TemporaryFolder folder;
+  test::write_text(folder / "a.msh", "");
+  ASSERT_EQ(::chmod((folder / "a.msh").c_str(), 06751), 0);
+  EXPECT_EQ(stderr_of(folder, "mesh " + box + " -o a.msh --quiet").exit_code, 0);
+  struct stat status {};
+  ASSERT_EQ(::stat((folder / "a.msh").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 07777, 0751U);
+}
+
+/// Escape sequences, as bytes and as UTF-8, a mark that turns the direction of writing, a byte that is no
+/// UTF-8.
+TEST(Command, TerminalsGetNothingToObey) {
+  const std::string hostile = "a\x1b]0;x\x07\xc2\x9b\xe2\x80\xae\xff",
+                    shown = "a\\x1b]0;x\\x07\\u009b\\u202e\\xff";
+  const TemporaryFolder folder;
+  const auto told = [&](const std::string& arguments) {
+    const std::string out =
+        test::run(fmt::format("cd {} && timeout 60 {} {} 2>&1", folder.path().string(), program, arguments))
+            .out;
+    for (const char* part : {"\x1b", "\x07", "\xc2\x9b", "\xe2\x80\xae", "\xff"})
+      EXPECT_FALSE(contains(out, part)) << arguments;
+    return out;
+  };
+  test::write_text(folder / "limits.json", "{\"a\xe2\x80\xae\": 1}");
+  EXPECT_PRED2(contains, told("mesh " + box + " -o a.msh --limits limits.json"), "a\\u202e");
+  for (const std::string& arguments :
+       {"info '" + hostile + ".step'", "mesh " + box + " -o '" + hostile + "'",
+        "info in.step '" + hostile + "'", "mesh " + box + " -o a.msh --size '" + hostile + "'",
+        "mesh " + box + " -o a.msh --faces '" + hostile + "'"})
+    EXPECT_PRED2(contains, told(arguments), shown);
+  // Into files, group names go without what was escaped.
+  test::write_text(folder / "a.msh",
+                   "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"" + hostile +
+                       "\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+                       "$Elements\n2\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n$EndElements\n");
+  for (const char* ending : {"msh", "inp", "unv", "bdf", "vtk"}) {
+    told(fmt::format("recombine a.msh -o out.{} --report r.json", ending));
+    const std::string text = test::file_text(folder / fmt::format("out.{}", ending));
+    EXPECT_FALSE(text.empty());
+    for (const char* part : {"\x1b", "\x07", "\xc2\x9b", "\xe2\x80\xae", "\xff"})
+      EXPECT_FALSE(contains(text, part)) << ending;
+  }
+}
+
 /// A device and a file of four terabytes, as each kind of input.
 TEST(Command, WhatHasNoEndIsRefused) {
   const TemporaryFolder folder;
