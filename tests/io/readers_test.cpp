@@ -218,6 +218,45 @@ TEST(Readers, BdfTakesQuadsOfNineNodesAndTellsOfBars) {
   EXPECT_EQ(notes, std::vector<std::string>{"2 elements CBAR are left out"});
 }
 
+/// Gmsh writes the middle last. It is dropped, and midside nodes keep their sides.
+TEST(Readers, QuadsOfNineNodesLoseTheirMiddle) {
+  const TemporaryFolder folder;
+  const double at[9][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}, {1, 1}};
+  std::string inp = "*NODE\n", unv = "    -1\n  2411\n";
+  for (int i = 0; i < 9; ++i) {
+    inp += fmt::format("{}, {}, {}, 0\n", i + 1, at[i][0], at[i][1]);
+    unv += fmt::format("{} 1 1 11\n{} {} 0\n", i + 1, at[i][0], at[i][1]);
+  }
+  inp += "*ELEMENT, type=M3D9, ELSET=all\n1, 1, 2, 3, 4, 5, 6, 7, 8, 9\n";
+  unv += "    -1\n    -1\n  2412\n1 95 1 1 7 9\n1 5 2 6 3 7 4 8\n9\n    -1\n";
+  test::write_text(folder / "a.inp", inp);
+  test::write_text(folder / "a.unv", unv);
+  for (const char* name : {"a.inp", "a.unv"}) {
+    SCOPED_TRACE(name);
+    const ShellMesh mesh = read_mesh(folder / name);
+    ASSERT_EQ(mesh.quads.size(), 1U);
+    EXPECT_EQ(mesh.points.size(), 8U);
+    EXPECT_EQ(mesh.order, 2);
+    for (int side = 0; side < 4; ++side) {
+      const Vector3 &a = mesh.points[mesh.quads[0][side]], &b = mesh.points[mesh.quads[0][(side + 1) % 4]];
+      EXPECT_EQ(mesh.points[mesh.midsides[0][side]], (0.5 * (a + b)).eval());
+    }
+  }
+}
+
+TEST(Readers, MshOfTheFirstVersionHasNoHeader) {
+  const TemporaryFolder folder;
+  test::write_text(
+      folder / "a.msh",
+      "$NOD\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$ENDNOD\n$ELM\n3\n1 1 7 5 2 1 2\n2 2 9 3 3 1 2 3\n"
+      "3 2 9 3 3 1 3 4\n$ENDELM\n");
+  const ShellMesh mesh = read_mesh(folder / "a.msh");
+  EXPECT_EQ(mesh.triangle_faces, (std::vector<int>{3, 3}));
+  ASSERT_EQ(mesh.segments.size(), 1U);
+  ASSERT_EQ(mesh.groups.size(), 2U);
+  EXPECT_EQ(mesh.groups[0].number + mesh.groups[1].number, 16);
+}
+
 TEST(Readers, InpHasTheMiddleOfALineBetweenItsEnds) {
   const TemporaryFolder folder;
   test::write_text(folder / "a.inp",
